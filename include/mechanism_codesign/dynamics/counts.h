@@ -1,0 +1,28 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_DYNAMICS_COUNTS_H_
+#define MECHANISM_CODESIGN_DYNAMICS_COUNTS_H_
+
+#include <string>
+#include <vector>
+
+namespace codesign {
+
+/// The paper's table "number of equations" for a mechanism and a study.
+struct Counts {
+  int bodies = 0;
+  int coordinates = 0;           ///< n = 7 per body
+  int first_order_equations = 0; ///< 2 n
+  int controller_states = 0;     ///< integrals and friction states beside the paper's count
+  int degrees_of_freedom = 0;    ///< n - rank(Phi_q) at the assembled start
+  int constraints = 0;           ///< m, rows of Phi
+  int redundant_constraints = 0; ///< m - rank(Phi_q)
+  int dynamic_equations = 0;     ///< 2 n + m
+  int parameters = 0;            ///< p, those tuned
+  int sensitivities = 0;         ///< p (2 n + m)
+  int total_equations = 0;       ///< dynamic equations + sensitivities
+  std::vector<std::string> redundant_rows;  ///< one description each
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_DYNAMICS_COUNTS_H_

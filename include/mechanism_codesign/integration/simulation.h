@@ -1,0 +1,68 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_INTEGRATION_SIMULATION_H_
+#define MECHANISM_CODESIGN_INTEGRATION_SIMULATION_H_
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mechanism_codesign/dynamics/counts.h"
+#include "mechanism_codesign/dynamics/frame.h"
+#include "mechanism_codesign/dynamics/status.h"
+#include "mechanism_codesign/model/robot.h"
+#include "mechanism_codesign/model/study.h"
+
+namespace codesign {
+
+class System;  // the immutable equations of motion, dynamics/system.h
+
+/// Compiles a mechanism and a study into equations of motion.
+/// @throws InputError for a mechanism that cannot be (two masses on one loop end, a massless chain that cannot be folded, an unknown signal, ...).
+std::shared_ptr<const System> make_system(const RobotDescription& robot, const Study& study);
+
+/// What an integration cost.
+struct Statistics {
+  long steps = 0, rejected_steps = 0;
+  double cpu_seconds = 0.0;
+};
+
+/// One design of one mechanism, stepped forward in time. Not thread-safe; several may share one System.
+class Simulation {
+ public:
+  /// @param parameters all named parameters (Study::parameters order).
+  /// @param signals extra signals to sample into Frame::signals. @throws InputError for one that does not exist.
+  Simulation(std::shared_ptr<const System> system, const std::vector<double>& parameters, const std::vector<SignalDescription>& signals = {});
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  /// Assembles positions, velocities, accelerations and reactions at t = 0.
+  Status start();
+
+  /// Integrates until `time` lies inside the last step. May be called again and again, past Study::duration too.
+  Status advance(double time);
+
+  /// Samples everything at `time`, which must lie inside the last step taken (or be 0 after start()).
+  void sample(double time, Frame* frame);
+
+  const FrameNames& names() const;
+  const Statistics& statistics() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// Called for each sample; returning false cancels.
+using FrameObserver = std::function<bool(const Frame&)>;
+
+/// Runs a whole study at `parameters`, sampling at `count` equally spaced instants from 0 to its duration.
+Status simulate(Simulation* simulation, double duration, int count, const FrameObserver& observer);
+
+/// The equations' table at the assembled start; `status` tells if the start could not be assembled.
+Counts count_equations(const std::shared_ptr<const System>& system, const std::vector<double>& parameters, Status* status);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_INTEGRATION_SIMULATION_H_

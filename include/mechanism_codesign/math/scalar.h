@@ -1,0 +1,39 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MATH_SCALAR_H_
+#define MECHANISM_CODESIGN_MATH_SCALAR_H_
+
+#include <ceres/jet.h>
+
+#include <Eigen/Core>
+#include <complex>
+
+namespace codesign {
+
+/// A value with N directional derivatives side by side, one per SIMD lane group (forward-mode automatic differentiation).
+template <int N>
+using Lanes = ceres::Jet<double, N>;
+
+template <class T>
+using Vector3 = Eigen::Matrix<T, 3, 1>;
+template <class T>
+using Vector4 = Eigen::Matrix<T, 4, 1>;
+template <class T>
+using Matrix3 = Eigen::Matrix<T, 3, 3>;
+template <class T>
+using Matrix4 = Eigen::Matrix<T, 4, 4>;
+template <class T>
+using Matrix34 = Eigen::Matrix<T, 3, 4>;
+template <class T>
+using VectorX = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+
+/// The value without its derivatives or imaginary part; for decisions, which must not depend on them.
+inline double value_of(double x) { return x; }
+inline double value_of(const std::complex<double>& x) { return x.real(); }
+template <int N>
+double value_of(const Lanes<N>& x) {
+  return x.a;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MATH_SCALAR_H_

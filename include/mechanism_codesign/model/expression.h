@@ -1,0 +1,47 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MODEL_EXPRESSION_H_
+#define MECHANISM_CODESIGN_MODEL_EXPRESSION_H_
+
+#include <complex>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace codesign {
+
+/// An arithmetic expression of named parameters, as xacro writes them inside `${...}`.
+///
+/// Operators + - * / ** ^ and parentheses, comparison with `?:`, the constant `pi`, and the usual functions (sqrt, sin, cos, tan, asin, acos,
+/// atan, atan2, exp, log, abs, min, max, radians, degrees). Immutable and safe to evaluate from several threads.
+class Expression {
+ public:
+  /// @param text the expression without the `${` `}`.
+  /// @param names the parameters that may appear; their order is the order of the vectors below.
+  /// @throws std::invalid_argument with a sentence that names the position, or the unknown name and the nearest known one.
+  Expression(const std::string& text, const std::vector<std::string>& names);
+  ~Expression();
+  Expression(const Expression&) = delete;
+  Expression& operator=(const Expression&) = delete;
+
+  const std::string& text() const { return text_; }
+
+  /// Indices of the parameters that appear in the expression, ascending.
+  const std::vector<int>& dependencies() const { return dependencies_; }
+
+  /// Value at `parameters`, which may hold more entries than the names given at construction (the surplus is ignored).
+  double value(const std::vector<double>& parameters) const;
+  std::complex<double> value(const std::vector<std::complex<double>>& parameters) const;
+
+  /// Partial derivative with respect to parameter `index`, by a complex step (exact to rounding).
+  double derivative(int index, const std::vector<double>& parameters) const;
+
+ private:
+  struct Parser;
+  std::string text_;
+  std::vector<int> dependencies_;
+  std::unique_ptr<Parser> parser_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MODEL_EXPRESSION_H_

@@ -1,0 +1,54 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MODEL_QUANTITY_H_
+#define MECHANISM_CODESIGN_MODEL_QUANTITY_H_
+
+#include <array>
+#include <complex>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "mechanism_codesign/math/scalar.h"
+#include "mechanism_codesign/model/expression.h"
+
+namespace codesign {
+
+/// A number of the model: a constant, or an expression of the parameters.
+class Quantity {
+ public:
+  Quantity(double constant = 0.0) : nominal_(constant) {}  // NOLINT(google-explicit-constructor): a number is a quantity
+  Quantity(double nominal, std::shared_ptr<const Expression> expression) : nominal_(nominal), expression_(std::move(expression)) {}
+
+  /// The value at the parameters' default values, as written in the plain attribute.
+  double nominal() const { return nominal_; }
+  bool is_constant() const { return expression_ == nullptr; }
+  const Expression* expression() const { return expression_.get(); }
+
+  /// The value at `parameters` (all named parameters, in the order of the model, then of the study).
+  double at(const std::vector<double>& parameters) const { return expression_ ? expression_->value(parameters) : nominal_; }
+  std::complex<double> at(const std::vector<std::complex<double>>& parameters) const {
+    return expression_ ? expression_->value(parameters) : std::complex<double>(nominal_);
+  }
+  /// With the chain rule carried into every lane.
+  template <int N>
+  Lanes<N> at(const std::vector<Lanes<N>>& parameters) const {
+    if (!expression_) return Lanes<N>(nominal_);
+    std::vector<double> values;
+    values.reserve(parameters.size());
+    for (const Lanes<N>& parameter : parameters) values.push_back(parameter.a);
+    Lanes<N> result(expression_->value(values));
+    for (int index : expression_->dependencies())
+      result.v += expression_->derivative(index, values) * parameters[static_cast<std::size_t>(index)].v;
+    return result;
+  }
+
+ private:
+  double nominal_ = 0.0;
+  std::shared_ptr<const Expression> expression_;
+};
+
+using QuantityVector = std::array<Quantity, 3>;
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MODEL_QUANTITY_H_

@@ -1,0 +1,132 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MODEL_ROBOT_H_
+#define MECHANISM_CODESIGN_MODEL_ROBOT_H_
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanism_codesign/model/error.h"
+#include "mechanism_codesign/model/parameter.h"
+#include "mechanism_codesign/model/quantity.h"
+
+namespace codesign {
+
+/// A pose as URDF writes it: translation [m], then fixed-axis roll, pitch, yaw [rad].
+struct PoseDescription {
+  QuantityVector xyz;
+  QuantityVector rpy;
+};
+
+/// A visual (or collision) solid. Meshes have no volume here.
+struct ShapeDescription {
+  enum class Kind { kBox, kCylinder, kSphere, kMesh };
+  Kind kind = Kind::kMesh;
+  PoseDescription origin;           ///< in the link frame; a cylinder's axis is its z
+  std::array<Quantity, 3> size;     ///< box: x y z; cylinder: radius, length; sphere: radius [m]
+};
+
+/// Mass properties of a link, given as numbers or computed from its shapes.
+struct InertialDescription {
+  PoseDescription origin;           ///< centre of mass and axes of the inertia, in the link frame
+  Quantity mass;                    ///< [kg]
+  std::array<Quantity, 6> inertia;  ///< about `origin`: ixx ixy ixz iyy iyz izz [kg m^2]
+  /// Present: mass, centre and inertia follow from `shapes` at this density [kg/m^3], and the three fields above are unused.
+  std::optional<Quantity> density;
+  std::vector<ShapeDescription> shapes;
+  SourceLocation where;
+};
+
+struct LinkDescription {
+  std::string name;
+  std::optional<InertialDescription> inertial;
+  SourceLocation where;
+};
+
+/// Tree joints have URDF's types; `kSpherical` and those behind it exist as loops only.
+enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic, kPlanar, kFloating, kSpherical, kUniversal, kCylindrical, kDistance };
+
+enum class FrictionModel { kBrownMcPhee, kGonthier, kLuGre };
+
+/// `<codesign:friction>`, see doc/annotations.md. SI units.
+struct FrictionDescription {
+  FrictionModel model = FrictionModel::kBrownMcPhee;
+  Quantity mu_static;                 ///< mu_s [-]
+  Quantity mu_dynamic;                ///< mu_d [-]
+  Quantity transition_velocity{1e-2}; ///< v_t [m/s]
+  Quantity joint_length;              ///< a [m]
+  Quantity joint_width;               ///< b [m]
+  Quantity pin_radius;                ///< r_e [m]
+  Quantity friction_arm;              ///< [m]
+  Quantity preload;                   ///< [N]
+  Quantity smoothing{1e-3};           ///< epsilon [N]
+  Quantity viscous;                   ///< [N s/m] or [N m s/rad]
+  std::optional<std::array<double, 3>> transverse_axis;  ///< x'' in the joint frame
+  SourceLocation where;
+};
+
+struct LimitDescription {
+  double lower = 0.0, upper = 0.0;    ///< position [rad or m]
+  double effort = 0.0, velocity = 0.0;
+};
+
+struct MimicDescription {
+  std::string joint;
+  double multiplier = 1.0, offset = 0.0;
+};
+
+struct TorsionSpringDescription {
+  Quantity stiffness, damping, free_position;  ///< [N m/rad or N/m], [.. s], [rad or m]
+};
+
+/// A joint of the tree, or a loop. The joint frame is carried by the child (of a loop: the successor).
+struct JointDescription {
+  std::string name;
+  JointType type = JointType::kFixed;
+  bool is_loop = false;
+  int parent = -1, child = -1;        ///< indices into RobotDescription::links; of a loop: predecessor, successor
+  PoseDescription origin;             ///< joint frame at zero position in the parent's link frame
+  PoseDescription child_origin;       ///< joint frame in the child's link frame; the identity for a tree joint
+  QuantityVector axis{1.0, 0.0, 0.0}; ///< in the joint frame, not necessarily of unit length
+  QuantityVector second_axis{0.0, 1.0, 0.0};  ///< universal loops: the successor's axis, in the successor's joint frame
+  Quantity distance;                  ///< kDistance: the length [m]
+  std::optional<FrictionDescription> friction;
+  Quantity damping, dry_friction;     ///< `<dynamics damping friction>`
+  std::optional<LimitDescription> limit;
+  std::optional<MimicDescription> mimic;
+  std::optional<TorsionSpringDescription> spring;
+  SourceLocation where;
+};
+
+/// URDF+ `<coupling>`: the successor's joint turns `ratio` times the predecessor's.
+struct CouplingDescription {
+  std::string name;
+  int predecessor = -1, successor = -1;
+  Quantity ratio{1.0};
+  SourceLocation where;
+};
+
+struct SpringDamperDescription {
+  std::string name;
+  int predecessor = -1, successor = -1;
+  PoseDescription predecessor_origin, successor_origin;
+  Quantity stiffness, damping, free_length;  ///< [N/m], [N s/m], [m]
+  SourceLocation where;
+};
+
+/// A mechanism as its author wrote it: the annotated URDF, read strictly, nothing derived yet.
+struct RobotDescription {
+  std::string name;
+  std::vector<Parameter> parameters;
+  std::vector<LinkDescription> links;
+  int root = 0;                               ///< index of the root link, which is the ground
+  std::vector<JointDescription> joints;       ///< tree joints in file order, then loops in file order
+  std::vector<CouplingDescription> couplings;
+  std::vector<SpringDamperDescription> spring_dampers;
+  std::string file;                           ///< where it came from, for messages
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MODEL_ROBOT_H_

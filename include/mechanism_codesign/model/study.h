@@ -1,0 +1,105 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MODEL_STUDY_H_
+#define MECHANISM_CODESIGN_MODEL_STUDY_H_
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanism_codesign/model/error.h"
+#include "mechanism_codesign/model/parameter.h"
+#include "mechanism_codesign/model/quantity.h"
+
+namespace codesign {
+
+/// One term of a signal: `+ crank_joint/velocity`, `- plate/position/x`.
+struct SignalTerm {
+  double factor = 1.0;     ///< +1 or -1
+  std::string object;      ///< name of a joint, loop, link or controller
+  std::string quantity;    ///< position, velocity, acceleration, effort, friction, normal_force, sliding_velocity, angular_velocity, error, ...
+  std::string component;   ///< x, y or z for link signals, else empty
+};
+
+/// A sum or difference of named signals, see doc/study.md.
+struct SignalDescription {
+  std::string text;
+  std::vector<SignalTerm> terms;
+  SourceLocation where;
+};
+
+/// Splits `a/position/x - b/position/x` into terms. Names are resolved later, against a model.
+/// @throws InputError if the text is no signal.
+SignalDescription parse_signal(const std::string& text, const SourceLocation& where, const std::string& element);
+
+struct InitialJointState {
+  std::string joint;
+  std::optional<Quantity> position;  ///< an independent coordinate's value [rad or m]
+  std::optional<Quantity> velocity;  ///< [rad/s or m/s]
+  std::optional<double> guess;       ///< start of the assembly for a dependent joint; chooses between its branches
+  SourceLocation where;
+};
+
+/// output = p e + i int e dt + d de/dt, with e = setpoint - input.
+struct ControllerDescription {
+  std::string name;
+  std::string type = "pid";
+  SignalDescription input;
+  Quantity setpoint;
+  std::string output;                ///< the joint it drives [N m or N]
+  Quantity p, i, d;
+  SourceLocation where;
+};
+
+/// weight * (signal - reference)^2
+struct ObjectiveTerm {
+  SignalDescription signal;
+  Quantity reference{0.0};
+  Quantity weight{1.0};
+  SourceLocation where;
+};
+
+/// A constraint among parameters, value(rho) >= 0.
+struct ParameterConstraint {
+  std::string text;
+  std::shared_ptr<const Expression> margin;
+  SourceLocation where;
+};
+
+struct SolverOptions {
+  std::string integrator = "rosenbrock";  ///< or "idas"
+  std::string method = "rodas4";          ///< rosenbrock: rodas4, rodas4p2, rodas5p
+  double relative_tolerance = 1e-6;
+  double absolute_tolerance = 1e-7;
+  double initial_step = 0.0;              ///< [s]; 0: chosen
+  double maximum_step = 0.0;              ///< [s]; 0: none
+  int maximum_steps = 200000;
+};
+
+struct OptimizerOptions {
+  std::string algorithm = "lbfgs";
+  int max_evaluations = 200;
+  double relative_tolerance = 1e-6;       ///< on the objective
+};
+
+/// What to do with the model, as its author wrote it.
+struct Study {
+  double duration = 0.0;                              ///< [s]
+  std::array<double, 3> gravity{0.0, 0.0, -9.81};     ///< [m/s^2], in the root link's frame
+  std::vector<InitialJointState> initial_state;
+  std::vector<ControllerDescription> controllers;
+  /// All named parameters: the model's in their order, then the study's own. `parameters[tuned[k]]` is rho_k.
+  std::vector<Parameter> parameters;
+  std::vector<int> tuned;
+  std::vector<ObjectiveTerm> integral;
+  std::vector<ObjectiveTerm> terminal;
+  std::vector<ParameterConstraint> constraints;
+  SolverOptions solver;
+  OptimizerOptions optimizer;
+  std::string file;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MODEL_STUDY_H_

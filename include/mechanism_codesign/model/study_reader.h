@@ -1,0 +1,18 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MODEL_STUDY_READER_H_
+#define MECHANISM_CODESIGN_MODEL_STUDY_READER_H_
+
+#include "mechanism_codesign/model/robot.h"
+#include "mechanism_codesign/model/study.h"
+#include "mechanism_codesign/model/urdf_reader.h"
+
+namespace codesign {
+
+/// Reads a study (YAML) strictly: an unknown, missing or repeated key is an error that names its path.
+/// The robot supplies parameter defaults and the names that may be referred to.
+/// @throws InputError naming file, line, path, value and allowed range.
+Study read_study(const SourceText& yaml, const RobotDescription& robot);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MODEL_STUDY_READER_H_
