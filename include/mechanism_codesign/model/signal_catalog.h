@@ -1,0 +1,30 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MODEL_SIGNAL_CATALOG_H_
+#define MECHANISM_CODESIGN_MODEL_SIGNAL_CATALOG_H_
+
+#include <string>
+#include <vector>
+
+#include "mechanism_codesign/model/robot.h"
+#include "mechanism_codesign/model/study.h"
+
+namespace codesign {
+
+/// Whether a joint has one coordinate, and so a scalar position, velocity, acceleration and effort.
+bool has_scalar_position(const JointDescription& joint);
+
+/// Whether a joint or loop has friction, annotated or as `<dynamics friction>`.
+bool has_friction(const JointDescription& joint);
+
+/// Checks that every term of a signal names something that exists and has that quantity.
+/// @throws InputError naming the term, what is allowed and the nearest known name.
+void check_signal(const SignalDescription& signal, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers,
+                  const std::string& element);
+
+/// What is worth plotting of any run: position and velocity of every joint, friction, normal force and sliding velocity where there is
+/// friction, and each controller's output.
+std::vector<std::string> default_signals(const RobotDescription& robot, const std::vector<ControllerDescription>& controllers);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MODEL_SIGNAL_CATALOG_H_

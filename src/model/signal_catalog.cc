@@ -1,0 +1,116 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/model/signal_catalog.h"
+
+#include <algorithm>
+
+#include "mechanism_codesign/model/unknown_name.h"
+
+namespace codesign {
+namespace {
+
+using Names = std::vector<std::string>;
+
+bool contains(const Names& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+
+/// What the object of a signal offers. A link may bear the name of a joint; the quantity then tells which is meant.
+struct Offer {
+  bool exists = false;
+  Names scalars;  ///< of a joint or controller
+  Names vectors;  ///< of a link
+};
+
+void add_joint(const JointDescription& joint, Offer* offer) {
+  offer->exists = true;
+  if (has_scalar_position(joint)) offer->scalars = {"position", "velocity", "acceleration", "effort"};
+  if (has_friction(joint))
+    for (const char* quantity : {"friction", "normal_force", "sliding_velocity"}) offer->scalars.emplace_back(quantity);
+}
+
+Offer offer_of(const std::string& name, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
+  Offer offer;
+  for (const JointDescription& joint : robot.joints)
+    if (joint.name == name) add_joint(joint, &offer);
+  for (const ControllerDescription& controller : controllers) {
+    if (controller.name != name) continue;
+    offer.exists = true;
+    for (const char* quantity : {"error", "integral", "output"}) offer.scalars.emplace_back(quantity);
+  }
+  for (const LinkDescription& link : robot.links) {
+    if (link.name != name) continue;
+    offer.exists = true;
+    offer.vectors = {"position", "velocity", "angular_velocity"};
+  }
+  return offer;
+}
+
+Names all_names(const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
+  Names names;
+  for (const JointDescription& joint : robot.joints) names.push_back(joint.name);
+  for (const ControllerDescription& controller : controllers) names.push_back(controller.name);
+  for (const LinkDescription& link : robot.links) names.push_back(link.name);
+  return names;
+}
+
+Names spelled(const std::string& object, const Offer& offer) {
+  Names spellings;
+  for (const std::string& quantity : offer.scalars) spellings.push_back(object + "/" + quantity);
+  for (const std::string& quantity : offer.vectors) spellings.push_back(object + "/" + quantity + "/{x,y,z}");
+  return spellings;
+}
+
+std::string spelling(const SignalTerm& term) {
+  return term.object + "/" + term.quantity + (term.component.empty() ? "" : "/" + term.component);
+}
+
+void check_term(const SignalTerm& term, const Offer& offer, const SourceLocation& where, const std::string& element) {
+  const bool as_scalar = contains(offer.scalars, term.quantity);
+  const bool as_vector = contains(offer.vectors, term.quantity);
+  const bool good_component = term.component == "x" || term.component == "y" || term.component == "z";
+  if (as_scalar && term.component.empty()) return;
+  if (as_vector && good_component) return;
+  const std::string allowed = list_names(spelled(term.object, offer));
+  if (as_vector) throw InputError({where, element, "a link's signal needs the component x, y or z", spelling(term), allowed});
+  if (as_scalar) throw InputError({where, element, "this signal has no components", spelling(term), allowed});
+  Names known = offer.scalars;
+  known.insert(known.end(), offer.vectors.begin(), offer.vectors.end());
+  InputFault fault = unknown_name(where, element, "quantity of \"" + term.object + "\"", term.quantity, known).fault();
+  fault.value = spelling(term);
+  fault.allowed = allowed;
+  throw InputError(fault);
+}
+
+}  // namespace
+
+bool has_scalar_position(const JointDescription& joint) {
+  return joint.type == JointType::kRevolute || joint.type == JointType::kContinuous || joint.type == JointType::kPrismatic;
+}
+
+bool has_friction(const JointDescription& joint) {
+  return joint.friction.has_value() || !joint.dry_friction.is_constant() || joint.dry_friction.nominal() != 0.0;
+}
+
+void check_signal(const SignalDescription& signal, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers,
+                  const std::string& element) {
+  for (const SignalTerm& term : signal.terms) {
+    const Offer offer = offer_of(term.object, robot, controllers);
+    if (!offer.exists) throw unknown_name(signal.where, element, "joint, link or controller", term.object, all_names(robot, controllers));
+    check_term(term, offer, signal.where, element);
+  }
+}
+
+std::vector<std::string> default_signals(const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
+  Names signals;
+  for (const JointDescription& joint : robot.joints) {
+    if (!has_scalar_position(joint)) continue;
+    signals.push_back(joint.name + "/position");
+    signals.push_back(joint.name + "/velocity");
+  }
+  for (const JointDescription& joint : robot.joints) {
+    if (!has_friction(joint)) continue;
+    for (const char* quantity : {"/friction", "/normal_force", "/sliding_velocity"}) signals.push_back(joint.name + quantity);
+  }
+  for (const ControllerDescription& controller : controllers) signals.push_back(controller.name + "/output");
+  return signals;
+}
+
+}  // namespace codesign

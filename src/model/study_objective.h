@@ -1,0 +1,16 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MODEL_STUDY_OBJECTIVE_H_
+#define MECHANISM_CODESIGN_MODEL_STUDY_OBJECTIVE_H_
+
+#include "mechanism_codesign/model/robot.h"
+#include "mechanism_codesign/model/study.h"
+#include "yaml_reader.h"
+
+namespace codesign {
+
+/// Reads `objective:`, which needs at least one term; needs Study::parameters and Study::controllers.
+void read_objective(const YamlValue& study_value, const RobotDescription& robot, Study* study);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MODEL_STUDY_OBJECTIVE_H_

@@ -1,0 +1,55 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "study_options.h"
+
+namespace codesign {
+namespace {
+
+void read_tolerance(const YamlValue& parent, const std::string& key, double* tolerance) {
+  const auto value = parent.find(key);
+  if (!value) return;
+  *tolerance = value->number();
+  if (*tolerance <= 0.0 || *tolerance >= 1.0) value->fail("tolerance out of range", "between 0 and 1, both excluded");
+}
+
+void read_step(const YamlValue& parent, const std::string& key, double* step) {
+  const auto value = parent.find(key);
+  if (!value) return;
+  *step = value->number();
+  if (*step < 0.0) value->fail("step out of range", "a positive number of seconds, or 0 for none");
+}
+
+void read_count(const YamlValue& parent, const std::string& key, int* count) {
+  const auto value = parent.find(key);
+  if (!value) return;
+  *count = value->integer();
+  if (*count < 1) value->fail("count out of range", "1 or more");
+}
+
+}  // namespace
+
+SolverOptions read_solver_options(const YamlValue& solver) {
+  solver.require_keys(
+      {}, {"integrator", "method", "relative_tolerance", "absolute_tolerance", "initial_step", "maximum_step", "maximum_steps"});
+  SolverOptions options;
+  if (const auto integrator = solver.find("integrator")) options.integrator = integrator->choice("integrator", {"rosenbrock", "idas"});
+  if (const auto method = solver.find("method")) options.method = method->choice("method", {"rodas4", "rodas4p2", "rodas5p"});
+  read_tolerance(solver, "relative_tolerance", &options.relative_tolerance);
+  read_tolerance(solver, "absolute_tolerance", &options.absolute_tolerance);
+  read_step(solver, "initial_step", &options.initial_step);
+  read_step(solver, "maximum_step", &options.maximum_step);
+  read_count(solver, "maximum_steps", &options.maximum_steps);
+  return options;
+}
+
+OptimizerOptions read_optimizer_options(const YamlValue& optimizer) {
+  optimizer.require_keys({}, {"algorithm", "max_evaluations", "relative_tolerance"});
+  OptimizerOptions options;
+  if (const auto algorithm = optimizer.find("algorithm"))
+    options.algorithm =
+        algorithm->choice("algorithm", {"lbfgs", "var1", "var2", "tnewton", "mma", "ccsaq", "slsqp", "cobyla", "bobyqa", "auglag_lbfgs"});
+  read_count(optimizer, "max_evaluations", &options.max_evaluations);
+  read_tolerance(optimizer, "relative_tolerance", &options.relative_tolerance);
+  return options;
+}
+
+}  // namespace codesign

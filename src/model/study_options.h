@@ -1,0 +1,18 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MODEL_STUDY_OPTIONS_H_
+#define MECHANISM_CODESIGN_MODEL_STUDY_OPTIONS_H_
+
+#include "mechanism_codesign/model/study.h"
+#include "yaml_reader.h"
+
+namespace codesign {
+
+/// Reads the map `solver:`.
+SolverOptions read_solver_options(const YamlValue& solver);
+
+/// Reads the map `optimizer:`.
+OptimizerOptions read_optimizer_options(const YamlValue& optimizer);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MODEL_STUDY_OPTIONS_H_

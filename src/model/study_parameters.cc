@@ -1,0 +1,84 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "study_parameters.h"
+
+#include <cctype>
+#include <sstream>
+
+#include "mechanism_codesign/model/nearest_name.h"
+#include "parameter_constraint.h"
+#include "study_values.h"
+
+namespace codesign {
+namespace {
+
+std::string range_of(const Parameter& parameter) {
+  std::ostringstream text;
+  text << "[" << parameter.lower << ", " << parameter.upper << "]";
+  return text.str();
+}
+
+bool is_identifier(const std::string& name) {
+  if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) != 0) return false;
+  for (const char c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_') return false;
+  return true;
+}
+
+/// A name the model does not know is a new parameter only if the study says where it starts; else it is most likely a slip.
+Parameter new_parameter(const std::string& name, const YamlValue& value, const std::vector<Parameter>& model) {
+  if (!is_identifier(name)) value.fail("a parameter's name must be a word", "letters, digits and _, not a digit first");
+  if (value.find("initial")) return {name, 0.0, Parameter().lower, Parameter().upper, "", value.where()};
+  const std::string near = nearest_name(name, names_of(model));
+  const std::string hint = near.empty() ? "" : ", did you mean \"" + near + "\"?";
+  throw InputError({value.where(), value.path() + ".initial", "required key is missing: the model has no such parameter" + hint, "", ""});
+}
+
+void read_range(const YamlValue& value, Parameter* parameter) {
+  const auto lower = value.find("lower");
+  const auto upper = value.find("upper");
+  const auto initial = value.find("initial");
+  if (lower) parameter->lower = lower->number();
+  if (upper) parameter->upper = upper->number();
+  if (initial) parameter->value = initial->number();
+  if (!(parameter->lower < parameter->upper)) {
+    const YamlValue& at = lower ? *lower : upper ? *upper : value;
+    at.fail("the lower bound must lie below the upper bound", "lower < upper, not " + range_of(*parameter));
+  }
+  if (parameter->value < parameter->lower || parameter->value > parameter->upper) {
+    const YamlValue& at = initial ? *initial : value;
+    at.fail("the start lies outside the bounds", range_of(*parameter));
+  }
+}
+
+int index_of(const std::string& name, const std::vector<Parameter>& parameters) {
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (parameters[i].name == name) return static_cast<int>(i);
+  return -1;
+}
+
+}  // namespace
+
+void read_parameters(const YamlValue& study_value, const RobotDescription& robot, Study* study) {
+  study->parameters = robot.parameters;
+  const auto parameters = study_value.find("parameters");
+  if (!parameters) return;
+  for (const auto& [name, value] : parameters->entries()) {
+    value.require_keys({}, {"initial", "lower", "upper"});
+    int index = index_of(name, study->parameters);
+    if (index < 0) {
+      index = static_cast<int>(study->parameters.size());
+      study->parameters.push_back(new_parameter(name, value, robot.parameters));
+    }
+    read_range(value, &study->parameters[static_cast<std::size_t>(index)]);
+    study->tuned.push_back(index);
+  }
+}
+
+void read_constraints(const YamlValue& study_value, Study* study) {
+  const auto constraints = study_value.find("constraints");
+  if (!constraints) return;
+  for (const YamlValue& item : constraints->items())
+    study->constraints.push_back(parse_constraint(item.text(), names_of(study->parameters), item.where(), item.path()));
+}
+
+}  // namespace codesign

@@ -1,0 +1,20 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MODEL_STUDY_PARAMETERS_H_
+#define MECHANISM_CODESIGN_MODEL_STUDY_PARAMETERS_H_
+
+#include "mechanism_codesign/model/robot.h"
+#include "mechanism_codesign/model/study.h"
+#include "yaml_reader.h"
+
+namespace codesign {
+
+/// Reads `parameters:` into Study::parameters (the model's, then the study's own) and Study::tuned (in the order written).
+/// Start and bounds default to the model's; a parameter of the study alone needs `initial`.
+void read_parameters(const YamlValue& study_value, const RobotDescription& robot, Study* study);
+
+/// Reads the list `constraints:`; needs Study::parameters.
+void read_constraints(const YamlValue& study_value, Study* study);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MODEL_STUDY_PARAMETERS_H_

@@ -1,0 +1,153 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "yaml_reader.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <system_error>
+
+#include "mechanism_codesign/model/unknown_name.h"
+
+namespace codesign {
+namespace {
+
+constexpr const char* kRoot = "study";
+
+const char* kind_of(const YAML::Node& node) {
+  switch (node.Type()) {
+    case YAML::NodeType::Map:
+      return "a map";
+    case YAML::NodeType::Sequence:
+      return "a list";
+    case YAML::NodeType::Scalar:
+      return "a scalar";
+    default:
+      return "nothing";
+  }
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+std::optional<double> number_in(const std::string& text) {
+  const char* first = text.data();
+  const char* last = first + text.size();
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') ++first;  // from_chars knows no plus sign
+  if (text == ".inf" || text == "+.inf" || text == "-.inf") return std::copysign(HUGE_VAL, text[0] == '-' ? -1.0 : 1.0);
+  if (text == ".nan") return std::nan("");
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(first, last, value);
+  if (error == std::errc::result_out_of_range) return HUGE_VAL;
+  if (error != std::errc() || end != last) return std::nullopt;
+  return value;
+}
+
+YamlValue YamlValue::parse(const SourceText& source) {
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(source.text);
+    if (documents.empty() || documents.front().IsNull()) throw InputError({{source.name, 0}, kRoot, "the file holds no YAML", "", ""});
+    if (documents.size() > 1)
+      throw InputError({{source.name, documents[1].Mark().line + 1}, kRoot, "more than one YAML document", "", "one"});
+    return YamlValue(documents.front(), std::make_shared<const std::string>(source.name), "");
+  } catch (const YAML::Exception& error) {
+    const std::string column = "column " + std::to_string(error.mark.column + 1);
+    throw InputError({{source.name, error.mark.line + 1}, column, "not YAML: " + error.msg, "", ""});
+  }
+}
+
+SourceLocation YamlValue::where() const { return {*file_, node_.Mark().line + 1}; }
+
+void YamlValue::fail(const std::string& message, const std::string& allowed) const {
+  throw InputError({where(), path_.empty() ? kRoot : path_, message, shown_value(), allowed});
+}
+
+std::string YamlValue::shown_value() const { return node_.IsScalar() ? node_.Scalar() : std::string(); }
+
+YamlValue YamlValue::child(const YAML::Node& node, const std::string& key) const {
+  return YamlValue(node, file_, path_.empty() ? key : path_ + "." + key);
+}
+
+void YamlValue::require_map() const {
+  if (!node_.IsMap()) fail("expected a map of keys and values, found " + std::string(kind_of(node_)));
+}
+
+SourceLocation YamlValue::key_place(const std::string& key) const {
+  for (const auto& entry : node_)
+    if (entry.first.Scalar() == key) return {*file_, entry.first.Mark().line + 1};
+  return where();
+}
+
+std::vector<std::pair<std::string, YamlValue>> YamlValue::entries() const {
+  require_map();
+  std::vector<std::pair<std::string, YamlValue>> result;
+  std::set<std::string> seen;
+  for (const auto& entry : node_) {
+    const YAML::Node& key_node = entry.first;
+    if (!key_node.IsScalar()) fail("a key must be a plain word, found " + std::string(kind_of(key_node)));
+    const std::string key = key_node.Scalar();
+    if (!seen.insert(key).second) child(key_node, key).fail("repeated key");
+    result.emplace_back(key, child(entry.second, key));
+  }
+  return result;
+}
+
+void YamlValue::require_keys(const std::vector<std::string>& required, const std::vector<std::string>& optional) const {
+  std::vector<std::string> known = required;
+  known.insert(known.end(), optional.begin(), optional.end());
+  for (const auto& [key, value] : entries())
+    if (!contains(known, key)) throw unknown_name(key_place(key), value.path(), "key", key, known);
+  for (const std::string& key : required)
+    if (!find(key)) throw InputError({where(), child(node_, key).path(), "required key is missing", "", ""});
+}
+
+std::optional<YamlValue> YamlValue::find(const std::string& key) const {
+  require_map();
+  const YAML::Node node = node_[key];
+  if (!node.IsDefined()) return std::nullopt;
+  return child(node, key);
+}
+
+YamlValue YamlValue::at(const std::string& key) const {
+  std::optional<YamlValue> value = find(key);
+  if (!value) throw InputError({where(), child(node_, key).path(), "required key is missing", "", ""});
+  return *value;
+}
+
+std::vector<YamlValue> YamlValue::items() const {
+  if (!node_.IsSequence()) fail("expected a list, found " + std::string(kind_of(node_)));
+  std::vector<YamlValue> result;
+  for (std::size_t i = 0; i < node_.size(); ++i) result.push_back(YamlValue(node_[i], file_, path_ + "[" + std::to_string(i) + "]"));
+  return result;
+}
+
+std::string YamlValue::text() const {
+  if (!node_.IsScalar()) fail("expected text, found " + std::string(kind_of(node_)));
+  if (node_.Scalar().empty()) fail("the text is empty");
+  return node_.Scalar();
+}
+
+double YamlValue::number() const {
+  if (!node_.IsScalar()) fail("expected a number, found " + std::string(kind_of(node_)), "a finite number");
+  const std::optional<double> value = number_in(node_.Scalar());
+  if (!value) fail("not a number", "a finite number");
+  if (!std::isfinite(*value)) fail("not finite", "a finite number");
+  return *value;
+}
+
+int YamlValue::integer() const {
+  const double value = number();
+  if (value != std::floor(value) || std::abs(value) > 1e9) fail("not an integer", "an integer");
+  return static_cast<int>(value);
+}
+
+std::string YamlValue::choice(const std::string& kind, const std::vector<std::string>& allowed) const {
+  const std::string name = text();
+  if (!contains(allowed, name)) throw unknown_name(where(), path_, kind, name, allowed);
+  return name;
+}
+
+}  // namespace codesign
