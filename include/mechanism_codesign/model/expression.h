@@ -11,8 +11,9 @@ namespace codesign {
 
 /// An arithmetic expression of named parameters, as xacro writes them inside `${...}`.
 ///
-/// Operators + - * / ** ^ and parentheses, comparison with `?:`, the constant `pi`, and the usual functions (sqrt, sin, cos, tan, asin, acos,
-/// atan, atan2, exp, log, abs, min, max, radians, degrees). Immutable and safe to evaluate from several threads.
+/// Operators + - * / ** ^ and parentheses, comparison with `?:`, the constant `pi`, and the usual functions (sqrt, sin, cos, tan, asin,
+/// acos, atan, atan2, sinh, cosh, tanh, exp, log, log10, pow, abs, sign, min, max, floor, ceil, radians, degrees). Immutable and safe to
+/// evaluate from several threads.
 class Expression {
  public:
   /// @param text the expression without the `${` `}`.
@@ -29,6 +30,7 @@ class Expression {
   const std::vector<int>& dependencies() const { return dependencies_; }
 
   /// Value at `parameters`, which may hold more entries than the names given at construction (the surplus is ignored).
+  /// NaN where the expression has no real value (square root or logarithm of a negative number, 0/0).
   double value(const std::vector<double>& parameters) const;
   std::complex<double> value(const std::vector<std::complex<double>>& parameters) const;
 
@@ -41,6 +43,9 @@ class Expression {
   std::vector<int> dependencies_;
   std::unique_ptr<Parser> parser_;
 };
+
+/// Why `name` cannot name a parameter (no identifier, or a function's name), as a sentence; empty if it can.
+std::string identifier_fault(const std::string& name);
 
 }  // namespace codesign
 
