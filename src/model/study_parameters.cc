@@ -2,8 +2,8 @@
 #include "study_parameters.h"
 
 #include <cctype>
-#include <sstream>
 
+#include "mechanism_codesign/math/decimal.h"
 #include "mechanism_codesign/model/nearest_name.h"
 #include "parameter_constraint.h"
 #include "study_values.h"
@@ -11,11 +11,7 @@
 namespace codesign {
 namespace {
 
-std::string range_of(const Parameter& parameter) {
-  std::ostringstream text;
-  text << "[" << parameter.lower << ", " << parameter.upper << "]";
-  return text.str();
-}
+std::string range_of(const Parameter& parameter) { return "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"; }
 
 bool is_identifier(const std::string& name) {
   if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) != 0) return false;

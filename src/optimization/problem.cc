@@ -2,44 +2,32 @@
 #include "mechanism_codesign/optimization/problem.h"
 
 #include <cmath>
-#include <sstream>
 
-#include "mechanism_codesign/model/error.h"
-#include "mechanism_codesign/model/nearest_name.h"
+#include "mechanism_codesign/math/decimal.h"
 #include "mechanism_codesign/model/study_reader.h"
+#include "mechanism_codesign/model/unknown_name.h"
 
 namespace codesign {
 namespace {
 
-std::string text_of(double value) {
-  std::ostringstream text;
-  text.precision(17);
-  text << value;
-  return text.str();
-}
+constexpr const char* kSettings = "parameter settings";
 
-[[noreturn]] void fail(const std::string& name, double value, const std::string& message, const std::string& allowed) {
-  throw InputError({{"settings", 0}, name, message, text_of(value), allowed});
-}
+std::string range_of(const Parameter& parameter) { return "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"; }
 
-Parameter& find_parameter(Study* study, const std::string& name, double value) {
+Parameter& find_parameter(Study* study, const std::string& name) {
   std::vector<std::string> known;
   for (Parameter& parameter : study->parameters) {
     if (parameter.name == name) return parameter;
     known.push_back(parameter.name);
   }
-  const std::string near = nearest_name(name, known);
-  std::string allowed;
-  for (const std::string& candidate : known) allowed += (allowed.empty() ? "" : ", ") + candidate;
-  fail(name, value, near.empty() ? "no such parameter" : "no such parameter, did you mean \"" + near + "\"?",
-       known.empty() ? "none, the model has no parameters" : allowed);
+  throw unknown_name({kSettings, 0}, name, "parameter", name, known);
 }
 
 void apply_settings(const ParameterSettings& settings, Study* study) {
   for (const auto& [name, value] : settings) {
-    Parameter& parameter = find_parameter(study, name, value);
+    Parameter& parameter = find_parameter(study, name);
     if (!std::isfinite(value) || value < parameter.lower || value > parameter.upper)
-      fail(name, value, "value outside the parameter's bounds", "[" + text_of(parameter.lower) + ", " + text_of(parameter.upper) + "]");
+      throw InputError({{kSettings, 0}, name, "value outside the parameter's bounds", to_decimal(value), range_of(parameter)});
     parameter.value = value;
   }
 }
