@@ -1,0 +1,20 @@
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+
+# Warnings are errors on our own targets; the headers of others are SYSTEM includes.
+function(codesign_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
+endfunction()
+
+# Numerical code. Neither errno nor floating-point traps are used, and both keep loops from being vectorized; IEEE results stay as they are.
+function(codesign_optimize target)
+  target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O3> -fno-math-errno -fno-trapping-math)
+  if(CODESIGN_NATIVE)
+    # PUBLIC: the alignment of Eigen's types depends on it, so that everyone who includes them must agree.
+    target_compile_options(${target} PUBLIC -march=native)
+  endif()
+endfunction()
+
+if(CODESIGN_SANITIZE)
+  add_compile_options(-fsanitize=${CODESIGN_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${CODESIGN_SANITIZE})
+endif()

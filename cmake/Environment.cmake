@@ -1,0 +1,23 @@
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+# What must be settled before catkin is found.
+
+# ROS's Python modules live beside the system interpreter. catkin reads PYTHON_EXECUTABLE, rosbag (through pluginlib) Python3_EXECUTABLE;
+# left alone, both take whichever python3 comes first in PATH.
+set(PYTHON_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python of the ROS installation")
+set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python of the ROS installation")
+
+# Outside a catkin workspace the package is its own workspace: rosrun and roslaunch look into <package>/devel, never into build/.
+if(NOT DEFINED CATKIN_DEVEL_PREFIX)
+  set(CATKIN_DEVEL_PREFIX ${PROJECT_SOURCE_DIR}/devel CACHE PATH "Where the package can be used from without being installed")
+endif()
+
+# catkin freezes the environment of its tests at the first configure and leaves out directories that do not exist yet.
+file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/python3/dist-packages)
+
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE RelWithDebInfo CACHE STRING "Build type" FORCE)
+endif()

@@ -1,0 +1,24 @@
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+# Programs go where rosrun looks, in the devel space and when installed.
+
+set(codesign_programs ${codesign_nodes})
+if(TARGET codesign)
+  list(APPEND codesign_programs codesign)
+endif()
+if(codesign_programs)
+  set_target_properties(${codesign_programs} PROPERTIES
+    RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION}
+    INSTALL_RPATH "$ORIGIN/..")
+  install(TARGETS ${codesign_programs} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+endif()
+set_target_properties(codesign_core codesign_ros PROPERTIES INSTALL_RPATH "$ORIGIN")
+install(TARGETS codesign_core codesign_ros
+  ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+  LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+  RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
+install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION} FILES_MATCHING PATTERN "*.h")
+foreach(folder launch config urdf rviz)
+  if(EXISTS ${PROJECT_SOURCE_DIR}/${folder})
+    install(DIRECTORY ${folder} DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+  endif()
+endforeach()

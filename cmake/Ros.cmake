@@ -1,0 +1,46 @@
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+# Messages, the library behind the nodes, and the nodes.
+
+set(message_dependencies actionlib_msgs std_msgs)
+set(ros_dependencies
+  actionlib diagnostic_updater geometry_msgs rosbag roscpp rosgraph_msgs sensor_msgs tf2_msgs tf2_ros visualization_msgs xmlrpcpp ${message_dependencies})
+find_package(catkin REQUIRED COMPONENTS message_generation ${ros_dependencies})
+
+file(GLOB message_files RELATIVE ${PROJECT_SOURCE_DIR}/msg CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/msg/*.msg)
+file(GLOB service_files RELATIVE ${PROJECT_SOURCE_DIR}/srv CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/srv/*.srv)
+file(GLOB action_files RELATIVE ${PROJECT_SOURCE_DIR}/action CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/action/*.action)
+add_message_files(DIRECTORY msg FILES ${message_files})
+add_service_files(DIRECTORY srv FILES ${service_files})
+add_action_files(DIRECTORY action FILES ${action_files})
+generate_messages(DEPENDENCIES ${message_dependencies})
+
+catkin_package(
+  INCLUDE_DIRS include
+  LIBRARIES codesign_core codesign_ros
+  CATKIN_DEPENDS message_runtime ${ros_dependencies}
+  DEPENDS EIGEN3)
+
+file(GLOB ros_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/ros/*.cc)
+set(node_mains ${ros_sources})
+list(FILTER node_mains INCLUDE REGEX "_node_main\\.cc$")
+list(FILTER ros_sources EXCLUDE REGEX "_node_main\\.cc$")
+
+add_library(codesign_ros ${ros_sources})
+add_dependencies(codesign_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
+target_include_directories(codesign_ros
+  PUBLIC ${PROJECT_SOURCE_DIR}/include
+  PRIVATE ${PROJECT_SOURCE_DIR}/src)
+target_include_directories(codesign_ros SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/include ${catkin_INCLUDE_DIRS})
+target_link_libraries(codesign_ros PUBLIC codesign_core ${catkin_LIBRARIES} PRIVATE yaml-cpp)
+codesign_warnings(codesign_ros)
+
+# x_node_main.cc becomes the executable x.
+set(codesign_nodes)
+foreach(node_main IN LISTS node_mains)
+  get_filename_component(node ${node_main} NAME)
+  string(REPLACE "_node_main.cc" "" node ${node})
+  add_executable(${node} ${node_main})
+  target_link_libraries(${node} PRIVATE codesign_ros)
+  codesign_warnings(${node})
+  list(APPEND codesign_nodes ${node})
+endforeach()

@@ -1,0 +1,38 @@
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+# One gtest executable per folder of test/, rostests, and the test of the layering.
+# `tests` (catkin's target) builds them; `ctest` runs them.
+
+find_package(GTest REQUIRED)
+include(GoogleTest)
+
+foreach(folder math model joints forces control dynamics integration sensitivity optimization cli ros system)
+  file(GLOB test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${folder}/*.cc)
+  if(NOT test_sources)
+    continue()
+  endif()
+  set(target test_${folder})
+  add_executable(${target} EXCLUDE_FROM_ALL ${test_sources})
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/test)
+  target_compile_definitions(${target} PRIVATE CODESIGN_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${target} PRIVATE codesign_core GTest::gtest GTest::gtest_main
+    SUNDIALS::idas codesign_klu tinyxml2::tinyxml2 yaml-cpp nlohmann_json::nlohmann_json)
+  if(folder STREQUAL ros)
+    target_link_libraries(${target} PRIVATE codesign_ros)
+  elseif(folder STREQUAL cli AND TARGET codesign)
+    target_link_libraries(${target} PRIVATE codesign_cli)
+    target_compile_definitions(${target} PRIVATE CODESIGN_EXECUTABLE="$<TARGET_FILE:codesign>")
+    add_dependencies(${target} codesign)
+  endif()
+  codesign_warnings(${target})
+  add_dependencies(tests ${target})
+  gtest_discover_tests(${target} DISCOVERY_TIMEOUT 120 TEST_PREFIX ${folder}. PROPERTIES TIMEOUT 300)
+endforeach()
+
+add_test(NAME layering COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_layering.py ${PROJECT_SOURCE_DIR})
+add_test(NAME layering_self_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_layering_test.py)
+
+find_package(rostest REQUIRED)
+file(GLOB rostests RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/ros/*.test)
+foreach(file IN LISTS rostests)
+  add_rostest(${file} DEPENDENCIES ${codesign_nodes})
+endforeach()

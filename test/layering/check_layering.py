@@ -1,0 +1,132 @@
+#!/usr/bin/python3
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""Checks the order of the house: includes run one way, ROS stays in ros/, files and functions stay short.
+
+Usage: check_layering.py REPOSITORY. Prints each violation as file:line and exits with 1 if there is any.
+"""
+import pathlib
+import re
+import statistics
+import sys
+
+# A folder may include itself and what stands in an earlier row, never its neighbours in the same row.
+ROWS = [
+    ["math"],
+    ["model"],
+    ["joints", "forces", "control"],
+    ["dynamics"],
+    ["integration"],
+    ["sensitivity"],
+    ["optimization"],
+    ["cli", "ros"],
+]
+ROW_OF = {folder: row for row, folders in enumerate(ROWS) for folder in folders}
+ROS_HEADER = re.compile(
+    r"^(ros|rosbag|roscpp|actionlib|tf2?(_ros|_msgs)?|diagnostic_updater|xmlrpcpp|topic_tools|rosgraph_msgs|\w+_msgs)/|^(XmlRpc\w*|tf2_ros)\b")
+OWN_MESSAGE = re.compile(r"^mechanism_codesign/[A-Z]\w*\.h$")
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
+MAX_FILE = 400
+MAX_FUNCTION = 60
+
+
+def folder_of(header):
+    """The folder of ours that an include names, or None."""
+    parts = header.split("/")
+    if parts[0] == "mechanism_codesign":
+        parts = parts[1:]
+    elif parts[0] == "src":
+        parts = parts[1:]
+    return parts[0] if len(parts) > 1 and parts[0] in ROW_OF else None
+
+
+def is_ros(header):
+    return bool(ROS_HEADER.match(header) or OWN_MESSAGE.match(header))
+
+
+def check_include(folder, header):
+    """Why `folder` must not include `header`, or None."""
+    if folder != "ros" and is_ros(header):
+        return f"{folder}/ includes the ROS header <{header}>"
+    other = folder_of(header)
+    if other is None or other == folder or (folder == "ros" and is_ros(header)):
+        return None
+    if ROW_OF[other] >= ROW_OF[folder]:
+        return f"{folder}/ includes {other}/, which does not stand before it"
+    return None
+
+
+def blank_comments_and_strings(text):
+    """The same text, line for line, with the insides of comments, strings and characters blanked, so that every brace left is code."""
+    pattern = re.compile(
+        r'R"(?P<tag>[^()\s\\]*)\(.*?\)(?P=tag)"|//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])+\'', re.DOTALL)
+    return pattern.sub(lambda match: re.sub(r"[^\n]", " ", match.group(0)), text)
+
+
+NOT_A_FUNCTION = re.compile(r"^\s*(namespace|class|struct|union|enum|extern)\b|=\s*$")
+
+
+def function_lengths(text):
+    """(first line, number of lines) of each outermost brace block that is a function body."""
+    code = blank_comments_and_strings(text)
+    code = "\n".join("" if line.lstrip().startswith("#") else line for line in code.split("\n"))
+    lengths, stack, head_start = [], [], 0
+    for position, character in enumerate(code):
+        if character == "{":
+            head = re.sub(r"template\s*<[^{}]*?>\s*(?=class|struct|\w)", "", code[head_start:position]).strip()
+            inside_function = any(kind == "function" for kind, _ in stack)
+            is_function = not inside_function and "(" in head and not NOT_A_FUNCTION.search(head)
+            first = head_start + len(code[head_start:position]) - len(code[head_start:position].lstrip())
+            stack.append(("function" if is_function else "other", first))
+            head_start = position + 1
+        elif character == "}" and stack:
+            kind, first = stack.pop()
+            if kind == "function":
+                line = code.count("\n", 0, first) + 1
+                lengths.append((line, code.count("\n", first, position) + 1))
+            head_start = position + 1
+        elif character == ";" or (character == ":" and code[head_start:position].strip() in ("public", "protected", "private")):
+            head_start = position + 1
+    return lengths
+
+
+def check(root):
+    """All violations below `root`, as sentences, and the number of lines of each file."""
+    violations, lines_of = [], {}
+    for path in sorted(list(root.glob("src/**/*")) + list(root.glob("include/**/*"))):
+        if path.suffix not in (".h", ".cc"):
+            continue
+        name = path.relative_to(root)
+        folder = path.parent.name
+        text = path.read_text(encoding="utf-8")
+        lines = text.splitlines()
+        lines_of[str(name)] = len(lines)
+        if folder not in ROW_OF:
+            violations.append(f"{name}:1: {folder}/ has no place in the order of the folders")
+            continue
+        for number, line in enumerate(lines, start=1):
+            match = INCLUDE.match(line)
+            reason = check_include(folder, match.group(1)) if match else None
+            if reason:
+                violations.append(f"{name}:{number}: {reason}")
+        if len(lines) > MAX_FILE:
+            violations.append(f"{name}:{len(lines)}: {len(lines)} lines, at most {MAX_FILE}")
+        for first, length in function_lengths(text):
+            if length > MAX_FUNCTION:
+                violations.append(f"{name}:{first}: a function of {length} lines, at most {MAX_FUNCTION}")
+    return violations, lines_of
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    violations, lines_of = check(pathlib.Path(sys.argv[1]))
+    if not lines_of:
+        sys.exit(f"no sources below {sys.argv[1]}")
+    print(f"{len(lines_of)} files, median {statistics.median(lines_of.values()):g} lines, longest {max(lines_of, key=lines_of.get)}")
+    for violation in violations:
+        print(violation)
+    sys.exit(1 if violations else 0)
+
+
+if __name__ == "__main__":
+    main()
