@@ -60,7 +60,8 @@ class SignalParser {
     SignalTerm term;
     term.factor = factor;
     term.object = trimmed(text_.substr(position_, slash - position_));
-    if (term.object.empty()) fail("expected a name at column " + std::to_string(position_ + 1) + " of the signal");
+    if (term.object.empty() || term.object[0] == '+' || term.object[0] == '-')
+      fail("expected a name at column " + std::to_string(position_ + 1) + " of the signal");
     position_ = slash + 1;
     term.quantity = read_word("quantity");
     if (next_is('/')) {

@@ -1,0 +1,93 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/model/signal_catalog.h"
+
+#include <gtest/gtest.h>
+
+namespace codesign {
+namespace {
+
+JointDescription joint(const std::string& name, JointType type) {
+  JointDescription description;
+  description.name = name;
+  description.type = type;
+  return description;
+}
+
+RobotDescription robot() {
+  RobotDescription robot;
+  robot.joints = {joint("hinge", JointType::kRevolute), joint("slide", JointType::kPrismatic), joint("plane", JointType::kPlanar),
+                  joint("weld", JointType::kFixed)};
+  robot.joints[1].friction.emplace();
+  robot.joints[2].dry_friction = 0.1;
+  robot.links.push_back({"arm", std::nullopt, {}});
+  robot.links.push_back({"hinge", std::nullopt, {}});
+  return robot;
+}
+
+std::vector<ControllerDescription> controllers() {
+  ControllerDescription controller;
+  controller.name = "speed";
+  return {controller};
+}
+
+void check(const std::string& text) { check_signal(parse_signal(text, {"s.yaml", 2}, "here"), robot(), controllers(), "here"); }
+
+void expect_refused(const std::string& text, const std::string& message, const std::string& allowed) {
+  try {
+    check(text);
+    ADD_FAILURE() << text;
+  } catch (const InputError& error) {
+    EXPECT_NE(error.fault().message.find(message), std::string::npos) << error.what();
+    EXPECT_NE(error.fault().allowed.find(allowed), std::string::npos) << error.what();
+    EXPECT_EQ(error.fault().where.line, 2);
+    EXPECT_EQ(error.fault().element, "here");
+  }
+}
+
+TEST(SignalCatalog, AcceptsWhatEachKindOffers) {
+  for (const char* quantity : {"position", "velocity", "acceleration", "effort"}) check(std::string("hinge/") + quantity);
+  for (const char* quantity : {"friction", "normal_force", "sliding_velocity"}) {
+    check(std::string("slide/") + quantity);
+    check(std::string("plane/") + quantity);
+  }
+  for (const char* quantity : {"position", "velocity", "angular_velocity"})
+    for (const char* component : {"/x", "/y", "/z"}) check(std::string("arm/") + quantity + component);
+  for (const char* quantity : {"error", "integral", "output"}) check(std::string("speed/") + quantity);
+  check("hinge/velocity - slide/velocity + arm/position/z");
+}
+
+TEST(SignalCatalog, ALinkMayBearTheNameOfAJoint) {
+  check("hinge/position");
+  check("hinge/position/x");
+}
+
+TEST(SignalCatalog, RefusesUnknownNames) {
+  expect_refused("hing/velocity", "did you mean \"hinge\"", "hinge, slide");
+  expect_refused("hinge/velocity - sped/output", "did you mean \"speed\"", "speed");
+}
+
+TEST(SignalCatalog, RefusesQuantitiesOfAnotherKind) {
+  expect_refused("slide/velocty", "did you mean \"velocity\"", "slide/velocity");
+  expect_refused("hinge/friction", "unknown quantity", "hinge/effort");
+  expect_refused("weld/position", "unknown quantity", "");
+  expect_refused("plane/velocity", "unknown quantity", "plane/normal_force");
+  expect_refused("speed/velocity", "unknown quantity", "speed/output");
+  expect_refused("arm/effort/x", "unknown quantity", "arm/position/{x,y,z}");
+}
+
+TEST(SignalCatalog, ComponentsBelongToLinks) {
+  expect_refused("arm/position", "needs the component", "arm/position/{x,y,z}");
+  expect_refused("arm/position/w", "needs the component", "arm/position/{x,y,z}");
+  expect_refused("slide/velocity/x", "no components", "slide/velocity");
+}
+
+TEST(SignalCatalog, DefaultsCoverJointsFrictionAndControllers) {
+  const std::vector<std::string> expected = {
+      "hinge/position",         "hinge/velocity", "slide/position",     "slide/velocity",         "slide/friction", "slide/normal_force",
+      "slide/sliding_velocity", "plane/friction", "plane/normal_force", "plane/sliding_velocity", "speed/output"};
+  EXPECT_EQ(default_signals(robot(), controllers()), expected);
+  for (const std::string& signal : expected) check(signal);
+}
+
+}  // namespace
+}  // namespace codesign
