@@ -32,12 +32,6 @@ void apply_settings(const ParameterSettings& settings, Study* study) {
   }
 }
 
-Problem compile(Problem problem, const ParameterSettings& settings) {
-  apply_settings(settings, &problem.study);
-  problem.system = make_system(problem.robot, problem.study);
-  return problem;
-}
-
 }  // namespace
 
 std::vector<double> Problem::parameters() const {
@@ -65,6 +59,12 @@ std::vector<std::string> Problem::tuned_names() const {
   names.reserve(study.tuned.size());
   for (int index : study.tuned) names.push_back(study.parameters[static_cast<std::size_t>(index)].name);
   return names;
+}
+
+Problem compile(Problem problem, const ParameterSettings& settings) {
+  apply_settings(settings, &problem.study);
+  problem.system = make_system(problem.robot, problem.study);
+  return problem;
 }
 
 Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,

@@ -39,6 +39,10 @@ struct Problem {
   std::vector<std::string> tuned_names() const;
 };
 
+/// Replaces parameter values by `settings` and compiles the equations of motion anew, for what model and study now say.
+/// @throws InputError for a setting of an unknown parameter or one outside the parameter's bounds, and as make_system() does.
+Problem compile(Problem problem, const ParameterSettings& settings);
+
 /// Reads model, overlays and study, replaces parameter values by `settings` and compiles the equations of motion.
 /// A setting of a tuned parameter moves its start.
 /// @throws InputError for bad input, a setting of an unknown parameter, or one outside the parameter's bounds.

@@ -1,0 +1,36 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_INPUTS_H_
+#define MECHANISM_CODESIGN_ROS_INPUTS_H_
+
+#include <ros/node_handle.h>
+#include <xmlrpcpp/XmlRpcValue.h>
+
+#include <string>
+#include <vector>
+
+#include "mechanism_codesign/optimization/problem.h"
+
+namespace codesign {
+
+/// What a node was told to work on, not yet read.
+struct Inputs {
+  SourceText urdf;
+  std::vector<SourceText> overlays;
+  SourceText study;
+  ParameterSettings settings;
+};
+
+/// Reads the private parameters of a node:
+/// - `~model`: path of the URDF; without it the text in `robot_description`;
+/// - `~overlays`: a path or a list of paths;
+/// - `~study`: a path, or the study itself as a tree of parameters (`<rosparam ns="study" file=...>`);
+/// - `~set`: parameter values that replace those of model and study, by name.
+/// @throws InputError for a missing or ill-typed parameter or a file that cannot be read.
+Inputs read_inputs(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+
+/// A tree of ROS parameters as YAML text, for the one strict reader of studies. XML-RPC structs know no order: keys come out sorted.
+std::string to_yaml(const XmlRpc::XmlRpcValue& tree);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_INPUTS_H_

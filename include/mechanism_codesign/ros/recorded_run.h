@@ -1,0 +1,34 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_RECORDED_RUN_H_
+#define MECHANISM_CODESIGN_ROS_RECORDED_RUN_H_
+
+#include <atomic>
+#include <vector>
+
+#include "mechanism_codesign/optimization/problem.h"
+#include "mechanism_codesign/ros/friction_markers.h"
+
+namespace codesign {
+
+/// A whole study at one design, sampled at a fixed rate.
+struct RecordedRun {
+  FrameNames names;
+  std::vector<Frame> frames;
+  Status status;  ///< not ok: the frames end where the run did
+};
+
+/// @param rate samples per second.
+RecordedRun record_run(const Problem& problem, const std::vector<double>& parameters, double rate, const std::atomic<bool>* cancel);
+
+/// How the initial and the tuned run are shown together.
+struct SceneLayout {
+  double separation = 0.0;  ///< of the tuned mechanism from the initial one, along y [m]
+  MarkerStyle style;
+};
+
+/// Chosen so that the two mechanisms do not overlap and the largest friction arrow is about a third as long as the mechanism.
+SceneLayout lay_out(const RecordedRun& initial, const RecordedRun& tuned);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_RECORDED_RUN_H_

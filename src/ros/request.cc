@@ -1,0 +1,88 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/ros/request.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "mechanism_codesign/math/decimal.h"
+#include "mechanism_codesign/model/unknown_name.h"
+
+namespace codesign {
+namespace {
+
+constexpr const char* kRequest = "request";
+
+[[noreturn]] void fail(const std::string& field, const std::string& message, const std::string& value, const std::string& allowed) {
+  throw InputError({{kRequest, 0}, field, message, value, allowed});
+}
+
+std::vector<std::string> names_of(const std::vector<Parameter>& parameters) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : parameters) names.push_back(parameter.name);
+  return names;
+}
+
+std::size_t index_of(const std::string& name, const std::vector<std::string>& known) {
+  const auto found = std::find(known.begin(), known.end(), name);
+  if (found == known.end()) throw unknown_name({kRequest, 0}, "parameters", "parameter", name, known);
+  return static_cast<std::size_t>(found - known.begin());
+}
+
+/// Pairs names with values, which must be as many; a name may stand there once.
+ParameterSettings pair_up(const std::vector<std::string>& names, const std::vector<double>& values, const std::string& field) {
+  if (values.size() != names.size())
+    fail(field, "one value for each parameter is needed", std::to_string(values.size()) + " values", std::to_string(names.size()) + " values");
+  ParameterSettings settings;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::count(names.begin(), names.end(), names[i]) > 1) fail("parameters", "parameter named twice", names[i], "each name once");
+    settings.emplace_back(names[i], values[i]);
+  }
+  return settings;
+}
+
+void choose_tuned(const std::vector<std::string>& names, Study* study) {
+  const std::vector<std::string> known = names_of(study->parameters);
+  study->tuned.clear();
+  for (const std::string& name : names) study->tuned.push_back(static_cast<int>(index_of(name, known)));
+}
+
+void choose_options(const mechanism_codesign::OptimizeGoal& request, OptimizerOptions* options) {
+  if (!request.algorithm.empty()) options->algorithm = request.algorithm;
+  if (request.max_evaluations > static_cast<unsigned>(std::numeric_limits<int>::max()))
+    fail("max_evaluations", "count out of range", std::to_string(request.max_evaluations), "0 (as the study says) to 2147483647");
+  if (request.max_evaluations > 0) options->max_evaluations = static_cast<int>(request.max_evaluations);
+  if (!(request.relative_tolerance >= 0.0 && request.relative_tolerance < 1.0))
+    fail("relative_tolerance", "tolerance out of range", to_decimal(request.relative_tolerance), "0 (as the study says) to 1");
+  if (request.relative_tolerance > 0.0) options->relative_tolerance = request.relative_tolerance;
+}
+
+}  // namespace
+
+Problem apply_request(const Problem& problem, const mechanism_codesign::OptimizeGoal& request) {
+  Problem changed = problem;
+  choose_options(request, &changed.study.optimizer);
+  if (!request.parameters.empty()) {
+    pair_up(request.parameters, std::vector<double>(request.parameters.size()), "parameters");
+    choose_tuned(request.parameters, &changed.study);
+  }
+  if (request.parameters.empty() && request.start.empty()) return changed;
+  ParameterSettings starts;
+  if (!request.start.empty()) starts = pair_up(changed.tuned_names(), request.start, "start");
+  return compile(std::move(changed), starts);
+}
+
+Eigen::VectorXd design_of(const Problem& problem, const mechanism_codesign::EvaluateRequest& request) {
+  const std::vector<std::string> tuned = problem.tuned_names();
+  Eigen::VectorXd rho = problem.start();
+  for (const auto& [name, value] : pair_up(request.parameters, request.values, "values")) {
+    const std::size_t k = index_of(name, tuned);
+    const Parameter& parameter = problem.study.parameters[static_cast<std::size_t>(problem.study.tuned[k])];
+    if (!(value >= parameter.lower && value <= parameter.upper))
+      fail(name, "value outside the parameter's bounds", to_decimal(value),
+           "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]");
+    rho[static_cast<Eigen::Index>(k)] = value;
+  }
+  return rho;
+}
+
+}  // namespace codesign

@@ -1,0 +1,48 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/ros/worker.h"
+
+#include <utility>
+
+namespace codesign {
+
+Worker::Worker() : thread_([this] { run(); }) {}
+
+Worker::~Worker() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ending_ = true;
+    cancel_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+bool Worker::try_start(Job job) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (job_ || ending_) return false;
+    cancel_ = false;
+    job_ = std::move(job);
+  }
+  changed_.notify_all();
+  return true;
+}
+
+bool Worker::busy() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return static_cast<bool>(job_);
+}
+
+void Worker::run() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return ending_ || job_; });
+    if (!job_) return;
+    lock.unlock();
+    job_(cancel_);
+    lock.lock();
+    job_ = nullptr;
+  }
+}
+
+}  // namespace codesign
