@@ -1,0 +1,98 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "annotation_rules.h"
+
+#include <algorithm>
+#include <set>
+
+namespace codesign {
+namespace {
+
+using Names = std::vector<std::string>;
+
+void add_shapes(const std::string& path, std::vector<ElementRule>* rules) {
+  rules->push_back({path + "/origin", false, {}, {"xyz", "rpy"}, {}, {}});
+  rules->push_back({path + "/geometry/box", false, {}, {"size"}, {}, {}});
+  rules->push_back({path + "/geometry/cylinder", false, {}, {"radius", "length"}, {}, {}});
+  rules->push_back({path + "/geometry/sphere", false, {}, {"radius"}, {}, {}});
+}
+
+/// `<predecessor link>` and `<successor link>`, with or without an `<origin>`.
+void add_ends(const std::string& path, bool with_origin, std::vector<ElementRule>* rules) {
+  for (const char* end : {"/predecessor", "/successor"}) {
+    rules->push_back({path + end, true, {"link"}, {}, {}, with_origin ? Names{"origin"} : Names{}});
+    if (with_origin) rules->push_back({path + end + "/origin", true, {}, {"xyz", "rpy"}, {}, {}});
+  }
+}
+
+void add_joint_parts(const std::string& path, bool strict, std::vector<ElementRule>* rules) {
+  rules->push_back({path + "/axis", strict, {}, {"xyz"}, {}, {}});
+  rules->push_back({path + "/dynamics", strict, {}, {"damping", "friction"}, {}, {}});
+  rules->push_back({path + "/codesign:friction",
+                    true,
+                    {"model", "transverse_axis"},
+                    {"mu_static", "mu_dynamic", "transition_velocity", "joint_length", "joint_width", "pin_radius", "friction_arm",
+                     "preload", "smoothing", "viscous"},
+                    {},
+                    {}});
+  rules->push_back({path + "/codesign:torsion_spring", true, {}, {"stiffness", "damping", "free_position"}, {}, {}});
+}
+
+std::vector<ElementRule> make_rules() {
+  std::vector<ElementRule> rules;
+  rules.push_back({"robot", false, {}, {}, {}, {"codesign:parameter", "codesign:spring_damper"}});
+  rules.push_back({"robot/codesign:parameter", true, {"name", "value", "lower", "upper", "unit"}, {}, {}, {}});
+  rules.push_back(
+      {"robot/codesign:spring_damper", true, {"name"}, {"stiffness", "damping", "free_length"}, {}, {"predecessor", "successor"}});
+  add_ends("robot/codesign:spring_damper", true, &rules);
+
+  rules.push_back({"robot/link/inertial", false, {}, {}, {"density", "from"}, {}});
+  rules.push_back({"robot/link/inertial/origin", false, {}, {"xyz", "rpy"}, {}, {}});
+  rules.push_back({"robot/link/inertial/mass", false, {}, {"value"}, {}, {}});
+  rules.push_back({"robot/link/inertial/inertia", false, {}, {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}, {}, {}});
+  add_shapes("robot/link/visual", &rules);
+  add_shapes("robot/link/collision", &rules);
+
+  rules.push_back({"robot/joint", false, {}, {}, {}, {"codesign:friction", "codesign:torsion_spring"}});
+  rules.push_back({"robot/joint/origin", false, {}, {"xyz", "rpy"}, {}, {}});
+  add_joint_parts("robot/joint", false, &rules);
+
+  rules.push_back({"robot/loop",
+                   true,
+                   {"name", "type"},
+                   {},
+                   {},
+                   {"predecessor", "successor", "axis", "dynamics", "codesign:second_axis", "codesign:length", "codesign:friction",
+                    "codesign:torsion_spring"}});
+  add_ends("robot/loop", true, &rules);
+  add_joint_parts("robot/loop", true, &rules);
+  rules.push_back({"robot/loop/codesign:second_axis", true, {}, {"xyz"}, {}, {}});
+  rules.push_back({"robot/loop/codesign:length", true, {}, {"value"}, {}, {}});
+
+  rules.push_back({"robot/coupling", true, {"name"}, {}, {}, {"predecessor", "successor", "ratio"}});
+  add_ends("robot/coupling", false, &rules);
+  rules.push_back({"robot/coupling/ratio", true, {}, {"value"}, {}, {}});
+  return rules;
+}
+
+const std::vector<ElementRule>& rules() {
+  static const std::vector<ElementRule> kRules = make_rules();
+  return kRules;
+}
+
+}  // namespace
+
+const ElementRule* find_rule(const std::string& path) {
+  const auto found = std::find_if(rules().begin(), rules().end(), [&](const ElementRule& rule) { return rule.path == path; });
+  return found != rules().end() ? &*found : nullptr;
+}
+
+std::vector<std::string> annotation_elements() {
+  std::set<std::string> names;
+  for (const ElementRule& rule : rules()) {
+    const std::string tag = rule.path.substr(rule.path.rfind('/') + 1);
+    if (tag.find(':') != std::string::npos) names.insert(tag);
+  }
+  return {names.begin(), names.end()};
+}
+
+}  // namespace codesign

@@ -1,0 +1,56 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "friction_reader.h"
+
+#include <Eigen/Geometry>
+
+#include "mechanism_codesign/math/scalar.h"
+#include "mechanism_codesign/model/unknown_name.h"
+#include "number_text.h"
+#include "quantity_reader.h"
+
+namespace codesign {
+namespace {
+
+FrictionModel read_model(const XmlElement& element) {
+  const std::string name = element.find("model").value_or("brown_mcphee");
+  if (name == "brown_mcphee") return FrictionModel::kBrownMcPhee;
+  if (name == "gonthier") return FrictionModel::kGonthier;
+  if (name == "lugre") return FrictionModel::kLuGre;
+  throw unknown_name(element.where("model"), element.label(), "friction model", name, {"brown_mcphee", "gonthier", "lugre"});
+}
+
+std::array<double, 3> read_transverse_axis(const XmlElement& element, const QuantityVector& axis) {
+  const std::vector<Quantity> given = parse_quantities(element, "transverse_axis", 3, ParameterTable());
+  const std::array<double, 3> result = {given[0].nominal(), given[1].nominal(), given[2].nominal()};
+  const Vector3<double> x(result[0], result[1], result[2]), z(axis[0].nominal(), axis[1].nominal(), axis[2].nominal());
+  if (x.cross(z).norm() <= 1e-6 * x.norm() * z.norm())
+    element.fail_at("transverse_axis", "the transverse axis has no direction across the joint axis", "a vector not along the joint axis");
+  return result;
+}
+
+}  // namespace
+
+FrictionDescription read_friction(const XmlElement& element, const QuantityVector& axis, const ParameterTable& table) {
+  FrictionDescription friction;
+  friction.where = element.where();
+  friction.model = read_model(element);
+  friction.mu_static = read_quantity(element, "mu_static", Range::kNonNegative, table);
+  friction.mu_dynamic = read_quantity(element, "mu_dynamic", Range::kNonNegative, table);
+  if (friction.mu_dynamic.nominal() > friction.mu_static.nominal())
+    element.fail_at("mu_dynamic", "mu_dynamic is above mu_static", "at most mu_static=" + format_number(friction.mu_static.nominal()));
+  const auto read = [&](const char* name, Range range, const Quantity& fallback) {
+    return read_quantity_or(fallback, element, name, range, table);
+  };
+  friction.transition_velocity = read("transition_velocity", Range::kPositive, friction.transition_velocity);
+  friction.joint_length = read("joint_length", Range::kPositive, friction.joint_length);
+  friction.joint_width = read("joint_width", Range::kPositive, friction.joint_width);
+  friction.pin_radius = read("pin_radius", Range::kPositive, friction.pin_radius);
+  friction.friction_arm = read("friction_arm", Range::kPositive, friction.pin_radius);
+  friction.preload = read("preload", Range::kNonNegative, friction.preload);
+  friction.smoothing = read("smoothing", Range::kPositive, friction.smoothing);
+  friction.viscous = read("viscous", Range::kNonNegative, friction.viscous);
+  if (element.has("transverse_axis")) friction.transverse_axis = read_transverse_axis(element, axis);
+  return friction;
+}
+
+}  // namespace codesign

@@ -1,0 +1,54 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "inertial_check.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "mechanism_codesign/model/mass_properties.h"
+#include "number_text.h"
+
+namespace codesign {
+namespace {
+
+std::string as_xml(const MassProperties<double>& m) {
+  const auto attribute = [&](const char* name, int i, int k) {
+    return std::string(" ") + name + "=\"" + format_number(m.inertia(i, k)) + "\"";
+  };
+  return "<origin xyz=\"" + format_numbers({m.centre[0], m.centre[1], m.centre[2]}) + "\"/> <mass value=\"" + format_number(m.mass) +
+         "\"/> <inertia" + attribute("ixx", 0, 0) + attribute("ixy", 0, 1) + attribute("ixz", 0, 2) + attribute("iyy", 1, 1) +
+         attribute("iyz", 1, 2) + attribute("izz", 2, 2) + "/>";
+}
+
+}  // namespace
+
+void check_physical(const XmlElement& element, const InertialDescription& inertial, const ParameterTable& table) {
+  const MassProperties<double> properties = mass_properties(inertial, table.values);
+  const std::string mass = format_number(properties.mass);
+  if (properties.mass <= 0.0) element.fail("the mass is not positive though the inertia is given", mass, "> 0");
+  const Eigen::SelfAdjointEigenSolver<Matrix3<double>> solver(properties.inertia, Eigen::EigenvaluesOnly);
+  const Vector3<double> moments = solver.eigenvalues();
+  const std::string text = "principal moments " + format_numbers({moments[0], moments[1], moments[2]});
+  constexpr double kRounding = 1e-14, kTriangle = 1e-9;
+  if (!(moments[0] > kRounding * std::abs(moments[2]))) element.fail("the inertia is not positive definite", text, "all > 0");
+  if (moments[2] > (moments[0] + moments[1]) * (1.0 + kTriangle))
+    element.fail("the inertia breaks the triangle inequality", text,
+                 "largest <= sum of the other two, " + format_number(moments[0] + moments[1]));
+}
+
+void check_agreement(const XmlElement& element, const InertialDescription& written, const InertialDescription& from_shapes,
+                     const ParameterTable& table) {
+  constexpr double kRelative = 1e-6;
+  const MassProperties<double> a = mass_properties(written, table.values), b = mass_properties(from_shapes, table.values);
+  const double size = std::sqrt(b.inertia.trace() / b.mass);
+  const bool agree = std::abs(a.mass - b.mass) <= kRelative * b.mass &&
+                     (a.centre - b.centre).norm() <= kRelative * (size + b.centre.norm()) &&
+                     (a.inertia - b.inertia).norm() <= kRelative * b.inertia.norm();
+  if (!agree) fail_with_computed(element, from_shapes, table, "mass, centre or inertia differ from those of the shapes");
+}
+
+void fail_with_computed(const XmlElement& element, const InertialDescription& from_shapes, const ParameterTable& table,
+                        const std::string& message) {
+  element.fail(message, "", as_xml(mass_properties(from_shapes, table.values)));
+}
+
+}  // namespace codesign

@@ -1,0 +1,61 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "inertial_reader.h"
+
+#include <algorithm>
+
+#include "inertial_check.h"
+#include "quantity_reader.h"
+#include "shape_reader.h"
+
+namespace codesign {
+namespace {
+
+constexpr std::array<const char*, 6> kInertia = {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"};
+
+InertialDescription read_numbers(const XmlElement& inertial, const ParameterTable& table) {
+  InertialDescription result;
+  result.where = inertial.where();
+  result.origin = read_origin(inertial, table);
+  result.mass = read_quantity(inertial.only("mass"), "value", Range::kNonNegative, table);
+  const XmlElement inertia = inertial.only("inertia");
+  for (std::size_t k = 0; k < kInertia.size(); ++k) result.inertia[k] = read_quantity(inertia, kInertia[k], Range::kAny, table);
+  return result;
+}
+
+bool is_massless(const InertialDescription& inertial) {
+  const auto is_zero = [](const Quantity& quantity) { return quantity.is_constant() && quantity.nominal() == 0.0; };
+  return is_zero(inertial.mass) && std::all_of(inertial.inertia.begin(), inertial.inertia.end(), is_zero);
+}
+
+InertialDescription read_from_shapes(const XmlElement& link, const XmlElement& inertial, const ParameterTable& table) {
+  InertialDescription result;
+  result.where = inertial.where();
+  const std::string from = inertial.find("codesign:from").value_or("visual");
+  if (from != "visual" && from != "collision") inertial.fail_at("codesign:from", "no such shapes", "visual or collision");
+  result.density = parse_quantities(inertial, "codesign:density", 1, table).front();
+  if (result.density->nominal() <= 0.0) inertial.fail_at("codesign:density", "the density is not positive", "> 0");
+  result.shapes = read_solids(link, from, table);
+  return result;
+}
+
+}  // namespace
+
+std::optional<InertialDescription> read_inertial(const XmlElement& link, const ParameterTable& table) {
+  const std::optional<XmlElement> inertial = link.child("inertial");
+  if (!inertial) return std::nullopt;
+  if (!inertial->has("codesign:density")) {
+    if (inertial->has("codesign:from")) inertial->fail_at("codesign:from", "shapes without codesign:density have no mass");
+    InertialDescription result = read_numbers(*inertial, table);
+    if (is_massless(result)) return std::nullopt;
+    check_physical(*inertial, result, table);
+    return result;
+  }
+  InertialDescription result = read_from_shapes(link, *inertial, table);
+  if (!inertial->child("mass") || !inertial->child("inertia"))
+    fail_with_computed(*inertial, result, table, "readers of plain URDF need the values");
+  check_agreement(*inertial, read_numbers(*inertial, table), result, table);
+  check_physical(*inertial, result, table);
+  return result;
+}
+
+}  // namespace codesign

@@ -1,0 +1,18 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MODEL_INERTIAL_READER_H_
+#define MECHANISM_CODESIGN_MODEL_INERTIAL_READER_H_
+
+#include <optional>
+
+#include "mechanism_codesign/model/robot.h"
+#include "twin.h"
+
+namespace codesign {
+
+/// A link's `<inertial>`; nothing if there is none, or if mass and inertia are all zero, as some exporters write massless links.
+/// @throws InputError for numbers no body can have, or plain values that disagree with the shapes.
+std::optional<InertialDescription> read_inertial(const XmlElement& link, const ParameterTable& table);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MODEL_INERTIAL_READER_H_

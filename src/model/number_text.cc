@@ -1,0 +1,40 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "number_text.h"
+
+#include <array>
+#include <charconv>
+#include <sstream>
+#include <system_error>
+
+namespace codesign {
+
+std::optional<double> parse_number(const std::string& text) {
+  const char* begin = text.data();
+  const char* const end = begin + text.size();
+  if (text.size() > 1 && *begin == '+' && text[1] != '-') ++begin;  // URDF's readers accept it, from_chars does not
+  double value = 0.0;
+  const std::from_chars_result result = std::from_chars(begin, end, value);
+  if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
+  return value;
+}
+
+std::string format_number(double value) {
+  std::array<char, 32> buffer{};
+  const std::to_chars_result result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
+
+std::string format_numbers(const std::vector<double>& values) {
+  std::string text;
+  for (double value : values) text += (text.empty() ? "" : " ") + format_number(value);
+  return text;
+}
+
+std::vector<std::string> split_words(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+}  // namespace codesign

@@ -1,0 +1,25 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MODEL_NUMBER_TEXT_H_
+#define MECHANISM_CODESIGN_MODEL_NUMBER_TEXT_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace codesign {
+
+/// The whole of `text` as a number, whatever the locale; nothing if it is none. `inf` and `nan` parse, and are left to the caller.
+std::optional<double> parse_number(const std::string& text);
+
+/// The shortest decimal that reads back as the same double (17 digits at most).
+std::string format_number(double value);
+
+/// Space-separated.
+std::string format_numbers(const std::vector<double>& values);
+
+/// The words of `text` between white space.
+std::vector<std::string> split_words(const std::string& text);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MODEL_NUMBER_TEXT_H_

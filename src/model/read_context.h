@@ -1,0 +1,27 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MODEL_READ_CONTEXT_H_
+#define MECHANISM_CODESIGN_MODEL_READ_CONTEXT_H_
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mechanism_codesign/model/robot.h"
+#include "twin.h"
+
+namespace codesign {
+
+/// What readers of joints, loops and springs look names up in.
+struct ReadContext {
+  std::vector<std::string> links;
+  ParameterTable table;
+
+  /// Index of the link that `attribute` names. @throws InputError naming the nearest link.
+  int link(const XmlElement& element, const std::string& attribute) const;
+  /// The links of `<predecessor link>` and `<successor link>`. @throws InputError if they are the same.
+  std::pair<int, int> ends(const XmlElement& element) const;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MODEL_READ_CONTEXT_H_

@@ -1,0 +1,23 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MODEL_TREE_CHECK_H_
+#define MECHANISM_CODESIGN_MODEL_TREE_CHECK_H_
+
+#include "mechanism_codesign/model/robot.h"
+
+namespace codesign {
+
+/// Names must be unique (links; joints with loops; couplings; spring-dampers).
+void check_names(const RobotDescription& robot);
+
+/// The tree's root. @throws InputError if a link hangs on two joints, no link or several could be the root, or links hang in a ring.
+int find_root(const RobotDescription& robot);
+
+/// `<mimic>` must name another joint with one coordinate, and not come back to where it started.
+void check_mimics(const RobotDescription& robot);
+
+/// Friction dimensions of the joints that cannot become part of a compound joint: both links have inertia, or are the ground.
+void check_friction(const RobotDescription& robot);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MODEL_TREE_CHECK_H_

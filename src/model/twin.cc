@@ -1,0 +1,114 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "twin.h"
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include "number_text.h"
+
+namespace codesign {
+namespace {
+
+/// Words between white space, where `${...}` may hold some.
+std::vector<std::string> split_values(const XmlElement& element, const std::string& attribute) {
+  const std::string text = element.text(attribute);
+  std::vector<std::string> values;
+  bool inside = false, in_word = false;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const bool space = text[k] == ' ' || text[k] == '\t' || text[k] == '\n' || text[k] == '\r';
+    if (text[k] == '$' && k + 1 < text.size() && text[k + 1] == '{') inside = true;
+    if (space && !inside) {
+      in_word = false;
+      continue;
+    }
+    if (!in_word) values.emplace_back();
+    in_word = true;
+    values.back() += text[k];
+    if (text[k] == '}') inside = false;
+  }
+  if (inside) element.fail_at(attribute, "${ without its }");
+  return values;
+}
+
+/// The text of a `${...}` with at most a sign before it, as an expression; empty if `word` is of another form.
+std::string expression_text(const std::string& word) {
+  const std::size_t begin = word.find("${");
+  const bool signed_only = begin == 0 || (begin == 1 && (word[0] == '-' || word[0] == '+'));
+  if (!signed_only || word.find('}') != word.size() - 1) return "";
+  const std::string inner = word.substr(begin + 2, word.size() - begin - 3);
+  return word[0] == '-' ? "-(" + inner + ")" : inner;
+}
+
+Quantity parse_expression(const XmlElement& element, const std::string& attribute, const std::string& word, const ParameterTable& table) {
+  const std::string text = expression_text(word);
+  if (text.empty()) element.fail_at(attribute, "'" + word + "' is no expression", "a number, ${expression} or -${expression}");
+  std::shared_ptr<const Expression> expression;
+  try {
+    expression = std::make_shared<const Expression>(text, table.names);
+  } catch (const std::invalid_argument& error) {
+    element.fail_at(attribute, std::string(error.what()), "an expression of the model's parameters");
+  }
+  const double nominal = expression->value(table.values);
+  if (!std::isfinite(nominal)) element.fail_at(attribute, "'" + word + "' is not finite at the default parameters", "a finite number");
+  return {nominal, expression};
+}
+
+Quantity parse_constant(const XmlElement& element, const std::string& attribute, const std::string& word) {
+  const std::optional<double> value = parse_number(word);
+  if (!value) element.fail_at(attribute, "'" + word + "' in " + attribute + " is not a number", "numbers");
+  if (!std::isfinite(*value)) element.fail_at(attribute, attribute + " is not finite", "finite numbers");
+  return *value;
+}
+
+bool agree(double plain, double twin) {
+  constexpr double kRelative = 1e-6, kAbsolute = 1e-12;
+  return std::abs(plain - twin) <= std::max(kAbsolute, kRelative * std::max(std::abs(plain), std::abs(twin)));
+}
+
+std::string nominal_text(const std::vector<Quantity>& quantities) {
+  std::vector<double> values;
+  for (const Quantity& quantity : quantities) values.push_back(quantity.nominal());
+  return format_numbers(values);
+}
+
+}  // namespace
+
+ParameterTable::ParameterTable(const std::vector<Parameter>& parameters) {
+  for (const Parameter& parameter : parameters) {
+    names.push_back(parameter.name);
+    values.push_back(parameter.value);
+  }
+}
+
+std::vector<Quantity> parse_quantities(const XmlElement& element, const std::string& attribute, std::size_t count,
+                                       const ParameterTable& table) {
+  std::vector<Quantity> result;
+  for (const std::string& word : split_values(element, attribute)) {
+    const bool is_expression = word.find("${") != std::string::npos;
+    result.push_back(is_expression ? parse_expression(element, attribute, word, table) : parse_constant(element, attribute, word));
+  }
+  if (result.size() != count)
+    element.fail_at(attribute, attribute + " holds the wrong count of values (" + std::to_string(result.size()) + ")",
+                    std::to_string(count) + (count == 1 ? " value" : " values"));
+  return result;
+}
+
+std::vector<Quantity> read_quantities(const XmlElement& element, const std::string& attribute, std::size_t count,
+                                      const ParameterTable& table) {
+  if (element.text(attribute).find("${") != std::string::npos)
+    element.fail_at(attribute, "an expression stands in a plain attribute", "a number here, the expression in " + (kPrefix + attribute));
+  const std::vector<Quantity> plain = parse_quantities(element, attribute, count, table);
+  const std::string twin_name = kPrefix + attribute;
+  if (!element.has(twin_name)) return plain;
+  std::vector<Quantity> twin = parse_quantities(element, twin_name, count, table);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (agree(plain[k].nominal(), twin[k].nominal())) continue;
+    element.fail_at(twin_name,
+                    twin_name + " is " + nominal_text(twin) + " at the default parameters, " + attribute + " is " + nominal_text(plain),
+                    "equal values");
+  }
+  return twin;
+}
+
+}  // namespace codesign

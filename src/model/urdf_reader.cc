@@ -1,0 +1,23 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/model/urdf_reader.h"
+
+#include <fstream>
+#include <sstream>
+
+#include "annotated_urdf.h"
+
+namespace codesign {
+
+SourceText read_source(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file || text.fail()) throw InputError({{path, 0}, "", "the file cannot be read", "", ""});
+  return {path, text.str()};
+}
+
+RobotDescription read_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays) {
+  return read_robot(load_annotated_urdf(urdf, overlays));
+}
+
+}  // namespace codesign

@@ -1,0 +1,51 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "xml_document.h"
+
+namespace codesign {
+
+XmlDocument::XmlDocument(const SourceText& source) : file_(source.name), dom_(std::make_unique<tinyxml2::XMLDocument>()) {
+  if (dom_->Parse(source.text.c_str(), source.text.size()) != tinyxml2::XML_SUCCESS)
+    throw InputError({{file_, dom_->ErrorLineNum()}, "", std::string("the text is not XML: ") + dom_->ErrorStr(), "", ""});
+  if (robot() == nullptr) throw InputError({{file_, 0}, "", "the text holds no XML element", "", "<robot>"});
+  if (std::string(robot()->Name()) != "robot")
+    throw InputError({location(robot()), "", "the root element is not a robot", std::string("<") + robot()->Name() + ">", "<robot>"});
+}
+
+std::string XmlDocument::text() const {
+  tinyxml2::XMLPrinter printer;
+  dom_->Print(&printer);
+  return printer.CStr();
+}
+
+SourceLocation XmlDocument::location(const tinyxml2::XMLElement* element) const {
+  const auto found = foreign_elements_.find(element);
+  return found != foreign_elements_.end() ? found->second : SourceLocation{file_, element->GetLineNum()};
+}
+
+SourceLocation XmlDocument::location(const tinyxml2::XMLElement* element, const std::string& attribute) const {
+  const auto found = foreign_attributes_.find({element, attribute});
+  if (found != foreign_attributes_.end()) return found->second;
+  const tinyxml2::XMLAttribute* own = element->FindAttribute(attribute.c_str());
+  if (own == nullptr || foreign_elements_.count(element) != 0) return location(element);
+  return {file_, own->GetLineNum()};
+}
+
+tinyxml2::XMLElement* XmlDocument::append_copy(tinyxml2::XMLElement* parent, const tinyxml2::XMLElement* original,
+                                               const XmlDocument& source) {
+  tinyxml2::XMLElement* copy = dom_->NewElement(original->Name());
+  parent->InsertEndChild(copy);
+  foreign_elements_[copy] = source.location(original);
+  copy_attributes(copy, original, source);
+  for (const tinyxml2::XMLElement* child = original->FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
+    append_copy(copy, child, source);
+  return copy;
+}
+
+void XmlDocument::copy_attributes(tinyxml2::XMLElement* target, const tinyxml2::XMLElement* original, const XmlDocument& source) {
+  for (const tinyxml2::XMLAttribute* attribute = original->FirstAttribute(); attribute != nullptr; attribute = attribute->Next()) {
+    target->SetAttribute(attribute->Name(), attribute->Value());
+    foreign_attributes_[{target, attribute->Name()}] = source.location(original, attribute->Name());
+  }
+}
+
+}  // namespace codesign
