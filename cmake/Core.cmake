@@ -19,7 +19,7 @@ codesign_optimize(codesign_core)
 # Everything of the command line but main(), so that tests can link it.
 file(GLOB cli_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/cli/*.cc)
 list(REMOVE_ITEM cli_sources ${PROJECT_SOURCE_DIR}/src/cli/main.cc)
-if(cli_sources)
+if(cli_sources AND EXISTS ${PROJECT_SOURCE_DIR}/src/cli/main.cc)
   add_library(codesign_cli STATIC ${cli_sources})
   target_include_directories(codesign_cli PUBLIC ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(codesign_cli PUBLIC codesign_core nlohmann_json::nlohmann_json)
