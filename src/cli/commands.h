@@ -1,0 +1,24 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_CLI_COMMANDS_H_
+#define MECHANISM_CODESIGN_CLI_COMMANDS_H_
+
+#include <string>
+#include <vector>
+
+#include "cli/arguments.h"
+#include "cli/console.h"
+
+namespace codesign::cli {
+
+/// Each returns kDone or kFailed, and throws InputError for bad input.
+int check(const Arguments& arguments, const Console& console);
+int simulate(const Arguments& arguments, const Console& console);
+int gradient(const Arguments& arguments, const Console& console);
+int optimize(const Arguments& arguments, const Console& console);
+
+/// The whole program. @param words the command line without the program's name.
+int run(const std::vector<std::string>& words, const Console& console);
+
+}  // namespace codesign::cli
+
+#endif  // MECHANISM_CODESIGN_CLI_COMMANDS_H_

@@ -1,0 +1,32 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "cli/csv_writer.h"
+
+#include "mechanism_codesign/math/decimal.h"
+
+namespace codesign::cli {
+namespace {
+
+std::string quoted(const std::string& cell) {
+  if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
+  std::string text = "\"";
+  for (const char c : cell) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return text + "\"";
+}
+
+}  // namespace
+
+CsvWriter::CsvWriter(std::ostream& out, const std::vector<std::string>& names) : out_(out) { write(names); }
+
+void CsvWriter::write(const std::vector<std::string>& cells) {
+  for (std::size_t i = 0; i < cells.size(); ++i) out_ << (i == 0 ? "" : ",") << quoted(cells[i]);
+  out_ << std::endl;
+}
+
+void CsvWriter::write(const std::vector<double>& values) {
+  std::vector<std::string> cells;
+  cells.reserve(values.size());
+  for (const double value : values) cells.push_back(to_decimal(value));
+  write(cells);
+}
+
+}  // namespace codesign::cli

@@ -1,0 +1,27 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_CLI_CSV_WRITER_H_
+#define MECHANISM_CODESIGN_CLI_CSV_WRITER_H_
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace codesign::cli {
+
+/// Comma-separated values (RFC 4180 quoting, Unix line ends). Numbers read back as the same doubles.
+class CsvWriter {
+ public:
+  /// Writes the header.
+  CsvWriter(std::ostream& out, const std::vector<std::string>& names);
+
+  /// Writes a row and flushes it, so that what is known survives whatever comes.
+  void write(const std::vector<std::string>& cells);
+  void write(const std::vector<double>& values);
+
+ private:
+  std::ostream& out_;
+};
+
+}  // namespace codesign::cli
+
+#endif  // MECHANISM_CODESIGN_CLI_CSV_WRITER_H_

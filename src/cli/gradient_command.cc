@@ -1,0 +1,65 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "cli/commands.h"
+#include "cli/inputs.h"
+#include "cli/report.h"
+#include "cli/table.h"
+
+namespace codesign::cli {
+namespace {
+
+const char* name_of(CheckMethod method) { return method == CheckMethod::kComplexStep ? "complex_step" : "ridders"; }
+
+GradientCheck compute(const Arguments& arguments, const Problem& problem, const Console& console) {
+  if (arguments.verify) return check_gradient(problem.system, problem.start(), arguments.method, &console.cancel);
+  GradientCheck result;
+  result.evaluation = Evaluator(problem.system).evaluate(problem.start(), true, &console.cancel);
+  result.status = result.evaluation.status;
+  return result;
+}
+
+void print_table(const Arguments& arguments, const Problem& problem, const GradientCheck& result, std::ostream& out) {
+  const std::vector<std::string> names = problem.tuned_names();
+  const Eigen::VectorXd rho = problem.start();
+  const bool verified = result.reference.size() == rho.size();
+  Table table;
+  std::vector<std::string> header = {"parameter", "value", "gradient"};
+  if (verified) header.insert(header.end(), {name_of(arguments.method), "difference"});
+  table.add(std::move(header));
+  for (Eigen::Index k = 0; k < rho.size(); ++k) {
+    const double gradient = result.evaluation.gradient[k];
+    std::vector<std::string> row = {names[static_cast<std::size_t>(k)], readable(rho[k]), readable(gradient)};
+    if (verified) row.insert(row.end(), {readable(result.reference[k]), readable(gradient - result.reference[k])});
+    table.add(std::move(row));
+  }
+  out << "objective " << readable(result.evaluation.objective) << '\n';
+  table.print(out);
+  if (verified) out << "largest relative difference " << readable(result.largest_relative_difference) << '\n';
+}
+
+Json result_json(const Arguments& arguments, const Problem& problem, const GradientCheck& result) {
+  const std::vector<std::string> names = problem.tuned_names();
+  Json object;
+  if (result.evaluation.status.ok()) object["objective"] = result.evaluation.objective;
+  object["parameters"] = parameters_json(problem, problem.parameters());
+  if (result.evaluation.gradient.size() > 0) object["gradient"] = by_name(names, result.evaluation.gradient);
+  add_statistics(result.evaluation.statistics, &object);
+  add_counts(problem, problem.parameters(), &object);
+  if (!arguments.verify || !result.status.ok()) return object;
+  object["verification"] = {{"method", name_of(arguments.method)},
+                            {"reference", by_name(names, result.reference)},
+                            {"reference_error", by_name(names, result.reference_error)},
+                            {"largest_relative_difference", result.largest_relative_difference}};
+  return object;
+}
+
+}  // namespace
+
+int gradient(const Arguments& arguments, const Console& console) {
+  const Problem problem = load_tunable(arguments);
+  const GradientCheck result = compute(arguments, problem, console);
+  const bool known = result.evaluation.status.ok() && result.evaluation.gradient.size() > 0;
+  if (!arguments.json && known) print_table(arguments, problem, result, console.out);
+  return finish(arguments, result.status, result_json(arguments, problem, result), console);
+}
+
+}  // namespace codesign::cli

@@ -1,0 +1,34 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "cli/inputs.h"
+
+#include "mechanism_codesign/model/signal_catalog.h"
+
+namespace codesign::cli {
+
+Problem load(const Arguments& arguments) {
+  const SourceText urdf = read_source(arguments.model);
+  std::vector<SourceText> overlays;
+  for (const std::string& path : arguments.overlays) overlays.push_back(read_source(path));
+  if (arguments.study.empty()) return load_mechanism(urdf, overlays, arguments.settings);
+  return load_problem(urdf, overlays, read_source(arguments.study), arguments.settings);
+}
+
+Problem load_tunable(const Arguments& arguments) {
+  Problem problem = load(arguments);
+  if (problem.study.tuned.empty())
+    throw InputError({{problem.study.file, 0}, "parameters", "the study tunes no parameter", "", "at least one parameter to tune"});
+  return problem;
+}
+
+std::vector<SignalDescription> select_signals(const Arguments& arguments, const Problem& problem) {
+  const std::vector<ControllerDescription>& controllers = problem.study.controllers;
+  const std::vector<std::string> texts = arguments.signals.empty() ? default_signals(problem.robot, controllers) : arguments.signals;
+  std::vector<SignalDescription> signals;
+  for (const std::string& text : texts) {
+    signals.push_back(parse_signal(text, {"command line", 0}, "--signals"));
+    check_signal(signals.back(), problem.robot, controllers, "--signals");
+  }
+  return signals;
+}
+
+}  // namespace codesign::cli

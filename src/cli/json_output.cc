@@ -1,0 +1,59 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "cli/json_output.h"
+
+namespace codesign::cli {
+
+Json to_json(const Counts& counts) {
+  return {{"bodies", counts.bodies},
+          {"coordinates", counts.coordinates},
+          {"first_order_equations", counts.first_order_equations},
+          {"controller_states", counts.controller_states},
+          {"degrees_of_freedom", counts.degrees_of_freedom},
+          {"constraints", counts.constraints},
+          {"redundant_constraints", counts.redundant_constraints},
+          {"dynamic_equations", counts.dynamic_equations},
+          {"parameters", counts.parameters},
+          {"sensitivities", counts.sensitivities},
+          {"total_equations", counts.total_equations},
+          {"redundant_rows", counts.redundant_rows}};
+}
+
+Json to_json(const InputError& error) {
+  const InputFault& fault = error.fault();
+  return {{"code", "bad_input"},      {"message", error.what()}, {"file", fault.where.file}, {"line", fault.where.line},
+          {"element", fault.element}, {"value", fault.value},    {"allowed", fault.allowed}};
+}
+
+Json to_json(const Status& status) { return {{"code", name_of(status.code)}, {"message", status.cause}, {"time", status.time}}; }
+
+Json by_name(const std::vector<std::string>& names, const std::vector<double>& values) {
+  Json object = Json::object();
+  for (std::size_t i = 0; i < names.size() && i < values.size(); ++i) object[names[i]] = values[i];
+  return object;
+}
+
+Json by_name(const std::vector<std::string>& names, const Eigen::VectorXd& values) {
+  return by_name(names, std::vector<double>(values.data(), values.data() + values.size()));
+}
+
+Json parameters_json(const Problem& problem, const std::vector<double>& values) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : problem.study.parameters) names.push_back(parameter.name);
+  return by_name(names, values);
+}
+
+void add_statistics(const Statistics& statistics, Json* object) {
+  (*object)["steps"] = statistics.steps;
+  (*object)["rejected_steps"] = statistics.rejected_steps;
+  (*object)["cpu_seconds"] = statistics.cpu_seconds;
+}
+
+void add_counts(const Problem& problem, const std::vector<double>& parameters, Json* object) {
+  Status status;
+  const Counts counts = count_equations(problem.system, parameters, &status);
+  if (status.ok()) (*object)["counts"] = to_json(counts);
+}
+
+void print(const Json& object, std::ostream& out) { out << object.dump(2, ' ', false, Json::error_handler_t::replace) << std::endl; }
+
+}  // namespace codesign::cli

@@ -1,0 +1,104 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <optional>
+
+#include "cli/commands.h"
+#include "cli/inputs.h"
+#include "cli/job_folder.h"
+#include "cli/report.h"
+#include "cli/table.h"
+#include "mechanism_codesign/optimization/optimizer.h"
+
+namespace codesign::cli {
+namespace {
+
+void print_trial(const Trial& trial, std::ostream& err) {
+  err << "trial " << trial.evaluation << ": ";
+  if (trial.status.ok())
+    err << "objective " << readable(trial.objective) << ", scaled gradient " << readable(trial.gradient_norm);
+  else
+    err << "stepped back, " << describe(trial.status);
+  err << ", best " << readable(trial.best_objective) << std::endl;
+}
+
+void print_design(const Problem& problem, const OptimizationResult& result, std::ostream& out) {
+  const std::vector<std::string> names = problem.tuned_names();
+  Table table;
+  table.add({"parameter", "initial", "tuned", "lower", "upper", "gradient"});
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const Parameter& parameter = problem.study.parameters[static_cast<std::size_t>(problem.study.tuned[k])];
+    const auto i = static_cast<Eigen::Index>(k);
+    table.add({names[k], readable(result.initial_rho[i]), readable(result.rho[i]), readable(parameter.lower), readable(parameter.upper),
+               readable(result.gradient[i])});
+  }
+  table.print(out);
+  for (const ParameterConstraint& constraint : problem.study.constraints)
+    out << constraint.text << ": margin " << readable(constraint.margin->value(problem.parameters(result.rho))) << '\n';
+}
+
+void print_result(const Problem& problem, const OptimizationResult& result, std::ostream& out) {
+  print_design(problem, result, out);
+  out << "objective " << readable(result.initial_objective) << " -> " << readable(result.objective) << '\n'
+      << result.termination << " after " << result.iterations << " iterations, " << result.evaluations << " evaluations ("
+      << result.failed_evaluations << " failed), " << result.statistics.steps << " steps, " << readable(result.statistics.cpu_seconds)
+      << " s of processor time\n";
+}
+
+/// Whether there is a best point to show, which a cancelled or failed optimization may still have.
+bool has_design(const Problem& problem, const OptimizationResult& result) {
+  const auto size = static_cast<Eigen::Index>(problem.study.tuned.size());
+  return result.rho.size() == size && result.initial_rho.size() == size && result.gradient.size() == size;
+}
+
+Json result_json(const Problem& problem, const OptimizationResult& result) {
+  const std::vector<std::string> names = problem.tuned_names();
+  Json object;
+  if (has_design(problem, result)) {
+    object["objective"] = result.objective;
+    object["initial_objective"] = result.initial_objective;
+    object["parameters"] = parameters_json(problem, problem.parameters(result.rho));
+    object["initial_parameters"] = parameters_json(problem, problem.parameters(result.initial_rho));
+    object["gradient"] = by_name(names, result.gradient);
+    object["initial_gradient"] = by_name(names, result.initial_gradient);
+  }
+  object["iterations"] = result.iterations;
+  object["evaluations"] = result.evaluations;
+  object["failed_evaluations"] = result.failed_evaluations;
+  object["termination"] = result.termination;
+  add_statistics(result.statistics, &object);
+  if (has_design(problem, result)) add_counts(problem, problem.parameters(result.rho), &object);
+  return object;
+}
+
+/// The result is out by now, so that a failure here only adds a message.
+bool write_files(JobFolder* folder, const Json& object, const Eigen::VectorXd& rho, const Console& console) {
+  try {
+    const Status status = folder->finish(object, rho);
+    if (!status.ok()) console.err << "codesign optimize: initial.csv or tuned.csv ends early: " << describe(status) << std::endl;
+    return status.ok();
+  } catch (const std::exception& error) {
+    console.err << "codesign optimize: " << error.what() << std::endl;
+    return false;
+  }
+}
+
+}  // namespace
+
+int optimize(const Arguments& arguments, const Console& console) {
+  const Problem problem = load_tunable(arguments);
+  std::optional<JobFolder> folder;
+  if (!arguments.output.empty()) folder.emplace(arguments.output, problem);
+  const auto observer = [&](const Trial& trial) {
+    print_trial(trial, console.err);
+    if (folder) folder->add(trial);
+    return !console.cancel;
+  };
+  const OptimizationResult result = codesign::optimize(problem.system, problem.study, observer, &console.cancel);
+  const bool designed = has_design(problem, result);
+  if (!arguments.json && designed) print_result(problem, result, console.out);
+  const Json object = result_json(problem, result);
+  const int code = finish(arguments, result.status, object, console);
+  if (!folder || !designed) return code;
+  return write_files(&*folder, object, result.rho, console) ? code : kFailed;
+}
+
+}  // namespace codesign::cli

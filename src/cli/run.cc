@@ -1,0 +1,44 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "cli/commands.h"
+#include "cli/json_output.h"
+#include "cli/usage.h"
+#include "mechanism_codesign/model/error.h"
+
+namespace codesign::cli {
+namespace {
+
+int dispatch(const Arguments& arguments, const Console& console) {
+  if (arguments.command == "check") return check(arguments, console);
+  if (arguments.command == "simulate") return simulate(arguments, console);
+  if (arguments.command == "gradient") return gradient(arguments, console);
+  if (arguments.command == "optimize") return optimize(arguments, console);
+  console.out << usage();
+  return kDone;
+}
+
+int report(bool json, const Json& error, const Console& console, int code) {
+  console.err << "codesign: " << error["message"].get<std::string>() << std::endl;
+  if (json) print({{"error", error}}, console.out);
+  return code;
+}
+
+}  // namespace
+
+int run(const std::vector<std::string>& words, const Console& console) {
+  const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
+  try {
+    return dispatch(parse_arguments(words), console);
+  } catch (const UsageError& error) {
+    const int code = report(json, {{"code", "bad_usage"}, {"message", error.what()}}, console, kBadInput);
+    console.err << usage();
+    return code;
+  } catch (const InputError& error) {
+    return report(json, to_json(error), console, kBadInput);
+  } catch (const std::exception& error) {
+    return report(json, {{"code", "failed"}, {"message", error.what()}}, console, kFailed);
+  }
+}
+
+}  // namespace codesign::cli

@@ -1,0 +1,28 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "cli/run_recorder.h"
+
+namespace codesign::cli {
+
+RunSummary record_run(const Problem& problem, const std::vector<double>& parameters, const std::vector<SignalDescription>& signals,
+                      int samples, const RowSink& sink, const std::atomic<bool>* cancel) {
+  Simulation simulation(problem.system, parameters, signals);
+  std::vector<double> row;
+  const auto observer = [&](const Frame& frame) {
+    row.assign(1, frame.time);
+    row.insert(row.end(), frame.signals.begin(), frame.signals.end());
+    sink(row);
+    return cancel == nullptr || !*cancel;
+  };
+  RunSummary summary;
+  summary.status = codesign::simulate(&simulation, problem.study.duration, samples, observer);
+  summary.statistics = simulation.statistics();
+  return summary;
+}
+
+std::vector<std::string> column_names(const std::vector<SignalDescription>& signals) {
+  std::vector<std::string> names = {"time"};
+  for (const SignalDescription& signal : signals) names.push_back(signal.text);
+  return names;
+}
+
+}  // namespace codesign::cli

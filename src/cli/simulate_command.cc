@@ -1,0 +1,68 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <fstream>
+#include <optional>
+
+#include "cli/commands.h"
+#include "cli/csv_writer.h"
+#include "cli/inputs.h"
+#include "cli/output_file.h"
+#include "cli/report.h"
+#include "cli/run_recorder.h"
+#include "cli/table.h"
+
+namespace codesign::cli {
+namespace {
+
+Json series_json(const std::vector<std::string>& names, const std::vector<std::vector<double>>& rows) {
+  Json series = Json::object();
+  for (std::size_t column = 0; column < names.size(); ++column) {
+    Json values = Json::array();
+    for (const std::vector<double>& row : rows) values.push_back(row[column]);
+    series[names[column]] = std::move(values);
+  }
+  return series;
+}
+
+void summarize(const RunSummary& run, double duration, std::ostream& err) {
+  err << "simulated " << readable(duration) << " s in " << run.statistics.steps << " steps (" << run.statistics.rejected_steps
+      << " rejected), " << readable(run.statistics.cpu_seconds) << " s of processor time" << std::endl;
+}
+
+/// The objective needs its own quadrature beside the run, so it is computed only where it is shown.
+Json run_json(const Problem& problem, const RunSummary& run, Json series, const Console& console) {
+  Json object;
+  if (run.status.ok()) {
+    const Evaluation evaluation = Evaluator(problem.system).evaluate(problem.start(), false, &console.cancel);
+    if (evaluation.status.ok()) object["objective"] = evaluation.objective;
+  }
+  object["parameters"] = parameters_json(problem, problem.parameters());
+  add_statistics(run.statistics, &object);
+  add_counts(problem, problem.parameters(), &object);
+  object["series"] = std::move(series);
+  return object;
+}
+
+}  // namespace
+
+int simulate(const Arguments& arguments, const Console& console) {
+  const Problem problem = load(arguments);
+  const std::vector<SignalDescription> signals = select_signals(arguments, problem);
+  const std::vector<std::string> names = column_names(signals);
+  std::ofstream file;
+  if (!arguments.csv.empty()) open_output(arguments.csv, "--csv", &file);
+  const bool to_console = arguments.csv.empty() && !arguments.json;
+  std::optional<CsvWriter> csv;
+  if (file.is_open() || to_console) csv.emplace(to_console ? console.out : file, names);
+  std::vector<std::vector<double>> rows;
+  const auto sink = [&](const std::vector<double>& row) {
+    if (csv) csv->write(row);
+    if (arguments.json) rows.push_back(row);
+  };
+  const RunSummary run = record_run(problem, problem.parameters(), signals, arguments.samples, sink, &console.cancel);
+  if (run.status.ok()) summarize(run, problem.study.duration, console.err);
+  Json object;
+  if (arguments.json) object = run_json(problem, run, series_json(names, rows), console);
+  return finish(arguments, run.status, std::move(object), console);
+}
+
+}  // namespace codesign::cli

@@ -1,0 +1,26 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_CLI_TABLE_H_
+#define MECHANISM_CODESIGN_CLI_TABLE_H_
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace codesign::cli {
+
+/// Rows of text in aligned columns, the first to the left, the others to the right.
+class Table {
+ public:
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  void print(std::ostream& out) const;
+
+ private:
+  std::vector<std::vector<std::string>> rows_;
+};
+
+/// Ten significant digits, for people.
+std::string readable(double value);
+
+}  // namespace codesign::cli
+
+#endif  // MECHANISM_CODESIGN_CLI_TABLE_H_

@@ -1,0 +1,32 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "cli/usage.h"
+
+namespace codesign::cli {
+
+std::string usage() {
+  return R"(usage: codesign COMMAND MODEL [STUDY] [OPTIONS]
+
+MODEL is an annotated URDF (doc/annotations.md), STUDY a YAML file (doc/study.md).
+
+commands
+  check MODEL [STUDY]      the table of equations, redundant constraints
+  simulate MODEL STUDY     one run as CSV
+    --signals A,B          which signals; by default those of every joint, friction and controller
+    --csv FILE             where to; by default standard output
+    --samples N            equally spaced instants, from 2; by default 101
+  gradient MODEL STUDY     the objective and its gradient by direct sensitivities
+    --verify[=METHOD]      beside complex_step (the default) or ridders
+  optimize MODEL STUDY     tune the study's parameters; Ctrl-C ends with the best point so far
+    --output DIR           write tuned.urdf, result.json, convergence.csv, initial.csv and tuned.csv
+  help                     this text
+
+options of every command
+  --overlay FILE           annotations to merge into the model; may be repeated
+  --set PARAMETER=VALUE    replace a parameter's value, of a tuned one its start; may be repeated
+  --json                   one JSON object on standard output
+
+exit code: 0 done, 1 failed while running, 2 bad input
+)";
+}
+
+}  // namespace codesign::cli

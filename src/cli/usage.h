@@ -1,0 +1,14 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_CLI_USAGE_H_
+#define MECHANISM_CODESIGN_CLI_USAGE_H_
+
+#include <string>
+
+namespace codesign::cli {
+
+/// What `codesign --help` prints.
+std::string usage();
+
+}  // namespace codesign::cli
+
+#endif  // MECHANISM_CODESIGN_CLI_USAGE_H_
