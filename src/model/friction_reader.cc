@@ -3,9 +3,9 @@
 
 #include <Eigen/Geometry>
 
+#include "mechanism_codesign/math/decimal.h"
 #include "mechanism_codesign/math/scalar.h"
 #include "mechanism_codesign/model/unknown_name.h"
-#include "number_text.h"
 #include "quantity_reader.h"
 
 namespace codesign {
@@ -37,7 +37,7 @@ FrictionDescription read_friction(const XmlElement& element, const QuantityVecto
   friction.mu_static = read_quantity(element, "mu_static", Range::kNonNegative, table);
   friction.mu_dynamic = read_quantity(element, "mu_dynamic", Range::kNonNegative, table);
   if (friction.mu_dynamic.nominal() > friction.mu_static.nominal())
-    element.fail_at("mu_dynamic", "mu_dynamic is above mu_static", "at most mu_static=" + format_number(friction.mu_static.nominal()));
+    element.fail_at("mu_dynamic", "mu_dynamic is above mu_static", "at most mu_static=" + to_decimal(friction.mu_static.nominal()));
   const auto read = [&](const char* name, Range range, const Quantity& fallback) {
     return read_quantity_or(fallback, element, name, range, table);
   };

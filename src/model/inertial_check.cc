@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "mechanism_codesign/math/decimal.h"
 #include "mechanism_codesign/model/mass_properties.h"
 #include "number_text.h"
 
@@ -12,9 +13,9 @@ namespace {
 
 std::string as_xml(const MassProperties<double>& m) {
   const auto attribute = [&](const char* name, int i, int k) {
-    return std::string(" ") + name + "=\"" + format_number(m.inertia(i, k)) + "\"";
+    return std::string(" ") + name + "=\"" + to_decimal(m.inertia(i, k)) + "\"";
   };
-  return "<origin xyz=\"" + format_numbers({m.centre[0], m.centre[1], m.centre[2]}) + "\"/> <mass value=\"" + format_number(m.mass) +
+  return "<origin xyz=\"" + format_numbers({m.centre[0], m.centre[1], m.centre[2]}) + "\"/> <mass value=\"" + to_decimal(m.mass) +
          "\"/> <inertia" + attribute("ixx", 0, 0) + attribute("ixy", 0, 1) + attribute("ixz", 0, 2) + attribute("iyy", 1, 1) +
          attribute("iyz", 1, 2) + attribute("izz", 2, 2) + "/>";
 }
@@ -23,7 +24,7 @@ std::string as_xml(const MassProperties<double>& m) {
 
 void check_physical(const XmlElement& element, const InertialDescription& inertial, const ParameterTable& table) {
   const MassProperties<double> properties = mass_properties(inertial, table.values);
-  const std::string mass = format_number(properties.mass);
+  const std::string mass = to_decimal(properties.mass);
   if (properties.mass <= 0.0) element.fail("the mass is not positive though the inertia is given", mass, "> 0");
   const Eigen::SelfAdjointEigenSolver<Matrix3<double>> solver(properties.inertia, Eigen::EigenvaluesOnly);
   const Vector3<double> moments = solver.eigenvalues();
@@ -32,7 +33,7 @@ void check_physical(const XmlElement& element, const InertialDescription& inerti
   if (!(moments[0] > kRounding * std::abs(moments[2]))) element.fail("the inertia is not positive definite", text, "all > 0");
   if (moments[2] > (moments[0] + moments[1]) * (1.0 + kTriangle))
     element.fail("the inertia breaks the triangle inequality", text,
-                 "largest <= sum of the other two, " + format_number(moments[0] + moments[1]));
+                 "largest <= sum of the other two, " + to_decimal(moments[0] + moments[1]));
 }
 
 void check_agreement(const XmlElement& element, const InertialDescription& written, const InertialDescription& from_shapes,

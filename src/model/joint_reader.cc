@@ -4,8 +4,8 @@
 #include <map>
 
 #include "friction_reader.h"
+#include "mechanism_codesign/math/decimal.h"
 #include "mechanism_codesign/model/unknown_name.h"
-#include "number_text.h"
 #include "quantity_reader.h"
 
 namespace codesign {
@@ -35,7 +35,7 @@ LimitDescription read_limit(const XmlElement& element) {
   limit.velocity = read_number(element, "velocity", Range::kNonNegative);
   if (limit.lower > limit.upper)
     element.fail_at(element.has("lower") ? "lower" : "upper", "the lower limit is above the upper limit",
-                    "lower <= upper=" + format_number(limit.upper));
+                    "lower <= upper=" + to_decimal(limit.upper));
   return limit;
 }
 

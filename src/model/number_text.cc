@@ -1,10 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "number_text.h"
 
-#include <array>
 #include <charconv>
 #include <sstream>
 #include <system_error>
+
+#include "mechanism_codesign/math/decimal.h"
 
 namespace codesign {
 
@@ -18,15 +19,9 @@ std::optional<double> parse_number(const std::string& text) {
   return value;
 }
 
-std::string format_number(double value) {
-  std::array<char, 32> buffer{};
-  const std::to_chars_result result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), result.ptr};
-}
-
 std::string format_numbers(const std::vector<double>& values) {
   std::string text;
-  for (double value : values) text += (text.empty() ? "" : " ") + format_number(value);
+  for (double value : values) text += (text.empty() ? "" : " ") + to_decimal(value);
   return text;
 }
 

@@ -11,10 +11,7 @@ namespace codesign {
 /// The whole of `text` as a number, whatever the locale; nothing if it is none. `inf` and `nan` parse, and are left to the caller.
 std::optional<double> parse_number(const std::string& text);
 
-/// The shortest decimal that reads back as the same double (17 digits at most).
-std::string format_number(double value);
-
-/// Space-separated.
+/// Space-separated, each the shortest decimal that reads back as the same double.
 std::string format_numbers(const std::vector<double>& values);
 
 /// The words of `text` between white space.

@@ -3,8 +3,8 @@
 
 #include <set>
 
+#include "mechanism_codesign/math/decimal.h"
 #include "mechanism_codesign/model/expression.h"
-#include "number_text.h"
 #include "quantity_reader.h"
 
 namespace codesign {
@@ -20,7 +20,7 @@ Parameter read_parameter(const XmlElement& element) {
   parameter.lower = read_number_or(parameter.lower, element, "lower", Range::kAny);
   parameter.upper = read_number_or(parameter.upper, element, "upper", Range::kAny);
   parameter.unit = element.find("unit").value_or("");
-  const std::string bounds = "[" + format_number(parameter.lower) + ", " + format_number(parameter.upper) + "]";
+  const std::string bounds = "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]";
   if (parameter.lower > parameter.upper)
     element.fail_at("lower", "the lower bound is above the upper bound", "at most upper=" + *element.find("upper"));
   if (parameter.value < parameter.lower || parameter.value > parameter.upper)
