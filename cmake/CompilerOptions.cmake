@@ -1,8 +1,9 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 
 # Warnings are errors on our own targets; the headers of others are SYSTEM includes.
+# GCC 12 sees uninitialized memory in moved-from strings and in fixed-size Eigen expressions that are whole: that one warning is off.
 function(codesign_warnings target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -Wno-maybe-uninitialized)
 endfunction()
 
 # Numerical code. Neither errno nor floating-point traps are used, and both keep loops from being vectorized; IEEE results stay as they are.

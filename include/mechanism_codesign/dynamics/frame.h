@@ -19,9 +19,9 @@ struct JointSample {
 
 /// Friction in one joint or loop.
 struct FrictionSample {
-  double friction = 0.0;          ///< signed as the paper: S(v) N, positive with the sliding velocity it opposes [N or N m]
+  double friction = 0.0;          ///< on the child along the joint axis, against the motion: -S(v) N [N or N m]
   double normal_force = 0.0;      ///< N [N]
-  double sliding_velocity = 0.0;  ///< [m/s or rad/s]
+  double sliding_velocity = 0.0;  ///< of the child relative to the parent along the joint axis [m/s or rad/s]
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the joint, in the world [m]
   Eigen::Vector3d force = Eigen::Vector3d::Zero();     ///< on the child link, in the world [N]; zero if it is a torque
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();    ///< on the child link, in the world [N m]

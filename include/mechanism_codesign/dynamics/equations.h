@@ -1,0 +1,124 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_DYNAMICS_EQUATIONS_H_
+#define MECHANISM_CODESIGN_DYNAMICS_EQUATIONS_H_
+
+#include <vector>
+
+#include "mechanism_codesign/dynamics/sparsity.h"
+#include "mechanism_codesign/dynamics/state.h"
+#include "mechanism_codesign/dynamics/system.h"
+#include "mechanism_codesign/forces/normal_force.h"
+#include "mechanism_codesign/joints/coordinate.h"
+#include "mechanism_codesign/joints/pair_rows.h"
+#include "mechanism_codesign/model/constants.h"
+
+namespace codesign {
+
+/// A friction law's state at one instant.
+template <class T>
+struct FrictionState {
+  T velocity{0.0};  ///< of the child along or about the axis
+  T normal{0.0};    ///< N [N]
+  T load{0.0};      ///< that the joint exerts against the motion, S(v) N [N or N m]; the child feels -load
+};
+
+/// The equations of motion of one design, with the scratch memory to evaluate them; doc/theory.md (14):
+///   rows 0..n:      M a + Phi_q^T lambda - Q - Q_Af = 0
+///   rows n..n+m:    Phi_q a + (Phi_q v)_q v = 0
+///   rows n+m..:     sigma - s' = 0
+/// T: double, std::complex<double> or Lanes<N>; the same code gives values and every derivative. No allocation once warm; not thread-safe.
+template <class T>
+class Equations {
+ public:
+  explicit Equations(const System& system);
+
+  /// Evaluates all constants at `parameters` (all named parameters). Allocates.
+  void set_design(const std::vector<T>& parameters);
+  const Constants<T>& constants() const { return constants_; }
+
+  /// Residual G (columns() rows) and the objective's integrand g at a state.
+  void residual(const State<T>& state, VectorX<T>* G, T* g);
+
+  /// Derivatives of G and g, on System::sparsity().
+  void linearize(const State<T>& state, Linearization<T>* derivatives);
+
+  /// Terminal objective terms w at a state, with their gradient if asked for.
+  T terminal(const State<T>& state, SparseGradient<T>* gradient);
+
+  /// Value of a signal at a state, with its gradient if asked for.
+  T signal(const Signal& signal, const State<T>& state, SparseGradient<T>* gradient = nullptr);
+
+  /// Constraint values Phi(q) (m rows) and rates Phi_q v.
+  void constraint_errors(const VectorX<T>& q, const VectorX<T>& v, VectorX<T>* Phi, VectorX<T>* Phi_rate);
+
+  /// Counts whole turns: positions of turning joints are continued from the value nearest to these. One per pair and chain element.
+  std::vector<std::vector<double>>& turn_references() { return turn_references_; }
+  /// Makes the present positions the references.
+  void track_turns(const State<T>& state);
+
+  /// Samplers used by the observer; the state must have been loaded by load().
+  void load(const State<T>& state);
+  CoordinateMotion<T> coordinate(int pair, int element) const;
+  FrictionState<T> friction(int pair, int element);
+  T effort(int pair, int element);
+  T controller_output(int controller, SparseGradient<T>* gradient);
+  T controller_error(int controller, SparseGradient<T>* gradient);
+  const BodyKinematics<T>& body(int index) const { return kinematics_[static_cast<std::size_t>(index < 0 ? layout_.bodies : index)]; }
+  /// Reaction force and torque on the child in the parent's joint axes, as far as the pair constrains them.
+  void reaction(int pair, Vector3<T>* F, Vector3<T>* torque) const;
+
+  /// Assembles all derivatives through `sink.add(row, column, by_position, by_velocity, by_rate)`.
+  template <class Sink>
+  void assemble(Sink* sink);
+
+ private:
+  template <class Sink>
+  void assemble_pair(std::size_t k, Sink* sink);
+  template <class Sink>
+  void assemble_body(std::size_t b, Sink* sink);
+  template <class Sink>
+  void assemble_load(const JointLoad& load, Sink* sink);
+  template <class Sink>
+  void assemble_states(Sink* sink);
+  template <class Sink>
+  void assemble_objective(Sink* sink);
+
+  void pair_residual(std::size_t k, VectorX<T>* G);
+  void body_residual(std::size_t b, VectorX<T>* G);
+  void load_residual(const JointLoad& load, VectorX<T>* G);
+  /// Scalar load along a coordinate, positive against it; its gradient is appended.
+  T joint_load(const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient);
+  NormalForce<T> normal_force(int pair) const;
+  T reaction_friction(int pair, int element, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient, FrictionState<T>* state);
+  T passive_load(int pair, int element, const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient) const;
+  void append_normal_gradient(int pair, const Vector3<T>& F, const Vector3<T>& torque, const T& factor, SparseGradient<T>* gradient) const;
+  void append_local(int pair, const LocalRow<T>* position, const LocalRow<T>* velocity, const LocalRow<T>* rate, const T& factor, bool with_r,
+                    SparseGradient<T>* gradient) const;
+  T term_value(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
+  T joint_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
+  T load_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
+  T link_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
+  T signal_value(const Signal& signal, const T& factor, SparseGradient<T>* gradient);
+  T objective_terms(const std::vector<ResolvedTerm>& terms, const std::vector<T>& weights, const std::vector<T>& references, SparseGradient<T>* gradient);
+
+  /// Global column of a local coordinate of a pair, or -1 on the ground.
+  int column(int pair, int local) const;
+  bool coordinate_moves_r(int pair, int element) const;
+
+  const System& system_;
+  const Layout& layout_;
+  Constants<T> constants_;
+  std::vector<PairRows<T>> rows_;
+  std::vector<T> setpoints_, gains_p_, gains_i_, gains_d_;
+  std::vector<T> integral_weights_, integral_references_, terminal_weights_, terminal_references_;
+  Vector3<T> gravity_;
+  const State<T>* state_ = nullptr;
+  std::vector<BodyKinematics<T>> kinematics_;  ///< the ground last
+  std::vector<BodyLoad<T>> loads_;             ///< multiplier loads per body, the ground last
+  std::vector<std::vector<double>> turn_references_;
+  SparseGradient<T> gradient_, objective_gradient_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_DYNAMICS_EQUATIONS_H_

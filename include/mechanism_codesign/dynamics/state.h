@@ -1,0 +1,47 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_DYNAMICS_STATE_H_
+#define MECHANISM_CODESIGN_DYNAMICS_STATE_H_
+
+#include <vector>
+
+#include "mechanism_codesign/joints/local_row.h"
+#include "mechanism_codesign/math/scalar.h"
+
+namespace codesign {
+
+/// Where everything stands in the vectors of a system.
+///
+/// Positions are (q, s) and rates are z = (a, lambda, sigma): q' = v, v' = a, s' = sigma. A column stands for q and a alike, for s and sigma
+/// alike, and the equations' rows have the same layout: n rows of motion, m of constraint accelerations, one per extra state.
+struct Layout {
+  int bodies = 0;
+  int n = 0;                      ///< 7 per body: r, p
+  int m = 0;                      ///< constraints: pairs in order, then |p| = 1 per body
+  int states = 0;                 ///< extra first-order states s (integrals of controllers)
+  std::vector<int> pair_row;      ///< first constraint row of each pair
+
+  int columns() const { return n + m + states; }
+  int lambda_column(int row) const { return n + row; }
+  int state_column(int k) const { return n + m + k; }
+  int norm_row(int body) const { return m - bodies + body; }
+};
+
+/// A point of the differential-algebraic system.
+template <class T>
+struct State {
+  double t = 0.0;   ///< [s]
+  VectorX<T> q, v;  ///< coordinates and velocities, n each
+  VectorX<T> s;     ///< extra states
+  VectorX<T> z;     ///< accelerations, multipliers and rates of s
+
+  void resize(const Layout& layout) {
+    q.setZero(layout.n);
+    v.setZero(layout.n);
+    s.setZero(layout.states);
+    z.setZero(layout.columns());
+  }
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_DYNAMICS_STATE_H_

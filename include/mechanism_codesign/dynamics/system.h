@@ -1,0 +1,83 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_DYNAMICS_SYSTEM_H_
+#define MECHANISM_CODESIGN_DYNAMICS_SYSTEM_H_
+
+#include <memory>
+#include <vector>
+
+#include "mechanism_codesign/control/signal.h"
+#include "mechanism_codesign/dynamics/sparsity.h"
+#include "mechanism_codesign/dynamics/state.h"
+#include "mechanism_codesign/model/robot.h"
+#include "mechanism_codesign/model/study.h"
+#include "mechanism_codesign/model/topology.h"
+
+namespace codesign {
+
+/// A controller with its names resolved: u = p e + i s + d e', e = setpoint - input.
+struct Controller {
+  Signal input, input_rate;  ///< input_rate is empty without a d gain
+  int pair = -1, element = -1;
+  int state = -1;            ///< index of its integral among the extra states, or -1
+};
+
+/// One objective term, weight (signal - reference)^2.
+struct ResolvedTerm {
+  Signal signal;
+  int description = 0;  ///< index into Study::integral or Study::terminal
+};
+
+/// Friction or any other load that depends on a joint's own motion.
+struct JointLoad {
+  int pair = -1, element = -1;
+  bool reaction_friction = false;  ///< an annotated friction law acts on this coordinate
+  bool constant_friction = false;  ///< `<dynamics friction>`
+  bool passive = false;            ///< damping or a torsion spring
+  std::vector<int> controllers;    ///< that drive this coordinate
+};
+
+/// A mechanism and a study compiled into equations of motion; immutable, shared by all workspaces.
+class System {
+ public:
+  /// @throws InputError for what cannot be compiled.
+  System(const RobotDescription& robot, const Study& study);
+
+  const RobotDescription& robot() const { return robot_; }
+  const Study& study() const { return study_; }
+  const Topology& topology() const { return topology_; }
+  const Layout& layout() const { return layout_; }
+  const std::vector<Controller>& controllers() const { return controllers_; }
+  const std::vector<JointLoad>& loads() const { return loads_; }
+  const std::vector<ResolvedTerm>& integral() const { return integral_; }
+  const std::vector<ResolvedTerm>& terminal() const { return terminal_; }
+
+  /// Pattern of the equations' derivatives, columns() square, and below it one row for the integrand g.
+  const Sparsity& sparsity() const { return sparsity_; }
+  /// Slots of the assembly's calls in order.
+  const std::vector<int>& slots() const { return slots_; }
+
+  /// Start values of all named parameters.
+  std::vector<double> parameters() const;
+
+ private:
+  void lay_out();
+  void resolve_controllers();
+  void collect_loads();
+  void resolve_objective();
+  void record_pattern();
+  void refuse_unsupported() const;
+
+  RobotDescription robot_;
+  Study study_;
+  Topology topology_;
+  Layout layout_;
+  std::vector<Controller> controllers_;
+  std::vector<JointLoad> loads_;
+  std::vector<ResolvedTerm> integral_, terminal_;
+  Sparsity sparsity_;
+  std::vector<int> slots_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_DYNAMICS_SYSTEM_H_

@@ -1,0 +1,178 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOINTS_COORDINATE_H_
+#define MECHANISM_CODESIGN_JOINTS_COORDINATE_H_
+
+#include <cmath>
+
+#include "mechanism_codesign/joints/scalar_product.h"
+#include "mechanism_codesign/math/elementary.h"
+#include "mechanism_codesign/model/constants.h"
+
+namespace codesign {
+
+/// A joint's scalar coordinate theta with its rate and acceleration, and their gradients over the pair's coordinates; doc/theory.md (8).
+///
+/// `J` maps velocities to the rate (rate = J v) and, transposed, a load on the joint to generalized forces, so that power balances exactly.
+template <class T>
+struct CoordinateMotion {
+  T position{0.0}, rate{0.0}, acceleration{0.0};
+  LocalRow<T> position_q = LocalRow<T>::Zero(), J = LocalRow<T>::Zero(), rate_q = LocalRow<T>::Zero(), acceleration_q = LocalRow<T>::Zero(),
+              acceleration_v = LocalRow<T>::Zero();
+};
+
+namespace internal {
+
+/// N/D-type angle: theta = atan2(N, D) with N, D scalar products; all derivatives by the quotient rule on the unit circle.
+template <class T>
+void angle_motion(const ProductMotion<T>& N, const ProductGradient<T>& Ng, const ProductMotion<T>& D, const ProductGradient<T>& Dg, CoordinateMotion<T>* m) {
+  const T square = N.phi * N.phi + D.phi * D.phi;
+  const T c = D.phi / square, s = N.phi / square;
+  m->position = arc_tangent(N.phi, D.phi);
+  m->J = c * Ng.phi_q - s * Dg.phi_q;
+  m->position_q = m->J;
+  const T ratio = (N.phid * N.phi + D.phid * D.phi) / square;  // half the relative growth rate of N^2 + D^2
+  m->rate = c * N.phid - s * D.phid;
+  const LocalRow<T> square_q = T(2.0) * (N.phi * Ng.phi_q + D.phi * Dg.phi_q) / square;
+  const LocalRow<T> cross_q = (Dg.phi_q * N.phid - Ng.phi_q * D.phid) / square;
+  m->rate_q = c * Ng.phid_q - s * Dg.phid_q + cross_q - m->rate * square_q;
+  m->acceleration = c * N.phidd - s * D.phidd - T(2.0) * m->rate * ratio;
+  const LocalRow<T> ratio_q = (Ng.phi_q * N.phid + Dg.phi_q * D.phid + Ng.phid_q * N.phi + Dg.phid_q * D.phi) / square - ratio * square_q;
+  const LocalRow<T> outer_q = (Dg.phi_q * N.phidd - Ng.phi_q * D.phidd) / square - (c * N.phidd - s * D.phidd) * square_q;
+  m->acceleration_q = c * Ng.phidd_q - s * Dg.phidd_q + outer_q - T(2.0) * (m->rate_q * ratio + m->rate * ratio_q);
+  const LocalRow<T> ratio_v = (Ng.phi_q * N.phi + Dg.phi_q * D.phi) / square;
+  m->acceleration_v = T(2.0) * (c * Ng.phid_q - s * Dg.phid_q) - T(2.0) * (m->J * ratio + m->rate * ratio_v);
+}
+
+template <class T>
+struct Product {
+  ProductMotion<T> motion;
+  ProductGradient<T> gradient;
+};
+
+template <class T>
+Product<T> product(const PairVector<T>& X, const PairVector<T>& Y, const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
+  const VectorMotion<T> x = motion_of(X, i, j), y = motion_of(Y, i, j);
+  return {product_motion(x, y), product_gradient(X, Y, x, y, i, j)};
+}
+
+template <class T>
+Product<T> directions_product(const Vector3<T>& a_i, const Vector3<T>& b_j, const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
+  return product(PairVector<T>::direction(Side::kI, a_i), PairVector<T>::direction(Side::kJ, b_j), i, j);
+}
+
+/// Rate about the common axis, 2 u_j . G(p_j) p_j' - 2 u_i . G(p_i) p_i': linear in p, unlike the arc tangent's own derivative.
+template <class T>
+void turn_rate(const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateMotion<T>* m) {
+  m->J.setZero();
+  m->rate = m->acceleration = T(0.0);
+  m->rate_q.setZero();
+  m->acceleration_q.setZero();
+  m->acceleration_v.setZero();
+  const auto add = [m](Side side, const BodyKinematics<T>& body, const Vector3<T>& u) {
+    const Vector4<T> gradient = body_rate_matrix(body.p).transpose() * u;
+    m->J.template segment<4>(p_offset(side)) = gradient;
+    for (int k = 0; k < 4; ++k) {
+      m->rate += gradient[k] * body.pd[k];
+      m->acceleration += gradient[k] * body.pdd[k];
+    }
+    m->rate_q.template segment<4>(p_offset(side)) = -(body_rate_matrix(body.pd).transpose() * u);
+    m->acceleration_q.template segment<4>(p_offset(side)) = -(body_rate_matrix(body.pdd).transpose() * u);
+  };
+  add(Side::kJ, j, Vector3<T>(T(2.0) * pair.C_j.col(2)));
+  add(Side::kI, i, Vector3<T>(T(-2.0) * pair.C_i.col(2)));
+}
+
+template <class T>
+void sine_motion(const Product<T>& s, CoordinateMotion<T>* m) {
+  using std::asin;
+  using std::sqrt;
+  const ProductMotion<T>& f = s.motion;
+  const T square = T(1.0) - f.phi * f.phi, k = T(1.0) / sqrt(square), k3 = k / square;
+  m->position = asin(f.phi);
+  m->J = m->position_q = k * s.gradient.phi_q;
+  m->rate = k * f.phid;
+  m->rate_q = k * s.gradient.phid_q + (k3 * f.phi * f.phid) * s.gradient.phi_q;
+  const T curvature = k3 * f.phi;
+  m->acceleration = k * f.phidd + curvature * f.phid * f.phid;
+  const T curvature_slope = k3 + T(3.0) * k3 * f.phi * f.phi / square;
+  m->acceleration_q = k * s.gradient.phidd_q + (curvature * f.phidd + curvature_slope * f.phid * f.phid) * s.gradient.phi_q +
+                      (T(2.0) * curvature * f.phid) * s.gradient.phid_q;
+  m->acceleration_v = T(2.0) * (k * s.gradient.phid_q + (curvature * f.phid) * s.gradient.phi_q);
+}
+
+template <class T>
+void apply_sign(double sign, CoordinateMotion<T>* m) {
+  if (sign > 0.0) return;
+  m->position = -m->position;
+  m->rate = -m->rate;
+  m->acceleration = -m->acceleration;
+  for (LocalRow<T>* row : {&m->position_q, &m->J, &m->rate_q, &m->acceleration_q, &m->acceleration_v}) *row = -*row;
+}
+
+}  // namespace internal
+
+/// The direction or displacement products of a sliding coordinate.
+template <class T>
+PairVector<T> slide_axis(const CoordinateConstants<T>& c) {
+  return PairVector<T>::direction(c.fixed_in_j ? Side::kJ : Side::kI, c.a);
+}
+
+/// Evaluates one coordinate of a pair. A turn's position lies in (-pi, pi]; whole turns are counted by the caller.
+template <class T>
+CoordinateMotion<T> coordinate_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
+  using Kind = typename CoordinateConstants<T>::Kind;
+  CoordinateMotion<T> m;
+  if (c.kind == Kind::kSlide) {
+    const auto s = internal::product(slide_axis(c), PairVector<T>::displacement(pair.s_i, pair.s_j), i, j);
+    m.position = s.motion.phi;
+    m.rate = s.motion.phid;
+    m.acceleration = s.motion.phidd;
+    m.J = m.position_q = s.gradient.phi_q;
+    m.rate_q = s.gradient.phid_q;
+    m.acceleration_q = s.gradient.phidd_q;
+    m.acceleration_v = T(2.0) * s.gradient.phid_q;
+  } else if (c.kind == Kind::kSine) {
+    internal::sine_motion(internal::directions_product(c.a, c.b, i, j), &m);
+  } else if (c.kind != Kind::kNone) {
+    const bool turn = c.kind == Kind::kTurn;
+    const auto N = turn ? internal::directions_product<T>(pair.C_i.col(1), pair.C_j.col(0), i, j) : internal::directions_product(c.a, c.b, i, j);
+    const auto D = turn ? internal::directions_product<T>(pair.C_i.col(0), pair.C_j.col(0), i, j) : internal::directions_product(c.c, c.d, i, j);
+    internal::angle_motion(N.motion, N.gradient, D.motion, D.gradient, &m);
+    if (turn) internal::turn_rate(pair, i, j, &m);
+  }
+  internal::apply_sign(c.sign, &m);
+  return m;
+}
+
+/// Calls add(row, column, value) with (J^T load)_q. Turns and slides only: loads act on no other coordinate.
+template <class T, class Add>
+void coordinate_load_gradient(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
+                              const T& load, const Add& add) {
+  using Kind = typename CoordinateConstants<T>::Kind;
+  const T signed_load = T(c.sign) * load;
+  if (c.kind == Kind::kTurn) {
+    const auto add_turn = [&](Side side, const Vector3<T>& u) {
+      const Matrix4<T> Y = body_rate_hessian<T>(signed_load * u);
+      for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column) add(p_offset(side) + row, p_offset(side) + column, Y(row, column));
+    };
+    add_turn(Side::kJ, Vector3<T>(T(2.0) * pair.C_j.col(2)));
+    add_turn(Side::kI, Vector3<T>(T(-2.0) * pair.C_i.col(2)));
+    return;
+  }
+  const PairVector<T> X = slide_axis(c), d = PairVector<T>::displacement(pair.s_i, pair.s_j);
+  product_hessian(X, d, signed_load, i, j, add);
+  BodyLoad<T> load_i, load_j;
+  add_product_load(X, d, motion_of(X, i, j), motion_of(d, i, j), signed_load, &load_i, &load_j);
+  const auto add_turning = [&](Side side, const Matrix3<T>& W) {
+    const Matrix4<T> K = rotation_hessian(W);
+    for (int row = 0; row < 4; ++row)
+      for (int column = 0; column < 4; ++column) add(p_offset(side) + row, p_offset(side) + column, K(row, column));
+  };
+  add_turning(Side::kI, load_i.W);
+  add_turning(Side::kJ, load_j.W);
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOINTS_COORDINATE_H_

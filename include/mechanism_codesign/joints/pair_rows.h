@@ -1,0 +1,67 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOINTS_PAIR_ROWS_H_
+#define MECHANISM_CODESIGN_JOINTS_PAIR_ROWS_H_
+
+#include <vector>
+
+#include "mechanism_codesign/joints/scalar_product.h"
+#include "mechanism_codesign/model/constants.h"
+
+namespace codesign {
+
+/// A constraint scale (X . Y - offset) = 0.
+template <class T>
+struct ProductRow {
+  PairVector<T> X, Y;
+  T offset{0.0};
+  double scale = 1.0;
+};
+
+/// The constraints of a kinematic pair: three rows "the points coincide" (in ground axes) if `coincident`, then products; doc/theory.md (5), (6).
+///
+/// Directions and planes are the parent's, so that the multipliers are the reaction's components on the child in the parent's joint axes:
+/// rows (x_i . d, y_i . d) give F'' = (lambda_1, lambda_2, 0); rows (x_i . z_j, y_i . z_j, y_i . x_j) give T'' = (-lambda_2, lambda_1, lambda_3).
+template <class T>
+struct PairRows {
+  bool coincident = false;
+  Vector3<T> s_i = Vector3<T>::Zero(), s_j = Vector3<T>::Zero();
+  std::vector<ProductRow<T>> products;
+
+  int size() const { return (coincident ? 3 : 0) + static_cast<int>(products.size()); }
+};
+
+template <class T>
+PairRows<T> pair_rows(PairKind kind, const PairConstants<T>& c) {
+  using V = PairVector<T>;
+  PairRows<T> rows;
+  rows.s_i = c.s_i;
+  rows.s_j = c.s_j;
+  const auto axis_i = [&](int k) { return V::direction(Side::kI, Vector3<T>(c.C_i.col(k))); };
+  const auto axis_j = [&](int k) { return V::direction(Side::kJ, Vector3<T>(c.C_j.col(k))); };
+  const V d = V::displacement(c.s_i, c.s_j);
+  const auto in_plane = [&](int k) { rows.products.push_back({axis_i(k), d, T(0.0), 1.0}); };
+  const auto parallel_z = [&] {
+    rows.products.push_back({axis_i(0), axis_j(2), T(0.0), 1.0});
+    rows.products.push_back({axis_i(1), axis_j(2), T(0.0), 1.0});
+  };
+  const auto no_turn = [&] { rows.products.push_back({axis_i(1), axis_j(0), T(0.0), 1.0}); };
+  rows.coincident = kind == PairKind::kFixed || kind == PairKind::kRevolute || kind == PairKind::kUniversal || kind == PairKind::kSpherical;
+  switch (kind) {
+    case PairKind::kFixed: parallel_z(), no_turn(); break;
+    case PairKind::kRevolute: parallel_z(); break;
+    case PairKind::kPrismatic: in_plane(0), in_plane(1), parallel_z(), no_turn(); break;
+    case PairKind::kCylindrical: in_plane(0), in_plane(1), parallel_z(); break;
+    case PairKind::kUniversal: rows.products.push_back({axis_i(2), axis_j(2), c.cosine, 1.0}); break;
+    case PairKind::kTable: in_plane(2), parallel_z(), no_turn(); break;
+    case PairKind::kPlanar: in_plane(2), parallel_z(); break;
+    case PairKind::kTranslational: parallel_z(), no_turn(); break;
+    case PairKind::kDistance: rows.products.push_back({d, d, c.distance * c.distance, 0.5}); break;
+    case PairKind::kSpherical:
+    case PairKind::kFree: break;
+  }
+  return rows;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOINTS_PAIR_ROWS_H_

@@ -1,0 +1,31 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MATH_ELEMENTARY_H_
+#define MECHANISM_CODESIGN_MATH_ELEMENTARY_H_
+
+#include <cmath>
+
+#include "mechanism_codesign/math/scalar.h"
+
+namespace codesign {
+
+/// Smooth absolute value cabs(x) = sqrt(x^2 + epsilon^2), as in the paper.
+template <class T>
+T smooth_abs(const T& x, const T& epsilon) {
+  using std::sqrt;
+  return sqrt(x * x + epsilon * epsilon);
+}
+
+/// Four-quadrant arc tangent with first-order accurate complex and dual extensions.
+inline double arc_tangent(double y, double x) { return std::atan2(y, x); }
+inline std::complex<double> arc_tangent(const std::complex<double>& y, const std::complex<double>& x) {
+  const double square = x.real() * x.real() + y.real() * y.real();
+  return {std::atan2(y.real(), x.real()), (x.real() * y.imag() - y.real() * x.imag()) / square};
+}
+template <int N>
+Lanes<N> arc_tangent(const Lanes<N>& y, const Lanes<N>& x) {
+  return atan2(y, x);
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MATH_ELEMENTARY_H_

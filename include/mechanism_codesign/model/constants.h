@@ -1,0 +1,96 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MODEL_CONSTANTS_H_
+#define MECHANISM_CODESIGN_MODEL_CONSTANTS_H_
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "mechanism_codesign/math/scalar.h"
+#include "mechanism_codesign/model/robot.h"
+#include "mechanism_codesign/model/topology.h"
+
+namespace codesign {
+
+/// Mass properties of a body, and where its base link lies. The body frame has the base link's axes and its origin at the centre of mass.
+template <class T>
+struct BodyConstants {
+  T mass{0.0};                                    ///< [kg]
+  Matrix3<T> J = Matrix3<T>::Zero();              ///< about the centre of mass, in body axes [kg m^2]
+  Vector3<T> centre = Vector3<T>::Zero();         ///< of mass, in the base link [m]
+};
+
+/// How one URDF joint of a pair is read off the bodies' coordinates.
+template <class T>
+struct CoordinateConstants {
+  enum class Kind {
+    kNone,   ///< not available (a joint without a scalar position, or a chain that has no closed form)
+    kTurn,   ///< about the common z axis: sign atan2(y_i . x_j, x_i . x_j)
+    kSlide,  ///< sign a . d with a fixed in `side`
+    kAngle,  ///< sign atan2(a_i . b_j, c_i . d_j)
+    kSine    ///< sign asin(a_i . b_j)
+  };
+  Kind kind = Kind::kNone;
+  double sign = 1.0;
+  bool fixed_in_j = false;                        ///< kSlide: a is carried by j
+  Vector3<T> a = Vector3<T>::Zero(), b = Vector3<T>::Zero(), c = Vector3<T>::Zero(), d = Vector3<T>::Zero();
+};
+
+/// Friction coefficients and joint geometry; SI units, see FrictionDescription.
+template <class T>
+struct FrictionConstants {
+  T mu_static{0.0}, mu_dynamic{0.0}, transition_velocity{1.0}, joint_length{1.0}, joint_width{1.0}, pin_radius{0.0}, friction_arm{0.0}, preload{0.0},
+      smoothing{1.0}, viscous{0.0};
+};
+
+/// URDF's `<dynamics>` and our torsion spring on one joint.
+template <class T>
+struct JointDynamicsConstants {
+  T damping{0.0}, dry_friction{0.0}, stiffness{0.0}, spring_damping{0.0}, free_position{0.0};
+};
+
+/// Geometry of a kinematic pair in body coordinates.
+template <class T>
+struct PairConstants {
+  Vector3<T> s_i = Vector3<T>::Zero(), s_j = Vector3<T>::Zero();          ///< joint point on each body [m]
+  Matrix3<T> C_i = Matrix3<T>::Identity(), C_j = Matrix3<T>::Identity();  ///< joint axes x'', y'', z'' on each body, aligned at zero position
+  T cosine{0.0};                                                          ///< universal: z_i . z_j
+  T distance{0.0};                                                        ///< kDistance [m]
+  FrictionConstants<T> friction;
+  std::vector<CoordinateConstants<T>> coordinates;                        ///< per chain element; of one cylindrical loop: turn, slide
+  std::vector<JointDynamicsConstants<T>> dynamics;                        ///< as `coordinates`
+};
+
+/// Where a link frame lies in its body (or in the ground).
+template <class T>
+struct LinkConstants {
+  Vector3<T> s = Vector3<T>::Zero();
+  Matrix3<T> R = Matrix3<T>::Identity();
+};
+
+template <class T>
+struct SpringDamperConstants {
+  int body_i = -1, body_j = -1;
+  Vector3<T> s_i = Vector3<T>::Zero(), s_j = Vector3<T>::Zero();
+  T stiffness{0.0}, damping{0.0}, free_length{0.0};
+};
+
+/// Every number of a mechanism at one design rho.
+template <class T>
+struct Constants {
+  std::vector<BodyConstants<T>> bodies;
+  std::vector<PairConstants<T>> pairs;
+  std::vector<LinkConstants<T>> links;  ///< of links that belong to a body or the ground
+  std::vector<SpringDamperConstants<T>> springs;
+};
+
+/// Evaluates the description at `parameters` (all named parameters). T: double, std::complex<double>, Lanes<N>.
+template <class T>
+Constants<T> evaluate_constants(const RobotDescription& robot, const Topology& topology, const std::vector<T>& parameters);
+
+/// Empty if every mass, inertia, length and coefficient of the design can be; else a sentence that names the first that cannot.
+std::string find_impossible(const RobotDescription& robot, const Topology& topology, const Constants<double>& constants);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MODEL_CONSTANTS_H_

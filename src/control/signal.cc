@@ -1,0 +1,107 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/control/signal.h"
+
+#include <map>
+#include <optional>
+
+#include "mechanism_codesign/model/signal_catalog.h"
+
+namespace codesign {
+namespace {
+
+template <class Items>
+std::optional<int> find_named(const Items& items, const std::string& name) {
+  for (std::size_t k = 0; k < items.size(); ++k)
+    if (items[k].name == name) return static_cast<int>(k);
+  return std::nullopt;
+}
+
+const std::map<std::string, SignalKind>& joint_kinds() {
+  static const std::map<std::string, SignalKind> kinds{
+      {"position", SignalKind::kJointPosition}, {"velocity", SignalKind::kJointVelocity},
+      {"acceleration", SignalKind::kJointAcceleration}, {"effort", SignalKind::kJointEffort},
+      {"friction", SignalKind::kJointFriction}, {"normal_force", SignalKind::kJointNormalForce},
+      {"sliding_velocity", SignalKind::kJointSlidingVelocity}};
+  return kinds;
+}
+
+SignalReference resolve_joint(const SignalTerm& term, int joint, const SignalDescription& signal, const Topology& topology) {
+  SignalReference reference;
+  reference.kind = joint_kinds().at(term.quantity);
+  reference.pair = topology.joint_pair[static_cast<std::size_t>(joint)];
+  if (reference.pair < 0)
+    throw InputError({signal.where, "signal", "the joint moves only a link without <inertial>, so it has no dynamics to read", signal.text, ""});
+  const Pair& pair = topology.pairs[static_cast<std::size_t>(reference.pair)];
+  for (std::size_t k = 0; k < pair.chain.size(); ++k)
+    if (pair.chain[k].joint == joint) reference.element = static_cast<int>(k);
+  return reference;
+}
+
+SignalReference resolve_link(const SignalTerm& term, int link, const SignalDescription& signal, const Topology& topology) {
+  SignalReference reference;
+  reference.link = link;
+  reference.axis = term.component == "x" ? 0 : term.component == "y" ? 1 : 2;
+  reference.kind = term.quantity == "position"   ? SignalKind::kLinkPosition
+                   : term.quantity == "velocity" ? SignalKind::kLinkVelocity
+                                                 : SignalKind::kLinkAngularVelocity;
+  if (topology.link_body[static_cast<std::size_t>(link)] == Topology::kMassless)
+    throw InputError({signal.where, "signal", "the link has no <inertial>, so it is folded into a joint and cannot be read", signal.text, ""});
+  return reference;
+}
+
+SignalReference resolve_controller(const SignalTerm& term, int controller) {
+  SignalReference reference;
+  reference.controller = controller;
+  reference.kind = term.quantity == "error"      ? SignalKind::kControllerError
+                   : term.quantity == "integral" ? SignalKind::kControllerIntegral
+                                                 : SignalKind::kControllerOutput;
+  return reference;
+}
+
+std::optional<SignalKind> derivative_kind(SignalKind kind) {
+  switch (kind) {
+    case SignalKind::kJointPosition: return SignalKind::kJointVelocity;
+    case SignalKind::kJointVelocity:
+    case SignalKind::kJointSlidingVelocity: return SignalKind::kJointAcceleration;
+    case SignalKind::kLinkPosition: return SignalKind::kLinkVelocity;
+    case SignalKind::kLinkVelocity: return SignalKind::kLinkAcceleration;
+    case SignalKind::kControllerIntegral: return SignalKind::kControllerError;
+    case SignalKind::kControllerError: return SignalKind::kControllerErrorRate;
+    default: return std::nullopt;
+  }
+}
+
+}  // namespace
+
+Signal resolve_signal(const SignalDescription& signal, const RobotDescription& robot, const Topology& topology,
+                      const std::vector<ControllerDescription>& controllers) {
+  check_signal(signal, robot, controllers, "signal");
+  Signal resolved;
+  for (const SignalTerm& term : signal.terms) {
+    SignalReference reference;
+    if (const auto controller = find_named(controllers, term.object)) {
+      reference = resolve_controller(term, *controller);
+    } else if (const auto joint = find_named(robot.joints, term.object); joint && term.component.empty()) {
+      reference = resolve_joint(term, *joint, signal, topology);
+    } else {
+      reference = resolve_link(term, find_named(robot.links, term.object).value(), signal, topology);
+    }
+    reference.factor = term.factor;
+    resolved.push_back(reference);
+  }
+  return resolved;
+}
+
+Signal differentiate(const Signal& resolved, const SignalDescription& signal, const std::string& element) {
+  Signal derivative = resolved;
+  for (SignalReference& reference : derivative) {
+    const auto kind = derivative_kind(reference.kind);
+    if (!kind)
+      throw InputError({signal.where, element, "the time derivative of this signal is not available", signal.text,
+                        "sums of joint or link positions and velocities"});
+    reference.kind = *kind;
+  }
+  return derivative;
+}
+
+}  // namespace codesign

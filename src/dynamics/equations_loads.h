@@ -1,0 +1,198 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SRC_DYNAMICS_EQUATIONS_LOADS_H_
+#define MECHANISM_CODESIGN_SRC_DYNAMICS_EQUATIONS_LOADS_H_
+
+#include "mechanism_codesign/dynamics/equations.h"
+#include "mechanism_codesign/forces/brown_mcphee.h"
+#include "mechanism_codesign/forces/normal_force.h"
+
+namespace codesign {
+
+// Loads along joint coordinates. A load L opposes the coordinate, so the equations get + J^T L; a controller's output counts as -L.
+
+template <class T>
+CoordinateMotion<T> Equations<T>::coordinate(int pair, int element) const {
+  const Pair& p = system_.topology().pairs[static_cast<std::size_t>(pair)];
+  const PairConstants<T>& c = constants_.pairs[static_cast<std::size_t>(pair)];
+  CoordinateMotion<T> motion = coordinate_motion(c, c.coordinates[static_cast<std::size_t>(element)], body(p.body_i), body(p.body_j));
+  if (c.coordinates[static_cast<std::size_t>(element)].kind != CoordinateConstants<T>::Kind::kSlide) {
+    const double reference = turn_references_[static_cast<std::size_t>(pair)][static_cast<std::size_t>(element)];
+    motion.position += T(2.0 * M_PI * std::round((reference - value_of(motion.position)) / (2.0 * M_PI)));
+  }
+  return motion;
+}
+
+template <class T>
+bool Equations<T>::coordinate_moves_r(int pair, int element) const {
+  const auto& c = constants_.pairs[static_cast<std::size_t>(pair)].coordinates[static_cast<std::size_t>(element)];
+  return c.kind == CoordinateConstants<T>::Kind::kSlide;
+}
+
+template <class T>
+void Equations<T>::track_turns(const State<T>& state) {
+  load(state);
+  for (std::size_t pair = 0; pair < turn_references_.size(); ++pair)
+    for (std::size_t element = 0; element < turn_references_[pair].size(); ++element)
+      turn_references_[pair][element] = value_of(coordinate(static_cast<int>(pair), static_cast<int>(element)).position);
+}
+
+template <class T>
+void Equations<T>::append_local(int pair, const LocalRow<T>* position, const LocalRow<T>* velocity, const LocalRow<T>* rate, const T& factor, bool with_r,
+                                SparseGradient<T>* gradient) const {
+  for (int local = 0; local < kLocalSize; ++local) {
+    const int c = column(pair, local);
+    if (c < 0 || (local % kBodySize < 3 && !with_r)) continue;
+    const auto entry = [&](const LocalRow<T>* row) { return row ? T(factor * (*row)[local]) : T(0.0); };
+    gradient->push_back({c, entry(position), entry(velocity), entry(rate)});
+  }
+}
+
+template <class T>
+void Equations<T>::append_normal_gradient(int pair, const Vector3<T>& F, const Vector3<T>& torque, const T& factor, SparseGradient<T>* gradient) const {
+  const auto& rows = rows_[static_cast<std::size_t>(pair)];
+  const int row = layout_.lambda_column(layout_.pair_row[static_cast<std::size_t>(pair)]);
+  const auto add = [&](int column, const T& value) { gradient->push_back({column, T(0.0), T(0.0), T(factor * value)}); };
+  int next = 0;
+  if (rows.coincident) {
+    const int body_i = system_.topology().pairs[static_cast<std::size_t>(pair)].body_i;
+    const Vector3<T> in_body = constants_.pairs[static_cast<std::size_t>(pair)].C_i * F, in_ground = body(body_i).A * in_body;
+    for (int k = 0; k < 3; ++k) add(row + k, in_ground[k]);
+    if (body_i >= 0) {
+      const Vector3<T> lambda = state_->z.template segment<3>(row);
+      const Vector4<T> by_p = rotation_hessian<T>(lambda * in_body.transpose()) * body(body_i).p;
+      for (int e = 0; e < 4; ++e) gradient->push_back({kBodySize * body_i + 3 + e, T(factor * by_p[e]), T(0.0), T(0.0)});
+    }
+    next = 3;
+  } else {
+    add(row, F[0]);
+    add(row + 1, F[1]);
+    next = 2;
+  }
+  add(row + next, torque[1]);
+  add(row + next + 1, -torque[0]);
+  if (rows.size() > next + 2) add(row + next + 2, torque[2]);
+}
+
+template <class T>
+NormalForce<T> Equations<T>::normal_force(int pair) const {
+  const FrictionConstants<T>& c = constants_.pairs[static_cast<std::size_t>(pair)].friction;
+  Vector3<T> F, torque;
+  reaction(pair, &F, &torque);
+  switch (system_.topology().pairs[static_cast<std::size_t>(pair)].kind) {
+    case PairKind::kPrismatic: return translational_normal_force(F, torque, c);
+    case PairKind::kRevolute: return revolute_normal_force(F, torque, c);
+    default: return pin_normal_force(F, torque, c);
+  }
+}
+
+template <class T>
+T Equations<T>::reaction_friction(int pair, int element, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient, FrictionState<T>* state) {
+  const auto p = static_cast<std::size_t>(pair);
+  const FrictionConstants<T>& c = constants_.pairs[p].friction;
+  const bool turning = constants_.pairs[p].coordinates[static_cast<std::size_t>(element)].kind == CoordinateConstants<T>::Kind::kTurn;
+  const NormalForce<T> N = normal_force(pair);
+  const T radius = turning ? c.pin_radius : T(1.0);
+  const FrictionCoefficient<T> S = brown_mcphee<T>(radius * motion.rate, c.mu_static, c.mu_dynamic, c.transition_velocity);
+  if (state) *state = {motion.rate, N.value, T(radius * S.value * N.value + c.viscous * motion.rate)};
+  if (gradient) {
+    const T slope = radius * radius * S.slope * N.value + c.viscous;
+    append_local(pair, &motion.rate_q, &motion.J, nullptr, slope, coordinate_moves_r(pair, element), gradient);
+    append_normal_gradient(pair, N.F, N.torque, T(radius * S.value), gradient);
+  }
+  return radius * S.value * N.value + c.viscous * motion.rate;
+}
+
+template <class T>
+T Equations<T>::passive_load(int pair, int element, const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient) const {
+  constexpr double kDryTransitionVelocity = 1e-2;  // [m/s or rad/s]: URDF gives none
+  const JointDynamicsConstants<T>& d = constants_.pairs[static_cast<std::size_t>(pair)].dynamics[static_cast<std::size_t>(element)];
+  T value(0.0), slope(0.0);
+  if (load.passive) {
+    slope = d.damping + d.spring_damping;
+    value = slope * motion.rate + d.stiffness * (motion.position - d.free_position);
+  }
+  if (load.constant_friction) {
+    const FrictionCoefficient<T> S = brown_mcphee<T>(motion.rate, T(1.0), T(1.0), T(kDryTransitionVelocity));
+    value += d.dry_friction * S.value;
+    slope += d.dry_friction * S.slope;
+  }
+  if (gradient) {
+    const bool with_r = coordinate_moves_r(pair, element);
+    append_local(pair, &motion.rate_q, &motion.J, nullptr, slope, with_r, gradient);
+    append_local(pair, &motion.position_q, nullptr, nullptr, d.stiffness, with_r, gradient);
+  }
+  return value;
+}
+
+template <class T>
+T Equations<T>::joint_load(const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient) {
+  T value(0.0);
+  if (load.reaction_friction) value += reaction_friction(load.pair, load.element, motion, gradient, nullptr);
+  if (load.passive || load.constant_friction) value += passive_load(load.pair, load.element, load, motion, gradient);
+  for (int controller : load.controllers) {
+    const std::size_t before = gradient ? gradient->size() : 0;
+    value -= controller_output(controller, gradient);
+    if (gradient) scale_from(before, T(-1.0), gradient);
+  }
+  return value;
+}
+
+template <class T>
+void Equations<T>::load_residual(const JointLoad& load, VectorX<T>* G) {
+  const CoordinateMotion<T> motion = coordinate(load.pair, load.element);
+  const T value = joint_load(load, motion, nullptr);
+  for (int local = 0; local < kLocalSize; ++local)
+    if (const int c = column(load.pair, local); c >= 0) (*G)[c] += motion.J[local] * value;
+}
+
+template <class T>
+template <class Sink>
+void Equations<T>::assemble_load(const JointLoad& load, Sink* sink) {
+  const CoordinateMotion<T> motion = coordinate(load.pair, load.element);
+  gradient_.clear();
+  const T value = joint_load(load, motion, &gradient_);
+  const bool with_r = coordinate_moves_r(load.pair, load.element);
+  for (int local = 0; local < kLocalSize; ++local) {
+    const int row = column(load.pair, local);
+    if (row < 0 || (local % kBodySize < 3 && !with_r)) continue;
+    const T& J = motion.J[local];
+    for (const GradientEntry<T>& e : gradient_) sink->add(row, e.column, T(J * e.by_position), T(J * e.by_velocity), T(J * e.by_rate));
+  }
+  const Pair& pair = system_.topology().pairs[static_cast<std::size_t>(load.pair)];
+  const PairConstants<T>& c = constants_.pairs[static_cast<std::size_t>(load.pair)];
+  coordinate_load_gradient(c, c.coordinates[static_cast<std::size_t>(load.element)], body(pair.body_i), body(pair.body_j), value,
+                           [&](int r, int local_column, const T& entry) {
+                             const int row = column(load.pair, r), global_column = column(load.pair, local_column);
+                             if (row >= 0 && global_column >= 0) sink->add(row, global_column, entry, T(0.0), T(0.0));
+                           });
+}
+
+template <class T>
+FrictionState<T> Equations<T>::friction(int pair, int element) {
+  const CoordinateMotion<T> motion = coordinate(pair, element);
+  FrictionState<T> state;
+  for (const JointLoad& load : system_.loads()) {
+    if (load.pair != pair || load.element != element) continue;
+    state.velocity = motion.rate;
+    if (load.reaction_friction) reaction_friction(pair, element, motion, nullptr, &state);
+    if (load.constant_friction) {
+      JointLoad dry = load;
+      dry.passive = false;
+      state.load += passive_load(pair, element, dry, motion, nullptr);
+    }
+  }
+  return state;
+}
+
+template <class T>
+T Equations<T>::effort(int pair, int element) {
+  T sum(0.0);
+  for (const JointLoad& load : system_.loads())
+    if (load.pair == pair && load.element == element)
+      for (int controller : load.controllers) sum += controller_output(controller, nullptr);
+  return sum;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SRC_DYNAMICS_EQUATIONS_LOADS_H_

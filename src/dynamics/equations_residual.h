@@ -1,0 +1,183 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SRC_DYNAMICS_EQUATIONS_RESIDUAL_H_
+#define MECHANISM_CODESIGN_SRC_DYNAMICS_EQUATIONS_RESIDUAL_H_
+
+#include "mechanism_codesign/dynamics/equations.h"
+#include "mechanism_codesign/dynamics/rigid_body.h"
+
+namespace codesign {
+
+template <class T>
+Equations<T>::Equations(const System& system) : system_(system), layout_(system.layout()) {
+  for (int k = 0; k < 3; ++k) gravity_[k] = T(system.study().gravity[static_cast<std::size_t>(k)]);
+  kinematics_.resize(static_cast<std::size_t>(layout_.bodies) + 1);
+  loads_.resize(kinematics_.size());
+}
+
+template <class T>
+void Equations<T>::set_design(const std::vector<T>& parameters) {
+  constants_ = evaluate_constants(system_.robot(), system_.topology(), parameters);
+  rows_.clear();
+  for (std::size_t k = 0; k < constants_.pairs.size(); ++k) rows_.push_back(pair_rows(system_.topology().pairs[k].kind, constants_.pairs[k]));
+  if (turn_references_.empty())
+    for (const PairConstants<T>& pair : constants_.pairs) turn_references_.emplace_back(pair.coordinates.size(), 0.0);
+  const auto evaluate = [&parameters](const auto& descriptions, auto member, std::vector<T>* values) {
+    values->clear();
+    for (const auto& description : descriptions) values->push_back((description.*member).at(parameters));
+  };
+  const Study& study = system_.study();
+  evaluate(study.controllers, &ControllerDescription::setpoint, &setpoints_);
+  evaluate(study.controllers, &ControllerDescription::p, &gains_p_);
+  evaluate(study.controllers, &ControllerDescription::i, &gains_i_);
+  evaluate(study.controllers, &ControllerDescription::d, &gains_d_);
+  evaluate(study.integral, &ObjectiveTerm::weight, &integral_weights_);
+  evaluate(study.integral, &ObjectiveTerm::reference, &integral_references_);
+  evaluate(study.terminal, &ObjectiveTerm::weight, &terminal_weights_);
+  evaluate(study.terminal, &ObjectiveTerm::reference, &terminal_references_);
+}
+
+template <class T>
+void Equations<T>::load(const State<T>& state) {
+  state_ = &state;
+  for (int b = 0; b < layout_.bodies; ++b) {
+    BodyKinematics<T>& k = kinematics_[static_cast<std::size_t>(b)];
+    const int c = kBodySize * b;
+    k.r = state.q.template segment<3>(c);
+    k.p = state.q.template segment<4>(c + 3);
+    k.rd = state.v.template segment<3>(c);
+    k.pd = state.v.template segment<4>(c + 3);
+    k.rdd = state.z.template segment<3>(c);
+    k.pdd = state.z.template segment<4>(c + 3);
+    k.update_rotation();
+  }
+}
+
+template <class T>
+void Equations<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
+  load(state);
+  G->setZero(layout_.columns());
+  for (BodyLoad<T>& load : loads_) {
+    load.force.setZero();
+    load.W.setZero();
+  }
+  for (std::size_t k = 0; k < rows_.size(); ++k) pair_residual(k, G);
+  for (int b = 0; b < layout_.bodies; ++b) body_residual(static_cast<std::size_t>(b), G);
+  for (const JointLoad& load : system_.loads()) load_residual(load, G);
+  for (std::size_t c = 0; c < system_.controllers().size(); ++c) {
+    const int s = system_.controllers()[c].state;
+    if (s >= 0) (*G)[layout_.state_column(s)] = state.z[layout_.state_column(s)] - controller_error(static_cast<int>(c), nullptr);
+  }
+  *g = objective_terms(system_.integral(), integral_weights_, integral_references_, nullptr);
+}
+
+template <class T>
+void Equations<T>::pair_residual(std::size_t k, VectorX<T>* G) {
+  const Pair& pair = system_.topology().pairs[k];
+  const PairRows<T>& rows = rows_[k];
+  const BodyKinematics<T>&i = body(pair.body_i), &j = body(pair.body_j);
+  BodyLoad<T>&load_i = loads_[static_cast<std::size_t>(pair.body_i < 0 ? layout_.bodies : pair.body_i)],
+  &load_j = loads_[static_cast<std::size_t>(pair.body_j < 0 ? layout_.bodies : pair.body_j)];
+  int row = layout_.lambda_column(layout_.pair_row[k]);
+  if (rows.coincident) {
+    G->template segment<3>(row) = displacement_motion(i, rows.s_i, j, rows.s_j).xdd;
+    const Vector3<T> lambda = state_->z.template segment<3>(row);
+    add_vector_load(PairVector<T>::displacement(rows.s_i, rows.s_j), lambda, &load_i, &load_j);
+    row += 3;
+  }
+  for (const ProductRow<T>& product : rows.products) {
+    const VectorMotion<T> x = motion_of(product.X, i, j), y = motion_of(product.Y, i, j);
+    (*G)[row] = T(product.scale) * product_motion(x, y).phidd;
+    add_product_load(product.X, product.Y, x, y, T(T(product.scale) * state_->z[row]), &load_i, &load_j);
+    ++row;
+  }
+}
+
+template <class T>
+void Equations<T>::body_residual(std::size_t b, VectorX<T>* G) {
+  const BodyKinematics<T>& k = kinematics_[b];
+  const int c = kBodySize * static_cast<int>(b), norm = layout_.lambda_column(layout_.norm_row(static_cast<int>(b)));
+  Vector3<T> on_r;
+  Vector4<T> on_p;
+  inertia_force(constants_.bodies[b], k, &on_r, &on_p);
+  G->template segment<3>(c) += on_r - constants_.bodies[b].mass * gravity_ + loads_[b].force;
+  G->template segment<4>(c + 3) += on_p + rotation_hessian(loads_[b].W) * k.p + state_->z[norm] * k.p;
+  T sum(0.0);
+  for (int e = 0; e < 4; ++e) sum += k.p[e] * k.pdd[e] + k.pd[e] * k.pd[e];
+  (*G)[norm] = sum;
+}
+
+template <class T>
+void Equations<T>::constraint_errors(const VectorX<T>& q, const VectorX<T>& v, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
+  State<T> state;
+  state.resize(layout_);
+  state.q = q;
+  state.v = v;
+  load(state);
+  Phi->resize(layout_.m);
+  Phi_rate->resize(layout_.m);
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const Pair& pair = system_.topology().pairs[k];
+    const BodyKinematics<T>&i = body(pair.body_i), &j = body(pair.body_j);
+    int row = layout_.pair_row[k];
+    if (rows_[k].coincident) {
+      const VectorMotion<T> d = displacement_motion(i, rows_[k].s_i, j, rows_[k].s_j);
+      Phi->template segment<3>(row) = d.x;
+      Phi_rate->template segment<3>(row) = d.xd;
+      row += 3;
+    }
+    for (const ProductRow<T>& product : rows_[k].products) {
+      const ProductMotion<T> phi = product_motion(motion_of(product.X, i, j), motion_of(product.Y, i, j));
+      (*Phi)[row] = T(product.scale) * (phi.phi - product.offset);
+      (*Phi_rate)[row] = T(product.scale) * phi.phid;
+      ++row;
+    }
+  }
+  for (int b = 0; b < layout_.bodies; ++b) {
+    T square(0.0), rate(0.0);
+    for (int e = 0; e < 4; ++e) {
+      square += body(b).p[e] * body(b).p[e];
+      rate += body(b).p[e] * body(b).pd[e];
+    }
+    (*Phi)[layout_.norm_row(b)] = T(0.5) * (square - T(1.0));
+    (*Phi_rate)[layout_.norm_row(b)] = rate;
+  }
+  state_ = nullptr;
+}
+
+template <class T>
+void Equations<T>::reaction(int pair, Vector3<T>* F, Vector3<T>* torque) const {
+  const PairKind kind = system_.topology().pairs[static_cast<std::size_t>(pair)].kind;
+  const int row = layout_.lambda_column(layout_.pair_row[static_cast<std::size_t>(pair)]);
+  const auto lambda = [this, row](int k) { return state_->z[row + k]; };
+  F->setZero();
+  torque->setZero();
+  const auto& rows = rows_[static_cast<std::size_t>(pair)];
+  int next = 0;
+  if (rows.coincident) {
+    const PairConstants<T>& c = constants_.pairs[static_cast<std::size_t>(pair)];
+    const Vector3<T> on_child = state_->z.template segment<3>(row);
+    *F = c.C_i.transpose() * (body(system_.topology().pairs[static_cast<std::size_t>(pair)].body_i).A.transpose() * on_child);
+    next = 3;
+  } else if (kind == PairKind::kPrismatic || kind == PairKind::kCylindrical) {
+    *F = Vector3<T>(lambda(0), lambda(1), T(0.0));
+    next = 2;
+  } else if (kind == PairKind::kTable || kind == PairKind::kPlanar) {
+    (*F)[2] = lambda(0);
+    next = 1;
+  }
+  if (kind == PairKind::kUniversal || kind == PairKind::kDistance || rows.size() < next + 2) return;
+  (*torque)[1] = lambda(next);
+  (*torque)[0] = -lambda(next + 1);
+  if (rows.size() > next + 2) (*torque)[2] = lambda(next + 2);
+}
+
+template <class T>
+int Equations<T>::column(int pair, int local) const {
+  const Pair& p = system_.topology().pairs[static_cast<std::size_t>(pair)];
+  const int body = local < kBodySize ? p.body_i : p.body_j;
+  return body < 0 ? -1 : kBodySize * body + local % kBodySize;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SRC_DYNAMICS_EQUATIONS_RESIDUAL_H_

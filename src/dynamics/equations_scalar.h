@@ -1,0 +1,13 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SRC_DYNAMICS_EQUATIONS_SCALAR_H_
+#define MECHANISM_CODESIGN_SRC_DYNAMICS_EQUATIONS_SCALAR_H_
+
+#include "equations_assembly.h"
+#include "equations_loads.h"
+#include "equations_residual.h"
+#include "equations_signals.h"
+
+/// One source file per scalar, so that they compile side by side.
+#define CODESIGN_INSTANTIATE_EQUATIONS(T) template class Equations<T>;
+
+#endif  // MECHANISM_CODESIGN_SRC_DYNAMICS_EQUATIONS_SCALAR_H_

@@ -1,0 +1,151 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/dynamics/system.h"
+
+#include <algorithm>
+
+#include "mechanism_codesign/dynamics/equations.h"
+
+namespace codesign {
+namespace {
+
+int constraint_rows(PairKind kind) {
+  switch (kind) {
+    case PairKind::kFixed: return 6;
+    case PairKind::kRevolute:
+    case PairKind::kPrismatic: return 5;
+    case PairKind::kCylindrical:
+    case PairKind::kUniversal:
+    case PairKind::kTable: return 4;
+    case PairKind::kSpherical:
+    case PairKind::kPlanar:
+    case PairKind::kTranslational: return 3;
+    case PairKind::kDistance: return 1;
+    case PairKind::kFree: return 0;
+  }
+  return 0;
+}
+
+bool zero(const Quantity& q) { return q.is_constant() && q.nominal() == 0.0; }
+
+bool reads(const std::vector<ResolvedTerm>& terms, SignalKind kind, int controller) {
+  return std::any_of(terms.begin(), terms.end(), [&](const ResolvedTerm& term) {
+    return std::any_of(term.signal.begin(), term.signal.end(), [&](const SignalReference& r) { return r.kind == kind && r.controller == controller; });
+  });
+}
+
+}  // namespace
+
+System::System(const RobotDescription& robot, const Study& study) : robot_(robot), study_(study), topology_(derive_topology(robot_)) {
+  refuse_unsupported();
+  lay_out();
+  resolve_objective();
+  resolve_controllers();
+  collect_loads();
+  record_pattern();
+}
+
+std::vector<double> System::parameters() const {
+  std::vector<double> values;
+  for (const Parameter& parameter : study_.parameters) values.push_back(parameter.value);
+  return values;
+}
+
+void System::lay_out() {
+  layout_.bodies = static_cast<int>(topology_.bodies.size());
+  layout_.n = kBodySize * layout_.bodies;
+  for (const Pair& pair : topology_.pairs) {
+    layout_.pair_row.push_back(layout_.m);
+    layout_.m += constraint_rows(pair.kind);
+  }
+  layout_.m += layout_.bodies;
+}
+
+void System::resolve_objective() {
+  const auto resolve = [this](const std::vector<ObjectiveTerm>& terms, std::vector<ResolvedTerm>* resolved) {
+    for (std::size_t k = 0; k < terms.size(); ++k)
+      resolved->push_back({resolve_signal(terms[k].signal, robot_, topology_, study_.controllers), static_cast<int>(k)});
+  };
+  resolve(study_.integral, &integral_);
+  resolve(study_.terminal, &terminal_);
+}
+
+void System::resolve_controllers() {
+  for (std::size_t k = 0; k < study_.controllers.size(); ++k) {
+    const ControllerDescription& description = study_.controllers[k];
+    const std::string element = "controllers." + description.name;
+    Controller controller;
+    controller.input = resolve_signal(description.input, robot_, topology_, study_.controllers);
+    for (const SignalReference& term : controller.input)
+      if (term.controller >= static_cast<int>(k) || term.kind == SignalKind::kJointEffort)
+        throw InputError({description.where, element + ".input", "a controller cannot read an effort, itself or a later controller",
+                          description.input.text, "controllers defined before it"});
+    const int index = static_cast<int>(k);
+    const bool error_rate = reads(integral_, SignalKind::kControllerErrorRate, index);
+    if (!zero(description.d) || error_rate) controller.input_rate = differentiate(controller.input, description.input, element + ".input");
+    const bool integral = reads(integral_, SignalKind::kControllerIntegral, index) || reads(terminal_, SignalKind::kControllerIntegral, index);
+    if (!zero(description.i) || integral) controller.state = layout_.states++;
+    for (std::size_t joint = 0; joint < robot_.joints.size(); ++joint) {
+      if (robot_.joints[joint].name != description.output) continue;
+      SignalDescription output{description.output + "/velocity", {{1.0, description.output, "velocity", ""}}, description.where};
+      const Signal resolved = resolve_signal(output, robot_, topology_, study_.controllers);
+      controller.pair = resolved.front().pair;
+      controller.element = resolved.front().element;
+    }
+    controllers_.push_back(controller);
+  }
+}
+
+void System::collect_loads() {
+  for (std::size_t p = 0; p < topology_.pairs.size(); ++p) {
+    const Pair& pair = topology_.pairs[p];
+    const std::size_t elements = pair.kind == PairKind::kCylindrical ? 2 : pair.chain.size();
+    for (std::size_t e = 0; e < elements; ++e) {
+      JointLoad load;
+      load.pair = static_cast<int>(p);
+      load.element = static_cast<int>(e);
+      load.reaction_friction = pair.friction_joint >= 0;
+      if (e < pair.chain.size()) {
+        const JointDescription& joint = robot_.joints[static_cast<std::size_t>(pair.chain[e].joint)];
+        load.constant_friction = !zero(joint.dry_friction);
+        load.passive = !zero(joint.damping) || joint.spring.has_value();
+      }
+      for (std::size_t c = 0; c < controllers_.size(); ++c)
+        if (controllers_[c].pair == load.pair && controllers_[c].element == load.element) load.controllers.push_back(static_cast<int>(c));
+      if (load.reaction_friction || load.constant_friction || load.passive || !load.controllers.empty()) loads_.push_back(load);
+    }
+  }
+}
+
+void System::record_pattern() {
+  Equations<double> equations(*this);
+  equations.set_design(parameters());
+  State<double> state;
+  state.resize(layout_);
+  equations.load(state);
+  PatternRecorder recorder;
+  equations.assemble(&recorder);
+  sparsity_ = recorder.build(layout_.columns() + 1, layout_.columns(), &slots_);
+}
+
+void System::refuse_unsupported() const {
+  const auto refuse = [](const SourceLocation& where, const std::string& element, const std::string& what) {
+    throw InputError({where, element, what + " is read but not computed by this version", "", ""});
+  };
+  for (const JointDescription& joint : robot_.joints) {
+    const std::string element = (joint.is_loop ? "<loop name=\"" : "<joint name=\"") + joint.name + "\">";
+    if (joint.mimic) refuse(joint.where, element, "<mimic>");
+    if (joint.friction && joint.friction->model != FrictionModel::kBrownMcPhee)
+      refuse(joint.friction->where, element, "a friction model other than brown_mcphee");
+  }
+  for (const CouplingDescription& coupling : robot_.couplings) refuse(coupling.where, "<coupling name=\"" + coupling.name + "\">", "a coupling");
+  for (const SpringDamperDescription& spring : robot_.spring_dampers)
+    refuse(spring.where, "<codesign:spring_damper name=\"" + spring.name + "\">", "a spring-damper");
+  for (const Pair& pair : topology_.pairs) {
+    if (pair.friction_joint < 0) continue;
+    const JointDescription& joint = robot_.joints[static_cast<std::size_t>(pair.friction_joint)];
+    if (pair.kind != PairKind::kPrismatic && pair.kind != PairKind::kRevolute && pair.kind != PairKind::kCylindrical)
+      refuse(joint.friction->where, "<codesign:friction> of '" + joint.name + "'", "friction in this kind of joint");
+  }
+}
+
+}  // namespace codesign

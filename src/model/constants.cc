@@ -1,0 +1,122 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/model/constants.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "mechanism_codesign/model/mass_properties.h"
+#include "mechanism_codesign/model/pose.h"
+#include "pair_geometry.h"
+
+namespace codesign {
+namespace {
+
+std::size_t index(int k) { return static_cast<std::size_t>(k); }
+
+/// Sums the links of a rigid group about their common centre of mass.
+template <class T>
+BodyConstants<T> body_constants(const RobotDescription& robot, const Topology& topology, const Body& body, const std::vector<T>& parameters) {
+  BodyConstants<T> result;
+  std::vector<MassProperties<T>> parts;
+  for (int link : body.links) {
+    const auto& inertial = robot.links[index(link)].inertial;
+    if (!inertial) continue;
+    const Pose<T> X = link_in_base(robot, topology.link_base, topology.link_parent_joint, link, parameters);
+    MassProperties<T> part = mass_properties<T>(*inertial, parameters);
+    part.centre = X * part.centre;
+    part.inertia = X.R * part.inertia * X.R.transpose();
+    result.mass += part.mass;
+    result.centre += part.mass * part.centre;
+    parts.push_back(part);
+  }
+  result.centre /= result.mass;
+  for (const MassProperties<T>& part : parts) {
+    const Vector3<T> offset = part.centre - result.centre;
+    result.J += part.inertia + part.mass * (dot(offset, offset) * Matrix3<T>::Identity() - offset * offset.transpose());
+  }
+  return result;
+}
+
+template <class T>
+Vector3<T> centre_of(const Constants<T>& constants, int body) {
+  return body < 0 ? Vector3<T>(Vector3<T>::Zero()) : constants.bodies[index(body)].centre;
+}
+
+template <class T>
+SpringDamperConstants<T> spring_constants(const RobotDescription& robot, const Topology& topology, const SpringDamperDescription& spring,
+                                          const Constants<T>& constants, const std::vector<T>& parameters) {
+  SpringDamperConstants<T> result;
+  const auto attach = [&](int link, const PoseDescription& origin, int* body, Vector3<T>* s) {
+    *body = topology.link_body[index(link)];
+    if (*body == Topology::kMassless)
+      throw InputError({spring.where, "<codesign:spring_damper name=\"" + spring.name + "\">", "a spring cannot pull on a link without <inertial>",
+                        robot.links[index(link)].name, ""});
+    *s = constants.links[index(link)].R * vector_at(origin.xyz, parameters) + constants.links[index(link)].s;
+  };
+  attach(spring.predecessor, spring.predecessor_origin, &result.body_i, &result.s_i);
+  attach(spring.successor, spring.successor_origin, &result.body_j, &result.s_j);
+  result.stiffness = spring.stiffness.at(parameters);
+  result.damping = spring.damping.at(parameters);
+  result.free_length = spring.free_length.at(parameters);
+  return result;
+}
+
+std::string body_fault(const Body& body, const BodyConstants<double>& constants) {
+  if (!(constants.mass > 0.0) || !std::isfinite(constants.mass)) return "mass of body '" + body.name + "' is " + std::to_string(constants.mass);
+  const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(constants.J, Eigen::EigenvaluesOnly).eigenvalues();
+  if (!moments.allFinite() || !(moments[0] > 0.0)) return "inertia of body '" + body.name + "' is not positive definite";
+  if (moments[2] > (moments[0] + moments[1]) * (1.0 + 1e-9)) return "inertia of body '" + body.name + "' breaks the triangle inequality";
+  return "";
+}
+
+std::string friction_fault(const Pair& pair, const FrictionConstants<double>& f) {
+  const bool possible = f.mu_static >= f.mu_dynamic && f.mu_dynamic >= 0.0 && f.transition_velocity > 0.0 && f.joint_length > 0.0 && f.joint_width > 0.0 &&
+                        f.pin_radius >= 0.0 && f.smoothing > 0.0 && f.viscous >= 0.0;
+  return possible ? "" : "friction geometry or coefficients of joint '" + pair.name + "' are out of range";
+}
+
+}  // namespace
+
+template <class T>
+Constants<T> evaluate_constants(const RobotDescription& robot, const Topology& topology, const std::vector<T>& parameters) {
+  Constants<T> constants;
+  for (const Body& body : topology.bodies) constants.bodies.push_back(body_constants(robot, topology, body, parameters));
+  constants.links.resize(robot.links.size());
+  for (std::size_t link = 0; link < robot.links.size(); ++link) {
+    if (topology.link_body[link] == Topology::kMassless) continue;
+    const Pose<T> X = link_in_base(robot, topology.link_base, topology.link_parent_joint, static_cast<int>(link), parameters);
+    constants.links[link] = {X.t - centre_of(constants, topology.link_body[link]), X.R};
+  }
+  for (const Pair& pair : topology.pairs)
+    constants.pairs.push_back(
+        pair_constants(robot, topology, pair, centre_of(constants, pair.body_i), centre_of(constants, pair.body_j), parameters));
+  for (const SpringDamperDescription& spring : robot.spring_dampers)
+    constants.springs.push_back(spring_constants(robot, topology, spring, constants, parameters));
+  return constants;
+}
+
+std::string find_impossible(const RobotDescription& robot, const Topology& topology, const Constants<double>& constants) {
+  for (std::size_t k = 0; k < topology.bodies.size(); ++k)
+    if (std::string fault = body_fault(topology.bodies[k], constants.bodies[k]); !fault.empty()) return fault;
+  for (std::size_t k = 0; k < topology.pairs.size(); ++k) {
+    const PairConstants<double>& pair = constants.pairs[k];
+    if (!pair.s_i.allFinite() || !pair.s_j.allFinite() || !pair.C_i.allFinite() || !pair.C_j.allFinite())
+      return "geometry of joint '" + topology.pairs[k].name + "' is not finite";
+    if (topology.pairs[k].friction_joint < 0) continue;
+    if (std::string fault = friction_fault(topology.pairs[k], pair.friction); !fault.empty()) return fault;
+  }
+  for (std::size_t k = 0; k < robot.spring_dampers.size(); ++k)
+    if (!std::isfinite(constants.springs[k].stiffness + constants.springs[k].damping + constants.springs[k].free_length))
+      return "spring-damper '" + robot.spring_dampers[k].name + "' is not finite";
+  return "";
+}
+
+#define CODESIGN_INSTANTIATE(T) \
+  template Constants<T> evaluate_constants<T>(const RobotDescription&, const Topology&, const std::vector<T>&);
+CODESIGN_INSTANTIATE(double)
+CODESIGN_INSTANTIATE(std::complex<double>)
+CODESIGN_INSTANTIATE(Lanes<4>)
+CODESIGN_INSTANTIATE(Lanes<8>)
+#undef CODESIGN_INSTANTIATE
+
+}  // namespace codesign

@@ -1,0 +1,17 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SRC_MODEL_FOLD_CHAIN_H_
+#define MECHANISM_CODESIGN_SRC_MODEL_FOLD_CHAIN_H_
+
+#include <vector>
+
+#include "mechanism_codesign/model/topology.h"
+
+namespace codesign {
+
+/// The one joint that a chain of joints across massless links amounts to, judged at the default parameters.
+/// @throws InputError if there is none in the family of PairKind.
+PairKind fold_chain(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SRC_MODEL_FOLD_CHAIN_H_
