@@ -3,6 +3,8 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <cmath>
+
 #include "mechanism_codesign/math/decimal.h"
 #include "mechanism_codesign/model/error.h"
 
@@ -19,10 +21,18 @@ T content(XmlRpcValue value) {
 
 void emit(XmlRpcValue value, YAML::Emitter* out) {
   switch (value.getType()) {
-    case XmlRpcValue::TypeBoolean: *out << content<bool>(value); break;
-    case XmlRpcValue::TypeInt: *out << content<int>(value); break;
-    case XmlRpcValue::TypeDouble: *out << to_decimal(content<double>(value)); break;
-    case XmlRpcValue::TypeString: *out << YAML::DoubleQuoted << content<std::string>(value); break;
+    case XmlRpcValue::TypeBoolean:
+      *out << content<bool>(value);
+      break;
+    case XmlRpcValue::TypeInt:
+      *out << content<int>(value);
+      break;
+    case XmlRpcValue::TypeDouble:
+      *out << to_decimal(content<double>(value));
+      break;
+    case XmlRpcValue::TypeString:
+      *out << YAML::DoubleQuoted << content<std::string>(value);
+      break;
     case XmlRpcValue::TypeArray:
       *out << YAML::BeginSeq;
       for (int i = 0; i < value.size(); ++i) emit(value[i], out);
@@ -36,7 +46,8 @@ void emit(XmlRpcValue value, YAML::Emitter* out) {
       }
       *out << YAML::EndMap;
       break;
-    default: *out << YAML::Null;
+    default:
+      *out << YAML::Null;
   }
 }
 
@@ -79,23 +90,38 @@ SourceText read_study_source(const ros::NodeHandle& private_node) {
   return {private_node.resolveName("study"), to_yaml(value)};
 }
 
+bool is_number(XmlRpcValue value, double* number) {
+  if (value.getType() == XmlRpcValue::TypeInt)
+    *number = content<int>(value);
+  else if (value.getType() == XmlRpcValue::TypeDouble)
+    *number = content<double>(value);
+  else
+    return false;
+  return true;
+}
+
 ParameterSettings read_settings(const ros::NodeHandle& private_node) {
   XmlRpcValue value;
   if (!get(private_node, "set", &value)) return {};
   if (value.getType() != XmlRpcValue::TypeStruct) fail(private_node, "set", "not a dictionary", "parameter names with numbers");
   ParameterSettings settings;
   for (auto& [name, number] : value) {
-    if (number.getType() == XmlRpcValue::TypeInt)
-      settings.emplace_back(name, content<int>(number));
-    else if (number.getType() == XmlRpcValue::TypeDouble)
-      settings.emplace_back(name, content<double>(number));
-    else
-      fail(private_node, "set/" + name, "not a number", "a finite number");
+    settings.emplace_back(name, 0.0);
+    if (!is_number(number, &settings.back().second)) fail(private_node, "set/" + name, "not a number", "a finite number");
   }
   return settings;
 }
 
 }  // namespace
+
+double read_positive(const ros::NodeHandle& private_node, const std::string& key, double fallback) {
+  XmlRpcValue value;
+  if (!private_node.getParam(key, value)) return fallback;
+  double number = 0.0;
+  if (!is_number(value, &number) || !std::isfinite(number) || number <= 0.0)
+    fail(private_node, key, "not a number above zero", "a finite number above zero");
+  return number;
+}
 
 std::string to_yaml(const XmlRpcValue& tree) {
   YAML::Emitter out;

@@ -21,6 +21,9 @@ class Writer {
  public:
   explicit Writer(const std::string& path) : bag_(path, rosbag::bagmode::Write) {}
 
+  /// Writes the index; to be called, since a destructor cannot report a full disk.
+  void close() { bag_.close(); }
+
   template <class Message>
   void write(const std::string& topic, double time, const Message& message) {
     bag_.write(topic, ros::Time(kStart + time), message);
@@ -127,10 +130,9 @@ std::string new_bag_path(const std::string& directory, const std::string& robot)
 
 void write_bag(const std::string& path, const JobRecord& record) {
   const std::string active = path + ".active";
-  {
-    Writer writer(active);
-    write_contents(record, &writer);
-  }
+  Writer writer(active);
+  write_contents(record, &writer);
+  writer.close();
   std::filesystem::rename(active, path);
 }
 

@@ -26,14 +26,14 @@ struct Extent {
 
 }  // namespace
 
-RecordedRun record_run(const Problem& problem, const std::vector<double>& parameters, double rate, const std::atomic<bool>* cancel) {
+RecordedRun record_run(const Problem& problem, const std::vector<double>& parameters, double rate, const std::function<bool()>& stop) {
   RecordedRun run;
   Simulation simulation(problem.system, parameters);
   run.names = simulation.names();
   const int count = static_cast<int>(std::lround(problem.study.duration * rate)) + 1;
   run.status = simulate(&simulation, problem.study.duration, std::max(count, 2), [&](const Frame& frame) {
     run.frames.push_back(frame);
-    return cancel == nullptr || !*cancel;
+    return !stop || !stop();
   });
   return run;
 }

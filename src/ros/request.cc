@@ -31,7 +31,8 @@ std::size_t index_of(const std::string& name, const std::vector<std::string>& kn
 /// Pairs names with values, which must be as many; a name may stand there once.
 ParameterSettings pair_up(const std::vector<std::string>& names, const std::vector<double>& values, const std::string& field) {
   if (values.size() != names.size())
-    fail(field, "one value for each parameter is needed", std::to_string(values.size()) + " values", std::to_string(names.size()) + " values");
+    fail(field, "one value for each parameter is needed", std::to_string(values.size()) + " values",
+         std::to_string(names.size()) + " values");
   ParameterSettings settings;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::count(names.begin(), names.end(), names[i]) > 1) fail("parameters", "parameter named twice", names[i], "each name once");

@@ -7,22 +7,23 @@ namespace codesign {
 
 Worker::Worker() : thread_([this] { run(); }) {}
 
-Worker::~Worker() {
+void Worker::finish() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ending_ = true;
     cancel_ = true;
   }
   changed_.notify_all();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
-bool Worker::try_start(Job job) {
+bool Worker::try_start(Job job, std::function<void()> done) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (job_ || ending_) return false;
     cancel_ = false;
     job_ = std::move(job);
+    done_ = std::move(done);
   }
   changed_.notify_all();
   return true;
@@ -42,6 +43,10 @@ void Worker::run() {
     job_(cancel_);
     lock.lock();
     job_ = nullptr;
+    const std::function<void()> done = std::move(done_);
+    lock.unlock();
+    done();
+    lock.lock();
   }
 }
 

@@ -11,9 +11,9 @@ namespace codesign {
 
 /// How friction is drawn.
 struct MarkerStyle {
-  double metres_per_newton = 0.01;        ///< length of a force arrow
-  double metres_per_newton_metre = 0.1;   ///< length of a torque arrow
-  double shaft_diameter = 0.006;          ///< [m]
+  double metres_per_newton = 0.01;       ///< length of a force arrow
+  double metres_per_newton_metre = 0.1;  ///< length of a torque arrow
+  double shaft_diameter = 0.006;         ///< [m]
 };
 
 /// One arrow for each joint and loop with friction, from the joint along the friction force (orange) or torque (blue) on the child link.

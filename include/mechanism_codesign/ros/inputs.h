@@ -28,6 +28,9 @@ struct Inputs {
 /// @throws InputError for a missing or ill-typed parameter or a file that cannot be read.
 Inputs read_inputs(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
+/// A private parameter that must be a finite number above zero, or `fallback` if it is not set. @throws InputError if it is none.
+double read_positive(const ros::NodeHandle& private_node, const std::string& key, double fallback);
+
 /// A tree of ROS parameters as YAML text, for the one strict reader of studies. XML-RPC structs know no order: keys come out sorted.
 std::string to_yaml(const XmlRpc::XmlRpcValue& tree);
 

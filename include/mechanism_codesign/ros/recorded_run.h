@@ -2,7 +2,7 @@
 #ifndef MECHANISM_CODESIGN_ROS_RECORDED_RUN_H_
 #define MECHANISM_CODESIGN_ROS_RECORDED_RUN_H_
 
-#include <atomic>
+#include <functional>
 #include <vector>
 
 #include "mechanism_codesign/optimization/problem.h"
@@ -18,7 +18,8 @@ struct RecordedRun {
 };
 
 /// @param rate samples per second.
-RecordedRun record_run(const Problem& problem, const std::vector<double>& parameters, double rate, const std::atomic<bool>* cancel);
+/// @param stop if given, asked at each sample; true ends the run there.
+RecordedRun record_run(const Problem& problem, const std::vector<double>& parameters, double rate, const std::function<bool()>& stop = {});
 
 /// How the initial and the tuned run are shown together.
 struct SceneLayout {

@@ -17,16 +17,19 @@ class Worker {
   using Job = std::function<void(const std::atomic<bool>& cancel)>;
 
   Worker();
-  /// Cancels the running job and waits for its end.
-  ~Worker();
+  ~Worker() { finish(); }
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  /// Hands over a job, or returns false at once if another one is still running. A job must not throw.
-  bool try_start(Job job);
+  /// Hands over a job, or returns false at once if another one is still running. Neither function may throw.
+  /// @param done called in the worker's thread when it is free for the next job, so that whoever is told may come back at once.
+  bool try_start(Job job, std::function<void()> done);
 
   /// Sets the flag of the running job, if any.
   void cancel() { cancel_ = true; }
+
+  /// Cancels the running job, waits for its end, and takes no further ones.
+  void finish();
 
   bool busy() const;
 
@@ -35,7 +38,8 @@ class Worker {
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  Job job_;            // empty: idle
+  Job job_;  // empty: idle
+  std::function<void()> done_;
   bool ending_ = false;
   std::atomic<bool> cancel_{false};
   std::thread thread_;  // last: it uses all of the above

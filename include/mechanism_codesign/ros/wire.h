@@ -1,0 +1,29 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_WIRE_H_
+#define MECHANISM_CODESIGN_ROS_WIRE_H_
+
+#include <ros/message_traits.h>
+#include <ros/serialization.h>
+
+#include <cstdint>
+
+namespace codesign {
+
+/// Turns a message into another of the same fields, such as a service's request into an action's goal. Fails to compile if the fields
+/// differ.
+template <class To, class From>
+To same_fields(const From& from) {
+  namespace traits = ros::message_traits;
+  static_assert(traits::MD5Sum<To>::static_value1 == traits::MD5Sum<From>::static_value1 &&
+                    traits::MD5Sum<To>::static_value2 == traits::MD5Sum<From>::static_value2,
+                "the two messages do not have the same fields");
+  const ros::SerializedMessage wire = ros::serialization::serializeMessage(from);
+  ros::serialization::IStream stream(wire.message_start, static_cast<std::uint32_t>(wire.num_bytes - 4));
+  To to;
+  ros::serialization::deserialize(stream, to);
+  return to;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_WIRE_H_

@@ -1,0 +1,58 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <cstdint>
+
+#include "mechanism_codesign/model/error.h"
+#include "mechanism_codesign/model/unknown_name.h"
+#include "mechanism_codesign/ros/conversions.h"
+#include "mechanism_codesign/ros/job.h"
+#include "mechanism_codesign/ros/request.h"
+#include "mechanism_codesign/sensitivity/evaluation.h"
+
+namespace codesign {
+namespace {
+
+CheckMethod method_of(const std::string& check) {
+  if (check == "complex_step") return CheckMethod::kComplexStep;
+  if (check == "ridders") return CheckMethod::kRidders;
+  throw unknown_name({"request", 0}, "check", "gradient check", check, {"complex_step", "ridders"});
+}
+
+void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& request, const std::atomic<bool>& cancel,
+             mechanism_codesign::EvaluateResponse* reply) {
+  const Eigen::VectorXd rho = design_of(problem, request);
+  GradientCheck check;
+  if (request.check.empty()) {
+    check.evaluation = Evaluator(problem.system).evaluate(rho, !request.objective_only, &cancel);
+    check.status = check.evaluation.status;
+  } else {
+    check = check_gradient(problem.system, rho, method_of(request.check), &cancel);
+  }
+  set_status(check.status, reply);
+  reply->parameters = problem.tuned_names();
+  reply->values = to_array(rho);
+  reply->objective = check.evaluation.objective;
+  reply->gradient = to_array(check.evaluation.gradient);
+  reply->reference = to_array(check.reference);
+  reply->reference_error = to_array(check.reference_error);
+  reply->largest_relative_difference = check.largest_relative_difference;
+  reply->steps = static_cast<std::uint64_t>(check.evaluation.statistics.steps);
+  reply->rejected_steps = static_cast<std::uint64_t>(check.evaluation.statistics.rejected_steps);
+  reply->cpu_seconds = check.evaluation.statistics.cpu_seconds;
+}
+
+}  // namespace
+
+mechanism_codesign::EvaluateResponse run_evaluation(const Problem& problem, const mechanism_codesign::EvaluateRequest& request,
+                                                    const std::atomic<bool>& cancel) {
+  mechanism_codesign::EvaluateResponse reply;
+  try {
+    compute(problem, request, cancel, &reply);
+  } catch (const InputError& error) {
+    refuse("bad_input", error.what(), &reply);
+  } catch (const std::exception& error) {
+    refuse("internal_error", error.what(), &reply);
+  }
+  return reply;
+}
+
+}  // namespace codesign

@@ -1,0 +1,158 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/ros/optimization_node.h"
+
+#include <std_msgs/String.h>
+
+#include <cstdlib>
+#include <future>
+#include <sstream>
+
+#include "mechanism_codesign/model/error.h"
+#include "mechanism_codesign/ros/inputs.h"
+#include "mechanism_codesign/ros/wire.h"
+
+namespace codesign {
+namespace {
+
+/// Two callbacks may wait for their workers; the others answer `busy`.
+constexpr unsigned kDoorThreads = 4;
+
+std::string default_output_directory() {
+  const char* ros_home = std::getenv("ROS_HOME");
+  const char* home = std::getenv("HOME");
+  return (ros_home != nullptr ? std::string(ros_home) : std::string(home != nullptr ? home : ".") + "/.ros") + "/mechanism_codesign";
+}
+
+}  // namespace
+
+OptimizationNode::OptimizationNode() : state_("optimization"), spinner_(kDoorThreads, &queue_) {
+  progress_ = node_.advertise<mechanism_codesign::OptimizationProgress>("optimization_progress", 100, true);
+  tuned_ = node_.advertise<std_msgs::String>("tuned/robot_description", 1, true);
+  load();
+  doors_.setCallbackQueue(&queue_);
+  optimize_ = doors_.advertiseService("optimize", &OptimizationNode::on_optimize, this);
+  evaluate_ = doors_.advertiseService("evaluate", &OptimizationNode::on_evaluate, this);
+  action_ = std::make_unique<ActionServer>(
+      doors_, "optimize", [this](GoalHandle goal) { on_goal(goal); }, [this](GoalHandle goal) { on_cancel(goal); }, false);
+  spinner_.start();
+  action_->start();
+}
+
+OptimizationNode::~OptimizationNode() {
+  optimizer_.finish();
+  evaluator_.finish();
+  spinner_.stop();
+}
+
+void OptimizationNode::load() {
+  try {
+    options_.output_directory = private_node_.param("output_directory", std::string());
+    if (options_.output_directory.empty()) options_.output_directory = default_output_directory();
+    options_.rate = read_positive(private_node_, "rate", options_.rate);
+    const Inputs inputs = read_inputs(node_, private_node_);
+    study_ = inputs.study.text;
+    problem_ = load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings);
+    state_.show("robot", problem_->robot.name);
+    state_.show("output directory", options_.output_directory);
+    state_.set(NodeState::Level::kOk,
+               "ready: " + problem_->robot.name + ", " + std::to_string(problem_->study.tuned.size()) + " parameters to tune");
+  } catch (const InputError& error) {
+    fault_ = error.what();
+    state_.set(NodeState::Level::kError, "bad input: " + fault_);
+  }
+}
+
+bool OptimizationNode::start(const mechanism_codesign::OptimizeGoal& request, const Client& client, Result* refusal) {
+  if (!problem_) {
+    refuse("bad_input", fault_, refusal);
+    return false;
+  }
+  const auto result = std::make_shared<Result>();
+  const auto job = [this, request, client, result](const std::atomic<bool>& cancel) {
+    if (client.begin) client.begin();
+    *result = run(request, client.progress, cancel);
+  };
+  if (optimizer_.try_start(job, [client, result] { client.end(*result); })) return true;
+  refuse("busy", "another optimization is running", refusal);
+  return false;
+}
+
+OptimizationNode::Result OptimizationNode::run(const mechanism_codesign::OptimizeGoal& request, const ProgressObserver& observer,
+                                               const std::atomic<bool>& cancel) {
+  state_.set(NodeState::Level::kOk, "optimizing");
+  const auto publish = [&](const mechanism_codesign::OptimizationProgress& progress) {
+    progress_.publish(progress);
+    state_.show("evaluation", std::to_string(progress.evaluation));
+    state_.show("best objective", std::to_string(progress.best_objective));
+    if (observer) observer(progress);
+  };
+  const OptimizationOutcome outcome = run_optimization(*problem_, study_, request, options_, publish, cancel);
+  if (!outcome.tuned_urdf.empty()) {
+    std_msgs::String description;
+    description.data = outcome.tuned_urdf;
+    tuned_.publish(description);
+  }
+  tell_result(outcome.result);
+  return outcome.result;
+}
+
+void OptimizationNode::tell_result(const Result& result) {
+  std::ostringstream sentence;
+  if (result.success) {
+    sentence << "done: objective " << result.initial_objective << " -> " << result.objective << " (" << result.termination << "), "
+             << result.bag;
+    state_.set(NodeState::Level::kOk, sentence.str());
+  } else {
+    state_.set(NodeState::Level::kWarning, "the last optimization ended with " + result.code + ": " + result.message);
+  }
+}
+
+bool OptimizationNode::on_optimize(mechanism_codesign::Optimize::Request& request, mechanism_codesign::Optimize::Response& response) {
+  const auto done = std::make_shared<std::promise<Result>>();
+  const Client client{{}, {}, [done](const Result& result) { done->set_value(result); }};
+  Result result;
+  if (start(same_fields<mechanism_codesign::OptimizeGoal>(request), client, &result)) result = done->get_future().get();
+  response = same_fields<mechanism_codesign::Optimize::Response>(result);
+  return true;
+}
+
+bool OptimizationNode::on_evaluate(mechanism_codesign::Evaluate::Request& request, mechanism_codesign::Evaluate::Response& response) {
+  if (!problem_) {
+    refuse("bad_input", fault_, &response);
+    return true;
+  }
+  const auto done = std::make_shared<std::promise<void>>();
+  const auto job = [this, &request, &response](const std::atomic<bool>& cancel) { response = run_evaluation(*problem_, request, cancel); };
+  if (evaluator_.try_start(job, [done] { done->set_value(); }))
+    done->get_future().wait();
+  else
+    refuse("busy", "another evaluation is running", &response);
+  return true;
+}
+
+void OptimizationNode::on_goal(GoalHandle goal) {
+  Client client;
+  client.begin = [goal]() mutable { goal.setAccepted(); };
+  client.progress = [goal](const mechanism_codesign::OptimizationProgress& progress) mutable {
+    mechanism_codesign::OptimizeFeedback message;
+    message.progress = progress;
+    goal.publishFeedback(message);
+  };
+  client.end = [goal](const Result& result) mutable {
+    if (result.success)
+      goal.setSucceeded(result);
+    else if (result.code == "cancelled")
+      goal.setCanceled(result, result.message);
+    else
+      goal.setAborted(result, result.message);
+  };
+  Result refusal;
+  if (!start(*goal.getGoal(), client, &refusal)) goal.setRejected(refusal, refusal.message);
+}
+
+void OptimizationNode::on_cancel(GoalHandle goal) {
+  const unsigned char status = goal.getGoalStatus().status;
+  if (status == actionlib_msgs::GoalStatus::RECALLING || status == actionlib_msgs::GoalStatus::PREEMPTING) optimizer_.cancel();
+}
+
+}  // namespace codesign
