@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "mechanism_codesign/model/topology.h"
 #include "mechanism_codesign/model/unknown_name.h"
 
 namespace codesign {
@@ -99,9 +100,11 @@ void check_signal(const SignalDescription& signal, const RobotDescription& robot
 }
 
 std::vector<std::string> default_signals(const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
+  const std::vector<int> pairs = derive_topology(robot).joint_pair;
   Names signals;
-  for (const JointDescription& joint : robot.joints) {
-    if (!has_scalar_position(joint)) continue;
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    const JointDescription& joint = robot.joints[i];
+    if (!has_scalar_position(joint) || pairs[i] < 0) continue;
     signals.push_back(joint.name + "/position");
     signals.push_back(joint.name + "/velocity");
   }

@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "study_controllers.h"
 
+#include <algorithm>
+
 #include "mechanism_codesign/model/signal_catalog.h"
 #include "study_values.h"
 
@@ -15,8 +17,17 @@ void read_gains(const YamlValue& gains, const std::vector<Parameter>& parameters
   if (const auto d = gains.find("d")) controller->d = read_quantity(*d, parameters);
 }
 
+/// A signal could not tell a controller from a joint or link of the same name.
+void refuse_taken_name(const std::string& name, const YamlValue& value, const RobotDescription& robot) {
+  const auto taken = [&name](const auto& item) { return item.name == name; };
+  const bool joint = std::any_of(robot.joints.begin(), robot.joints.end(), taken);
+  const bool link = std::any_of(robot.links.begin(), robot.links.end(), taken);
+  if (joint || link) throw InputError({value.where(), value.path(), "a joint or link has this name", name, "a name of its own"});
+}
+
 ControllerDescription read_controller(const std::string& name, const YamlValue& value, const RobotDescription& robot, const Study& study) {
   value.require_keys({"type", "input", "setpoint", "output", "gains"}, {});
+  refuse_taken_name(name, value, robot);
   ControllerDescription controller;
   controller.name = name;
   controller.where = value.where();

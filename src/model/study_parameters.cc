@@ -1,9 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "study_parameters.h"
 
-#include <cctype>
-
 #include "mechanism_codesign/math/decimal.h"
+#include "mechanism_codesign/model/expression.h"
 #include "mechanism_codesign/model/nearest_name.h"
 #include "parameter_constraint.h"
 #include "study_values.h"
@@ -13,16 +12,10 @@ namespace {
 
 std::string range_of(const Parameter& parameter) { return "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"; }
 
-bool is_identifier(const std::string& name) {
-  if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) != 0) return false;
-  for (const char c : name)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_') return false;
-  return true;
-}
-
 /// A name the model does not know is a new parameter only if the study says where it starts; else it is most likely a slip.
 Parameter new_parameter(const std::string& name, const YamlValue& value, const std::vector<Parameter>& model) {
-  if (!is_identifier(name)) value.fail("a parameter's name must be a word", "letters, digits and _, not a digit first");
+  const std::string fault = identifier_fault(name);
+  if (!fault.empty()) throw InputError({value.where(), value.path(), fault, name, "an identifier that is no function's name"});
   if (value.find("initial")) return {name, 0.0, Parameter().lower, Parameter().upper, "", value.where()};
   const std::string near = nearest_name(name, names_of(model));
   const std::string hint = near.empty() ? "" : ", did you mean \"" + near + "\"?";

@@ -6,21 +6,31 @@
 namespace codesign {
 namespace {
 
-JointDescription joint(const std::string& name, JointType type) {
-  JointDescription description;
+LinkDescription link(const std::string& name, bool massive) {
+  LinkDescription description;
   description.name = name;
-  description.type = type;
+  if (massive) description.inertial.emplace().mass = 1.0;
   return description;
 }
 
+JointDescription joint(const std::string& name, JointType type, int child) {
+  JointDescription description;
+  description.name = name;
+  description.type = type;
+  description.parent = child - 1;
+  description.child = child;
+  return description;
+}
+
+/// A chain from the ground, whose last joint only turns a pointer without mass. One link bears the name of a joint.
 RobotDescription robot() {
   RobotDescription robot;
-  robot.joints = {joint("hinge", JointType::kRevolute), joint("slide", JointType::kPrismatic), joint("plane", JointType::kPlanar),
-                  joint("weld", JointType::kFixed)};
+  robot.links = {link("ground", false), link("arm", true),        link("hinge", true),
+                 link("plate", true),   link("plate_end", false), link("pointer", false)};
+  robot.joints = {joint("hinge", JointType::kRevolute, 1), joint("slide", JointType::kPrismatic, 2), joint("plane", JointType::kPlanar, 3),
+                  joint("weld", JointType::kFixed, 4), joint("needle", JointType::kRevolute, 5)};
   robot.joints[1].friction.emplace();
   robot.joints[2].dry_friction = 0.1;
-  robot.links.push_back({"arm", std::nullopt, {}});
-  robot.links.push_back({"hinge", std::nullopt, {}});
   return robot;
 }
 

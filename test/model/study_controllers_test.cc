@@ -49,6 +49,12 @@ TEST(StudyControllers, RefusesMissingFields) {
   expect_fault(start + "output: crank_joint, gains: {p: 1}, limit: 3}}\n", "controllers.speed.limit", "unknown key", 3);
 }
 
+TEST(StudyControllers, RefusesTheNameOfAJointOrLink) {
+  const std::string rest = ": {type: pid, input: crank_joint/velocity, setpoint: 0, output: crank_joint, gains: {p: 1}}}\n";
+  expect_fault(kLeastStudy + "controllers: {crank_joint" + rest, "controllers.crank_joint", "has this name", 3);
+  expect_fault(kLeastStudy + "controllers: {slider" + rest, "controllers.slider", "has this name", 3);
+}
+
 TEST(StudyControllers, AnInputMayReadEarlierControllersOnly) {
   const std::string outer = "  outer: {type: pid, input: slider_joint/position, setpoint: 0, output: slider_joint, gains: {p: 1}}\n";
   const std::string inner =

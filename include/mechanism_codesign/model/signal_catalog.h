@@ -21,8 +21,8 @@ bool has_friction(const JointDescription& joint);
 void check_signal(const SignalDescription& signal, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers,
                   const std::string& element);
 
-/// What is worth plotting of any run: position and velocity of every joint, friction, normal force and sliding velocity where there is
-/// friction, and each controller's output.
+/// What is worth plotting of any run: position and velocity of every joint that moves a mass, friction, normal force and sliding velocity
+/// where there is friction, and each controller's output.
 std::vector<std::string> default_signals(const RobotDescription& robot, const std::vector<ControllerDescription>& controllers);
 
 }  // namespace codesign
