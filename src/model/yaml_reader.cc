@@ -2,12 +2,11 @@
 #include "yaml_reader.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
-#include <system_error>
 
 #include "mechanism_codesign/model/unknown_name.h"
+#include "number_text.h"
 
 namespace codesign {
 namespace {
@@ -34,16 +33,9 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 }  // namespace
 
 std::optional<double> number_in(const std::string& text) {
-  const char* first = text.data();
-  const char* last = first + text.size();
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') ++first;  // from_chars knows no plus sign
   if (text == ".inf" || text == "+.inf" || text == "-.inf") return std::copysign(HUGE_VAL, text[0] == '-' ? -1.0 : 1.0);
   if (text == ".nan") return std::nan("");
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(first, last, value);
-  if (error == std::errc::result_out_of_range) return HUGE_VAL;
-  if (error != std::errc() || end != last) return std::nullopt;
-  return value;
+  return parse_number(text);
 }
 
 YamlValue YamlValue::parse(const SourceText& source) {

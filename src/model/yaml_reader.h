@@ -61,7 +61,7 @@ class YamlValue {
   std::string path_;
 };
 
-/// The whole text as a number, independent of the locale; nothing if it is none. May be infinite or NaN.
+/// The whole text as a number, as YAML writes them; nothing if it is none. May be infinite or NaN.
 std::optional<double> number_in(const std::string& text);
 
 }  // namespace codesign

@@ -37,12 +37,12 @@ TEST(YamlReader, ReadsNumbersWhateverTheirQuotes) {
   EXPECT_FALSE(number_in("2 m").has_value());
   EXPECT_FALSE(number_in("+-2").has_value());
   EXPECT_FALSE(number_in("").has_value());
-  EXPECT_TRUE(std::isinf(number_in("1e999").value()));
+  EXPECT_TRUE(std::isinf(number_in("-.inf").value()));
   EXPECT_TRUE(std::isnan(number_in(".nan").value()));
 }
 
 TEST(YamlReader, RefusesOtherKinds) {
-  const YamlValue root = parse("map: {}\nlist: []\nword: abc\nhuge: 1e999\nhalf: 0.5\nnothing:\n");
+  const YamlValue root = parse("map: {}\nlist: []\nword: abc\nhuge: .inf\nhalf: 0.5\nnothing:\n");
   EXPECT_EQ(fault_of([&] { root.at("map").number(); }).message, "expected a number, found a map");
   EXPECT_EQ(fault_of([&] { root.at("list").text(); }).message, "expected text, found a list");
   EXPECT_EQ(fault_of([&] { root.at("word").items(); }).message, "expected a list, found a scalar");

@@ -1,0 +1,89 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "cli/arguments.h"
+
+#include <gtest/gtest.h>
+
+namespace codesign::cli {
+namespace {
+
+void expect_usage_error(const std::vector<std::string>& words, const std::string& message) {
+  try {
+    parse_arguments(words);
+    ADD_FAILURE() << message;
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+  }
+}
+
+TEST(Arguments, TakesCommandModelAndStudy) {
+  const Arguments arguments = parse_arguments({"gradient", "a.urdf", "a.yaml"});
+  EXPECT_EQ(arguments.command, "gradient");
+  EXPECT_EQ(arguments.model, "a.urdf");
+  EXPECT_EQ(arguments.study, "a.yaml");
+  EXPECT_FALSE(arguments.json);
+  EXPECT_FALSE(arguments.verify);
+  EXPECT_EQ(arguments.samples, 101);
+}
+
+TEST(Arguments, CheckNeedsNoStudy) {
+  EXPECT_EQ(parse_arguments({"check", "a.urdf"}).study, "");
+  expect_usage_error({"check"}, "needs a MODEL");
+  for (const char* command : {"simulate", "gradient", "optimize"}) expect_usage_error({command, "a.urdf"}, "needs a STUDY");
+}
+
+TEST(Arguments, OptionsStandAnywhereAndTakeEitherSpelling) {
+  const Arguments arguments = parse_arguments({"optimize", "--json", "a.urdf", "--set", "Kp=-1.5", "--overlay=o.urdf", "a.yaml",
+                                               "--overlay", "p.urdf", "--set=crank_length=7e-2", "--output", "out"});
+  EXPECT_TRUE(arguments.json);
+  EXPECT_EQ(arguments.overlays, (std::vector<std::string>{"o.urdf", "p.urdf"}));
+  EXPECT_EQ(arguments.settings, (ParameterSettings{{"Kp", -1.5}, {"crank_length", 0.07}}));
+  EXPECT_EQ(arguments.output, "out");
+  EXPECT_EQ(arguments.study, "a.yaml");
+}
+
+TEST(Arguments, SimulateTakesSignalsFileAndSamples) {
+  const Arguments arguments =
+      parse_arguments({"simulate", "m", "s", "--signals", "a/velocity,b/velocity - c/velocity", "--csv", "f", "--samples=11"});
+  EXPECT_EQ(arguments.signals, (std::vector<std::string>{"a/velocity", "b/velocity - c/velocity"}));
+  EXPECT_EQ(arguments.csv, "f");
+  EXPECT_EQ(arguments.samples, 11);
+  expect_usage_error({"simulate", "m", "s", "--samples", "1"}, "less than 2");
+  expect_usage_error({"simulate", "m", "s", "--samples", "ten"}, "not a number");
+  expect_usage_error({"simulate", "m", "s", "--signals", "a/velocity,"}, "empty name");
+  expect_usage_error({"simulate", "m", "s", "--signals="}, "needs a value");
+}
+
+TEST(Arguments, VerifyTakesAMethod) {
+  EXPECT_TRUE(parse_arguments({"gradient", "m", "s", "--verify"}).verify);
+  EXPECT_EQ(parse_arguments({"gradient", "m", "s", "--verify"}).method, CheckMethod::kComplexStep);
+  EXPECT_EQ(parse_arguments({"gradient", "--verify=ridders", "m", "s"}).method, CheckMethod::kRidders);
+  EXPECT_EQ(parse_arguments({"gradient", "--verify", "m", "s"}).model, "m");
+  expect_usage_error({"gradient", "m", "s", "--verify=guess"}, "neither complex_step nor ridders");
+}
+
+TEST(Arguments, RefusesWhatItDoesNotKnow) {
+  expect_usage_error({}, "no command");
+  expect_usage_error({"optimise", "m", "s"}, "unknown command \"optimise\", did you mean \"optimize\"?");
+  expect_usage_error({"check", "m", "--jsn"}, "unknown option \"--jsn\", did you mean \"--json\"?");
+  expect_usage_error({"check", "m", "--verify"}, "\"check\" takes no --verify");
+  expect_usage_error({"check", "m", "s", "extra"}, "unexpected \"extra\"");
+  expect_usage_error({"check", "m", ""}, "empty argument");
+}
+
+TEST(Arguments, RefusesMissingAndSurplusValues) {
+  expect_usage_error({"check", "m", "--overlay"}, "--overlay needs a value");
+  expect_usage_error({"check", "m", "--overlay="}, "--overlay needs a value");
+  expect_usage_error({"check", "m", "--json=yes"}, "--json takes no value");
+  expect_usage_error({"check", "m", "--set", "Kp"}, "expected PARAMETER=VALUE");
+  expect_usage_error({"check", "m", "--set", "=1"}, "expected PARAMETER=VALUE");
+  expect_usage_error({"check", "m", "--set", "Kp=1m"}, "\"1m\" is not a number");
+}
+
+TEST(Arguments, HelpWinsOverEverything) {
+  EXPECT_EQ(parse_arguments({"help"}).command, "help");
+  EXPECT_EQ(parse_arguments({"--help"}).command, "help");
+  EXPECT_EQ(parse_arguments({"optimize", "--bogus", "-h"}).command, "help");
+}
+
+}  // namespace
+}  // namespace codesign::cli

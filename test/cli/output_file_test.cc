@@ -1,0 +1,51 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "cli/output_file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <sstream>
+
+#include "mechanism_codesign/model/error.h"
+
+namespace codesign::cli {
+namespace {
+
+std::string scratch(const std::string& name) { return (std::filesystem::path(testing::TempDir()) / ("output_file_" + name)).string(); }
+
+TEST(OutputFile, WritesWholeFilesIntoNewFolders) {
+  const std::string folder = scratch("new");
+  std::filesystem::remove_all(folder);
+  make_folder(folder + "/deeper", "--output");
+  make_folder(folder + "/deeper", "--output");
+  write_file(folder + "/deeper/text", "two\nlines\n");
+  std::ifstream file(folder + "/deeper/text");
+  std::ostringstream text;
+  text << file.rdbuf();
+  EXPECT_EQ(text.str(), "two\nlines\n");
+  std::filesystem::remove_all(folder);
+}
+
+TEST(OutputFile, NamesTheOptionAndThePath) {
+  const std::string path = scratch("missing") + "/run.csv";
+  std::ofstream file;
+  try {
+    open_output(path, "--csv", &file);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.fault().where.file, path);
+    EXPECT_EQ(error.fault().element, "--csv");
+  }
+}
+
+TEST(OutputFile, RefusesAFolderThatIsAFile) {
+  const std::string path = scratch("file");
+  write_file(path, "x");
+  EXPECT_THROW(make_folder(path, "--output"), InputError);
+  EXPECT_THROW(make_folder(path + "/below", "--output"), InputError);
+  EXPECT_THROW(write_file(path + "/below", "x"), std::runtime_error);
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace codesign::cli
