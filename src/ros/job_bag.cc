@@ -71,14 +71,31 @@ geometry_msgs::TransformStamped place(const std::string& side, double y) {
   return transform;
 }
 
-void write_head(const JobRecord& record, double separation, Writer* writer) {
+visualization_msgs::Marker label(const std::string& side, const SceneLayout& layout) {
+  visualization_msgs::Marker marker;
+  marker.header.stamp = ros::Time(kStart);
+  marker.header.frame_id = side;
+  marker.ns = side;
+  marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
+  marker.text = side;
+  marker.pose.position.z = layout.label_height;
+  marker.pose.orientation.w = 1.0;
+  marker.scale.z = layout.label_size;
+  marker.color.a = 1.0F;
+  return marker;
+}
+
+void write_head(const JobRecord& record, const SceneLayout& layout, Writer* writer) {
   writer->write_text("study", record.study);
   writer->write_text("initial/robot_description", record.initial.urdf);
   writer->write_text("tuned/robot_description", record.tuned.urdf);
   writer->write_latched("request", 0.0, record.request);
   tf2_msgs::TFMessage places;
-  places.transforms = {place("initial", 0.5 * separation), place("tuned", -0.5 * separation)};
+  places.transforms = {place("initial", 0.5 * layout.separation), place("tuned", -0.5 * layout.separation)};
   writer->write_latched("tf_static", 0.0, places);
+  visualization_msgs::MarkerArray labels;
+  labels.markers = {label("initial", layout), label("tuned", layout)};
+  writer->write_latched("labels", 0.0, labels);
 }
 
 void write_progress(const JobRecord& record, double duration, Writer* writer) {
@@ -93,7 +110,7 @@ void write_progress(const JobRecord& record, double duration, Writer* writer) {
 
 void write_contents(const JobRecord& record, Writer* writer) {
   const SceneLayout layout = lay_out(record.initial.run, record.tuned.run);
-  write_head(record, layout.separation, writer);
+  write_head(record, layout, writer);
   const std::size_t count = std::max(record.initial.run.frames.size(), record.tuned.run.frames.size());
   double duration = 0.0;
   for (const RecordedRun* run : {&record.initial.run, &record.tuned.run})

@@ -45,6 +45,8 @@ SceneLayout lay_out(const RecordedRun& initial, const RecordedRun& tuned) {
   const double size = std::max(extent.box.sizes().maxCoeff(), 1e-3);
   SceneLayout layout;
   layout.separation = extent.box.sizes().y() + 0.5 * size;
+  layout.label_height = extent.box.max().z() + 0.15 * size;
+  layout.label_size = 0.08 * size;
   layout.style.shaft_diameter = 0.02 * size;
   if (extent.force > 0.0) layout.style.metres_per_newton = size / (3.0 * extent.force);
   if (extent.torque > 0.0) layout.style.metres_per_newton_metre = size / (3.0 * extent.torque);

@@ -23,6 +23,7 @@ SimulationOptions read_simulation_options(const ros::NodeHandle& private_node) {
   SimulationOptions options;
   options.rate = read_positive(private_node, "rate", options.rate);
   options.time_scale = read_positive(private_node, "time_scale", options.time_scale);
+  options.world_frame = private_node.param("world_frame", options.world_frame);
   options.loop = private_node.param("loop", options.loop);
   options.style.metres_per_newton = read_positive(private_node, "force_scale", options.style.metres_per_newton);
   options.style.metres_per_newton_metre = read_positive(private_node, "torque_scale", options.style.metres_per_newton_metre);
@@ -64,11 +65,23 @@ void SimulationNode::load() {
   if (clock_.is_free_running()) clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", kQueueSize);
 }
 
+void SimulationNode::place_root() {
+  const std::string& root = problem_.robot.links[static_cast<std::size_t>(problem_.robot.root)].name;
+  if (options_.world_frame.empty() || options_.world_frame == root) return;
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = clock_.stamp(0.0);
+  transform.header.frame_id = options_.world_frame;
+  transform.child_frame_id = root;
+  transform.transform.rotation.w = 1.0;
+  static_transforms_.sendTransform(transform);
+}
+
 void SimulationNode::run() {
   double previous_duration = 0.0;
   state_.set(NodeState::Level::kOk, "running " + problem_.robot.name);
   do {
     clock_.start_run(previous_duration);
+    if (previous_duration == 0.0) place_root();
     const Status status = run_once();
     if (stopping()) return;
     if (!status.ok()) return state_.set(NodeState::Level::kError, std::string(name_of(status.code)) + ": " + at_time(status));

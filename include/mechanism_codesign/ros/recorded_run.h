@@ -23,7 +23,9 @@ RecordedRun record_run(const Problem& problem, const std::vector<double>& parame
 
 /// How the initial and the tuned run are shown together.
 struct SceneLayout {
-  double separation = 0.0;  ///< of the tuned mechanism from the initial one, along y [m]
+  double separation = 0.0;    ///< of the tuned mechanism from the initial one, along -y [m]
+  double label_height = 0.0;  ///< where their names stand, above the root link [m]
+  double label_size = 0.0;    ///< [m]
   MarkerStyle style;
 };
 

@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_ROS_SIMULATION_NODE_H_
 
 #include <ros/node_handle.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <atomic>
@@ -20,11 +21,12 @@ namespace codesign {
 struct SimulationOptions {
   double rate = 50.0;       ///< frames per second of the run
   double time_scale = 1.0;  ///< seconds of the run per second; 0: as fast as possible, with /clock
+  std::string world_frame;  ///< a TF frame at the root link, for viewers that do not know its name; empty: none
   bool loop = false;        ///< start again when the study's duration is over
   MarkerStyle style;
 };
 
-/// Reads `~rate`, `~mode`, `~time_scale`, `~loop`, `~force_scale`, `~torque_scale` and `~arrow_width`. @throws InputError
+/// Reads `~rate`, `~mode`, `~time_scale`, `~loop`, `~world_frame`, `~force_scale`, `~torque_scale` and `~arrow_width`. @throws InputError
 SimulationOptions read_simulation_options(const ros::NodeHandle& private_node);
 
 /// The node `simulation`: runs the loaded study and publishes it. See doc/ros_api.md.
@@ -40,6 +42,7 @@ class SimulationNode {
   void run();
   /// One run from 0 to the study's duration; the status tells why it ended before.
   Status run_once();
+  void place_root();
   void publish(const FrameNames& names, const Frame& frame);
   bool stopping() const { return stopping_ || !ros::ok(); }
 
@@ -51,6 +54,7 @@ class SimulationNode {
   std::map<std::string, ros::Publisher> publishers_;
   ros::Publisher clock_publisher_;
   tf2_ros::TransformBroadcaster transforms_;
+  tf2_ros::StaticTransformBroadcaster static_transforms_;
   std::atomic<bool> stopping_{false};
   std::thread thread_;  // last: it uses all of the above
 };

@@ -1,0 +1,95 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/ros/conversions.h"
+
+#include <gtest/gtest.h>
+
+#include "sample_frame.h"
+
+namespace codesign {
+namespace {
+
+const MessageContext kContext{ros::Time(12, 500), "ground"};
+
+using Numbers = std::vector<double>;
+using Names = std::vector<std::string>;
+
+TEST(Conversions, JointStatesHoldTheTreeJointsAndNoLoop) {
+  const auto message = joint_states(sample_names(), sample_frame(0.0), kContext);
+  EXPECT_EQ(message.header.stamp, kContext.stamp);
+  EXPECT_EQ(message.name, (Names{"cart_joint", "hinge"}));
+  EXPECT_EQ(message.position, (Numbers{1.0, 5.0}));
+  EXPECT_EQ(message.velocity, (Numbers{2.0, 6.0}));
+  EXPECT_EQ(message.effort, (Numbers{4.0, 8.0}));
+}
+
+TEST(Conversions, FrictionSaysWhetherItIsATorque) {
+  const auto message = joint_friction(sample_names(), sample_frame(0.0), kContext);
+  EXPECT_EQ(message.header.frame_id, "ground");
+  EXPECT_EQ(message.name, (Names{"cart_joint", "hinge"}));
+  ASSERT_EQ(message.is_torque.size(), 2U);
+  EXPECT_FALSE(message.is_torque[0]);
+  EXPECT_TRUE(message.is_torque[1]);
+  EXPECT_EQ(message.friction, (Numbers{-0.75, 0.25}));
+  EXPECT_EQ(message.normal_force, (Numbers{2.5, 1.5}));
+  EXPECT_EQ(message.sliding_velocity, (Numbers{-0.5, 0.125}));
+}
+
+TEST(Conversions, ControllersAndLoops) {
+  const auto controllers = controller_states(sample_names(), sample_frame(0.0), kContext);
+  EXPECT_EQ(controllers.name, Names{"speed"});
+  EXPECT_EQ(controllers.setpoint, Numbers{10.0});
+  EXPECT_EQ(controllers.input, Numbers{8.0});
+  EXPECT_EQ(controllers.error, Numbers{2.0});
+  EXPECT_EQ(controllers.integral, Numbers{0.5});
+  EXPECT_EQ(controllers.output, Numbers{20.0});
+  const auto loops = loop_errors(sample_names(), sample_frame(0.0), kContext);
+  EXPECT_EQ(loops.name, Names{"loop_joint"});
+  EXPECT_EQ(loops.error, Numbers{1e-9});
+}
+
+void expect_transform(const geometry_msgs::TransformStamped& transform, const std::string& parent, const std::string& child,
+                      const Eigen::Vector3d& position, double yaw) {
+  EXPECT_EQ(transform.header.frame_id, parent);
+  EXPECT_EQ(transform.child_frame_id, child);
+  EXPECT_NEAR(transform.transform.translation.x, position.x(), 1e-15);
+  EXPECT_NEAR(transform.transform.translation.y, position.y(), 1e-15);
+  EXPECT_NEAR(transform.transform.translation.z, position.z(), 1e-15);
+  EXPECT_NEAR(transform.transform.rotation.w, std::cos(yaw / 2), 1e-15);
+  EXPECT_NEAR(transform.transform.rotation.z, std::sin(yaw / 2), 1e-15);
+}
+
+TEST(Conversions, AFreeLinkIsPlacedRelativeToItsParent) {
+  const auto message = free_link_transforms(sample_names(), sample_frame(0.0), kContext);
+  ASSERT_EQ(message.transforms.size(), 1U);
+  // Two metres along the world's y are two metres along the x of a cart turned by 90 degrees.
+  expect_transform(message.transforms[0], "cart", "plate", {2.0, 0.0, 0.0}, EIGEN_PI / 2);
+}
+
+TEST(Conversions, AllLinksArePlacedRelativeToThePrefixedRoot) {
+  const auto message = all_link_transforms(sample_names(), sample_frame(0.0), kContext.stamp, "tuned/");
+  ASSERT_EQ(message.transforms.size(), 3U);
+  expect_transform(message.transforms[0], "tuned", "tuned/ground", {0.0, 0.0, 0.0}, 0.0);
+  expect_transform(message.transforms[1], "tuned/ground", "tuned/cart", {1.0, 0.0, 0.0}, EIGEN_PI / 2);
+  expect_transform(message.transforms[2], "tuned/ground", "tuned/plate", {1.0, 2.0, 0.0}, EIGEN_PI);
+}
+
+TEST(Conversions, ProgressOfAFailedTrialSaysWhy) {
+  Trial trial;
+  trial.evaluation = 7;
+  trial.iteration = 3;
+  trial.status = {StatusCode::kAssemblyFailed, 0.0, "the rod is too short"};
+  trial.rho = Eigen::Vector2d(0.25, 0.5);
+  trial.best_objective = 1.5;
+  const auto message = optimization_progress(trial, {"a", "b"}, kContext.stamp);
+  EXPECT_EQ(message.evaluation, 7U);
+  EXPECT_EQ(message.iteration, 3U);
+  EXPECT_EQ(message.code, "assembly_failed");
+  EXPECT_EQ(message.message, "the rod is too short");
+  EXPECT_EQ(message.parameters, (Names{"a", "b"}));
+  EXPECT_EQ(message.values, (Numbers{0.25, 0.5}));
+  EXPECT_TRUE(message.gradient.empty());
+  EXPECT_EQ(message.best_objective, 1.5);
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,128 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/ros/job_bag.h"
+
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/JointState.h>
+#include <std_msgs/String.h>
+
+#include <fstream>
+#include <map>
+#include <regex>
+
+#include "mechanism_codesign/ros/conversions.h"
+#include "sample_frame.h"
+#include "temporary_directory.h"
+
+namespace codesign {
+namespace {
+
+JobRecord sample_record() {
+  JobRecord record;
+  const RecordedRun run{sample_names(), {sample_frame(0.0), sample_frame(0.5), sample_frame(1.0)}, {}};
+  record.initial = {"<robot name='before'/>", run};
+  record.tuned = {"<robot name='after'/>", run};
+  record.progress.resize(5);
+  record.request.max_evaluations = 9;
+  record.result.objective = 0.25;
+  record.study = "duration: 1.0";
+  return record;
+}
+
+class JobBag : public testing::Test {
+ protected:
+  void SetUp() override {
+    path_ = (directory_.path() / "a.bag").string();
+    write_bag(path_, sample_record());
+    bag_.open(path_, rosbag::bagmode::Read);
+  }
+
+  template <class Message>
+  std::vector<boost::shared_ptr<Message>> read(const std::string& topic) {
+    std::vector<boost::shared_ptr<Message>> messages;
+    rosbag::View view(bag_, rosbag::TopicQuery(topic));
+    for (const rosbag::MessageInstance& instance : view) messages.push_back(instance.instantiate<Message>());
+    return messages;
+  }
+
+  TemporaryDirectory directory_;
+  std::string path_;
+  rosbag::Bag bag_;
+};
+
+TEST_F(JobBag, HoldsBothRunsAndEverythingAroundThem) {
+  std::map<std::string, int> counts;
+  rosbag::View view(bag_);
+  for (const rosbag::MessageInstance& instance : view) ++counts[instance.getTopic()];
+  std::map<std::string, int> expected{{"study", 1},     {"request", 1}, {"result", 1}, {"optimization_progress", 5},
+                                      {"tf_static", 1}, {"labels", 1},  {"tf", 6}};
+  for (const std::string side : {"initial/", "tuned/"}) {
+    expected[side + "robot_description"] = 1;
+    for (const char* topic : {"joint_states", "joint_friction", "controller_states", "loop_errors", "friction_markers"})
+      expected[side + topic] = 3;
+  }
+  EXPECT_EQ(counts, expected);
+}
+
+TEST_F(JobBag, ContentsSurvive) {
+  EXPECT_EQ(read<std_msgs::String>("initial/robot_description").at(0)->data, "<robot name='before'/>");
+  EXPECT_EQ(read<std_msgs::String>("tuned/robot_description").at(0)->data, "<robot name='after'/>");
+  EXPECT_EQ(read<std_msgs::String>("study").at(0)->data, "duration: 1.0");
+  EXPECT_EQ(read<mechanism_codesign::OptimizeGoal>("request").at(0)->max_evaluations, 9U);
+  EXPECT_EQ(read<mechanism_codesign::OptimizeResult>("result").at(0)->objective, 0.25);
+}
+
+TEST_F(JobBag, RecordedTimeStartsAtOneSecondAndAgreesWithTheStamps) {
+  rosbag::View view(bag_);
+  EXPECT_EQ(view.getBeginTime(), ros::Time(1.0));
+  EXPECT_EQ(view.getEndTime(), ros::Time(2.0));
+  const auto states = read<sensor_msgs::JointState>("tuned/joint_states");
+  EXPECT_EQ(states.at(1)->header.stamp, ros::Time(1.5));
+  EXPECT_EQ(states.at(1)->header.frame_id, "tuned/ground");
+  const auto progress = read<mechanism_codesign::OptimizationProgress>("optimization_progress");
+  EXPECT_EQ(progress.at(1)->header.stamp, ros::Time(1.25));
+}
+
+TEST_F(JobBag, DescriptionsAndPlacesAreLatched) {
+  rosbag::View view(bag_);
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+    const auto latching = connection->header->find("latching");
+    const bool is_latched = latching != connection->header->end() && latching->second == "1";
+    const bool is_run = connection->topic == "tf" || connection->datatype.find("Joint") != std::string::npos ||
+                        connection->topic.find("_states") != std::string::npos || connection->topic.find("_errors") != std::string::npos ||
+                        connection->topic.find("_markers") != std::string::npos;
+    EXPECT_NE(is_latched, is_run) << connection->topic;
+  }
+}
+
+TEST_F(JobBag, NothingUnfinishedIsLeft) { EXPECT_FALSE(std::filesystem::exists(path_ + ".active")); }
+
+TEST(NewBagPath, NamesTheRobotAndTheTimeInADirectoryItMakes) {
+  const TemporaryDirectory directory;
+  const std::string path = new_bag_path((directory.path() / "a/b").string(), "slider_crank");
+  EXPECT_TRUE(std::regex_match(path, std::regex(directory.path().string() + R"(/a/b/slider_crank_\d{4}-\d\d-\d\d-\d\d-\d\d-\d\d\.bag)")))
+      << path;
+  EXPECT_TRUE(std::filesystem::is_directory(directory.path() / "a/b"));
+}
+
+TEST(NewBagPath, ARobotsNameCannotLeadOutOfTheDirectory) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path path = new_bag_path(directory.path().string(), "../../etc/evil robot");
+  EXPECT_EQ(path.parent_path(), directory.path());
+}
+
+TEST(NewBagPath, NeverNamesABagThatIsThere) {
+  const TemporaryDirectory directory;
+  const std::string first = new_bag_path(directory.path().string(), "r");
+  std::ofstream(first + ".active") << "unfinished";
+  const std::string second = new_bag_path(directory.path().string(), "r");
+  EXPECT_NE(first, second);
+}
+
+TEST(WriteBag, AFullOrMissingDirectoryIsAnError) {
+  EXPECT_THROW(write_bag("/nonexistent_directory/a.bag", sample_record()), rosbag::BagException);
+}
+
+}  // namespace
+}  // namespace codesign

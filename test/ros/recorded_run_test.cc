@@ -1,0 +1,35 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/ros/recorded_run.h"
+
+#include <gtest/gtest.h>
+
+#include "sample_frame.h"
+
+namespace codesign {
+namespace {
+
+RecordedRun sample_run(double force) {
+  RecordedRun run{sample_names(), {sample_frame(0.0), sample_frame(0.1)}, {}};
+  run.frames[1].frictions[0].force = {0.0, force, 0.0};
+  return run;
+}
+
+TEST(LayOut, TheMechanismsStandClearOfEachOther) {
+  // The sample's links span 1 m along x and 2 m along y.
+  EXPECT_DOUBLE_EQ(lay_out(sample_run(1.0), sample_run(1.0)).separation, 2.0 + 0.5 * 2.0);
+}
+
+TEST(LayOut, TheLargestArrowOfBothRunsIsAThirdOfTheMechanism) {
+  const SceneLayout layout = lay_out(sample_run(1.0), sample_run(50.0));
+  EXPECT_DOUBLE_EQ(layout.style.metres_per_newton * 50.0, 2.0 / 3.0);
+  EXPECT_DOUBLE_EQ(layout.style.metres_per_newton_metre * 2.0, 2.0 / 3.0);
+}
+
+TEST(LayOut, WithoutFramesItStaysFinite) {
+  const SceneLayout layout = lay_out({}, {});
+  EXPECT_GT(layout.style.shaft_diameter, 0.0);
+  EXPECT_TRUE(std::isfinite(layout.style.metres_per_newton));
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,42 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/ros/wire.h"
+
+#include <gtest/gtest.h>
+#include <mechanism_codesign/Optimize.h>
+#include <mechanism_codesign/OptimizeGoal.h>
+#include <mechanism_codesign/OptimizeResult.h>
+
+namespace codesign {
+namespace {
+
+// That the service and the action say the same is checked when this compiles.
+TEST(Wire, ARequestBecomesAGoal) {
+  mechanism_codesign::OptimizeRequest request;
+  request.parameters = {"a", "b"};
+  request.start = {1.0, 2.0};
+  request.max_evaluations = 7;
+  request.algorithm = "mma";
+  request.relative_tolerance = 1e-3;
+  const auto goal = same_fields<mechanism_codesign::OptimizeGoal>(request);
+  EXPECT_EQ(goal.parameters, request.parameters);
+  EXPECT_EQ(goal.start, request.start);
+  EXPECT_EQ(goal.max_evaluations, 7U);
+  EXPECT_EQ(goal.algorithm, "mma");
+  EXPECT_EQ(goal.relative_tolerance, 1e-3);
+}
+
+TEST(Wire, AResultBecomesAResponse) {
+  mechanism_codesign::OptimizeResult result;
+  result.success = 1;
+  result.tuned = {0.5};
+  result.cpu_seconds = 2.0;
+  result.bag = "x.bag";
+  const auto response = same_fields<mechanism_codesign::OptimizeResponse>(result);
+  EXPECT_TRUE(response.success);
+  EXPECT_EQ(response.tuned, result.tuned);
+  EXPECT_EQ(response.cpu_seconds, 2.0);
+  EXPECT_EQ(response.bag, "x.bag");
+}
+
+}  // namespace
+}  // namespace codesign
