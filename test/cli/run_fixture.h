@@ -1,0 +1,81 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_CLI_RUN_FIXTURE_H_
+#define MECHANISM_CODESIGN_TEST_CLI_RUN_FIXTURE_H_
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/json_output.h"
+
+namespace codesign::cli {
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+inline Outcome run_words(const std::vector<std::string>& words, bool cancelled = false) {
+  std::ostringstream out, err;
+  const std::atomic<bool> cancel{cancelled};
+  Outcome outcome;
+  outcome.code = run(words, {out, err, cancel});
+  outcome.out = out.str();
+  outcome.err = err.str();
+  return outcome;
+}
+
+/// The one JSON object on standard output.
+inline Json json_of(const Outcome& outcome) {
+  Json object = Json::parse(outcome.out, nullptr, false);
+  EXPECT_TRUE(object.is_object()) << outcome.out << outcome.err;
+  return object;
+}
+
+inline std::string shipped(const std::string& path) { return std::string(CODESIGN_SOURCE_DIR) + "/" + path; }
+
+inline std::string read_text_file(const std::string& path) {
+  std::ifstream file(path);
+  EXPECT_TRUE(file.good()) << path;
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// A folder of the running test, empty at first and gone afterwards.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
+    path_ = std::filesystem::path(testing::TempDir()) / (std::string(test->test_suite_name()) + "_" + test->name());
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  ~ScratchFolder() { std::filesystem::remove_all(path_); }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  std::string path(const std::string& name) const { return (path_ / name).string(); }
+
+  /// Writes `text` with the first `from` replaced by `to`, and returns the file's path.
+  std::string edited(const std::string& name, std::string text, const std::string& from, const std::string& to) const {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    if (at != std::string::npos) text.replace(at, from.size(), to);
+    std::ofstream(path(name)) << text;
+    return path(name);
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace codesign::cli
+
+#endif  // MECHANISM_CODESIGN_TEST_CLI_RUN_FIXTURE_H_

@@ -1,0 +1,134 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// The four commands from end to end on a shipped case.
+#include <gtest/gtest.h>
+
+#include "cli/run_fixture.h"
+
+namespace codesign::cli {
+namespace {
+
+const std::string kModel = shipped("urdf/slider_crank.urdf");
+const std::string kStudy = shipped("config/slider_crank.yaml");
+const std::vector<std::string> kTuned = {"crank_length", "rod_length", "slider_length", "slider_width", "Kp"};
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+void expect_keys(const Json& object, const std::vector<std::string>& keys) {
+  for (const std::string& key : keys) EXPECT_TRUE(object.contains(key)) << key;
+}
+
+TEST(SliderCrank, CheckPrintsThePapersTable) {
+  const Outcome outcome = run_words({"check", kModel, kStudy});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  for (const char* row : {"bodies", "coordinates", "first-order equations", "degrees of freedom", "dynamic equations", "equations in all"})
+    EXPECT_NE(outcome.out.find(row), std::string::npos) << row;
+  const Json counts = json_of(run_words({"check", kModel, kStudy, "--json"}))["counts"];
+  const std::vector<std::pair<std::string, int>> expected = {
+      {"bodies", 3},          {"coordinates", 21},          {"first_order_equations", 42}, {"degrees_of_freedom", 1},
+      {"constraints", 20},    {"redundant_constraints", 0}, {"dynamic_equations", 62},     {"parameters", 5},
+      {"sensitivities", 310}, {"total_equations", 372}};
+  for (const auto& [key, value] : expected) EXPECT_EQ(counts[key], value) << key;
+}
+
+TEST(SliderCrank, CheckTakesAMechanismAlone) {
+  const Json object = json_of(run_words({"check", kModel, "--json", "--set", "crank_length=0.07"}));
+  EXPECT_EQ(object["counts"]["parameters"], 0);
+  EXPECT_EQ(object["counts"]["total_equations"], 62);
+  EXPECT_EQ(object["parameters"]["crank_length"], 0.07);
+  EXPECT_FALSE(object["parameters"].contains("Kp"));
+}
+
+TEST(SliderCrank, SimulateWritesTheSignalsAskedFor) {
+  const Outcome outcome =
+      run_words({"simulate", kModel, kStudy, "--signals", "crank_joint/velocity,slider_joint/position", "--samples", "3"});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  const std::vector<std::string> lines = lines_of(outcome.out);
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_EQ(lines[0], "time,crank_joint/velocity,slider_joint/position");
+  EXPECT_EQ(lines[1].substr(0, 2), "0,");
+  EXPECT_NEAR(std::stod(lines[1].substr(2)), -10.0, 1e-9);
+  EXPECT_EQ(lines[2].substr(0, 2), "1,");
+  EXPECT_EQ(lines[3].substr(0, 2), "2,");
+}
+
+TEST(SliderCrank, SimulateGivesSeriesAndObjectiveAsJson) {
+  const ScratchFolder folder;
+  const Outcome outcome = run_words({"simulate", kModel, kStudy, "--json", "--csv", folder.path("run.csv")});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  const Json object = json_of(outcome);
+  expect_keys(object, {"objective", "parameters", "steps", "rejected_steps", "cpu_seconds", "counts", "series"});
+  EXPECT_NEAR(object["objective"].get<double>() / 0.05925272691, 1.0, 1e-4);
+  expect_keys(object["series"], {"time", "crank_joint/position", "slider_joint/velocity", "slider_joint/friction",
+                                 "slider_joint/normal_force", "slider_joint/sliding_velocity", "crank_speed/output"});
+  EXPECT_EQ(object["series"]["time"].size(), 101U);
+  EXPECT_EQ(object["series"]["slider_joint/friction"].size(), 101U);
+  EXPECT_EQ(lines_of(read_text_file(folder.path("run.csv"))).size(), 102U);
+}
+
+TEST(SliderCrank, GradientIsGivenByName) {
+  const Outcome outcome = run_words({"gradient", kModel, kStudy, "--json"});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  const Json object = json_of(outcome);
+  expect_keys(object, {"objective", "gradient", "parameters", "steps", "rejected_steps", "cpu_seconds", "counts"});
+  expect_keys(object["gradient"], kTuned);
+  EXPECT_NEAR(object["gradient"]["slider_width"].get<double>() / 3.578859, 1.0, 1e-3);
+  EXPECT_FALSE(object.contains("verification"));
+}
+
+TEST(SliderCrank, VerifySetsAReferenceBesideTheGradient) {
+  const Outcome outcome = run_words({"gradient", kModel, kStudy, "--verify", "--json"});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  const Json verification = json_of(outcome)["verification"];
+  EXPECT_EQ(verification["method"], "complex_step");
+  expect_keys(verification["reference"], kTuned);
+  EXPECT_LT(verification["largest_relative_difference"].get<double>(), 1e-6);
+  const std::string table = run_words({"gradient", kModel, kStudy, "--verify"}).out;
+  EXPECT_NE(table.find("complex_step"), std::string::npos);
+  EXPECT_NE(table.find("largest relative difference"), std::string::npos);
+}
+
+TEST(SliderCrank, OptimizeWritesItsFolder) {
+  const ScratchFolder folder;
+  const std::string study = folder.edited("study.yaml", read_text_file(kStudy), "max_evaluations: 200", "max_evaluations: 4");
+  const Outcome outcome = run_words({"optimize", kModel, study, "--json", "--output", folder.path("job")});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  const Json object = json_of(outcome);
+  expect_keys(object, {"objective", "initial_objective", "gradient", "parameters", "initial_parameters", "iterations", "evaluations",
+                       "termination", "steps", "rejected_steps", "cpu_seconds", "counts"});
+  EXPECT_LT(object["objective"].get<double>(), object["initial_objective"].get<double>());
+  EXPECT_EQ(Json::parse(read_text_file(folder.path("job/result.json"))), object);
+  const std::vector<std::string> convergence = lines_of(read_text_file(folder.path("job/convergence.csv")));
+  EXPECT_EQ(convergence.at(0),
+            "evaluation,iteration,status,objective,best_objective,gradient_norm,crank_length,rod_length,slider_length,slider_width,Kp");
+  EXPECT_EQ(convergence.size(), 1U + object["evaluations"].get<std::size_t>());
+  for (const char* name : {"job/initial.csv", "job/tuned.csv"}) EXPECT_EQ(lines_of(read_text_file(folder.path(name))).size(), 102U) << name;
+  const Json tuned = json_of(run_words({"check", folder.path("job/tuned.urdf"), "--json"}));
+  EXPECT_NEAR(tuned["parameters"]["crank_length"].get<double>(), object["parameters"]["crank_length"].get<double>(), 1e-15);
+}
+
+TEST(SliderCrank, ACancelledOptimizationKeepsItsBestPoint) {
+  const Outcome outcome = run_words({"optimize", kModel, kStudy, "--json"}, true);
+  EXPECT_EQ(outcome.code, kFailed);
+  const Json object = json_of(outcome);
+  EXPECT_EQ(object["termination"], "cancelled");
+  EXPECT_EQ(object["error"]["code"], "cancelled");
+}
+
+TEST(SliderCrank, ADesignThatCannotBeAssembledFailsWithItsStatus) {
+  const ScratchFolder folder;
+  const std::string model =
+      folder.edited("model.urdf", read_text_file(shipped("urdf/slider_crank_haug.urdf")), "name=\"rod_length\" value=\"0.3\" lower=\"0.2\"",
+                    "name=\"rod_length\" value=\"0.3\" lower=\"0.01\"");
+  const Outcome outcome = run_words({"simulate", model, shipped("config/slider_crank_haug.yaml"), "--json", "--set", "rod_length=0.05"});
+  EXPECT_EQ(outcome.code, kFailed);
+  EXPECT_EQ(json_of(outcome)["error"]["code"], "assembly_failed");
+  EXPECT_NE(outcome.err.find("assembly_failed at t = 0 s"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace codesign::cli
