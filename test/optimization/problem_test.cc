@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "mechanism_codesign/model/error.h"
 
 namespace codesign {
