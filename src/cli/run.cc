@@ -31,9 +31,8 @@ int run(const std::vector<std::string>& words, const Console& console) {
   try {
     return dispatch(parse_arguments(words), console);
   } catch (const UsageError& error) {
-    const int code = report(json, {{"code", "bad_usage"}, {"message", error.what()}}, console, kBadInput);
-    console.err << usage();
-    return code;
+    console.err << usage() << '\n';
+    return report(json, {{"code", "bad_usage"}, {"message", error.what()}}, console, kBadInput);
   } catch (const InputError& error) {
     return report(json, to_json(error), console, kBadInput);
   } catch (const std::exception& error) {
