@@ -2,7 +2,6 @@
 #include "annotation_schema.h"
 
 #include <algorithm>
-#include <set>
 
 #include "annotation_rules.h"
 #include "mechanism_codesign/model/unknown_name.h"
@@ -37,9 +36,7 @@ void check_prefixed_attribute(const XmlElement& element, const std::string& attr
 }
 
 void check_attributes(const XmlElement& element, const ElementRule* rule) {
-  std::set<std::string> seen;
   for (const std::string& attribute : element.attributes()) {
-    if (!seen.insert(attribute).second) element.fail_at(attribute, "the attribute " + attribute + " is written twice");
     if (is_prefixed(attribute)) {
       check_prefixed_attribute(element, attribute, rule);
     } else if (rule != nullptr && rule->strict && !contains(rule->plain, attribute) && !contains(rule->twins, attribute)) {

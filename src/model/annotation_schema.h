@@ -9,8 +9,8 @@ namespace codesign {
 /// Refuses prefixed names in a file whose `<robot>` does not declare `xmlns:codesign`. Made before overlays are merged.
 void check_namespace(const XmlDocument& document);
 
-/// Refuses every `codesign:` element or attribute that is unknown or misplaced, twins without their plain attribute, attributes written
-/// twice, and anything unknown inside `<loop>`, `<coupling>` and our own elements. Elements and attributes of others are passed over.
+/// Refuses every `codesign:` element or attribute that is unknown or misplaced, twins without their plain attribute, and
+/// anything unknown inside `<loop>`, `<coupling>` and our own elements. Elements and attributes of others are passed over.
 void check_annotations(const XmlDocument& document);
 
 }  // namespace codesign

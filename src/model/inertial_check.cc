@@ -44,7 +44,7 @@ void check_agreement(const XmlElement& element, const InertialDescription& writt
   const bool agree = std::abs(a.mass - b.mass) <= kRelative * b.mass &&
                      (a.centre - b.centre).norm() <= kRelative * (size + b.centre.norm()) &&
                      (a.inertia - b.inertia).norm() <= kRelative * b.inertia.norm();
-  if (!agree) fail_with_computed(element, from_shapes, table, "mass, centre or inertia differ from those of the shapes");
+  if (!agree) element.fail("mass, centre or inertia differ from those of the shapes", as_xml(a), as_xml(b));
 }
 
 void fail_with_computed(const XmlElement& element, const InertialDescription& from_shapes, const ParameterTable& table,

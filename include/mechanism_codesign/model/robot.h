@@ -23,8 +23,8 @@ struct PoseDescription {
 struct ShapeDescription {
   enum class Kind { kBox, kCylinder, kSphere, kMesh };
   Kind kind = Kind::kMesh;
-  PoseDescription origin;           ///< in the link frame; a cylinder's axis is its z
-  std::array<Quantity, 3> size;     ///< box: x y z; cylinder: radius, length; sphere: radius [m]
+  PoseDescription origin;        ///< in the link frame; a cylinder's axis is its z
+  std::array<Quantity, 3> size;  ///< box: x y z; cylinder: radius, length; sphere: radius [m]
 };
 
 /// Mass properties of a link, given as numbers or computed from its shapes.
@@ -52,22 +52,22 @@ enum class FrictionModel { kBrownMcPhee, kGonthier, kLuGre };
 /// `<codesign:friction>`, see doc/annotations.md. SI units.
 struct FrictionDescription {
   FrictionModel model = FrictionModel::kBrownMcPhee;
-  Quantity mu_static;                 ///< mu_s [-]
-  Quantity mu_dynamic;                ///< mu_d [-]
-  Quantity transition_velocity{1e-2}; ///< v_t [m/s]
-  Quantity joint_length;              ///< a [m]
-  Quantity joint_width;               ///< b [m]
-  Quantity pin_radius;                ///< r_e [m]
-  Quantity friction_arm;              ///< [m]
-  Quantity preload;                   ///< [N]
-  Quantity smoothing{1e-3};           ///< epsilon [N]
-  Quantity viscous;                   ///< [N s/m] or [N m s/rad]
+  Quantity mu_static;                  ///< mu_s [-]
+  Quantity mu_dynamic;                 ///< mu_d [-]
+  Quantity transition_velocity{1e-2};  ///< v_t [m/s]
+  Quantity joint_length;               ///< a [m]
+  Quantity joint_width;                ///< b [m]
+  Quantity pin_radius;                 ///< r_e [m], arm of the friction of the forces across the axis; of a ball its radius
+  Quantity friction_arm;               ///< [m], arm of the friction of the thrust along the axis; the reader's default is pin_radius
+  Quantity preload;                    ///< [N]
+  Quantity smoothing{1e-3};            ///< epsilon [N]
+  Quantity viscous;                    ///< [N s/m] or [N m s/rad]
   std::optional<std::array<double, 3>> transverse_axis;  ///< x'' in the joint frame
   SourceLocation where;
 };
 
 struct LimitDescription {
-  double lower = 0.0, upper = 0.0;    ///< position [rad or m]
+  double lower = 0.0, upper = 0.0;  ///< position [rad or m]
   double effort = 0.0, velocity = 0.0;
 };
 
@@ -85,14 +85,14 @@ struct JointDescription {
   std::string name;
   JointType type = JointType::kFixed;
   bool is_loop = false;
-  int parent = -1, child = -1;        ///< indices into RobotDescription::links; of a loop: predecessor, successor
-  PoseDescription origin;             ///< joint frame at zero position in the parent's link frame
-  PoseDescription child_origin;       ///< joint frame in the child's link frame; the identity for a tree joint
-  QuantityVector axis{1.0, 0.0, 0.0}; ///< in the joint frame, not necessarily of unit length
+  int parent = -1, child = -1;                ///< indices into RobotDescription::links; of a loop: predecessor, successor
+  PoseDescription origin;                     ///< joint frame at zero position in the parent's link frame
+  PoseDescription child_origin;               ///< joint frame in the child's link frame; the identity for a tree joint
+  QuantityVector axis{1.0, 0.0, 0.0};         ///< in the joint frame, not necessarily of unit length
   QuantityVector second_axis{0.0, 1.0, 0.0};  ///< universal loops: the successor's axis, in the successor's joint frame
-  Quantity distance;                  ///< kDistance: the length [m]
+  Quantity distance;                          ///< kDistance: the length [m]
   std::optional<FrictionDescription> friction;
-  Quantity damping, dry_friction;     ///< `<dynamics damping friction>`
+  Quantity damping, dry_friction;  ///< `<dynamics damping friction>`
   std::optional<LimitDescription> limit;
   std::optional<MimicDescription> mimic;
   std::optional<TorsionSpringDescription> spring;
@@ -120,11 +120,11 @@ struct RobotDescription {
   std::string name;
   std::vector<Parameter> parameters;
   std::vector<LinkDescription> links;
-  int root = 0;                               ///< index of the root link, which is the ground
-  std::vector<JointDescription> joints;       ///< tree joints in file order, then loops in file order
+  int root = 0;                          ///< index of the root link, which is the ground
+  std::vector<JointDescription> joints;  ///< tree joints in file order, then loops in file order
   std::vector<CouplingDescription> couplings;
   std::vector<SpringDamperDescription> spring_dampers;
-  std::string file;                           ///< where it came from, for messages
+  std::string file;  ///< where it came from, for messages
 };
 
 }  // namespace codesign

@@ -1,0 +1,52 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "model/inertial_check.h"
+
+#include "urdf_fixture.h"
+
+namespace codesign {
+namespace {
+
+SourceText with_inertial(const std::string& inertial, const std::string& visual = "") {
+  return robot_text("<link name=\"a\">\n" + inertial + visual + "</link>");
+}
+
+SourceText with_numbers(const std::string& mass, const std::string& ixx, const std::string& iyy, const std::string& izz) {
+  return with_inertial("<inertial><mass value=\"" + mass + "\"/><inertia ixx=\"" + ixx + "\" ixy=\"0\" ixz=\"0\" iyy=\"" + iyy +
+                       "\" iyz=\"0\" izz=\"" + izz + "\"/></inertial>");
+}
+
+const char kBox[] = R"(<visual><origin xyz="0 0 0.1" codesign:xyz="0 0 ${length/2}"/>
+    <geometry><box size="0.1 0.1 0.2" codesign:size="0.1 0.1 ${length}"/></geometry></visual>)";
+
+std::string from_shape(const std::string& density, const std::string& mass, const std::string& ixx = "0.0083333333333333332") {
+  return "<inertial codesign:density=\"" + density + "\" codesign:from=\"visual\"><origin xyz=\"0 0 0.1\"/><mass value=\"" + mass +
+         "\"/><inertia ixx=\"" + ixx +
+         "\" ixy=\"0\" ixz=\"0\" iyy=\"0.0083333333333333332\" iyz=\"0\" izz=\"0.0033333333333333335\"/></inertial>";
+}
+
+TEST(InertialCheck, MassesNoBodyCanHave) {
+  expect_error(with_numbers("-1", "1", "1", "1"), {"test.urdf:3: <link name=\"a\"> <inertial> <mass>: value is negative (value: -1"});
+  expect_error(with_numbers("0", "1", "1", "1"), {"the mass is not positive though the inertia is given (value: 0, allowed: > 0)"});
+  expect_error(with_numbers("nan", "1", "1", "1"), {"value is not finite"});
+  expect_error(with_numbers("heavy", "1", "1", "1"), {"is not a number"});
+}
+
+TEST(InertialCheck, InertiasNoBodyCanHave) {
+  expect_error(with_numbers("1", "-1", "1", "1"), {"test.urdf:3: <link name=\"a\"> <inertial>: the inertia is not positive definite"});
+  expect_error(with_numbers("1", "0", "0", "0"), {"not positive definite"});
+  expect_error(with_numbers("1", "1", "1", "2.1"),
+               {"triangle inequality (value: principal moments 1 1 2.1, allowed: largest <= sum of the other two, 2)"});
+  EXPECT_NO_THROW(read_urdf(with_numbers("1", "1", "1", "2"))) << "a flat body";
+  expect_error(with_inertial(R"(<inertial><mass value="1"/><inertia ixx="1" ixy="2" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>)"),
+               {"not positive definite", "principal moments -"});
+}
+
+TEST(InertialCheck, WrittenValuesMustBeThoseOfTheShapes) {
+  expect_error(with_inertial(from_shape("1000", "2.1"), kBox),
+               {"mass, centre or inertia differ", "<mass value=\"2.1\"/>", "allowed: <origin xyz=\"0 0 0.1\"/> <mass value=\"2"});
+  expect_error(with_inertial(from_shape("1000", "2", "0.00834"), kBox), {"mass, centre or inertia differ"});
+  expect_error(with_inertial("<inertial codesign:density=\"1000\"/>", kBox), {"readers of plain URDF need the values", "<mass value=\"2"});
+}
+
+}  // namespace
+}  // namespace codesign

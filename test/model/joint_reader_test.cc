@@ -1,0 +1,96 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "model/joint_reader.h"
+
+#include "urdf_fixture.h"
+
+namespace codesign {
+namespace {
+
+JointDescription hinge(const std::string& content) { return read_urdf(pendulum(content)).joints.at(0); }
+
+SourceText typed(const std::string& type, const std::string& content = "") {
+  return robot_text(kGround + link_with("arm") + "\n" + joint_with("j", type, "ground", "arm", content));
+}
+
+TEST(JointReader, DefaultsAreThoseOfUrdf) {
+  const JointDescription joint = hinge("");
+  EXPECT_EQ(joint.name, "hinge");
+  EXPECT_EQ(joint.type, JointType::kContinuous);
+  EXPECT_FALSE(joint.is_loop);
+  EXPECT_EQ(joint.parent, 0);
+  EXPECT_EQ(joint.child, 1);
+  EXPECT_EQ(joint.axis[0].nominal(), 1.0);
+  EXPECT_EQ(joint.origin.xyz[2].nominal(), 0.0);
+  EXPECT_EQ(joint.damping.nominal(), 0.0);
+  EXPECT_FALSE(joint.friction || joint.limit || joint.mimic || joint.spring);
+  EXPECT_EQ(joint.where.line, 2);
+}
+
+TEST(JointReader, ReadsAllTypes) {
+  const char* limit = R"(<limit lower="-1" upper="2" effort="3" velocity="4"/>)";
+  EXPECT_EQ(read_urdf(typed("fixed")).joints[0].type, JointType::kFixed);
+  EXPECT_EQ(read_urdf(typed("revolute", limit)).joints[0].type, JointType::kRevolute);
+  EXPECT_EQ(read_urdf(typed("prismatic", limit)).joints[0].type, JointType::kPrismatic);
+  EXPECT_EQ(read_urdf(typed("planar")).joints[0].type, JointType::kPlanar);
+  EXPECT_EQ(read_urdf(typed("floating")).joints[0].type, JointType::kFloating);
+  expect_error(typed("revolut"), {"test.urdf:3: <joint name=\"j\">: unknown joint type, did you mean \"revolute\"?"});
+}
+
+TEST(JointReader, AxisAndDynamicsMayHaveTwins) {
+  const JointDescription joint =
+      hinge(R"(<axis xyz="0 0.2 1" codesign:xyz="0 ${length} 1"/><dynamics damping="0.1" codesign:damping="${length/2}" friction="0.3"/>)");
+  const std::vector<double> at = {0.4};
+  EXPECT_DOUBLE_EQ(joint.axis[1].at(at), 0.4);
+  EXPECT_DOUBLE_EQ(joint.damping.at(at), 0.2);
+  EXPECT_DOUBLE_EQ(joint.dry_friction.at(at), 0.3);
+  expect_error(pendulum("<axis xyz=\"0 0 0\"/>"), {"<axis>: the axis has no direction"});
+  expect_error(pendulum("<axis/>"), {"the attribute xyz is missing"});
+  expect_error(pendulum("<dynamics/>"), {"neither damping nor friction"});
+  expect_error(pendulum("<dynamics damping=\"-1\"/>"), {"damping is negative (value: -1, allowed: >= 0)"});
+  expect_error(pendulum("<origin/><origin/>"), {"a second <origin>"});
+}
+
+TEST(JointReader, Limits) {
+  const JointDescription joint = hinge(R"(<limit lower="-1" upper="2" effort="3" velocity="4"/>)");
+  EXPECT_EQ(joint.limit->lower, -1.0);
+  EXPECT_EQ(joint.limit->upper, 2.0);
+  EXPECT_EQ(joint.limit->effort, 3.0);
+  EXPECT_EQ(joint.limit->velocity, 4.0);
+  expect_error(typed("prismatic"), {"needs a <limit>"});
+  expect_error(pendulum(R"(<limit lower="2" upper="1" effort="1" velocity="1"/>)"), {"the lower limit is above the upper limit"});
+  expect_error(pendulum(R"(<limit velocity="1"/>)"), {"the attribute effort is missing"});
+}
+
+TEST(JointReader, Springs) {
+  const JointDescription joint =
+      hinge(R"(<codesign:torsion_spring stiffness="5" damping="1" free_position="0.2" codesign:free_position="${length}"/>)");
+  EXPECT_EQ(joint.spring->stiffness.nominal(), 5.0);
+  EXPECT_EQ(joint.spring->damping.nominal(), 1.0);
+  EXPECT_EQ(joint.spring->free_position.at(std::vector<double>{0.3}), 0.3);
+  expect_error(pendulum("<codesign:torsion_spring damping=\"1\"/>"), {"the attribute stiffness is missing"});
+  expect_error(typed("floating", "<codesign:torsion_spring stiffness=\"1\"/>"), {"no coordinate for a spring"});
+}
+
+TEST(JointReader, Mimics) {
+  const std::string second =
+      link_with("tip") + joint_with("wrist", "continuous", "arm", "tip", R"(<mimic joint="hinge" multiplier="-2" offset="1"/>)");
+  const MimicDescription mimic = *read_urdf(pendulum("", second)).joints[1].mimic;
+  EXPECT_EQ(mimic.joint, "hinge");
+  EXPECT_EQ(mimic.multiplier, -2.0);
+  EXPECT_EQ(mimic.offset, 1.0);
+  expect_error(typed("planar", "<mimic joint=\"x\"/>"), {"a joint of this type cannot mimic"});
+}
+
+TEST(JointReader, Links) {
+  expect_error(robot_text(kGround + link_with("arm") + joint_with("j", "fixed", "ground", "amr")),
+               {"<joint name=\"j\"> <child>: unknown link, did you mean \"arm\"? (value: amr"});
+  expect_error(robot_text(kGround + joint_with("j", "fixed", "grund", "ground")), {"did you mean \"ground\"?"});
+  expect_error(robot_text(kGround + joint_with("j", "fixed", "ground", "ground")), {"parent and child are the same link"});
+  expect_error(robot_text("<link name=\"a\"/><joint name=\"j\" type=\"fixed\"><parent link=\"a\"/></joint>"),
+               {"the element <child> is missing"});
+  expect_error(robot_text("<link name=\"a\"/><joint name=\"j\"/>"), {"the attribute type is missing"});
+  expect_error(robot_text("<link name=\"a\"/><joint type=\"fixed\"/>"), {"the attribute name is missing"});
+}
+
+}  // namespace
+}  // namespace codesign

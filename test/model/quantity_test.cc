@@ -1,0 +1,38 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/model/quantity.h"
+
+#include <gtest/gtest.h>
+
+namespace codesign {
+namespace {
+
+TEST(Quantity, ConstantIsTheSameEverywhere) {
+  const Quantity constant = 3.0;
+  EXPECT_TRUE(constant.is_constant());
+  EXPECT_EQ(constant.at(std::vector<double>{7.0}), 3.0);
+  EXPECT_EQ(constant.at(std::vector<std::complex<double>>{{7.0, 1.0}}), std::complex<double>(3.0));
+  const Lanes<2> lanes = constant.at(std::vector<Lanes<2>>{Lanes<2>(7.0, 0)});
+  EXPECT_EQ(lanes.a, 3.0);
+  EXPECT_EQ(lanes.v.norm(), 0.0);
+}
+
+TEST(Quantity, LanesCarryTheChainRule) {
+  const Quantity product(6.0, std::make_shared<const Expression>("x*y", std::vector<std::string>{"x", "y"}));
+  EXPECT_EQ(product.nominal(), 6.0);
+  std::vector<Lanes<2>> at = {Lanes<2>(2.0, 0), Lanes<2>(5.0, 1)};
+  at[0].v *= 10.0;  // x itself depends on something
+  const Lanes<2> value = product.at(at);
+  EXPECT_DOUBLE_EQ(value.a, 10.0);
+  EXPECT_DOUBLE_EQ(value.v[0], 50.0);
+  EXPECT_DOUBLE_EQ(value.v[1], 2.0);
+}
+
+TEST(Quantity, ComplexStepGoesThrough) {
+  const Quantity square(4.0, std::make_shared<const Expression>("x**2", std::vector<std::string>{"x"}));
+  const std::complex<double> value = square.at(std::vector<std::complex<double>>{{3.0, 1e-20}});
+  EXPECT_DOUBLE_EQ(value.real(), 9.0);
+  EXPECT_DOUBLE_EQ(value.imag(), 6e-20);
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,62 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "model/tree_check.h"
+
+#include "urdf_fixture.h"
+
+namespace codesign {
+namespace {
+
+TEST(TreeCheck, TheRootIsFoundWhereverItStands) {
+  EXPECT_EQ(read_urdf(robot_text(link_with("arm") + kGround + joint_with("j", "continuous", "ground", "arm"))).root, 1);
+}
+
+TEST(TreeCheck, TwoRoots) {
+  expect_error(robot_text("<link name=\"a\"/>\n<link name=\"b\"/>"),
+               {"test.urdf:3: <link name=\"b\">: a second root", "value: a, b", "one root link"});
+}
+
+TEST(TreeCheck, Rings) {
+  const std::string ab = "<link name=\"a\"/><link name=\"b\"/>" + joint_with("ab", "fixed", "a", "b") + joint_with("ba", "fixed", "b", "a");
+  expect_error(robot_text(ab), {"the joints form a ring that hangs on nothing"});
+  expect_error(robot_text(kGround + ab), {"<joint name=\"ba\">: the joints form a ring that hangs on nothing (value: a"});
+}
+
+TEST(TreeCheck, ALinkHangsOnOneJoint) {
+  expect_error(
+      robot_text("<link name=\"a\"/><link name=\"b\"/>" + joint_with("one", "fixed", "a", "b") + joint_with("two", "fixed", "a", "b")),
+      {"<joint name=\"two\">: its child b already hangs on the joint one", "<loop>"});
+}
+
+TEST(TreeCheck, NoLinks) { expect_error(robot_text(""), {"the robot has no links"}); }
+
+TEST(TreeCheck, NamesAreUnique) {
+  expect_error(robot_text("<link name=\"a\"/>\n<link name=\"a\"/>"), {"test.urdf:3: <link>: a second link of this name (value: a"});
+  expect_error(pendulum("", link_with("b") + joint_with("hinge", "fixed", "arm", "b")), {"a second joint of this name (value: hinge"});
+  const std::string coupling =
+      "<coupling name=\"c\"><predecessor link=\"arm\"/><successor link=\"ground\"/><ratio value=\"2\"/></coupling>";
+  expect_error(pendulum("", coupling + coupling), {"a second coupling of this name"});
+  const std::string spring =
+      "<codesign:spring_damper name=\"s\" stiffness=\"1\"><predecessor link=\"arm\"/><successor link=\"ground\"/></codesign:spring_damper>";
+  expect_error(pendulum("", spring + spring), {"a second codesign:spring_damper of this name"});
+}
+
+TEST(TreeCheck, Mimics) {
+  const auto second = [](const std::string& joint) {
+    return link_with("tip") + joint_with("wrist", "continuous", "arm", "tip", "<mimic joint=\"" + joint + "\"/>");
+  };
+  expect_error(pendulum("", second("hing")), {"<joint name=\"wrist\"> <mimic>: unknown joint to mimic, did you mean \"hinge\"?"});
+  expect_error(pendulum("", second("wrist")), {"mimic each other in a ring"});
+  expect_error(pendulum("<mimic joint=\"wrist\"/>", second("hinge")), {"mimic each other in a ring"});
+}
+
+TEST(TreeCheck, FrictionOfOrdinaryJointsNeedsItsDimensions) {
+  const char* friction = "<codesign:friction mu_static=\"0.4\" mu_dynamic=\"0.3\"/>";
+  expect_error(pendulum(friction), {"<joint name=\"hinge\"> <codesign:friction>", "joint_length"});
+  const std::string chain = kGround + link_with("massless", "") + link_with("arm");
+  EXPECT_NO_THROW(read_urdf(robot_text(chain + joint_with("x", "continuous", "ground", "massless", friction) +
+                                       joint_with("y", "continuous", "massless", "arm", friction))))
+      << "they will be one universal joint, whose needs are another's to check";
+}
+
+}  // namespace
+}  // namespace codesign
