@@ -62,15 +62,15 @@ TEST(Conversions, AFreeLinkIsPlacedRelativeToItsParent) {
   const auto message = free_link_transforms(sample_names(), sample_frame(0.0), kContext);
   ASSERT_EQ(message.transforms.size(), 1U);
   // Two metres along the world's y are two metres along the x of a cart turned by 90 degrees.
-  expect_transform(message.transforms[0], "cart", "plate", {2.0, 0.0, 0.0}, EIGEN_PI / 2);
+  expect_transform(message.transforms[0], "cart", "plate", {2.0, 0.0, 0.0}, kPi / 2);
 }
 
 TEST(Conversions, AllLinksArePlacedRelativeToThePrefixedRoot) {
   const auto message = all_link_transforms(sample_names(), sample_frame(0.0), kContext.stamp, "tuned/");
   ASSERT_EQ(message.transforms.size(), 3U);
   expect_transform(message.transforms[0], "tuned", "tuned/ground", {0.0, 0.0, 0.0}, 0.0);
-  expect_transform(message.transforms[1], "tuned/ground", "tuned/cart", {1.0, 0.0, 0.0}, EIGEN_PI / 2);
-  expect_transform(message.transforms[2], "tuned/ground", "tuned/plate", {1.0, 2.0, 0.0}, EIGEN_PI);
+  expect_transform(message.transforms[1], "tuned/ground", "tuned/cart", {1.0, 0.0, 0.0}, kPi / 2);
+  expect_transform(message.transforms[2], "tuned/ground", "tuned/plate", {1.0, 2.0, 0.0}, kPi);
 }
 
 TEST(Conversions, ProgressOfAFailedTrialSaysWhy) {

@@ -6,6 +6,8 @@
 
 namespace codesign {
 
+constexpr double kPi = 3.14159265358979323846;
+
 /// A made-up mechanism: ground, a cart sliding on it, a free plate, one loop, one controller.
 inline FrameNames sample_names() {
   FrameNames names;
@@ -32,8 +34,8 @@ inline Frame sample_frame(double time) {
   frame.links.resize(3);
   // The cart stands at x = 1, turned by 90 degrees about z; the plate two metres along the world's y from it, turned by 180 degrees about
   // z.
-  frame.links[1] = {{1.0, 0.0, 0.0}, Eigen::Quaterniond(Eigen::AngleAxisd(EIGEN_PI / 2, Eigen::Vector3d::UnitZ()))};
-  frame.links[2] = {{1.0, 2.0, 0.0}, Eigen::Quaterniond(Eigen::AngleAxisd(EIGEN_PI, Eigen::Vector3d::UnitZ()))};
+  frame.links[1] = {{1.0, 0.0, 0.0}, Eigen::Quaterniond(Eigen::AngleAxisd(kPi / 2, Eigen::Vector3d::UnitZ()))};
+  frame.links[2] = {{1.0, 2.0, 0.0}, Eigen::Quaterniond(Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitZ()))};
   return frame;
 }
 

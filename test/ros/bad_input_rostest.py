@@ -1,0 +1,46 @@
+#!/usr/bin/python3
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""With bad input the nodes are up, and each door says what is wrong."""
+import unittest
+
+import rosnode
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from mechanism_codesign.srv import Evaluate, EvaluateRequest, Optimize, OptimizeRequest
+
+TIMEOUT = 60.0
+
+
+class BadInputTest(unittest.TestCase):
+    def wait_for_error(self, node):
+        """The sentence of the first error that `node` reports on /diagnostics."""
+        end = rospy.get_time() + TIMEOUT
+        while rospy.get_time() < end:
+            for status in rospy.wait_for_message("/diagnostics", DiagnosticArray, TIMEOUT).status:
+                if status.name.startswith(node) and status.level == DiagnosticStatus.ERROR:
+                    return status.message
+        self.fail(f"{node} reports no error")
+
+    def test_services_say_what_is_wrong(self):
+        for name, service, request in (("optimize", Optimize, OptimizeRequest()), ("evaluate", Evaluate, EvaluateRequest())):
+            rospy.wait_for_service(name, TIMEOUT)
+            reply = rospy.ServiceProxy(name, service)(request)
+            self.assertFalse(reply.success)
+            self.assertEqual(reply.code, "bad_input")
+            self.assertIn("objektive", reply.message)
+            self.assertIn("objective", reply.message.replace("objektive", ""), "the nearest key")
+
+    def test_diagnostics_say_what_is_wrong(self):
+        self.assertIn("objektive", self.wait_for_error("optimization"))
+        self.assertIn("/nonexistent/robot.urdf", self.wait_for_error("simulation"))
+
+    def test_nodes_are_up(self):
+        self.wait_for_error("simulation")
+        for node in ("/optimization", "/simulation"):
+            self.assertTrue(rosnode.rosnode_ping(node, max_count=1), node)
+
+
+if __name__ == "__main__":
+    rospy.init_node("bad_input_test")
+    rostest.rosrun("mechanism_codesign", "bad_input", BadInputTest)

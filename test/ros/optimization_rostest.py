@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""An empty request runs the loaded study; the bag it leaves can be read and replayed."""
+import shutil
+import subprocess
+import unittest
+import xml.etree.ElementTree
+
+import rosbag
+import rospy
+import rostest
+from mechanism_codesign.msg import OptimizationProgress
+from mechanism_codesign.srv import Evaluate, EvaluateRequest, Optimize, OptimizeRequest
+from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
+
+TIMEOUT = 60.0
+RUN_TOPICS = ("joint_states", "joint_friction", "controller_states", "loop_errors", "friction_markers")
+
+
+class OptimizationTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("optimization_test")
+        rospy.wait_for_service("optimize", TIMEOUT)
+        rospy.wait_for_service("evaluate", TIMEOUT)
+        cls.result = rospy.ServiceProxy("optimize", Optimize)(OptimizeRequest())
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(rospy.get_param("optimization/output_directory"), ignore_errors=True)
+
+    def test_result(self):
+        result = self.result
+        self.assertTrue(result.success, result.message)
+        self.assertEqual(result.code, "success")
+        self.assertEqual(list(result.parameters), ["crank_length", "rod_length", "slider_length", "slider_width", "Kp"])
+        self.assertAlmostEqual(result.initial_objective, 0.05925272691, delta=1e-4 * 0.05925272691)
+        self.assertLess(result.objective, 8.8e-4)
+        self.assertEqual(len(result.tuned), 5)
+        self.assertNotEqual(result.termination, "")
+
+    def test_progress_is_latched(self):
+        progress = rospy.wait_for_message("optimization_progress", OptimizationProgress, TIMEOUT)
+        self.assertEqual(progress.evaluation, self.result.evaluations)
+        self.assertEqual(list(progress.parameters), list(self.result.parameters))
+
+    def test_tuned_description_is_latched_and_holds_the_tuned_values(self):
+        text = rospy.wait_for_message("tuned/robot_description", String, TIMEOUT).data
+        namespace = "{urn:mechanism_codesign}"
+        values = {node.get("name"): float(node.get("value")) for node in xml.etree.ElementTree.fromstring(text).iter(namespace + "parameter")}
+        tuned = dict(zip(self.result.parameters, self.result.tuned))
+        for name, value in values.items():
+            self.assertEqual(value, tuned[name], name)
+
+    def test_evaluate_with_a_check_of_the_gradient(self):
+        reply = rospy.ServiceProxy("evaluate", Evaluate)(EvaluateRequest(check="complex_step"))
+        self.assertTrue(reply.success, reply.message)
+        self.assertAlmostEqual(reply.objective, self.result.initial_objective, delta=1e-9)
+        self.assertLess(reply.largest_relative_difference, 1e-6)
+
+    def test_evaluate_at_the_tuned_design(self):
+        reply = rospy.ServiceProxy("evaluate", Evaluate)(EvaluateRequest(parameters=self.result.parameters, values=self.result.tuned))
+        self.assertTrue(reply.success, reply.message)
+        self.assertAlmostEqual(reply.objective, self.result.objective, delta=1e-6 * self.result.objective)
+
+    def test_a_bad_request_is_an_answer(self):
+        reply = rospy.ServiceProxy("optimize", Optimize)(OptimizeRequest(parameters=["crank_lenght"]))
+        self.assertFalse(reply.success)
+        self.assertEqual(reply.code, "bad_input")
+        self.assertIn('"crank_length"', reply.message)
+
+    def test_bag(self):
+        with rosbag.Bag(self.result.bag) as bag:
+            topics = bag.get_type_and_topic_info().topics
+            for side in ("initial/", "tuned/"):
+                for topic in RUN_TOPICS:
+                    self.assertEqual(topics[side + topic].message_count, 101, side + topic)
+                self.assertEqual(topics[side + "robot_description"].message_count, 1)
+            self.assertEqual(topics["optimization_progress"].message_count, self.result.evaluations)
+            (_, result, _), = bag.read_messages(topics=["result"])
+            self.assertEqual(result.objective, self.result.objective)
+            self.assertEqual(result.bag, self.result.bag)
+            velocity = [message.velocity[message.name.index("crank_joint")] for _, message, _ in bag.read_messages(topics=["tuned/joint_states"])]
+            self.assertAlmostEqual(velocity[-1], -10.0, delta=0.2)
+
+    def test_replay(self):
+        launch = subprocess.Popen(["roslaunch", "mechanism_codesign", "replay.launch", f"bag:={self.result.bag}", "rviz:=false"])
+        try:
+            places = rospy.wait_for_message("tf_static", TFMessage, TIMEOUT)
+            self.assertEqual([t.child_frame_id for t in places.transforms], ["initial", "tuned"])
+            seen = set()
+            while not {"initial/slider", "tuned/slider", "initial/rod", "tuned/rod"} <= seen:
+                seen |= {t.child_frame_id for t in rospy.wait_for_message("tf", TFMessage, TIMEOUT).transforms}
+            self.assertIn("crank_length", rospy.get_param("initial/robot_description"))
+            self.assertNotEqual(rospy.get_param("initial/robot_description"), rospy.get_param("tuned/robot_description"))
+        finally:
+            launch.terminate()
+            launch.wait()
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mechanism_codesign", "optimization", OptimizationTest)

@@ -1,0 +1,117 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/ros/request.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "mechanism_codesign/model/error.h"
+#include "pendulum.h"
+
+namespace codesign {
+namespace {
+
+using mechanism_codesign::EvaluateRequest;
+using mechanism_codesign::OptimizeGoal;
+using Names = std::vector<std::string>;
+
+/// What is wrong with a request, field first; fails if nothing is.
+std::string fault_of(const std::function<void()>& use) {
+  try {
+    use();
+  } catch (const InputError& error) {
+    return error.fault().element + ": " + error.what();
+  }
+  ADD_FAILURE() << "accepted";
+  return "";
+}
+
+std::string fault_of(const OptimizeGoal& request) {
+  return fault_of([&] { apply_request(pendulum(), request); });
+}
+
+std::string fault_of(const EvaluateRequest& request) {
+  return fault_of([&] { design_of(pendulum(), request); });
+}
+
+TEST(OptimizeRequest, AnEmptyOneChangesNothing) {
+  const Problem problem = pendulum();
+  const Problem changed = apply_request(problem, OptimizeGoal());
+  EXPECT_EQ(changed.system, problem.system);
+  EXPECT_EQ(changed.start(), problem.start());
+  EXPECT_EQ(changed.study.optimizer.algorithm, "lbfgs");
+  EXPECT_EQ(changed.study.optimizer.max_evaluations, 30);
+  EXPECT_EQ(changed.study.optimizer.relative_tolerance, problem.study.optimizer.relative_tolerance);
+}
+
+TEST(OptimizeRequest, ChoosesParametersAndStarts) {
+  OptimizeGoal request;
+  request.parameters = {"mass", "length"};
+  request.start = {1.5, 0.25 + 0.125};
+  const Problem changed = apply_request(pendulum(), request);
+  EXPECT_EQ(changed.tuned_names(), (Names{"mass", "length"}));
+  EXPECT_EQ(changed.start(), Eigen::Vector2d(1.5, 0.375));
+}
+
+TEST(OptimizeRequest, StartsAloneAreThoseOfTheStudysParameters) {
+  OptimizeGoal request;
+  request.start = {0.375, 2.0};
+  const Problem changed = apply_request(pendulum(), request);
+  EXPECT_EQ(changed.tuned_names(), (Names{"length", "Kp"}));
+  EXPECT_EQ(changed.start(), Eigen::Vector2d(0.375, 2.0));
+}
+
+TEST(OptimizeRequest, ChoosesOptions) {
+  OptimizeGoal request;
+  request.algorithm = "mma";
+  request.max_evaluations = 7;
+  request.relative_tolerance = 1e-3;
+  const OptimizerOptions options = apply_request(pendulum(), request).study.optimizer;
+  EXPECT_EQ(options.algorithm, "mma");
+  EXPECT_EQ(options.max_evaluations, 7);
+  EXPECT_EQ(options.relative_tolerance, 1e-3);
+}
+
+TEST(OptimizeRequest, FaultsNameTheField) {
+  OptimizeGoal request;
+  request.parameters = {"lenght"};
+  EXPECT_NE(fault_of(request).find("length"), std::string::npos) << "the nearest name";
+  request.parameters = {"length", "length"};
+  EXPECT_EQ(fault_of(request).find("parameters: "), 0U);
+  request.parameters = {"length"};
+  request.start = {0.5, 1.0};
+  EXPECT_EQ(fault_of(request).find("start: "), 0U);
+  request.start = {0.9};
+  EXPECT_NE(fault_of(request).find("[0.3, 0.8]"), std::string::npos);
+  request.start = {std::nan("")};
+  EXPECT_NE(fault_of(request).find("[0.3, 0.8]"), std::string::npos);
+  request = OptimizeGoal();
+  request.max_evaluations = 4000000000U;
+  EXPECT_EQ(fault_of(request).find("max_evaluations: "), 0U);
+  request = OptimizeGoal();
+  request.relative_tolerance = -1.0;
+  EXPECT_EQ(fault_of(request).find("relative_tolerance: "), 0U);
+}
+
+TEST(EvaluateRequest, TheOthersStayAtTheirStart) {
+  EvaluateRequest request;
+  EXPECT_EQ(design_of(pendulum(), request), Eigen::Vector2d(0.5, 1.0));
+  request.parameters = {"Kp"};
+  request.values = {2.0};
+  EXPECT_EQ(design_of(pendulum(), request), Eigen::Vector2d(0.5, 2.0));
+}
+
+TEST(EvaluateRequest, FaultsNameTheField) {
+  EvaluateRequest request;
+  request.parameters = {"mass"};
+  request.values = {1.0};
+  EXPECT_EQ(fault_of(request).find("parameters: "), 0U) << "not among the tuned";
+  request.parameters = {"Kp"};
+  request.values = {};
+  EXPECT_EQ(fault_of(request).find("values: "), 0U);
+  request.values = {5.5};
+  EXPECT_NE(fault_of(request).find("[0, 5]"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace codesign
