@@ -12,10 +12,12 @@ Equations<T>::Equations(const System& system) : system_(system), layout_(system.
   for (int k = 0; k < 3; ++k) gravity_[k] = T(system.study().gravity[static_cast<std::size_t>(k)]);
   kinematics_.resize(static_cast<std::size_t>(layout_.bodies) + 1);
   loads_.resize(kinematics_.size());
+  constraint_state_.resize(layout_);
 }
 
 template <class T>
 void Equations<T>::set_design(const std::vector<T>& parameters) {
+  parameters_ = parameters;
   constants_ = evaluate_constants(system_.robot(), system_.topology(), parameters);
   rows_.clear();
   for (std::size_t k = 0; k < constants_.pairs.size(); ++k) rows_.push_back(pair_rows(system_.topology().pairs[k].kind, constants_.pairs[k]));
@@ -108,11 +110,9 @@ void Equations<T>::body_residual(std::size_t b, VectorX<T>* G) {
 
 template <class T>
 void Equations<T>::constraint_errors(const VectorX<T>& q, const VectorX<T>& v, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
-  State<T> state;
-  state.resize(layout_);
-  state.q = q;
-  state.v = v;
-  load(state);
+  constraint_state_.q = q;
+  constraint_state_.v = v;
+  load(constraint_state_);
   Phi->resize(layout_.m);
   Phi_rate->resize(layout_.m);
   for (std::size_t k = 0; k < rows_.size(); ++k) {

@@ -35,6 +35,8 @@ class Equations {
   /// Evaluates all constants at `parameters` (all named parameters). Allocates.
   void set_design(const std::vector<T>& parameters);
   const Constants<T>& constants() const { return constants_; }
+  const std::vector<T>& parameters() const { return parameters_; }
+  const T& setpoint(int controller) const { return setpoints_[static_cast<std::size_t>(controller)]; }
 
   /// Residual G (columns() rows) and the objective's integrand g at a state.
   void residual(const State<T>& state, VectorX<T>* G, T* g);
@@ -107,12 +109,14 @@ class Equations {
 
   const System& system_;
   const Layout& layout_;
+  std::vector<T> parameters_;
   Constants<T> constants_;
   std::vector<PairRows<T>> rows_;
   std::vector<T> setpoints_, gains_p_, gains_i_, gains_d_;
   std::vector<T> integral_weights_, integral_references_, terminal_weights_, terminal_references_;
   Vector3<T> gravity_;
   const State<T>* state_ = nullptr;
+  State<T> constraint_state_;                  ///< scratch of constraint_errors()
   std::vector<BodyKinematics<T>> kinematics_;  ///< the ground last
   std::vector<BodyLoad<T>> loads_;             ///< multiplier loads per body, the ground last
   std::vector<std::vector<double>> turn_references_;

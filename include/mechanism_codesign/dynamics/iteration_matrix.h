@@ -1,0 +1,33 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_DYNAMICS_ITERATION_MATRIX_H_
+#define MECHANISM_CODESIGN_DYNAMICS_ITERATION_MATRIX_H_
+
+#include "mechanism_codesign/dynamics/sparsity.h"
+#include "mechanism_codesign/dynamics/system.h"
+#include "mechanism_codesign/math/sparse_lu.h"
+
+namespace codesign {
+
+/// The matrix G_z + c_v G_v + c_q G_q (G_sigma + c_s G_s for extra states) that every implicit solve needs, on one fixed pattern.
+///
+/// With c = 0 it gives accelerations and multipliers; with c_v = c_s = h gamma, c_q = (h gamma)^2 it is a Rosenbrock stage's; theory (16).
+class IterationMatrix {
+ public:
+  explicit IterationMatrix(const System& system);
+
+  /// Forms and factors it. False if singular.
+  bool factor(const Linearization<double>& derivatives, double c_v, double c_q, double c_s);
+  const SparseLu& lu() const { return lu_; }
+
+ private:
+  int first_state_column_;
+  std::vector<int> column_start_, row_index_;
+  std::vector<int> source_;  ///< per entry: its place in the full pattern, which has the integrand's row too
+  int state_entries_ = 0;    ///< entries from here on lie in columns of extra states
+  std::vector<double> values_;
+  SparseLu lu_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_DYNAMICS_ITERATION_MATRIX_H_

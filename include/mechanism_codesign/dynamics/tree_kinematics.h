@@ -1,0 +1,42 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_DYNAMICS_TREE_KINEMATICS_H_
+#define MECHANISM_CODESIGN_DYNAMICS_TREE_KINEMATICS_H_
+
+#include <vector>
+
+#include "mechanism_codesign/dynamics/state.h"
+#include "mechanism_codesign/dynamics/system.h"
+#include "mechanism_codesign/model/constants.h"
+#include "mechanism_codesign/model/pose.h"
+
+namespace codesign {
+
+/// Where the coordinates theta of each tree joint stand: one for revolute, continuous and prismatic joints, three for planar (x, y, turn), six for
+/// floating ones (translation, then turns about x, y, z), none for fixed ones.
+struct TreeLayout {
+  std::vector<int> joint_order;  ///< tree joints, parents before children
+  std::vector<int> offset;       ///< per joint of the description: first coordinate
+  int size = 0;                  ///< number of coordinates
+
+  explicit TreeLayout(const RobotDescription& robot);
+};
+
+/// Pose and twist of a link frame in the ground frame.
+template <class T>
+struct LinkMotion {
+  Pose<T> X;
+  Vector3<T> omega = Vector3<T>::Zero(), velocity = Vector3<T>::Zero();  ///< of the link's origin
+};
+
+/// Forward kinematics of the URDF tree: motions of all links at theta and its rate.
+template <class T>
+std::vector<LinkMotion<T>> link_motions(const RobotDescription& robot, const TreeLayout& layout, const std::vector<T>& parameters, const VectorX<T>& theta,
+                                        const VectorX<T>& theta_rate);
+
+/// Centroidal coordinates and velocities of the bodies that hang on these links.
+template <class T>
+void body_coordinates(const System& system, const Constants<T>& constants, const std::vector<LinkMotion<T>>& links, VectorX<T>* q, VectorX<T>* v);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_DYNAMICS_TREE_KINEMATICS_H_

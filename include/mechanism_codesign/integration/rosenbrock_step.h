@@ -1,0 +1,94 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_INTEGRATION_ROSENBROCK_STEP_H_
+#define MECHANISM_CODESIGN_INTEGRATION_ROSENBROCK_STEP_H_
+
+#include <vector>
+
+#include "mechanism_codesign/dynamics/equations.h"
+#include "mechanism_codesign/integration/stage_matrix.h"
+#include "mechanism_codesign/integration/tableau.h"
+
+namespace codesign {
+
+/// One stage's u_i, split as the state is; psi is the integral of g.
+template <class T>
+struct Increment {
+  VectorX<T> q, v, s, z;
+  T psi{0.0};
+
+  void resize(const Layout& layout) {
+    q.setZero(layout.n);
+    v.setZero(layout.n);
+    s.setZero(layout.states);
+    z.setZero(layout.columns());
+  }
+};
+
+/// One step of a Rosenbrock-Wanner method on q' = v, v' = a, s' = sigma, 0 = G(q, v, s; a, lambda, sigma), psi' = g; doc/theory.md (15)-(17).
+///
+/// The unknowns q, v, s of each stage are eliminated, so that one sparse matrix of the size of (a, lambda, sigma) serves all of them. After an
+/// accepted step (q, v) are projected onto Phi = 0, Phi_q v = 0; the derivatives of the next step are those at the unprojected point, whose
+/// factorization the projection uses. T: double for the solution, std::complex<double> to check its derivatives.
+template <class T>
+class RosenbrockStep {
+ public:
+  RosenbrockStep(const System& system, const RosenbrockTableau& tableau);
+
+  Equations<T>& equations() { return equations_; }
+  const RosenbrockTableau& tableau() const { return tableau_; }
+
+  /// Starts a solution at a consistent state.
+  void start(const State<T>& state);
+
+  /// Computes the step of size h [s] from the present state. False if the matrix is singular or a value is not finite.
+  bool attempt(double h);
+  /// Scaled error of the last attempt over (q, v, s): root mean square of u_last / (absolute + relative max(|y|, |y_1|)).
+  double error(double relative_tolerance, double absolute_tolerance) const;
+  /// Takes the last attempt: projects and linearizes. False if the augmented matrix is singular there.
+  bool accept();
+
+  const State<T>& state() const { return state_; }                 ///< at the end of the last accepted step, projected
+  const T& psi() const { return psi_; }                            ///< integral of g so far
+  double step_size() const { return h_; }
+
+  // What the tangent of the step needs.
+  const std::vector<Increment<T>>& increments() const { return increments_; }
+  const State<T>& previous() const { return previous_; }           ///< where the last accepted step began
+  const State<T>& unprojected() const { return end_; }             ///< where the last attempt ended
+  const Linearization<T>& derivatives() const { return derivatives_; }  ///< that the next step will use
+  const Increment<T>& correction() const { return correction_; }   ///< of the last projection: q, then v; multipliers in z
+  const VectorX<T>& velocity_multipliers() const { return velocity_multipliers_; }
+  const StageMatrix<T>& stage_matrix() const { return stage_matrix_; }
+  const StageMatrix<T>& projection_matrix() const { return projection_matrix_; }
+
+  /// State at `previous().t + theta h` by the method's dense output; psi too.
+  void interpolate(double theta, State<T>* state, T* psi) const;
+
+ private:
+  void stage_state(int i, double h);
+  bool solve_stage(int i, double h);
+  bool project();
+
+  const System& system_;
+  const Layout& layout_;
+  const RosenbrockTableau& tableau_;
+  Equations<T> equations_;
+  StageMatrix<T> stage_matrix_, projection_matrix_;
+  Linearization<T> derivatives_;
+  State<T> state_, previous_, stage_, end_;
+  T psi_{0.0}, previous_psi_{0.0};
+  std::vector<Increment<T>> increments_;
+  Increment<T> sum_, correction_;
+  VectorX<T> residual_, right_hand_side_, constraint_, constraint_rate_, velocity_multipliers_;
+  State<T> projection_;
+  double h_ = 0.0;
+};
+
+/// y += (rows of by_position times x) etc. over System::sparsity(), the integrand's row included: result has columns() + 1 entries.
+template <class T>
+void add_product(const System& system, const Linearization<T>& d, const VectorX<T>& q, const VectorX<T>& s, const VectorX<T>& v, const VectorX<T>* z,
+                 VectorX<T>* result);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_INTEGRATION_ROSENBROCK_STEP_H_

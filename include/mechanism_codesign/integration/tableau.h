@@ -1,0 +1,40 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_INTEGRATION_TABLEAU_H_
+#define MECHANISM_CODESIGN_INTEGRATION_TABLEAU_H_
+
+#include <array>
+#include <string>
+
+namespace codesign {
+
+/// Coefficients of a stiffly accurate Rosenbrock-Wanner method in Hairer's transformed variables; doc/theory.md (15):
+///   (M/(h gamma) - f_y) u_i = f(t + alpha_i h, y + sum_j a_ij u_j) + M sum_j (c_ij/h) u_j + gamma_i h f_t,
+/// where the last rows of `a` continue each other, so that y_1 = y + sum_j a_{s+1,j} u_j and the error estimate is the last u.
+struct RosenbrockTableau {
+  static constexpr int kMaximumStages = 8;
+  using Row = std::array<double, kMaximumStages>;
+
+  const char* name;
+  int stages;
+  int order;             ///< of y_1; the embedded solution has one less
+  double gamma;
+  std::array<Row, kMaximumStages> a, c;
+  Row weights;           ///< of y_1
+  Row alpha, gamma_i;
+  int dense_terms;       ///< rows of `dense` in use
+  std::array<Row, 3> dense;  ///< y(theta) = (1-theta) y + theta (y_1 + (1-theta) (d_0 + theta (d_1 + theta d_2))), d_k = sum_j dense_kj u_j
+};
+
+/// Rodas4 (Hairer and Wanner, Solving ODE II, 1996, code RODAS), order 4, 6 stages.
+const RosenbrockTableau& rodas4();
+/// Rodas4P2 (Steinebach 2020), order 4, 6 stages, no order reduction for stiff problems and inexact Jacobians.
+const RosenbrockTableau& rodas4p2();
+/// Rodas5P (Steinebach 2023), order 5, 8 stages.
+const RosenbrockTableau& rodas5p();
+
+/// By the name in a study: "rodas4", "rodas4p2", "rodas5p"; nullptr for another.
+const RosenbrockTableau* rosenbrock_tableau(const std::string& name);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_INTEGRATION_TABLEAU_H_

@@ -1,0 +1,136 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/dynamics/tree_kinematics.h"
+
+#include <cmath>
+
+namespace codesign {
+namespace {
+
+int coordinates_of(JointType type) {
+  switch (type) {
+    case JointType::kRevolute:
+    case JointType::kContinuous:
+    case JointType::kPrismatic: return 1;
+    case JointType::kPlanar: return 3;
+    case JointType::kFloating: return 6;
+    default: return 0;
+  }
+}
+
+/// Rotation by `angle` about a unit axis (Rodrigues).
+template <class T>
+Matrix3<T> axis_rotation(const Vector3<T>& axis, const T& angle) {
+  using std::cos;
+  using std::sin;
+  const T c = cos(angle), s = sin(angle);
+  Matrix3<T> R = c * Matrix3<T>::Identity() + (T(1.0) - c) * (axis * axis.transpose());
+  Matrix3<T> skew;
+  skew << T(0.0), -axis[2], axis[1], axis[2], T(0.0), -axis[0], -axis[1], axis[0], T(0.0);
+  R += s * skew;
+  return R;
+}
+
+/// Motion of a joint's child frame relative to its frame at zero.
+template <class T>
+struct JointMotion {
+  Pose<T> X;
+  Vector3<T> omega = Vector3<T>::Zero(), velocity = Vector3<T>::Zero();  // in the joint frame
+};
+
+template <class T>
+JointMotion<T> joint_motion(const JointDescription& joint, const std::vector<T>& parameters, const T* theta, const T* rate) {
+  JointMotion<T> m;
+  const auto slide = [&m, theta, rate](const Vector3<T>& axis, int k) {
+    m.X.t += axis * theta[k];
+    m.velocity += axis * rate[k];
+  };
+  const auto turn = [&m, theta, rate](const Vector3<T>& axis, int k) {
+    m.omega += m.X.R * axis * rate[k];
+    m.X.R = m.X.R * axis_rotation(axis, theta[k]);
+  };
+  switch (joint.type) {
+    case JointType::kRevolute:
+    case JointType::kContinuous: turn(axis_at(joint.axis, parameters), 0); break;
+    case JointType::kPrismatic: slide(axis_at(joint.axis, parameters), 0); break;
+    case JointType::kPlanar: {
+      const Vector3<T> z = axis_at(joint.axis, parameters), x = transverse_axis<T>(z, std::nullopt);
+      slide(x, 0);
+      slide(cross(z, x), 1);
+      turn(z, 2);
+      break;
+    }
+    case JointType::kFloating:
+      for (int k = 0; k < 3; ++k) slide(Vector3<T>(Vector3<T>::Unit(k)), k);
+      for (int k = 0; k < 3; ++k) turn(Vector3<T>(Vector3<T>::Unit(k)), 3 + k);
+      break;
+    default: break;
+  }
+  return m;
+}
+
+}  // namespace
+
+TreeLayout::TreeLayout(const RobotDescription& robot) : offset(robot.joints.size(), 0) {
+  std::vector<bool> placed(robot.links.size(), false);
+  placed[static_cast<std::size_t>(robot.root)] = true;
+  for (bool progress = true; progress;) {
+    progress = false;
+    for (std::size_t k = 0; k < robot.joints.size(); ++k) {
+      const JointDescription& joint = robot.joints[k];
+      if (joint.is_loop || !placed[static_cast<std::size_t>(joint.parent)] || placed[static_cast<std::size_t>(joint.child)]) continue;
+      placed[static_cast<std::size_t>(joint.child)] = true;
+      joint_order.push_back(static_cast<int>(k));
+      progress = true;
+    }
+  }
+  for (int k : joint_order) {
+    offset[static_cast<std::size_t>(k)] = size;
+    size += coordinates_of(robot.joints[static_cast<std::size_t>(k)].type);
+  }
+}
+
+template <class T>
+std::vector<LinkMotion<T>> link_motions(const RobotDescription& robot, const TreeLayout& layout, const std::vector<T>& parameters, const VectorX<T>& theta,
+                                        const VectorX<T>& theta_rate) {
+  std::vector<LinkMotion<T>> links(robot.links.size());
+  for (int k : layout.joint_order) {
+    const JointDescription& joint = robot.joints[static_cast<std::size_t>(k)];
+    const LinkMotion<T>& parent = links[static_cast<std::size_t>(joint.parent)];
+    LinkMotion<T>& child = links[static_cast<std::size_t>(joint.child)];
+    const int first = layout.offset[static_cast<std::size_t>(k)];
+    const Pose<T> X_GF = parent.X * pose_at(joint.origin, parameters);
+    const JointMotion<T> m = joint_motion(joint, parameters, theta.data() + first, theta_rate.data() + first);
+    child.X = X_GF * m.X;
+    child.omega = parent.omega + X_GF.R * m.omega;
+    child.velocity = parent.velocity + cross<T>(parent.omega, child.X.t - parent.X.t) + X_GF.R * m.velocity;
+  }
+  return links;
+}
+
+template <class T>
+void body_coordinates(const System& system, const Constants<T>& constants, const std::vector<LinkMotion<T>>& links, VectorX<T>* q, VectorX<T>* v) {
+  const Topology& topology = system.topology();
+  q->resize(system.layout().n);
+  v->resize(system.layout().n);
+  for (std::size_t b = 0; b < topology.bodies.size(); ++b) {
+    const LinkMotion<T>& link = links[static_cast<std::size_t>(topology.bodies[b].base_link)];
+    const auto c = static_cast<Eigen::Index>(kBodySize * b);
+    const Vector3<T> arm = link.X.R * constants.bodies[b].centre;
+    const Vector4<T> p = euler_parameters(link.X.R);
+    q->template segment<3>(c) = link.X.t + arm;
+    q->template segment<4>(c + 3) = p;
+    v->template segment<3>(c) = link.velocity + cross(link.omega, arm);
+    v->template segment<4>(c + 3) = T(0.5) * (ground_rate_matrix(p).transpose() * link.omega);
+  }
+}
+
+#define CODESIGN_INSTANTIATE(T)                                                                                                                          \
+  template std::vector<LinkMotion<T>> link_motions(const RobotDescription&, const TreeLayout&, const std::vector<T>&, const VectorX<T>&, const VectorX<T>&); \
+  template void body_coordinates(const System&, const Constants<T>&, const std::vector<LinkMotion<T>>&, VectorX<T>*, VectorX<T>*);
+CODESIGN_INSTANTIATE(double)
+CODESIGN_INSTANTIATE(std::complex<double>)
+CODESIGN_INSTANTIATE(Lanes<4>)
+CODESIGN_INSTANTIATE(Lanes<8>)
+#undef CODESIGN_INSTANTIATE
+
+}  // namespace codesign

@@ -1,0 +1,81 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/integration/rosenbrock_integrator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace codesign {
+
+RosenbrockIntegrator::RosenbrockIntegrator(const System& system)
+    : system_(system),
+      options_(system.study().solver),
+      step_(system, *rosenbrock_tableau(options_.method)),
+      assembly_(system),
+      controller_(step_.tableau().order) {}
+
+Status RosenbrockIntegrator::start(const std::vector<double>& parameters) {
+  statistics_ = {};
+  controller_ = StepController(step_.tableau().order);
+  Equations<double>& equations = step_.equations();
+  equations.set_design(parameters);
+  if (std::string fault = find_impossible(system_.robot(), system_.topology(), equations.constants()); !fault.empty())
+    return {StatusCode::kInvalidDesign, 0.0, fault};
+  if (Status status = assembly_.solve(parameters, &equations, &initial_); !status.ok()) return status;
+  step_.start(initial_);
+  proposal_ = options_.initial_step > 0.0 ? options_.initial_step : first_step();
+  return {};
+}
+
+// A hundredth of the time in which the state changes by its own scaled size (Hairer, Norsett and Wanner, II.4).
+double RosenbrockIntegrator::first_step() const {
+  double size = 0.0, rate = 0.0;
+  for (Eigen::Index k = 0; k < initial_.q.size(); ++k) {
+    const double q_scale = options_.absolute_tolerance + options_.relative_tolerance * std::abs(initial_.q[k]);
+    const double v_scale = options_.absolute_tolerance + options_.relative_tolerance * std::abs(initial_.v[k]);
+    size += std::pow(initial_.q[k] / q_scale, 2) + std::pow(initial_.v[k] / v_scale, 2);
+    rate += std::pow(initial_.v[k] / q_scale, 2) + std::pow(initial_.z[k] / v_scale, 2);
+  }
+  const double h = rate > 0.0 && size > 0.0 ? 0.01 * std::sqrt(size / rate) : 1e-6;
+  return std::min(h, 0.01 * system_.study().duration);
+}
+
+Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_accept) {
+  const double t = step_.state().t;
+  const double smallest = 16.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), 1e-3 * system_.study().duration);
+  bool singular = false;
+  for (;;) {
+    if (statistics_.steps + statistics_.rejected_steps >= options_.maximum_steps)
+      return {StatusCode::kTooManySteps, t, "more than " + std::to_string(options_.maximum_steps) + " steps"};
+    double h = proposal_;
+    if (options_.maximum_step > 0.0) h = std::min(h, options_.maximum_step);
+    // Stretched by up to a tenth, or halved, so that no sliver is left before the limit.
+    const double rest = limit - t;
+    const bool last = h >= rest / 1.1;
+    if (last) h = rest;
+    if (!last && h > 0.5 * rest) h = 0.5 * rest;
+    if (h < smallest)
+      return singular ? Status{StatusCode::kSingularMatrix, t, "the equations of motion become singular: a dead point or lock-up"}
+                      : Status{StatusCode::kStepSizeTooSmall, t, "the step size fell below " + std::to_string(smallest * 1e12) + " ps: the motion is not resolvable"};
+    if (!step_.attempt(h)) {
+      singular = true;
+      ++statistics_.rejected_steps;
+      proposal_ = controller_.back_off(h);
+      continue;
+    }
+    const double kept = proposal_;
+    if (!controller_.accept(h, step_.error(options_.relative_tolerance, options_.absolute_tolerance), &proposal_)) {
+      ++statistics_.rejected_steps;
+      continue;
+    }
+    // A step cut short by the limit says little about the next one.
+    if (last && h < 0.5 * kept) proposal_ = std::max(proposal_, kept);
+    ++statistics_.steps;
+    if (before_accept) before_accept(step_);
+    if (!step_.accept()) return {StatusCode::kSingularMatrix, t + h, "the augmented matrix of the equations of motion is singular"};
+    step_.equations().track_turns(step_.state());
+    return {};
+  }
+}
+
+}  // namespace codesign

@@ -1,0 +1,92 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/integration/simulation.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "mechanism_codesign/dynamics/observer.h"
+#include "mechanism_codesign/dynamics/system.h"
+#include "mechanism_codesign/integration/rosenbrock_integrator.h"
+#include "mechanism_codesign/math/cpu_timer.h"
+
+namespace codesign {
+
+class Simulation::Implementation {
+ public:
+  Implementation(std::shared_ptr<const System> system, const std::vector<double>& parameters, const std::vector<SignalDescription>& signals)
+      : system_(std::move(system)), parameters_(parameters), observer_(*system_, signals), integrator_(*system_) {
+    sample_.resize(system_->layout());
+  }
+
+  Status start() {
+    const CpuTimer timer;
+    const Status status = integrator_.start(parameters_);
+    statistics_ = integrator_.statistics();
+    statistics_.cpu_seconds += timer.seconds();
+    return status;
+  }
+
+  // Within the study's duration the last step ends on it; a simulation may run on beyond.
+  Status advance(double time) {
+    const CpuTimer timer;
+    const double duration = system_->study().duration;
+    Status status;
+    while (status.ok() && integrator_.step().state().t < time) {
+      const double now = integrator_.step().state().t;
+      status = integrator_.advance(now < duration && time <= duration ? duration : std::max(time, now) + duration);
+    }
+    const double cpu = statistics_.cpu_seconds + timer.seconds();
+    statistics_ = integrator_.statistics();
+    statistics_.cpu_seconds = cpu;
+    return status;
+  }
+
+  // The interpolated accelerations and multipliers are of lower order; they are solved for anew from q, v and s.
+  void sample(double time, Frame* frame) {
+    RosenbrockStep<double>& step = integrator_.step();
+    double psi = 0.0;
+    const double h = step.step_size();
+    step.interpolate(h > 0.0 ? (time - step.previous().t) / h : 1.0, &sample_, &psi);
+    sample_.t = time;
+    if (h > 0.0) integrator_.assembly().solve_rates(&step.equations(), &sample_);
+    observer_.observe(sample_, psi, integrator_.assembly().theta(), &step.equations(), frame);
+  }
+
+  const FrameNames& names() const { return observer_.names(); }
+  const Statistics& statistics() const { return statistics_; }
+
+ private:
+  std::shared_ptr<const System> system_;
+  std::vector<double> parameters_;
+  Observer observer_;
+  RosenbrockIntegrator integrator_;
+  State<double> sample_;
+  Statistics statistics_;
+};
+
+Simulation::Simulation(std::shared_ptr<const System> system, const std::vector<double>& parameters, const std::vector<SignalDescription>& signals)
+    : implementation_(std::make_unique<Implementation>(std::move(system), parameters, signals)) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+Status Simulation::start() { return implementation_->start(); }
+Status Simulation::advance(double time) { return implementation_->advance(time); }
+void Simulation::sample(double time, Frame* frame) { implementation_->sample(time, frame); }
+const FrameNames& Simulation::names() const { return implementation_->names(); }
+const Statistics& Simulation::statistics() const { return implementation_->statistics(); }
+
+Status simulate(Simulation* simulation, double duration, int count, const FrameObserver& observer) {
+  Frame frame;
+  Status status = simulation->start();
+  for (int k = 0; status.ok() && k < count; ++k) {
+    const double time = count > 1 ? duration * k / (count - 1) : 0.0;
+    status = simulation->advance(time);
+    if (!status.ok()) break;
+    simulation->sample(time, &frame);
+    if (!observer(frame)) return {StatusCode::kCancelled, time, "cancelled"};
+  }
+  return status;
+}
+
+}  // namespace codesign
