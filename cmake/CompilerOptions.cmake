@@ -6,6 +6,12 @@ function(codesign_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -Wno-maybe-uninitialized)
 endfunction()
 
+# A compiler cache, where there is one, makes a second build tree (sanitizers, a workspace) cheap.
+find_program(CODESIGN_CCACHE ccache)
+if(CODESIGN_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CODESIGN_CCACHE})
+endif()
+
 # Numerical code. Neither errno nor floating-point traps are used, and both keep loops from being vectorized; IEEE results stay as they are.
 function(codesign_optimize target)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O3> -fno-math-errno -fno-trapping-math)
