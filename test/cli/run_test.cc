@@ -39,7 +39,7 @@ TEST(Run, AMisspeltStudyKeyIsNamedWithFileAndLine) {
   const std::string study = folder.edited("study.yaml", read_text_file(kStudy), "duration:", "duratoin:");
   const Outcome outcome = run_words({"gradient", kModel, study, "--json"});
   EXPECT_EQ(outcome.code, kBadInput);
-  const Json error = json_of(outcome)["error"];
+  Json error = json_of(outcome)["error"];
   EXPECT_EQ(error["file"], study);
   EXPECT_EQ(error["line"], 3);
   EXPECT_EQ(error["element"], "duratoin");
