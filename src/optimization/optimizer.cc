@@ -1,0 +1,178 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/optimization/optimizer.h"
+
+#include <cmath>
+#include <limits>
+
+#include "algorithm.h"
+#include "mechanism_codesign/dynamics/system.h"
+#include "mechanism_codesign/math/cpu_timer.h"
+#include "scaling.h"
+
+namespace codesign {
+namespace {
+
+constexpr double kFeasible = 1e-7;  // a constraint of scaled variables may be missed by this much
+
+/// One optimization: what NLopt's callbacks share.
+class Minimization {
+ public:
+  Minimization(const std::shared_ptr<const System>& system, const Study& study, const TrialObserver& observer, const std::atomic<bool>* cancel)
+      : study_(study), observer_(observer), cancel_(cancel), evaluator_(system), scaling_(study) {}
+
+  OptimizationResult run() {
+    nlopt::opt optimizer = make_optimizer(study_, static_cast<unsigned>(study_.tuned.size()));
+    configure(&optimizer);
+    result_.initial_rho = result_.rho = scaling_.start();
+    std::vector<double> x = scaling_.to_scaled(result_.initial_rho);
+    minimize(&optimizer, &x);
+    result_.status.time = study_.duration;
+    return std::move(result_);
+  }
+
+ private:
+  struct Constraint {
+    Minimization* owner;
+    const ParameterConstraint* constraint;
+  };
+
+  void configure(nlopt::opt* optimizer) {
+    optimizer->set_lower_bounds(scaling_.lower());
+    optimizer->set_upper_bounds(scaling_.upper());
+    optimizer->set_min_objective(&Minimization::objective_callback, this);
+    optimizer->set_ftol_rel(study_.optimizer.relative_tolerance);
+    optimizer->set_maxeval(study_.optimizer.max_evaluations);
+    constraints_.reserve(study_.constraints.size());
+    for (const ParameterConstraint& constraint : study_.constraints) {
+      constraints_.push_back({this, &constraint});
+      optimizer->add_inequality_constraint(&Minimization::constraint_callback, &constraints_.back(), 1e-9);
+    }
+  }
+
+  void minimize(nlopt::opt* optimizer, std::vector<double>* x) {
+    double value = 0.0;
+    try {
+      result_.termination = termination_name(optimizer->optimize(*x, value));
+    } catch (const nlopt::forced_stop&) {
+      result_.termination = "cancelled";
+    } catch (const nlopt::roundoff_limited&) {
+      result_.termination = "roundoff_limited";
+    } catch (const std::runtime_error& error) {
+      result_.termination = "algorithm_failed";
+      failure_ = error.what();
+    }
+    // A line search that finds nothing better any more has converged as far as it can; only a start without a value is a failure.
+    if (result_.termination == "cancelled") result_.status = {StatusCode::kCancelled, 0.0, "cancelled; the best point so far is kept"};
+    if (!have_best_) result_.status = first_failure_;
+  }
+
+  static double objective_callback(const std::vector<double>& x, std::vector<double>& gradient, void* self) {
+    return static_cast<Minimization*>(self)->objective(x, &gradient);
+  }
+
+  // -margin(rho) <= 0.
+  static double constraint_callback(const std::vector<double>& x, std::vector<double>& gradient, void* data) {
+    const auto& constraint = *static_cast<Constraint*>(data);
+    const Scaling& scaling = constraint.owner->scaling_;
+    const std::vector<double> parameters = scaling.all_parameters(scaling.from_scaled(x));
+    const Expression& margin = *constraint.constraint->margin;
+    for (std::size_t k = 0; k < gradient.size(); ++k)
+      gradient[k] = -margin.derivative(constraint.owner->study_.tuned[k], parameters) * scaling.range(k);
+    return -margin.value(parameters);
+  }
+
+  double objective(const std::vector<double>& x, std::vector<double>* gradient) {
+    const Eigen::VectorXd rho = scaling_.from_scaled(x);
+    const Evaluation evaluation = evaluator_.evaluate(rho, true, cancel_);
+    if (evaluation.status.code == StatusCode::kCancelled) throw nlopt::forced_stop();
+    const Trial trial = note(evaluation, rho);
+    if (observer_ && !observer_(trial)) throw nlopt::forced_stop();
+    if (!evaluation.status.ok()) return step_back(x, gradient);
+    const std::vector<double> scaled = scaling_.scale_gradient(evaluation.gradient);
+    if (!gradient->empty()) *gradient = scaled;
+    worst_ = std::max(worst_, evaluation.objective);
+    return evaluation.objective;
+  }
+
+  // A point without a value is worse than all seen, and the more so the farther it lies from the best one: a line search turns back.
+  double step_back(const std::vector<double>& x, std::vector<double>* gradient) const {
+    if (!have_best_) throw std::runtime_error("the start could not be evaluated");
+    const std::vector<double> best = scaling_.to_scaled(result_.rho);
+    const double weight = std::abs(worst_) + std::abs(result_.objective) + 1e-300;
+    double distance = 0.0;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const double d = x[k] - best[k];
+      distance += d * d;
+      if (!gradient->empty()) (*gradient)[k] = 2.0 * weight * d;
+    }
+    return worst_ + weight * (1.0 + distance);
+  }
+
+  bool feasible(const Eigen::VectorXd& rho) const {
+    const std::vector<double> parameters = scaling_.all_parameters(rho);
+    for (const ParameterConstraint& constraint : study_.constraints)
+      if (constraint.margin->value(parameters) < -kFeasible) return false;
+    return true;
+  }
+
+  Trial note(const Evaluation& evaluation, const Eigen::VectorXd& rho) {
+    Trial trial;
+    trial.evaluation = ++result_.evaluations;
+    trial.status = evaluation.status;
+    trial.rho = rho;
+    result_.statistics.steps += evaluation.statistics.steps;
+    result_.statistics.rejected_steps += evaluation.statistics.rejected_steps;
+    result_.statistics.cpu_seconds += evaluation.statistics.cpu_seconds;
+    if (evaluation.status.ok()) {
+      trial.objective = evaluation.objective;
+      trial.gradient = evaluation.gradient;
+      trial.gradient_norm = scaling_.gradient_norm(evaluation.gradient);
+      take_best(evaluation, rho);
+    } else {
+      ++result_.failed_evaluations;
+      if (result_.evaluations == 1) first_failure_ = evaluation.status;
+    }
+    trial.iteration = result_.iterations;
+    trial.best_objective = result_.objective;
+    result_.history.push_back(trial);
+    return trial;
+  }
+
+  // A start outside the constraints is kept only until a point inside is seen.
+  void take_best(const Evaluation& evaluation, const Eigen::VectorXd& rho) {
+    const bool inside = feasible(rho), first = !have_best_;
+    if (first) {
+      result_.initial_objective = evaluation.objective;
+      result_.initial_gradient = evaluation.gradient;
+    }
+    const bool better = first || (inside && !best_feasible_) || (inside == best_feasible_ && evaluation.objective < result_.objective);
+    if (!better) return;
+    if (!first) ++result_.iterations;
+    have_best_ = true;
+    best_feasible_ = inside;
+    result_.objective = evaluation.objective;
+    result_.gradient = evaluation.gradient;
+    result_.rho = rho;
+  }
+
+  const Study& study_;
+  const TrialObserver& observer_;
+  const std::atomic<bool>* cancel_;
+  Evaluator evaluator_;
+  Scaling scaling_;
+  std::vector<Constraint> constraints_;
+  OptimizationResult result_;
+  Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"};
+  std::string failure_;
+  double worst_ = 0.0;
+  bool have_best_ = false, best_feasible_ = false;
+};
+
+}  // namespace
+
+OptimizationResult optimize(const std::shared_ptr<const System>& system, const Study& study, const TrialObserver& observer, const std::atomic<bool>* cancel) {
+  if (study.tuned.empty()) throw InputError({{study.file, 0}, "parameters", "nothing to tune", "", "at least one parameter"});
+  return Minimization(system, study, observer, cancel).run();
+}
+
+}  // namespace codesign

@@ -1,0 +1,55 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "scaling.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace codesign {
+
+Scaling::Scaling(const Study& study) : study_(study), start_(static_cast<Eigen::Index>(study.tuned.size())) {
+  for (std::size_t k = 0; k < study.tuned.size(); ++k) {
+    const Parameter& p = study.parameters[static_cast<std::size_t>(study.tuned[k])];
+    const bool bounded = std::isfinite(p.lower) && std::isfinite(p.upper) && p.upper > p.lower;
+    start_[static_cast<Eigen::Index>(k)] = p.value;
+    origin_.push_back(bounded ? p.lower : 0.0);
+    range_.push_back(bounded ? p.upper - p.lower : p.value != 0.0 ? std::abs(p.value) : 1.0);
+    lower_.push_back((p.lower - origin_[k]) / range_[k]);
+    upper_.push_back((p.upper - origin_[k]) / range_[k]);
+  }
+}
+
+std::vector<double> Scaling::to_scaled(const Eigen::VectorXd& rho) const {
+  std::vector<double> x(range_.size());
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] = (rho[static_cast<Eigen::Index>(k)] - origin_[k]) / range_[k];
+  return x;
+}
+
+Eigen::VectorXd Scaling::from_scaled(const std::vector<double>& x) const {
+  Eigen::VectorXd rho(static_cast<Eigen::Index>(x.size()));
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const Parameter& p = study_.parameters[static_cast<std::size_t>(study_.tuned[k])];
+    rho[static_cast<Eigen::Index>(k)] = std::min(p.upper, std::max(p.lower, origin_[k] + range_[k] * x[k]));
+  }
+  return rho;
+}
+
+std::vector<double> Scaling::scale_gradient(const Eigen::VectorXd& gradient) const {
+  std::vector<double> scaled(range_.size());
+  for (std::size_t k = 0; k < scaled.size(); ++k) scaled[k] = gradient[static_cast<Eigen::Index>(k)] * range_[k];
+  return scaled;
+}
+
+double Scaling::gradient_norm(const Eigen::VectorXd& gradient) const {
+  double sum = 0.0;
+  for (double component : scale_gradient(gradient)) sum += component * component;
+  return std::sqrt(sum);
+}
+
+std::vector<double> Scaling::all_parameters(const Eigen::VectorXd& rho) const {
+  std::vector<double> parameters;
+  for (const Parameter& p : study_.parameters) parameters.push_back(p.value);
+  for (std::size_t k = 0; k < study_.tuned.size(); ++k) parameters[static_cast<std::size_t>(study_.tuned[k])] = rho[static_cast<Eigen::Index>(k)];
+  return parameters;
+}
+
+}  // namespace codesign

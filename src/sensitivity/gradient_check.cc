@@ -1,0 +1,118 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "mechanism_codesign/dynamics/system.h"
+#include "mechanism_codesign/integration/rosenbrock_integrator.h"
+#include "mechanism_codesign/math/ridders.h"
+#include "mechanism_codesign/sensitivity/evaluation.h"
+
+namespace codesign {
+namespace {
+
+using Complex = std::complex<double>;
+constexpr double kComplexStep = 1e-30;
+
+std::vector<double> full_parameters(const System& system, const Eigen::VectorXd& rho) {
+  std::vector<double> parameters = system.parameters();
+  for (Eigen::Index k = 0; k < rho.size(); ++k) parameters[static_cast<std::size_t>(system.study().tuned[static_cast<std::size_t>(k)])] = rho[k];
+  return parameters;
+}
+
+/// The sizes of the steps that a real integration takes.
+Status record_steps(const std::vector<double>& parameters, double duration, RosenbrockIntegrator* integrator, std::vector<double>* steps) {
+  Status status = integrator->start(parameters);
+  while (status.ok() && integrator->step().state().t < duration) {
+    status = integrator->advance(duration);
+    if (status.ok()) steps->push_back(integrator->step().step_size());
+  }
+  return status;
+}
+
+/// psi after the same steps in complex arithmetic.
+Complex replay(const System& system, const std::vector<Complex>& parameters, const std::vector<double>& steps, RosenbrockIntegrator* integrator,
+               const std::vector<double>& real_parameters) {
+  RosenbrockStep<Complex> step(system, integrator->step().tableau());
+  step.equations().set_design(parameters);
+  integrator->start(real_parameters);
+  State<Complex> state;
+  step.equations().turn_references() = integrator->step().equations().turn_references();
+  integrator->assembly().extend(parameters, integrator->initial_state(), &step.equations(), &state);
+  step.start(state);
+  for (double h : steps) {
+    step.attempt(h);
+    step.accept();
+    step.equations().track_turns(step.state());
+  }
+  return step.psi() + step.equations().terminal(step.state(), nullptr);
+}
+
+void compare(GradientCheck* check) {
+  if (check->reference.size() == 0) return;
+  const double scale = 1e-3 * check->reference.cwiseAbs().maxCoeff();
+  for (Eigen::Index k = 0; k < check->reference.size(); ++k) {
+    const double difference = std::abs(check->evaluation.gradient[k] - check->reference[k]);
+    const double size = std::max(std::abs(check->reference[k]), scale);
+    if (difference > 0.0) check->largest_relative_difference = std::max(check->largest_relative_difference, difference / size);
+  }
+}
+
+void check_by_complex_step(const System& system, const Eigen::VectorXd& rho, const std::atomic<bool>* cancel, GradientCheck* check) {
+  RosenbrockIntegrator integrator(system);
+  std::vector<double> steps;
+  const std::vector<double> parameters = full_parameters(system, rho);
+  check->status = record_steps(parameters, system.study().duration, &integrator, &steps);
+  for (Eigen::Index k = 0; check->status.ok() && k < rho.size(); ++k) {
+    if (cancel && *cancel) {
+      check->status = {StatusCode::kCancelled, 0.0, "cancelled"};
+      return;
+    }
+    std::vector<Complex> perturbed(parameters.begin(), parameters.end());
+    const auto index = static_cast<std::size_t>(system.study().tuned[static_cast<std::size_t>(k)]);
+    const double h = kComplexStep * std::max(1.0, std::abs(parameters[index]));
+    perturbed[index] += Complex(0.0, h);
+    check->reference[k] = replay(system, perturbed, steps, &integrator, parameters).imag() / h;
+  }
+}
+
+/// Differences need an objective that is smoother than they are small: tolerances far below the study's.
+void check_by_differences(const System& system, const Eigen::VectorXd& rho, const std::atomic<bool>* cancel, GradientCheck* check) {
+  Study study = system.study();
+  study.solver.relative_tolerance = std::min(study.solver.relative_tolerance, 1e-10);
+  study.solver.absolute_tolerance = std::min(study.solver.absolute_tolerance, 1e-11);
+  study.solver.method = "rodas5p";
+  study.solver.maximum_steps = std::max(study.solver.maximum_steps, 2000000);
+  Evaluator evaluator(std::make_shared<const System>(system.robot(), study));
+  for (Eigen::Index k = 0; check->status.ok() && k < rho.size(); ++k) {
+    const auto objective = [&](double value) {
+      Eigen::VectorXd moved = rho;
+      moved[k] = value;
+      const Evaluation evaluation = evaluator.evaluate(moved, false, cancel);
+      if (!evaluation.status.ok()) check->status = evaluation.status;
+      return evaluation.objective;
+    };
+    const RiddersDerivative derivative = ridders_derivative(objective, rho[k], 1e-2 * std::max(std::abs(rho[k]), 1e-3));
+    check->reference[k] = derivative.value;
+    check->reference_error[k] = derivative.error;
+  }
+}
+
+}  // namespace
+
+GradientCheck check_gradient(const std::shared_ptr<const System>& system, const Eigen::VectorXd& rho, CheckMethod method, const std::atomic<bool>* cancel) {
+  GradientCheck check;
+  check.reference.setZero(rho.size());
+  check.reference_error.setZero(rho.size());
+  check.evaluation = Evaluator(system).evaluate(rho, true, cancel);
+  check.status = check.evaluation.status;
+  if (!check.status.ok()) return check;
+  if (method == CheckMethod::kComplexStep) {
+    check_by_complex_step(*system, rho, cancel, &check);
+  } else {
+    check_by_differences(*system, rho, cancel, &check);
+  }
+  if (check.status.ok()) compare(&check);
+  return check;
+}
+
+}  // namespace codesign
