@@ -63,7 +63,10 @@ class Minimization {
     }
     // A line search that finds nothing better any more has converged as far as it can; only a start without a value is a failure.
     if (result_.termination == "cancelled") result_.status = {StatusCode::kCancelled, 0.0, "cancelled; the best point so far is kept"};
-    if (!have_best_) result_.status = first_failure_;
+    if (!have_best_) {
+      result_.status = first_failure_;
+      result_.termination = "start_failed";
+    }
   }
 
   static double objective_callback(const std::vector<double>& x, std::vector<double>& gradient, void* self) {
