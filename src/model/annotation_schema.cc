@@ -31,7 +31,7 @@ void check_prefixed_attribute(const XmlElement& element, const std::string& attr
     if (element.has(plain) && known.empty()) element.fail_at(attribute, plain + " cannot depend on parameters: it takes no twin");
     throw unknown_name(element.where(attribute), element.label(), "or misplaced attribute " + attribute, attribute, known);
   }
-  if (contains(rule->twins, plain) && !element.has(plain))
+  if (rule != nullptr && contains(rule->twins, plain) && !element.has(plain))
     element.fail_at(attribute, "the twin " + attribute + " lacks its plain attribute " + plain + ", which readers of plain URDF need");
 }
 

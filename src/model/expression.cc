@@ -29,7 +29,7 @@ struct Expression::Parser {
   std::complex<double> evaluate(const std::vector<int>& dependencies, const std::vector<T>& parameters) {
     const std::lock_guard<std::mutex> lock(mutex);
     for (std::size_t k = 0; k < dependencies.size(); ++k)
-      variables[k] = mup::Value(mup::cmplx_type(parameters.at(static_cast<std::size_t>(dependencies[k]))));
+      variables[k] = mup::Value(mup::cmplx_type{parameters.at(static_cast<std::size_t>(dependencies[k]))});
     try {
       const mup::IValue& result = parser.Eval();
       if (result.GetType() != 'b') return result.GetComplex();

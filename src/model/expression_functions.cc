@@ -27,6 +27,7 @@ class Function : public mup::ICallback {
   void Eval(mup::ptr_val_type& result, const mup::ptr_val_type* arguments, int count) override {
     if (count < 1) throw mup::ParserError("a function lacks its argument");
     std::vector<Complex> values;
+    values.reserve(static_cast<std::size_t>(count));
     for (int k = 0; k < count; ++k) values.push_back(argument(arguments[k]));
     *result = law_(values.data(), count);
   }

@@ -27,7 +27,7 @@ void check_physical(const XmlElement& element, const InertialDescription& inerti
   const std::string mass = to_decimal(properties.mass);
   if (properties.mass <= 0.0) element.fail("the mass is not positive though the inertia is given", mass, "> 0");
   const Eigen::SelfAdjointEigenSolver<Matrix3<double>> solver(properties.inertia, Eigen::EigenvaluesOnly);
-  const Vector3<double> moments = solver.eigenvalues();
+  const Vector3<double>& moments = solver.eigenvalues();
   const std::string text = "principal moments " + format_numbers({moments[0], moments[1], moments[2]});
   constexpr double kRounding = 1e-14, kTriangle = 1e-9;
   if (!(moments[0] > kRounding * std::abs(moments[2]))) element.fail("the inertia is not positive definite", text, "all > 0");

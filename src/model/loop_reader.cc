@@ -23,6 +23,7 @@ JointType read_type(const XmlElement& element) {
   const auto found = kTypes.find(name);
   if (found != kTypes.end()) return found->second;
   std::vector<std::string> known;
+  known.reserve(kTypes.size());
   for (const auto& type : kTypes) known.push_back(type.first);
   throw unknown_name(element.where("type"), element.label(), "loop type", name, known);
 }

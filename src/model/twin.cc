@@ -98,7 +98,7 @@ std::vector<Quantity> read_quantities(const XmlElement& element, const std::stri
                                       const ParameterTable& table) {
   if (element.text(attribute).find("${") != std::string::npos)
     element.fail_at(attribute, "an expression stands in a plain attribute", "a number here, the expression in " + (kPrefix + attribute));
-  const std::vector<Quantity> plain = parse_quantities(element, attribute, count, table);
+  std::vector<Quantity> plain = parse_quantities(element, attribute, count, table);
   const std::string twin_name = kPrefix + attribute;
   if (!element.has(twin_name)) return plain;
   std::vector<Quantity> twin = parse_quantities(element, twin_name, count, table);
