@@ -10,7 +10,7 @@ endforeach()
 add_library(codesign_core ${core_sources})
 target_include_directories(codesign_core PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
 target_link_libraries(codesign_core
-  PUBLIC Eigen3::Eigen codesign_ceres_jet Threads::Threads
+  PUBLIC Eigen3::Eigen Threads::Threads
   PRIVATE SUNDIALS::idas SUNDIALS::nvecserial SUNDIALS::sunlinsolklu codesign_klu NLopt::nlopt
     urdfdom::urdfdom_model tinyxml2::tinyxml2 console_bridge::console_bridge yaml-cpp codesign_muparserx)
 codesign_warnings(codesign_core)

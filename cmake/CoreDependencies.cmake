@@ -30,5 +30,3 @@ endfunction()
 
 codesign_import(muparserx mpParser.h muparserx muparserx)
 codesign_import(klu klu.h suitesparse klu amd colamd btf suitesparseconfig)
-# Only the header-only dual numbers of Ceres.
-codesign_import(ceres_jet ceres/jet.h "")

@@ -11,11 +11,11 @@ namespace codesign {
 // Loads along joint coordinates. A load L opposes the coordinate, so the equations get + J^T L; a controller's output counts as -L.
 
 template <class T>
-CoordinateMotion<T> Equations<T>::coordinate(int pair, int element) const {
+CoordinateMotion<T> Equations<T>::coordinate(int pair, int element, CoordinateDetail detail) const {
   const Pair& p = system_.topology().pairs[static_cast<std::size_t>(pair)];
   const PairConstants<T>& c = constants_.pairs[static_cast<std::size_t>(pair)];
-  CoordinateMotion<T> motion = coordinate_motion(c, c.coordinates[static_cast<std::size_t>(element)], body(p.body_i), body(p.body_j));
-  if (c.coordinates[static_cast<std::size_t>(element)].kind != CoordinateConstants<T>::Kind::kSlide) {
+  CoordinateMotion<T> motion = coordinate_motion(c, c.coordinates[static_cast<std::size_t>(element)], body(p.body_i), body(p.body_j), detail);
+  if (detail == CoordinateDetail::kAll && c.coordinates[static_cast<std::size_t>(element)].kind != CoordinateConstants<T>::Kind::kSlide) {
     const double reference = turn_references_[static_cast<std::size_t>(pair)][static_cast<std::size_t>(element)];
     motion.position += T(2.0 * M_PI * std::round((reference - value_of(motion.position)) / (2.0 * M_PI)));
   }
@@ -139,7 +139,7 @@ T Equations<T>::joint_load(const JointLoad& load, const CoordinateMotion<T>& mot
 
 template <class T>
 void Equations<T>::load_residual(const JointLoad& load, VectorX<T>* G) {
-  const CoordinateMotion<T> motion = coordinate(load.pair, load.element);
+  const CoordinateMotion<T> motion = coordinate(load.pair, load.element, load.passive ? CoordinateDetail::kAll : CoordinateDetail::kRate);
   const T value = joint_load(load, motion, nullptr);
   for (int local = 0; local < kLocalSize; ++local)
     if (const int c = column(load.pair, local); c >= 0) (*G)[c] += motion.J[local] * value;

@@ -8,7 +8,8 @@ namespace codesign {
 
 template <class T>
 T Equations<T>::joint_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient) {
-  const CoordinateMotion<T> m = coordinate(term.pair, term.element);
+  const bool rate_only = !gradient && (term.kind == SignalKind::kJointVelocity || term.kind == SignalKind::kJointSlidingVelocity);
+  const CoordinateMotion<T> m = coordinate(term.pair, term.element, rate_only ? CoordinateDetail::kRate : CoordinateDetail::kAll);
   const bool with_r = coordinate_moves_r(term.pair, term.element);
   const auto append = [&](const LocalRow<T>* position, const LocalRow<T>* velocity, const LocalRow<T>* rate) {
     if (gradient) append_local(term.pair, position, velocity, rate, factor, with_r, gradient);

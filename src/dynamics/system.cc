@@ -125,6 +125,11 @@ void System::record_pattern() {
   PatternRecorder recorder;
   equations.assemble(&recorder);
   sparsity_ = recorder.build(layout_.columns() + 1, layout_.columns(), &slots_);
+  for (int column = 0; column < sparsity_.columns; ++column) {
+    const int last = sparsity_.column_start[static_cast<std::size_t>(column) + 1] - 1;
+    const bool touched = last >= sparsity_.column_start[static_cast<std::size_t>(column)];
+    if (touched && sparsity_.row_index[static_cast<std::size_t>(last)] == layout_.columns()) integrand_entries_.push_back({column, static_cast<std::size_t>(last)});
+  }
 }
 
 void System::refuse_unsupported() const {

@@ -25,24 +25,35 @@ void add_scaled(double factor, const Increment<T>& u, State<T>* y) {
   y->z += T(factor) * u.z;
 }
 
+/// result += G_q q + G_s s + G_v v, the increment's z left out.
+template <class T>
+void add_product(const System& system, const Linearization<T>& d, const Increment<T>& u, VectorX<T>* result) {
+  const Sparsity& pattern = system.sparsity();
+  const Layout& layout = system.layout();
+  const int *start = pattern.column_start.data(), *row = pattern.row_index.data();
+  T* y = result->data();
+  for (int column = 0; column < layout.n; ++column) {
+    const T q = u.q[column], v = u.v[column];
+    for (int k = start[column]; k < start[column + 1]; ++k)
+      y[row[k]] += d.by_position[static_cast<std::size_t>(k)] * q + d.by_velocity[static_cast<std::size_t>(k)] * v;
+  }
+  for (int state = 0; state < layout.states; ++state) {
+    const int column = layout.state_column(state);
+    for (int k = start[column]; k < start[column + 1]; ++k) y[row[k]] += d.by_position[static_cast<std::size_t>(k)] * u.s[state];
+  }
+}
+
 }  // namespace
 
 template <class T>
-void add_product(const System& system, const Linearization<T>& d, const VectorX<T>& q, const VectorX<T>& s, const VectorX<T>& v, const VectorX<T>* z,
-                 VectorX<T>* result) {
-  const Sparsity& pattern = system.sparsity();
-  const Layout& layout = system.layout();
-  for (int column = 0; column < pattern.columns; ++column) {
-    const bool body = column < layout.n, state = column >= layout.state_column(0);
-    const T zero(0.0);
-    const T& position = body ? q[column] : state ? s[column - layout.state_column(0)] : zero;
-    const T& velocity = body ? v[column] : zero;
-    const T& rate = z ? (*z)[column] : zero;
-    for (int k = pattern.column_start[static_cast<std::size_t>(column)]; k < pattern.column_start[static_cast<std::size_t>(column) + 1]; ++k) {
-      const auto e = static_cast<std::size_t>(k);
-      (*result)[pattern.row_index[e]] += d.by_position[e] * position + d.by_velocity[e] * velocity + d.by_rate[e] * rate;
-    }
+T RosenbrockStep<T>::integrand_product(const Increment<T>& u) const {
+  T sum(0.0);
+  for (const auto& [column, e] : system_.integrand_entries()) {
+    sum += derivatives_.by_rate[e] * u.z[column];
+    if (column < layout_.n) sum += derivatives_.by_position[e] * u.q[column] + derivatives_.by_velocity[e] * u.v[column];
+    if (column >= layout_.state_column(0)) sum += derivatives_.by_position[e] * u.s[column - layout_.state_column(0)];
   }
+  return sum;
 }
 
 template <class T>
@@ -105,15 +116,13 @@ bool RosenbrockStep<T>::solve_stage(int i, double h) {
   u.q = hg * (stage_.v + sum_.q + u.v);
   u.s = hg * (sigma + sum_.s);
   right_hand_side_.setZero();
-  add_product<T>(system_, derivatives_, u.q, u.s, u.v, nullptr, &right_hand_side_);
+  add_product(system_, derivatives_, u, &right_hand_side_);
   u.z = -(residual_ + right_hand_side_.head(layout_.columns()));
   stage_matrix_.solve(&u.z);
   u.v += hg * u.z.head(layout_.n);
   u.q += hg * hg * u.z.head(layout_.n);
   u.s += hg * u.z.tail(layout_.states);
-  right_hand_side_.setZero();
-  add_product(system_, derivatives_, u.q, u.s, u.v, &u.z, &right_hand_side_);
-  u.psi = hg * (g + sum_.psi + right_hand_side_[layout_.columns()]);
+  u.psi = hg * (g + sum_.psi + integrand_product(u));
   return std::isfinite(value_of(u.psi)) && std::isfinite(value_of(u.z.sum()));
 }
 
@@ -195,12 +204,7 @@ void RosenbrockStep<T>::interpolate(double theta, State<T>* state, T* psi) const
   state->t = previous_.t + theta * h_;
 }
 
-#define CODESIGN_INSTANTIATE(T)                                                                                                                      \
-  template class RosenbrockStep<T>;                                                                                                                  \
-  template void add_product<T>(const System&, const Linearization<T>&, const VectorX<T>&, const VectorX<T>&, const VectorX<T>&, const VectorX<T>*, \
-                               VectorX<T>*);
-CODESIGN_INSTANTIATE(double)
-CODESIGN_INSTANTIATE(std::complex<double>)
-#undef CODESIGN_INSTANTIATE
+template class RosenbrockStep<double>;
+template class RosenbrockStep<std::complex<double>>;
 
 }  // namespace codesign

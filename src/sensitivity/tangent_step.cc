@@ -16,10 +16,6 @@ TangentStep<N>::TangentStep(const System& system, const RosenbrockTableau& table
     stage.z.setZero(N, layout_.columns());
   }
   columns_.resize(layout_.columns(), N);
-  const Sparsity& pattern = system.sparsity();
-  for (int column = 0; column < pattern.columns; ++column)
-    for (int k = pattern.column_start[static_cast<std::size_t>(column)]; k < pattern.column_start[static_cast<std::size_t>(column) + 1]; ++k)
-      if (pattern.row_index[static_cast<std::size_t>(k)] == pattern.columns) integrand_entries_.emplace_back(column, k);
 }
 
 template <int N>
@@ -29,7 +25,7 @@ void TangentStep<N>::load_lanes(const VectorX<double>& q, const VectorX<double>&
   const auto load = [](const VectorX<double>& value, const Directions<N>& direction, VectorX<Lanes<N>>* lanes) {
     for (Eigen::Index k = 0; k < value.size(); ++k) {
       (*lanes)[k].a = value[k];
-      (*lanes)[k].v = direction.col(k);
+      (*lanes)[k].directions() = direction.col(k);
     }
   };
   load(q, dq, &state->q);
@@ -46,7 +42,7 @@ void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assemb
   assembly.extend(parameters, initial, &equations_, &state_);
   const auto take = [](const VectorX<Lanes<N>>& lanes, Directions<N>* direction) {
     direction->resize(N, lanes.size());
-    for (Eigen::Index k = 0; k < lanes.size(); ++k) direction->col(k) = lanes[k].v;
+    for (Eigen::Index k = 0; k < lanes.size(); ++k) direction->col(k) = lanes[k].directions();
   };
   take(state_.q, &q_);
   take(state_.v, &v_);
@@ -66,7 +62,8 @@ void TangentStep<N>::add_matrix_tangent(const Increment<double>& u, Directions<N
     for (int k = pattern.column_start[static_cast<std::size_t>(column)]; k < pattern.column_start[static_cast<std::size_t>(column) + 1]; ++k) {
       const auto e = static_cast<std::size_t>(k);
       result->col(pattern.row_index[e]) +=
-          position * derivatives_.by_position[e].v + velocity * derivatives_.by_velocity[e].v + rate * derivatives_.by_rate[e].v;
+          position * derivatives_.by_position[e].directions() + velocity * derivatives_.by_velocity[e].directions() +
+          rate * derivatives_.by_rate[e].directions();
     }
   }
 }
@@ -97,8 +94,7 @@ void TangentStep<N>::add_matrix_product(const Linearization<double>& d, const Di
 template <int N>
 Eigen::Matrix<double, N, 1> TangentStep<N>::integrand_product(const Linearization<double>& d, const StageTangent& u) const {
   Eigen::Matrix<double, N, 1> sum = Eigen::Matrix<double, N, 1>::Zero();
-  for (const auto& [column, slot] : integrand_entries_) {
-    const auto e = static_cast<std::size_t>(slot);
+  for (const auto& [column, e] : system_.integrand_entries()) {
     sum += d.by_rate[e] * u.z.col(column);
     if (column < layout_.n) sum += d.by_position[e] * u.q.col(column) + d.by_velocity[e] * u.v.col(column);
     if (column >= layout_.state_column(0)) sum += d.by_position[e] * u.s.col(column - layout_.state_column(0));
@@ -152,9 +148,9 @@ void TangentStep<N>::stage_tangent(int i, const RosenbrockStep<double>& step) {
   u.s = hg * (dz_.rightCols(layout_.states) + sum_s_);
   product_.setZero(N, layout_.columns() + 1);
   add_matrix_tangent(step.increments()[row], &product_);
-  u.psi += g.v + product_.col(layout_.columns());
+  u.psi += g.directions() + product_.col(layout_.columns());
   add_matrix_product(step.derivatives(), u.q, u.s, u.v, &product_);
-  for (int k = 0; k < layout_.columns(); ++k) u.z.col(k) = -(product_.col(k) + residual_[k].v);
+  for (int k = 0; k < layout_.columns(); ++k) u.z.col(k) = -(product_.col(k) + residual_[k].directions());
   solve(step.stage_matrix(), &u.z);
   u.v += hg * u.z.leftCols(layout_.n);
   u.q += hg * hg * u.z.leftCols(layout_.n);
@@ -188,7 +184,7 @@ void TangentStep<N>::advance_projection(const RosenbrockStep<double>& step) {
     product_.setZero(N, layout_.columns() + 1);
     add_matrix_tangent(multipliers, &product_);
     right_hand_side_ = -product_.leftCols(layout_.columns());
-    for (int row = 0; row < layout_.m; ++row) right_hand_side_.col(layout_.lambda_column(row)) -= errors[row].v;
+    for (int row = 0; row < layout_.m; ++row) right_hand_side_.col(layout_.lambda_column(row)) -= errors[row].directions();
     solve(step.projection_matrix(), &right_hand_side_);
     *target += right_hand_side_.leftCols(layout_.n);
   };
@@ -202,7 +198,7 @@ void TangentStep<N>::advance_projection(const RosenbrockStep<double>& step) {
 template <int N>
 Eigen::Matrix<double, N, 1> TangentStep<N>::terminal(const State<double>& state) {
   load_lanes(state.q, state.v, state.s, state.z, q_, v_, s_, z_, &state_);
-  return equations_.terminal(state_, nullptr).v;
+  return equations_.terminal(state_, nullptr).directions();
 }
 
 template class TangentStep<4>;

@@ -60,7 +60,7 @@ class Equations {
 
   /// Samplers used by the observer; the state must have been loaded by load().
   void load(const State<T>& state);
-  CoordinateMotion<T> coordinate(int pair, int element) const;
+  CoordinateMotion<T> coordinate(int pair, int element, CoordinateDetail detail = CoordinateDetail::kAll) const;
   FrictionState<T> friction(int pair, int element);
   T effort(int pair, int element);
   T controller_output(int controller, SparseGradient<T>* gradient);

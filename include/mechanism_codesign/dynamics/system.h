@@ -53,6 +53,12 @@ class System {
 
   /// Pattern of the equations' derivatives, columns() square, and below it one row for the integrand g.
   const Sparsity& sparsity() const { return sparsity_; }
+  /// Entries of the integrand's row.
+  struct IntegrandEntry {
+    int column;
+    std::size_t slot;
+  };
+  const std::vector<IntegrandEntry>& integrand_entries() const { return integrand_entries_; }
   /// Slots of the assembly's calls in order.
   const std::vector<int>& slots() const { return slots_; }
 
@@ -76,6 +82,7 @@ class System {
   std::vector<ResolvedTerm> integral_, terminal_;
   Sparsity sparsity_;
   std::vector<int> slots_;
+  std::vector<IntegrandEntry> integrand_entries_;
 };
 
 }  // namespace codesign

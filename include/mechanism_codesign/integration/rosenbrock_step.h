@@ -68,6 +68,8 @@ class RosenbrockStep {
   void stage_state(int i, double h);
   bool solve_stage(int i, double h);
   bool project();
+  /// The integrand's row times an increment.
+  T integrand_product(const Increment<T>& u) const;
 
   const System& system_;
   const Layout& layout_;
@@ -83,11 +85,6 @@ class RosenbrockStep {
   State<T> projection_;
   double h_ = 0.0;
 };
-
-/// y += (rows of by_position times x) etc. over System::sparsity(), the integrand's row included: result has columns() + 1 entries.
-template <class T>
-void add_product(const System& system, const Linearization<T>& d, const VectorX<T>& q, const VectorX<T>& s, const VectorX<T>& v, const VectorX<T>* z,
-                 VectorX<T>* result);
 
 }  // namespace codesign
 

@@ -111,6 +111,12 @@ void apply_sign(double sign, CoordinateMotion<T>* m) {
 
 }  // namespace internal
 
+/// How much of a coordinate is asked for.
+enum class CoordinateDetail {
+  kRate,  ///< rate and J
+  kAll    ///< position, acceleration and all gradients too
+};
+
 /// The direction or displacement products of a sliding coordinate.
 template <class T>
 PairVector<T> slide_axis(const CoordinateConstants<T>& c) {
@@ -119,10 +125,13 @@ PairVector<T> slide_axis(const CoordinateConstants<T>& c) {
 
 /// Evaluates one coordinate of a pair. A turn's position lies in (-pi, pi]; whole turns are counted by the caller.
 template <class T>
-CoordinateMotion<T> coordinate_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
+CoordinateMotion<T> coordinate_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
+                                      CoordinateDetail detail = CoordinateDetail::kAll) {
   using Kind = typename CoordinateConstants<T>::Kind;
   CoordinateMotion<T> m;
-  if (c.kind == Kind::kSlide) {
+  if (c.kind == Kind::kTurn && detail == CoordinateDetail::kRate) {
+    internal::turn_rate(pair, i, j, &m);
+  } else if (c.kind == Kind::kSlide) {
     const auto s = internal::product(slide_axis(c), PairVector<T>::displacement(pair.s_i, pair.s_j), i, j);
     m.position = s.motion.phi;
     m.rate = s.motion.phid;

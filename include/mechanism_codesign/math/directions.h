@@ -13,7 +13,7 @@ inline Eigen::MatrixXd directions_of(const VectorX<std::complex<double>>& x) { r
 template <int N>
 Eigen::MatrixXd directions_of(const VectorX<Lanes<N>>& x) {
   Eigen::MatrixXd d(x.size(), N);
-  for (Eigen::Index k = 0; k < x.size(); ++k) d.row(k) = x[k].v.transpose();
+  for (Eigen::Index k = 0; k < x.size(); ++k) d.row(k) = x[k].directions().transpose();
   return d;
 }
 
@@ -22,7 +22,7 @@ inline void add_directions(const Eigen::MatrixXd& d, VectorX<std::complex<double
 }
 template <int N>
 void add_directions(const Eigen::MatrixXd& d, VectorX<Lanes<N>>* x) {
-  for (Eigen::Index k = 0; k < x->size(); ++k) (*x)[k].v += d.row(k).transpose();
+  for (Eigen::Index k = 0; k < x->size(); ++k) (*x)[k].directions() += d.row(k).transpose();
 }
 
 }  // namespace codesign

@@ -2,16 +2,12 @@
 #ifndef MECHANISM_CODESIGN_MATH_SCALAR_H_
 #define MECHANISM_CODESIGN_MATH_SCALAR_H_
 
-#include <ceres/jet.h>
-
 #include <Eigen/Core>
 #include <complex>
 
-namespace codesign {
+#include "mechanism_codesign/math/lanes.h"
 
-/// A value with N directional derivatives side by side, one per SIMD lane group (forward-mode automatic differentiation).
-template <int N>
-using Lanes = ceres::Jet<double, N>;
+namespace codesign {
 
 template <class T>
 using Vector3 = Eigen::Matrix<T, 3, 1>;

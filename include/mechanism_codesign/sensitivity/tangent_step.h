@@ -67,7 +67,6 @@ class TangentStep {
   std::vector<StageTangent> stages_;
   VectorX<Lanes<N>> residual_, errors_, rates_;
   Eigen::MatrixXd columns_;
-  std::vector<std::pair<int, int>> integrand_entries_;  ///< column and slot of the integrand's row
 };
 
 }  // namespace codesign
