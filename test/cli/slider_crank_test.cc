@@ -22,6 +22,12 @@ void expect_keys(const Json& object, const std::vector<std::string>& keys) {
   for (const std::string& key : keys) EXPECT_TRUE(object.contains(key)) << key;
 }
 
+/// The shipped study cut short, so that a test of shapes takes a moment only.
+std::string short_study(const ScratchFolder& folder) {
+  const std::string path = folder.edited("short.yaml", read_text_file(kStudy), "duration: 2.0", "duration: 0.1");
+  return folder.edited("short.yaml", read_text_file(path), "max_evaluations: 200", "max_evaluations: 4");
+}
+
 TEST(SliderCrank, CheckPrintsThePapersTable) {
   const Outcome outcome = run_words({"check", kModel, kStudy});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
@@ -71,7 +77,8 @@ TEST(SliderCrank, SimulateGivesSeriesAndObjectiveAsJson) {
 }
 
 TEST(SliderCrank, GradientIsGivenByName) {
-  const Outcome outcome = run_words({"gradient", kModel, kStudy, "--json"});
+  const ScratchFolder folder;
+  const Outcome outcome = run_words({"gradient", kModel, short_study(folder), "--json"});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
   Json object = json_of(outcome);
   expect_keys(object, {"objective", "gradient", "parameters", "steps", "rejected_steps", "cpu_seconds", "counts"});
@@ -94,21 +101,24 @@ TEST(SliderCrank, ShippedStudiesGiveThePublishedDigits) {
 }
 
 TEST(SliderCrank, VerifySetsAReferenceBesideTheGradient) {
-  const Outcome outcome = run_words({"gradient", kModel, kStudy, "--verify", "--json"});
-  ASSERT_EQ(outcome.code, kDone) << outcome.err;
-  Json verification = json_of(outcome)["verification"];
-  EXPECT_EQ(verification["method"], "complex_step");
-  expect_keys(verification["reference"], kTuned);
-  EXPECT_LT(verification["largest_relative_difference"].get<double>(), 1e-6);
-  const std::string table = run_words({"gradient", kModel, kStudy, "--verify"}).out;
+  const ScratchFolder folder;
+  for (const std::string method : {"complex_step", "ridders"}) {
+    const Outcome outcome = run_words({"gradient", kModel, short_study(folder), "--verify=" + method, "--json"});
+    ASSERT_EQ(outcome.code, kDone) << outcome.err;
+    Json verification = json_of(outcome)["verification"];
+    EXPECT_EQ(verification["method"], method);
+    expect_keys(verification["reference"], kTuned);
+    expect_keys(verification["reference_error"], kTuned);
+    EXPECT_LT(verification["largest_relative_difference"].get<double>(), method == "ridders" ? 1e-4 : 1e-8);
+  }
+  const std::string table = run_words({"gradient", kModel, short_study(folder), "--verify"}).out;
   EXPECT_NE(table.find("complex_step"), std::string::npos);
   EXPECT_NE(table.find("largest relative difference"), std::string::npos);
 }
 
 TEST(SliderCrank, OptimizeWritesItsFolder) {
   const ScratchFolder folder;
-  const std::string study = folder.edited("study.yaml", read_text_file(kStudy), "max_evaluations: 200", "max_evaluations: 4");
-  const Outcome outcome = run_words({"optimize", kModel, study, "--json", "--output", folder.path("job")});
+  const Outcome outcome = run_words({"optimize", kModel, short_study(folder), "--json", "--output", folder.path("job")});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
   Json object = json_of(outcome);
   expect_keys(object, {"objective", "initial_objective", "gradient", "parameters", "initial_parameters", "iterations", "evaluations",
@@ -124,23 +134,71 @@ TEST(SliderCrank, OptimizeWritesItsFolder) {
   EXPECT_NEAR(tuned["parameters"]["crank_length"].get<double>(), object["parameters"]["crank_length"].get<double>(), 1e-15);
 }
 
-TEST(SliderCrank, ACancelledOptimizationKeepsItsBestPoint) {
-  const Outcome outcome = run_words({"optimize", kModel, kStudy, "--json"}, true);
-  EXPECT_EQ(outcome.code, kFailed);
-  Json object = json_of(outcome);
-  EXPECT_EQ(object["termination"], "cancelled");
-  EXPECT_EQ(object["error"]["code"], "cancelled");
+TEST(SliderCrank, OptimizePrintsStartAndTunedDesign) {
+  const ScratchFolder folder;
+  const Outcome outcome = run_words({"optimize", kModel, short_study(folder)});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  for (const std::string& name : kTuned) EXPECT_NE(outcome.out.find("\n" + name + " "), std::string::npos) << name;
+  EXPECT_NE(outcome.out.find("max_evaluations_reached"), std::string::npos) << outcome.out;
+  EXPECT_EQ(lines_of(outcome.err).size(), 4U) << outcome.err;
+  EXPECT_EQ(outcome.err.substr(0, 8), "trial 1:");
 }
 
-TEST(SliderCrank, ADesignThatCannotBeAssembledFailsWithItsStatus) {
+/// Raises a flag once a text has been written to it, as a user would who reads along.
+class WatchingBuffer : public std::stringbuf {
+ public:
+  WatchingBuffer(std::string text, std::atomic<bool>* flag) : text_(std::move(text)), flag_(flag) {}
+
+ protected:
+  int sync() override {
+    if (str().find(text_) != std::string::npos) *flag_ = true;
+    return 0;
+  }
+
+ private:
+  std::string text_;
+  std::atomic<bool>* flag_;
+};
+
+TEST(SliderCrank, ACancelledOptimizationKeepsItsBestPoint) {
   const ScratchFolder folder;
-  const std::string model =
-      folder.edited("model.urdf", read_text_file(shipped("urdf/slider_crank_haug.urdf")), "name=\"rod_length\" value=\"0.3\" lower=\"0.2\"",
-                    "name=\"rod_length\" value=\"0.3\" lower=\"0.01\"");
-  const Outcome outcome = run_words({"simulate", model, shipped("config/slider_crank_haug.yaml"), "--json", "--set", "rod_length=0.05"});
+  std::atomic<bool> cancel{false};
+  WatchingBuffer buffer("trial 3:", &cancel);
+  std::ostringstream out;
+  std::ostream err(&buffer);
+  EXPECT_EQ(run({"optimize", kModel, short_study(folder), "--json", "--output", folder.path("job")}, {out, err, cancel}), kFailed);
+  Json object = Json::parse(out.str());
+  EXPECT_EQ(object["termination"], "cancelled");
+  EXPECT_EQ(object["error"]["code"], "cancelled");
+  EXPECT_EQ(object["evaluations"], 3);
+  EXPECT_LE(object["objective"].get<double>(), object["initial_objective"].get<double>());
+  EXPECT_EQ(lines_of(read_text_file(folder.path("job/tuned.csv"))).size(), 102U);
+}
+
+TEST(SliderCrank, ARunThatFailsNamesStatusTimeAndCause) {
+  const ScratchFolder folder;
+  const std::string study = folder.edited("study.yaml", read_text_file(kStudy), "solver: {", "solver: {maximum_steps: 20, ");
+  const Outcome outcome = run_words({"simulate", kModel, study, "--json", "--samples", "2001"});
   EXPECT_EQ(outcome.code, kFailed);
-  EXPECT_EQ(json_of(outcome)["error"]["code"], "assembly_failed");
-  EXPECT_NE(outcome.err.find("assembly_failed at t = 0 s"), std::string::npos) << outcome.err;
+  Json object = json_of(outcome);
+  EXPECT_EQ(object["error"]["code"], "too_many_steps");
+  EXPECT_GT(object["error"]["time"].get<double>(), 0.0);
+  EXPECT_GT(object["series"]["time"].size(), 1U);
+  EXPECT_NE(outcome.err.find("too_many_steps at t = "), std::string::npos) << outcome.err;
+  EXPECT_EQ(run_words({"gradient", kModel, study}).code, kFailed);
+  EXPECT_EQ(run_words({"optimize", kModel, study}).code, kFailed);
+}
+
+TEST(SliderCrank, ALoopThatCannotBeClosedIsBadInput) {
+  const ScratchFolder folder;
+  const std::string lower = "name=\"rod_length\" value=\"0.3\" lower=";
+  const std::string text = read_text_file(shipped("urdf/slider_crank_haug.urdf"));
+  const std::string model = folder.edited("model.urdf", text, lower + "\"0.2\"", lower + "\"0.01\"");
+  const Outcome outcome = run_words({"simulate", model, shipped("config/slider_crank_haug.yaml"), "--json", "--set", "rod_length=0.05"});
+  EXPECT_EQ(outcome.code, kBadInput);
+  Json error = json_of(outcome)["error"];
+  EXPECT_EQ(error["file"], model);
+  EXPECT_NE(error["element"].get<std::string>().find("slider_pin"), std::string::npos);
 }
 
 }  // namespace
