@@ -20,9 +20,8 @@ function(codesign_optimize target)
     ${PROJECT_SOURCE_DIR}/src/sensitivity/tangent_step.cc)
   set_source_files_properties(${hot} PROPERTIES COMPILE_OPTIONS $<$<NOT:$<CONFIG:Debug>>:-O3>)
   if(CODESIGN_NATIVE)
-    # Eigen's types keep the alignment they have without -march=native, so that whoever includes our headers need not know.
-    target_compile_options(${target} PRIVATE -march=native)
-    target_compile_definitions(${target} PRIVATE EIGEN_MAX_ALIGN_BYTES=16)
+    # PUBLIC: the alignment of Eigen's types depends on it, so that everyone who includes them must agree.
+    target_compile_options(${target} PUBLIC -march=native)
   endif()
 endfunction()
 
