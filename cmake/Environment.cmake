@@ -14,6 +14,9 @@ endif()
 # catkin freezes the environment of its tests at the first configure and leaves out directories that do not exist yet.
 file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/python3/dist-packages)
 
+# catkin's default, which it sets only when it is found, after the core has been declared.
+option(BUILD_SHARED_LIBS "Build shared libraries" ON)
+
 set(CMAKE_CXX_STANDARD 17)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
