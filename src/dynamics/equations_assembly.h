@@ -97,6 +97,8 @@ void Equations<T>::assemble_pair(std::size_t k, Sink* sink) {
     });
     ++row;
   }
+  if (system_.compliance() == 0.0) return;
+  for (int r = row - rows.size(); r < row; ++r) sink->add(r, r, zero, zero, T(-system_.compliance()));
 }
 
 template <class T>

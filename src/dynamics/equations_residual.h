@@ -92,6 +92,9 @@ void Equations<T>::pair_residual(std::size_t k, VectorX<T>* G) {
     add_product_load(product.X, product.Y, x, y, T(T(product.scale) * state_->z[row]), &load_i, &load_j);
     ++row;
   }
+  if (system_.compliance() == 0.0) return;
+  const int first = layout_.lambda_column(layout_.pair_row[k]);
+  G->segment(first, rows.size()) -= T(system_.compliance()) * state_->z.segment(first, rows.size());
 }
 
 template <class T>

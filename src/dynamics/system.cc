@@ -35,7 +35,8 @@ bool reads(const std::vector<ResolvedTerm>& terms, SignalKind kind, int controll
 
 }  // namespace
 
-System::System(const RobotDescription& robot, const Study& study) : robot_(robot), study_(study), topology_(derive_topology(robot_)) {
+System::System(const RobotDescription& robot, const Study& study, double compliance)
+    : robot_(robot), study_(study), topology_(derive_topology(robot_)), compliance_(compliance) {
   refuse_unsupported();
   lay_out();
   resolve_objective();

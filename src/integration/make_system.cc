@@ -49,17 +49,27 @@ const JointDescription* loop_of(const System& system, const std::string& pair_na
   return nullptr;
 }
 
-/// A design that cannot start is bad input; later ones are trial points.
-void check_start(const System& system) {
+/// Rank and start of a system at its start values. A design that cannot start is bad input; later ones are trial points.
+bool has_redundant_constraints(const System& system) {
   Equations<double> equations(system);
   equations.set_design(system.parameters());
   Assembly assembly(system);
   State<double> state;
   const Status status = assembly.solve(system.parameters(), &equations, &state);
-  if (status.code != StatusCode::kAssemblyFailed && status.code != StatusCode::kInitialVelocityFailed) return;
+  if (status.code != StatusCode::kAssemblyFailed && status.code != StatusCode::kInitialVelocityFailed)
+    return !redundant_rows(system, constraint_jacobian(system, &equations, state)).empty();
   const JointDescription* loop = loop_of(system, assembly.worst_loop());
   if (loop) throw InputError({loop->where, "<loop name=\"" + loop->name + "\">", "the loop cannot be closed at the start values", "", status.cause});
   throw InputError({{system.study().file, 0}, "initial_state", status.cause, "", ""});
+}
+
+/// A billionth of what a body yields to a force: far above rounding, far below what a motion shows; theory (23).
+double compliance_of(const System& system) {
+  Equations<double> equations(system);
+  equations.set_design(system.parameters());
+  double mass = 0.0;
+  for (const BodyConstants<double>& body : equations.constants().bodies) mass += body.mass;
+  return 1e-9 * static_cast<double>(equations.constants().bodies.size()) / mass;
 }
 
 }  // namespace
@@ -70,7 +80,7 @@ std::shared_ptr<const System> make_system(const RobotDescription& robot, const S
   if (study.solver.integrator != "rosenbrock")
     throw InputError({{study.file, 0}, "solver.integrator", "no such integrator in this version", study.solver.integrator, "rosenbrock"});
   auto system = std::make_shared<const System>(robot, study);
-  check_start(*system);
+  if (has_redundant_constraints(*system)) return std::make_shared<const System>(robot, study, compliance_of(*system));
   return system;
 }
 

@@ -39,8 +39,9 @@ struct JointLoad {
 /// A mechanism and a study compiled into equations of motion; immutable, shared by all workspaces.
 class System {
  public:
+  /// @param compliance epsilon of every joint's constraint rows, Phi'' - epsilon lambda = 0; zero unless constraints are redundant; theory (23).
   /// @throws InputError for what cannot be compiled.
-  System(const RobotDescription& robot, const Study& study);
+  System(const RobotDescription& robot, const Study& study, double compliance = 0.0);
 
   const RobotDescription& robot() const { return robot_; }
   const Study& study() const { return study_; }
@@ -62,6 +63,8 @@ class System {
   /// Slots of the assembly's calls in order.
   const std::vector<int>& slots() const { return slots_; }
 
+  double compliance() const { return compliance_; }
+
   /// Start values of all named parameters.
   std::vector<double> parameters() const;
 
@@ -77,6 +80,7 @@ class System {
   Study study_;
   Topology topology_;
   Layout layout_;
+  double compliance_;
   std::vector<Controller> controllers_;
   std::vector<JointLoad> loads_;
   std::vector<ResolvedTerm> integral_, terminal_;

@@ -1,0 +1,52 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MATH_DERIVATIVE_CHECK_H_
+#define MECHANISM_CODESIGN_MATH_DERIVATIVE_CHECK_H_
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+namespace codesign {
+
+/// A Jacobian beside its reference: the worst entry and where it stands.
+struct JacobianDifference {
+  double largest = 0.0;  ///< |J - R| / (1 + |R|)
+  Eigen::Index row = -1, column = -1;
+};
+
+inline JacobianDifference compare_jacobians(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& reference) {
+  JacobianDifference difference;
+  if (jacobian.rows() != reference.rows() || jacobian.cols() != reference.cols()) return {1e300, -1, -1};
+  for (Eigen::Index c = 0; c < reference.cols(); ++c) {
+    for (Eigen::Index r = 0; r < reference.rows(); ++r) {
+      const double d = std::abs(jacobian(r, c) - reference(r, c)) / (1.0 + std::abs(reference(r, c)));
+      // A NaN compares as equal to nothing and must not pass.
+      if (std::isnan(d)) return {std::numeric_limits<double>::infinity(), r, c};
+      if (d > difference.largest) difference = {d, r, c};
+    }
+  }
+  return difference;
+}
+
+/// Jacobian of f at x by the complex step, exact to rounding for an analytic f: R^n -> R^m.
+/// @param f callable on Eigen::VectorXcd, returning Eigen::VectorXcd.
+template <class Function>
+Eigen::MatrixXd complex_step_jacobian(const Function& f, const Eigen::VectorXd& x) {
+  constexpr double kStep = 1e-30;
+  Eigen::VectorXcd z = x.cast<std::complex<double>>();
+  Eigen::MatrixXd jacobian;
+  for (Eigen::Index c = 0; c < x.size(); ++c) {
+    z[c] += std::complex<double>(0.0, kStep);
+    const Eigen::VectorXcd value = f(z);
+    if (jacobian.size() == 0) jacobian.resize(value.size(), x.size());
+    jacobian.col(c) = value.imag() / kStep;
+    z[c] = x[c];
+  }
+  return jacobian;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MATH_DERIVATIVE_CHECK_H_

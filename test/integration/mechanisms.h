@@ -1,0 +1,57 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_INTEGRATION_MECHANISMS_H_
+#define MECHANISM_CODESIGN_TEST_INTEGRATION_MECHANISMS_H_
+
+#include <string>
+
+#include "mechanism_codesign/model/study_reader.h"
+#include "mechanism_codesign/model/urdf_reader.h"
+
+namespace codesign {
+
+/// A slender bar of 1 kg and 1 m along -z of its link frame.
+inline std::string bar(const std::string& name) {
+  return "<link name='" + name +
+         "'><inertial><origin xyz='0 0 -0.5'/><mass value='1'/>"
+         "<inertia ixx='0.0834' ixy='0' ixz='0' iyy='0.0834' iyz='0' izz='0.001'/></inertial></link>";
+}
+
+/// A hinge about y between two links; `friction` is an element, or nothing.
+inline std::string hinge(const std::string& name, const std::string& parent, const std::string& child, const std::string& xyz, const std::string& friction = "") {
+  return "<joint name='" + name + "' type='continuous'><parent link='" + parent + "'/><child link='" + child + "'/><origin xyz='" + xyz +
+         "'/><axis xyz='0 1 0'/>" + friction + "</joint>";
+}
+
+inline std::string robot(const std::string& content) {
+  return "<robot name='test' xmlns:codesign='https://github.com/mechanism_codesign'><link name='ground'/>" + content + "</robot>";
+}
+
+inline const char* pin_friction() {
+  return "<codesign:friction model='brown_mcphee' mu_static='0.2' mu_dynamic='0.15' transition_velocity='0.01' joint_length='0.05' pin_radius='0.02'/>";
+}
+
+inline std::string pendulum(const std::string& friction = "") { return robot(bar("bar") + hinge("hinge", "ground", "bar", "0 0 0", friction)); }
+
+inline std::string double_pendulum(const std::string& friction = "") {
+  return robot(bar("upper") + bar("lower") + hinge("shoulder", "ground", "upper", "0 0 0", friction) + hinge("elbow", "upper", "lower", "0 0 -1", friction));
+}
+
+/// A parallelogram as people draw it: four hinges in the plane, three constraints too many in space.
+inline std::string four_bar(const std::string& friction = "") {
+  return robot(bar("left") + bar("right") + bar("coupler") + hinge("left_hinge", "ground", "left", "0 0 0", friction) +
+               hinge("right_hinge", "ground", "right", "1.2 0 0") +
+               "<joint name='left_pin' type='continuous'><parent link='left'/><child link='coupler'/><origin xyz='0 0 -1' rpy='0 -1.5707963267948966 0'/>"
+               "<axis xyz='0 1 0'/></joint>"
+               "<loop name='right_pin' type='continuous'><predecessor link='right'><origin xyz='0 0 -1'/></predecessor>"
+               "<successor link='coupler'><origin xyz='0 0 -1.2'/></successor><axis xyz='0 1 0'/></loop>");
+}
+
+/// A study that only lets the mechanism move. @param initial the `initial_state` mapping, @param solver the `solver` mapping.
+inline std::string motion_study(double duration, const std::string& initial, const std::string& signal, const std::string& solver) {
+  return "duration: " + std::to_string(duration) + "\ninitial_state: " + initial + "\ncontrollers: {}\nparameters: {}\nobjective: {integral: [{signal: " +
+         signal + "}], terminal: []}\nsolver: " + solver + "\noptimizer: {algorithm: lbfgs, max_evaluations: 10, relative_tolerance: 1.0e-6}\n";
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_TEST_INTEGRATION_MECHANISMS_H_

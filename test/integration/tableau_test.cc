@@ -1,0 +1,85 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/integration/tableau.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace codesign {
+namespace {
+
+/// One step on y' = f(y), f = -y^2 + sin-like cubic: scalar, autonomous, with its exact derivative.
+double f(double y) { return -y * y + 0.3 * y * y * y; }
+double f_y(double y) { return -2.0 * y + 0.9 * y * y; }
+
+double integrate(const RosenbrockTableau& tableau, int steps, double* dense_middle) {
+  const double h = 1.0 / steps;
+  double y = 1.0;
+  for (int n = 0; n < steps; ++n) {
+    std::vector<double> u;
+    const double J = f_y(y);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(tableau.stages); ++i) {
+      double stage = y, sum = 0.0;
+      for (std::size_t j = 0; j < i; ++j) {
+        stage += tableau.a[i][j] * u[j];
+        sum += tableau.c[i][j] / h * u[j];
+      }
+      u.push_back((f(stage) + sum) / (1.0 / (h * tableau.gamma) - J));
+    }
+    double end = y;
+    for (std::size_t j = 0; j < u.size(); ++j) end += tableau.weights[j] * u[j];
+    if (n == 0) {
+      *dense_middle = 0.5 * (y + end);
+      for (int k = 0; k < tableau.dense_terms; ++k)
+        for (std::size_t j = 0; j < u.size(); ++j) *dense_middle += 0.25 * std::pow(0.5, k) * tableau.dense[static_cast<std::size_t>(k)][j] * u[j];
+    }
+    y = end;
+  }
+  return y;
+}
+
+class Tableau : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Tableau, ConvergesAtItsOrder) {
+  const RosenbrockTableau& tableau = *rosenbrock_tableau(GetParam());
+  double unused = 0.0;
+  const double exact = integrate(rodas5p(), 4096, &unused);
+  const double coarse = std::abs(integrate(tableau, 8, &unused) - exact), fine = std::abs(integrate(tableau, 16, &unused) - exact);
+  EXPECT_NEAR(std::log2(coarse / fine), tableau.order, 0.45);
+}
+
+TEST_P(Tableau, DenseOutputIsOneOrderLess) {
+  const RosenbrockTableau& tableau = *rosenbrock_tableau(GetParam());
+  double middle[2], exact[2], unused = 0.0;
+  const int steps[2] = {8, 16};
+  for (int k = 0; k < 2; ++k) {
+    integrate(tableau, steps[k], &middle[k]);
+    // The exact solution after half a step: 1/(2 steps).
+    const int fine = 1024;
+    double y = 1.0;
+    const double h = 0.5 / steps[k] / fine;
+    for (int n = 0; n < fine; ++n) {
+      const double k1 = f(y), k2 = f(y + 0.5 * h * k1), k3 = f(y + 0.5 * h * k2), k4 = f(y + h * k3);
+      y += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+    }
+    exact[k] = y;
+  }
+  // Local error of one step: order + 1.
+  const double rate = std::log2(std::abs(middle[0] - exact[0]) / std::abs(middle[1] - exact[1]));
+  EXPECT_GT(rate, tableau.order - 0.4);
+}
+
+TEST_P(Tableau, IsStifflyAccurate) {
+  const RosenbrockTableau& t = *rosenbrock_tableau(GetParam());
+  const auto last = static_cast<std::size_t>(t.stages) - 1;
+  for (std::size_t j = 0; j < last; ++j) EXPECT_EQ(t.weights[j], t.a[last][j]);
+  EXPECT_EQ(t.weights[last], 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Tableau, ::testing::Values("rodas4", "rodas4p2", "rodas5p"));
+
+TEST(TableauNames, UnknownIsNull) { EXPECT_EQ(rosenbrock_tableau("rodas6"), nullptr); }
+
+}  // namespace
+}  // namespace codesign
