@@ -32,7 +32,8 @@ void pose_at_zero(const RobotDescription& robot, int link, const std::vector<dou
 }
 
 /// How far the universal loop is from being closed: distance of its points, and cosine between its axes.
-void loop_gap(const RobotDescription& robot, double* distance, double* cosine) {
+/// @param slider position of the slider's joint, along x; the others are at zero.
+void loop_gap(const RobotDescription& robot, double slider, double* distance, double* cosine) {
   const std::vector<double> at = {0.08, 0.3, 0.05, 0.025};
   const JointDescription& loop = robot.joints.back();
   ASSERT_EQ(loop.type, JointType::kUniversal);
@@ -40,7 +41,7 @@ void loop_gap(const RobotDescription& robot, double* distance, double* cosine) {
   Vector3<double> t_i, t_j;
   pose_at_zero(robot, loop.parent, at, &R_i, &t_i);
   pose_at_zero(robot, loop.child, at, &R_j, &t_j);
-  *distance = (R_i * internal::values_at(loop.origin.xyz, at) + t_i - t_j).norm();
+  *distance = (R_i * internal::values_at(loop.origin.xyz, at) + t_i - t_j - slider * Vector3<double>::UnitX()).norm();
   *cosine = (R_i * internal::values_at(loop.axis, at)).dot(R_j * internal::values_at(loop.second_axis, at));
 }
 
@@ -68,7 +69,7 @@ TEST(UrdfReader, TheSliderCrankIsThePapers) {
   EXPECT_EQ(robot.parameters[3].upper, 0.03);
   EXPECT_EQ(robot.links[static_cast<std::size_t>(robot.root)].name, "ground");
   double distance = 1.0, cosine = 1.0;
-  loop_gap(robot, &distance, &cosine);
+  loop_gap(robot, 0.26057628441590763, &distance, &cosine);
   EXPECT_LT(distance, 1e-15);
   EXPECT_LT(std::abs(cosine), 1e-15);
   const std::vector<double> at = {0.08, 0.3, 0.05, 0.025};
@@ -90,7 +91,7 @@ TEST(UrdfReader, TheSliderCrankGrowsWithItsParameters) {
 TEST(UrdfReader, HaugsSliderCrankKeepsItsMasses) {
   const RobotDescription robot = shipped("slider_crank_haug");
   double distance = 1.0, cosine = 1.0;
-  loop_gap(robot, &distance, &cosine);
+  loop_gap(robot, 0.2, &distance, &cosine);
   EXPECT_LT(distance, 1e-15);
   EXPECT_LT(std::abs(cosine), 1e-15);
   for (const std::vector<double>& at : {std::vector<double>{0.08, 0.3, 0.05, 0.025}, {0.1, 0.2, 0.06, 0.03}}) {
