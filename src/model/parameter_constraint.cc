@@ -31,8 +31,8 @@ ParameterConstraint parse_constraint(const std::string& text, const std::vector<
   const std::string right = text.substr(operators[0] + 2);
   try {
     // Each side alone first: an empty or unbalanced side could still make sense once both stand in one expression.
-    Expression(left, names);
-    Expression(right, names);
+    const Expression left_alone(left, names);
+    const Expression right_alone(right, names);
     const std::string margin = text[operators[0]] == '>' ? "(" + left + ") - (" + right + ")" : "(" + right + ") - (" + left + ")";
     auto expression = std::make_shared<const Expression>(margin, names);
     if (expression->dependencies().empty()) throw std::invalid_argument("no parameter appears in the constraint");

@@ -53,9 +53,10 @@ Names all_names(const RobotDescription& robot, const std::vector<ControllerDescr
 }
 
 Names spelled(const std::string& object, const Offer& offer) {
+  const std::string prefix = object + "/";
   Names spellings;
-  for (const std::string& quantity : offer.scalars) spellings.push_back(object + "/" + quantity);
-  for (const std::string& quantity : offer.vectors) spellings.push_back(object + "/" + quantity + "/{x,y,z}");
+  for (const std::string& quantity : offer.scalars) spellings.push_back(prefix + quantity);
+  for (const std::string& quantity : offer.vectors) spellings.push_back(prefix + quantity + "/{x,y,z}");
   return spellings;
 }
 

@@ -25,6 +25,7 @@ Quantity read_quantity(const YamlValue& value, const std::vector<Parameter>& par
   }
   if (text.size() < 4 || text.compare(0, 2, "${") != 0 || text.back() != '}') value.fail("not a number", kAllowed);
   std::vector<double> start;
+  start.reserve(parameters.size());
   for (const Parameter& parameter : parameters) start.push_back(parameter.value);
   std::shared_ptr<const Expression> expression;
   try {

@@ -137,7 +137,7 @@ int YamlValue::integer() const {
 }
 
 std::string YamlValue::choice(const std::string& kind, const std::vector<std::string>& allowed) const {
-  const std::string name = text();
+  std::string name = text();
   if (!contains(allowed, name)) throw unknown_name(where(), path_, kind, name, allowed);
   return name;
 }

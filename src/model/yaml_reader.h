@@ -50,8 +50,8 @@ class YamlValue {
   [[noreturn]] void fail(const std::string& message, const std::string& allowed = "") const;
 
  private:
-  YamlValue(YAML::Node node, std::shared_ptr<const std::string> file, std::string path)
-      : node_(std::move(node)), file_(std::move(file)), path_(std::move(path)) {}
+  YamlValue(const YAML::Node& node, std::shared_ptr<const std::string> file, std::string path)
+      : node_(node), file_(std::move(file)), path_(std::move(path)) {}
   YamlValue child(const YAML::Node& node, const std::string& key) const;
   void require_map() const;
   std::string shown_value() const;
