@@ -54,7 +54,6 @@ class Minimization {
     try {
       result_.termination = termination_name(optimizer->optimize(*x, value));
     } catch (const nlopt::forced_stop&) {
-      result_.termination = "cancelled";
     } catch (const nlopt::roundoff_limited&) {
       result_.termination = "roundoff_limited";
     } catch (const std::runtime_error& error) {
@@ -62,8 +61,10 @@ class Minimization {
       failure_ = error.what();
     }
     // A line search that finds nothing better any more has converged as far as it can; only a start without a value is a failure.
-    if (result_.termination == "cancelled") result_.status = {StatusCode::kCancelled, 0.0, "cancelled; the best point so far is kept"};
-    if (!have_best_) {
+    if (cancelled_) {
+      result_.termination = "cancelled";
+      result_.status = {StatusCode::kCancelled, 0.0, "cancelled; the best point so far is kept"};
+    } else if (!have_best_) {
       result_.status = first_failure_;
       result_.termination = "start_failed";
     }
@@ -87,14 +88,20 @@ class Minimization {
   double objective(const std::vector<double>& x, std::vector<double>* gradient) {
     const Eigen::VectorXd rho = scaling_.from_scaled(x);
     const Evaluation evaluation = evaluator_.evaluate(rho, true, cancel_);
-    if (evaluation.status.code == StatusCode::kCancelled) throw nlopt::forced_stop();
+    if (evaluation.status.code == StatusCode::kCancelled) stop();
     const Trial trial = note(evaluation, rho);
-    if (observer_ && !observer_(trial)) throw nlopt::forced_stop();
+    if (observer_ && !observer_(trial)) stop();
     if (!evaluation.status.ok()) return step_back(x, gradient);
     const std::vector<double> scaled = scaling_.scale_gradient(evaluation.gradient);
     if (!gradient->empty()) *gradient = scaled;
     worst_ = std::max(worst_, evaluation.objective);
     return evaluation.objective;
+  }
+
+  // NLopt's line searches may end with another reason than the one given here.
+  [[noreturn]] void stop() {
+    cancelled_ = true;
+    throw nlopt::forced_stop();
   }
 
   // A point without a value is worse than all seen, and the more so the farther it lies from the best one: a line search turns back.
@@ -168,7 +175,7 @@ class Minimization {
   Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"};
   std::string failure_;
   double worst_ = 0.0;
-  bool have_best_ = false, best_feasible_ = false;
+  bool have_best_ = false, best_feasible_ = false, cancelled_ = false;
 };
 
 }  // namespace
