@@ -23,6 +23,8 @@ foreach(folder math model joints forces control dynamics integration sensitivity
     target_compile_definitions(${target} PRIVATE CODESIGN_EXECUTABLE="$<TARGET_FILE:codesign>")
     add_dependencies(${target} codesign)
   endif()
+  # catkin's choice, the devel space, is where rosrun looks for programs.
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test)
   codesign_warnings(${target})
   add_dependencies(tests ${target})
   gtest_discover_tests(${target} DISCOVERY_TIMEOUT 120 TEST_PREFIX ${folder}. PROPERTIES TIMEOUT 300)

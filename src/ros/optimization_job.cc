@@ -50,8 +50,7 @@ void compute(const Problem& problem, const JobOptions& options, const ProgressOb
   };
   const OptimizationResult result = optimize(problem.system, problem.study, observe, &cancel);
   outcome->result = to_message(result, parameters);
-  const bool has_point = result.status.ok() || result.status.code == StatusCode::kCancelled;
-  if (!has_point || result.rho.size() != result.initial_rho.size()) return;
+  if (result.gradient.size() == 0) return;  // not even the start has a value
   record->initial = run_side(problem, problem.parameters(result.initial_rho), options.rate);
   record->tuned = run_side(problem, problem.parameters(result.rho), options.rate);
   outcome->tuned_urdf = record->tuned.urdf;
