@@ -86,6 +86,8 @@ class Minimization {
   }
 
   double objective(const std::vector<double>& x, std::vector<double>* gradient) {
+    // Some of NLopt's line searches finish their work after a forced stop.
+    if (cancelled_) stop();
     const Eigen::VectorXd rho = scaling_.from_scaled(x);
     const Evaluation evaluation = evaluator_.evaluate(rho, true, cancel_);
     if (evaluation.status.code == StatusCode::kCancelled) stop();

@@ -19,8 +19,8 @@ struct ProductRow {
 
 /// The constraints of a kinematic pair: three rows "the points coincide" (in ground axes) if `coincident`, then products; doc/theory.md (5), (6).
 ///
-/// Directions and planes are the parent's, so that the multipliers are the reaction's components on the child in the parent's joint axes:
-/// rows (x_i . d, y_i . d) give F'' = (lambda_1, lambda_2, 0); rows (x_i . z_j, y_i . z_j, y_i . x_j) give T'' = (-lambda_2, lambda_1, lambda_3).
+/// Directions and planes are the parent's, so that the multipliers are components of the paper's F'' and T'' in the parent's joint axes (the
+/// child feels -F'', -T''): rows (x_i . d, y_i . d) give F'' = (lambda_1, lambda_2, 0); rows (x_i . z_j, y_i . z_j, y_i . x_j) give T'' = (-lambda_2, lambda_1, lambda_3).
 template <class T>
 struct PairRows {
   bool coincident = false;

@@ -1,0 +1,84 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/optimization/optimizer.h"
+
+#include <gtest/gtest.h>
+
+#include "mechanism_codesign/model/study_reader.h"
+#include "mechanism_codesign/model/urdf_reader.h"
+
+namespace codesign {
+namespace {
+
+struct Case {
+  RobotDescription robot;
+  Study study;
+};
+
+/// A shipped study at tolerances that leave the optimum's digits alone and the test short.
+Case shipped(const std::string& name) {
+  const std::string root = CODESIGN_SOURCE_DIR;
+  Case c;
+  c.robot = read_urdf(read_source(root + "/urdf/" + name + ".urdf"));
+  c.study = read_study(read_source(root + "/config/" + name + ".yaml"), c.robot);
+  c.study.solver.relative_tolerance = 1e-5;
+  c.study.solver.absolute_tolerance = 1e-6;
+  return c;
+}
+
+TEST(Optimizer, TunesTheSliderCrank) {
+  const Case c = shipped("slider_crank");
+  const OptimizationResult result = optimize(make_system(c.robot, c.study), c.study);
+  ASSERT_TRUE(result.status.ok()) << result.status.cause;
+  EXPECT_LE(result.objective, 8.80e-4);
+  EXPECT_EQ(result.history.size(), static_cast<std::size_t>(result.evaluations));
+  EXPECT_NEAR(result.initial_objective, 0.0592527, 1e-5);
+}
+
+TEST(Optimizer, KeepsToTheParameterConstraint) {
+  const Case c = shipped("slider_crank_haug");
+  const OptimizationResult result = optimize(make_system(c.robot, c.study), c.study);
+  ASSERT_TRUE(result.status.ok()) << result.status.cause;
+  EXPECT_LE(result.objective, 0.02122);
+  EXPECT_GE(result.rho[1] - result.rho[0], 0.165 - 1e-7);
+}
+
+TEST(Optimizer, RefusesConstraintsWhereTheyAreNotTaken) {
+  Case c = shipped("slider_crank_haug");
+  c.study.optimizer.algorithm = "lbfgs";
+  EXPECT_THROW(optimize(make_system(c.robot, c.study), c.study), InputError);
+}
+
+TEST(Optimizer, CancelKeepsTheBestPoint) {
+  const Case c = shipped("slider_crank");
+  const OptimizationResult result = optimize(make_system(c.robot, c.study), c.study, [](const Trial& trial) { return trial.evaluation < 2; });
+  EXPECT_EQ(result.status.code, StatusCode::kCancelled);
+  EXPECT_EQ(result.evaluations, 2);
+  EXPECT_LE(result.objective, result.initial_objective);
+  EXPECT_EQ(result.gradient.size(), 5);
+}
+
+TEST(Optimizer, SurvivesPointsThatCannotBeAssembled) {
+  // A rod this short cannot turn round with most cranks; the constraint that keeps it away is dropped.
+  Case c = shipped("slider_crank_haug");
+  c.study.constraints.clear();
+  c.study.optimizer.algorithm = "lbfgs";
+  c.study.optimizer.max_evaluations = 6;
+  for (Parameter& parameter : c.study.parameters) {
+    if (parameter.name == "rod_length") {
+      parameter.value = 0.26;
+      parameter.lower = 0.05;
+    }
+  }
+  // The objective rewards a short rod, so that the search runs into the region that does not exist.
+  c.study.integral.front().signal = parse_signal("slider_joint/position", {}, "signal");
+  c.study.integral.front().reference = Quantity(0.0);
+  c.study.integral.resize(1);
+  c.study.duration = 0.02;
+  const OptimizationResult result = optimize(make_system(c.robot, c.study), c.study);
+  EXPECT_TRUE(result.status.ok()) << result.status.cause;
+  EXPECT_GT(result.failed_evaluations, 0);
+  EXPECT_LT(result.objective, result.initial_objective);
+}
+
+}  // namespace
+}  // namespace codesign

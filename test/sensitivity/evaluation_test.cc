@@ -1,0 +1,90 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/sensitivity/evaluation.h"
+
+#include <gtest/gtest.h>
+
+#include "mechanism_codesign/model/study_reader.h"
+#include "mechanism_codesign/model/urdf_reader.h"
+
+namespace codesign {
+namespace {
+
+struct Case {
+  RobotDescription robot;
+  Study study;
+  Eigen::VectorXd rho;
+};
+
+Case shipped(const std::string& name) {
+  const std::string root = CODESIGN_SOURCE_DIR;
+  Case c;
+  c.robot = read_urdf(read_source(root + "/urdf/" + name + ".urdf"));
+  c.study = read_study(read_source(root + "/config/" + name + ".yaml"), c.robot);
+  c.rho.resize(static_cast<Eigen::Index>(c.study.tuned.size()));
+  for (std::size_t k = 0; k < c.study.tuned.size(); ++k)
+    c.rho[static_cast<Eigen::Index>(k)] = c.study.parameters[static_cast<std::size_t>(c.study.tuned[k])].value;
+  return c;
+}
+
+/// References: an independent solution of the same data by other formulations and tolerances down to 1e-12.
+void expect_reference(const std::string& name, double objective, const std::vector<double>& gradient) {
+  const Case c = shipped(name);
+  const Evaluation evaluation = Evaluator(make_system(c.robot, c.study)).evaluate(c.rho, true);
+  ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
+  EXPECT_NEAR(evaluation.objective, objective, 1e-7 * objective);
+  ASSERT_EQ(static_cast<std::size_t>(evaluation.gradient.size()), gradient.size());
+  for (std::size_t k = 0; k < gradient.size(); ++k)
+    EXPECT_NEAR(evaluation.gradient[static_cast<Eigen::Index>(k)], gradient[k], 1e-5 * std::abs(gradient[k])) << k;
+}
+
+TEST(Evaluation, SliderCrankMeetsTheReference) {
+  expect_reference("slider_crank", 0.05925272691, {1.674310, 0.0386376, 0.895474, 3.578859, -0.1185753});
+}
+
+TEST(Evaluation, HaugsSliderCrankMeetsTheReference) {
+  expect_reference("slider_crank_haug", 0.717975196477, {32.0105032, -15.462857, -0.0754624, -0.3394216, -1.0274846});
+}
+
+TEST(Evaluation, TangentIsExactForEveryMethod) {
+  for (const char* method : {"rodas4", "rodas4p2", "rodas5p"}) {
+    Case c = shipped("slider_crank");
+    c.study.solver.method = method;
+    c.study.solver.relative_tolerance = 1e-5;
+    c.study.solver.absolute_tolerance = 1e-6;
+    c.study.duration = 0.4;
+    const GradientCheck check = check_gradient(make_system(c.robot, c.study), c.rho, CheckMethod::kComplexStep);
+    ASSERT_TRUE(check.status.ok()) << check.status.cause;
+    EXPECT_LT(check.largest_relative_difference, 1e-10) << method;
+  }
+}
+
+TEST(Evaluation, RiddersDifferencesAgree) {
+  Case c = shipped("slider_crank");
+  c.study.duration = 0.3;
+  const GradientCheck check = check_gradient(make_system(c.robot, c.study), c.rho, CheckMethod::kRidders);
+  ASSERT_TRUE(check.status.ok()) << check.status.cause;
+  EXPECT_LT(check.largest_relative_difference, 1e-4);
+}
+
+TEST(Evaluation, FailuresAreStatuses) {
+  Case c = shipped("slider_crank_haug");
+  c.study.duration = 0.02;
+  Evaluator evaluator(make_system(c.robot, c.study));
+  Eigen::VectorXd rho = c.rho;
+  // The rod does not reach the slider's rail.
+  rho[1] = 0.05;
+  const Evaluation impossible = evaluator.evaluate(rho, true);
+  EXPECT_EQ(impossible.status.code, StatusCode::kAssemblyFailed);
+  EXPECT_NE(impossible.status.cause.find("slider_pin"), std::string::npos);
+  // Friction geometry that cannot be.
+  rho = c.rho;
+  rho[2] = -0.05;
+  EXPECT_EQ(evaluator.evaluate(rho, false).status.code, StatusCode::kInvalidDesign);
+  const std::atomic<bool> cancelled{true};
+  EXPECT_EQ(evaluator.evaluate(c.rho, false, &cancelled).status.code, StatusCode::kCancelled);
+  // The workspace is whole afterwards.
+  EXPECT_TRUE(evaluator.evaluate(c.rho, false).status.ok());
+}
+
+}  // namespace
+}  // namespace codesign
