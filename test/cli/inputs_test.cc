@@ -1,0 +1,51 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "cli/inputs.h"
+
+#include <gtest/gtest.h>
+
+#include "cli/run_fixture.h"
+
+namespace codesign::cli {
+namespace {
+
+Arguments slider_crank() {
+  Arguments arguments;
+  arguments.model = shipped("urdf/slider_crank.urdf");
+  arguments.study = shipped("config/slider_crank.yaml");
+  return arguments;
+}
+
+TEST(Inputs, ReadsModelStudyOverlaysAndSettings) {
+  const ScratchFolder folder;
+  std::ofstream(folder.path("overlay.urdf")) << "<robot name=\"slider_crank\"/>";
+  Arguments arguments = slider_crank();
+  arguments.overlays = {folder.path("overlay.urdf")};
+  arguments.settings = {{"Kp", 2.0}};
+  const Problem problem = load(arguments);
+  EXPECT_EQ(problem.overlays.size(), 1U);
+  EXPECT_EQ(problem.start()[4], 2.0);
+  EXPECT_EQ(load_tunable(arguments).study.tuned.size(), 5U);
+}
+
+TEST(Inputs, ALoneModelHasNothingToTune) {
+  Arguments arguments = slider_crank();
+  arguments.study.clear();
+  EXPECT_TRUE(load(arguments).study.tuned.empty());
+  EXPECT_THROW(load_tunable(arguments), InputError);
+}
+
+TEST(Inputs, SignalsAreThoseAskedForOrTheDefaults) {
+  Arguments arguments = slider_crank();
+  const Problem problem = load(arguments);
+  const std::vector<SignalDescription> all = select_signals(arguments, problem);
+  EXPECT_GT(all.size(), 6U);
+  EXPECT_EQ(all.front().text, "crank_joint/position");
+  EXPECT_EQ(all.back().text, "crank_speed/output");
+  arguments.signals = {"slider/position/x - crank/position/x"};
+  EXPECT_EQ(select_signals(arguments, problem).at(0).terms.size(), 2U);
+  arguments.signals = {"slider/position"};
+  EXPECT_THROW(select_signals(arguments, problem), InputError);
+}
+
+}  // namespace
+}  // namespace codesign::cli

@@ -1,0 +1,20 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "cli/interrupt.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+namespace codesign::cli {
+namespace {
+
+TEST(Interrupt, TheFirstSetsTheFlagAndTheSecondEndsTheProgram) {
+  EXPECT_FALSE(interrupted());
+  watch_interrupts();
+  std::raise(SIGINT);
+  EXPECT_TRUE(interrupted());
+  EXPECT_EXIT(std::raise(SIGINT), testing::KilledBySignal(SIGINT), "");
+}
+
+}  // namespace
+}  // namespace codesign::cli
