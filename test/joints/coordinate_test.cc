@@ -1,0 +1,114 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/joints/coordinate.h"
+
+#include <gtest/gtest.h>
+
+#include "mechanism_codesign/math/derivative_check.h"
+
+namespace codesign {
+namespace {
+
+using Kind = CoordinateConstants<double>::Kind;
+
+/// Two bodies at a generic point: [r_i, p_i, r_j, p_j] and its rate.
+Eigen::VectorXd generic(double phase) {
+  Eigen::VectorXd x(kLocalSize);
+  for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = 0.6 * std::sin(2.3 * static_cast<double>(k) + phase);
+  return x;
+}
+
+template <class T>
+BodyKinematics<T> body(const VectorX<T>& q, const VectorX<T>& v, const VectorX<T>& a, int first) {
+  BodyKinematics<T> b;
+  b.r = q.template segment<3>(first);
+  b.p = q.template segment<4>(first + 3);
+  b.rd = v.template segment<3>(first);
+  b.pd = v.template segment<4>(first + 3);
+  b.rdd = a.template segment<3>(first);
+  b.pdd = a.template segment<4>(first + 3);
+  b.update_rotation();
+  return b;
+}
+
+template <class T>
+PairConstants<T> pair() {
+  PairConstants<T> c;
+  c.s_i = Vector3<T>(T(0.1), T(-0.2), T(0.3));
+  c.s_j = Vector3<T>(T(-0.3), T(0.1), T(0.2));
+  return c;
+}
+
+template <class T>
+CoordinateConstants<T> coordinate(Kind kind, bool fixed_in_j) {
+  CoordinateConstants<T> c;
+  c.kind = static_cast<typename CoordinateConstants<T>::Kind>(kind);
+  c.sign = -1.0;
+  c.fixed_in_j = fixed_in_j;
+  c.a = Vector3<T>(T(0.6), T(0.0), T(0.8));
+  c.b = Vector3<T>(T(0.0), T(1.0), T(0.0));
+  c.c = Vector3<T>(T(0.0), T(0.6), T(0.8));
+  c.d = Vector3<T>(T(0.8), T(-0.6), T(0.0));
+  return c;
+}
+
+template <class T>
+CoordinateMotion<T> motion(Kind kind, bool fixed_in_j, const VectorX<T>& q, const VectorX<T>& v, const VectorX<T>& a) {
+  return coordinate_motion(pair<T>(), coordinate<T>(kind, fixed_in_j), body(q, v, a, 0), body(q, v, a, kBodySize));
+}
+
+void expect_exact(Kind kind, bool fixed_in_j = false) {
+  using C = std::complex<double>;
+  const Eigen::VectorXd q = generic(0.2), v = generic(1.3), a = generic(2.1);
+  const CoordinateMotion<double> m = motion<double>(kind, fixed_in_j, q, v, a);
+  const auto all = [&](const Eigen::VectorXcd& z, int which) {
+    const VectorX<C> cq = which == 0 ? z : Eigen::VectorXcd(q.cast<C>()), cv = which == 1 ? z : Eigen::VectorXcd(v.cast<C>());
+    const CoordinateMotion<C> cm = motion<C>(kind, fixed_in_j, cq, cv, a.cast<C>());
+    return Eigen::VectorXcd((Eigen::VectorXcd(3) << cm.position, cm.rate, cm.acceleration).finished());
+  };
+  Eigen::MatrixXd by_q(3, kLocalSize), by_v(3, kLocalSize);
+  by_q << m.position_q.transpose(), m.rate_q.transpose(), m.acceleration_q.transpose();
+  by_v << LocalRow<double>::Zero().transpose(), m.J.transpose(), m.acceleration_v.transpose();
+  EXPECT_LT(compare_jacobians(by_q, complex_step_jacobian([&](const Eigen::VectorXcd& z) { return all(z, 0); }, q)).largest, 1e-13);
+  EXPECT_LT(compare_jacobians(by_v, complex_step_jacobian([&](const Eigen::VectorXcd& z) { return all(z, 1); }, v)).largest, 1e-13);
+}
+
+TEST(Coordinate, DerivativesOfEveryKindAreExact) {
+  expect_exact(Kind::kSlide);
+  expect_exact(Kind::kSlide, true);
+  expect_exact(Kind::kAngle);
+  expect_exact(Kind::kSine);
+  expect_exact(Kind::kTurn);
+}
+
+TEST(Coordinate, TurnReadsAnAngleAndItsRate) {
+  VectorX<double> q = VectorX<double>::Zero(kLocalSize), v = q, a = q;
+  q[3] = 1.0;
+  q[kBodySize + 3] = std::cos(0.35);
+  q[kBodySize + 6] = std::sin(0.35);
+  // omega = 2 about z: p' = E^T omega / 2.
+  v.segment<4>(kBodySize + 3) = 0.5 * ground_rate_matrix<double>(q.segment<4>(kBodySize + 3)).transpose() * Vector3<double>(0.0, 0.0, 2.0);
+  CoordinateConstants<double> c;
+  c.kind = Kind::kTurn;
+  const CoordinateMotion<double> m = coordinate_motion(PairConstants<double>(), c, body(q, v, a, 0), body(q, v, a, kBodySize));
+  EXPECT_NEAR(m.position, 0.7, 1e-15);
+  EXPECT_NEAR(m.rate, 2.0, 1e-15);
+}
+
+TEST(Coordinate, LoadGradientIsTheDerivativeOfJTransposed) {
+  using C = std::complex<double>;
+  const Eigen::VectorXd q = generic(0.4), zero = Eigen::VectorXd::Zero(kLocalSize);
+  for (Kind kind : {Kind::kTurn, Kind::kSlide}) {
+    LocalMatrix<double> gradient = LocalMatrix<double>::Zero();
+    coordinate_load_gradient(pair<double>(), coordinate<double>(kind, false), body<double>(q, zero, zero, 0), body<double>(q, zero, zero, kBodySize), 1.7,
+                             [&gradient](int r, int c, double value) { gradient(r, c) += value; });
+    const Eigen::MatrixXd expected = complex_step_jacobian(
+        [&](const Eigen::VectorXcd& z) {
+          return Eigen::VectorXcd(C(1.7) * motion<C>(kind, false, z, zero.cast<C>(), zero.cast<C>()).J);
+        },
+        q);
+    EXPECT_LT(compare_jacobians(gradient, expected).largest, 1e-13);
+  }
+}
+
+}  // namespace
+}  // namespace codesign
