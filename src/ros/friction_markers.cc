@@ -14,9 +14,9 @@ geometry_msgs::Point to_point(const Eigen::Vector3d& position) {
 
 std_msgs::ColorRGBA color_of(bool is_torque) {
   std_msgs::ColorRGBA color;
-  color.r = is_torque ? 0.15F : 1.0F;
-  color.g = is_torque ? 0.45F : 0.45F;
-  color.b = is_torque ? 1.0F : 0.0F;
+  color.r = is_torque ? 0.1F : 0.9F;
+  color.g = is_torque ? 0.7F : 0.05F;
+  color.b = is_torque ? 0.9F : 0.25F;
   color.a = 1.0F;
   return color;
 }

@@ -8,17 +8,38 @@
 namespace codesign {
 namespace {
 
-/// The largest friction force and torque, and the box that holds every link frame relative to the root.
+/// How long an arrow of one unit is drawn.
+class ArrowScale {
+ public:
+  void include(double load) {
+    if (load == 0.0) return;
+    ++count_;
+    sum_of_squares_ += load * load;
+    largest_ = std::max(largest_, load);
+  }
+
+  /// The load is mostly about a third as long as the mechanism, at its peak not longer than it.
+  double metres_per_unit(double size, double fallback) const {
+    if (count_ == 0) return fallback;
+    return std::min(size / (3.0 * std::sqrt(sum_of_squares_ / count_)), size / largest_);
+  }
+
+ private:
+  int count_ = 0;
+  double sum_of_squares_ = 0.0, largest_ = 0.0;
+};
+
+/// The box that holds every link frame relative to the root, and the loads to draw.
 struct Extent {
   Eigen::AlignedBox3d box{Eigen::Vector3d::Zero()};
-  double force = 0.0, torque = 0.0;
+  ArrowScale force, torque;
 
   void include(const RecordedRun& run) {
     for (const Frame& frame : run.frames) {
       for (const LinkSample& link : frame.links) box.extend(link.position - frame.links.front().position);
       for (const FrictionSample& sample : frame.frictions) {
-        force = std::max(force, sample.force.norm());
-        torque = std::max(torque, sample.torque.norm());
+        force.include(sample.force.norm());
+        torque.include(sample.torque.norm());
       }
     }
   }
@@ -46,10 +67,10 @@ SceneLayout lay_out(const RecordedRun& initial, const RecordedRun& tuned) {
   SceneLayout layout;
   layout.separation = extent.box.sizes().y() + 0.5 * size;
   layout.label_height = extent.box.max().z() + 0.15 * size;
-  layout.label_size = 0.08 * size;
-  layout.style.shaft_diameter = 0.02 * size;
-  if (extent.force > 0.0) layout.style.metres_per_newton = size / (3.0 * extent.force);
-  if (extent.torque > 0.0) layout.style.metres_per_newton_metre = size / (3.0 * extent.torque);
+  layout.label_size = 0.1 * size;
+  layout.style.shaft_diameter = 0.025 * size;
+  layout.style.metres_per_newton = extent.force.metres_per_unit(size, layout.style.metres_per_newton);
+  layout.style.metres_per_newton_metre = extent.torque.metres_per_unit(size, layout.style.metres_per_newton_metre);
   return layout;
 }
 

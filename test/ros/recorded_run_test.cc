@@ -19,10 +19,17 @@ TEST(LayOut, TheMechanismsStandClearOfEachOther) {
   EXPECT_DOUBLE_EQ(lay_out(sample_run(1.0), sample_run(1.0)).separation, 2.0 + 0.5 * 2.0);
 }
 
-TEST(LayOut, TheLargestArrowOfBothRunsIsAThirdOfTheMechanism) {
-  const SceneLayout layout = lay_out(sample_run(1.0), sample_run(50.0));
-  EXPECT_DOUBLE_EQ(layout.style.metres_per_newton * 50.0, 2.0 / 3.0);
+TEST(LayOut, ATypicalArrowOfBothRunsIsAThirdOfTheMechanism) {
+  // Forces of 4, 3, 4 and 5 N, whose mean square is 16.5; torques of 2 N m throughout.
+  const SceneLayout layout = lay_out(sample_run(3.0), sample_run(5.0));
+  EXPECT_DOUBLE_EQ(layout.style.metres_per_newton * std::sqrt(16.5), 2.0 / 3.0);
   EXPECT_DOUBLE_EQ(layout.style.metres_per_newton_metre * 2.0, 2.0 / 3.0);
+}
+
+TEST(LayOut, TheArrowOfAPeakIsNotLongerThanTheMechanism) {
+  RecordedRun peaked = sample_run(1e3);
+  peaked.frames.resize(100, sample_frame(0.0));
+  EXPECT_DOUBLE_EQ(lay_out(sample_run(3.0), peaked).style.metres_per_newton * 1e3, 2.0);
 }
 
 TEST(LayOut, WithoutFramesItStaysFinite) {

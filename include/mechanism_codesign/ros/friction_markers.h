@@ -16,7 +16,7 @@ struct MarkerStyle {
   double shaft_diameter = 0.006;         ///< [m]
 };
 
-/// One arrow for each joint and loop with friction, from the joint along the friction force (orange) or torque (blue) on the child link.
+/// One arrow for each joint and loop with friction, from the joint along the friction force (red) or torque (cyan) on the child link.
 /// An arrow shorter than its shaft is thick is taken away instead of drawn.
 visualization_msgs::MarkerArray friction_markers(const FrameNames& names, const Frame& frame, const MessageContext& context,
                                                  const MarkerStyle& style);

@@ -29,7 +29,8 @@ struct SceneLayout {
   MarkerStyle style;
 };
 
-/// Chosen so that the two mechanisms do not overlap and the largest friction arrow is about a third as long as the mechanism.
+/// Chosen so that the two mechanisms do not overlap, and a typical friction arrow is a third as long as the mechanism, the largest at most
+/// as long.
 SceneLayout lay_out(const RecordedRun& initial, const RecordedRun& tuned);
 
 }  // namespace codesign
