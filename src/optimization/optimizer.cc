@@ -26,7 +26,7 @@ class Minimization {
     result_.initial_rho = result_.rho = scaling_.start();
     std::vector<double> x = scaling_.to_scaled(result_.initial_rho);
     minimize(&optimizer, &x);
-    result_.status.time = study_.duration;
+    if (result_.status.ok()) result_.status.time = study_.duration;
     return std::move(result_);
   }
 

@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_INTEGRATION_SIMULATION_H_
 #define MECHANISM_CODESIGN_INTEGRATION_SIMULATION_H_
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -23,7 +24,7 @@ std::shared_ptr<const System> make_system(const RobotDescription& robot, const S
 
 /// What an integration cost.
 struct Statistics {
-  long steps = 0, rejected_steps = 0;
+  std::int64_t steps = 0, rejected_steps = 0;
   double cpu_seconds = 0.0;
 };
 
