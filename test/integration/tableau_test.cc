@@ -51,7 +51,7 @@ TEST_P(Tableau, ConvergesAtItsOrder) {
 
 TEST_P(Tableau, DenseOutputIsOneOrderLess) {
   const RosenbrockTableau& tableau = *rosenbrock_tableau(GetParam());
-  double middle[2], exact[2], unused = 0.0;
+  double middle[2], exact[2];
   const int steps[2] = {8, 16};
   for (int k = 0; k < 2; ++k) {
     integrate(tableau, steps[k], &middle[k]);
