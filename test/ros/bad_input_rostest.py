@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """With bad input the nodes are up, and each door says what is wrong."""
+import threading
 import unittest
 
 import rosnode
@@ -15,12 +16,18 @@ TIMEOUT = 60.0
 class BadInputTest(unittest.TestCase):
     def wait_for_error(self, node):
         """The sentence of the first error that `node` reports on /diagnostics."""
-        end = rospy.get_time() + TIMEOUT
-        while rospy.get_time() < end:
-            for status in rospy.wait_for_message("/diagnostics", DiagnosticArray, TIMEOUT).status:
+        sentences, found = [], threading.Event()
+
+        def receive(message):
+            for status in message.status:
                 if status.name.startswith(node) and status.level == DiagnosticStatus.ERROR:
-                    return status.message
-        self.fail(f"{node} reports no error")
+                    sentences.append(status.message)
+                    found.set()
+
+        subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, receive)
+        self.assertTrue(found.wait(TIMEOUT), f"{node} reports no error")
+        subscriber.unregister()
+        return sentences[0]
 
     def test_services_say_what_is_wrong(self):
         for name, service, request in (("optimize", Optimize, OptimizeRequest()), ("evaluate", Evaluate, EvaluateRequest())):

@@ -3,6 +3,7 @@
 """An empty request runs the loaded study; the bag it leaves can be read and replayed."""
 import shutil
 import subprocess
+import threading
 import unittest
 import xml.etree.ElementTree
 
@@ -89,9 +90,15 @@ class OptimizationTest(unittest.TestCase):
         try:
             places = rospy.wait_for_message("tf_static", TFMessage, TIMEOUT)
             self.assertEqual([t.child_frame_id for t in places.transforms], ["initial", "tuned"])
-            seen = set()
-            while not {"initial/slider", "tuned/slider", "initial/rod", "tuned/rod"} <= seen:
-                seen |= {t.child_frame_id for t in rospy.wait_for_message("tf", TFMessage, TIMEOUT).transforms}
+            missing, complete = {"initial/slider", "tuned/slider", "initial/rod", "tuned/rod"}, threading.Event()
+
+            def receive(message):
+                missing.difference_update(transform.child_frame_id for transform in message.transforms)
+                if not missing:
+                    complete.set()
+
+            rospy.Subscriber("tf", TFMessage, receive)
+            self.assertTrue(complete.wait(TIMEOUT), missing)
             self.assertIn("crank_length", rospy.get_param("initial/robot_description"))
             self.assertNotEqual(rospy.get_param("initial/robot_description"), rospy.get_param("tuned/robot_description"))
         finally:
