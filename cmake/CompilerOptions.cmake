@@ -17,11 +17,19 @@ endif()
 function(codesign_optimize target)
   target_compile_options(${target} PRIVATE -fno-math-errno -fno-trapping-math -fno-semantic-interposition)
   file(GLOB hot ${PROJECT_SOURCE_DIR}/src/dynamics/equations_*.cc ${PROJECT_SOURCE_DIR}/src/integration/rosenbrock_step.cc
-    ${PROJECT_SOURCE_DIR}/src/sensitivity/tangent_step.cc)
-  set_source_files_properties(${hot} PROPERTIES COMPILE_OPTIONS $<$<NOT:$<CONFIG:Debug>>:-O3>)
+    ${PROJECT_SOURCE_DIR}/src/sensitivity/tangent_step.cc ${PROJECT_SOURCE_DIR}/src/math/lu_schedule.cc)
+  # The formulas are many small functions of small matrices: with GCC's own limits on inlining they become calls, and cost five to ten times more.
+  set(hot_options -O3 -fvisibility-inlines-hidden)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    foreach(limit inline-unit-growth=1000 large-function-growth=2000 max-inline-insns-single=2000 max-inline-insns-auto=500)
+      list(APPEND hot_options "SHELL:--param ${limit}")
+    endforeach()
+  endif()
+  set_source_files_properties(${hot} PROPERTIES COMPILE_OPTIONS "$<$<NOT:$<CONFIG:Debug>>:${hot_options}>")
   if(CODESIGN_NATIVE)
-    # PUBLIC: the alignment of Eigen's types depends on it, so that everyone who includes them must agree.
-    target_compile_options(${target} PUBLIC -march=native)
+    # Eigen aligns its types by the widest vectors it knows of. It is told of SSE only, so that whoever includes our headers agrees with the
+    # library whatever they compile for; the compiler itself uses the wide ones. doc/decisions/0015-processor.md
+    target_compile_options(${target} PRIVATE -march=native -U__AVX__ -U__AVX2__ -U__FMA__ -U__AVX512F__ -U__AVX512DQ__)
   endif()
 endfunction()
 

@@ -11,9 +11,9 @@ namespace codesign {
 namespace {
 
 constexpr double kRankTolerance = 1e-9;
-constexpr double kClosed = 1e-12;      // loop error that counts as closed, of a mechanism of size one
+constexpr double kClosed = 1e-12;  // loop error that counts as closed, of a mechanism of size one
 constexpr int kNewtonIterations = 200;
-constexpr double kLargestTurn = 0.5;   // [rad or m] that one Newton step may move a coordinate: keeps to the branch of the start
+constexpr double kLargestTurn = 0.5;  // [rad or m] that one Newton step may move a coordinate: keeps to the branch of the start
 
 int joint_named(const RobotDescription& robot, const std::string& name) {
   for (std::size_t k = 0; k < robot.joints.size(); ++k)
@@ -56,7 +56,7 @@ Assembly::Assembly(const System& system) : system_(system), tree_(system.robot()
     position_given_[c] = initial.position.has_value();
     velocity_given_[c] = initial.velocity.has_value();
   }
-  derivatives_.resize(system.sparsity().nonzeros());
+  derivatives_.resize(system.patterns());
 }
 
 void Assembly::set_start(const std::vector<double>& parameters) {
@@ -73,7 +73,8 @@ void Assembly::set_start(const std::vector<double>& parameters) {
 }
 
 void Assembly::place(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) const {
-  body_coordinates(system_, equations->constants(), link_motions(system_.robot(), tree_, parameters, theta_, theta_rate_), &state->q, &state->v);
+  body_coordinates(system_, equations->constants(), link_motions(system_.robot(), tree_, parameters, theta_, theta_rate_), &state->q,
+                   &state->v);
 }
 
 Eigen::VectorXd Assembly::loop_part(const VectorX<double>& rows) const {
@@ -111,7 +112,8 @@ Assembly::Dependents Assembly::choose(const Eigen::MatrixXd& jacobian, const std
     qr.setThreshold(kRankTolerance);
     qr.compute(rest);
     const Eigen::Index take = std::min(missing, qr.rank());
-    for (Eigen::Index k = 0; k < take; ++k) chosen.columns.push_back(candidates[static_cast<std::size_t>(qr.colsPermutation().indices()[k])]);
+    for (Eigen::Index k = 0; k < take; ++k)
+      chosen.columns.push_back(candidates[static_cast<std::size_t>(qr.colsPermutation().indices()[k])]);
   }
   std::sort(chosen.columns.begin(), chosen.columns.end());
   chosen.inverse = pseudo_inverse(columns_of(jacobian, chosen.columns));
@@ -217,7 +219,8 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
     if (size < 1e-15 || (size < 1e-11 && size >= 0.5 * previous)) return {};
     previous = size;
   }
-  return {StatusCode::kInitialReactionsFailed, state->t, "no accelerations and reactions satisfy the equations of motion with friction at the start"};
+  return {StatusCode::kInitialReactionsFailed, state->t,
+          "no accelerations and reactions satisfy the equations of motion with friction at the start"};
 }
 
 template <class T>
@@ -257,11 +260,12 @@ void Assembly::extend(const std::vector<T>& parameters, const State<double>& sta
   state->z = start.z.template cast<T>();
   equations->residual(*state, &G, &g);
   Eigen::MatrixXd step = directions_of(G);
-  matrix_.lu().solve(step.data(), static_cast<int>(step.cols()));
+  for (Eigen::Index k = 0; k < step.cols(); ++k) matrix_.lu().solve(step.col(k).data());
   add_directions(Eigen::MatrixXd(-step), &state->z);
 }
 
-#define CODESIGN_INSTANTIATE(T) template void Assembly::extend<T>(const std::vector<T>&, const State<double>&, Equations<T>*, State<T>*) const;
+#define CODESIGN_INSTANTIATE(T) \
+  template void Assembly::extend<T>(const std::vector<T>&, const State<double>&, Equations<T>*, State<T>*) const;
 CODESIGN_INSTANTIATE(std::complex<double>)
 CODESIGN_INSTANTIATE(Lanes<4>)
 CODESIGN_INSTANTIATE(Lanes<8>)

@@ -34,15 +34,17 @@ namespace internal {
 
 /// Coincident points: Phi = (r_j + A_j s_j) - (r_i + A_i s_i), theory (5); one side's share.
 template <class T, class Sink>
-void assemble_coincidence(const BodyKinematics<T>& body, const Vector3<T>& s, const T& sign, int body_column, int row, Sink* sink) {
-  const T zero(0.0);
-  const Matrix34<T> B = rotated_vector_jacobian(body.p, s), Bd = rotated_vector_jacobian(body.pd, s), Bdd = rotated_vector_jacobian(body.pdd, s);
+void assemble_coincidence(const BodyKinematics<T>& body, const Vector3<T>& s, double sign, int body_column, int row, Sink* sink) {
+  const VectorJacobian<T> J = vector_jacobian<T>(body, T(sign) * s);
   for (int l = 0; l < 3; ++l) {
-    sink->add(row + l, body_column + l, zero, zero, sign);
-    sink->add(body_column + l, row + l, zero, zero, sign);
+    sink->rate(row + l, body_column + l, T(sign));
+    sink->rate(body_column + l, row + l, T(sign));
     for (int c = 0; c < 4; ++c) {
-      sink->add(row + l, body_column + 3 + c, T(sign * Bdd(l, c)), T(T(2.0) * sign * Bd(l, c)), T(sign * B(l, c)));
-      sink->add(body_column + 3 + c, row + l, zero, zero, T(sign * B(l, c)));
+      const int p = body_column + 3 + c;
+      sink->position(row + l, p, J.Bdd(l, c));
+      sink->velocity(row + l, p, T(T(2.0) * J.Bd(l, c)));
+      sink->rate(row + l, p, J.B(l, c));
+      sink->rate(p, row + l, J.B(l, c));
     }
   }
 }
@@ -59,6 +61,19 @@ bool touches(const ProductRow<T>& row, Side side) {
   return touched(row.X) || touched(row.Y);
 }
 
+/// Gradients of one product row over the pair's coordinates, from the shared vectors. `fixed` tells which side is the ground.
+template <class T>
+void row_gradient(const ProductRow<T>& row, const PairMotion<T>& shared, const VectorMotion<T>& x, const VectorMotion<T>& y,
+                  const bool (&fixed)[2], ProductGradient<T>* g) {
+  *g = ProductGradient<T>();
+  const auto add = [&](const PairVector<T>& own, const VectorMotion<T>& partner) {
+    for (int k = 0; k < own.terms; ++k)
+      if (!fixed[static_cast<int>(own.term[k].side)]) add_term_gradient(own.term[k], shared.jacobian_of(own.term[k]), partner, g);
+  };
+  add(row.X, y);
+  add(row.Y, x);
+}
+
 }  // namespace internal
 
 template <class T>
@@ -67,38 +82,49 @@ void Equations<T>::assemble_pair(std::size_t k, Sink* sink) {
   const Pair& pair = system_.topology().pairs[k];
   const PairRows<T>& rows = rows_[k];
   const BodyKinematics<T>&i = body(pair.body_i), &j = body(pair.body_j);
-  BodyLoad<T>&load_i = loads_[static_cast<std::size_t>(pair.body_i < 0 ? layout_.bodies : pair.body_i)],
-  &load_j = loads_[static_cast<std::size_t>(pair.body_j < 0 ? layout_.bodies : pair.body_j)];
-  const int index = static_cast<int>(k);
-  const T zero(0.0);
   int row = layout_.lambda_column(layout_.pair_row[k]);
   if (rows.coincident) {
     const Vector3<T> lambda = state_->z.template segment<3>(row);
-    add_vector_load(PairVector<T>::displacement(rows.s_i, rows.s_j), lambda, &load_i, &load_j);
-    if (pair.body_i >= 0) internal::assemble_coincidence(i, rows.s_i, T(-1.0), kBodySize * pair.body_i, row, sink);
-    if (pair.body_j >= 0) internal::assemble_coincidence(j, rows.s_j, T(1.0), kBodySize * pair.body_j, row, sink);
+    add_vector_load(PairVector<T>::displacement(rows.point(Side::kI), rows.point(Side::kJ)), lambda, &load_on(pair.body_i),
+                    &load_on(pair.body_j));
+    if (pair.body_i >= 0) internal::assemble_coincidence(i, rows.point(Side::kI), -1.0, kBodySize * pair.body_i, row, sink);
+    if (pair.body_j >= 0) internal::assemble_coincidence(j, rows.point(Side::kJ), 1.0, kBodySize * pair.body_j, row, sink);
     row += 3;
   }
-  for (const ProductRow<T>& product : rows.products) {
-    const VectorMotion<T> x = motion_of(product.X, i, j), y = motion_of(product.Y, i, j);
-    const ProductGradient<T> g = product_gradient(product.X, product.Y, x, y, i, j);
-    const T scale(product.scale), lambda = scale * state_->z[row];
-    add_product_load(product.X, product.Y, x, y, lambda, &load_i, &load_j);
-    for (int local = 0; local < kLocalSize; ++local) {
-      const Side side = local < kBodySize ? Side::kI : Side::kJ;
-      const int c = column(index, local);
-      if (c < 0 || !internal::touches(product, side) || (local % kBodySize < 3 && !internal::moves_r(product))) continue;
-      sink->add(row, c, T(scale * g.phidd_q[local]), T(T(2.0) * scale * g.phid_q[local]), T(scale * g.phi_q[local]));
-      sink->add(c, row, zero, zero, T(scale * g.phi_q[local]));
-    }
-    product_hessian(product.X, product.Y, lambda, i, j, [&](int r, int c, const T& value) {
-      const int global_row = column(index, r), global_column = column(index, c);
-      if (global_row >= 0 && global_column >= 0) sink->add(global_row, global_column, value, zero, zero);
-    });
-    ++row;
-  }
+  PairMotion<T> shared;
+  shared.update(rows, i, pair.body_i < 0, j, pair.body_j < 0, true);
+  for (const ProductRow<T>& product : rows.products) assemble_product(static_cast<int>(k), product, shared, row++, sink);
   if (system_.compliance() == 0.0) return;
-  for (int r = row - rows.size(); r < row; ++r) sink->add(r, r, zero, zero, T(-system_.compliance()));
+  for (int r = row - rows.size(); r < row; ++r) sink->rate(r, r, T(-system_.compliance()));
+}
+
+template <class T>
+template <class Sink>
+void Equations<T>::assemble_product(int index, const ProductRow<T>& product, const PairMotion<T>& shared, int row, Sink* sink) {
+  const Pair& pair = system_.topology().pairs[static_cast<std::size_t>(index)];
+  const bool fixed[2] = {pair.body_i < 0, pair.body_j < 0};
+  const VectorMotion<T> x = shared.of(product.X), y = shared.of(product.Y);
+  ProductGradient<T> g;
+  internal::row_gradient(product, shared, x, y, fixed, &g);
+  const T scale(product.scale), twice(2.0 * product.scale), lambda = scale * state_->z[row];
+  add_product_load(product.X, product.Y, x, y, lambda, &load_on(pair.body_i), &load_on(pair.body_j));
+  for (int local = 0; local < kLocalSize; ++local) {
+    const Side side = local < kBodySize ? Side::kI : Side::kJ;
+    const int c = column(index, local);
+    if (c < 0 || !internal::touches(product, side) || (local % kBodySize < 3 && !internal::moves_r(product))) continue;
+    const T phi_q = scale * g.phi_q[local];
+    sink->position(row, c, T(scale * g.phidd_q[local]));
+    sink->velocity(row, c, T(twice * g.phid_q[local]));
+    sink->rate(row, c, phi_q);
+    sink->rate(c, row, phi_q);
+  }
+  const auto add = [&](int r, int c, const T& value) { sink->position(column(index, r), column(index, c), value); };
+  for (int k = 0; k < product.X.terms; ++k)
+    for (int l = 0; l < product.Y.terms; ++l) {
+      const VectorTerm<T>&a = product.X.term[k], &b = product.Y.term[l];
+      if (fixed[static_cast<int>(a.side)] || fixed[static_cast<int>(b.side)]) continue;
+      term_hessian<T>(a, shared.jacobian_of(a).B, b, shared.jacobian_of(b).B, lambda * T(a.sign * b.sign), add);
+    }
 }
 
 template <class T>
@@ -106,30 +132,34 @@ template <class Sink>
 void Equations<T>::assemble_body(std::size_t b, Sink* sink) {
   const BodyKinematics<T>& k = kinematics_[b];
   const int first = kBodySize * static_cast<int>(b), p = first + 3, norm = layout_.lambda_column(layout_.norm_row(static_cast<int>(b)));
-  const T zero(0.0);
   const InertiaGradient<T> inertia = inertia_gradient(constants_.bodies[b], k);
   Matrix4<T> by_p = inertia.by_p + rotation_hessian(loads_[b].W);
   for (int e = 0; e < 4; ++e) by_p(e, e) += state_->z[norm];
-  for (int e = 0; e < 3; ++e) sink->add(first + e, first + e, zero, zero, constants_.bodies[b].mass);
+  for (int e = 0; e < 3; ++e) sink->rate(first + e, first + e, constants_.bodies[b].mass);
   for (int row = 0; row < 4; ++row) {
-    for (int c = 0; c < 4; ++c) sink->add(p + row, p + c, by_p(row, c), inertia.by_pd(row, c), inertia.by_pdd(row, c));
-    sink->add(norm, p + row, k.pdd[row], T(T(2.0) * k.pd[row]), k.p[row]);
-    sink->add(p + row, norm, zero, zero, k.p[row]);
+    for (int c = 0; c < 4; ++c) {
+      sink->position(p + row, p + c, by_p(row, c));
+      sink->velocity(p + row, p + c, inertia.by_pd(row, c));
+      sink->rate(p + row, p + c, inertia.by_pdd(row, c));
+    }
+    sink->position(norm, p + row, k.pdd[row]);
+    sink->velocity(norm, p + row, T(T(2.0) * k.pd[row]));
+    sink->rate(norm, p + row, k.p[row]);
+    sink->rate(p + row, norm, k.p[row]);
   }
 }
 
 template <class T>
 template <class Sink>
 void Equations<T>::assemble_states(Sink* sink) {
-  const T zero(0.0);
   for (std::size_t c = 0; c < system_.controllers().size(); ++c) {
     const int s = system_.controllers()[c].state;
     if (s < 0) continue;
     const int row = layout_.state_column(s);
-    sink->add(row, row, zero, zero, T(1.0));
+    sink->rate(row, row, T(1.0));
     gradient_.clear();
     controller_error(static_cast<int>(c), &gradient_);
-    for (const GradientEntry<T>& e : gradient_) sink->add(row, e.column, T(-e.by_position), T(-e.by_velocity), T(-e.by_rate));
+    add_row(row, T(-1.0), gradient_, sink);
   }
 }
 
@@ -138,7 +168,7 @@ template <class Sink>
 void Equations<T>::assemble_objective(Sink* sink) {
   objective_gradient_.clear();
   objective_terms(system_.integral(), integral_weights_, integral_references_, &objective_gradient_);
-  for (const GradientEntry<T>& e : objective_gradient_) sink->add(layout_.columns(), e.column, e.by_position, e.by_velocity, e.by_rate);
+  add_row(layout_.columns(), T(1.0), objective_gradient_, sink);
 }
 
 }  // namespace codesign

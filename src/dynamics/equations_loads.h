@@ -14,7 +14,8 @@ template <class T>
 CoordinateMotion<T> Equations<T>::coordinate(int pair, int element, CoordinateDetail detail) const {
   const Pair& p = system_.topology().pairs[static_cast<std::size_t>(pair)];
   const PairConstants<T>& c = constants_.pairs[static_cast<std::size_t>(pair)];
-  CoordinateMotion<T> motion = coordinate_motion(c, c.coordinates[static_cast<std::size_t>(element)], body(p.body_i), body(p.body_j), detail);
+  CoordinateMotion<T> motion =
+      coordinate_motion(c, c.coordinates[static_cast<std::size_t>(element)], body(p.body_i), body(p.body_j), detail);
   if (detail == CoordinateDetail::kAll && c.coordinates[static_cast<std::size_t>(element)].kind != CoordinateConstants<T>::Kind::kSlide) {
     const double reference = turn_references_[static_cast<std::size_t>(pair)][static_cast<std::size_t>(element)];
     motion.position += T(2.0 * M_PI * std::round((reference - value_of(motion.position)) / (2.0 * M_PI)));
@@ -37,21 +38,29 @@ void Equations<T>::track_turns(const State<T>& state) {
 }
 
 template <class T>
-void Equations<T>::append_local(int pair, const LocalRow<T>* position, const LocalRow<T>* velocity, const LocalRow<T>* rate, const T& factor, bool with_r,
-                                SparseGradient<T>* gradient) const {
+void Equations<T>::append_local(int pair, const LocalRow<T>& row, const T& factor, bool with_r,
+                                typename SparseGradient<T>::Entries* entries) const {
   for (int local = 0; local < kLocalSize; ++local) {
     const int c = column(pair, local);
     if (c < 0 || (local % kBodySize < 3 && !with_r)) continue;
-    const auto entry = [&](const LocalRow<T>* row) { return row ? T(factor * (*row)[local]) : T(0.0); };
-    gradient->push_back({c, entry(position), entry(velocity), entry(rate)});
+    entries->push_back({c, T(factor * row[local])});
   }
 }
 
 template <class T>
-void Equations<T>::append_normal_gradient(int pair, const Vector3<T>& F, const Vector3<T>& torque, const T& factor, SparseGradient<T>* gradient) const {
+void Equations<T>::append_rate(int pair, int element, const CoordinateMotion<T>& motion, const T& factor,
+                               SparseGradient<T>* gradient) const {
+  const bool with_r = coordinate_moves_r(pair, element);
+  append_local(pair, motion.rate_q, factor, with_r, &gradient->position);
+  append_local(pair, motion.J, factor, with_r, &gradient->velocity);
+}
+
+template <class T>
+void Equations<T>::append_normal_gradient(int pair, const Vector3<T>& F, const Vector3<T>& torque, const T& factor,
+                                          SparseGradient<T>* gradient) const {
   const auto& rows = rows_[static_cast<std::size_t>(pair)];
   const int row = layout_.lambda_column(layout_.pair_row[static_cast<std::size_t>(pair)]);
-  const auto add = [&](int column, const T& value) { gradient->push_back({column, T(0.0), T(0.0), T(factor * value)}); };
+  const auto add = [&](int column, const T& value) { gradient->rate.push_back({column, T(factor * value)}); };
   int next = 0;
   if (rows.coincident) {
     const int body_i = system_.topology().pairs[static_cast<std::size_t>(pair)].body_i;
@@ -60,7 +69,7 @@ void Equations<T>::append_normal_gradient(int pair, const Vector3<T>& F, const V
     if (body_i >= 0) {
       const Vector3<T> lambda = state_->z.template segment<3>(row);
       const Vector4<T> by_p = rotation_hessian<T>(lambda * in_body.transpose()) * body(body_i).p;
-      for (int e = 0; e < 4; ++e) gradient->push_back({kBodySize * body_i + 3 + e, T(factor * by_p[e]), T(0.0), T(0.0)});
+      for (int e = 0; e < 4; ++e) gradient->position.push_back({kBodySize * body_i + 3 + e, T(factor * by_p[e])});
     }
     next = 3;
   } else {
@@ -79,14 +88,18 @@ NormalForce<T> Equations<T>::normal_force(int pair) const {
   Vector3<T> F, torque;
   reaction(pair, &F, &torque);
   switch (system_.topology().pairs[static_cast<std::size_t>(pair)].kind) {
-    case PairKind::kPrismatic: return translational_normal_force(F, torque, c);
-    case PairKind::kRevolute: return revolute_normal_force(F, torque, c);
-    default: return pin_normal_force(F, torque, c);
+    case PairKind::kPrismatic:
+      return translational_normal_force(F, torque, c);
+    case PairKind::kRevolute:
+      return revolute_normal_force(F, torque, c);
+    default:
+      return pin_normal_force(F, torque, c);
   }
 }
 
 template <class T>
-T Equations<T>::reaction_friction(int pair, int element, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient, FrictionState<T>* state) {
+T Equations<T>::reaction_friction(int pair, int element, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient,
+                                  FrictionState<T>* state) {
   const auto p = static_cast<std::size_t>(pair);
   const FrictionConstants<T>& c = constants_.pairs[p].friction;
   const bool turning = constants_.pairs[p].coordinates[static_cast<std::size_t>(element)].kind == CoordinateConstants<T>::Kind::kTurn;
@@ -96,14 +109,15 @@ T Equations<T>::reaction_friction(int pair, int element, const CoordinateMotion<
   if (state) *state = {motion.rate, N.value, T(radius * S.value * N.value + c.viscous * motion.rate)};
   if (gradient) {
     const T slope = radius * radius * S.slope * N.value + c.viscous;
-    append_local(pair, &motion.rate_q, &motion.J, nullptr, slope, coordinate_moves_r(pair, element), gradient);
+    append_rate(pair, element, motion, slope, gradient);
     append_normal_gradient(pair, N.F, N.torque, T(radius * S.value), gradient);
   }
   return radius * S.value * N.value + c.viscous * motion.rate;
 }
 
 template <class T>
-T Equations<T>::passive_load(int pair, int element, const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient) const {
+T Equations<T>::passive_load(int pair, int element, const JointLoad& load, const CoordinateMotion<T>& motion,
+                             SparseGradient<T>* gradient) const {
   constexpr double kDryTransitionVelocity = 1e-2;  // [m/s or rad/s]: URDF gives none
   const JointDynamicsConstants<T>& d = constants_.pairs[static_cast<std::size_t>(pair)].dynamics[static_cast<std::size_t>(element)];
   T value(0.0), slope(0.0);
@@ -117,9 +131,8 @@ T Equations<T>::passive_load(int pair, int element, const JointLoad& load, const
     slope += d.dry_friction * S.slope;
   }
   if (gradient) {
-    const bool with_r = coordinate_moves_r(pair, element);
-    append_local(pair, &motion.rate_q, &motion.J, nullptr, slope, with_r, gradient);
-    append_local(pair, &motion.position_q, nullptr, nullptr, d.stiffness, with_r, gradient);
+    append_rate(pair, element, motion, slope, gradient);
+    if (load.passive) append_local(pair, motion.position_q, d.stiffness, coordinate_moves_r(pair, element), &gradient->position);
   }
   return value;
 }
@@ -130,9 +143,9 @@ T Equations<T>::joint_load(const JointLoad& load, const CoordinateMotion<T>& mot
   if (load.reaction_friction) value += reaction_friction(load.pair, load.element, motion, gradient, nullptr);
   if (load.passive || load.constant_friction) value += passive_load(load.pair, load.element, load, motion, gradient);
   for (int controller : load.controllers) {
-    const std::size_t before = gradient ? gradient->size() : 0;
+    const auto before = mark(gradient);
     value -= controller_output(controller, gradient);
-    if (gradient) scale_from(before, T(-1.0), gradient);
+    if (gradient) gradient->scale_from(before, T(-1.0));
   }
   return value;
 }
@@ -148,22 +161,20 @@ void Equations<T>::load_residual(const JointLoad& load, VectorX<T>* G) {
 template <class T>
 template <class Sink>
 void Equations<T>::assemble_load(const JointLoad& load, Sink* sink) {
-  const CoordinateMotion<T> motion = coordinate(load.pair, load.element);
+  const CoordinateMotion<T> motion = coordinate(load.pair, load.element, load.passive ? CoordinateDetail::kAll : CoordinateDetail::kRate);
   gradient_.clear();
   const T value = joint_load(load, motion, &gradient_);
   const bool with_r = coordinate_moves_r(load.pair, load.element);
   for (int local = 0; local < kLocalSize; ++local) {
     const int row = column(load.pair, local);
-    if (row < 0 || (local % kBodySize < 3 && !with_r)) continue;
-    const T& J = motion.J[local];
-    for (const GradientEntry<T>& e : gradient_) sink->add(row, e.column, T(J * e.by_position), T(J * e.by_velocity), T(J * e.by_rate));
+    if (row >= 0 && (local % kBodySize >= 3 || with_r)) add_row(row, motion.J[local], gradient_, sink);
   }
   const Pair& pair = system_.topology().pairs[static_cast<std::size_t>(load.pair)];
   const PairConstants<T>& c = constants_.pairs[static_cast<std::size_t>(load.pair)];
   coordinate_load_gradient(c, c.coordinates[static_cast<std::size_t>(load.element)], body(pair.body_i), body(pair.body_j), value,
                            [&](int r, int local_column, const T& entry) {
                              const int row = column(load.pair, r), global_column = column(load.pair, local_column);
-                             if (row >= 0 && global_column >= 0) sink->add(row, global_column, entry, T(0.0), T(0.0));
+                             if (row >= 0 && global_column >= 0) sink->position(row, global_column, entry);
                            });
 }
 

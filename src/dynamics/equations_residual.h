@@ -20,7 +20,8 @@ void Equations<T>::set_design(const std::vector<T>& parameters) {
   parameters_ = parameters;
   constants_ = evaluate_constants(system_.robot(), system_.topology(), parameters);
   rows_.clear();
-  for (std::size_t k = 0; k < constants_.pairs.size(); ++k) rows_.push_back(pair_rows(system_.topology().pairs[k].kind, constants_.pairs[k]));
+  for (std::size_t k = 0; k < constants_.pairs.size(); ++k)
+    rows_.push_back(pair_rows(system_.topology().pairs[k].kind, constants_.pairs[k]));
   if (turn_references_.empty())
     for (const PairConstants<T>& pair : constants_.pairs) turn_references_.emplace_back(pair.coordinates.size(), 0.0);
   const auto evaluate = [&parameters](const auto& descriptions, auto member, std::vector<T>* values) {
@@ -73,23 +74,31 @@ void Equations<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
 }
 
 template <class T>
+BodyLoad<T>& Equations<T>::load_on(int body) {
+  return loads_[static_cast<std::size_t>(body < 0 ? layout_.bodies : body)];
+}
+
+template <class T>
 void Equations<T>::pair_residual(std::size_t k, VectorX<T>* G) {
   const Pair& pair = system_.topology().pairs[k];
   const PairRows<T>& rows = rows_[k];
   const BodyKinematics<T>&i = body(pair.body_i), &j = body(pair.body_j);
-  BodyLoad<T>&load_i = loads_[static_cast<std::size_t>(pair.body_i < 0 ? layout_.bodies : pair.body_i)],
-  &load_j = loads_[static_cast<std::size_t>(pair.body_j < 0 ? layout_.bodies : pair.body_j)];
+  BodyLoad<T>&load_i = load_on(pair.body_i), &load_j = load_on(pair.body_j);
   int row = layout_.lambda_column(layout_.pair_row[k]);
   if (rows.coincident) {
-    G->template segment<3>(row) = displacement_motion(i, rows.s_i, j, rows.s_j).xdd;
+    const Vector3<T>&s_i = rows.point(Side::kI), &s_j = rows.point(Side::kJ);
+    G->template segment<3>(row) = j.rdd + j.Add * s_j - i.rdd - i.Add * s_i;
     const Vector3<T> lambda = state_->z.template segment<3>(row);
-    add_vector_load(PairVector<T>::displacement(rows.s_i, rows.s_j), lambda, &load_i, &load_j);
+    add_vector_load(PairVector<T>::displacement(s_i, s_j), lambda, &load_i, &load_j);
     row += 3;
   }
+  PairMotion<T> shared;
+  shared.update(rows, i, pair.body_i < 0, j, pair.body_j < 0, false);
   for (const ProductRow<T>& product : rows.products) {
-    const VectorMotion<T> x = motion_of(product.X, i, j), y = motion_of(product.Y, i, j);
-    (*G)[row] = T(product.scale) * product_motion(x, y).phidd;
-    add_product_load(product.X, product.Y, x, y, T(T(product.scale) * state_->z[row]), &load_i, &load_j);
+    const VectorMotion<T> x = shared.of(product.X), y = shared.of(product.Y);
+    const T scale(product.scale);
+    (*G)[row] = scale * product_motion(x, y).phidd;
+    add_product_load(product.X, product.Y, x, y, T(scale * state_->z[row]), &load_i, &load_j);
     ++row;
   }
   if (system_.compliance() == 0.0) return;
@@ -123,7 +132,7 @@ void Equations<T>::constraint_errors(const VectorX<T>& q, const VectorX<T>& v, V
     const BodyKinematics<T>&i = body(pair.body_i), &j = body(pair.body_j);
     int row = layout_.pair_row[k];
     if (rows_[k].coincident) {
-      const VectorMotion<T> d = displacement_motion(i, rows_[k].s_i, j, rows_[k].s_j);
+      const VectorMotion<T> d = displacement_motion(i, rows_[k].point(Side::kI), j, rows_[k].point(Side::kJ));
       Phi->template segment<3>(row) = d.x;
       Phi_rate->template segment<3>(row) = d.xd;
       row += 3;

@@ -8,16 +8,23 @@ namespace codesign {
 
 template <class T>
 T Equations<T>::joint_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient) {
-  const bool rate_only = !gradient && (term.kind == SignalKind::kJointVelocity || term.kind == SignalKind::kJointSlidingVelocity);
-  const CoordinateMotion<T> m = coordinate(term.pair, term.element, rate_only ? CoordinateDetail::kRate : CoordinateDetail::kAll);
+  const bool position = term.kind == SignalKind::kJointPosition;
+  const CoordinateMotion<T> m = coordinate(term.pair, term.element, position ? CoordinateDetail::kAll : CoordinateDetail::kRate);
   const bool with_r = coordinate_moves_r(term.pair, term.element);
-  const auto append = [&](const LocalRow<T>* position, const LocalRow<T>* velocity, const LocalRow<T>* rate) {
-    if (gradient) append_local(term.pair, position, velocity, rate, factor, with_r, gradient);
-  };
   switch (term.kind) {
-    case SignalKind::kJointPosition: append(&m.position_q, nullptr, nullptr); return factor * m.position;
-    case SignalKind::kJointAcceleration: append(&m.acceleration_q, &m.acceleration_v, &m.J); return factor * m.acceleration;
-    default: append(&m.rate_q, &m.J, nullptr); return factor * m.rate;
+    case SignalKind::kJointPosition:
+      if (gradient) append_local(term.pair, m.position_q, factor, with_r, &gradient->position);
+      return factor * m.position;
+    case SignalKind::kJointAcceleration:
+      if (gradient) {
+        append_local(term.pair, m.acceleration_q, factor, with_r, &gradient->position);
+        append_local(term.pair, m.acceleration_v, factor, with_r, &gradient->velocity);
+        append_local(term.pair, m.J, factor, with_r, &gradient->rate);
+      }
+      return factor * m.acceleration;
+    default:
+      if (gradient) append_rate(term.pair, term.element, m, factor, gradient);
+      return factor * m.rate;
   }
 }
 
@@ -26,21 +33,20 @@ T Equations<T>::link_term(const SignalReference& term, const T& factor, SparseGr
   const int index = system_.topology().link_body[static_cast<std::size_t>(term.link)], c = kBodySize * index;
   const BodyKinematics<T>& k = body(index);
   const Vector3<T>& s = constants_.links[static_cast<std::size_t>(term.link)].s;
-  const T zero(0.0);
   const bool turning = term.kind == SignalKind::kLinkAngularVelocity;
-  const int order = term.kind == SignalKind::kLinkPosition ? 0 : term.kind == SignalKind::kLinkVelocity ? 1 : 2;
+  const int order = term.kind == SignalKind::kLinkPosition ? 0 : term.kind == SignalKind::kLinkAcceleration ? 2 : 1;
   if (gradient && index >= 0) {
-    const T one[3] = {order == 0 ? factor : zero, order == 1 ? factor : zero, order == 2 ? factor : zero};
-    if (!turning) gradient->push_back({c + term.axis, one[0], one[1], one[2]});
-    const Matrix34<T> B0 = turning ? Matrix34<T>(T(-2.0) * ground_rate_matrix(k.pd)) : rotated_vector_jacobian(k.p, s);
-    const Matrix34<T> B1 = turning ? Matrix34<T>(T(2.0) * ground_rate_matrix(k.p)) : rotated_vector_jacobian(k.pd, s);
+    typename SparseGradient<T>::Entries* const variables[3] = {&gradient->position, &gradient->velocity, &gradient->rate};
+    if (!turning) variables[order]->push_back({c + term.axis, factor});
+    // The value is linear in the highest derivative of p, with B0; each lower one has the binomial coefficient.
+    const Matrix34<T> B0 = turning ? Matrix34<T>(T(2.0) * ground_rate_matrix(k.p)) : rotated_vector_jacobian(k.p, s);
+    const Matrix34<T> B1 = turning ? Matrix34<T>(T(-2.0) * ground_rate_matrix(k.pd)) : rotated_vector_jacobian(k.pd, s);
     const Matrix34<T> B2 = rotated_vector_jacobian(k.pdd, s);
     for (int e = 0; e < 4; ++e) {
-      const T b0 = factor * B0(term.axis, e), b1 = factor * B1(term.axis, e), b2 = factor * B2(term.axis, e);
-      if (turning) gradient->push_back({c + 3 + e, b0, b1, zero});
-      if (!turning && order == 0) gradient->push_back({c + 3 + e, b0, zero, zero});
-      if (!turning && order == 1) gradient->push_back({c + 3 + e, b1, b0, zero});
-      if (!turning && order == 2) gradient->push_back({c + 3 + e, b2, T(T(2.0) * b1), b0});
+      const int column = c + 3 + e;
+      variables[order]->push_back({column, T(factor * B0(term.axis, e))});
+      if (order >= 1) variables[order - 1]->push_back({column, T(T(order) * factor * B1(term.axis, e))});
+      if (order == 2) variables[0]->push_back({column, T(factor * B2(term.axis, e))});
     }
   }
   if (turning) return factor * T(2.0) * (ground_rate_matrix(k.p) * k.pd)[term.axis];
@@ -61,7 +67,7 @@ T Equations<T>::controller_output(int controller, SparseGradient<T>* gradient) {
   T output = gains_p_[c] * setpoints_[c] + signal_value(pid.input, T(-gains_p_[c]), gradient);
   if (pid.state >= 0) {
     output += gains_i_[c] * state_->s[pid.state];
-    if (gradient) gradient->push_back({layout_.state_column(pid.state), gains_i_[c], T(0.0), T(0.0)});
+    if (gradient) gradient->position.push_back({layout_.position_column(pid.state), gains_i_[c]});
   }
   if (!pid.input_rate.empty()) output += signal_value(pid.input_rate, T(-gains_d_[c]), gradient);
   return output;
@@ -69,36 +75,40 @@ T Equations<T>::controller_output(int controller, SparseGradient<T>* gradient) {
 
 template <class T>
 T Equations<T>::term_value(const SignalReference& term, const T& factor, SparseGradient<T>* gradient) {
-  const std::size_t before = gradient ? gradient->size() : 0;
+  const auto before = mark(gradient);
   switch (term.kind) {
     case SignalKind::kLinkPosition:
     case SignalKind::kLinkVelocity:
     case SignalKind::kLinkAcceleration:
-    case SignalKind::kLinkAngularVelocity: return link_term(term, factor, gradient);
+    case SignalKind::kLinkAngularVelocity:
+      return link_term(term, factor, gradient);
     case SignalKind::kControllerError: {
       const T value = controller_error(term.controller, gradient);
-      if (gradient) scale_from(before, factor, gradient);
+      if (gradient) gradient->scale_from(before, factor);
       return factor * value;
     }
-    case SignalKind::kControllerErrorRate: return signal_value(system_.controllers()[static_cast<std::size_t>(term.controller)].input_rate, T(-factor), gradient);
+    case SignalKind::kControllerErrorRate:
+      return signal_value(system_.controllers()[static_cast<std::size_t>(term.controller)].input_rate, T(-factor), gradient);
     case SignalKind::kControllerOutput: {
       const T value = controller_output(term.controller, gradient);
-      if (gradient) scale_from(before, factor, gradient);
+      if (gradient) gradient->scale_from(before, factor);
       return factor * value;
     }
     case SignalKind::kControllerIntegral: {
       const int s = system_.controllers()[static_cast<std::size_t>(term.controller)].state;
-      if (gradient) gradient->push_back({layout_.state_column(s), factor, T(0.0), T(0.0)});
+      if (gradient) gradient->position.push_back({layout_.position_column(s), factor});
       return factor * state_->s[s];
     }
     case SignalKind::kJointEffort:
-    case SignalKind::kJointFriction: return load_term(term, factor, gradient);
+    case SignalKind::kJointFriction:
+      return load_term(term, factor, gradient);
     case SignalKind::kJointNormalForce: {
       const NormalForce<T> N = normal_force(term.pair);
       if (gradient) append_normal_gradient(term.pair, N.F, N.torque, factor, gradient);
       return factor * N.value;
     }
-    default: return joint_term(term, factor, gradient);
+    default:
+      return joint_term(term, factor, gradient);
   }
 }
 
@@ -115,9 +125,9 @@ T Equations<T>::load_term(const SignalReference& term, const T& factor, SparseGr
       part.controllers.clear();
     }
     const CoordinateMotion<T> motion = coordinate(term.pair, term.element);
-    const std::size_t before = gradient ? gradient->size() : 0;
+    const auto before = mark(gradient);
     sum -= factor * joint_load(part, motion, gradient);
-    if (gradient) scale_from(before, T(-factor), gradient);
+    if (gradient) gradient->scale_from(before, T(-factor));
   }
   return sum;
 }
@@ -140,10 +150,10 @@ T Equations<T>::objective_terms(const std::vector<ResolvedTerm>& terms, const st
                                 SparseGradient<T>* gradient) {
   T sum(0.0);
   for (std::size_t k = 0; k < terms.size(); ++k) {
-    const std::size_t before = gradient ? gradient->size() : 0;
+    const auto before = mark(gradient);
     const T error = signal_value(terms[k].signal, T(1.0), gradient) - references[k];
     sum += weights[k] * error * error;
-    if (gradient) scale_from(before, T(T(2.0) * weights[k] * error), gradient);
+    if (gradient) gradient->scale_from(before, T(T(2.0) * weights[k] * error));
   }
   return sum;
 }

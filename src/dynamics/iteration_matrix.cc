@@ -1,44 +1,61 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mechanism_codesign/dynamics/iteration_matrix.h"
 
+#include <algorithm>
+#include <array>
+
 namespace codesign {
 namespace {
 
-/// Drops the integrand's row from the pattern.
-std::vector<int> equation_entries(const Sparsity& full, std::vector<int>* column_start, std::vector<int>* row_index) {
-  std::vector<int> source;
-  column_start->assign(1, 0);
-  for (int column = 0; column < full.columns; ++column) {
-    for (int k = full.column_start[static_cast<std::size_t>(column)]; k < full.column_start[static_cast<std::size_t>(column) + 1]; ++k) {
-      const int row = full.row_index[static_cast<std::size_t>(k)];
-      if (row >= full.columns) continue;
-      row_index->push_back(row);
-      source.push_back(k);
-    }
-    column_start->push_back(static_cast<int>(source.size()));
-  }
-  return source;
+struct Entry {
+  int column, row, matrix, entry;
+  bool operator<(const Entry& other) const { return std::array<int, 2>{column, row} < std::array<int, 2>{other.column, other.row}; }
+};
+
+/// Notes the entries of one matrix, the integrand's row left out; `shift` moves its column to that of the rate it is eliminated by.
+template <class Shift>
+void collect(const Sparsity& pattern, int matrix, const Shift& shift, std::vector<Entry>* entries) {
+  for (int row = 0; row + 1 < pattern.rows; ++row)
+    for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) entries->push_back({shift(pattern.column(e)), row, matrix, e});
 }
 
 }  // namespace
 
+IterationMatrix::Pattern::Pattern(const System& system) {
+  const Layout& layout = system.layout();
+  const auto same = [](int column) { return column; };
+  const auto position = [&layout](int column) { return column < layout.n ? column : layout.state_column(column - layout.n); };
+  std::vector<Entry> entries;
+  collect(system.patterns().position, 0, position, &entries);
+  collect(system.patterns().velocity, 1, same, &entries);
+  collect(system.patterns().rate, 2, same, &entries);
+  std::stable_sort(entries.begin(), entries.end());
+  column_start.assign(static_cast<std::size_t>(layout.columns()) + 1, 0);
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    const Entry& e = entries[k];
+    if (k == 0 || entries[k - 1] < e) {
+      row_index.push_back(e.row);
+      ++column_start[static_cast<std::size_t>(e.column) + 1];
+    }
+    std::vector<Source>& list = e.matrix == 2 ? z : e.matrix == 1 ? v : e.column < layout.n ? q : s;
+    list.push_back({e.entry, static_cast<int>(row_index.size()) - 1});
+  }
+  for (std::size_t k = 1; k < column_start.size(); ++k) column_start[k] += column_start[k - 1];
+}
+
 IterationMatrix::IterationMatrix(const System& system)
-    : first_state_column_(system.layout().state_column(0)),
-      source_(equation_entries(system.sparsity(), &column_start_, &row_index_)),
-      state_entries_(column_start_[static_cast<std::size_t>(first_state_column_)]),
-      values_(source_.size()),
-      lu_(system.layout().columns(), column_start_, row_index_) {}
+    : pattern_(system), values_(pattern_.row_index.size()), lu_(system.layout().columns(), pattern_.column_start, pattern_.row_index) {}
 
 bool IterationMatrix::factor(const Linearization<double>& d, double c_v, double c_q, double c_s) {
-  const auto states = static_cast<std::size_t>(state_entries_);
-  for (std::size_t k = 0; k < states; ++k) {
-    const auto source = static_cast<std::size_t>(source_[k]);
-    values_[k] = d.by_rate[source] + c_v * d.by_velocity[source] + c_q * d.by_position[source];
-  }
-  for (std::size_t k = states; k < values_.size(); ++k) {
-    const auto source = static_cast<std::size_t>(source_[k]);
-    values_[k] = d.by_rate[source] + c_s * d.by_position[source];
-  }
+  std::fill(values_.begin(), values_.end(), 0.0);
+  const auto add = [this](const std::vector<Pattern::Source>& sources, double c, const std::vector<double>& from) {
+    for (const Pattern::Source& source : sources)
+      values_[static_cast<std::size_t>(source.slot)] += c * from[static_cast<std::size_t>(source.entry)];
+  };
+  add(pattern_.z, 1.0, d.rate);
+  if (c_v != 0.0) add(pattern_.v, c_v, d.velocity);
+  if (c_q != 0.0) add(pattern_.q, c_q, d.position);
+  if (c_s != 0.0) add(pattern_.s, c_s, d.position);
   return lu_.factor(values_.data());
 }
 

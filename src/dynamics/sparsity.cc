@@ -5,21 +5,22 @@
 
 namespace codesign {
 
-Sparsity PatternRecorder::build(int rows, int columns, std::vector<int>* slots) const {
-  std::vector<std::pair<int, int>> entries = calls_;
+Sparsity PatternRecorder::build(const Calls& calls, int rows, int columns, std::vector<int>* slots) {
+  Calls entries = calls;
   std::sort(entries.begin(), entries.end());
   entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
   Sparsity pattern;
   pattern.rows = rows;
   pattern.columns = columns;
-  pattern.column_start.assign(static_cast<std::size_t>(columns) + 1, 0);
-  for (const auto& [column, row] : entries) {
-    ++pattern.column_start[static_cast<std::size_t>(column) + 1];
-    pattern.row_index.push_back(row);
+  pattern.row_start.assign(static_cast<std::size_t>(rows) + 1, 0);
+  for (const auto& [row, column] : entries) {
+    ++pattern.row_start[static_cast<std::size_t>(row) + 1];
+    pattern.column_index.push_back(column);
   }
-  for (std::size_t k = 1; k < pattern.column_start.size(); ++k) pattern.column_start[k] += pattern.column_start[k - 1];
+  for (std::size_t k = 1; k < pattern.row_start.size(); ++k) pattern.row_start[k] += pattern.row_start[k - 1];
   slots->clear();
-  for (const auto& call : calls_) slots->push_back(static_cast<int>(std::lower_bound(entries.begin(), entries.end(), call) - entries.begin()));
+  for (const auto& call : calls)
+    slots->push_back(static_cast<int>(std::lower_bound(entries.begin(), entries.end(), call) - entries.begin()));
   return pattern;
 }
 

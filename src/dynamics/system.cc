@@ -10,17 +10,23 @@ namespace {
 
 int constraint_rows(PairKind kind) {
   switch (kind) {
-    case PairKind::kFixed: return 6;
+    case PairKind::kFixed:
+      return 6;
     case PairKind::kRevolute:
-    case PairKind::kPrismatic: return 5;
+    case PairKind::kPrismatic:
+      return 5;
     case PairKind::kCylindrical:
     case PairKind::kUniversal:
-    case PairKind::kTable: return 4;
+    case PairKind::kTable:
+      return 4;
     case PairKind::kSpherical:
     case PairKind::kPlanar:
-    case PairKind::kTranslational: return 3;
-    case PairKind::kDistance: return 1;
-    case PairKind::kFree: return 0;
+    case PairKind::kTranslational:
+      return 3;
+    case PairKind::kDistance:
+      return 1;
+    case PairKind::kFree:
+      return 0;
   }
   return 0;
 }
@@ -29,7 +35,8 @@ bool zero(const Quantity& q) { return q.is_constant() && q.nominal() == 0.0; }
 
 bool reads(const std::vector<ResolvedTerm>& terms, SignalKind kind, int controller) {
   return std::any_of(terms.begin(), terms.end(), [&](const ResolvedTerm& term) {
-    return std::any_of(term.signal.begin(), term.signal.end(), [&](const SignalReference& r) { return r.kind == kind && r.controller == controller; });
+    return std::any_of(term.signal.begin(), term.signal.end(),
+                       [&](const SignalReference& r) { return r.kind == kind && r.controller == controller; });
   });
 }
 
@@ -83,7 +90,8 @@ void System::resolve_controllers() {
     const int index = static_cast<int>(k);
     const bool error_rate = reads(integral_, SignalKind::kControllerErrorRate, index);
     if (!zero(description.d) || error_rate) controller.input_rate = differentiate(controller.input, description.input, element + ".input");
-    const bool integral = reads(integral_, SignalKind::kControllerIntegral, index) || reads(terminal_, SignalKind::kControllerIntegral, index);
+    const bool integral =
+        reads(integral_, SignalKind::kControllerIntegral, index) || reads(terminal_, SignalKind::kControllerIntegral, index);
     if (!zero(description.i) || integral) controller.state = layout_.states++;
     for (std::size_t joint = 0; joint < robot_.joints.size(); ++joint) {
       if (robot_.joints[joint].name != description.output) continue;
@@ -125,12 +133,10 @@ void System::record_pattern() {
   equations.load(state);
   PatternRecorder recorder;
   equations.assemble(&recorder);
-  sparsity_ = recorder.build(layout_.columns() + 1, layout_.columns(), &slots_);
-  for (int column = 0; column < sparsity_.columns; ++column) {
-    const int last = sparsity_.column_start[static_cast<std::size_t>(column) + 1] - 1;
-    const bool touched = last >= sparsity_.column_start[static_cast<std::size_t>(column)];
-    if (touched && sparsity_.row_index[static_cast<std::size_t>(last)] == layout_.columns()) integrand_entries_.push_back({column, static_cast<std::size_t>(last)});
-  }
+  const int rows = layout_.columns() + 1;
+  patterns_.position = PatternRecorder::build(recorder.calls().position, rows, layout_.positions(), &slots_.position);
+  patterns_.velocity = PatternRecorder::build(recorder.calls().velocity, rows, layout_.n, &slots_.velocity);
+  patterns_.rate = PatternRecorder::build(recorder.calls().rate, rows, layout_.columns(), &slots_.rate);
 }
 
 void System::refuse_unsupported() const {
@@ -143,7 +149,8 @@ void System::refuse_unsupported() const {
     if (joint.friction && joint.friction->model != FrictionModel::kBrownMcPhee)
       refuse(joint.friction->where, element, "a friction model other than brown_mcphee");
   }
-  for (const CouplingDescription& coupling : robot_.couplings) refuse(coupling.where, "<coupling name=\"" + coupling.name + "\">", "a coupling");
+  for (const CouplingDescription& coupling : robot_.couplings)
+    refuse(coupling.where, "<coupling name=\"" + coupling.name + "\">", "a coupling");
   for (const SpringDamperDescription& spring : robot_.spring_dampers)
     refuse(spring.where, "<codesign:spring_damper name=\"" + spring.name + "\">", "a spring-damper");
   for (const Pair& pair : topology_.pairs) {

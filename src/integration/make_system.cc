@@ -14,15 +14,14 @@ constexpr double kRankTolerance = 1e-9;
 /// Phi_q at a state, dense.
 Eigen::MatrixXd constraint_jacobian(const System& system, Equations<double>* equations, const State<double>& state) {
   Linearization<double> d;
-  d.resize(system.sparsity().nonzeros());
+  d.resize(system.patterns());
   equations->linearize(state, &d);
   const Layout& layout = system.layout();
+  const Sparsity& G_z = system.patterns().rate;
   Eigen::MatrixXd Phi_q = Eigen::MatrixXd::Zero(layout.m, layout.n);
-  for (int column = 0; column < layout.n; ++column)
-    for (int k = system.sparsity().column_start[static_cast<std::size_t>(column)]; k < system.sparsity().column_start[static_cast<std::size_t>(column) + 1]; ++k) {
-      const int row = system.sparsity().row_index[static_cast<std::size_t>(k)] - layout.n;
-      if (row >= 0 && row < layout.m) Phi_q(row, column) = d.by_rate[static_cast<std::size_t>(k)];
-    }
+  for (int row = 0; row < layout.m; ++row)
+    for (int e = G_z.first(layout.lambda_column(row)); e < G_z.first(layout.lambda_column(row) + 1); ++e)
+      if (G_z.column(e) < layout.n) Phi_q(row, G_z.column(e)) = d.rate[static_cast<std::size_t>(e)];
   return Phi_q;
 }
 
@@ -36,7 +35,8 @@ std::vector<std::string> redundant_rows(const System& system, const Eigen::Matri
     const int row = static_cast<int>(qr.colsPermutation().indices()[k]);
     std::size_t pair = system.layout().pair_row.size();
     while (pair > 0 && system.layout().pair_row[pair - 1] > row) --pair;
-    names.push_back("row " + std::to_string(row - system.layout().pair_row[pair - 1] + 1) + " of joint '" + system.topology().pairs[pair - 1].name + "'");
+    names.push_back("row " + std::to_string(row - system.layout().pair_row[pair - 1] + 1) + " of joint '" +
+                    system.topology().pairs[pair - 1].name + "'");
   }
   return names;
 }
@@ -45,7 +45,8 @@ const JointDescription* loop_of(const System& system, const std::string& pair_na
   for (const Pair& pair : system.topology().pairs)
     if (pair.name == pair_name)
       for (const ChainElement& element : pair.chain)
-        if (system.robot().joints[static_cast<std::size_t>(element.joint)].is_loop) return &system.robot().joints[static_cast<std::size_t>(element.joint)];
+        if (system.robot().joints[static_cast<std::size_t>(element.joint)].is_loop)
+          return &system.robot().joints[static_cast<std::size_t>(element.joint)];
   return nullptr;
 }
 
@@ -59,7 +60,9 @@ bool has_redundant_constraints(const System& system) {
   if (status.code != StatusCode::kAssemblyFailed && status.code != StatusCode::kInitialVelocityFailed)
     return !redundant_rows(system, constraint_jacobian(system, &equations, state)).empty();
   const JointDescription* loop = loop_of(system, assembly.worst_loop());
-  if (loop) throw InputError({loop->where, "<loop name=\"" + loop->name + "\">", "the loop cannot be closed at the start values", "", status.cause});
+  if (loop)
+    throw InputError(
+        {loop->where, "<loop name=\"" + loop->name + "\">", "the loop cannot be closed at the start values", "", status.cause});
   throw InputError({{system.study().file, 0}, "initial_state", status.cause, "", ""});
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanism_codesign/dynamics/row_product.h"
+
 namespace codesign {
 namespace {
 
@@ -16,62 +18,23 @@ void copy_state(const State<T>& from, State<T>* to) {
   to->z = from.z;
 }
 
-template <class T>
-void add_scaled(double factor, const Increment<T>& u, State<T>* y) {
-  if (factor == 0.0) return;
-  y->q += T(factor) * u.q;
-  y->v += T(factor) * u.v;
-  y->s += T(factor) * u.s;
-  y->z += T(factor) * u.z;
-}
-
-/// result += G_q q + G_s s + G_v v, the increment's z left out.
-template <class T>
-void add_product(const System& system, const Linearization<T>& d, const Increment<T>& u, VectorX<T>* result) {
-  const Sparsity& pattern = system.sparsity();
-  const Layout& layout = system.layout();
-  const int *start = pattern.column_start.data(), *row = pattern.row_index.data();
-  T* y = result->data();
-  for (int column = 0; column < layout.n; ++column) {
-    const T q = u.q[column], v = u.v[column];
-    for (int k = start[column]; k < start[column + 1]; ++k)
-      y[row[k]] += d.by_position[static_cast<std::size_t>(k)] * q + d.by_velocity[static_cast<std::size_t>(k)] * v;
-  }
-  for (int state = 0; state < layout.states; ++state) {
-    const int column = layout.state_column(state);
-    for (int k = start[column]; k < start[column + 1]; ++k) y[row[k]] += d.by_position[static_cast<std::size_t>(k)] * u.s[state];
-  }
-}
-
 }  // namespace
-
-template <class T>
-T RosenbrockStep<T>::integrand_product(const Increment<T>& u) const {
-  T sum(0.0);
-  for (const auto& [column, e] : system_.integrand_entries()) {
-    sum += derivatives_.by_rate[e] * u.z[column];
-    if (column < layout_.n) sum += derivatives_.by_position[e] * u.q[column] + derivatives_.by_velocity[e] * u.v[column];
-    if (column >= layout_.state_column(0)) sum += derivatives_.by_position[e] * u.s[column - layout_.state_column(0)];
-  }
-  return sum;
-}
 
 template <class T>
 RosenbrockStep<T>::RosenbrockStep(const System& system, const RosenbrockTableau& tableau)
     : system_(system),
       layout_(system.layout()),
+      at_(layout_),
       tableau_(tableau),
       equations_(system),
       stage_matrix_(system),
       projection_matrix_(system),
-      increments_(static_cast<std::size_t>(tableau.stages)) {
-  derivatives_.resize(system.sparsity().nonzeros());
-  for (State<T>* state : {&state_, &previous_, &stage_, &end_, &projection_}) state->resize(layout_);
-  for (Increment<T>& u : increments_) u.resize(layout_);
-  sum_.resize(layout_);
-  correction_.resize(layout_);
-  right_hand_side_.setZero(layout_.columns() + 1);
-  velocity_multipliers_.setZero(layout_.columns());
+      increments_(static_cast<std::size_t>(tableau.stages), VectorX<T>::Zero(at_.size())) {
+  derivatives_.resize(system.patterns());
+  for (State<T>* state : {&state_, &previous_, &stage_, &end_}) state->resize(layout_);
+  shift_.setZero(at_.size());
+  sum_.setZero(at_.size());
+  for (VectorX<T>* z : {&z_, &position_correction_, &velocity_correction_}) z->setZero(layout_.columns());
 }
 
 template <class T>
@@ -86,44 +49,46 @@ void RosenbrockStep<T>::start(const State<T>& state) {
 template <class T>
 void RosenbrockStep<T>::stage_state(int i, double h) {
   const auto row = static_cast<std::size_t>(i);
-  copy_state(state_, &stage_);
-  sum_.q.setZero();
-  sum_.v.setZero();
-  sum_.s.setZero();
-  sum_.psi = T(0.0);
+  shift_.setZero();
+  sum_.setZero();
   for (std::size_t j = 0; j < row; ++j) {
-    const Increment<T>& u = increments_[j];
-    add_scaled(tableau_.a[row][j], u, &stage_);
-    const T c(tableau_.c[row][j] / h);
-    sum_.q += c * u.q;
-    sum_.v += c * u.v;
-    sum_.s += c * u.s;
-    sum_.psi += c * u.psi;
+    shift_ += T(tableau_.a[row][j]) * increments_[j];
+    sum_ += T(tableau_.c[row][j] / h) * increments_[j];
   }
+  copy_state(state_, &stage_);
+  add_increment(at_, shift_, &stage_);
   stage_.t = state_.t + tableau_.alpha[row] * h;
 }
 
 // With w_v = h gamma r_v, w_q = h gamma (r_q + w_v), w_s = h gamma r_s, the stage's matrix gives u_z and then u_v = w_v + h gamma u_a etc.
 template <class T>
 bool RosenbrockStep<T>::solve_stage(int i, double h) {
-  Increment<T>& u = increments_[static_cast<std::size_t>(i)];
-  const T hg(h * tableau_.gamma);
+  VectorX<T>& u = increments_[static_cast<std::size_t>(i)];
+  const T hg(h * tableau_.gamma), time_shift(h * tableau_.gamma_i[static_cast<std::size_t>(i)]);
   T g(0.0);
   stage_state(i, h);
   equations_.residual(stage_, &residual_, &g);
-  const auto a = stage_.z.head(layout_.n), sigma = stage_.z.tail(layout_.states);
-  u.v = hg * (a + sum_.v);
-  u.q = hg * (stage_.v + sum_.q + u.v);
-  u.s = hg * (sigma + sum_.s);
-  right_hand_side_.setZero();
-  add_product(system_, derivatives_, u, &right_hand_side_);
-  u.z = -(residual_ + right_hand_side_.head(layout_.columns()));
-  stage_matrix_.solve(&u.z);
-  u.v += hg * u.z.head(layout_.n);
-  u.q += hg * hg * u.z.head(layout_.n);
-  u.s += hg * u.z.tail(layout_.states);
-  u.psi = hg * (g + sum_.psi + integrand_product(u));
-  return std::isfinite(value_of(u.psi)) && std::isfinite(value_of(u.z.sum()));
+  auto u_q = u.segment(at_.x(), at_.n), u_s = u.segment(at_.s(), at_.states), u_v = u.segment(at_.v(), at_.n),
+       u_z = u.segment(at_.z(), at_.z_size);
+  u_v = hg * (stage_.z.head(at_.n) + sum_.segment(at_.v(), at_.n));
+  u_q = hg * (stage_.v + sum_.segment(at_.x(), at_.n) + u_v);
+  u_s = hg * (stage_.z.tail(at_.states) + sum_.segment(at_.s(), at_.states));
+  const ByVariable<Sparsity>& patterns = system_.patterns();
+  const T *const x = u.data(), *const v = x + at_.v();
+  for (int row = 0; row < at_.z_size; ++row)
+    z_[row] = -(residual_[row] + time_shift * derivatives_.time[row] + row_product(patterns.position, derivatives_.position, row, x) +
+                row_product(patterns.velocity, derivatives_.velocity, row, v));
+  stage_matrix_.solve(&z_);
+  u_z = z_;
+  u_v += hg * z_.head(at_.n);
+  u_q += hg * hg * z_.head(at_.n);
+  u_s += hg * z_.tail(at_.states);
+  const int last = at_.z_size;
+  u[at_.psi()] =
+      hg *
+      (g + sum_[at_.psi()] + time_shift * derivatives_.time[last] + row_product(patterns.position, derivatives_.position, last, x) +
+       row_product(patterns.velocity, derivatives_.velocity, last, v) + row_product(patterns.rate, derivatives_.rate, last, x + at_.z()));
+  return std::isfinite(value_of(u[at_.psi()])) && std::isfinite(value_of(z_.sum()));
 }
 
 template <class T>
@@ -134,25 +99,27 @@ bool RosenbrockStep<T>::attempt(double h) {
   for (int i = 0; i < tableau_.stages; ++i)
     if (!solve_stage(i, h)) return false;
   copy_state(state_, &end_);
-  for (std::size_t j = 0; j < increments_.size(); ++j) add_scaled(tableau_.weights[j], increments_[j], &end_);
+  shift_.setZero();
+  for (std::size_t j = 0; j < increments_.size(); ++j) shift_ += T(tableau_.weights[j]) * increments_[j];
+  add_increment(at_, shift_, &end_);
   end_.t = state_.t + h;
   return true;
 }
 
 template <class T>
 double RosenbrockStep<T>::error(double relative_tolerance, double absolute_tolerance) const {
-  const Increment<T>& estimate = increments_.back();
+  const VectorX<T>& estimate = increments_.back();
   double sum = 0.0;
-  const auto add = [&](const VectorX<T>& e, const VectorX<T>& from, const VectorX<T>& to) {
-    for (Eigen::Index k = 0; k < e.size(); ++k) {
+  const auto add = [&](int first, const VectorX<T>& from, const VectorX<T>& to) {
+    for (Eigen::Index k = 0; k < from.size(); ++k) {
       const double scale = absolute_tolerance + relative_tolerance * std::max(std::abs(value_of(from[k])), std::abs(value_of(to[k])));
-      const double x = value_of(e[k]) / scale;
+      const double x = value_of(estimate[first + k]) / scale;
       sum += x * x;
     }
   };
-  add(estimate.q, state_.q, end_.q);
-  add(estimate.v, state_.v, end_.v);
-  add(estimate.s, state_.s, end_.s);
+  add(at_.x(), state_.q, end_.q);
+  add(at_.v(), state_.v, end_.v);
+  add(at_.s(), state_.s, end_.s);
   return std::sqrt(sum / (2.0 * layout_.n + layout_.states));
 }
 
@@ -160,7 +127,7 @@ template <class T>
 bool RosenbrockStep<T>::accept() {
   copy_state(state_, &previous_);
   previous_psi_ = psi_;
-  for (std::size_t j = 0; j < increments_.size(); ++j) psi_ += T(tableau_.weights[j]) * increments_[j].psi;
+  for (std::size_t j = 0; j < increments_.size(); ++j) psi_ += T(tableau_.weights[j]) * increments_[j][at_.psi()];
   equations_.linearize(end_, &derivatives_);
   return project();
 }
@@ -170,18 +137,17 @@ template <class T>
 bool RosenbrockStep<T>::project() {
   copy_state(end_, &state_);
   if (!projection_matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) return false;
-  const auto correct = [this](const VectorX<T>& error, VectorX<T>* solution, VectorX<T>* delta, VectorX<T>* target) {
-    solution->setZero(layout_.columns());
-    solution->segment(layout_.n, layout_.m) = -error;
-    projection_matrix_.solve(solution);
-    *delta = solution->head(layout_.n);
-    *target += *delta;
+  const auto correct = [this](const VectorX<T>& error, VectorX<T>* correction, VectorX<T>* target) {
+    correction->setZero(layout_.columns());
+    correction->segment(layout_.n, layout_.m) = -error;
+    projection_matrix_.solve(correction);
+    *target += correction->head(layout_.n);
   };
   equations_.constraint_errors(state_.q, state_.v, &constraint_, &constraint_rate_);
-  correct(constraint_, &correction_.z, &correction_.q, &state_.q);
+  correct(constraint_, &position_correction_, &state_.q);
   equations_.constraint_errors(state_.q, state_.v, &constraint_, &constraint_rate_);
-  correct(constraint_rate_, &velocity_multipliers_, &correction_.v, &state_.v);
-  return std::isfinite(value_of(correction_.q.sum() + correction_.v.sum()));
+  correct(constraint_rate_, &velocity_correction_, &state_.v);
+  return std::isfinite(value_of(position_correction_.sum() + velocity_correction_.sum()));
 }
 
 template <class T>
@@ -198,8 +164,8 @@ void RosenbrockStep<T>::interpolate(double theta, State<T>* state, T* psi) const
     double weight = 0.0;
     for (int k = tableau_.dense_terms - 1; k >= 0; --k) weight = weight * theta + tableau_.dense[static_cast<std::size_t>(k)][j];
     weight *= theta * (1.0 - theta);
-    add_scaled(weight, increments_[j], state);
-    *psi += T(weight) * increments_[j].psi;
+    add_increment<T>(at_, T(weight) * increments_[j], state);
+    *psi += T(weight) * increments_[j][at_.psi()];
   }
   state->t = previous_.t + theta * h_;
 }

@@ -1,203 +1,166 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mechanism_codesign/sensitivity/tangent_step.h"
 
+#include "mechanism_codesign/dynamics/row_product.h"
+
 namespace codesign {
 
 template <int N>
 TangentStep<N>::TangentStep(const System& system, const RosenbrockTableau& tableau)
-    : system_(system), layout_(system.layout()), tableau_(tableau), equations_(system), stages_(static_cast<std::size_t>(tableau.stages)) {
-  derivatives_.resize(system.sparsity().nonzeros());
+    : system_(system),
+      layout_(system.layout()),
+      at_(layout_),
+      tableau_(tableau),
+      equations_(system),
+      y_(Directions<N>::Zero(N, at_.size())),
+      stage_y_(y_),
+      sum_(y_),
+      rows_(Directions<N>::Zero(N, layout_.columns() + 1)),
+      shift_(VectorX<double>::Zero(at_.size())),
+      stages_(static_cast<std::size_t>(tableau.stages), y_) {
+  derivatives_.resize(system.patterns());
   state_.resize(layout_);
   stage_.resize(layout_);
-  for (StageTangent& stage : stages_) {
-    stage.q.setZero(N, layout_.n);
-    stage.v.setZero(N, layout_.n);
-    stage.s.setZero(N, layout_.states);
-    stage.z.setZero(N, layout_.columns());
-  }
-  columns_.resize(layout_.columns(), N);
+  projected_.resize(layout_);
 }
 
 template <int N>
-void TangentStep<N>::load_lanes(const VectorX<double>& q, const VectorX<double>& v, const VectorX<double>& s, const VectorX<double>& z,
-                                const Directions<N>& dq, const Directions<N>& dv, const Directions<N>& ds, const Directions<N>& dz,
-                                State<Lanes<N>>* state) const {
-  const auto load = [](const VectorX<double>& value, const Directions<N>& direction, VectorX<Lanes<N>>* lanes) {
+void TangentStep<N>::load_lanes(const State<double>& values, const Directions<N>& directions) {
+  const auto load = [&directions](const VectorX<double>& value, int first, VectorX<Lanes<N>>* lanes) {
     for (Eigen::Index k = 0; k < value.size(); ++k) {
       (*lanes)[k].a = value[k];
-      (*lanes)[k].directions() = direction.col(k);
+      (*lanes)[k].directions() = directions.col(first + k);
     }
   };
-  load(q, dq, &state->q);
-  load(v, dv, &state->v);
-  load(s, ds, &state->s);
-  load(z, dz, &state->z);
+  state_.t = values.t;
+  load(values.q, at_.x(), &state_.q);
+  load(values.s, at_.s(), &state_.s);
+  load(values.v, at_.v(), &state_.v);
+  load(values.z, at_.z(), &state_.z);
 }
 
 template <int N>
 void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly, const State<double>& initial,
                            const RosenbrockStep<double>& step) {
   equations_.set_design(parameters);
-  equations_.turn_references() = const_cast<RosenbrockStep<double>&>(step).equations().turn_references();
+  equations_.turn_references() = step.equations().turn_references();
   assembly.extend(parameters, initial, &equations_, &state_);
-  const auto take = [](const VectorX<Lanes<N>>& lanes, Directions<N>* direction) {
-    direction->resize(N, lanes.size());
-    for (Eigen::Index k = 0; k < lanes.size(); ++k) direction->col(k) = lanes[k].directions();
+  const auto take = [this](const VectorX<Lanes<N>>& lanes, int first) {
+    for (Eigen::Index k = 0; k < lanes.size(); ++k) y_.col(first + k) = lanes[k].directions();
   };
-  take(state_.q, &q_);
-  take(state_.v, &v_);
-  take(state_.s, &s_);
-  take(state_.z, &z_);
-  psi_.setZero();
+  y_.setZero();
+  take(state_.q, at_.x());
+  take(state_.s, at_.s());
+  take(state_.v, at_.v());
+  take(state_.z, at_.z());
   equations_.linearize(state_, &derivatives_);
 }
 
 template <int N>
-void TangentStep<N>::add_matrix_tangent(const Increment<double>& u, Directions<N>* result) const {
-  const Sparsity& pattern = system_.sparsity();
-  for (int column = 0; column < pattern.columns; ++column) {
-    const bool body = column < layout_.n, state = column >= layout_.state_column(0);
-    const double position = body ? u.q[column] : state ? u.s[column - layout_.state_column(0)] : 0.0;
-    const double velocity = body ? u.v[column] : 0.0, rate = u.z[column];
-    for (int k = pattern.column_start[static_cast<std::size_t>(column)]; k < pattern.column_start[static_cast<std::size_t>(column) + 1]; ++k) {
-      const auto e = static_cast<std::size_t>(k);
-      result->col(pattern.row_index[e]) +=
-          position * derivatives_.by_position[e].directions() + velocity * derivatives_.by_velocity[e].directions() +
-          rate * derivatives_.by_rate[e].directions();
-    }
+void TangentStep<N>::stage_state(std::size_t i, const RosenbrockStep<double>& step) {
+  stage_y_ = y_;
+  sum_.setZero();
+  shift_.setZero();
+  for (std::size_t j = 0; j < i; ++j) {
+    stage_y_ += tableau_.a[i][j] * stages_[j];
+    sum_ += (tableau_.c[i][j] / step.step_size()) * stages_[j];
+    shift_ += tableau_.a[i][j] * step.increments()[j];
   }
-}
-
-template <int N>
-void TangentStep<N>::add_matrix_product(const Linearization<double>& d, const Directions<N>& q, const Directions<N>& s, const Directions<N>& v,
-                                        Directions<N>* result) const {
-  const Sparsity& pattern = system_.sparsity();
-  const auto entries = [&pattern](int column) {
-    return std::make_pair(pattern.column_start[static_cast<std::size_t>(column)], pattern.column_start[static_cast<std::size_t>(column) + 1]);
-  };
-  for (int column = 0; column < layout_.n; ++column) {
-    const auto [first, last] = entries(column);
-    for (int k = first; k < last; ++k) {
-      const auto e = static_cast<std::size_t>(k);
-      result->col(pattern.row_index[e]) += d.by_position[e] * q.col(column) + d.by_velocity[e] * v.col(column);
-    }
-  }
-  for (int column = 0; column < layout_.states; ++column) {
-    const auto [first, last] = entries(layout_.state_column(column));
-    for (int k = first; k < last; ++k) {
-      const auto e = static_cast<std::size_t>(k);
-      result->col(pattern.row_index[e]) += d.by_position[e] * s.col(column);
-    }
-  }
-}
-
-template <int N>
-Eigen::Matrix<double, N, 1> TangentStep<N>::integrand_product(const Linearization<double>& d, const StageTangent& u) const {
-  Eigen::Matrix<double, N, 1> sum = Eigen::Matrix<double, N, 1>::Zero();
-  for (const auto& [column, e] : system_.integrand_entries()) {
-    sum += d.by_rate[e] * u.z.col(column);
-    if (column < layout_.n) sum += d.by_position[e] * u.q.col(column) + d.by_velocity[e] * u.v.col(column);
-    if (column >= layout_.state_column(0)) sum += d.by_position[e] * u.s.col(column - layout_.state_column(0));
-  }
-  return sum;
-}
-
-template <int N>
-void TangentStep<N>::solve(const StageMatrix<double>& matrix, Directions<N>* x) {
-  columns_ = x->transpose();
-  matrix.lu().solve(columns_.data(), N);
-  *x = columns_.transpose();
-}
-
-template <int N>
-void TangentStep<N>::stage_tangent(int i, const RosenbrockStep<double>& step) {
-  const auto row = static_cast<std::size_t>(i);
-  const double h = step.step_size(), hg = h * tableau_.gamma;
   stage_ = step.state();
-  dq_ = q_;
-  dv_ = v_;
-  ds_ = s_;
-  dz_ = z_;
-  sum_q_.setZero(N, layout_.n);
-  sum_v_.setZero(N, layout_.n);
-  sum_s_.setZero(N, layout_.states);
-  StageTangent& u = stages_[row];
-  u.psi.setZero();
-  for (std::size_t j = 0; j < row; ++j) {
-    const double a = tableau_.a[row][j], c = tableau_.c[row][j] / h;
-    const Increment<double>& increment = step.increments()[j];
-    const StageTangent& earlier = stages_[j];
-    stage_.q += a * increment.q;
-    stage_.v += a * increment.v;
-    stage_.s += a * increment.s;
-    stage_.z += a * increment.z;
-    dq_ += a * earlier.q;
-    dv_ += a * earlier.v;
-    ds_ += a * earlier.s;
-    dz_ += a * earlier.z;
-    sum_q_ += c * earlier.q;
-    sum_v_ += c * earlier.v;
-    sum_s_ += c * earlier.s;
-    u.psi += c * earlier.psi;
+  add_increment(at_, shift_, &stage_);
+  stage_.t += tableau_.alpha[i] * step.step_size();
+  load_lanes(stage_, stage_y_);
+}
+
+template <int N>
+void TangentStep<N>::stage_rows(std::size_t i, const RosenbrockStep<double>& step) {
+  const ByVariable<Sparsity>& patterns = system_.patterns();
+  const Linearization<double>& matrices = step.derivatives();
+  const VectorX<double>& u = step.increments()[i];
+  const double *const x = u.data(), *const v = x + at_.v(), *const z = x + at_.z();
+  const double *const dx = stages_[i].data(), *const dv = dx + N * at_.v();
+  const double time_shift = step.step_size() * tableau_.gamma_i[i];
+  for (int row = 0; row <= at_.z_size; ++row) {
+    const Lanes<N>& own = row < at_.z_size ? residual_[row] : g_;
+    double sum[N];
+    for (int k = 0; k < N; ++k) sum[k] = own.v[k] + time_shift * derivatives_.time[row].v[k];
+    if (row < at_.z_size) {
+      add_row_product<N>(patterns.position, matrices.position, row, dx, sum);
+      add_row_product<N>(patterns.velocity, matrices.velocity, row, dv, sum);
+    }
+    add_row_tangent<N>(patterns.position, derivatives_.position, row, x, sum);
+    add_row_tangent<N>(patterns.velocity, derivatives_.velocity, row, v, sum);
+    add_row_tangent<N>(patterns.rate, derivatives_.rate, row, z, sum);
+    const double sign = row < at_.z_size ? -1.0 : 1.0;
+    for (int k = 0; k < N; ++k) rows_(k, row) = sign * sum[k];
   }
-  load_lanes(stage_.q, stage_.v, stage_.s, stage_.z, dq_, dv_, ds_, dz_, &state_);
-  Lanes<N> g(0.0);
-  equations_.residual(state_, &residual_, &g);
-  u.v = hg * (dz_.leftCols(layout_.n) + sum_v_);
-  u.q = hg * (dv_ + sum_q_ + u.v);
-  u.s = hg * (dz_.rightCols(layout_.states) + sum_s_);
-  product_.setZero(N, layout_.columns() + 1);
-  add_matrix_tangent(step.increments()[row], &product_);
-  u.psi += g.directions() + product_.col(layout_.columns());
-  add_matrix_product(step.derivatives(), u.q, u.s, u.v, &product_);
-  for (int k = 0; k < layout_.columns(); ++k) u.z.col(k) = -(product_.col(k) + residual_[k].directions());
-  solve(step.stage_matrix(), &u.z);
-  u.v += hg * u.z.leftCols(layout_.n);
-  u.q += hg * hg * u.z.leftCols(layout_.n);
-  u.s += hg * u.z.rightCols(layout_.states);
-  u.psi = hg * (u.psi + integrand_product(step.derivatives(), u)).eval();
+}
+
+template <int N>
+void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& step) {
+  const double hg = step.step_size() * tableau_.gamma;
+  stage_state(i, step);
+  equations_.residual(state_, &residual_, &g_);
+  Directions<N>& u = stages_[i];
+  auto u_q = u.middleCols(at_.x(), at_.n), u_s = u.middleCols(at_.s(), at_.states), u_v = u.middleCols(at_.v(), at_.n);
+  u_v = hg * (stage_y_.middleCols(at_.z(), at_.n) + sum_.middleCols(at_.v(), at_.n));
+  u_q = hg * (stage_y_.middleCols(at_.v(), at_.n) + sum_.middleCols(at_.x(), at_.n) + u_v);
+  u_s = hg * (stage_y_.middleCols(at_.sigma(), at_.states) + sum_.middleCols(at_.s(), at_.states));
+  stage_rows(i, step);
+  step.stage_matrix().lu().template solve_rows<N>(rows_.data());
+  u.middleCols(at_.z(), at_.z_size) = rows_.leftCols(at_.z_size);
+  const auto u_a = u.middleCols(at_.z(), at_.n);
+  u_v += hg * u_a;
+  u_q += hg * hg * u_a;
+  u_s += hg * u.middleCols(at_.sigma(), at_.states);
+  auto psi = u.col(at_.psi());
+  psi = rows_.col(at_.z_size) + sum_.col(at_.psi());
+  const ByVariable<Sparsity>& patterns = system_.patterns();
+  const Linearization<double>& matrices = step.derivatives();
+  add_row_product<N>(patterns.position, matrices.position, at_.z_size, u.data(), psi.data());
+  add_row_product<N>(patterns.velocity, matrices.velocity, at_.z_size, u.data() + N * at_.v(), psi.data());
+  add_row_product<N>(patterns.rate, matrices.rate, at_.z_size, u.data() + N * at_.z(), psi.data());
+  psi *= hg;
 }
 
 template <int N>
 void TangentStep<N>::advance_stages(const RosenbrockStep<double>& step) {
-  equations_.turn_references() = const_cast<RosenbrockStep<double>&>(step).equations().turn_references();
-  for (int i = 0; i < tableau_.stages; ++i) stage_tangent(i, step);
-  for (std::size_t j = 0; j < stages_.size(); ++j) {
-    const double weight = tableau_.weights[j];
-    q_ += weight * stages_[j].q;
-    v_ += weight * stages_[j].v;
-    s_ += weight * stages_[j].s;
-    z_ += weight * stages_[j].z;
-    psi_ += weight * stages_[j].psi;
+  equations_.turn_references() = step.equations().turn_references();
+  for (std::size_t i = 0; i < stages_.size(); ++i) stage_tangent(i, step);
+  for (std::size_t j = 0; j < stages_.size(); ++j) y_ += tableau_.weights[j] * stages_[j];
+}
+
+// Differentiates [G_a G_lambda; Phi_q 0] [delta; mu] = [0; -error].
+template <int N>
+void TangentStep<N>::project(const VectorX<double>& correction, const VectorX<Lanes<N>>& errors, const SparseLu& lu, double* target) {
+  for (int row = 0; row < at_.z_size; ++row) {
+    double sum[N] = {};
+    add_row_tangent<N>(system_.patterns().rate, derivatives_.rate, row, correction.data(), sum);
+    const int constraint = row - layout_.n;
+    const bool constrained = constraint >= 0 && constraint < layout_.m;
+    for (int k = 0; k < N; ++k) rows_(k, row) = -sum[k] - (constrained ? errors[constraint].v[k] : 0.0);
   }
+  lu.template solve_rows<N>(rows_.data());
+  for (int k = 0; k < N * layout_.n; ++k) target[k] += rows_.data()[k];
 }
 
 template <int N>
 void TangentStep<N>::advance_projection(const RosenbrockStep<double>& step) {
-  const State<double>& end = step.unprojected();
-  load_lanes(end.q, end.v, end.s, end.z, q_, v_, s_, z_, &state_);
+  const SparseLu& lu = step.projection_matrix().lu();
+  load_lanes(step.unprojected(), y_);
   equations_.linearize(state_, &derivatives_);
-  Increment<double> multipliers;
-  multipliers.resize(layout_);
-  const auto project = [&](const VectorX<double>& solution, const VectorX<Lanes<N>>& errors, Directions<N>* target) {
-    multipliers.z = solution;
-    product_.setZero(N, layout_.columns() + 1);
-    add_matrix_tangent(multipliers, &product_);
-    right_hand_side_ = -product_.leftCols(layout_.columns());
-    for (int row = 0; row < layout_.m; ++row) right_hand_side_.col(layout_.lambda_column(row)) -= errors[row].directions();
-    solve(step.projection_matrix(), &right_hand_side_);
-    *target += right_hand_side_.leftCols(layout_.n);
-  };
   equations_.constraint_errors(state_.q, state_.v, &errors_, &rates_);
-  project(step.correction().z, errors_, &q_);
-  load_lanes(step.state().q, end.v, end.s, end.z, q_, v_, s_, z_, &state_);
+  project(step.position_correction(), errors_, lu, y_.data() + N * at_.x());
+  projected_ = step.unprojected();
+  projected_.q = step.state().q;
+  load_lanes(projected_, y_);
   equations_.constraint_errors(state_.q, state_.v, &errors_, &rates_);
-  project(step.velocity_multipliers(), rates_, &v_);
+  project(step.velocity_correction(), rates_, lu, y_.data() + N * at_.v());
 }
 
 template <int N>
 Eigen::Matrix<double, N, 1> TangentStep<N>::terminal(const State<double>& state) {
-  load_lanes(state.q, state.v, state.s, state.z, q_, v_, s_, z_, &state_);
+  load_lanes(state, y_);
   return equations_.terminal(state_, nullptr).directions();
 }
 

@@ -10,7 +10,8 @@
 namespace codesign {
 namespace {
 
-/// Every kind of load, signal and pair that has derivatives: friction in a slide, a hinge and a cylindrical loop, damping, a PID with all gains.
+/// Every kind of load, signal and pair that has derivatives: friction in a slide, a hinge and a cylindrical loop, damping, a PID with all
+/// gains.
 const char* const kMechanism = R"(
 <robot name="all" xmlns:codesign="urn:test"><link name="ground"/>
   <link name="cart"><inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial></link>
@@ -88,12 +89,11 @@ class EquationsTest : public ::testing::Test {
         at);
   }
 
-  Eigen::MatrixXd dense(const std::vector<double>& values, int first, int count) const {
-    const Sparsity& pattern = system.sparsity();
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(pattern.rows, count);
-    for (int c = 0; c < count; ++c)
-      for (int k = pattern.column_start[static_cast<std::size_t>(first + c)]; k < pattern.column_start[static_cast<std::size_t>(first + c) + 1]; ++k)
-        matrix(pattern.row_index[static_cast<std::size_t>(k)], c) = values[static_cast<std::size_t>(k)];
+  static Eigen::MatrixXd dense(const Sparsity& pattern, const std::vector<double>& values) {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(pattern.rows, pattern.columns);
+    for (int row = 0; row < pattern.rows; ++row)
+      for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
+        matrix(row, pattern.column(e)) = values[static_cast<std::size_t>(e)];
     return matrix;
   }
 
@@ -107,13 +107,14 @@ class EquationsTest : public ::testing::Test {
 TEST_F(EquationsTest, EveryDerivativeIsExact) {
   using S = State<std::complex<double>>;
   Linearization<double> d;
-  d.resize(system.sparsity().nonzeros());
+  d.resize(system.patterns());
   real.linearize(state, &d);
   const Layout& layout = system.layout();
-  EXPECT_LT(compare_jacobians(dense(d.by_position, 0, layout.n), reference(&S::q, state.q)).largest, 1e-11);
-  EXPECT_LT(compare_jacobians(dense(d.by_velocity, 0, layout.n), reference(&S::v, state.v)).largest, 1e-11);
-  EXPECT_LT(compare_jacobians(dense(d.by_rate, 0, layout.columns()), reference(&S::z, state.z)).largest, 1e-11);
-  EXPECT_LT(compare_jacobians(dense(d.by_position, layout.state_column(0), layout.states), reference(&S::s, state.s)).largest, 1e-11);
+  const Eigen::MatrixXd by_position = dense(system.patterns().position, d.position);
+  EXPECT_LT(compare_jacobians(by_position.leftCols(layout.n), reference(&S::q, state.q)).largest, 1e-11);
+  EXPECT_LT(compare_jacobians(by_position.rightCols(layout.states), reference(&S::s, state.s)).largest, 1e-11);
+  EXPECT_LT(compare_jacobians(dense(system.patterns().velocity, d.velocity), reference(&S::v, state.v)).largest, 1e-11);
+  EXPECT_LT(compare_jacobians(dense(system.patterns().rate, d.rate), reference(&S::z, state.z)).largest, 1e-11);
 }
 
 TEST_F(EquationsTest, ConstraintRowsAreTheSecondDerivativeOfPhi) {
@@ -147,8 +148,8 @@ TEST_F(EquationsTest, TerminalTermsHaveTheirGradient) {
   const double w = real.terminal(state, &gradient);
   EXPECT_GE(w, 0.0);
   Eigen::VectorXd by_q = Eigen::VectorXd::Zero(system.layout().n);
-  for (const GradientEntry<double>& e : gradient)
-    if (e.column < by_q.size()) by_q[e.column] += e.by_position;
+  for (const auto& e : gradient.position)
+    if (e.column < by_q.size()) by_q[e.column] += e.value;
   State<std::complex<double>> point;
   point.v = state.v;
   point.s = state.s;

@@ -25,7 +25,7 @@ TEST(SparseLu, SolvesAndRefactors) {
     const Eigen::Vector4d b(1, 2, 3, 4);
     Eigen::Vector4d x = b, y = b;
     lu.solve(x.data());
-    lu.solve_transposed(y.data());
+    lu.solve_transposed_rows<1>(y.data());
     EXPECT_LT((m * x - b).norm(), 1e-13);
     EXPECT_LT((m.transpose() * y - b).norm(), 1e-13);
   }

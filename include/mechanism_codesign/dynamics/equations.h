@@ -9,7 +9,7 @@
 #include "mechanism_codesign/dynamics/system.h"
 #include "mechanism_codesign/forces/normal_force.h"
 #include "mechanism_codesign/joints/coordinate.h"
-#include "mechanism_codesign/joints/pair_rows.h"
+#include "mechanism_codesign/joints/pair_motion.h"
 #include "mechanism_codesign/model/constants.h"
 
 namespace codesign {
@@ -41,7 +41,7 @@ class Equations {
   /// Residual G (columns() rows) and the objective's integrand g at a state.
   void residual(const State<T>& state, VectorX<T>* G, T* g);
 
-  /// Derivatives of G and g, on System::sparsity().
+  /// Derivatives of G and g, on System::patterns().
   void linearize(const State<T>& state, Linearization<T>* derivatives);
 
   /// Terminal objective terms w at a state, with their gradient if asked for.
@@ -55,6 +55,7 @@ class Equations {
 
   /// Counts whole turns: positions of turning joints are continued from the value nearest to these. One per pair and chain element.
   std::vector<std::vector<double>>& turn_references() { return turn_references_; }
+  const std::vector<std::vector<double>>& turn_references() const { return turn_references_; }
   /// Makes the present positions the references.
   void track_turns(const State<T>& state);
 
@@ -69,13 +70,15 @@ class Equations {
   /// Reaction force and torque on the child in the parent's joint axes, as far as the pair constrains them.
   void reaction(int pair, Vector3<T>* F, Vector3<T>* torque) const;
 
-  /// Assembles all derivatives through `sink.add(row, column, by_position, by_velocity, by_rate)`.
+  /// Assembles all derivatives through `sink.position(row, column, x)`, `sink.velocity(...)`, `sink.rate(...)` and `sink.time(row, x)`.
   template <class Sink>
   void assemble(Sink* sink);
 
  private:
   template <class Sink>
   void assemble_pair(std::size_t k, Sink* sink);
+  template <class Sink>
+  void assemble_product(int pair, const ProductRow<T>& product, const PairMotion<T>& shared, int row, Sink* sink);
   template <class Sink>
   void assemble_body(std::size_t b, Sink* sink);
   template <class Sink>
@@ -94,18 +97,24 @@ class Equations {
   T reaction_friction(int pair, int element, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient, FrictionState<T>* state);
   T passive_load(int pair, int element, const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient) const;
   void append_normal_gradient(int pair, const Vector3<T>& F, const Vector3<T>& torque, const T& factor, SparseGradient<T>* gradient) const;
-  void append_local(int pair, const LocalRow<T>* position, const LocalRow<T>* velocity, const LocalRow<T>* rate, const T& factor, bool with_r,
-                    SparseGradient<T>* gradient) const;
+  void append_local(int pair, const LocalRow<T>& row, const T& factor, bool with_r, typename SparseGradient<T>::Entries* entries) const;
+  /// Gradient of a coordinate's rate.
+  void append_rate(int pair, int element, const CoordinateMotion<T>& motion, const T& factor, SparseGradient<T>* gradient) const;
+  static typename SparseGradient<T>::Mark mark(const SparseGradient<T>* gradient) {
+    return gradient ? gradient->mark() : typename SparseGradient<T>::Mark{0, 0, 0, T(0.0)};
+  }
   T term_value(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
   T joint_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
   T load_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
   T link_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
   T signal_value(const Signal& signal, const T& factor, SparseGradient<T>* gradient);
-  T objective_terms(const std::vector<ResolvedTerm>& terms, const std::vector<T>& weights, const std::vector<T>& references, SparseGradient<T>* gradient);
+  T objective_terms(const std::vector<ResolvedTerm>& terms, const std::vector<T>& weights, const std::vector<T>& references,
+                    SparseGradient<T>* gradient);
 
   /// Global column of a local coordinate of a pair, or -1 on the ground.
   int column(int pair, int local) const;
   bool coordinate_moves_r(int pair, int element) const;
+  BodyLoad<T>& load_on(int body);
 
   const System& system_;
   const Layout& layout_;

@@ -2,6 +2,8 @@
 #ifndef MECHANISM_CODESIGN_DYNAMICS_ITERATION_MATRIX_H_
 #define MECHANISM_CODESIGN_DYNAMICS_ITERATION_MATRIX_H_
 
+#include <vector>
+
 #include "mechanism_codesign/dynamics/sparsity.h"
 #include "mechanism_codesign/dynamics/system.h"
 #include "mechanism_codesign/math/sparse_lu.h"
@@ -19,11 +21,20 @@ class IterationMatrix {
   bool factor(const Linearization<double>& derivatives, double c_v, double c_q, double c_s);
   const SparseLu& lu() const { return lu_; }
 
+  /// The pattern by columns, as SparseLu takes it, and where the entries of the three matrices go.
+  struct Pattern {
+    /// An entry of one of the matrices (of the integrand's row there are none) and its slot.
+    struct Source {
+      int entry, slot;
+    };
+    std::vector<int> column_start, row_index;
+    std::vector<Source> q, s, v, z;
+
+    explicit Pattern(const System& system);
+  };
+
  private:
-  int first_state_column_;
-  std::vector<int> column_start_, row_index_;
-  std::vector<int> source_;  ///< per entry: its place in the full pattern, which has the integrand's row too
-  int state_entries_ = 0;    ///< entries from here on lie in columns of extra states
+  Pattern pattern_;
   std::vector<double> values_;
   SparseLu lu_;
 };

@@ -10,36 +10,61 @@
 
 namespace codesign {
 
-/// A fixed pattern in compressed-column form; rows ascend within each column.
+/// A fixed pattern in compressed-row form; columns ascend within each row.
 struct Sparsity {
   int rows = 0, columns = 0;
-  std::vector<int> column_start, row_index;
+  std::vector<int> row_start, column_index;
 
-  int nonzeros() const { return static_cast<int>(row_index.size()); }
+  int nonzeros() const { return static_cast<int>(column_index.size()); }
+  int first(int row) const { return row_start[static_cast<std::size_t>(row)]; }
+  int column(int entry) const { return column_index[static_cast<std::size_t>(entry)]; }
+};
+
+/// One object for each of the things that the equations are differentiated by: positions (q, s), velocities v, rates z = (a, lambda,
+/// sigma).
+template <class X>
+struct ByVariable {
+  X position, velocity, rate;
 };
 
 /// Notes which entries an assembly touches, in its order.
 class PatternRecorder {
  public:
   template <class T>
-  void add(int row, int column, const T&, const T&, const T&) {
-    calls_.emplace_back(column, row);
+  void position(int row, int column, const T&) {
+    calls_.position.emplace_back(row, column);
   }
+  template <class T>
+  void velocity(int row, int column, const T&) {
+    calls_.velocity.emplace_back(row, column);
+  }
+  template <class T>
+  void rate(int row, int column, const T&) {
+    calls_.rate.emplace_back(row, column);
+  }
+  template <class T>
+  void time(int, const T&) {}
 
-  /// The pattern, and for each call in order the slot it adds to.
-  Sparsity build(int rows, int columns, std::vector<int>* slots) const;
+  using Calls = std::vector<std::pair<int, int>>;
+  const ByVariable<Calls>& calls() const { return calls_; }
+
+  /// The pattern of one matrix, and for each call in order the slot it adds to.
+  static Sparsity build(const Calls& calls, int rows, int columns, std::vector<int>* slots);
 
  private:
-  std::vector<std::pair<int, int>> calls_;
+  ByVariable<Calls> calls_;
 };
 
-/// The three partial derivatives of the equations on one pattern: by positions (q, s), by velocities v, and by rates z = (a, lambda, sigma).
+/// The derivatives of the equations as three sparse matrices G_q (with G_s), G_v, G_z, and the explicit one by time; theory (14).
 template <class T>
-struct Linearization {
-  std::vector<T> by_position, by_velocity, by_rate;
+struct Linearization : ByVariable<std::vector<T>> {
+  VectorX<T> time;  ///< dG/dt and dg/dt [1/s]
 
-  void resize(int nonzeros) {
-    for (std::vector<T>* values : {&by_position, &by_velocity, &by_rate}) values->resize(static_cast<std::size_t>(nonzeros));
+  void resize(const ByVariable<Sparsity>& patterns) {
+    this->position.resize(patterns.position.column_index.size());
+    this->velocity.resize(patterns.velocity.column_index.size());
+    this->rate.resize(patterns.rate.column_index.size());
+    time.setZero(patterns.rate.rows);
   }
 };
 
@@ -47,40 +72,66 @@ struct Linearization {
 template <class T>
 class AssemblySink {
  public:
-  AssemblySink(const std::vector<int>& slots, Linearization<T>* values) : slot_(slots.data()), values_(values) {
-    for (std::vector<T>* v : {&values->by_position, &values->by_velocity, &values->by_rate}) std::fill(v->begin(), v->end(), T(0.0));
+  AssemblySink(const ByVariable<std::vector<int>>& slots, Linearization<T>* values)
+      : slot_{slots.position.data(), slots.velocity.data(), slots.rate.data()}, values_(values) {
+    for (std::vector<T>* v : {&values->position, &values->velocity, &values->rate}) std::fill(v->begin(), v->end(), T(0.0));
+    values->time.setZero();
   }
 
-  void add(int, int, const T& by_position, const T& by_velocity, const T& by_rate) {
-    const auto k = static_cast<std::size_t>(*slot_++);
-    values_->by_position[k] += by_position;
-    values_->by_velocity[k] += by_velocity;
-    values_->by_rate[k] += by_rate;
-  }
+  void position(int, int, const T& x) { values_->position[static_cast<std::size_t>(*slot_.position++)] += x; }
+  void velocity(int, int, const T& x) { values_->velocity[static_cast<std::size_t>(*slot_.velocity++)] += x; }
+  void rate(int, int, const T& x) { values_->rate[static_cast<std::size_t>(*slot_.rate++)] += x; }
+  void time(int row, const T& x) { values_->time[row] += x; }
 
  private:
-  const int* slot_;
+  ByVariable<const int*> slot_;
   Linearization<T>* values_;
 };
 
-/// Derivative of a scalar with respect to one column's position, velocity and rate.
+/// A sparse gradient of a scalar by positions, velocities, rates and time; clear() keeps its memory.
 template <class T>
-struct GradientEntry {
-  int column;
-  T by_position, by_velocity, by_rate;
+struct SparseGradient {
+  struct Entry {
+    int column;
+    T value;
+  };
+  using Entries = std::vector<Entry>;
+  Entries position, velocity, rate;
+  T time{0.0};
+
+  void clear() {
+    for (Entries* entries : {&position, &velocity, &rate}) entries->clear();
+    time = T(0.0);
+  }
+
+  /// A place between entries.
+  struct Mark {
+    std::size_t position, velocity, rate;
+    T time;
+  };
+  Mark mark() const { return {position.size(), velocity.size(), rate.size(), time}; }
+
+  /// Multiplies what was added after a mark.
+  void scale_from(const Mark& mark, const T& factor) {
+    scale(mark.position, factor, &position);
+    scale(mark.velocity, factor, &velocity);
+    scale(mark.rate, factor, &rate);
+    time = mark.time + factor * (time - mark.time);
+  }
+
+ private:
+  static void scale(std::size_t first, const T& factor, Entries* entries) {
+    for (std::size_t k = first; k < entries->size(); ++k) (*entries)[k].value = (*entries)[k].value * factor;
+  }
 };
 
-/// A sparse gradient; clear() keeps its memory.
-template <class T>
-using SparseGradient = std::vector<GradientEntry<T>>;
-
-/// Multiplies the entries from index `first` on.
-template <class T>
-void scale_from(std::size_t first, const T& factor, SparseGradient<T>* gradient) {
-  for (std::size_t k = first; k < gradient->size(); ++k) {
-    GradientEntry<T>& e = (*gradient)[k];
-    e = {e.column, T(factor * e.by_position), T(factor * e.by_velocity), T(factor * e.by_rate)};
-  }
+/// Adds factor times a gradient to one row of the equations.
+template <class T, class Sink>
+void add_row(int row, const T& factor, const SparseGradient<T>& gradient, Sink* sink) {
+  for (const auto& e : gradient.position) sink->position(row, e.column, T(factor * e.value));
+  for (const auto& e : gradient.velocity) sink->velocity(row, e.column, T(factor * e.value));
+  for (const auto& e : gradient.rate) sink->rate(row, e.column, T(factor * e.value));
+  sink->time(row, T(factor * gradient.time));
 }
 
 }  // namespace codesign

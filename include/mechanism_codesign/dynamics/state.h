@@ -11,18 +11,20 @@ namespace codesign {
 
 /// Where everything stands in the vectors of a system.
 ///
-/// Positions are (q, s) and rates are z = (a, lambda, sigma): q' = v, v' = a, s' = sigma. A column stands for q and a alike, for s and sigma
-/// alike, and the equations' rows have the same layout: n rows of motion, m of constraint accelerations, one per extra state.
+/// Positions are (q, s) and rates are z = (a, lambda, sigma): q' = v, v' = a, s' = sigma. The equations' rows are laid out as the rates:
+/// n rows of motion, m of constraint accelerations, one per extra state.
 struct Layout {
   int bodies = 0;
-  int n = 0;                      ///< 7 per body: r, p
-  int m = 0;                      ///< constraints: pairs in order, then |p| = 1 per body
-  int states = 0;                 ///< extra first-order states s (integrals of controllers)
-  std::vector<int> pair_row;      ///< first constraint row of each pair
+  int n = 0;                  ///< 7 per body: r, p
+  int m = 0;                  ///< constraints: pairs in order, then |p| = 1 per body
+  int states = 0;             ///< extra first-order states s (integrals of controllers)
+  std::vector<int> pair_row;  ///< first constraint row of each pair
 
   int columns() const { return n + m + states; }
+  int positions() const { return n + states; }
   int lambda_column(int row) const { return n + row; }
-  int state_column(int k) const { return n + m + k; }
+  int state_column(int k) const { return n + m + k; }  ///< of sigma_k, and its row
+  int position_column(int k) const { return n + k; }   ///< of s_k
   int norm_row(int body) const { return m - bodies + body; }
 };
 

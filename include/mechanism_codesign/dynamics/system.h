@@ -18,7 +18,7 @@ namespace codesign {
 struct Controller {
   Signal input, input_rate;  ///< input_rate is empty without a d gain
   int pair = -1, element = -1;
-  int state = -1;            ///< index of its integral among the extra states, or -1
+  int state = -1;  ///< index of its integral among the extra states, or -1
 };
 
 /// One objective term, weight (signal - reference)^2.
@@ -39,7 +39,8 @@ struct JointLoad {
 /// A mechanism and a study compiled into equations of motion; immutable, shared by all workspaces.
 class System {
  public:
-  /// @param compliance epsilon of every joint's constraint rows, Phi'' - epsilon lambda = 0; zero unless constraints are redundant; theory (23).
+  /// @param compliance epsilon of every joint's constraint rows, Phi'' - epsilon lambda = 0; zero unless constraints are redundant; theory
+  /// (23).
   /// @throws InputError for what cannot be compiled.
   System(const RobotDescription& robot, const Study& study, double compliance = 0.0);
 
@@ -52,16 +53,11 @@ class System {
   const std::vector<ResolvedTerm>& integral() const { return integral_; }
   const std::vector<ResolvedTerm>& terminal() const { return terminal_; }
 
-  /// Pattern of the equations' derivatives, columns() square, and below it one row for the integrand g.
-  const Sparsity& sparsity() const { return sparsity_; }
-  /// Entries of the integrand's row.
-  struct IntegrandEntry {
-    int column;
-    std::size_t slot;
-  };
-  const std::vector<IntegrandEntry>& integrand_entries() const { return integrand_entries_; }
+  /// Patterns of the equations' derivatives (columns() rows) with the integrand g as one row below them. Columns: Layout::position_column()
+  /// for positions, coordinates for velocities, Layout::columns() for rates.
+  const ByVariable<Sparsity>& patterns() const { return patterns_; }
   /// Slots of the assembly's calls in order.
-  const std::vector<int>& slots() const { return slots_; }
+  const ByVariable<std::vector<int>>& slots() const { return slots_; }
 
   double compliance() const { return compliance_; }
 
@@ -84,9 +80,8 @@ class System {
   std::vector<Controller> controllers_;
   std::vector<JointLoad> loads_;
   std::vector<ResolvedTerm> integral_, terminal_;
-  Sparsity sparsity_;
-  std::vector<int> slots_;
-  std::vector<IntegrandEntry> integrand_entries_;
+  ByVariable<Sparsity> patterns_;
+  ByVariable<std::vector<int>> slots_;
 };
 
 }  // namespace codesign

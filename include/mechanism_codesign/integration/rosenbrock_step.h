@@ -5,36 +5,25 @@
 #include <vector>
 
 #include "mechanism_codesign/dynamics/equations.h"
+#include "mechanism_codesign/integration/increment.h"
 #include "mechanism_codesign/integration/stage_matrix.h"
 #include "mechanism_codesign/integration/tableau.h"
 
 namespace codesign {
 
-/// One stage's u_i, split as the state is; psi is the integral of g.
-template <class T>
-struct Increment {
-  VectorX<T> q, v, s, z;
-  T psi{0.0};
-
-  void resize(const Layout& layout) {
-    q.setZero(layout.n);
-    v.setZero(layout.n);
-    s.setZero(layout.states);
-    z.setZero(layout.columns());
-  }
-};
-
-/// One step of a Rosenbrock-Wanner method on q' = v, v' = a, s' = sigma, 0 = G(q, v, s; a, lambda, sigma), psi' = g; doc/theory.md (15)-(17).
+/// One step of a Rosenbrock-Wanner method on q' = v, v' = a, s' = sigma, 0 = G(q, v, s; a, lambda, sigma), psi' = g; doc/theory.md
+/// (15)-(17).
 ///
-/// The unknowns q, v, s of each stage are eliminated, so that one sparse matrix of the size of (a, lambda, sigma) serves all of them. After an
-/// accepted step (q, v) are projected onto Phi = 0, Phi_q v = 0; the derivatives of the next step are those at the unprojected point, whose
-/// factorization the projection uses. T: double for the solution, std::complex<double> to check its derivatives.
+/// The unknowns q, v, s of each stage are eliminated, so that one sparse matrix of the size of (a, lambda, sigma) serves all of them. After
+/// an accepted step (q, v) are projected onto Phi = 0, Phi_q v = 0; the derivatives of the next step are those at the unprojected point,
+/// whose factorization the projection uses. T: double for the solution, std::complex<double> to check its derivatives.
 template <class T>
 class RosenbrockStep {
  public:
   RosenbrockStep(const System& system, const RosenbrockTableau& tableau);
 
   Equations<T>& equations() { return equations_; }
+  const Equations<T>& equations() const { return equations_; }
   const RosenbrockTableau& tableau() const { return tableau_; }
 
   /// Starts a solution at a consistent state.
@@ -47,17 +36,18 @@ class RosenbrockStep {
   /// Takes the last attempt: projects and linearizes. False if the augmented matrix is singular there.
   bool accept();
 
-  const State<T>& state() const { return state_; }                 ///< at the end of the last accepted step, projected
-  const T& psi() const { return psi_; }                            ///< integral of g so far
+  const State<T>& state() const { return state_; }  ///< at the end of the last accepted step, projected
+  const T& psi() const { return psi_; }             ///< integral of g so far
   double step_size() const { return h_; }
 
   // What the tangent of the step needs.
-  const std::vector<Increment<T>>& increments() const { return increments_; }
-  const State<T>& previous() const { return previous_; }           ///< where the last accepted step began
-  const State<T>& unprojected() const { return end_; }             ///< where the last attempt ended
-  const Linearization<T>& derivatives() const { return derivatives_; }  ///< that the next step will use
-  const Increment<T>& correction() const { return correction_; }   ///< of the last projection: q, then v; multipliers in z
-  const VectorX<T>& velocity_multipliers() const { return velocity_multipliers_; }
+  const IncrementLayout& increment_layout() const { return at_; }
+  const std::vector<VectorX<T>>& increments() const { return increments_; }       ///< u_i of the last attempt
+  const State<T>& previous() const { return previous_; }                          ///< where the last accepted step began
+  const State<T>& unprojected() const { return end_; }                            ///< where the last attempt ended
+  const Linearization<T>& derivatives() const { return derivatives_; }            ///< that the next step will use
+  const VectorX<T>& position_correction() const { return position_correction_; }  ///< of the last projection: [delta q, multipliers]
+  const VectorX<T>& velocity_correction() const { return velocity_correction_; }  ///< [delta v, multipliers]
   const StageMatrix<T>& stage_matrix() const { return stage_matrix_; }
   const StageMatrix<T>& projection_matrix() const { return projection_matrix_; }
 
@@ -68,21 +58,19 @@ class RosenbrockStep {
   void stage_state(int i, double h);
   bool solve_stage(int i, double h);
   bool project();
-  /// The integrand's row times an increment.
-  T integrand_product(const Increment<T>& u) const;
 
   const System& system_;
   const Layout& layout_;
+  const IncrementLayout at_;
   const RosenbrockTableau& tableau_;
   Equations<T> equations_;
   StageMatrix<T> stage_matrix_, projection_matrix_;
   Linearization<T> derivatives_;
   State<T> state_, previous_, stage_, end_;
   T psi_{0.0}, previous_psi_{0.0};
-  std::vector<Increment<T>> increments_;
-  Increment<T> sum_, correction_;
-  VectorX<T> residual_, right_hand_side_, constraint_, constraint_rate_, velocity_multipliers_;
-  State<T> projection_;
+  std::vector<VectorX<T>> increments_;
+  VectorX<T> shift_, sum_;  ///< sums of a_ij u_j and of c_ij u_j / h
+  VectorX<T> residual_, z_, constraint_, constraint_rate_, position_correction_, velocity_correction_;
   double h_ = 0.0;
 };
 

@@ -31,15 +31,21 @@ class StageMatrix<std::complex<double>> {
   explicit StageMatrix(const System& system) : system_(system) {}
 
   bool factor(const Linearization<Scalar>& d, double c_v, double c_q, double c_s) {
-    const Sparsity& pattern = system_.sparsity();
-    Eigen::MatrixXcd matrix = Eigen::MatrixXcd::Zero(pattern.columns, pattern.columns);
-    for (int column = 0; column < pattern.columns; ++column) {
-      const double c = column < system_.layout().state_column(0) ? c_q : c_s;
-      for (int k = pattern.column_start[static_cast<std::size_t>(column)]; k < pattern.column_start[static_cast<std::size_t>(column) + 1]; ++k) {
-        const auto e = static_cast<std::size_t>(k);
-        if (pattern.row_index[e] < pattern.columns) matrix(pattern.row_index[e], column) = d.by_rate[e] + c_v * d.by_velocity[e] + c * d.by_position[e];
-      }
-    }
+    const Layout& layout = system_.layout();
+    Eigen::MatrixXcd matrix = Eigen::MatrixXcd::Zero(layout.columns(), layout.columns());
+    const auto add = [&](const Sparsity& pattern, const std::vector<Scalar>& values, const auto& coefficient, const auto& column_of) {
+      for (int row = 0; row < layout.columns(); ++row)
+        for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
+          matrix(row, column_of(pattern.column(e))) += coefficient(pattern.column(e)) * values[static_cast<std::size_t>(e)];
+    };
+    const auto same = [](int column) { return column; };
+    add(
+        system_.patterns().rate, d.rate, [](int) { return 1.0; }, same);
+    add(
+        system_.patterns().velocity, d.velocity, [c_v](int) { return c_v; }, same);
+    add(
+        system_.patterns().position, d.position, [&](int column) { return column < layout.n ? c_q : c_s; },
+        [&](int column) { return column < layout.n ? column : layout.state_column(column - layout.n); });
     lu_.compute(matrix);
     return matrix.allFinite();
   }

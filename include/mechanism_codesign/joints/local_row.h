@@ -30,6 +30,7 @@ struct VectorTerm {
   bool point = false;
   double sign = 1.0;
   Vector3<T> s = Vector3<T>::Zero();
+  int shared = -1;  ///< place among the vectors that a pair's rows share, PairRows::vectors
 };
 
 /// A vector over a pair of bodies: a direction fixed in one, or the displacement between a point of each.
@@ -38,17 +39,17 @@ struct PairVector {
   int terms = 0;
   VectorTerm<T> term[2];
 
-  static PairVector direction(Side side, const Vector3<T>& a) {
+  static PairVector direction(Side side, const Vector3<T>& a, int shared = -1) {
     PairVector x;
     x.terms = 1;
-    x.term[0] = {side, false, 1.0, a};
+    x.term[0] = {side, false, 1.0, a, shared};
     return x;
   }
-  static PairVector displacement(const Vector3<T>& s_i, const Vector3<T>& s_j) {
+  static PairVector displacement(const Vector3<T>& s_i, const Vector3<T>& s_j, int shared_i = -1, int shared_j = -1) {
     PairVector x;
     x.terms = 2;
-    x.term[0] = {Side::kJ, true, 1.0, s_j};
-    x.term[1] = {Side::kI, true, -1.0, s_i};
+    x.term[0] = {Side::kJ, true, 1.0, s_j, shared_j};
+    x.term[1] = {Side::kI, true, -1.0, s_i, shared_i};
     return x;
   }
 };

@@ -34,38 +34,49 @@ struct ProductGradient {
   LocalRow<T> phi_q = LocalRow<T>::Zero(), phid_q = LocalRow<T>::Zero(), phidd_q = LocalRow<T>::Zero();
 };
 
-namespace internal {
-
-/// Adds the part of the gradient that comes from X's own terms; `y` is the motion of its partner.
+/// B of a body-fixed vector along p, p' and p'': the Jacobians of A s, (A s)' and (A s)'' by p.
 template <class T>
-void add_product_gradient(const PairVector<T>& x, const VectorMotion<T>& y, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
-                          ProductGradient<T>* gradient) {
-  for (int k = 0; k < x.terms; ++k) {
-    const VectorTerm<T>& term = x.term[k];
-    const BodyKinematics<T>& body = term.side == Side::kI ? i : j;
-    const T sign(term.sign);
-    if (term.point) {
-      gradient->phi_q.template segment<3>(r_offset(term.side)) += sign * y.x;
-      gradient->phid_q.template segment<3>(r_offset(term.side)) += sign * y.xd;
-      gradient->phidd_q.template segment<3>(r_offset(term.side)) += sign * y.xdd;
-    }
-    const Matrix4<T> K = rotation_hessian<T>(y.x * term.s.transpose()), Kd = rotation_hessian<T>(y.xd * term.s.transpose()),
-                     Kdd = rotation_hessian<T>(y.xdd * term.s.transpose());
-    const int p = p_offset(term.side);
-    gradient->phi_q.template segment<4>(p) += sign * (K * body.p);
-    gradient->phid_q.template segment<4>(p) += sign * (K * body.pd + Kd * body.p);
-    gradient->phidd_q.template segment<4>(p) += sign * (K * body.pdd + T(2.0) * (Kd * body.pd) + Kdd * body.p);
-  }
+struct VectorJacobian {
+  Matrix34<T> B, Bd, Bdd;
+};
+
+template <class T>
+VectorJacobian<T> vector_jacobian(const BodyKinematics<T>& body, const Vector3<T>& s) {
+  return {rotated_vector_jacobian(body.p, s), rotated_vector_jacobian(body.pd, s), rotated_vector_jacobian(body.pdd, s)};
 }
 
-}  // namespace internal
+/// Adds to the gradient of X . Y the part that comes from one of X's terms; `J` is that term's Jacobian, `y` the motion of its partner.
+template <class T>
+void add_term_gradient(const VectorTerm<T>& term, const VectorJacobian<T>& J, const VectorMotion<T>& y, ProductGradient<T>* gradient) {
+  const T sign(term.sign), twice(2.0 * term.sign);
+  if (term.point) {
+    const int r = r_offset(term.side);
+    for (int c = 0; c < 3; ++c) {
+      gradient->phi_q[r + c] += sign * y.x[c];
+      gradient->phid_q[r + c] += sign * y.xd[c];
+      gradient->phidd_q[r + c] += sign * y.xdd[c];
+    }
+  }
+  const int p = p_offset(term.side);
+  for (int c = 0; c < 4; ++c) {
+    gradient->phi_q[p + c] += sign * dot<T>(J.B.col(c), y.x);
+    gradient->phid_q[p + c] += sign * (dot<T>(J.Bd.col(c), y.x) + dot<T>(J.B.col(c), y.xd));
+    gradient->phidd_q[p + c] += sign * (dot<T>(J.Bdd.col(c), y.x) + dot<T>(J.B.col(c), y.xdd)) + twice * dot<T>(J.Bd.col(c), y.xd);
+  }
+}
 
 template <class T>
 ProductGradient<T> product_gradient(const PairVector<T>& X, const PairVector<T>& Y, const VectorMotion<T>& x, const VectorMotion<T>& y,
                                     const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
   ProductGradient<T> gradient;
-  internal::add_product_gradient(X, y, i, j, &gradient);
-  internal::add_product_gradient(Y, x, i, j, &gradient);
+  const auto add = [&](const PairVector<T>& own, const VectorMotion<T>& partner) {
+    for (int k = 0; k < own.terms; ++k) {
+      const VectorTerm<T>& term = own.term[k];
+      add_term_gradient(term, vector_jacobian(term.side == Side::kI ? i : j, term.s), partner, &gradient);
+    }
+  };
+  add(X, y);
+  add(Y, x);
   return gradient;
 }
 
@@ -88,40 +99,44 @@ void add_vector_load(const PairVector<T>& x, const Vector3<T>& b, BodyLoad<T>* i
 }
 
 template <class T>
-void add_product_load(const PairVector<T>& X, const PairVector<T>& Y, const VectorMotion<T>& x, const VectorMotion<T>& y, const T& lambda, BodyLoad<T>* i,
-                      BodyLoad<T>* j) {
+void add_product_load(const PairVector<T>& X, const PairVector<T>& Y, const VectorMotion<T>& x, const VectorMotion<T>& y, const T& lambda,
+                      BodyLoad<T>* i, BodyLoad<T>* j) {
   add_vector_load<T>(X, lambda * y.x, i, j);
   add_vector_load<T>(Y, lambda * x.x, i, j);
 }
 
+/// Calls add(row, column, value) with the part of (phi_q^T lambda)_q in which one term of each factor moves: their Jacobians' product and
+/// its transpose. `Ba`, `Bb` are the terms' Jacobians by p.
+template <class T, class Add>
+void term_hessian(const VectorTerm<T>& a, const Matrix34<T>& Ba, const VectorTerm<T>& b, const Matrix34<T>& Bb, const T& weight,
+                  const Add& add) {
+  const int ra = r_offset(a.side), pa = p_offset(a.side), rb = r_offset(b.side), pb = p_offset(b.side);
+  const auto add_both = [&add](int row, int column, const T& value) {
+    add(row, column, value);
+    add(column, row, value);
+  };
+  if (a.point && b.point)
+    for (int c = 0; c < 3; ++c) add_both(ra + c, rb + c, weight);
+  for (int d = 0; d < 4; ++d) {
+    for (int c = 0; c < 3; ++c) {
+      if (a.point) add_both(ra + c, pb + d, weight * Bb(c, d));
+      if (b.point) add_both(rb + c, pa + d, weight * Ba(c, d));
+    }
+    const Vector3<T> weighted = weight * Bb.col(d);
+    for (int c = 0; c < 4; ++c) add_both(pa + c, pb + d, dot<T>(Ba.col(c), weighted));
+  }
+}
+
 /// Calls add(row, column, value) with the part of (phi_q^T lambda)_q in which both factors move; the remainder is K(W) on each body's p.
 template <class T, class Add>
-void product_hessian(const PairVector<T>& X, const PairVector<T>& Y, const T& lambda, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
-                     const Add& add) {
-  for (int k = 0; k < X.terms; ++k) {
+void product_hessian(const PairVector<T>& X, const PairVector<T>& Y, const T& lambda, const BodyKinematics<T>& i,
+                     const BodyKinematics<T>& j, const Add& add) {
+  const auto B = [&](const VectorTerm<T>& term) { return rotated_vector_jacobian(term.side == Side::kI ? i.p : j.p, term.s); };
+  for (int k = 0; k < X.terms; ++k)
     for (int l = 0; l < Y.terms; ++l) {
       const VectorTerm<T>&a = X.term[k], &b = Y.term[l];
-      const T weight = lambda * T(a.sign * b.sign);
-      const Matrix34<T> Ba = rotated_vector_jacobian(a.side == Side::kI ? i.p : j.p, a.s);
-      const Matrix34<T> Bb = rotated_vector_jacobian(b.side == Side::kI ? i.p : j.p, b.s);
-      const int ra = r_offset(a.side), pa = p_offset(a.side), rb = r_offset(b.side), pb = p_offset(b.side);
-      const auto add_both = [&add](int row, int column, const T& value) {
-        add(row, column, value);
-        add(column, row, value);
-      };
-      if (a.point && b.point)
-        for (int c = 0; c < 3; ++c) add_both(ra + c, rb + c, weight);
-      for (int c = 0; c < 3; ++c) {
-        for (int d = 0; d < 4; ++d) {
-          if (a.point) add_both(ra + c, pb + d, weight * Bb(c, d));
-          if (b.point) add_both(rb + c, pa + d, weight * Ba(c, d));
-        }
-      }
-      const Matrix4<T> cross_term = weight * (Ba.transpose() * Bb);
-      for (int c = 0; c < 4; ++c)
-        for (int d = 0; d < 4; ++d) add_both(pa + c, pb + d, cross_term(c, d));
+      term_hessian<T>(a, B(a), b, B(b), lambda * T(a.sign * b.sign), add);
     }
-  }
 }
 
 }  // namespace codesign

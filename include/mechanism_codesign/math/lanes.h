@@ -8,86 +8,130 @@
 
 namespace codesign {
 
-/// A value with N directional derivatives side by side in SIMD registers: forward-mode automatic differentiation of N parameters in one pass.
+// Every operation is a few instructions: a call would cost more than it, and there are too many for the compiler's own judgement.
+#define CODESIGN_INLINE __attribute__((always_inline)) inline
+
+/// A value with N directional derivatives side by side in SIMD registers: forward-mode automatic differentiation of N parameters in one
+/// pass.
 ///
-/// Plain arithmetic on the compiler's vector type, all inlined; why not a library's dual number: doc/decisions/0003-lanes.md.
+/// Plain arithmetic on the compiler's vector type, all inlined; why not a library's dual number: doc/decisions/0003-lanes.md. As a double,
+/// it is left uninitialized by its default constructor.
 template <int N>
 struct Lanes {
-  // Aligned as a double, so that containers need no special allocator.
-  typedef double Vector __attribute__((vector_size(N * sizeof(double)), aligned(sizeof(double))));
+  static_assert(N % 4 == 0, "lanes come in fours");
+  static constexpr int kBlocks = N / 4;
 
-  double a = 0.0;  ///< value
-  Vector v{};      ///< derivatives
+  /// Four derivatives. Aligned as a double, so that containers need no special allocator.
+  typedef double Four __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double))));
+
+  /// N derivatives as the processor holds them: one vector type of N numbers would be kept in memory.
+  struct Vector {
+    Four block[kBlocks];
+
+    CODESIGN_INLINE double& operator[](int k) { return reinterpret_cast<double*>(block)[k]; }
+    CODESIGN_INLINE double operator[](int k) const { return reinterpret_cast<const double*>(block)[k]; }
+
+    CODESIGN_INLINE friend Vector operator-(const Vector& x) {
+      Vector r;
+      for (int k = 0; k < kBlocks; ++k) r.block[k] = -x.block[k];
+      return r;
+    }
+    CODESIGN_INLINE friend Vector operator+(const Vector& x, const Vector& y) {
+      Vector r;
+      for (int k = 0; k < kBlocks; ++k) r.block[k] = x.block[k] + y.block[k];
+      return r;
+    }
+    CODESIGN_INLINE friend Vector operator-(const Vector& x, const Vector& y) {
+      Vector r;
+      for (int k = 0; k < kBlocks; ++k) r.block[k] = x.block[k] - y.block[k];
+      return r;
+    }
+    CODESIGN_INLINE friend Vector operator*(const Vector& x, double f) {
+      Vector r;
+      for (int k = 0; k < kBlocks; ++k) r.block[k] = x.block[k] * f;
+      return r;
+    }
+    CODESIGN_INLINE friend Vector operator*(double f, const Vector& x) { return x * f; }
+    CODESIGN_INLINE friend Vector operator/(const Vector& x, double f) { return x * (1.0 / f); }
+    CODESIGN_INLINE Vector& operator+=(const Vector& y) { return *this = *this + y; }
+    CODESIGN_INLINE Vector& operator-=(const Vector& y) { return *this = *this - y; }
+  };
+
+  double a;  ///< value
+  Vector v;  ///< derivatives
 
   Lanes() = default;
-  Lanes(double value) : a(value) {}  // NOLINT(google-explicit-constructor): numbers mix with lanes in every formula
-  Lanes(double value, const Vector& derivatives) : a(value), v(derivatives) {}
+  CODESIGN_INLINE Lanes(double value) : a(value), v{} {}  // NOLINT(google-explicit-constructor): numbers mix with lanes in every formula
+  CODESIGN_INLINE Lanes(double value, const Vector& derivatives) : a(value), v(derivatives) {}
 
   using Map = Eigen::Map<Eigen::Matrix<double, N, 1>>;
   using ConstMap = Eigen::Map<const Eigen::Matrix<double, N, 1>>;
   /// The derivatives as a vector.
-  Map directions() { return Map(reinterpret_cast<double*>(&v)); }
-  ConstMap directions() const { return ConstMap(reinterpret_cast<const double*>(&v)); }
+  CODESIGN_INLINE Map directions() { return Map(reinterpret_cast<double*>(&v)); }
+  CODESIGN_INLINE ConstMap directions() const { return ConstMap(reinterpret_cast<const double*>(&v)); }
 
-  Lanes& operator+=(const Lanes& y) {
+  CODESIGN_INLINE Lanes& operator+=(const Lanes& y) {
     a += y.a;
     v += y.v;
     return *this;
   }
-  Lanes& operator-=(const Lanes& y) {
+  CODESIGN_INLINE Lanes& operator-=(const Lanes& y) {
     a -= y.a;
     v -= y.v;
     return *this;
   }
-  Lanes& operator*=(const Lanes& y) {
+  CODESIGN_INLINE Lanes& operator*=(const Lanes& y) {
     v = v * y.a + a * y.v;
     a *= y.a;
     return *this;
   }
-  Lanes& operator/=(const Lanes& y) { return *this = *this / y; }
+  CODESIGN_INLINE Lanes& operator/=(const Lanes& y) { return *this = *this / y; }
 
-  friend Lanes operator+(const Lanes& x) { return x; }
-  friend Lanes operator-(const Lanes& x) { return {-x.a, -x.v}; }
-  friend Lanes operator+(const Lanes& x, const Lanes& y) { return {x.a + y.a, x.v + y.v}; }
-  friend Lanes operator-(const Lanes& x, const Lanes& y) { return {x.a - y.a, x.v - y.v}; }
-  friend Lanes operator*(const Lanes& x, const Lanes& y) { return {x.a * y.a, x.v * y.a + x.a * y.v}; }
-  friend Lanes operator/(const Lanes& x, const Lanes& y) {
+  CODESIGN_INLINE friend Lanes operator+(const Lanes& x) { return x; }
+  CODESIGN_INLINE friend Lanes operator-(const Lanes& x) { return {-x.a, -x.v}; }
+  CODESIGN_INLINE friend Lanes operator+(const Lanes& x, const Lanes& y) { return {x.a + y.a, x.v + y.v}; }
+  CODESIGN_INLINE friend Lanes operator-(const Lanes& x, const Lanes& y) { return {x.a - y.a, x.v - y.v}; }
+  CODESIGN_INLINE friend Lanes operator*(const Lanes& x, const Lanes& y) { return {x.a * y.a, x.v * y.a + x.a * y.v}; }
+  CODESIGN_INLINE friend Lanes operator/(const Lanes& x, const Lanes& y) {
     const double inverse = 1.0 / y.a, quotient = x.a * inverse;
     return {quotient, (x.v - quotient * y.v) * inverse};
   }
-  friend bool operator<(const Lanes& x, const Lanes& y) { return x.a < y.a; }
-  friend bool operator>(const Lanes& x, const Lanes& y) { return x.a > y.a; }
-  friend bool operator<=(const Lanes& x, const Lanes& y) { return x.a <= y.a; }
-  friend bool operator>=(const Lanes& x, const Lanes& y) { return x.a >= y.a; }
-  friend bool operator==(const Lanes& x, const Lanes& y) { return x.a == y.a; }
-  friend bool operator!=(const Lanes& x, const Lanes& y) { return x.a != y.a; }
+  CODESIGN_INLINE friend bool operator<(const Lanes& x, const Lanes& y) { return x.a < y.a; }
+  CODESIGN_INLINE friend bool operator>(const Lanes& x, const Lanes& y) { return x.a > y.a; }
+  CODESIGN_INLINE friend bool operator<=(const Lanes& x, const Lanes& y) { return x.a <= y.a; }
+  CODESIGN_INLINE friend bool operator>=(const Lanes& x, const Lanes& y) { return x.a >= y.a; }
+  CODESIGN_INLINE friend bool operator==(const Lanes& x, const Lanes& y) { return x.a == y.a; }
+  CODESIGN_INLINE friend bool operator!=(const Lanes& x, const Lanes& y) { return x.a != y.a; }
 
-  friend Lanes sqrt(const Lanes& x) {
+  CODESIGN_INLINE friend Lanes sqrt(const Lanes& x) {
     const double root = std::sqrt(x.a);
     return {root, x.v * (0.5 / root)};
   }
-  friend Lanes abs(const Lanes& x) { return x.a < 0.0 ? -x : x; }
-  friend Lanes sin(const Lanes& x) { return {std::sin(x.a), x.v * std::cos(x.a)}; }
-  friend Lanes cos(const Lanes& x) { return {std::cos(x.a), x.v * -std::sin(x.a)}; }
-  friend Lanes asin(const Lanes& x) { return {std::asin(x.a), x.v / std::sqrt(1.0 - x.a * x.a)}; }
-  friend Lanes tanh(const Lanes& x) {
+  CODESIGN_INLINE friend Lanes abs(const Lanes& x) { return x.a < 0.0 ? -x : x; }
+  CODESIGN_INLINE friend Lanes sin(const Lanes& x) { return {std::sin(x.a), x.v * std::cos(x.a)}; }
+  CODESIGN_INLINE friend Lanes cos(const Lanes& x) { return {std::cos(x.a), x.v * -std::sin(x.a)}; }
+  CODESIGN_INLINE friend Lanes asin(const Lanes& x) { return {std::asin(x.a), x.v / std::sqrt(1.0 - x.a * x.a)}; }
+  CODESIGN_INLINE friend Lanes tanh(const Lanes& x) {
     const double t = std::tanh(x.a);
     return {t, x.v * (1.0 - t * t)};
   }
-  friend Lanes exp(const Lanes& x) {
+  CODESIGN_INLINE friend Lanes exp(const Lanes& x) {
     const double e = std::exp(x.a);
     return {e, x.v * e};
   }
-  friend Lanes atan2(const Lanes& y, const Lanes& x) {
+  CODESIGN_INLINE friend Lanes atan2(const Lanes& y, const Lanes& x) {
     const double inverse = 1.0 / (x.a * x.a + y.a * y.a);
     return {std::atan2(y.a, x.a), y.v * (x.a * inverse) - x.v * (y.a * inverse)};
   }
 };
 
+#undef CODESIGN_INLINE
+
 }  // namespace codesign
 
 namespace Eigen {
 
+// Costs as a double's, so that small loops are unrolled alike.
 template <int N>
 struct NumTraits<codesign::Lanes<N>> : GenericNumTraits<double> {
   using Real = codesign::Lanes<N>;
@@ -95,7 +139,7 @@ struct NumTraits<codesign::Lanes<N>> : GenericNumTraits<double> {
   using Nested = codesign::Lanes<N>;
   using Literal = codesign::Lanes<N>;
   static Real dummy_precision() { return Real(1e-12); }
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = N, AddCost = N, MulCost = 3 * N };
+  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 0, ReadCost = 1, AddCost = 1, MulCost = 1 };
 };
 
 template <int N, class Operation>

@@ -7,13 +7,13 @@
 
 namespace codesign {
 
-/// LU factorization of square sparse matrices that share one pattern: ordered once, refactored numerically afterwards (KLU).
+/// LU factorization of square sparse matrices that share one pattern: ordered and pivoted once, refactored numerically afterwards.
 ///
-/// A refactorization reuses the pivots of the last full one; when they have become poor (reciprocal pivot growth or condition estimate), it
-/// falls back to a full factorization with fresh pivoting. Not thread-safe.
+/// KLU chooses ordering and pivots. A refactorization follows a list of its operations, without any search; when a multiplier grows beyond
+/// 1e6 or a pivot vanishes, the old pivots are distrusted and KLU chooses anew. Not thread-safe.
 class SparseLu {
  public:
-  /// @param column_start, row_index compressed-column pattern of an n x n matrix; must outlive the object.
+  /// @param column_start, row_index compressed-column pattern of an n x n matrix.
   SparseLu(int n, const std::vector<int>& column_start, const std::vector<int>& row_index);
   ~SparseLu();
   SparseLu(SparseLu&&) noexcept;
@@ -22,12 +22,16 @@ class SparseLu {
   /// Factors the matrix with these nonzeros. False if it is singular to working precision.
   bool factor(const double* values);
 
-  /// Solves in place for `count` right-hand sides, stored column by column.
-  void solve(double* right_hand_side, int count = 1) const;
+  /// Solves in place.
+  void solve(double* x) const { solve_rows<1>(x); }
+  /// Solves in place for N right-hand sides, stored row by row: x[N row + k]. N is 1, 4 or 8.
+  template <int N>
+  void solve_rows(double* x) const;
   /// Solves with the transpose in place.
-  void solve_transposed(double* right_hand_side, int count = 1) const;
+  template <int N>
+  void solve_transposed_rows(double* x) const;
 
-  /// How often the pivots had to be chosen anew since construction.
+  /// How often pivots had to be chosen since construction.
   long full_factorizations() const;
 
  private:

@@ -24,7 +24,8 @@ class TangentStep {
   TangentStep(const System& system, const RosenbrockTableau& tableau);
 
   /// Begins at the start of a solution. @param parameters all named parameters, lanes seeded with the directions wanted.
-  void start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly, const State<double>& initial, const RosenbrockStep<double>& step);
+  void start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly, const State<double>& initial,
+             const RosenbrockStep<double>& step);
 
   /// Tangent of the stages of an attempt that is about to be accepted.
   void advance_stages(const RosenbrockStep<double>& step);
@@ -32,41 +33,34 @@ class TangentStep {
   void advance_projection(const RosenbrockStep<double>& step);
 
   /// Derivatives of the objective: its integral so far, and with the terminal terms at the present state.
-  Eigen::Matrix<double, N, 1> psi() const { return psi_; }
+  Eigen::Matrix<double, N, 1> psi() const { return y_.col(at_.psi()); }
   Eigen::Matrix<double, N, 1> terminal(const State<double>& state);
 
-  const Directions<N>& q() const { return q_; }
-  const Directions<N>& v() const { return v_; }
-  const Directions<N>& s() const { return s_; }
-  const Directions<N>& z() const { return z_; }
+  /// Derivatives of the state, as IncrementLayout lays it out.
+  const Directions<N>& directions() const { return y_; }
 
  private:
-  struct StageTangent {
-    Directions<N> q, v, s, z;
-    Eigen::Matrix<double, N, 1> psi;
-  };
-
-  void load_lanes(const VectorX<double>& q, const VectorX<double>& v, const VectorX<double>& s, const VectorX<double>& z, const Directions<N>& dq,
-                  const Directions<N>& dv, const Directions<N>& ds, const Directions<N>& dz, State<Lanes<N>>* state) const;
-  void stage_tangent(int i, const RosenbrockStep<double>& step);
-  /// result += (d by_position) q + ... with the derivatives' lanes times the real increments.
-  void add_matrix_tangent(const Increment<double>& u, Directions<N>* result) const;
-  void add_matrix_product(const Linearization<double>& d, const Directions<N>& q, const Directions<N>& s, const Directions<N>& v, Directions<N>* result) const;
-  Eigen::Matrix<double, N, 1> integrand_product(const Linearization<double>& d, const StageTangent& u) const;
-  void solve(const StageMatrix<double>& matrix, Directions<N>* x);
+  /// Values and derivatives side by side.
+  void load_lanes(const State<double>& values, const Directions<N>& directions);
+  void stage_state(std::size_t i, const RosenbrockStep<double>& step);
+  void stage_tangent(std::size_t i, const RosenbrockStep<double>& step);
+  /// Right-hand sides of a stage, row by row, and the integrand's.
+  void stage_rows(std::size_t i, const RosenbrockStep<double>& step);
+  void project(const VectorX<double>& correction, const VectorX<Lanes<N>>& errors, const SparseLu& lu, double* target);
 
   const System& system_;
   const Layout& layout_;
+  const IncrementLayout at_;
   const RosenbrockTableau& tableau_;
   Equations<Lanes<N>> equations_;
   Linearization<Lanes<N>> derivatives_;
   State<Lanes<N>> state_;
-  State<double> stage_;
-  Directions<N> q_, v_, s_, z_, dq_, dv_, ds_, dz_, sum_q_, sum_v_, sum_s_, product_, right_hand_side_;
-  Eigen::Matrix<double, N, 1> psi_;
-  std::vector<StageTangent> stages_;
+  State<double> stage_, projected_;
+  Directions<N> y_, stage_y_, sum_, rows_;
+  VectorX<double> shift_;
+  std::vector<Directions<N>> stages_;
   VectorX<Lanes<N>> residual_, errors_, rates_;
-  Eigen::MatrixXd columns_;
+  Lanes<N> g_;
 };
 
 }  // namespace codesign

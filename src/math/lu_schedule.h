@@ -1,0 +1,54 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SRC_MATH_LU_SCHEDULE_H_
+#define MECHANISM_CODESIGN_SRC_MATH_LU_SCHEDULE_H_
+
+#include <cstddef>
+#include <vector>
+
+namespace codesign {
+
+/// Pivots and patterns of one factorization L U = P R^-1 A Q, columns of L and U with ascending rows.
+struct LuPattern {
+  std::vector<int> row_of, column_of;  ///< pivot k took row row_of[k] and column column_of[k] of A
+  std::vector<double> row_scale;       ///< R, in pivot order
+  std::vector<std::vector<int>> U, L;  ///< per column: rows above, rows below the diagonal
+};
+
+/// The left-looking refactorization and the triangular solves for one LuPattern, as flat lists of what to do.
+///
+/// All factors lie in one array, column after column: the entries of U, the pivot, the entries of L.
+class LuSchedule {
+ public:
+  /// @param column_start, row_index pattern of A.
+  LuSchedule(const LuPattern& pattern, const std::vector<int>& column_start, const std::vector<int>& row_index);
+
+  /// Largest multiplier, and smallest over largest pivot; not finite if a pivot vanished.
+  struct Quality {
+    double growth = 0.0, pivot_ratio = 0.0;
+  };
+  Quality refactor(const double* values);
+
+  template <int N>
+  void solve(double* x) const;
+  template <int N>
+  void solve_transposed(double* x) const;
+
+ private:
+  void lay_out(const LuPattern& pattern);
+  void eliminate();
+
+  std::size_t n_;
+  std::vector<int> row_of_, column_of_;
+  std::vector<double> inverse_scale_;
+  std::vector<int> start_, diagonal_;  ///< per column: first entry, and the pivot's place; start_ has n + 1
+  std::vector<int> row_;               ///< row of each entry
+  std::vector<int> source_slot_;       ///< where each entry of A goes
+  std::vector<double> source_scale_;
+  std::vector<int> target_;      ///< where each product of the elimination is subtracted, in order
+  std::vector<double> factors_;  ///< of L and U, with inverse pivots
+  mutable std::vector<double> work_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SRC_MATH_LU_SCHEDULE_H_
