@@ -28,7 +28,7 @@ function(codesign_optimize target)
   set_source_files_properties(${hot} PROPERTIES COMPILE_OPTIONS "$<$<NOT:$<CONFIG:Debug>>:${hot_options}>")
   if(CODESIGN_NATIVE)
     # Eigen aligns its types by the widest vectors it knows of. It is told of SSE only, so that whoever includes our headers agrees with the
-    # library whatever they compile for; the compiler itself uses the wide ones. doc/decisions/0015-processor.md
+    # library whatever they compile for; the compiler itself uses the wide ones. doc/decisions/0011-processor.md
     target_compile_options(${target} PRIVATE -march=native -U__AVX__ -U__AVX2__ -U__FMA__ -U__AVX512F__ -U__AVX512DQ__)
   endif()
 endfunction()
