@@ -13,24 +13,25 @@ if(CODESIGN_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 # Numerical code. Neither errno nor floating-point traps are used, and both keep loops from being vectorized; IEEE results stay as they are.
-# The files of the time loop get -O3; for the rest it would only cost time to compile.
+# The files of the time loop get all of it; for the rest it would only cost time to compile.
 function(codesign_optimize target)
   target_compile_options(${target} PRIVATE -fno-math-errno -fno-trapping-math -fno-semantic-interposition)
-  file(GLOB hot ${PROJECT_SOURCE_DIR}/src/dynamics/equations_*.cc ${PROJECT_SOURCE_DIR}/src/integration/rosenbrock_step.cc
-    ${PROJECT_SOURCE_DIR}/src/sensitivity/tangent_step.cc ${PROJECT_SOURCE_DIR}/src/math/lu_schedule.cc)
-  # The formulas are many small functions of small matrices: with GCC's own limits on inlining they become calls, and cost five to ten times more.
   set(hot_options -O3 -fvisibility-inlines-hidden)
+  # The formulas are many small functions of small matrices: with GCC's own limits on inlining they become calls, and cost five to ten times more.
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     foreach(limit inline-unit-growth=1000 large-function-growth=2000 max-inline-insns-single=2000 max-inline-insns-auto=500)
       list(APPEND hot_options --param=${limit})
     endforeach()
   endif()
-  set_source_files_properties(${hot} PROPERTIES COMPILE_OPTIONS "$<$<NOT:$<CONFIG:Debug>>:${hot_options}>")
+  # Eigen aligns its types by the widest vectors it knows of. It is told of SSE only, so that whoever includes our headers agrees with the
+  # library whatever they compile for; the compiler itself uses the wide ones. doc/decisions/0011-processor.md
   if(CODESIGN_NATIVE)
-    # Eigen aligns its types by the widest vectors it knows of. It is told of SSE only, so that whoever includes our headers agrees with the
-    # library whatever they compile for; the compiler itself uses the wide ones. doc/decisions/0011-processor.md
-    target_compile_options(${target} PRIVATE -march=native -U__AVX__ -U__AVX2__ -U__FMA__ -U__AVX512F__ -U__AVX512DQ__)
+    list(APPEND hot_options -march=native -U__AVX__ -U__AVX2__ -U__FMA__ -U__AVX512F__ -U__AVX512DQ__)
   endif()
+  set(hot math/lu_schedule dynamics/equations_double dynamics/equations_lanes4 dynamics/equations_lanes8 integration/rosenbrock_step sensitivity/tangent_step)
+  list(TRANSFORM hot PREPEND ${PROJECT_SOURCE_DIR}/src/)
+  list(TRANSFORM hot APPEND .cc)
+  set_source_files_properties(${hot} PROPERTIES COMPILE_OPTIONS "$<$<NOT:$<CONFIG:Debug>>:${hot_options}>")
 endfunction()
 
 if(CODESIGN_SANITIZE)
