@@ -67,6 +67,27 @@ NormalForce<T> revolute_normal_force(const Vector3<T>& F, const Vector3<T>& torq
   return N;
 }
 
+/// Planar joint or table, theory (12): N = cabs(F_z) + preload, whatever the sign: the joint holds both ways.
+template <class T>
+NormalForce<T> planar_normal_force(const Vector3<T>& F, const FrictionConstants<T>& c) {
+  const T load = smooth_abs(F[2], c.smoothing);
+  NormalForce<T> N;
+  N.value = load + c.preload;
+  N.F[2] = F[2] / load;
+  return N;
+}
+
+/// Ball of a spherical joint, theory (12): N = sqrt(F.F + eps^2) + preload, the same in all directions.
+template <class T>
+NormalForce<T> ball_normal_force(const Vector3<T>& F, const FrictionConstants<T>& c) {
+  using std::sqrt;
+  const T load = sqrt(dot(F, F) + c.smoothing * c.smoothing);
+  NormalForce<T> N;
+  N.value = load + c.preload;
+  N.F = F / load;
+  return N;
+}
+
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_FORCES_NORMAL_FORCE_H_
