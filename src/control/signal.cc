@@ -34,6 +34,9 @@ SignalReference resolve_joint(const SignalTerm& term, int joint, const SignalDes
   const Pair& pair = topology.pairs[static_cast<std::size_t>(reference.pair)];
   for (std::size_t k = 0; k < pair.chain.size(); ++k)
     if (pair.chain[k].joint == joint) reference.element = static_cast<int>(k);
+  if (pair.friction_joint != joint || !slips_isotropically(pair.kind)) return reference;
+  if (reference.kind == SignalKind::kJointFriction) reference.kind = SignalKind::kContactFriction;
+  if (reference.kind == SignalKind::kJointSlidingVelocity) reference.kind = SignalKind::kContactSpeed;
   return reference;
 }
 

@@ -36,6 +36,7 @@ class PairBuilder {
     }
     if (pair_.kind == PairKind::kCylindrical && pair_.chain.size() == 1) add_cylindrical_coordinates();
     if (pair_.friction_joint >= 0) result_.friction = friction();
+    if (pair_.friction_joint >= 0) place_slip();
     return result_;
   }
 
@@ -199,6 +200,25 @@ class PairBuilder {
     c->b = R_ji * (first ? z3 : cross(z3, z1));
     c->c = first ? z3 : z1;
     c->d = R_ji * (first ? z3 : z1);
+  }
+
+  // A plane slips along x'' and y'' of the parent's side, and turns; a ball turns about three ground axes.
+  void place_slip() {
+    SlipConstants<T>& slip = result_.slip;
+    const auto add = [&slip](typename Coordinate::Kind kind, const Vector3<T>& a, const T& arm, const T& viscous) {
+      const std::size_t k = slip.coordinates.size();
+      slip.coordinates.emplace_back();
+      slip.coordinates[k].kind = kind;
+      slip.coordinates[k].a = a;
+      slip.arm[k] = arm;
+      slip.viscous[k] = viscous;
+    };
+    const FrictionConstants<T>& f = result_.friction;
+    if (pair_.kind == PairKind::kTable || pair_.kind == PairKind::kPlanar)
+      for (int k = 0; k < 2; ++k) add(Coordinate::Kind::kSlide, result_.C_i.col(k), T(1.0), f.viscous);
+    if (pair_.kind == PairKind::kPlanar) add(Coordinate::Kind::kTurn, Vector3<T>::Zero(), f.pin_radius, f.viscous * f.pin_radius * f.pin_radius);
+    if (pair_.kind == PairKind::kSpherical)
+      for (int k = 0; k < 3; ++k) add(Coordinate::Kind::kSpin, Vector3<T>::Unit(k), f.pin_radius, f.viscous);
   }
 
   JointDynamicsConstants<T> dynamics(const JointDescription& joint) const {

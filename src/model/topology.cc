@@ -5,6 +5,7 @@
 #include <map>
 
 #include "fold_chain.h"
+#include "mechanism_codesign/model/friction_geometry.h"
 
 namespace codesign {
 namespace {
@@ -18,6 +19,19 @@ struct Edge {
 bool has_mass(const LinkDescription& link) { return link.inertial.has_value(); }
 
 std::string joint_element(const JointDescription& joint) { return (joint.is_loop ? "<loop name=\"" : "<joint name=\"") + joint.name + "\">"; }
+
+/// The type of an ordinary joint with the same friction law. Joints without one are alike.
+JointType equivalent_type(PairKind kind) {
+  switch (kind) {
+    case PairKind::kRevolute: return JointType::kRevolute;
+    case PairKind::kPrismatic: return JointType::kPrismatic;
+    case PairKind::kCylindrical: return JointType::kCylindrical;
+    case PairKind::kSpherical: return JointType::kSpherical;
+    case PairKind::kTable:
+    case PairKind::kPlanar: return JointType::kPlanar;
+    default: return JointType::kFloating;
+  }
+}
 
 class TopologyBuilder {
  public:
@@ -156,6 +170,7 @@ class TopologyBuilder {
         pair.is_loop = pair.is_loop || joint.is_loop;
         take_friction(element.joint, &pair);
       }
+      if (pair.friction_joint >= 0) check_friction(pair);
       topology_.pairs.push_back(pair);
     }
   }
@@ -167,6 +182,12 @@ class TopologyBuilder {
       throw InputError({description.friction->where, joint_element(description), "a second <codesign:friction> on one folded joint", pair->name,
                         "one for the whole chain of massless links"});
     pair->friction_joint = joint;
+  }
+
+  // The reader has checked joints between links with mass, not those folded from a chain.
+  void check_friction(const Pair& pair) const {
+    const JointDescription& joint = robot_.joints[index(pair.friction_joint)];
+    check_friction_geometry(*joint.friction, equivalent_type(pair.kind), joint_element(joint) + " <codesign:friction>");
   }
 
   const RobotDescription& robot_;

@@ -57,6 +57,24 @@ TEST(Topology, RefusesChainsThatAreNoJoint) {
                InputError);
 }
 
+TEST(Topology, FrictionOfAFoldedChainIsCheckedAsTheJointThatItFoldsInto) {
+  const auto with_friction = [](std::string text, const std::string& attributes) {
+    const std::size_t end = text.find("</joint>");
+    return text.insert(end, "<codesign:friction mu_static='0.4' mu_dynamic='0.3' " + attributes + "/>");
+  };
+  const std::string table =
+      light("m") + heavy("b") + joint("1", "prismatic", "ground", "m", "1 0 0") + joint("2", "prismatic", "m", "b", "0 1 0");
+  const Topology t = topology(with_friction(table, ""));
+  EXPECT_EQ(t.pairs.at(0).friction_joint, 0);
+  const std::string ball = light("m") + light("n") + heavy("b") + joint("1", "continuous", "ground", "m", "1 0 0") +
+                           joint("2", "continuous", "m", "n", "0 1 0") + joint("3", "continuous", "n", "b", "0 0 1");
+  EXPECT_NO_THROW(topology(with_friction(ball, "pin_radius='0.01'")));
+  EXPECT_THROW(topology(with_friction(ball, "joint_length='0.01'")), InputError);
+  const std::string universal =
+      light("m") + heavy("b") + joint("1", "continuous", "ground", "m", "1 0 0") + joint("2", "continuous", "m", "b", "0 1 0");
+  EXPECT_THROW(topology(with_friction(universal, "joint_length='0.01' pin_radius='0.01'")), InputError);
+}
+
 TEST(Topology, MergesFixedLinksAndLeavesSensorFramesOut) {
   const Topology t = topology(heavy("a") + heavy("b") + light("camera") + light("finger") + joint("1", "continuous", "ground", "a", "0 1 0") +
                               joint("2", "fixed", "a", "b", "1 0 0", "0 0 1") + joint("3", "fixed", "b", "camera", "1 0 0") +

@@ -19,11 +19,13 @@ struct JointSample {
 
 /// Friction in one joint or loop.
 struct FrictionSample {
-  double friction = 0.0;          ///< on the child along the joint axis, against the motion: -S(v) N [N or N m]
+  /// On the child along the joint axis, against the motion: -S(v) N [N or N m]. Where a contact slips in several directions (table, planar and
+  /// spherical joints), along the direction of its slip: minus the magnitude.
+  double friction = 0.0;
   double normal_force = 0.0;      ///< N [N]
-  double sliding_velocity = 0.0;  ///< of the child relative to the parent along the joint axis [m/s or rad/s]
+  double sliding_velocity = 0.0;  ///< of the child relative to the parent along the joint axis, or the speed of the slip [m/s or rad/s]
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the joint, in the world [m]
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();     ///< on the child link, in the world [N]; zero if it is a torque
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();     ///< on the child link at `position`, in the world [N]
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();    ///< on the child link, in the world [N m]
 };
 

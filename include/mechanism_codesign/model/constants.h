@@ -28,12 +28,21 @@ struct CoordinateConstants {
     kTurn,   ///< about the common z axis: sign atan2(y_i . x_j, x_i . x_j)
     kSlide,  ///< sign a . d with a fixed in `side`
     kAngle,  ///< sign atan2(a_i . b_j, c_i . d_j)
-    kSine    ///< sign asin(a_i . b_j)
+    kSine,   ///< sign asin(a_i . b_j)
+    kSpin    ///< a rate only: a . (omega_j - omega_i), a fixed in the ground
   };
   Kind kind = Kind::kNone;
   double sign = 1.0;
   bool fixed_in_j = false;                        ///< kSlide: a is carried by j
   Vector3<T> a = Vector3<T>::Zero(), b = Vector3<T>::Zero(), c = Vector3<T>::Zero(), d = Vector3<T>::Zero();
+};
+
+/// How a contact may slip in several directions at once: its components, and the arm that makes a slip velocity of each rate; theory (13a).
+template <class T>
+struct SlipConstants {
+  std::vector<CoordinateConstants<T>> coordinates;  ///< empty, two (table) or three (planar, spherical)
+  std::array<T, 3> arm{T(1.0), T(1.0), T(1.0)};     ///< 1 for a slide, r_e [m] for a turn
+  std::array<T, 3> viscous{T(0.0), T(0.0), T(0.0)}; ///< load per rate
 };
 
 /// Friction coefficients and joint geometry; SI units, see FrictionDescription.
@@ -57,6 +66,7 @@ struct PairConstants {
   T cosine{0.0};                                                          ///< universal: z_i . z_j
   T distance{0.0};                                                        ///< kDistance [m]
   FrictionConstants<T> friction;
+  SlipConstants<T> slip;                                                  ///< of isotropic friction
   std::vector<CoordinateConstants<T>> coordinates;                        ///< per chain element; of one cylindrical loop: turn, slide
   std::vector<JointDynamicsConstants<T>> dynamics;                        ///< as `coordinates`
 };
