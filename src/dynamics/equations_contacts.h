@@ -20,13 +20,15 @@ bool Equations<T>::slip_moves_r(int pair, std::size_t k) const {
 }
 
 template <class T>
-void Equations<T>::append_slip_rate(int pair, const ContactFriction<T>& contact, std::size_t k, const T& factor, SparseGradient<T>* gradient) const {
+void Equations<T>::append_slip_rate(int pair, const ContactFriction<T>& contact, std::size_t k, const T& factor,
+                                    SparseGradient<T>* gradient) const {
   append_local(pair, contact.motion[k].rate_q, factor, slip_moves_r(pair, k), &gradient->position);
   append_local(pair, contact.motion[k].J, factor, slip_moves_r(pair, k), &gradient->velocity);
 }
 
 template <class T>
-void Equations<T>::append_contact_load(int pair, const ContactFriction<T>& contact, std::size_t k, const T& factor, SparseGradient<T>* gradient) const {
+void Equations<T>::append_contact_load(int pair, const ContactFriction<T>& contact, std::size_t k, const T& factor,
+                                       SparseGradient<T>* gradient) const {
   const auto row = static_cast<Eigen::Index>(k);
   for (std::size_t l = 0; l < contact.size; ++l)
     append_slip_rate(pair, contact, l, T(factor * contact.by_rate(row, static_cast<Eigen::Index>(l))), gradient);

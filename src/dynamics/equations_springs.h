@@ -31,7 +31,8 @@ struct SpringEnd {
   int column = -1;  ///< of the body's coordinates; -1 on the ground
   Eigen::Matrix<T, 3, kBodySize> D, Dd;
 
-  SpringEnd(int body_index, const BodyKinematics<T>& body, const Vector3<T>& s, const T& sign) : column(body_index < 0 ? -1 : kBodySize * body_index) {
+  SpringEnd(int body_index, const BodyKinematics<T>& body, const Vector3<T>& s, const T& sign)
+      : column(body_index < 0 ? -1 : kBodySize * body_index) {
     D.template leftCols<3>() = sign * Matrix3<T>::Identity();
     D.template rightCols<4>() = sign * rotated_vector_jacobian(body.p, s);
     Dd.template leftCols<3>().setZero();

@@ -65,11 +65,13 @@ void Observer::name_links() {
     if (!system_.topology().pairs[k].is_loop) continue;
     loops_.push_back(static_cast<int>(k));
     for (const ChainElement& element : system_.topology().pairs[k].chain)
-      if (robot.joints[static_cast<std::size_t>(element.joint)].is_loop) names_.loops.push_back(robot.joints[static_cast<std::size_t>(element.joint)].name);
+      if (robot.joints[static_cast<std::size_t>(element.joint)].is_loop)
+        names_.loops.push_back(robot.joints[static_cast<std::size_t>(element.joint)].name);
   }
 }
 
-void Observer::observe(const State<double>& state, double objective, const VectorX<double>& theta, Equations<double>* equations, Frame* frame) {
+void Observer::observe(const State<double>& state, double objective, const VectorX<double>& theta, Equations<double>* equations,
+                       Frame* frame) {
   frame->time = state.t;
   frame->objective = objective;
   observe_loops(state, equations, frame);
@@ -126,7 +128,8 @@ void Observer::observe_contact(int index, Equations<double>* equations, Friction
   sample->normal_force = contact.normal.value;
   sample->sliding_velocity = contact.speed();
   // Of a chain that runs from the child to the parent, body j is the parent's.
-  const bool reversed = std::any_of(pair.chain.begin(), pair.chain.end(), [&](const ChainElement& e) { return e.joint == pair.friction_joint && e.reversed; });
+  const bool reversed = std::any_of(pair.chain.begin(), pair.chain.end(),
+                                    [&](const ChainElement& e) { return e.joint == pair.friction_joint && e.reversed; });
   const Eigen::Vector3d on_child = (reversed ? 1.0 : -1.0) * contact.load;
   if (pair.kind == PairKind::kSpherical) {
     sample->torque = on_child;

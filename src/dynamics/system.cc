@@ -136,25 +136,27 @@ void System::collect_loads() {
 void System::find_coordinates() {
   for (const PairConstants<double>& pair : evaluate_constants(robot_, topology_, parameters()).pairs) {
     has_coordinate_.emplace_back();
-    for (const CoordinateConstants<double>& c : pair.coordinates) has_coordinate_.back().push_back(c.kind != CoordinateConstants<double>::Kind::kNone);
+    for (const CoordinateConstants<double>& c : pair.coordinates)
+      has_coordinate_.back().push_back(c.kind != CoordinateConstants<double>::Kind::kNone);
   }
 }
 
 void System::refuse_load(int pair, int element) const {
   const ChainElement& in_chain = topology_.pairs[static_cast<std::size_t>(pair)].chain[static_cast<std::size_t>(element)];
   const JointDescription& joint = robot_.joints[static_cast<std::size_t>(in_chain.joint)];
-  throw InputError({joint.where, "<joint name=\"" + joint.name + "\">", "a controller, spring, damping or stock friction on a joint without a scalar coordinate of its own",
+  throw InputError({joint.where, "<joint name=\"" + joint.name + "\">",
+                    "a controller, spring, damping or stock friction on a joint without a scalar coordinate of its own",
                     topology_.pairs[static_cast<std::size_t>(pair)].name,
                     "revolute, continuous and prismatic joints; in a ball joint of three hinges those at right angles to each other"});
 }
 
 void System::check_readable(const Signal& signal, const SignalDescription& description) const {
   for (const SignalReference& term : signal) {
-    const bool coordinate = term.kind == SignalKind::kJointPosition || term.kind == SignalKind::kJointVelocity || term.kind == SignalKind::kJointAcceleration ||
-                            term.kind == SignalKind::kJointSlidingVelocity;
+    const bool coordinate = term.kind == SignalKind::kJointPosition || term.kind == SignalKind::kJointVelocity ||
+                            term.kind == SignalKind::kJointAcceleration || term.kind == SignalKind::kJointSlidingVelocity;
     if (!coordinate || has_coordinate_[static_cast<std::size_t>(term.pair)][static_cast<std::size_t>(term.element)]) continue;
-    throw InputError({description.where, "signal", "a joint of this chain of links without <inertial> has no coordinate in closed form", description.text,
-                      "in a ball joint of three hinges, hinges at right angles to each other"});
+    throw InputError({description.where, "signal", "a joint of this chain of links without <inertial> has no coordinate in closed form",
+                      description.text, "in a ball joint of three hinges, hinges at right angles to each other"});
   }
 }
 

@@ -89,7 +89,8 @@ class PairBuilder {
   // Each side's z is its own axis; x is the other's axis made normal to it, so that both angles start at zero.
   void place_universal(const Matrix3<T>& R_ji) {
     const Vector3<T> z_i = axis(0);
-    const Vector3<T> z_j_in_i = pair_.chain.size() == 2 ? axis(1) : Vector3<T>(geometry_.frames[0].R * axis_at(joint(0).second_axis, parameters_));
+    const Vector3<T> z_j_in_i =
+        pair_.chain.size() == 2 ? axis(1) : Vector3<T>(geometry_.frames[0].R * axis_at(joint(0).second_axis, parameters_));
     result_.cosine = dot(z_i, z_j_in_i);
     const auto frame = [](const Vector3<T>& z, const Vector3<T>& other) {
       Matrix3<T> C;
@@ -216,7 +217,8 @@ class PairBuilder {
     const FrictionConstants<T>& f = result_.friction;
     if (pair_.kind == PairKind::kTable || pair_.kind == PairKind::kPlanar)
       for (int k = 0; k < 2; ++k) add(Coordinate::Kind::kSlide, result_.C_i.col(k), T(1.0), f.viscous);
-    if (pair_.kind == PairKind::kPlanar) add(Coordinate::Kind::kTurn, Vector3<T>::Zero(), f.pin_radius, f.viscous * f.pin_radius * f.pin_radius);
+    if (pair_.kind == PairKind::kPlanar)
+      add(Coordinate::Kind::kTurn, Vector3<T>::Zero(), f.pin_radius, f.viscous * f.pin_radius * f.pin_radius);
     if (pair_.kind == PairKind::kSpherical)
       for (int k = 0; k < 3; ++k) add(Coordinate::Kind::kSpin, Vector3<T>::Unit(k), f.pin_radius, f.viscous);
   }
@@ -266,7 +268,7 @@ PairConstants<T> pair_constants(const RobotDescription& robot, const Topology& t
   return PairBuilder<T>(robot, topology, pair, parameters).build(centre_i, centre_j);
 }
 
-#define CODESIGN_INSTANTIATE(T)                                                                                                        \
+#define CODESIGN_INSTANTIATE(T)                                                                                                            \
   template PairConstants<T> pair_constants<T>(const RobotDescription&, const Topology&, const Pair&, const Vector3<T>&, const Vector3<T>&, \
                                               const std::vector<T>&);
 CODESIGN_INSTANTIATE(double)

@@ -17,7 +17,8 @@ constexpr double kFeasible = 1e-7;  // a constraint of scaled variables may be m
 /// One optimization: what NLopt's callbacks share.
 class Minimization {
  public:
-  Minimization(const std::shared_ptr<const System>& system, const Study& study, const TrialObserver& observer, const std::atomic<bool>* cancel)
+  Minimization(const std::shared_ptr<const System>& system, const Study& study, const TrialObserver& observer,
+               const std::atomic<bool>* cancel)
       : study_(study), observer_(observer), cancel_(cancel), evaluator_(system), scaling_(study) {}
 
   OptimizationResult run() {
@@ -94,7 +95,8 @@ class Minimization {
     const Trial trial = note(evaluation, rho);
     if (observer_ && !observer_(trial)) stop();
     if (!evaluation.status.ok()) return step_back(x, gradient);
-    // Quasi-Newton methods begin with a step as long as the gradient: the first shall not leave the neighbourhood in which variables are scaled.
+    // Quasi-Newton methods begin with a step as long as the gradient: the first shall not leave the neighbourhood in which variables are
+    // scaled.
     if (trial.evaluation == 1) unit_ = std::max(1.0, trial.gradient_norm);
     if (!gradient->empty()) {
       *gradient = scaling_.scale_gradient(evaluation.gradient);
@@ -186,7 +188,8 @@ class Minimization {
 
 }  // namespace
 
-OptimizationResult optimize(const std::shared_ptr<const System>& system, const Study& study, const TrialObserver& observer, const std::atomic<bool>* cancel) {
+OptimizationResult optimize(const std::shared_ptr<const System>& system, const Study& study, const TrialObserver& observer,
+                            const std::atomic<bool>* cancel) {
   if (study.tuned.empty()) throw InputError({{study.file, 0}, "parameters", "nothing to tune", "", "at least one parameter"});
   return Minimization(system, study, observer, cancel).run();
 }

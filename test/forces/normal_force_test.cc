@@ -41,7 +41,8 @@ TEST(NormalForce, PinAndRevoluteByHand) {
 TEST(NormalForce, PinDoesNotSeeATurnAboutItsAxis) {
   const Eigen::Matrix3d R = Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   const Eigen::Vector3d F = R * kF, torque = R * kTorque;
-  EXPECT_NEAR(pin_normal_force<double>(F, torque, geometry<double>()).value, pin_normal_force<double>(kF, kTorque, geometry<double>()).value, 1e-12);
+  EXPECT_NEAR(pin_normal_force<double>(F, torque, geometry<double>()).value,
+              pin_normal_force<double>(kF, kTorque, geometry<double>()).value, 1e-12);
 }
 
 TEST(NormalForce, PlanarAndBallByHand) {

@@ -38,7 +38,8 @@ TEST(SpringDamper, DerivativesAreExact) {
     Eigen::MatrixXd J(3, 6);
     J << s.by_d, s.by_rate;
     const auto law = [](const Eigen::VectorXcd& z) {
-      return Eigen::VectorXcd(spring_damper<C>(Vector3<C>(z.head<3>()), Vector3<C>(z.tail<3>()), C(kStiffness), C(kDamping), C(kFree)).pull);
+      return Eigen::VectorXcd(
+          spring_damper<C>(Vector3<C>(z.head<3>()), Vector3<C>(z.tail<3>()), C(kStiffness), C(kDamping), C(kFree)).pull);
     };
     EXPECT_LT(compare_jacobians(J, complex_step_jacobian(law, x)).largest, 1e-12) << scale;
   }

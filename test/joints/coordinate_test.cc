@@ -113,12 +113,11 @@ TEST(Coordinate, LoadGradientIsTheDerivativeOfJTransposed) {
   const Eigen::VectorXd q = generic(0.4), zero = Eigen::VectorXd::Zero(kLocalSize);
   for (Kind kind : {Kind::kTurn, Kind::kSlide, Kind::kAngle, Kind::kSine, Kind::kSpin}) {
     LocalMatrix<double> gradient = LocalMatrix<double>::Zero();
-    coordinate_load_gradient(pair<double>(), coordinate<double>(kind, false), body<double>(q, zero, zero, 0), body<double>(q, zero, zero, kBodySize), 1.7,
+    coordinate_load_gradient(pair<double>(), coordinate<double>(kind, false), body<double>(q, zero, zero, 0),
+                             body<double>(q, zero, zero, kBodySize), 1.7,
                              [&gradient](int r, int c, double value) { gradient(r, c) += value; });
     const Eigen::MatrixXd expected = complex_step_jacobian(
-        [&](const Eigen::VectorXcd& z) {
-          return Eigen::VectorXcd(C(1.7) * motion<C>(kind, false, z, zero.cast<C>(), zero.cast<C>()).J);
-        },
+        [&](const Eigen::VectorXcd& z) { return Eigen::VectorXcd(C(1.7) * motion<C>(kind, false, z, zero.cast<C>(), zero.cast<C>()).J); },
         q);
     EXPECT_LT(compare_jacobians(gradient, expected).largest, 1e-13) << static_cast<int>(kind);
   }

@@ -13,13 +13,13 @@ namespace codesign {
 /// Isotropic friction of one pair (a table, a planar or a spherical joint) at one instant, over its slip coordinates; theory (13a).
 template <class T>
 struct ContactFriction {
-  std::size_t size = 0;                        ///< slip coordinates
-  std::size_t reported = 0;                    ///< those that make up the reported speed and friction: a plane's slides, all of a ball's
+  std::size_t size = 0;      ///< slip coordinates
+  std::size_t reported = 0;  ///< those that make up the reported speed and friction: a plane's slides, all of a ball's
   std::array<CoordinateMotion<T>, 3> motion;
   NormalForce<T> normal;
-  Vector3<T> load = Vector3<T>::Zero();        ///< against each rate [N or N m]
-  Matrix3<T> by_rate = Matrix3<T>::Zero();     ///< d load / d rate
-  Vector3<T> by_normal = Vector3<T>::Zero();   ///< d load / d N
+  Vector3<T> load = Vector3<T>::Zero();       ///< against each rate [N or N m]
+  Matrix3<T> by_rate = Matrix3<T>::Zero();    ///< d load / d rate
+  Vector3<T> by_normal = Vector3<T>::Zero();  ///< d load / d N
 
   /// Speed of the joint's point [m/s], or of a ball's turn [rad/s].
   T speed() const {

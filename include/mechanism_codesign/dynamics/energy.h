@@ -28,10 +28,13 @@ inline Energy mechanical_energy(const System& system, const Constants<double>& c
     energy.potential -= body.mass * g.dot(state.q.segment<3>(c));
   }
   const auto point = [&state](int body, const Eigen::Vector3d& s) {
-    return body < 0 ? s : Eigen::Vector3d(state.q.segment<3>(kBodySize * body) + rotation<double>(state.q.segment<4>(kBodySize * body + 3)) * s);
+    return body < 0
+               ? s
+               : Eigen::Vector3d(state.q.segment<3>(kBodySize * body) + rotation<double>(state.q.segment<4>(kBodySize * body + 3)) * s);
   };
   for (const SpringDamperConstants<double>& spring : constants.springs)
-    energy.potential += spring_energy<double>(point(spring.body_j, spring.s_j) - point(spring.body_i, spring.s_i), spring.stiffness, spring.free_length);
+    energy.potential +=
+        spring_energy<double>(point(spring.body_j, spring.s_j) - point(spring.body_i, spring.s_i), spring.stiffness, spring.free_length);
   return energy;
 }
 

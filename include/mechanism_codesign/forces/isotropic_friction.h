@@ -26,15 +26,16 @@ struct IsotropicFriction {
   using Vector = Eigen::Matrix<T, D, 1>;
   using Matrix = Eigen::Matrix<T, D, D>;
 
-  Vector load = Vector::Zero();         ///< that opposes the slip [N]; its power -load . u takes energy away
-  Matrix by_slip = Matrix::Zero();      ///< d load / d u [N s/m], symmetric
-  Vector by_normal = Vector::Zero();    ///< d load / d N [-]
+  Vector load = Vector::Zero();       ///< that opposes the slip [N]; its power -load . u takes energy away
+  Matrix by_slip = Matrix::Zero();    ///< d load / d u [N s/m], symmetric
+  Vector by_normal = Vector::Zero();  ///< d load / d N [-]
 };
 
 /// load = S(|u|) N u/|u|, theory (13a); linear in u and zero at rest.
 /// @param u slip velocity [m/s], @param normal N [N].
 template <class T, int D>
-IsotropicFriction<T, D> isotropic_friction(const Eigen::Matrix<T, D, 1>& u, const T& normal, const T& mu_static, const T& mu_dynamic, const T& v_t) {
+IsotropicFriction<T, D> isotropic_friction(const Eigen::Matrix<T, D, 1>& u, const T& normal, const T& mu_static, const T& mu_dynamic,
+                                           const T& v_t) {
   T square(0.0);
   for (int k = 0; k < D; ++k) square += u[k] * u[k];
   const ValueAndSlope<T> sigma = friction_per_speed<T>(square, mu_static, mu_dynamic, v_t);
@@ -43,7 +44,8 @@ IsotropicFriction<T, D> isotropic_friction(const Eigen::Matrix<T, D, 1>& u, cons
   friction.load = normal * friction.by_normal;
   const T curvature = T(2.0) * normal * sigma.slope;
   for (int row = 0; row < D; ++row)
-    for (int column = 0; column < D; ++column) friction.by_slip(row, column) = curvature * u[row] * u[column] + (row == column ? normal * sigma.value : T(0.0));
+    for (int column = 0; column < D; ++column)
+      friction.by_slip(row, column) = curvature * u[row] * u[column] + (row == column ? normal * sigma.value : T(0.0));
   return friction;
 }
 

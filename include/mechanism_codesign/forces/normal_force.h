@@ -13,8 +13,8 @@ namespace codesign {
 /// A normal force with its gradient over the joint's reaction force F'' and torque T'' (on the child, in the joint frame).
 template <class T>
 struct NormalForce {
-  T value{0.0};                         ///< [N]
-  Vector3<T> F = Vector3<T>::Zero();    ///< dN/dF'' [-]
+  T value{0.0};                            ///< [N]
+  Vector3<T> F = Vector3<T>::Zero();       ///< dN/dF'' [-]
   Vector3<T> torque = Vector3<T>::Zero();  ///< dN/dT'' [1/m]
 };
 
@@ -25,8 +25,8 @@ template <class T>
 NormalForce<T> translational_normal_force(const Vector3<T>& F, const Vector3<T>& torque, const FrictionConstants<T>& c) {
   const T ia = T(1.0) / c.joint_length, ib = T(0.5) / c.joint_width;
   const T f1x = -F[0] + ia * torque[1], f1y = -F[1] - ia * torque[0], f2x = -ia * torque[1], f2y = ia * torque[0], f3x = ib * torque[2];
-  const T n1x = smooth_abs(f1x, c.smoothing), n1y = smooth_abs(f1y, c.smoothing), n2x = smooth_abs(f2x, c.smoothing), n2y = smooth_abs(f2y, c.smoothing),
-          n3x = smooth_abs(f3x, c.smoothing);
+  const T n1x = smooth_abs(f1x, c.smoothing), n1y = smooth_abs(f1y, c.smoothing), n2x = smooth_abs(f2x, c.smoothing),
+          n2y = smooth_abs(f2y, c.smoothing), n3x = smooth_abs(f3x, c.smoothing);
   NormalForce<T> N;
   N.value = n1x + n1y + n2x + n2y + T(2.0) * n3x + c.preload;
   N.F[0] = -f1x / n1x;

@@ -11,18 +11,18 @@ namespace codesign {
 /// What a spring-damper does at one instant.
 template <class T>
 struct SpringForce {
-  T length{0.0};                                  ///< l [m]
-  T tension{0.0};                                 ///< k (l - l_0) + c l', positive if it pulls [N]
-  Vector3<T> pull = Vector3<T>::Zero();           ///< tension d/l: on the first point; the second feels the opposite [N]
-  Matrix3<T> by_d = Matrix3<T>::Zero();           ///< d pull / d d [N/m], symmetric but for the damper
-  Matrix3<T> by_rate = Matrix3<T>::Zero();        ///< d pull / d d' [N s/m], symmetric
+  T length{0.0};                            ///< l [m]
+  T tension{0.0};                           ///< k (l - l_0) + c l', positive if it pulls [N]
+  Vector3<T> pull = Vector3<T>::Zero();     ///< tension d/l: on the first point; the second feels the opposite [N]
+  Matrix3<T> by_d = Matrix3<T>::Zero();     ///< d pull / d d [N/m], symmetric but for the damper
+  Matrix3<T> by_rate = Matrix3<T>::Zero();  ///< d pull / d d' [N s/m], symmetric
 };
 
 /// Spring length below which its line has no direction, theory (13b) [m]: a billionth of what is drawn to a metre.
 constexpr double kSpringSmoothing = 1e-9;
 
-/// Linear spring and damper along the line between two points, doc/theory.md (13b): l = sqrt(d.d + delta^2), pull = (k (l - l_0) + c l') d/l.
-/// Analytic everywhere; where the points meet there is no line, and the pull is zero whatever the free length.
+/// Linear spring and damper along the line between two points, doc/theory.md (13b): l = sqrt(d.d + delta^2), pull = (k (l - l_0) + c l')
+/// d/l. Analytic everywhere; where the points meet there is no line, and the pull is zero whatever the free length.
 /// @param d from the first point to the second [m], @param rate its time derivative [m/s],
 /// @param stiffness k [N/m], @param damping c [N s/m], @param free_length l_0 [m].
 template <class T>

@@ -24,7 +24,8 @@ namespace internal {
 
 /// N/D-type angle: theta = atan2(N, D) with N, D scalar products; all derivatives by the quotient rule on the unit circle.
 template <class T>
-void angle_motion(const ProductMotion<T>& N, const ProductGradient<T>& Ng, const ProductMotion<T>& D, const ProductGradient<T>& Dg, CoordinateMotion<T>* m) {
+void angle_motion(const ProductMotion<T>& N, const ProductGradient<T>& Ng, const ProductMotion<T>& D, const ProductGradient<T>& Dg,
+                  CoordinateMotion<T>* m) {
   const T square = N.phi * N.phi + D.phi * D.phi;
   const T c = D.phi / square, s = N.phi / square;
   m->position = arc_tangent(N.phi, D.phi);
@@ -60,11 +61,12 @@ Product<T> directions_product(const Vector3<T>& a_i, const Vector3<T>& b_j, cons
   return product(PairVector<T>::direction(Side::kI, a_i), PairVector<T>::direction(Side::kJ, b_j), i, j);
 }
 
-/// A rate that is linear in p and in p': R(p_j) p_j' . u_j - R(p_i) p_i' . u_i with R(p) r = -R(r) p, so that no arc tangent is differentiated.
+/// A rate that is linear in p and in p': R(p_j) p_j' . u_j - R(p_i) p_i' . u_i with R(p) r = -R(r) p, so that no arc tangent is
+/// differentiated.
 /// @param rate_matrix p -> G(p) or E(p), @param u_i, u_j carried by the bodies (for G) or fixed in the ground (for E).
 template <class T, class RateMatrix>
-void angular_rate(const RateMatrix& rate_matrix, const Vector3<T>& u_i, const Vector3<T>& u_j, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
-                  CoordinateMotion<T>* m) {
+void angular_rate(const RateMatrix& rate_matrix, const Vector3<T>& u_i, const Vector3<T>& u_j, const BodyKinematics<T>& i,
+                  const BodyKinematics<T>& j, CoordinateMotion<T>* m) {
   m->J.setZero();
   m->rate = m->acceleration = T(0.0);
   m->rate_q.setZero();
@@ -87,8 +89,8 @@ void angular_rate(const RateMatrix& rate_matrix, const Vector3<T>& u_i, const Ve
 /// About the common axis, 2 u_j . G(p_j) p_j' - 2 u_i . G(p_i) p_i'.
 template <class T>
 void turn_rate(const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateMotion<T>* m) {
-  angular_rate<T>([](const Vector4<T>& p) { return body_rate_matrix(p); }, Vector3<T>(T(-2.0) * pair.C_i.col(2)), Vector3<T>(T(2.0) * pair.C_j.col(2)), i,
-                  j, m);
+  angular_rate<T>([](const Vector4<T>& p) { return body_rate_matrix(p); }, Vector3<T>(T(-2.0) * pair.C_i.col(2)),
+                  Vector3<T>(T(2.0) * pair.C_j.col(2)), i, j, m);
 }
 
 /// About a ground axis, 2 a . (E(p_j) p_j' - E(p_i) p_i').
@@ -140,8 +142,8 @@ PairVector<T> slide_axis(const CoordinateConstants<T>& c) {
 
 /// Evaluates one coordinate of a pair. A turn's position lies in (-pi, pi]; whole turns are counted by the caller.
 template <class T>
-CoordinateMotion<T> coordinate_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
-                                      CoordinateDetail detail = CoordinateDetail::kAll) {
+CoordinateMotion<T> coordinate_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i,
+                                      const BodyKinematics<T>& j, CoordinateDetail detail = CoordinateDetail::kAll) {
   using Kind = typename CoordinateConstants<T>::Kind;
   CoordinateMotion<T> m;
   if (c.kind == Kind::kTurn && detail == CoordinateDetail::kRate) {
@@ -161,8 +163,10 @@ CoordinateMotion<T> coordinate_motion(const PairConstants<T>& pair, const Coordi
     internal::sine_motion(internal::directions_product(c.a, c.b, i, j), &m);
   } else if (c.kind != Kind::kNone) {
     const bool turn = c.kind == Kind::kTurn;
-    const auto N = turn ? internal::directions_product<T>(pair.C_i.col(1), pair.C_j.col(0), i, j) : internal::directions_product(c.a, c.b, i, j);
-    const auto D = turn ? internal::directions_product<T>(pair.C_i.col(0), pair.C_j.col(0), i, j) : internal::directions_product(c.c, c.d, i, j);
+    const auto N =
+        turn ? internal::directions_product<T>(pair.C_i.col(1), pair.C_j.col(0), i, j) : internal::directions_product(c.a, c.b, i, j);
+    const auto D =
+        turn ? internal::directions_product<T>(pair.C_i.col(0), pair.C_j.col(0), i, j) : internal::directions_product(c.c, c.d, i, j);
     internal::angle_motion(N.motion, N.gradient, D.motion, D.gradient, &m);
     if (turn) internal::turn_rate(pair, i, j, &m);
   }
@@ -174,8 +178,8 @@ namespace internal {
 
 /// Calls add(row, column, value) with weight (X . Y)_qq.
 template <class T, class Add>
-void add_product_curvature(const PairVector<T>& X, const PairVector<T>& Y, const T& weight, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
-                           const Add& add) {
+void add_product_curvature(const PairVector<T>& X, const PairVector<T>& Y, const T& weight, const BodyKinematics<T>& i,
+                           const BodyKinematics<T>& j, const Add& add) {
   product_hessian(X, Y, weight, i, j, add);
   BodyLoad<T> load_i, load_j;
   add_product_load(X, Y, motion_of(X, i, j), motion_of(Y, i, j), weight, &load_i, &load_j);
@@ -199,7 +203,8 @@ void add_outer_product(const LocalRow<T>& a, const LocalRow<T>& b, const T& weig
 
 /// theta_qq of theta = atan2(N, D) or asin(N), by the chain rule.
 template <class T, class Add>
-void add_angle_curvature(const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j, const T& load, const Add& add) {
+void add_angle_curvature(const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j, const T& load,
+                         const Add& add) {
   using std::sqrt;
   const PairVector<T> a = PairVector<T>::direction(Side::kI, c.a), b = PairVector<T>::direction(Side::kJ, c.b);
   const Product<T> N = product(a, b, i, j);
@@ -224,8 +229,8 @@ void add_angle_curvature(const CoordinateConstants<T>& c, const BodyKinematics<T
 
 /// Calls add(row, column, value) with (J^T load)_q.
 template <class T, class Add>
-void coordinate_load_gradient(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
-                              const T& load, const Add& add) {
+void coordinate_load_gradient(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i,
+                              const BodyKinematics<T>& j, const T& load, const Add& add) {
   using Kind = typename CoordinateConstants<T>::Kind;
   const T signed_load = T(c.sign) * load;
   const auto add_block = [&add](Side side, const Matrix4<T>& block) {
@@ -242,10 +247,15 @@ void coordinate_load_gradient(const PairConstants<T>& pair, const CoordinateCons
       add_block(Side::kJ, ground_rate_hessian<T>(twice * c.a));
       add_block(Side::kI, ground_rate_hessian<T>(-twice * c.a));
       return;
-    case Kind::kSlide: internal::add_product_curvature(slide_axis(c), PairVector<T>::displacement(pair.s_i, pair.s_j), signed_load, i, j, add); return;
+    case Kind::kSlide:
+      internal::add_product_curvature(slide_axis(c), PairVector<T>::displacement(pair.s_i, pair.s_j), signed_load, i, j, add);
+      return;
     case Kind::kAngle:
-    case Kind::kSine: internal::add_angle_curvature(c, i, j, signed_load, add); return;
-    case Kind::kNone: return;
+    case Kind::kSine:
+      internal::add_angle_curvature(c, i, j, signed_load, add);
+      return;
+    case Kind::kNone:
+      return;
   }
 }
 

@@ -14,13 +14,13 @@ struct ValueAndSlope {
   T value{0.0}, slope{0.0};
 };
 
-/// tanh(sqrt x)/sqrt x, which is analytic in x, for x >= 0; 1 at zero. Near zero by the series of the hyperbolic tangent, elsewhere as written:
-/// relative errors of value and slope stay below 1e-14.
+/// tanh(sqrt x)/sqrt x, which is analytic in x, for x >= 0; 1 at zero. Near zero by the series of the hyperbolic tangent, elsewhere as
+/// written: relative errors of value and slope stay below 1e-14.
 template <class T>
 ValueAndSlope<T> tanh_ratio(const T& x) {
   using std::sqrt;
   using std::tanh;
-  constexpr double kSeriesBelow = 0.05; // the series' terms fall like (4 x/pi^2)^k
+  constexpr double kSeriesBelow = 0.05;  // the series' terms fall like (4 x/pi^2)^k
   constexpr double kSeries[] = {1.0,
                                 -1.0 / 3.0,
                                 2.0 / 15.0,
