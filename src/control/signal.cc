@@ -17,11 +17,13 @@ std::optional<int> find_named(const Items& items, const std::string& name) {
 }
 
 const std::map<std::string, SignalKind>& joint_kinds() {
-  static const std::map<std::string, SignalKind> kinds{
-      {"position", SignalKind::kJointPosition}, {"velocity", SignalKind::kJointVelocity},
-      {"acceleration", SignalKind::kJointAcceleration}, {"effort", SignalKind::kJointEffort},
-      {"friction", SignalKind::kJointFriction}, {"normal_force", SignalKind::kJointNormalForce},
-      {"sliding_velocity", SignalKind::kJointSlidingVelocity}};
+  static const std::map<std::string, SignalKind> kinds{{"position", SignalKind::kJointPosition},
+                                                       {"velocity", SignalKind::kJointVelocity},
+                                                       {"acceleration", SignalKind::kJointAcceleration},
+                                                       {"effort", SignalKind::kJointEffort},
+                                                       {"friction", SignalKind::kJointFriction},
+                                                       {"normal_force", SignalKind::kJointNormalForce},
+                                                       {"sliding_velocity", SignalKind::kJointSlidingVelocity}};
   return kinds;
 }
 
@@ -30,10 +32,14 @@ SignalReference resolve_joint(const SignalTerm& term, int joint, const SignalDes
   reference.kind = joint_kinds().at(term.quantity);
   reference.pair = topology.joint_pair[static_cast<std::size_t>(joint)];
   if (reference.pair < 0)
-    throw InputError({signal.where, "signal", "the joint moves only a link without <inertial>, so it has no dynamics to read", signal.text, ""});
+    throw InputError(
+        {signal.where, "signal", "the joint moves only a link without <inertial>, so it has no dynamics to read", signal.text, ""});
   const Pair& pair = topology.pairs[static_cast<std::size_t>(reference.pair)];
   for (std::size_t k = 0; k < pair.chain.size(); ++k)
     if (pair.chain[k].joint == joint) reference.element = static_cast<int>(k);
+  if (pair.friction_joint != joint || !slips_isotropically(pair.kind)) return reference;
+  if (reference.kind == SignalKind::kJointFriction) reference.kind = SignalKind::kContactFriction;
+  if (reference.kind == SignalKind::kJointSlidingVelocity) reference.kind = SignalKind::kContactSpeed;
   return reference;
 }
 
@@ -45,7 +51,8 @@ SignalReference resolve_link(const SignalTerm& term, int link, const SignalDescr
                    : term.quantity == "velocity" ? SignalKind::kLinkVelocity
                                                  : SignalKind::kLinkAngularVelocity;
   if (topology.link_body[static_cast<std::size_t>(link)] == Topology::kMassless)
-    throw InputError({signal.where, "signal", "the link has no <inertial>, so it is folded into a joint and cannot be read", signal.text, ""});
+    throw InputError(
+        {signal.where, "signal", "the link has no <inertial>, so it is folded into a joint and cannot be read", signal.text, ""});
   return reference;
 }
 
@@ -60,14 +67,21 @@ SignalReference resolve_controller(const SignalTerm& term, int controller) {
 
 std::optional<SignalKind> derivative_kind(SignalKind kind) {
   switch (kind) {
-    case SignalKind::kJointPosition: return SignalKind::kJointVelocity;
+    case SignalKind::kJointPosition:
+      return SignalKind::kJointVelocity;
     case SignalKind::kJointVelocity:
-    case SignalKind::kJointSlidingVelocity: return SignalKind::kJointAcceleration;
-    case SignalKind::kLinkPosition: return SignalKind::kLinkVelocity;
-    case SignalKind::kLinkVelocity: return SignalKind::kLinkAcceleration;
-    case SignalKind::kControllerIntegral: return SignalKind::kControllerError;
-    case SignalKind::kControllerError: return SignalKind::kControllerErrorRate;
-    default: return std::nullopt;
+    case SignalKind::kJointSlidingVelocity:
+      return SignalKind::kJointAcceleration;
+    case SignalKind::kLinkPosition:
+      return SignalKind::kLinkVelocity;
+    case SignalKind::kLinkVelocity:
+      return SignalKind::kLinkAcceleration;
+    case SignalKind::kControllerIntegral:
+      return SignalKind::kControllerError;
+    case SignalKind::kControllerError:
+      return SignalKind::kControllerErrorRate;
+    default:
+      return std::nullopt;
   }
 }
 

@@ -61,6 +61,11 @@ void Equations<T>::append_normal_gradient(int pair, const Vector3<T>& F, const V
   const auto& rows = rows_[static_cast<std::size_t>(pair)];
   const int row = layout_.lambda_column(layout_.pair_row[static_cast<std::size_t>(pair)]);
   const auto add = [&](int column, const T& value) { gradient->rate.push_back({column, T(factor * value)}); };
+  const PairKind kind = system_.topology().pairs[static_cast<std::size_t>(pair)].kind;
+  if (kind == PairKind::kTable || kind == PairKind::kPlanar) {
+    add(row, F[2]);
+    return;
+  }
   int next = 0;
   if (rows.coincident) {
     const int body_i = system_.topology().pairs[static_cast<std::size_t>(pair)].body_i;
@@ -77,6 +82,7 @@ void Equations<T>::append_normal_gradient(int pair, const Vector3<T>& F, const V
     add(row + 1, F[1]);
     next = 2;
   }
+  if (rows.size() < next + 2) return;
   add(row + next, torque[1]);
   add(row + next + 1, -torque[0]);
   if (rows.size() > next + 2) add(row + next + 2, torque[2]);
@@ -92,6 +98,11 @@ NormalForce<T> Equations<T>::normal_force(int pair) const {
       return translational_normal_force(F, torque, c);
     case PairKind::kRevolute:
       return revolute_normal_force(F, torque, c);
+    case PairKind::kTable:
+    case PairKind::kPlanar:
+      return planar_normal_force(F, c);
+    case PairKind::kSpherical:
+      return ball_normal_force(F, c);
     default:
       return pin_normal_force(F, torque, c);
   }

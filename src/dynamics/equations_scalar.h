@@ -3,9 +3,11 @@
 #define MECHANISM_CODESIGN_SRC_DYNAMICS_EQUATIONS_SCALAR_H_
 
 #include "equations_assembly.h"
+#include "equations_contacts.h"
 #include "equations_loads.h"
 #include "equations_residual.h"
 #include "equations_signals.h"
+#include "equations_springs.h"
 
 /// One source file per scalar, so that they compile side by side.
 #define CODESIGN_INSTANTIATE_EQUATIONS(T) template class Equations<T>;

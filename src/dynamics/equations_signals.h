@@ -99,6 +99,9 @@ T Equations<T>::term_value(const SignalReference& term, const T& factor, SparseG
       if (gradient) gradient->position.push_back({layout_.position_column(s), factor});
       return factor * state_->s[s];
     }
+    case SignalKind::kContactFriction:
+    case SignalKind::kContactSpeed:
+      return contact_term(term, factor, gradient);
     case SignalKind::kJointEffort:
     case SignalKind::kJointFriction:
       return load_term(term, factor, gradient);

@@ -8,8 +8,10 @@
 namespace codesign {
 
 Observer::Observer(const System& system, const std::vector<SignalDescription>& signals) : system_(system), tree_(system.robot()) {
-  for (const SignalDescription& signal : signals)
+  for (const SignalDescription& signal : signals) {
     signals_.push_back(resolve_signal(signal, system.robot(), system.topology(), system.study().controllers));
+    system.check_readable(signals_.back(), signal);
+  }
   name_joints();
   name_frictions();
   name_links();
@@ -45,6 +47,12 @@ void Observer::name_frictions() {
     names_.frictions.push_back(joint.name);
     names_.friction_is_torque.push_back(joint.type != JointType::kPrismatic && !(pair.kind == PairKind::kCylindrical && load.element == 1));
   }
+  for (int contact : system_.contacts()) {
+    const Pair& pair = topology.pairs[static_cast<std::size_t>(contact)];
+    frictions_.push_back({contact, kContact});
+    names_.frictions.push_back(system_.robot().joints[static_cast<std::size_t>(pair.friction_joint)].name);
+    names_.friction_is_torque.push_back(pair.kind == PairKind::kSpherical);
+  }
 }
 
 void Observer::name_links() {
@@ -57,11 +65,13 @@ void Observer::name_links() {
     if (!system_.topology().pairs[k].is_loop) continue;
     loops_.push_back(static_cast<int>(k));
     for (const ChainElement& element : system_.topology().pairs[k].chain)
-      if (robot.joints[static_cast<std::size_t>(element.joint)].is_loop) names_.loops.push_back(robot.joints[static_cast<std::size_t>(element.joint)].name);
+      if (robot.joints[static_cast<std::size_t>(element.joint)].is_loop)
+        names_.loops.push_back(robot.joints[static_cast<std::size_t>(element.joint)].name);
   }
 }
 
-void Observer::observe(const State<double>& state, double objective, const VectorX<double>& theta, Equations<double>* equations, Frame* frame) {
+void Observer::observe(const State<double>& state, double objective, const VectorX<double>& theta, Equations<double>* equations,
+                       Frame* frame) {
   frame->time = state.t;
   frame->objective = objective;
   observe_loops(state, equations, frame);
@@ -93,17 +103,41 @@ void Observer::observe_frictions(Equations<double>* equations, Frame* frame) con
     const FrictionSource& source = frictions_[k];
     const Pair& pair = system_.topology().pairs[static_cast<std::size_t>(source.pair)];
     const PairConstants<double>& c = equations->constants().pairs[static_cast<std::size_t>(source.pair)];
+    FrictionSample& sample = frame->frictions[k];
+    sample = {};
+    sample.position = equations->body(pair.body_j).r + equations->body(pair.body_j).A * c.s_j;
+    if (source.element == kContact) {
+      observe_contact(source.pair, equations, &sample);
+      continue;
+    }
     const FrictionState<double> friction = equations->friction(source.pair, source.element);
     const double sign = c.coordinates[static_cast<std::size_t>(source.element)].sign;
     const Eigen::Vector3d axis = equations->body(pair.body_i).A * c.C_i.col(2);
-    FrictionSample& sample = frame->frictions[k];
-    sample = {};
     sample.friction = -friction.load;
     sample.normal_force = friction.normal;
     sample.sliding_velocity = friction.velocity;
-    sample.position = equations->body(pair.body_j).r + equations->body(pair.body_j).A * c.s_j;
     (names_.friction_is_torque[k] ? sample.torque : sample.force) = -sign * friction.load * axis;
   }
+}
+
+void Observer::observe_contact(int index, Equations<double>* equations, FrictionSample* sample) const {
+  const Pair& pair = system_.topology().pairs[static_cast<std::size_t>(index)];
+  const PairConstants<double>& c = equations->constants().pairs[static_cast<std::size_t>(index)];
+  const ContactFriction<double> contact = equations->contact(index);
+  sample->friction = -contact.magnitude();
+  sample->normal_force = contact.normal.value;
+  sample->sliding_velocity = contact.speed();
+  // Of a chain that runs from the child to the parent, body j is the parent's.
+  const bool reversed = std::any_of(pair.chain.begin(), pair.chain.end(),
+                                    [&](const ChainElement& e) { return e.joint == pair.friction_joint && e.reversed; });
+  const Eigen::Vector3d on_child = (reversed ? 1.0 : -1.0) * contact.load;
+  if (pair.kind == PairKind::kSpherical) {
+    sample->torque = on_child;
+    return;
+  }
+  const Eigen::Matrix3d axes = equations->body(pair.body_i).A * c.C_i;
+  sample->force = axes.leftCols<2>() * on_child.head<2>();
+  sample->torque = axes.col(2) * on_child[2];
 }
 
 void Observer::observe_controllers(const State<double>& state, Equations<double>* equations, Frame* frame) const {

@@ -46,6 +46,7 @@ System::System(const RobotDescription& robot, const Study& study, double complia
     : robot_(robot), study_(study), topology_(derive_topology(robot_)), compliance_(compliance) {
   refuse_unsupported();
   lay_out();
+  find_coordinates();
   resolve_objective();
   resolve_controllers();
   collect_loads();
@@ -70,8 +71,10 @@ void System::lay_out() {
 
 void System::resolve_objective() {
   const auto resolve = [this](const std::vector<ObjectiveTerm>& terms, std::vector<ResolvedTerm>* resolved) {
-    for (std::size_t k = 0; k < terms.size(); ++k)
+    for (std::size_t k = 0; k < terms.size(); ++k) {
       resolved->push_back({resolve_signal(terms[k].signal, robot_, topology_, study_.controllers), static_cast<int>(k)});
+      check_readable(resolved->back().signal, terms[k].signal);
+    }
   };
   resolve(study_.integral, &integral_);
   resolve(study_.terminal, &terminal_);
@@ -83,6 +86,7 @@ void System::resolve_controllers() {
     const std::string element = "controllers." + description.name;
     Controller controller;
     controller.input = resolve_signal(description.input, robot_, topology_, study_.controllers);
+    check_readable(controller.input, description.input);
     for (const SignalReference& term : controller.input)
       if (term.controller >= static_cast<int>(k) || term.kind == SignalKind::kJointEffort)
         throw InputError({description.where, element + ".input", "a controller cannot read an effort, itself or a later controller",
@@ -107,12 +111,14 @@ void System::resolve_controllers() {
 void System::collect_loads() {
   for (std::size_t p = 0; p < topology_.pairs.size(); ++p) {
     const Pair& pair = topology_.pairs[p];
+    const bool contact = pair.friction_joint >= 0 && slips_isotropically(pair.kind);
+    if (contact) contacts_.push_back(static_cast<int>(p));
     const std::size_t elements = pair.kind == PairKind::kCylindrical ? 2 : pair.chain.size();
     for (std::size_t e = 0; e < elements; ++e) {
       JointLoad load;
       load.pair = static_cast<int>(p);
       load.element = static_cast<int>(e);
-      load.reaction_friction = pair.friction_joint >= 0;
+      load.reaction_friction = pair.friction_joint >= 0 && !contact;
       if (e < pair.chain.size()) {
         const JointDescription& joint = robot_.joints[static_cast<std::size_t>(pair.chain[e].joint)];
         load.constant_friction = !zero(joint.dry_friction);
@@ -120,8 +126,37 @@ void System::collect_loads() {
       }
       for (std::size_t c = 0; c < controllers_.size(); ++c)
         if (controllers_[c].pair == load.pair && controllers_[c].element == load.element) load.controllers.push_back(static_cast<int>(c));
-      if (load.reaction_friction || load.constant_friction || load.passive || !load.controllers.empty()) loads_.push_back(load);
+      if (!load.reaction_friction && !load.constant_friction && !load.passive && load.controllers.empty()) continue;
+      if (!has_coordinate_[p][e]) refuse_load(load.pair, load.element);
+      loads_.push_back(load);
     }
+  }
+}
+
+void System::find_coordinates() {
+  for (const PairConstants<double>& pair : evaluate_constants(robot_, topology_, parameters()).pairs) {
+    has_coordinate_.emplace_back();
+    for (const CoordinateConstants<double>& c : pair.coordinates)
+      has_coordinate_.back().push_back(c.kind != CoordinateConstants<double>::Kind::kNone);
+  }
+}
+
+void System::refuse_load(int pair, int element) const {
+  const ChainElement& in_chain = topology_.pairs[static_cast<std::size_t>(pair)].chain[static_cast<std::size_t>(element)];
+  const JointDescription& joint = robot_.joints[static_cast<std::size_t>(in_chain.joint)];
+  throw InputError({joint.where, "<joint name=\"" + joint.name + "\">",
+                    "a controller, spring, damping or stock friction on a joint without a scalar coordinate of its own",
+                    topology_.pairs[static_cast<std::size_t>(pair)].name,
+                    "revolute, continuous and prismatic joints; in a ball joint of three hinges those at right angles to each other"});
+}
+
+void System::check_readable(const Signal& signal, const SignalDescription& description) const {
+  for (const SignalReference& term : signal) {
+    const bool coordinate = term.kind == SignalKind::kJointPosition || term.kind == SignalKind::kJointVelocity ||
+                            term.kind == SignalKind::kJointAcceleration || term.kind == SignalKind::kJointSlidingVelocity;
+    if (!coordinate || has_coordinate_[static_cast<std::size_t>(term.pair)][static_cast<std::size_t>(term.element)]) continue;
+    throw InputError({description.where, "signal", "a joint of this chain of links without <inertial> has no coordinate in closed form",
+                      description.text, "in a ball joint of three hinges, hinges at right angles to each other"});
   }
 }
 
@@ -151,14 +186,6 @@ void System::refuse_unsupported() const {
   }
   for (const CouplingDescription& coupling : robot_.couplings)
     refuse(coupling.where, "<coupling name=\"" + coupling.name + "\">", "a coupling");
-  for (const SpringDamperDescription& spring : robot_.spring_dampers)
-    refuse(spring.where, "<codesign:spring_damper name=\"" + spring.name + "\">", "a spring-damper");
-  for (const Pair& pair : topology_.pairs) {
-    if (pair.friction_joint < 0) continue;
-    const JointDescription& joint = robot_.joints[static_cast<std::size_t>(pair.friction_joint)];
-    if (pair.kind != PairKind::kPrismatic && pair.kind != PairKind::kRevolute && pair.kind != PairKind::kCylindrical)
-      refuse(joint.friction->where, "<codesign:friction> of '" + joint.name + "'", "friction in this kind of joint");
-  }
 }
 
 }  // namespace codesign

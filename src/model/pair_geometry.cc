@@ -36,6 +36,7 @@ class PairBuilder {
     }
     if (pair_.kind == PairKind::kCylindrical && pair_.chain.size() == 1) add_cylindrical_coordinates();
     if (pair_.friction_joint >= 0) result_.friction = friction();
+    if (pair_.friction_joint >= 0) place_slip();
     return result_;
   }
 
@@ -88,7 +89,8 @@ class PairBuilder {
   // Each side's z is its own axis; x is the other's axis made normal to it, so that both angles start at zero.
   void place_universal(const Matrix3<T>& R_ji) {
     const Vector3<T> z_i = axis(0);
-    const Vector3<T> z_j_in_i = pair_.chain.size() == 2 ? axis(1) : Vector3<T>(geometry_.frames[0].R * axis_at(joint(0).second_axis, parameters_));
+    const Vector3<T> z_j_in_i =
+        pair_.chain.size() == 2 ? axis(1) : Vector3<T>(geometry_.frames[0].R * axis_at(joint(0).second_axis, parameters_));
     result_.cosine = dot(z_i, z_j_in_i);
     const auto frame = [](const Vector3<T>& z, const Vector3<T>& other) {
       Matrix3<T> C;
@@ -201,6 +203,26 @@ class PairBuilder {
     c->d = R_ji * (first ? z3 : z1);
   }
 
+  // A plane slips along x'' and y'' of the parent's side, and turns; a ball turns about three ground axes.
+  void place_slip() {
+    SlipConstants<T>& slip = result_.slip;
+    const auto add = [&slip](typename Coordinate::Kind kind, const Vector3<T>& a, const T& arm, const T& viscous) {
+      const std::size_t k = slip.coordinates.size();
+      slip.coordinates.emplace_back();
+      slip.coordinates[k].kind = kind;
+      slip.coordinates[k].a = a;
+      slip.arm[k] = arm;
+      slip.viscous[k] = viscous;
+    };
+    const FrictionConstants<T>& f = result_.friction;
+    if (pair_.kind == PairKind::kTable || pair_.kind == PairKind::kPlanar)
+      for (int k = 0; k < 2; ++k) add(Coordinate::Kind::kSlide, result_.C_i.col(k), T(1.0), f.viscous);
+    if (pair_.kind == PairKind::kPlanar)
+      add(Coordinate::Kind::kTurn, Vector3<T>::Zero(), f.pin_radius, f.viscous * f.pin_radius * f.pin_radius);
+    if (pair_.kind == PairKind::kSpherical)
+      for (int k = 0; k < 3; ++k) add(Coordinate::Kind::kSpin, Vector3<T>::Unit(k), f.pin_radius, f.viscous);
+  }
+
   JointDynamicsConstants<T> dynamics(const JointDescription& joint) const {
     JointDynamicsConstants<T> d;
     d.damping = joint.damping.at(parameters_);
@@ -246,7 +268,7 @@ PairConstants<T> pair_constants(const RobotDescription& robot, const Topology& t
   return PairBuilder<T>(robot, topology, pair, parameters).build(centre_i, centre_j);
 }
 
-#define CODESIGN_INSTANTIATE(T)                                                                                                        \
+#define CODESIGN_INSTANTIATE(T)                                                                                                            \
   template PairConstants<T> pair_constants<T>(const RobotDescription&, const Topology&, const Pair&, const Vector3<T>&, const Vector3<T>&, \
                                               const std::vector<T>&);
 CODESIGN_INSTANTIATE(double)

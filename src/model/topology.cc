@@ -5,6 +5,7 @@
 #include <map>
 
 #include "fold_chain.h"
+#include "mechanism_codesign/model/friction_geometry.h"
 
 namespace codesign {
 namespace {
@@ -17,7 +18,28 @@ struct Edge {
 
 bool has_mass(const LinkDescription& link) { return link.inertial.has_value(); }
 
-std::string joint_element(const JointDescription& joint) { return (joint.is_loop ? "<loop name=\"" : "<joint name=\"") + joint.name + "\">"; }
+std::string joint_element(const JointDescription& joint) {
+  return (joint.is_loop ? "<loop name=\"" : "<joint name=\"") + joint.name + "\">";
+}
+
+/// The type of an ordinary joint with the same friction law. Joints without one are alike.
+JointType equivalent_type(PairKind kind) {
+  switch (kind) {
+    case PairKind::kRevolute:
+      return JointType::kRevolute;
+    case PairKind::kPrismatic:
+      return JointType::kPrismatic;
+    case PairKind::kCylindrical:
+      return JointType::kCylindrical;
+    case PairKind::kSpherical:
+      return JointType::kSpherical;
+    case PairKind::kTable:
+    case PairKind::kPlanar:
+      return JointType::kPlanar;
+    default:
+      return JointType::kFloating;
+  }
+}
 
 class TopologyBuilder {
  public:
@@ -80,7 +102,8 @@ class TopologyBuilder {
       if (joint.type == JointType::kFixed && !joint.is_loop) continue;
       const int from = topology_.link_base[index(joint.parent)], to = topology_.link_base[index(joint.child)];
       if (from == to)
-        throw InputError({joint.where, joint_element(joint), "both ends lie on the same rigid body", robot_.links[index(joint.parent)].name, ""});
+        throw InputError(
+            {joint.where, joint_element(joint), "both ends lie on the same rigid body", robot_.links[index(joint.parent)].name, ""});
       edges_.push_back({from, to, {{static_cast<int>(k), false}}});
     }
   }
@@ -121,7 +144,8 @@ class TopologyBuilder {
   [[noreturn]] void refuse_branching(int group, std::size_t count) const {
     const LinkDescription& link = robot_.links[index(group)];
     throw InputError({link.where, "<link name=\"" + link.name + "\">",
-                      "a link without <inertial> between " + std::to_string(count) + " joints cannot be folded into one joint", "", "give it an <inertial>"});
+                      "a link without <inertial> between " + std::to_string(count) + " joints cannot be folded into one joint", "",
+                      "give it an <inertial>"});
   }
 
   // The joined edge runs from the end of the one that arrives to the end of the one that leaves.
@@ -156,6 +180,7 @@ class TopologyBuilder {
         pair.is_loop = pair.is_loop || joint.is_loop;
         take_friction(element.joint, &pair);
       }
+      if (pair.friction_joint >= 0) check_friction(pair);
       topology_.pairs.push_back(pair);
     }
   }
@@ -164,9 +189,15 @@ class TopologyBuilder {
     const JointDescription& description = robot_.joints[index(joint)];
     if (!description.friction) return;
     if (pair->friction_joint >= 0)
-      throw InputError({description.friction->where, joint_element(description), "a second <codesign:friction> on one folded joint", pair->name,
-                        "one for the whole chain of massless links"});
+      throw InputError({description.friction->where, joint_element(description), "a second <codesign:friction> on one folded joint",
+                        pair->name, "one for the whole chain of massless links"});
     pair->friction_joint = joint;
+  }
+
+  // The reader has checked joints between links with mass, not those folded from a chain.
+  void check_friction(const Pair& pair) const {
+    const JointDescription& joint = robot_.joints[index(pair.friction_joint)];
+    check_friction_geometry(*joint.friction, equivalent_type(pair.kind), joint_element(joint) + " <codesign:friction>");
   }
 
   const RobotDescription& robot_;

@@ -17,7 +17,8 @@ constexpr double kFeasible = 1e-7;  // a constraint of scaled variables may be m
 /// One optimization: what NLopt's callbacks share.
 class Minimization {
  public:
-  Minimization(const std::shared_ptr<const System>& system, const Study& study, const TrialObserver& observer, const std::atomic<bool>* cancel)
+  Minimization(const std::shared_ptr<const System>& system, const Study& study, const TrialObserver& observer,
+               const std::atomic<bool>* cancel)
       : study_(study), observer_(observer), cancel_(cancel), evaluator_(system), scaling_(study) {}
 
   OptimizationResult run() {
@@ -94,10 +95,15 @@ class Minimization {
     const Trial trial = note(evaluation, rho);
     if (observer_ && !observer_(trial)) stop();
     if (!evaluation.status.ok()) return step_back(x, gradient);
-    const std::vector<double> scaled = scaling_.scale_gradient(evaluation.gradient);
-    if (!gradient->empty()) *gradient = scaled;
+    // Quasi-Newton methods begin with a step as long as the gradient: the first shall not leave the neighbourhood in which variables are
+    // scaled.
+    if (trial.evaluation == 1) unit_ = std::max(1.0, trial.gradient_norm);
+    if (!gradient->empty()) {
+      *gradient = scaling_.scale_gradient(evaluation.gradient);
+      for (double& component : *gradient) component /= unit_;
+    }
     worst_ = std::max(worst_, evaluation.objective);
-    return evaluation.objective;
+    return evaluation.objective / unit_;
   }
 
   // NLopt's line searches may end with another reason than the one given here.
@@ -115,9 +121,9 @@ class Minimization {
     for (std::size_t k = 0; k < x.size(); ++k) {
       const double d = x[k] - best[k];
       distance += d * d;
-      if (!gradient->empty()) (*gradient)[k] = 2.0 * weight * d;
+      if (!gradient->empty()) (*gradient)[k] = 2.0 * weight * d / unit_;
     }
-    return worst_ + weight * (1.0 + distance);
+    return (worst_ + weight * (1.0 + distance)) / unit_;
   }
 
   bool feasible(const Eigen::VectorXd& rho) const {
@@ -176,13 +182,14 @@ class Minimization {
   OptimizationResult result_;
   Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"};
   std::string failure_;
-  double worst_ = 0.0;
+  double worst_ = 0.0, unit_ = 1.0;  ///< of the objective: NLopt sees it divided by `unit_`
   bool have_best_ = false, best_feasible_ = false, cancelled_ = false;
 };
 
 }  // namespace
 
-OptimizationResult optimize(const std::shared_ptr<const System>& system, const Study& study, const TrialObserver& observer, const std::atomic<bool>* cancel) {
+OptimizationResult optimize(const std::shared_ptr<const System>& system, const Study& study, const TrialObserver& observer,
+                            const std::atomic<bool>* cancel) {
   if (study.tuned.empty()) throw InputError({{study.file, 0}, "parameters", "nothing to tune", "", "at least one parameter"});
   return Minimization(system, study, observer, cancel).run();
 }

@@ -41,7 +41,15 @@ TEST(NormalForce, PinAndRevoluteByHand) {
 TEST(NormalForce, PinDoesNotSeeATurnAboutItsAxis) {
   const Eigen::Matrix3d R = Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   const Eigen::Vector3d F = R * kF, torque = R * kTorque;
-  EXPECT_NEAR(pin_normal_force<double>(F, torque, geometry<double>()).value, pin_normal_force<double>(kF, kTorque, geometry<double>()).value, 1e-12);
+  EXPECT_NEAR(pin_normal_force<double>(F, torque, geometry<double>()).value,
+              pin_normal_force<double>(kF, kTorque, geometry<double>()).value, 1e-12);
+}
+
+TEST(NormalForce, PlanarAndBallByHand) {
+  EXPECT_NEAR(planar_normal_force<double>(kF, geometry<double>()).value, std::hypot(5.0, 0.01) + 2.0, 1e-12);
+  EXPECT_EQ(planar_normal_force<double>(-kF, geometry<double>()).value, planar_normal_force<double>(kF, geometry<double>()).value);
+  EXPECT_NEAR(ball_normal_force<double>(kF, geometry<double>()).value, std::sqrt(9.0 + 400.0 + 25.0 + 1e-4) + 2.0, 1e-12);
+  EXPECT_NEAR(ball_normal_force<double>(Eigen::Vector3d::Zero(), geometry<double>()).value, 0.01 + 2.0, 1e-15);
 }
 
 template <class Law>
@@ -62,6 +70,8 @@ TEST(NormalForce, GradientsAreExact) {
   expect_gradient([](const auto& F, const auto& t, const auto& c) { return translational_normal_force(F, t, c); });
   expect_gradient([](const auto& F, const auto& t, const auto& c) { return pin_normal_force(F, t, c); });
   expect_gradient([](const auto& F, const auto& t, const auto& c) { return revolute_normal_force(F, t, c); });
+  expect_gradient([](const auto& F, const auto&, const auto& c) { return planar_normal_force(F, c); });
+  expect_gradient([](const auto& F, const auto&, const auto& c) { return ball_normal_force(F, c); });
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ double friction_power(const System& system, Equations<double>* equations, const 
     const FrictionState<double> friction = equations->friction(load.pair, load.element);
     power += friction.load * friction.velocity;
   }
+  for (int pair : system.contacts()) power += equations->contact(pair).power();
   return power;
 }
 
@@ -85,6 +86,26 @@ TEST(Energy, FourBarWithFrictionTakesExactlyItsWork) {
   ASSERT_TRUE(b.status.ok()) << b.status.cause;
   EXPECT_GT(b.friction_work, 0.1);
   EXPECT_NEAR(b.start - b.end, b.friction_work, 1e-6 * b.friction_work);
+}
+
+TEST(Energy, APuckThatSlidesAndTurnsLosesItsFrictionWork) {
+  const Balance b = balance(puck(), motion_study(1.0, "{}", "puck/velocity/x", kFriction));
+  ASSERT_TRUE(b.status.ok()) << b.status.cause;
+  EXPECT_GT(b.friction_work, 0.5);
+  EXPECT_NEAR(b.start - b.end, b.friction_work, 1e-6 * b.friction_work);
+}
+
+TEST(Energy, ABallJointLosesItsFrictionWork) {
+  const Balance b = balance(ball_pendulum(), motion_study(2.0, "{ball_x: {position: 1.0}, ball_z: {velocity: 8.0}}", "ball_x/velocity", kFriction));
+  ASSERT_TRUE(b.status.ok()) << b.status.cause;
+  EXPECT_GT(b.friction_work, 0.1);
+  EXPECT_NEAR(b.start - b.end, b.friction_work, 1e-6 * b.friction_work);
+}
+
+TEST(Energy, ASpringConservesIt) {
+  const Balance b = balance(spring_pendulum(), motion_study(5.0, "{hinge: {position: 0.7}}", "hinge/velocity", kTight));
+  ASSERT_TRUE(b.status.ok()) << b.status.cause;
+  EXPECT_LT(b.largest_drift, 1e-8);
 }
 
 }  // namespace

@@ -78,6 +78,7 @@ TEST(Coordinate, DerivativesOfEveryKindAreExact) {
   expect_exact(Kind::kAngle);
   expect_exact(Kind::kSine);
   expect_exact(Kind::kTurn);
+  expect_exact(Kind::kSpin);
 }
 
 TEST(Coordinate, TurnReadsAnAngleAndItsRate) {
@@ -94,19 +95,31 @@ TEST(Coordinate, TurnReadsAnAngleAndItsRate) {
   EXPECT_NEAR(m.rate, 2.0, 1e-15);
 }
 
+TEST(Coordinate, SpinIsAComponentOfTheRelativeAngularVelocity) {
+  VectorX<double> q = generic(0.2), v = VectorX<double>::Zero(kLocalSize);
+  const Eigen::Vector3d omega_i(0.3, -1.0, 0.7), omega_j(2.0, 0.5, -0.4);
+  for (int first : {3, kBodySize + 3}) q.segment<4>(first).normalize();
+  v.segment<4>(3) = 0.5 * ground_rate_matrix<double>(q.segment<4>(3)).transpose() * omega_i;
+  v.segment<4>(kBodySize + 3) = 0.5 * ground_rate_matrix<double>(q.segment<4>(kBodySize + 3)).transpose() * omega_j;
+  CoordinateConstants<double> c;
+  c.kind = Kind::kSpin;
+  c.a = Eigen::Vector3d(0.6, 0.0, 0.8);
+  const CoordinateMotion<double> m = coordinate_motion(PairConstants<double>(), c, body(q, v, v, 0), body(q, v, v, kBodySize));
+  EXPECT_NEAR(m.rate, c.a.dot(omega_j - omega_i), 1e-14);
+}
+
 TEST(Coordinate, LoadGradientIsTheDerivativeOfJTransposed) {
   using C = std::complex<double>;
   const Eigen::VectorXd q = generic(0.4), zero = Eigen::VectorXd::Zero(kLocalSize);
-  for (Kind kind : {Kind::kTurn, Kind::kSlide}) {
+  for (Kind kind : {Kind::kTurn, Kind::kSlide, Kind::kAngle, Kind::kSine, Kind::kSpin}) {
     LocalMatrix<double> gradient = LocalMatrix<double>::Zero();
-    coordinate_load_gradient(pair<double>(), coordinate<double>(kind, false), body<double>(q, zero, zero, 0), body<double>(q, zero, zero, kBodySize), 1.7,
+    coordinate_load_gradient(pair<double>(), coordinate<double>(kind, false), body<double>(q, zero, zero, 0),
+                             body<double>(q, zero, zero, kBodySize), 1.7,
                              [&gradient](int r, int c, double value) { gradient(r, c) += value; });
     const Eigen::MatrixXd expected = complex_step_jacobian(
-        [&](const Eigen::VectorXcd& z) {
-          return Eigen::VectorXcd(C(1.7) * motion<C>(kind, false, z, zero.cast<C>(), zero.cast<C>()).J);
-        },
+        [&](const Eigen::VectorXcd& z) { return Eigen::VectorXcd(C(1.7) * motion<C>(kind, false, z, zero.cast<C>(), zero.cast<C>()).J); },
         q);
-    EXPECT_LT(compare_jacobians(gradient, expected).largest, 1e-13);
+    EXPECT_LT(compare_jacobians(gradient, expected).largest, 1e-13) << static_cast<int>(kind);
   }
 }
 

@@ -9,13 +9,14 @@ namespace codesign {
 namespace {
 
 std::string heavy(const std::string& name) {
-  return "<link name='" + name + "'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>";
+  return "<link name='" + name +
+         "'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>";
 }
 
 std::string light(const std::string& name) { return "<link name='" + name + "'/>"; }
 
-std::string joint(const std::string& name, const std::string& type, const std::string& parent, const std::string& child, const std::string& axis,
-                  const std::string& xyz = "0 0 0") {
+std::string joint(const std::string& name, const std::string& type, const std::string& parent, const std::string& child,
+                  const std::string& axis, const std::string& xyz = "0 0 0") {
   return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent + "'/><child link='" + child + "'/><origin xyz='" + xyz +
          "'/><axis xyz='" + axis + "'/><limit lower='0' upper='0' effort='1' velocity='1'/></joint>";
 }
@@ -32,8 +33,10 @@ PairKind only_kind(const std::string& content) {
 
 TEST(Topology, FoldsMasslessChains) {
   const std::string two = light("m") + heavy("b"), three = light("m") + light("n") + heavy("b");
-  EXPECT_EQ(only_kind(two + joint("1", "continuous", "ground", "m", "1 0 0") + joint("2", "continuous", "m", "b", "0 1 0")), PairKind::kUniversal);
-  EXPECT_EQ(only_kind(two + joint("1", "prismatic", "ground", "m", "1 0 0") + joint("2", "prismatic", "m", "b", "0 1 0")), PairKind::kTable);
+  EXPECT_EQ(only_kind(two + joint("1", "continuous", "ground", "m", "1 0 0") + joint("2", "continuous", "m", "b", "0 1 0")),
+            PairKind::kUniversal);
+  EXPECT_EQ(only_kind(two + joint("1", "prismatic", "ground", "m", "1 0 0") + joint("2", "prismatic", "m", "b", "0 1 0")),
+            PairKind::kTable);
   EXPECT_EQ(only_kind(two + joint("1", "continuous", "ground", "m", "0 0 1") + joint("2", "prismatic", "m", "b", "0 0 1", "0 0 0.3")),
             PairKind::kCylindrical);
   EXPECT_EQ(only_kind(three + joint("1", "continuous", "ground", "m", "1 0 0") + joint("2", "continuous", "m", "n", "0 1 0") +
@@ -46,10 +49,12 @@ TEST(Topology, FoldsMasslessChains) {
 
 TEST(Topology, RefusesChainsThatAreNoJoint) {
   // Two parallel hinges apart: a massless link of some length.
-  EXPECT_THROW(topology(light("m") + heavy("b") + joint("1", "continuous", "ground", "m", "0 1 0") + joint("2", "continuous", "m", "b", "0 1 0", "1 0 0")),
+  EXPECT_THROW(topology(light("m") + heavy("b") + joint("1", "continuous", "ground", "m", "0 1 0") +
+                        joint("2", "continuous", "m", "b", "0 1 0", "1 0 0")),
                InputError);
   // Hinges that miss each other.
-  EXPECT_THROW(topology(light("m") + heavy("b") + joint("1", "continuous", "ground", "m", "1 0 0") + joint("2", "continuous", "m", "b", "0 1 0", "0 0 0.1")),
+  EXPECT_THROW(topology(light("m") + heavy("b") + joint("1", "continuous", "ground", "m", "1 0 0") +
+                        joint("2", "continuous", "m", "b", "0 1 0", "0 0 0.1")),
                InputError);
   // A massless link that carries two bodies.
   EXPECT_THROW(topology(light("m") + heavy("b") + heavy("c") + joint("1", "continuous", "ground", "m", "1 0 0") +
@@ -57,10 +62,28 @@ TEST(Topology, RefusesChainsThatAreNoJoint) {
                InputError);
 }
 
+TEST(Topology, FrictionOfAFoldedChainIsCheckedAsTheJointThatItFoldsInto) {
+  const auto with_friction = [](std::string text, const std::string& attributes) {
+    const std::size_t end = text.find("</joint>");
+    return text.insert(end, "<codesign:friction mu_static='0.4' mu_dynamic='0.3' " + attributes + "/>");
+  };
+  const std::string table =
+      light("m") + heavy("b") + joint("1", "prismatic", "ground", "m", "1 0 0") + joint("2", "prismatic", "m", "b", "0 1 0");
+  const Topology t = topology(with_friction(table, ""));
+  EXPECT_EQ(t.pairs.at(0).friction_joint, 0);
+  const std::string ball = light("m") + light("n") + heavy("b") + joint("1", "continuous", "ground", "m", "1 0 0") +
+                           joint("2", "continuous", "m", "n", "0 1 0") + joint("3", "continuous", "n", "b", "0 0 1");
+  EXPECT_NO_THROW(topology(with_friction(ball, "pin_radius='0.01'")));
+  EXPECT_THROW(topology(with_friction(ball, "joint_length='0.01'")), InputError);
+  const std::string universal =
+      light("m") + heavy("b") + joint("1", "continuous", "ground", "m", "1 0 0") + joint("2", "continuous", "m", "b", "0 1 0");
+  EXPECT_THROW(topology(with_friction(universal, "joint_length='0.01' pin_radius='0.01'")), InputError);
+}
+
 TEST(Topology, MergesFixedLinksAndLeavesSensorFramesOut) {
-  const Topology t = topology(heavy("a") + heavy("b") + light("camera") + light("finger") + joint("1", "continuous", "ground", "a", "0 1 0") +
-                              joint("2", "fixed", "a", "b", "1 0 0", "0 0 1") + joint("3", "fixed", "b", "camera", "1 0 0") +
-                              joint("4", "continuous", "b", "finger", "1 0 0"));
+  const Topology t = topology(heavy("a") + heavy("b") + light("camera") + light("finger") +
+                              joint("1", "continuous", "ground", "a", "0 1 0") + joint("2", "fixed", "a", "b", "1 0 0", "0 0 1") +
+                              joint("3", "fixed", "b", "camera", "1 0 0") + joint("4", "continuous", "b", "finger", "1 0 0"));
   ASSERT_EQ(t.bodies.size(), 1U);
   EXPECT_EQ(t.bodies[0].name, "a");
   EXPECT_EQ(t.bodies[0].links.size(), 3U);

@@ -20,6 +20,8 @@ enum class SignalKind {
   kJointFriction,
   kJointNormalForce,
   kJointSlidingVelocity,
+  kContactFriction,  ///< of a pair that slips isotropically
+  kContactSpeed,
   kLinkPosition,
   kLinkVelocity,
   kLinkAcceleration,

@@ -4,10 +4,12 @@
 
 #include <vector>
 
+#include "mechanism_codesign/dynamics/contact_friction.h"
 #include "mechanism_codesign/dynamics/sparsity.h"
 #include "mechanism_codesign/dynamics/state.h"
 #include "mechanism_codesign/dynamics/system.h"
 #include "mechanism_codesign/forces/normal_force.h"
+#include "mechanism_codesign/forces/spring_damper.h"
 #include "mechanism_codesign/joints/coordinate.h"
 #include "mechanism_codesign/joints/pair_motion.h"
 #include "mechanism_codesign/model/constants.h"
@@ -63,6 +65,10 @@ class Equations {
   void load(const State<T>& state);
   CoordinateMotion<T> coordinate(int pair, int element, CoordinateDetail detail = CoordinateDetail::kAll) const;
   FrictionState<T> friction(int pair, int element);
+  /// Isotropic friction of a pair among System::contacts().
+  ContactFriction<T> contact(int pair) const;
+  /// The k-th spring-damper of the description.
+  SpringForce<T> spring(std::size_t k) const;
   T effort(int pair, int element);
   T controller_output(int controller, SparseGradient<T>* gradient);
   T controller_error(int controller, SparseGradient<T>* gradient);
@@ -84,6 +90,10 @@ class Equations {
   template <class Sink>
   void assemble_load(const JointLoad& load, Sink* sink);
   template <class Sink>
+  void assemble_contact(int pair, Sink* sink);
+  template <class Sink>
+  void assemble_spring(std::size_t k, Sink* sink);
+  template <class Sink>
   void assemble_states(Sink* sink);
   template <class Sink>
   void assemble_objective(Sink* sink);
@@ -91,6 +101,8 @@ class Equations {
   void pair_residual(std::size_t k, VectorX<T>* G);
   void body_residual(std::size_t b, VectorX<T>* G);
   void load_residual(const JointLoad& load, VectorX<T>* G);
+  void contact_residual(int pair, VectorX<T>* G);
+  void add_spring_load(std::size_t k, const SpringForce<T>& force);
   /// Scalar load along a coordinate, positive against it; its gradient is appended.
   T joint_load(const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient);
   NormalForce<T> normal_force(int pair) const;
@@ -103,9 +115,14 @@ class Equations {
   static typename SparseGradient<T>::Mark mark(const SparseGradient<T>* gradient) {
     return gradient ? gradient->mark() : typename SparseGradient<T>::Mark{0, 0, 0, T(0.0)};
   }
+  bool slip_moves_r(int pair, std::size_t k) const;
+  void append_slip_rate(int pair, const ContactFriction<T>& contact, std::size_t k, const T& factor, SparseGradient<T>* gradient) const;
+  /// Gradient of the load against the k-th slip coordinate.
+  void append_contact_load(int pair, const ContactFriction<T>& contact, std::size_t k, const T& factor, SparseGradient<T>* gradient) const;
   T term_value(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
   T joint_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
   T load_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
+  T contact_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
   T link_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
   T signal_value(const Signal& signal, const T& factor, SparseGradient<T>* gradient);
   T objective_terms(const std::vector<ResolvedTerm>& terms, const std::vector<T>& weights, const std::vector<T>& references,

@@ -25,6 +25,7 @@ class Observer {
   struct JointSource {
     int joint = -1, pair = -1, element = -1;  ///< pair -1: a joint below which nothing has mass
   };
+  static constexpr int kContact = -2;  ///< in place of an element: isotropic friction of the whole pair
   struct FrictionSource {
     int pair = -1, element = -1;
   };
@@ -33,6 +34,7 @@ class Observer {
   void name_frictions();
   void name_links();
   void observe_frictions(Equations<double>* equations, Frame* frame) const;
+  void observe_contact(int index, Equations<double>* equations, FrictionSample* sample) const;
   void observe_controllers(const State<double>& state, Equations<double>* equations, Frame* frame) const;
   void observe_links(const VectorX<double>& theta, Equations<double>* equations, Frame* frame) const;
   void observe_loops(const State<double>& state, Equations<double>* equations, Frame* frame);

@@ -50,6 +50,8 @@ class System {
   const Layout& layout() const { return layout_; }
   const std::vector<Controller>& controllers() const { return controllers_; }
   const std::vector<JointLoad>& loads() const { return loads_; }
+  /// Pairs with isotropic friction.
+  const std::vector<int>& contacts() const { return contacts_; }
   const std::vector<ResolvedTerm>& integral() const { return integral_; }
   const std::vector<ResolvedTerm>& terminal() const { return terminal_; }
 
@@ -61,6 +63,9 @@ class System {
 
   double compliance() const { return compliance_; }
 
+  /// @throws InputError if a signal reads a coordinate that has no closed form (of a joint in a folded chain).
+  void check_readable(const Signal& signal, const SignalDescription& description) const;
+
   /// Start values of all named parameters.
   std::vector<double> parameters() const;
 
@@ -68,6 +73,8 @@ class System {
   void lay_out();
   void resolve_controllers();
   void collect_loads();
+  void find_coordinates();
+  void refuse_load(int pair, int element) const;
   void resolve_objective();
   void record_pattern();
   void refuse_unsupported() const;
@@ -79,6 +86,8 @@ class System {
   double compliance_;
   std::vector<Controller> controllers_;
   std::vector<JointLoad> loads_;
+  std::vector<int> contacts_;
+  std::vector<std::vector<bool>> has_coordinate_;  ///< per pair and chain element
   std::vector<ResolvedTerm> integral_, terminal_;
   ByVariable<Sparsity> patterns_;
   ByVariable<std::vector<int>> slots_;

@@ -13,8 +13,8 @@ namespace codesign {
 /// A normal force with its gradient over the joint's reaction force F'' and torque T'' (on the child, in the joint frame).
 template <class T>
 struct NormalForce {
-  T value{0.0};                         ///< [N]
-  Vector3<T> F = Vector3<T>::Zero();    ///< dN/dF'' [-]
+  T value{0.0};                            ///< [N]
+  Vector3<T> F = Vector3<T>::Zero();       ///< dN/dF'' [-]
   Vector3<T> torque = Vector3<T>::Zero();  ///< dN/dT'' [1/m]
 };
 
@@ -25,8 +25,8 @@ template <class T>
 NormalForce<T> translational_normal_force(const Vector3<T>& F, const Vector3<T>& torque, const FrictionConstants<T>& c) {
   const T ia = T(1.0) / c.joint_length, ib = T(0.5) / c.joint_width;
   const T f1x = -F[0] + ia * torque[1], f1y = -F[1] - ia * torque[0], f2x = -ia * torque[1], f2y = ia * torque[0], f3x = ib * torque[2];
-  const T n1x = smooth_abs(f1x, c.smoothing), n1y = smooth_abs(f1y, c.smoothing), n2x = smooth_abs(f2x, c.smoothing), n2y = smooth_abs(f2y, c.smoothing),
-          n3x = smooth_abs(f3x, c.smoothing);
+  const T n1x = smooth_abs(f1x, c.smoothing), n1y = smooth_abs(f1y, c.smoothing), n2x = smooth_abs(f2x, c.smoothing),
+          n2y = smooth_abs(f2y, c.smoothing), n3x = smooth_abs(f3x, c.smoothing);
   NormalForce<T> N;
   N.value = n1x + n1y + n2x + n2y + T(2.0) * n3x + c.preload;
   N.F[0] = -f1x / n1x;
@@ -64,6 +64,27 @@ NormalForce<T> revolute_normal_force(const Vector3<T>& F, const Vector3<T>& torq
   const T arm = value_of(c.pin_radius) > 0.0 ? T(c.friction_arm / c.pin_radius) : T(1.0);
   N.value += arm * thrust;
   N.F[2] = arm * F[2] / thrust;
+  return N;
+}
+
+/// Planar joint or table, theory (12): N = cabs(F_z) + preload, whatever the sign: the joint holds both ways.
+template <class T>
+NormalForce<T> planar_normal_force(const Vector3<T>& F, const FrictionConstants<T>& c) {
+  const T load = smooth_abs(F[2], c.smoothing);
+  NormalForce<T> N;
+  N.value = load + c.preload;
+  N.F[2] = F[2] / load;
+  return N;
+}
+
+/// Ball of a spherical joint, theory (12): N = sqrt(F.F + eps^2) + preload, the same in all directions.
+template <class T>
+NormalForce<T> ball_normal_force(const Vector3<T>& F, const FrictionConstants<T>& c) {
+  using std::sqrt;
+  const T load = sqrt(dot(F, F) + c.smoothing * c.smoothing);
+  NormalForce<T> N;
+  N.value = load + c.preload;
+  N.F = F / load;
   return N;
 }
 

@@ -24,7 +24,8 @@ namespace internal {
 
 /// N/D-type angle: theta = atan2(N, D) with N, D scalar products; all derivatives by the quotient rule on the unit circle.
 template <class T>
-void angle_motion(const ProductMotion<T>& N, const ProductGradient<T>& Ng, const ProductMotion<T>& D, const ProductGradient<T>& Dg, CoordinateMotion<T>* m) {
+void angle_motion(const ProductMotion<T>& N, const ProductGradient<T>& Ng, const ProductMotion<T>& D, const ProductGradient<T>& Dg,
+                  CoordinateMotion<T>* m) {
   const T square = N.phi * N.phi + D.phi * D.phi;
   const T c = D.phi / square, s = N.phi / square;
   m->position = arc_tangent(N.phi, D.phi);
@@ -60,26 +61,42 @@ Product<T> directions_product(const Vector3<T>& a_i, const Vector3<T>& b_j, cons
   return product(PairVector<T>::direction(Side::kI, a_i), PairVector<T>::direction(Side::kJ, b_j), i, j);
 }
 
-/// Rate about the common axis, 2 u_j . G(p_j) p_j' - 2 u_i . G(p_i) p_i': linear in p, unlike the arc tangent's own derivative.
-template <class T>
-void turn_rate(const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateMotion<T>* m) {
+/// A rate that is linear in p and in p': R(p_j) p_j' . u_j - R(p_i) p_i' . u_i with R(p) r = -R(r) p, so that no arc tangent is
+/// differentiated.
+/// @param rate_matrix p -> G(p) or E(p), @param u_i, u_j carried by the bodies (for G) or fixed in the ground (for E).
+template <class T, class RateMatrix>
+void angular_rate(const RateMatrix& rate_matrix, const Vector3<T>& u_i, const Vector3<T>& u_j, const BodyKinematics<T>& i,
+                  const BodyKinematics<T>& j, CoordinateMotion<T>* m) {
   m->J.setZero();
   m->rate = m->acceleration = T(0.0);
   m->rate_q.setZero();
   m->acceleration_q.setZero();
   m->acceleration_v.setZero();
-  const auto add = [m](Side side, const BodyKinematics<T>& body, const Vector3<T>& u) {
-    const Vector4<T> gradient = body_rate_matrix(body.p).transpose() * u;
+  const auto add = [&](Side side, const BodyKinematics<T>& body, const Vector3<T>& u) {
+    const Vector4<T> gradient = rate_matrix(body.p).transpose() * u;
     m->J.template segment<4>(p_offset(side)) = gradient;
     for (int k = 0; k < 4; ++k) {
       m->rate += gradient[k] * body.pd[k];
       m->acceleration += gradient[k] * body.pdd[k];
     }
-    m->rate_q.template segment<4>(p_offset(side)) = -(body_rate_matrix(body.pd).transpose() * u);
-    m->acceleration_q.template segment<4>(p_offset(side)) = -(body_rate_matrix(body.pdd).transpose() * u);
+    m->rate_q.template segment<4>(p_offset(side)) = -(rate_matrix(body.pd).transpose() * u);
+    m->acceleration_q.template segment<4>(p_offset(side)) = -(rate_matrix(body.pdd).transpose() * u);
   };
-  add(Side::kJ, j, Vector3<T>(T(2.0) * pair.C_j.col(2)));
-  add(Side::kI, i, Vector3<T>(T(-2.0) * pair.C_i.col(2)));
+  add(Side::kJ, j, u_j);
+  add(Side::kI, i, u_i);
+}
+
+/// About the common axis, 2 u_j . G(p_j) p_j' - 2 u_i . G(p_i) p_i'.
+template <class T>
+void turn_rate(const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateMotion<T>* m) {
+  angular_rate<T>([](const Vector4<T>& p) { return body_rate_matrix(p); }, Vector3<T>(T(-2.0) * pair.C_i.col(2)),
+                  Vector3<T>(T(2.0) * pair.C_j.col(2)), i, j, m);
+}
+
+/// About a ground axis, 2 a . (E(p_j) p_j' - E(p_i) p_i').
+template <class T>
+void spin_rate(const Vector3<T>& a, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateMotion<T>* m) {
+  angular_rate<T>([](const Vector4<T>& p) { return ground_rate_matrix(p); }, Vector3<T>(T(-2.0) * a), Vector3<T>(T(2.0) * a), i, j, m);
 }
 
 template <class T>
@@ -125,8 +142,8 @@ PairVector<T> slide_axis(const CoordinateConstants<T>& c) {
 
 /// Evaluates one coordinate of a pair. A turn's position lies in (-pi, pi]; whole turns are counted by the caller.
 template <class T>
-CoordinateMotion<T> coordinate_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
-                                      CoordinateDetail detail = CoordinateDetail::kAll) {
+CoordinateMotion<T> coordinate_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i,
+                                      const BodyKinematics<T>& j, CoordinateDetail detail = CoordinateDetail::kAll) {
   using Kind = typename CoordinateConstants<T>::Kind;
   CoordinateMotion<T> m;
   if (c.kind == Kind::kTurn && detail == CoordinateDetail::kRate) {
@@ -140,12 +157,16 @@ CoordinateMotion<T> coordinate_motion(const PairConstants<T>& pair, const Coordi
     m.rate_q = s.gradient.phid_q;
     m.acceleration_q = s.gradient.phidd_q;
     m.acceleration_v = T(2.0) * s.gradient.phid_q;
+  } else if (c.kind == Kind::kSpin) {
+    internal::spin_rate(c.a, i, j, &m);
   } else if (c.kind == Kind::kSine) {
     internal::sine_motion(internal::directions_product(c.a, c.b, i, j), &m);
   } else if (c.kind != Kind::kNone) {
     const bool turn = c.kind == Kind::kTurn;
-    const auto N = turn ? internal::directions_product<T>(pair.C_i.col(1), pair.C_j.col(0), i, j) : internal::directions_product(c.a, c.b, i, j);
-    const auto D = turn ? internal::directions_product<T>(pair.C_i.col(0), pair.C_j.col(0), i, j) : internal::directions_product(c.c, c.d, i, j);
+    const auto N =
+        turn ? internal::directions_product<T>(pair.C_i.col(1), pair.C_j.col(0), i, j) : internal::directions_product(c.a, c.b, i, j);
+    const auto D =
+        turn ? internal::directions_product<T>(pair.C_i.col(0), pair.C_j.col(0), i, j) : internal::directions_product(c.c, c.d, i, j);
     internal::angle_motion(N.motion, N.gradient, D.motion, D.gradient, &m);
     if (turn) internal::turn_rate(pair, i, j, &m);
   }
@@ -153,26 +174,15 @@ CoordinateMotion<T> coordinate_motion(const PairConstants<T>& pair, const Coordi
   return m;
 }
 
-/// Calls add(row, column, value) with (J^T load)_q. Turns and slides only: loads act on no other coordinate.
+namespace internal {
+
+/// Calls add(row, column, value) with weight (X . Y)_qq.
 template <class T, class Add>
-void coordinate_load_gradient(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
-                              const T& load, const Add& add) {
-  using Kind = typename CoordinateConstants<T>::Kind;
-  const T signed_load = T(c.sign) * load;
-  if (c.kind == Kind::kTurn) {
-    const auto add_turn = [&](Side side, const Vector3<T>& u) {
-      const Matrix4<T> Y = body_rate_hessian<T>(signed_load * u);
-      for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 4; ++column) add(p_offset(side) + row, p_offset(side) + column, Y(row, column));
-    };
-    add_turn(Side::kJ, Vector3<T>(T(2.0) * pair.C_j.col(2)));
-    add_turn(Side::kI, Vector3<T>(T(-2.0) * pair.C_i.col(2)));
-    return;
-  }
-  const PairVector<T> X = slide_axis(c), d = PairVector<T>::displacement(pair.s_i, pair.s_j);
-  product_hessian(X, d, signed_load, i, j, add);
+void add_product_curvature(const PairVector<T>& X, const PairVector<T>& Y, const T& weight, const BodyKinematics<T>& i,
+                           const BodyKinematics<T>& j, const Add& add) {
+  product_hessian(X, Y, weight, i, j, add);
   BodyLoad<T> load_i, load_j;
-  add_product_load(X, d, motion_of(X, i, j), motion_of(d, i, j), signed_load, &load_i, &load_j);
+  add_product_load(X, Y, motion_of(X, i, j), motion_of(Y, i, j), weight, &load_i, &load_j);
   const auto add_turning = [&](Side side, const Matrix3<T>& W) {
     const Matrix4<T> K = rotation_hessian(W);
     for (int row = 0; row < 4; ++row)
@@ -180,6 +190,73 @@ void coordinate_load_gradient(const PairConstants<T>& pair, const CoordinateCons
   };
   add_turning(Side::kI, load_i.W);
   add_turning(Side::kJ, load_j.W);
+}
+
+/// Calls add(row, column, value) with weight (a b^T + b a^T)/2 over the pair's Euler parameters.
+template <class T, class Add>
+void add_outer_product(const LocalRow<T>& a, const LocalRow<T>& b, const T& weight, const Add& add) {
+  const T half = T(0.5) * weight;
+  for (int row = 0; row < kLocalSize; ++row)
+    for (int column = 0; column < kLocalSize; ++column)
+      if (row % kBodySize >= 3 && column % kBodySize >= 3) add(row, column, T(half * (a[row] * b[column] + b[row] * a[column])));
+}
+
+/// theta_qq of theta = atan2(N, D) or asin(N), by the chain rule.
+template <class T, class Add>
+void add_angle_curvature(const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j, const T& load,
+                         const Add& add) {
+  using std::sqrt;
+  const PairVector<T> a = PairVector<T>::direction(Side::kI, c.a), b = PairVector<T>::direction(Side::kJ, c.b);
+  const Product<T> N = product(a, b, i, j);
+  const T n = N.motion.phi;
+  if (c.kind == CoordinateConstants<T>::Kind::kSine) {
+    const T square = T(1.0) - n * n, slope = T(1.0) / sqrt(square);
+    add_product_curvature(a, b, T(load * slope), i, j, add);
+    add_outer_product(N.gradient.phi_q, N.gradient.phi_q, T(load * slope * n / square), add);
+    return;
+  }
+  const PairVector<T> e = PairVector<T>::direction(Side::kI, c.c), f = PairVector<T>::direction(Side::kJ, c.d);
+  const Product<T> D = product(e, f, i, j);
+  const T d = D.motion.phi, square = n * n + d * d, weight = load / square, curvature = weight / square;
+  add_product_curvature(a, b, T(weight * d), i, j, add);
+  add_product_curvature(e, f, T(-weight * n), i, j, add);
+  add_outer_product(N.gradient.phi_q, N.gradient.phi_q, T(T(-2.0) * curvature * n * d), add);
+  add_outer_product(D.gradient.phi_q, D.gradient.phi_q, T(T(2.0) * curvature * n * d), add);
+  add_outer_product(N.gradient.phi_q, D.gradient.phi_q, T(T(2.0) * curvature * (n * n - d * d)), add);
+}
+
+}  // namespace internal
+
+/// Calls add(row, column, value) with (J^T load)_q.
+template <class T, class Add>
+void coordinate_load_gradient(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i,
+                              const BodyKinematics<T>& j, const T& load, const Add& add) {
+  using Kind = typename CoordinateConstants<T>::Kind;
+  const T signed_load = T(c.sign) * load;
+  const auto add_block = [&add](Side side, const Matrix4<T>& block) {
+    for (int row = 0; row < 4; ++row)
+      for (int column = 0; column < 4; ++column) add(p_offset(side) + row, p_offset(side) + column, block(row, column));
+  };
+  const T twice = T(2.0) * signed_load;
+  switch (c.kind) {
+    case Kind::kTurn:
+      add_block(Side::kJ, body_rate_hessian<T>(twice * pair.C_j.col(2)));
+      add_block(Side::kI, body_rate_hessian<T>(-twice * pair.C_i.col(2)));
+      return;
+    case Kind::kSpin:
+      add_block(Side::kJ, ground_rate_hessian<T>(twice * c.a));
+      add_block(Side::kI, ground_rate_hessian<T>(-twice * c.a));
+      return;
+    case Kind::kSlide:
+      internal::add_product_curvature(slide_axis(c), PairVector<T>::displacement(pair.s_i, pair.s_j), signed_load, i, j, add);
+      return;
+    case Kind::kAngle:
+    case Kind::kSine:
+      internal::add_angle_curvature(c, i, j, signed_load, add);
+      return;
+    case Kind::kNone:
+      return;
+  }
 }
 
 }  // namespace codesign

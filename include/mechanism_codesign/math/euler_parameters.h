@@ -8,8 +8,8 @@
 
 namespace codesign {
 
-// Euler parameters p = [e0, e] of a body-fixed frame, as in Haug (1989) and the paper's nomenclature. Every form below is homogeneous in p, so
-// its derivatives hold off the unit sphere too, and second derivatives are constant matrices. doc/theory.md (1)-(4).
+// Euler parameters p = [e0, e] of a body-fixed frame, as in Haug (1989) and the paper's nomenclature. Every form below is homogeneous in p,
+// so its derivatives hold off the unit sphere too, and second derivatives are constant matrices. doc/theory.md (1)-(4).
 
 /// Rotation matrix A(p) = (e0^2 - e.e) I + 2 e e^T + 2 e0 e~, body to ground; theory (1). Orthogonal only for |p| = 1.
 template <class T>
@@ -99,6 +99,17 @@ Matrix4<T> body_rate_hessian(const Vector3<T>& y) {
   return Y;
 }
 
+/// Z(y) with E(p)^T y = Z(y) p; theory (4).
+template <class T>
+Matrix4<T> ground_rate_hessian(const Vector3<T>& y) {
+  Matrix4<T> Z;
+  Z << T(0.0), -y[0], -y[1], -y[2],  //
+      y[0], T(0.0), -y[2], y[1],     //
+      y[1], y[2], T(0.0), -y[0],     //
+      y[2], -y[1], y[0], T(0.0);
+  return Z;
+}
+
 /// Quaternion product p (x) r: rotation(p (x) r) = rotation(p) rotation(r).
 template <class T>
 Vector4<T> quaternion_product(const Vector4<T>& p, const Vector4<T>& r) {
@@ -125,10 +136,18 @@ Vector4<T> euler_parameters(const Matrix3<T>& A) {
   const T u = A(1, 0) + A(0, 1), v = A(0, 2) + A(2, 0), w = A(2, 1) + A(1, 2);
   Vector4<T> p;
   switch (largest) {
-    case 0: p << T(0.5) * root, f * a, f * b, f * c; break;
-    case 1: p << f * a, T(0.5) * root, f * u, f * v; break;
-    case 2: p << f * b, f * u, T(0.5) * root, f * w; break;
-    default: p << f * c, f * v, f * w, T(0.5) * root; break;
+    case 0:
+      p << T(0.5) * root, f * a, f * b, f * c;
+      break;
+    case 1:
+      p << f * a, T(0.5) * root, f * u, f * v;
+      break;
+    case 2:
+      p << f * b, f * u, T(0.5) * root, f * w;
+      break;
+    default:
+      p << f * c, f * v, f * w, T(0.5) * root;
+      break;
   }
   return p;
 }

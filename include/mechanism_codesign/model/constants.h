@@ -15,9 +15,9 @@ namespace codesign {
 /// Mass properties of a body, and where its base link lies. The body frame has the base link's axes and its origin at the centre of mass.
 template <class T>
 struct BodyConstants {
-  T mass{0.0};                                    ///< [kg]
-  Matrix3<T> J = Matrix3<T>::Zero();              ///< about the centre of mass, in body axes [kg m^2]
-  Vector3<T> centre = Vector3<T>::Zero();         ///< of mass, in the base link [m]
+  T mass{0.0};                             ///< [kg]
+  Matrix3<T> J = Matrix3<T>::Zero();       ///< about the centre of mass, in body axes [kg m^2]
+  Vector3<T> centre = Vector3<T>::Zero();  ///< of mass, in the base link [m]
 };
 
 /// How one URDF joint of a pair is read off the bodies' coordinates.
@@ -28,19 +28,28 @@ struct CoordinateConstants {
     kTurn,   ///< about the common z axis: sign atan2(y_i . x_j, x_i . x_j)
     kSlide,  ///< sign a . d with a fixed in `side`
     kAngle,  ///< sign atan2(a_i . b_j, c_i . d_j)
-    kSine    ///< sign asin(a_i . b_j)
+    kSine,   ///< sign asin(a_i . b_j)
+    kSpin    ///< a rate only: a . (omega_j - omega_i), a fixed in the ground
   };
   Kind kind = Kind::kNone;
   double sign = 1.0;
-  bool fixed_in_j = false;                        ///< kSlide: a is carried by j
+  bool fixed_in_j = false;  ///< kSlide: a is carried by j
   Vector3<T> a = Vector3<T>::Zero(), b = Vector3<T>::Zero(), c = Vector3<T>::Zero(), d = Vector3<T>::Zero();
+};
+
+/// How a contact may slip in several directions at once: its components, and the arm that makes a slip velocity of each rate; theory (13a).
+template <class T>
+struct SlipConstants {
+  std::vector<CoordinateConstants<T>> coordinates;   ///< empty, two (table) or three (planar, spherical)
+  std::array<T, 3> arm{T(1.0), T(1.0), T(1.0)};      ///< 1 for a slide, r_e [m] for a turn
+  std::array<T, 3> viscous{T(0.0), T(0.0), T(0.0)};  ///< load per rate
 };
 
 /// Friction coefficients and joint geometry; SI units, see FrictionDescription.
 template <class T>
 struct FrictionConstants {
-  T mu_static{0.0}, mu_dynamic{0.0}, transition_velocity{1.0}, joint_length{1.0}, joint_width{1.0}, pin_radius{0.0}, friction_arm{0.0}, preload{0.0},
-      smoothing{1.0}, viscous{0.0};
+  T mu_static{0.0}, mu_dynamic{0.0}, transition_velocity{1.0}, joint_length{1.0}, joint_width{1.0}, pin_radius{0.0}, friction_arm{0.0},
+      preload{0.0}, smoothing{1.0}, viscous{0.0};
 };
 
 /// URDF's `<dynamics>` and our torsion spring on one joint.
@@ -52,13 +61,15 @@ struct JointDynamicsConstants {
 /// Geometry of a kinematic pair in body coordinates.
 template <class T>
 struct PairConstants {
-  Vector3<T> s_i = Vector3<T>::Zero(), s_j = Vector3<T>::Zero();          ///< joint point on each body [m]
-  Matrix3<T> C_i = Matrix3<T>::Identity(), C_j = Matrix3<T>::Identity();  ///< joint axes x'', y'', z'' on each body, aligned at zero position
-  T cosine{0.0};                                                          ///< universal: z_i . z_j
-  T distance{0.0};                                                        ///< kDistance [m]
+  Vector3<T> s_i = Vector3<T>::Zero(), s_j = Vector3<T>::Zero();  ///< joint point on each body [m]
+  Matrix3<T> C_i = Matrix3<T>::Identity(),
+             C_j = Matrix3<T>::Identity();  ///< joint axes x'', y'', z'' on each body, aligned at zero position
+  T cosine{0.0};                            ///< universal: z_i . z_j
+  T distance{0.0};                          ///< kDistance [m]
   FrictionConstants<T> friction;
-  std::vector<CoordinateConstants<T>> coordinates;                        ///< per chain element; of one cylindrical loop: turn, slide
-  std::vector<JointDynamicsConstants<T>> dynamics;                        ///< as `coordinates`
+  SlipConstants<T> slip;                            ///< of isotropic friction
+  std::vector<CoordinateConstants<T>> coordinates;  ///< per chain element; of one cylindrical loop: turn, slide
+  std::vector<JointDynamicsConstants<T>> dynamics;  ///< as `coordinates`
 };
 
 /// Where a link frame lies in its body (or in the ground).

@@ -47,6 +47,12 @@ struct Pair {
   bool is_loop = false;             ///< a loop is part of the chain
 };
 
+/// Whether the friction of such a pair acts in all directions of its slip by one law, instead of along each coordinate; doc/theory.md
+/// (13a).
+constexpr bool slips_isotropically(PairKind kind) {
+  return kind == PairKind::kTable || kind == PairKind::kPlanar || kind == PairKind::kSpherical;
+}
+
 /// What a mechanism consists of, derived from its description; immutable.
 struct Topology {
   static constexpr int kGround = -1;

@@ -1,0 +1,87 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_DYNAMICS_EQUATIONS_FIXTURE_H_
+#define MECHANISM_CODESIGN_TEST_DYNAMICS_EQUATIONS_FIXTURE_H_
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "mechanism_codesign/dynamics/equations.h"
+#include "mechanism_codesign/math/derivative_check.h"
+#include "mechanism_codesign/model/study_reader.h"
+#include "mechanism_codesign/model/urdf_reader.h"
+
+namespace codesign {
+
+/// The equations of a mechanism at a generic state, with a complex twin that differentiates them.
+class EquationsFixture {
+ public:
+  EquationsFixture(const std::string& urdf, const std::string& study)
+      : robot(read_urdf({"all.urdf", urdf})), system(robot, read_study({"all.yaml", study}, robot)), real(system), complex(system) {
+    const std::vector<double> parameters = system.parameters();
+    real.set_design(parameters);
+    complex.set_design(std::vector<std::complex<double>>(parameters.begin(), parameters.end()));
+    state.resize(system.layout());
+    // Any point will do; the formulas hold off the constraints too.
+    const auto fill = [](VectorX<double>* x, double phase) {
+      for (Eigen::Index k = 0; k < x->size(); ++k) (*x)[k] = std::sin(1.7 * static_cast<double>(k) + phase);
+    };
+    fill(&state.q, 0.3);
+    fill(&state.v, 1.1);
+    fill(&state.s, 2.0);
+    fill(&state.z, 0.7);
+    for (int b = 0; b < system.layout().bodies; ++b) state.q.segment<4>(kBodySize * b + 3).normalize();
+  }
+
+  /// [G; g] as a function of one of the state's vectors.
+  Eigen::MatrixXd reference(VectorX<std::complex<double>> State<std::complex<double>>::*member, const VectorX<double>& at) {
+    State<std::complex<double>> point;
+    point.q = state.q;
+    point.v = state.v;
+    point.s = state.s;
+    point.z = state.z;
+    return complex_step_jacobian(
+        [&](const Eigen::VectorXcd& x) {
+          point.*member = x;
+          VectorX<std::complex<double>> G;
+          std::complex<double> g;
+          complex.residual(point, &G, &g);
+          Eigen::VectorXcd all(G.size() + 1);
+          all << G, g;
+          return all;
+        },
+        at);
+  }
+
+  static Eigen::MatrixXd dense(const Sparsity& pattern, const std::vector<double>& values) {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(pattern.rows, pattern.columns);
+    for (int row = 0; row < pattern.rows; ++row)
+      for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
+        matrix(row, pattern.column(e)) = values[static_cast<std::size_t>(e)];
+    return matrix;
+  }
+
+  /// All derivatives at `state` against the complex step.
+  void expect_exact_derivatives(double tolerance) {
+    using S = State<std::complex<double>>;
+    Linearization<double> d;
+    d.resize(system.patterns());
+    real.linearize(state, &d);
+    const Layout& layout = system.layout();
+    const Eigen::MatrixXd by_position = dense(system.patterns().position, d.position);
+    EXPECT_LT(compare_jacobians(by_position.leftCols(layout.n), reference(&S::q, state.q)).largest, tolerance);
+    if (layout.states > 0) EXPECT_LT(compare_jacobians(by_position.rightCols(layout.states), reference(&S::s, state.s)).largest, tolerance);
+    EXPECT_LT(compare_jacobians(dense(system.patterns().velocity, d.velocity), reference(&S::v, state.v)).largest, tolerance);
+    EXPECT_LT(compare_jacobians(dense(system.patterns().rate, d.rate), reference(&S::z, state.z)).largest, tolerance);
+  }
+
+  RobotDescription robot;
+  System system;
+  Equations<double> real;
+  Equations<std::complex<double>> complex;
+  State<double> state;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_TEST_DYNAMICS_EQUATIONS_FIXTURE_H_

@@ -1,0 +1,89 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_SYSTEM_SHIPPED_H_
+#define MECHANISM_CODESIGN_TEST_SYSTEM_SHIPPED_H_
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mechanism_codesign/integration/simulation.h"
+#include "mechanism_codesign/model/study_reader.h"
+#include "mechanism_codesign/model/urdf_reader.h"
+#include "mechanism_codesign/sensitivity/evaluation.h"
+
+namespace codesign {
+
+/// A shipped case: urdf/NAME.urdf with config/NAME.yaml.
+struct Shipped {
+  explicit Shipped(const std::string& name) {
+    const std::string root = CODESIGN_SOURCE_DIR;
+    robot = read_urdf(read_source(root + "/urdf/" + name + ".urdf"));
+    study = read_study(read_source(root + "/config/" + name + ".yaml"), robot);
+  }
+
+  std::vector<double> parameters() const {
+    std::vector<double> values;
+    for (const Parameter& parameter : study.parameters) values.push_back(parameter.value);
+    return values;
+  }
+  Eigen::VectorXd start() const {
+    Eigen::VectorXd rho(static_cast<Eigen::Index>(study.tuned.size()));
+    for (std::size_t k = 0; k < study.tuned.size(); ++k)
+      rho[static_cast<Eigen::Index>(k)] = study.parameters[static_cast<std::size_t>(study.tuned[k])].value;
+    return rho;
+  }
+
+  RobotDescription robot;
+  Study study;
+};
+
+/// Counts of the paper's table.
+inline void expect_counts(const Shipped& shipped, const std::vector<int>& table) {
+  Status status;
+  const Counts c = count_equations(make_system(shipped.robot, shipped.study), shipped.parameters(), &status);
+  ASSERT_TRUE(status.ok()) << status.cause;
+  EXPECT_EQ((std::vector<int>{c.coordinates, c.first_order_equations, c.degrees_of_freedom, c.constraints, c.dynamic_equations,
+                              c.parameters, c.sensitivities, c.total_equations}),
+            table);
+  EXPECT_EQ(c.redundant_constraints, 0);
+}
+
+/// Objective and gradient within relative tolerances of those given.
+inline void expect_reference(const Shipped& shipped, double objective, double tolerance, const std::vector<double>& gradient,
+                             double gradient_tolerance) {
+  const Evaluation evaluation = Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), true);
+  ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
+  EXPECT_NEAR(evaluation.objective / objective, 1.0, tolerance);
+  ASSERT_EQ(static_cast<std::size_t>(evaluation.gradient.size()), gradient.size());
+  for (std::size_t k = 0; k < gradient.size(); ++k)
+    EXPECT_NEAR(evaluation.gradient[static_cast<Eigen::Index>(k)] / gradient[k], 1.0, gradient_tolerance) << k;
+}
+
+/// A signal at a quarter, half, three quarters and all of the study's duration, and its range over the whole run.
+struct SignalPoints {
+  std::string signal;
+  std::vector<double> values;
+  double range;
+};
+
+/// Every signal within 1e-5 of its range.
+inline void expect_series(const Shipped& shipped, const std::vector<SignalPoints>& expected) {
+  std::vector<SignalDescription> signals;
+  for (const SignalPoints& points : expected) signals.push_back(parse_signal(points.signal, {"test", 0}, "signal"));
+  Simulation simulation(make_system(shipped.robot, shipped.study), shipped.parameters(), signals);
+  std::size_t at = 0;
+  const Status status = simulate(&simulation, shipped.study.duration, 5, [&](const Frame& frame) {
+    for (std::size_t k = 0; at > 0 && k < expected.size(); ++k)
+      EXPECT_NEAR(frame.signals[k], expected[k].values.at(at - 1), 1e-5 * expected[k].range) << expected[k].signal << " at " << frame.time;
+    ++at;
+    return true;
+  });
+  EXPECT_TRUE(status.ok()) << status.cause;
+  EXPECT_EQ(at, 5U);
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_TEST_SYSTEM_SHIPPED_H_
