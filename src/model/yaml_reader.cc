@@ -136,6 +136,12 @@ int YamlValue::integer() const {
   return static_cast<int>(value);
 }
 
+bool YamlValue::boolean() const {
+  bool value = false;
+  if (!YAML::convert<bool>::decode(node_, value)) fail("not a truth value", "true or false");
+  return value;
+}
+
 std::string YamlValue::choice(const std::string& kind, const std::vector<std::string>& allowed) const {
   std::string name = text();
   if (!contains(allowed, name)) throw unknown_name(where(), path_, kind, name, allowed);

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <future>
 #include <sstream>
+#include <utility>
 
 #include "mechanism_codesign/model/error.h"
 #include "mechanism_codesign/ros/inputs.h"
@@ -51,7 +52,9 @@ void OptimizationNode::load() {
     options_.rate = read_positive(private_node_, "rate", options_.rate);
     const Inputs inputs = read_inputs(node_, private_node_);
     study_ = inputs.study.text;
-    problem_ = load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings);
+    Problem problem = load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings);
+    require_every_parameter(inputs, problem.robot);
+    problem_ = std::move(problem);
     state_.show("robot", problem_->robot.name);
     state_.show("output directory", options_.output_directory);
     state_.set(NodeState::Level::kOk,
