@@ -12,12 +12,15 @@ namespace {
 struct Fixture {
   RobotDescription robot = read_urdf(robot_text(
       kGround + link_with("fork", "") + link_with("arm") + link_with("camera", "") + link_with("finger", "") +
-      joint_with("yaw", "continuous", "ground", "fork", "<axis xyz='0 0 1'/>") + joint_with("pitch", "continuous", "fork", "arm", "<axis xyz='0 1 0'/>") +
+      joint_with("yaw", "continuous", "ground", "fork", "<axis xyz='0 0 1'/>") +
+      joint_with("pitch", "continuous", "fork", "arm", "<axis xyz='0 1 0'/>") +
       joint_with("mount", "fixed", "arm", "camera", "<origin xyz='0 0 1'/>") + joint_with("grip", "continuous", "arm", "finger")));
   Topology topology = derive_topology(robot);
   std::vector<ControllerDescription> controllers = {{"hold", "pid", {}, 0.0, "pitch", 1.0, 0.0, 0.0, {}}};
 
-  Signal resolve(const std::string& text) const { return resolve_signal(parse_signal(text, {"s.yaml", 4}, "signal"), robot, topology, controllers); }
+  Signal resolve(const std::string& text) const {
+    return resolve_signal(parse_signal(text, {"s.yaml", 4}, "signal"), robot, topology, controllers);
+  }
   Signal rate(const std::string& text) const {
     const SignalDescription description = parse_signal(text, {"s.yaml", 4}, "signal");
     return differentiate(resolve_signal(description, robot, topology, controllers), description, "controllers.hold.input");

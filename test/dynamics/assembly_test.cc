@@ -15,8 +15,9 @@ constexpr double kCompliance = 1e-9;
 
 /// Two links of length 1 hinged to the ground 1.2 apart; their tips meet in a loop. `length` is that of the right one.
 std::string triangle(const std::string& distance = "1.2") {
-  return "<robot name='t' xmlns:codesign='urn:t'><codesign:parameter name='length' value='1' lower='0.5' upper='2'/><link name='ground'/>" + bar("left") +
-         bar("right") + hinge("left_hinge", "ground", "left", "0 0 0") + hinge("right_hinge", "ground", "right", distance + " 0 0") +
+  return "<robot name='t' xmlns:codesign='urn:t'><codesign:parameter name='length' value='1' lower='0.5' upper='2'/><link name='ground'/>" +
+         bar("left") + bar("right") + hinge("left_hinge", "ground", "left", "0 0 0") +
+         hinge("right_hinge", "ground", "right", distance + " 0 0") +
          "<loop name='tip' type='continuous'><predecessor link='left'><origin xyz='0 0 -1'/></predecessor>"
          "<successor link='right'><origin xyz='0 0 -1' codesign:xyz='0 0 ${-length}'/></successor><axis xyz='0 1 0'/></loop></robot>";
 }
@@ -39,7 +40,8 @@ TEST(Assembly, AGuessChoosesTheBranch) {
   const double below = std::asin(0.6), above = 3.141592653589793 - below;
   for (double angle : {below, above}) {
     const std::string guess = angle == below ? "0.5" : "2.6";
-    Compiled c(triangle(), let_go("{left_hinge: {guess: -" + guess + "}, right_hinge: {guess: " + guess + "}}", "left_hinge/velocity"), kCompliance);
+    Compiled c(triangle(), let_go("{left_hinge: {guess: -" + guess + "}, right_hinge: {guess: " + guess + "}}", "left_hinge/velocity"),
+               kCompliance);
     ASSERT_TRUE(c.start().ok());
     EXPECT_NEAR(c.assembly.theta()[0], -angle, 1e-12);
     EXPECT_NEAR(c.assembly.theta()[1], angle, 1e-12);
@@ -55,7 +57,8 @@ TEST(Assembly, ALoopThatCannotBeClosedIsAStatusThatNamesIt) {
 }
 
 TEST(Assembly, VelocitiesThatContradictEachOtherAreAStatus) {
-  Compiled c(four_bar(), let_go("{left_hinge: {position: 0.6, velocity: 1.0}, right_hinge: {velocity: 2.0}, left_pin: {velocity: 0.0}}", "left_hinge/velocity"));
+  Compiled c(four_bar(), let_go("{left_hinge: {position: 0.6, velocity: 1.0}, right_hinge: {velocity: 2.0}, left_pin: {velocity: 0.0}}",
+                                "left_hinge/velocity"));
   EXPECT_EQ(c.start().code, StatusCode::kInitialVelocityFailed);
 }
 

@@ -19,7 +19,8 @@ struct Compiled {
   State<double> state;
 
   /// @param compliance of the constraints, see System; planar loops need some.
-  Compiled(const std::string& urdf, const std::string& study, double compliance = 0.0) : Compiled(read_urdf({"test.urdf", urdf}), study, compliance) {}
+  Compiled(const std::string& urdf, const std::string& study, double compliance = 0.0)
+      : Compiled(read_urdf({"test.urdf", urdf}), study, compliance) {}
   Compiled(const RobotDescription& robot, const std::string& study, double compliance)
       : system(robot, read_study({"test.yaml", study}, robot), compliance), equations(system), assembly(system) {}
 

@@ -26,8 +26,9 @@ struct Observed {
 const std::string kSwing = "{hinge: {position: 0.4, velocity: 3.0}}";
 
 TEST(Observer, ReadsAJointAndItsEffort) {
-  const Observed o(pendulum(), let_go(kSwing, "hinge/velocity",
-                                      "controllers: {hold: {type: pid, input: hinge/position, setpoint: 1.0, output: hinge, gains: {p: 5.0}}}\n"),
+  const Observed o(pendulum(),
+                   let_go(kSwing, "hinge/velocity",
+                          "controllers: {hold: {type: pid, input: hinge/position, setpoint: 1.0, output: hinge, gains: {p: 5.0}}}\n"),
                    {parse_signal("hinge/velocity - hold/error", {}, "signal")});
   EXPECT_EQ(o.observer.names().joints, std::vector<std::string>{"hinge"});
   const JointSample& joint = o.frame.joints.at(0);
@@ -74,7 +75,8 @@ TEST(Observer, LinksAndLoopJointsAreSeenToo) {
 }
 
 TEST(Observer, AJointThatMovesNoMassStaysWhereItStarted) {
-  const std::string urdf = robot(bar("bar") + hinge("hinge", "ground", "bar", "0 0 0") + "<link name='finger'/>" + hinge("grip", "bar", "finger", "0 0 -1"));
+  const std::string urdf =
+      robot(bar("bar") + hinge("hinge", "ground", "bar", "0 0 0") + "<link name='finger'/>" + hinge("grip", "bar", "finger", "0 0 -1"));
   const Observed o(urdf, let_go("{hinge: {position: 0.4}, grip: {position: 0.3}}", "hinge/velocity"));
   EXPECT_EQ(o.observer.names().joints, (std::vector<std::string>{"hinge", "grip"}));
   EXPECT_EQ(o.frame.joints.at(1).position, 0.3);

@@ -15,8 +15,8 @@ System compile(const std::string& urdf, const std::string& study) {
 
 /// A hinged bar with a controller of these gains; `objective` is the list of integral terms.
 System controlled(const std::string& gains, const std::string& input, const std::string& objective) {
-  return compile(pendulum(), "duration: 1.0\ncontrollers: {hold: {type: pid, input: " + input + ", setpoint: 0.0, output: hinge, gains: " + gains +
-                                 "}}\nobjective: {integral: " + objective + "}\n");
+  return compile(pendulum(), "duration: 1.0\ncontrollers: {hold: {type: pid, input: " + input +
+                                 ", setpoint: 0.0, output: hinge, gains: " + gains + "}}\nobjective: {integral: " + objective + "}\n");
 }
 
 const std::string kSwing = "[{signal: hinge/velocity}]";

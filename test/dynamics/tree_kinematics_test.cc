@@ -17,13 +17,13 @@ using C = std::complex<double>;
 
 /// Every kind of tree joint one after the other, written in the wrong order.
 const RobotDescription& robot() {
-  static const RobotDescription robot = read_urdf(robot_text(
-      kGround + link_with("e") + link_with("d") + link_with("c") + link_with("b") + link_with("a") +
-      joint_with("floating", "floating", "d", "e", "<origin xyz='0.1 0 0'/>") +
-      joint_with("planar", "planar", "c", "d", "<origin xyz='0 0.1 0'/><axis xyz='0 0 1'/>") +
-      joint_with("fixed", "fixed", "b", "c", "<origin xyz='0 0 0.2' codesign:xyz='0 0 ${length}' rpy='0.3 0 0'/>") +
-      joint_with("slide", "prismatic", "a", "b", "<axis xyz='0 2 0'/><limit effort='1' velocity='1'/>") +
-      joint_with("hinge", "continuous", "ground", "a", "<origin xyz='1 0 0'/><axis xyz='0 0 1'/>")));
+  static const RobotDescription robot =
+      read_urdf(robot_text(kGround + link_with("e") + link_with("d") + link_with("c") + link_with("b") + link_with("a") +
+                           joint_with("floating", "floating", "d", "e", "<origin xyz='0.1 0 0'/>") +
+                           joint_with("planar", "planar", "c", "d", "<origin xyz='0 0.1 0'/><axis xyz='0 0 1'/>") +
+                           joint_with("fixed", "fixed", "b", "c", "<origin xyz='0 0 0.2' codesign:xyz='0 0 ${length}' rpy='0.3 0 0'/>") +
+                           joint_with("slide", "prismatic", "a", "b", "<axis xyz='0 2 0'/><limit effort='1' velocity='1'/>") +
+                           joint_with("hinge", "continuous", "ground", "a", "<origin xyz='1 0 0'/><axis xyz='0 0 1'/>")));
   return robot;
 }
 
@@ -78,7 +78,8 @@ TEST(LinkMotions, VelocitiesAreTheDerivativesOfThePoses) {
 TEST(BodyCoordinates, AreThoseOfTheCentreOfMass) {
   Compiled bar(pendulum(), let_go("{hinge: {position: 0.4}}", "hinge/velocity"));
   bar.equations.set_design({});
-  const auto links = link_motions<double>(bar.system.robot(), TreeLayout(bar.system.robot()), {}, Eigen::VectorXd::Constant(1, 0.4), Eigen::VectorXd::Constant(1, 3.0));
+  const auto links = link_motions<double>(bar.system.robot(), TreeLayout(bar.system.robot()), {}, Eigen::VectorXd::Constant(1, 0.4),
+                                          Eigen::VectorXd::Constant(1, 3.0));
   Eigen::VectorXd q, v;
   body_coordinates(bar.system, bar.equations.constants(), links, &q, &v);
   EXPECT_LT((q.head<3>() - 0.5 * Eigen::Vector3d(-std::sin(0.4), 0.0, -std::cos(0.4))).norm(), 1e-15);

@@ -10,10 +10,10 @@ namespace {
 
 /// ground - yaw (z, at height 1) - massless fork - pitch (y, 0.5 further up, turned about z by a right angle) - arm.
 const RobotDescription& robot() {
-  static const RobotDescription robot =
-      read_urdf(robot_text(kGround + link_with("fork", "") + link_with("arm") +
-                           joint_with("yaw", "continuous", "ground", "fork", "<origin xyz='0 0 1'/><axis xyz='0 0 1'/>") +
-                           joint_with("pitch", "continuous", "fork", "arm", "<origin xyz='0 0 0.5' rpy='0 0 1.5707963267948966'/><axis xyz='0 2 0'/>")));
+  static const RobotDescription robot = read_urdf(robot_text(
+      kGround + link_with("fork", "") + link_with("arm") +
+      joint_with("yaw", "continuous", "ground", "fork", "<origin xyz='0 0 1'/><axis xyz='0 0 1'/>") +
+      joint_with("pitch", "continuous", "fork", "arm", "<origin xyz='0 0 0.5' rpy='0 0 1.5707963267948966'/><axis xyz='0 2 0'/>")));
   return robot;
 }
 

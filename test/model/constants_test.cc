@@ -22,12 +22,14 @@ struct Mechanism {
 };
 
 std::string ball(const std::string& name, const std::string& mass, const std::string& twin = "") {
-  return link_with(name, "<inertial><mass value='" + mass + "' " + twin + "/><inertia ixx='0.1' ixy='0' ixz='0' iyy='0.1' iyz='0' izz='0.1'/></inertial>");
+  return link_with(name, "<inertial><mass value='" + mass + "' " + twin +
+                             "/><inertia ixx='0.1' ixy='0' ixz='0' iyy='0.1' iyz='0' izz='0.1'/></inertial>");
 }
 
 /// Two balls of 1 and 3 kg, fixed to each other at the distance `length` along x.
 Mechanism dumbbell() {
-  return Mechanism(ball("near", "1") + ball("far", "3") + joint_with("hinge", "continuous", "ground", "near", "<origin xyz='0 0 1'/><axis xyz='0 0 1'/>") +
+  return Mechanism(ball("near", "1") + ball("far", "3") +
+                   joint_with("hinge", "continuous", "ground", "near", "<origin xyz='0 0 1'/><axis xyz='0 0 1'/>") +
                    joint_with("bar", "fixed", "near", "far", "<origin xyz='0.2 0 0' codesign:xyz='${length} 0 0'/>"));
 }
 
@@ -84,10 +86,12 @@ TEST(FindImpossible, ADesignMayBeImpossibleThoughTheDefaultIsNot) {
 }
 
 TEST(FindImpossible, NamesTheJointOfABadFriction) {
-  Mechanism mechanism(link_with("arm") +
-                      joint_with("hinge", "continuous", "ground", "arm",
-                                 "<axis xyz='0 1 0'/><codesign:friction mu_static='0.3' mu_dynamic='0.2' codesign:mu_dynamic='${length}' joint_length='0.1' "
-                                 "pin_radius='0.01'/>"));
+  Mechanism mechanism(
+      link_with("arm") +
+      joint_with(
+          "hinge", "continuous", "ground", "arm",
+          "<axis xyz='0 1 0'/><codesign:friction mu_static='0.3' mu_dynamic='0.2' codesign:mu_dynamic='${length}' joint_length='0.1' "
+          "pin_radius='0.01'/>"));
   const auto verdict = [&](double length) { return find_impossible(mechanism.robot, mechanism.topology, mechanism.at(length)); };
   EXPECT_EQ(verdict(0.25), "");
   EXPECT_NE(verdict(0.35).find("joint 'hinge'"), std::string::npos) << "mu_dynamic above mu_static";

@@ -22,8 +22,8 @@ PairKind fold(const std::vector<Element>& elements) {
     const bool last = k + 1 == elements.size();
     const std::string parent = k == 0 ? "ground" : "m" + std::to_string(k - 1), child = last ? "arm" : "m" + std::to_string(k);
     text += link_with(child, last ? kInertial : "") + joint_with("j" + std::to_string(k), elements[k].type, parent, child,
-                                                                 "<origin xyz='" + std::string(elements[k].xyz) + "'/><axis xyz='" + elements[k].axis +
-                                                                     "'/><limit effort='1' velocity='1'/>");
+                                                                 "<origin xyz='" + std::string(elements[k].xyz) + "'/><axis xyz='" +
+                                                                     elements[k].axis + "'/><limit effort='1' velocity='1'/>");
   }
   return derive_topology(read_urdf(robot_text(text))).pairs.at(0).kind;
 }

@@ -25,8 +25,8 @@ PairConstants<double> pair(const std::vector<Element>& elements, const std::stri
     const std::string child = last ? "arm" : "m" + std::to_string(k);
     text += link_with(child, last ? kInertial : "") +
             joint_with("j" + std::to_string(k), elements[k].type, k == 0 ? "ground" : "m" + std::to_string(k - 1), child,
-                       "<origin " + std::string(elements[k].origin) + "/><axis xyz='" + elements[k].axis + "'/><limit effort='1' velocity='1'/>" +
-                           (last ? friction : ""));
+                       "<origin " + std::string(elements[k].origin) + "/><axis xyz='" + elements[k].axis +
+                           "'/><limit effort='1' velocity='1'/>" + (last ? friction : ""));
   }
   const RobotDescription robot = read_urdf(robot_text(text));
   const Topology topology = derive_topology(robot);
@@ -53,7 +53,8 @@ TEST(PairGeometry, AHingeHasItsPointAndAxesOnBothBodies) {
 }
 
 TEST(PairGeometry, FrictionMayChooseTheTransverseAxis) {
-  const std::string friction = "<codesign:friction mu_static='0.3' mu_dynamic='0.2' joint_length='0.1' joint_width='0.05' transverse_axis='0 1 0'/>";
+  const std::string friction =
+      "<codesign:friction mu_static='0.3' mu_dynamic='0.2' joint_length='0.1' joint_width='0.05' transverse_axis='0 1 0'/>";
   expect_frame(pair({{"prismatic", "0 0 1"}}).C_i, kX, kZ);
   const PairConstants<double> c = pair({{"prismatic", "0 0 1"}}, friction);
   expect_frame(c.C_i, kY, kZ);
@@ -90,11 +91,13 @@ TEST(PairGeometry, ABallIsReadByAnglesOnlyIfItsAxesAreNormal) {
 }
 
 TEST(PairGeometry, ADistanceHasTwoPointsThatNeedNotCoincide) {
-  const RobotDescription robot = read_urdf(
-      pendulum("<axis xyz='0 1 0'/>", "<loop name='rod' type='codesign:distance'><codesign:length value='2'/><predecessor link='ground'><origin xyz='1 0 0'/></predecessor>"
-                                      "<successor link='arm'><origin xyz='0 0 -1'/></successor></loop>"));
+  const RobotDescription robot = read_urdf(pendulum(
+      "<axis xyz='0 1 0'/>",
+      "<loop name='rod' type='codesign:distance'><codesign:length value='2'/><predecessor link='ground'><origin xyz='1 0 0'/></predecessor>"
+      "<successor link='arm'><origin xyz='0 0 -1'/></successor></loop>"));
   const Topology topology = derive_topology(robot);
-  const PairConstants<double> c = pair_constants<double>(robot, topology, topology.pairs.at(1), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), {0.2});
+  const PairConstants<double> c =
+      pair_constants<double>(robot, topology, topology.pairs.at(1), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), {0.2});
   EXPECT_EQ(c.distance, 2.0);
   EXPECT_LT((c.s_i - kX).norm(), 1e-15);
   EXPECT_LT((c.s_j + kZ).norm(), 1e-15) << "the two ends need not coincide";

@@ -35,9 +35,7 @@ TEST(Pose, ComposesFromLeftToRightAndInverts) {
   EXPECT_LT((X * Y.t - Vector3<double>(-1.0, 0.0, 0.0)).norm(), 1e-15);
 }
 
-TEST(Pose, AxisIsMadeAUnitVector) {
-  EXPECT_LT((axis_at<double>({0.0, 3.0, -4.0}, {}) - Vector3<double>(0.0, 0.6, -0.8)).norm(), 1e-15);
-}
+TEST(Pose, AxisIsMadeAUnitVector) { EXPECT_LT((axis_at<double>({0.0, 3.0, -4.0}, {}) - Vector3<double>(0.0, 0.6, -0.8)).norm(), 1e-15); }
 
 TEST(Pose, LinkInBaseWalksThroughFixedJoints) {
   const RobotDescription robot = read_urdf(robot_text(

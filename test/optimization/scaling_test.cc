@@ -14,7 +14,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Tuned, in this order: a gain bounded from below only, a length between bounds, an offset that starts at zero. Mass stays.
 Study study() {
   Study study;
-  study.parameters = {{"length", 0.08, 0.06, 0.1, "m", {}}, {"mass", 2.0, 1.0, 3.0, "kg", {}}, {"gain", -500.0, -1000.0, kInfinity, "", {}},
+  study.parameters = {{"length", 0.08, 0.06, 0.1, "m", {}},
+                      {"mass", 2.0, 1.0, 3.0, "kg", {}},
+                      {"gain", -500.0, -1000.0, kInfinity, "", {}},
                       {"offset", 0.0, -kInfinity, kInfinity, "", {}}};
   study.tuned = {2, 0, 3};
   return study;
