@@ -57,7 +57,11 @@ void YamlValue::fail(const std::string& message, const std::string& allowed) con
   throw InputError({where(), path_.empty() ? kRoot : path_, message, shown_value(), allowed});
 }
 
-std::string YamlValue::shown_value() const { return node_.IsScalar() ? node_.Scalar() : std::string(); }
+std::string YamlValue::shown_value() const {
+  constexpr std::size_t kMost = 100;
+  if (!node_.IsScalar()) return "";
+  return node_.Scalar().size() <= kMost ? node_.Scalar() : node_.Scalar().substr(0, kMost) + "...";
+}
 
 YamlValue YamlValue::child(const YAML::Node& node, const std::string& key) const {
   return YamlValue(node, file_, path_.empty() ? key : path_ + "." + key);

@@ -93,7 +93,7 @@ void read_study_source(const ros::NodeHandle& private_node, Inputs* inputs) {
     inputs->study = read_source(content<std::string>(value));
 }
 
-bool is_number(XmlRpcValue value, double* number) {
+bool is_number(const XmlRpcValue& value, double* number) {
   if (value.getType() == XmlRpcValue::TypeInt)
     *number = content<int>(value);
   else if (value.getType() == XmlRpcValue::TypeDouble)

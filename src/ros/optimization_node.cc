@@ -34,7 +34,7 @@ OptimizationNode::OptimizationNode() : state_("optimization"), spinner_(kDoorThr
   optimize_ = doors_.advertiseService("optimize", &OptimizationNode::on_optimize, this);
   evaluate_ = doors_.advertiseService("evaluate", &OptimizationNode::on_evaluate, this);
   action_ = std::make_unique<ActionServer>(
-      doors_, "optimize", [this](GoalHandle goal) { on_goal(goal); }, [this](GoalHandle goal) { on_cancel(goal); }, false);
+      doors_, "optimize", [this](const GoalHandle& goal) { on_goal(goal); }, [this](const GoalHandle& goal) { on_cancel(goal); }, false);
   spinner_.start();
   action_->start();
 }
@@ -153,7 +153,7 @@ void OptimizationNode::on_goal(GoalHandle goal) {
   if (!start(*goal.getGoal(), client, &refusal)) goal.setRejected(refusal, refusal.message);
 }
 
-void OptimizationNode::on_cancel(GoalHandle goal) {
+void OptimizationNode::on_cancel(const GoalHandle& goal) {
   const unsigned char status = goal.getGoalStatus().status;
   if (status == actionlib_msgs::GoalStatus::RECALLING || status == actionlib_msgs::GoalStatus::PREEMPTING) optimizer_.cancel();
 }

@@ -42,6 +42,14 @@ TEST(MakeSystem, ALoopThatCannotBeClosedIsNamedWithItsPlace) {
   EXPECT_EQ(refused.where.file, "test.urdf");
   EXPECT_EQ(refused.where.line, 2);
   EXPECT_EQ(refused.element, "<loop name=\"tip\">");
+  // Two bars of 1 m over 2.5 m.
+  EXPECT_EQ(refused.value.substr(0, 21), "constraint error 0.5 ");
+}
+
+TEST(MakeSystem, SomethingMustMove) {
+  const std::string study = let_go("{}", "ground/position/x");
+  for (const char* content : {"", "<link name='frame'/><joint name='j' type='continuous'><parent link='ground'/><child link='frame'/></joint>"})
+    EXPECT_NE(fault(robot(content), study).message.find("nothing moves"), std::string::npos);
 }
 
 TEST(MakeSystem, ContradictingVelocitiesAreBadInput) {
