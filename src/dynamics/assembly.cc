@@ -146,7 +146,9 @@ bool Assembly::newton(const std::vector<double>& parameters, Equations<double>* 
 void Assembly::note_worst_loop(const Eigen::VectorXd& errors) {
   Eigen::Index worst = 0;
   if (errors.size() == 0) return;
-  errors.cwiseAbs().maxCoeff(&worst);
+  const double error = errors.cwiseAbs().maxCoeff(&worst);
+  if (!worst_loop_.empty() && error >= nearest_miss_) return;
+  nearest_miss_ = error;
   worst_loop_ = system_.topology().pairs[static_cast<std::size_t>(loop_row_pair_[static_cast<std::size_t>(worst)])].name;
 }
 
@@ -155,6 +157,7 @@ Status Assembly::solve_positions(const std::vector<double>& parameters, Equation
   for (int c = 0; c < tree_.size; ++c)
     if (!position_given_[static_cast<std::size_t>(c)]) open.push_back(c);
   const VectorX<double> start = theta_;
+  worst_loop_.clear();
   positions_ = choose(loop_jacobian(parameters, equations), {open});
   if (!newton(parameters, equations, positions_.columns)) {
     // The start may be singular (a stretched-out linkage): let every open coordinate move.

@@ -178,6 +178,8 @@ void System::refuse_unsupported() const {
   const auto refuse = [](const SourceLocation& where, const std::string& element, const std::string& what) {
     throw InputError({where, element, what + " is read but not computed by this version", "", ""});
   };
+  if (topology_.bodies.empty())
+    throw InputError({{robot_.file, 0}, "<robot name=\"" + robot_.name + "\">", "nothing moves: no link with an <inertial> hangs on a movable joint", "", ""});
   for (const JointDescription& joint : robot_.joints) {
     const std::string element = (joint.is_loop ? "<loop name=\"" : "<joint name=\"") + joint.name + "\">";
     if (joint.mimic) refuse(joint.where, element, "<mimic>");

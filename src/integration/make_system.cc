@@ -5,6 +5,7 @@
 #include "mechanism_codesign/dynamics/system.h"
 #include "mechanism_codesign/integration/simulation.h"
 #include "mechanism_codesign/integration/tableau.h"
+#include "mechanism_codesign/math/decimal.h"
 
 namespace codesign {
 namespace {
@@ -61,8 +62,8 @@ bool has_redundant_constraints(const System& system) {
     return !redundant_rows(system, constraint_jacobian(system, &equations, state)).empty();
   const JointDescription* loop = loop_of(system, assembly.worst_loop());
   if (loop)
-    throw InputError(
-        {loop->where, "<loop name=\"" + loop->name + "\">", "the loop cannot be closed at the start values", "", status.cause});
+    throw InputError({loop->where, "<loop name=\"" + loop->name + "\">", "the loop cannot be closed at the start values",
+                      "constraint error " + to_decimal(assembly.nearest_miss()) + " at the nearest", "0, to rounding"});
   throw InputError({{system.study().file, 0}, "initial_state", status.cause, "", ""});
 }
 

@@ -95,4 +95,12 @@ std::vector<std::string> annotation_elements() {
   return {names.begin(), names.end()};
 }
 
+std::vector<std::string> places_of(const std::string& annotation) {
+  std::vector<std::string> places;
+  for (const ElementRule& rule : rules())
+    if (std::find(rule.children.begin(), rule.children.end(), annotation) != rule.children.end())
+      places.push_back("<" + rule.path.substr(rule.path.rfind('/') + 1) + ">");
+  return places;
+}
+
 }  // namespace codesign

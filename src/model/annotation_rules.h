@@ -23,6 +23,9 @@ const ElementRule* find_rule(const std::string& path);
 /// Every prefixed element name there is.
 std::vector<std::string> annotation_elements();
 
+/// The elements that an annotation may stand in: `<joint>`, `<loop>`.
+std::vector<std::string> places_of(const std::string& annotation);
+
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_MODEL_ANNOTATION_RULES_H_

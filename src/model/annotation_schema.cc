@@ -54,7 +54,7 @@ void check_child(const XmlElement& child, const ElementRule* parent) {
   const Names here = parent != nullptr ? parent->children : Names{};
   if (contains(here, tag)) return;
   const Names everywhere = annotation_elements();
-  if (contains(everywhere, tag)) child.fail("the element does not belong here", "<" + tag + ">", list_names(here));
+  if (contains(everywhere, tag)) child.fail("the element does not belong here", "<" + tag + ">", "in " + list_names(places_of(tag)));
   throw unknown_name(child.where(), child.label(), "element <" + tag + ">", tag, strict ? here : everywhere);
 }
 

@@ -44,9 +44,12 @@ SolverOptions read_solver_options(const YamlValue& solver) {
 OptimizerOptions read_optimizer_options(const YamlValue& optimizer) {
   optimizer.require_keys({}, {"algorithm", "max_evaluations", "relative_tolerance"});
   OptimizerOptions options;
-  if (const auto algorithm = optimizer.find("algorithm"))
+  options.where = optimizer.where();
+  if (const auto algorithm = optimizer.find("algorithm")) {
+    options.where = algorithm->where();
     options.algorithm =
         algorithm->choice("algorithm", {"lbfgs", "var1", "var2", "tnewton", "mma", "ccsaq", "slsqp", "cobyla", "bobyqa", "auglag_lbfgs"});
+  }
   read_count(optimizer, "max_evaluations", &options.max_evaluations);
   read_tolerance(optimizer, "relative_tolerance", &options.relative_tolerance);
   return options;

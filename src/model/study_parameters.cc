@@ -52,14 +52,15 @@ void read_parameters(const YamlValue& study_value, const RobotDescription& robot
   const auto parameters = study_value.find("parameters");
   if (!parameters) return;
   for (const auto& [name, value] : parameters->entries()) {
-    value.require_keys({}, {"initial", "lower", "upper"});
+    value.require_keys({}, {"tune", "initial", "lower", "upper"});
     int index = index_of(name, study->parameters);
     if (index < 0) {
       index = static_cast<int>(study->parameters.size());
       study->parameters.push_back(new_parameter(name, value, robot.parameters));
     }
     read_range(value, &study->parameters[static_cast<std::size_t>(index)]);
-    study->tuned.push_back(index);
+    const auto tune = value.find("tune");
+    if (!tune || tune->boolean()) study->tuned.push_back(index);
   }
 }
 

@@ -11,6 +11,7 @@ namespace codesign {
 SourceText read_source(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
+  if (file && file.peek() == std::ifstream::traits_type::eof()) throw InputError({{path, 0}, "", "the file is empty", "", ""});
   text << file.rdbuf();
   if (!file || text.fail()) throw InputError({{path, 0}, "", "the file cannot be read", "", ""});
   return {path, text.str()};

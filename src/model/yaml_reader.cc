@@ -57,7 +57,11 @@ void YamlValue::fail(const std::string& message, const std::string& allowed) con
   throw InputError({where(), path_.empty() ? kRoot : path_, message, shown_value(), allowed});
 }
 
-std::string YamlValue::shown_value() const { return node_.IsScalar() ? node_.Scalar() : std::string(); }
+std::string YamlValue::shown_value() const {
+  constexpr std::size_t kMost = 100;
+  if (!node_.IsScalar()) return "";
+  return node_.Scalar().size() <= kMost ? node_.Scalar() : node_.Scalar().substr(0, kMost) + "...";
+}
 
 YamlValue YamlValue::child(const YAML::Node& node, const std::string& key) const {
   return YamlValue(node, file_, path_.empty() ? key : path_ + "." + key);
@@ -134,6 +138,12 @@ int YamlValue::integer() const {
   const double value = number();
   if (value != std::floor(value) || std::abs(value) > 1e9) fail("not an integer", "an integer");
   return static_cast<int>(value);
+}
+
+bool YamlValue::boolean() const {
+  bool value = false;
+  if (!YAML::convert<bool>::decode(node_, value)) fail("not a truth value", "true or false");
+  return value;
 }
 
 std::string YamlValue::choice(const std::string& kind, const std::vector<std::string>& allowed) const {

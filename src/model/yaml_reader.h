@@ -44,6 +44,8 @@ class YamlValue {
   /// A finite number. Quotes do not matter: rosparam reads `1e-6` as a string.
   double number() const;
   int integer() const;
+  /// `true` or `false`, as YAML spells them.
+  bool boolean() const;
   /// A scalar that is one of `allowed`.
   std::string choice(const std::string& kind, const std::vector<std::string>& allowed) const;
 

@@ -32,7 +32,8 @@ std::string names(bool constrained) {
 
 nlopt::opt make_optimizer(const Study& study, unsigned dimension) {
   const auto found = algorithms().find(study.optimizer.algorithm);
-  const InputFault fault{{study.file, 0}, "optimizer.algorithm", "", study.optimizer.algorithm, ""};
+  const SourceLocation where = study.optimizer.where.file.empty() ? SourceLocation{study.file, 0} : study.optimizer.where;
+  const InputFault fault{where, "optimizer.algorithm", "", study.optimizer.algorithm, ""};
   if (found == algorithms().end()) throw InputError({fault.where, fault.element, "no such algorithm", fault.value, names(false)});
   if (!study.constraints.empty() && !found->second.takes_constraints)
     throw InputError({fault.where, fault.element, "this algorithm takes no constraints among parameters", fault.value, names(true)});

@@ -83,14 +83,17 @@ std::vector<SourceText> read_overlays(const ros::NodeHandle& private_node) {
   return overlays;
 }
 
-SourceText read_study_source(const ros::NodeHandle& private_node) {
+void read_study_source(const ros::NodeHandle& private_node, Inputs* inputs) {
   XmlRpcValue value;
   if (!get(private_node, "study", &value)) fail(private_node, "study", "no study given", "a path, or the study as a tree of parameters");
-  if (value.getType() == XmlRpcValue::TypeString) return read_source(content<std::string>(value));
-  return {private_node.resolveName("study"), to_yaml(value)};
+  inputs->study_is_tree = value.getType() != XmlRpcValue::TypeString;
+  if (inputs->study_is_tree)
+    inputs->study = {private_node.resolveName("study"), to_yaml(value)};
+  else
+    inputs->study = read_source(content<std::string>(value));
 }
 
-bool is_number(XmlRpcValue value, double* number) {
+bool is_number(const XmlRpcValue& value, double* number) {
   if (value.getType() == XmlRpcValue::TypeInt)
     *number = content<int>(value);
   else if (value.getType() == XmlRpcValue::TypeDouble)
@@ -133,9 +136,22 @@ Inputs read_inputs(const ros::NodeHandle& node, const ros::NodeHandle& private_n
   Inputs inputs;
   inputs.urdf = read_model(node, private_node);
   inputs.overlays = read_overlays(private_node);
-  inputs.study = read_study_source(private_node);
+  read_study_source(private_node, &inputs);
   inputs.settings = read_settings(private_node);
   return inputs;
+}
+
+void require_every_parameter(const Inputs& inputs, const RobotDescription& robot) {
+  if (!inputs.study_is_tree) return;
+  const YAML::Node named = YAML::Load(inputs.study.text)["parameters"];
+  for (const Parameter& parameter : robot.parameters) {
+    if (named && named[parameter.name]) continue;
+    throw InputError({{inputs.study.name, 0},
+                      "parameters." + parameter.name,
+                      "a study on the parameter server must name each parameter of the model, since an empty mapping {} is lost there",
+                      "",
+                      "{tune: true}, {tune: false}, or the path of the study as ~study"});
+  }
 }
 
 }  // namespace codesign

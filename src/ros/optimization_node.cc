@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <future>
 #include <sstream>
+#include <utility>
 
 #include "mechanism_codesign/model/error.h"
 #include "mechanism_codesign/ros/inputs.h"
@@ -33,7 +34,7 @@ OptimizationNode::OptimizationNode() : state_("optimization"), spinner_(kDoorThr
   optimize_ = doors_.advertiseService("optimize", &OptimizationNode::on_optimize, this);
   evaluate_ = doors_.advertiseService("evaluate", &OptimizationNode::on_evaluate, this);
   action_ = std::make_unique<ActionServer>(
-      doors_, "optimize", [this](GoalHandle goal) { on_goal(goal); }, [this](GoalHandle goal) { on_cancel(goal); }, false);
+      doors_, "optimize", [this](const GoalHandle& goal) { on_goal(goal); }, [this](const GoalHandle& goal) { on_cancel(goal); }, false);
   spinner_.start();
   action_->start();
 }
@@ -51,7 +52,9 @@ void OptimizationNode::load() {
     options_.rate = read_positive(private_node_, "rate", options_.rate);
     const Inputs inputs = read_inputs(node_, private_node_);
     study_ = inputs.study.text;
-    problem_ = load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings);
+    Problem problem = load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings);
+    require_every_parameter(inputs, problem.robot);
+    problem_ = std::move(problem);
     state_.show("robot", problem_->robot.name);
     state_.show("output directory", options_.output_directory);
     state_.set(NodeState::Level::kOk,
@@ -150,7 +153,7 @@ void OptimizationNode::on_goal(GoalHandle goal) {
   if (!start(*goal.getGoal(), client, &refusal)) goal.setRejected(refusal, refusal.message);
 }
 
-void OptimizationNode::on_cancel(GoalHandle goal) {
+void OptimizationNode::on_cancel(const GoalHandle& goal) {
   const unsigned char status = goal.getGoalStatus().status;
   if (status == actionlib_msgs::GoalStatus::RECALLING || status == actionlib_msgs::GoalStatus::PREEMPTING) optimizer_.cancel();
 }

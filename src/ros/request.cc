@@ -18,6 +18,7 @@ constexpr const char* kRequest = "request";
 
 std::vector<std::string> names_of(const std::vector<Parameter>& parameters) {
   std::vector<std::string> names;
+  names.reserve(parameters.size());
   for (const Parameter& parameter : parameters) names.push_back(parameter.name);
   return names;
 }
@@ -48,7 +49,10 @@ void choose_tuned(const std::vector<std::string>& names, Study* study) {
 }
 
 void choose_options(const mechanism_codesign::OptimizeGoal& request, OptimizerOptions* options) {
-  if (!request.algorithm.empty()) options->algorithm = request.algorithm;
+  if (!request.algorithm.empty()) {
+    options->algorithm = request.algorithm;
+    options->where = {kRequest, 0};
+  }
   if (request.max_evaluations > static_cast<unsigned>(std::numeric_limits<int>::max()))
     fail("max_evaluations", "count out of range", std::to_string(request.max_evaluations), "0 (as the study says) to 2147483647");
   if (request.max_evaluations > 0) options->max_evaluations = static_cast<int>(request.max_evaluations);

@@ -62,8 +62,8 @@ TEST(Energy, PendulumConservesIt) {
 }
 
 TEST(Energy, DoublePendulumConservesIt) {
-  const Balance b =
-      balance(double_pendulum(), motion_study(10.0, "{shoulder: {position: 1.5}, elbow: {position: -0.4, velocity: 1.0}}", "elbow/velocity", kTight));
+  const Balance b = balance(double_pendulum(), motion_study(10.0, "{shoulder: {position: 1.5}, elbow: {position: -0.4, velocity: 1.0}}",
+                                                            "elbow/velocity", kTight));
   ASSERT_TRUE(b.status.ok()) << b.status.cause;
   EXPECT_LT(b.largest_drift, 1e-8);
 }

@@ -32,7 +32,8 @@ double integrate(const RosenbrockTableau& tableau, int steps, double* dense_midd
     if (n == 0) {
       *dense_middle = 0.5 * (y + end);
       for (int k = 0; k < tableau.dense_terms; ++k)
-        for (std::size_t j = 0; j < u.size(); ++j) *dense_middle += 0.25 * std::pow(0.5, k) * tableau.dense[static_cast<std::size_t>(k)][j] * u[j];
+        for (std::size_t j = 0; j < u.size(); ++j)
+          *dense_middle += 0.25 * std::pow(0.5, k) * tableau.dense[static_cast<std::size_t>(k)][j] * u[j];
     }
     y = end;
   }

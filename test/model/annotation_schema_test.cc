@@ -20,7 +20,7 @@ TEST(AnnotationSchema, UnknownElementNamesTheNearest) {
 
 TEST(AnnotationSchema, KnownNamesInTheWrongPlaceAreRefused) {
   expect_error(robot_text("<link name=\"a\"><codesign:friction mu_static=\"1\" mu_dynamic=\"1\"/></link>"),
-               {"the element does not belong here"});
+               {"the element does not belong here", "allowed: in <joint>, <loop>"});
   expect_error(robot_text("<link name=\"a\" codesign:density=\"1\"/>"), {"misplaced attribute codesign:density"});
   expect_error(robot_text("<link name=\"a\"/><gazebo><codesign:parameter name=\"x\" value=\"1\"/></gazebo>"), {"does not belong here"});
   expect_error(robot_text("<link name=\"a\"/><gazebo codesign:xyz=\"1\"/>"), {"misplaced attribute codesign:xyz"});

@@ -29,6 +29,13 @@ TEST(StudyParameters, TheStudyMayMoveBoundsAndStart) {
   EXPECT_EQ(parameter.upper, 0.12);
 }
 
+TEST(StudyParameters, AListedOneIsTunedUnlessItSaysOtherwise) {
+  const Study study = with("{rod_length: {tune: true}, crank_length: {initial: 0.07, tune: false}, Kp: {initial: 2, tune: false}}");
+  EXPECT_EQ(study.tuned, std::vector<int>{1});
+  EXPECT_EQ(study.parameters[0].value, 0.07);
+  EXPECT_EQ(study.parameters.at(2).value, 2.0);
+}
+
 TEST(StudyParameters, AStudysOwnFollowTheModelsAndMayBeUnbounded) {
   const Study study = with("{Kp: {initial: 750}, rod_length: {}, Ki: {initial: 2, lower: 0}}");
   ASSERT_EQ(study.parameters.size(), 4U);
@@ -55,6 +62,8 @@ TEST(StudyParameters, RefusesBadEntries) {
   expect_refused("{Kp: {start: 1}}", "parameters.Kp.start", "unknown key");
   expect_refused("{2Kp: {initial: 1}}", "parameters.2Kp", "");
   expect_refused("{sqrt: {initial: 1}}", "parameters.sqrt", "");
+  expect_refused("{crank_length: {tune: maybe}}", "parameters.crank_length.tune", "not a truth value");
+  expect_refused("{crank_length: {tune: [true]}}", "parameters.crank_length.tune", "not a truth value");
   expect_refused("{Kp: 1}", "parameters.Kp", "expected a map");
   expect_refused("{Kp: {initial: .inf}}", "parameters.Kp.initial", "not finite");
   expect_refused("{Kp: {initial: \"${rod_length}\"}}", "parameters.Kp.initial", "not a number");

@@ -50,7 +50,8 @@ TEST(Optimizer, RefusesConstraintsWhereTheyAreNotTaken) {
 
 TEST(Optimizer, CancelKeepsTheBestPoint) {
   const Case c = shipped("slider_crank");
-  const OptimizationResult result = optimize(make_system(c.robot, c.study), c.study, [](const Trial& trial) { return trial.evaluation < 2; });
+  const OptimizationResult result =
+      optimize(make_system(c.robot, c.study), c.study, [](const Trial& trial) { return trial.evaluation < 2; });
   EXPECT_EQ(result.status.code, StatusCode::kCancelled);
   EXPECT_EQ(result.evaluations, 2);
   EXPECT_LE(result.objective, result.initial_objective);

@@ -4,6 +4,12 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
+#include <filesystem>
+
+#include "mechanism_codesign/model/error.h"
+#include "ros/pendulum.h"
+
 namespace codesign {
 namespace {
 
@@ -33,6 +39,67 @@ TEST(ToYaml, EveryDigitOfANumberSurvives) {
   XmlRpc::XmlRpcValue tree;
   tree["x"] = 0.1 + 0.2;
   EXPECT_EQ(YAML::Load(to_yaml(tree))["x"].as<double>(), 0.1 + 0.2);
+}
+
+// What becomes of a study on its way through roslaunch and the parameter server: empty mappings are lost.
+XmlRpc::XmlRpcValue on_the_server(const YAML::Node& node) {
+  XmlRpc::XmlRpcValue value;
+  if (node.IsScalar()) return XmlRpc::XmlRpcValue(node.Scalar());
+  if (node.IsSequence()) value.setSize(static_cast<int>(node.size()));
+  if (node.IsSequence())
+    for (std::size_t i = 0; i < node.size(); ++i) value[static_cast<int>(i)] = on_the_server(node[i]);
+  if (node.IsMap())
+    for (const auto& entry : node) {
+      XmlRpc::XmlRpcValue child = on_the_server(entry.second);
+      if (child.valid()) value[entry.first.Scalar()] = child;
+    }
+  return value;
+}
+
+Inputs as_tree(const std::string& urdf, const std::string& study) {
+  Inputs inputs;
+  inputs.urdf = {"robot.urdf", urdf};
+  inputs.study = {"/optimization/study", to_yaml(on_the_server(YAML::Load(study)))};
+  inputs.study_is_tree = true;
+  return inputs;
+}
+
+Problem load(const Inputs& inputs) { return load_problem(inputs.urdf, {}, inputs.study); }
+
+TEST(RequireEveryParameter, ATreeThatLostAnEmptyMappingIsRefused) {
+  const Inputs inputs = as_tree(kPendulumUrdf, kPendulumStudy);
+  const Problem problem = load(inputs);
+  EXPECT_EQ(problem.tuned_names(), std::vector<std::string>{"Kp"}) << "the study says {length: {}}, and that is what is lost";
+  try {
+    require_every_parameter(inputs, problem.robot);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.fault().where.file, "/optimization/study");
+    EXPECT_EQ(error.fault().element, "parameters.length");
+    EXPECT_NE(error.fault().allowed.find("{tune: true}"), std::string::npos);
+  }
+}
+
+TEST(RequireEveryParameter, AFileMayLeaveParametersOut) {
+  Inputs inputs = as_tree(kPendulumUrdf, kPendulumStudy);
+  inputs.study_is_tree = false;
+  EXPECT_NO_THROW(require_every_parameter(inputs, load(inputs).robot));
+}
+
+TEST(RequireEveryParameter, TheShippedStudiesTuneTheSameAsATree) {
+  int studies = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(CODESIGN_SOURCE_DIR "/config")) {
+    const SourceText study = read_source(entry.path().string());
+    const SourceText urdf = read_source(CODESIGN_SOURCE_DIR "/urdf/" + entry.path().stem().string() + ".urdf");
+    const Inputs tree = as_tree(urdf.text, study.text);
+    const Problem problem = load(tree);
+    EXPECT_NO_THROW(require_every_parameter(tree, problem.robot)) << entry.path();
+    std::vector<std::string> from_file = load_problem(urdf, {}, study).tuned_names();
+    std::sort(from_file.begin(), from_file.end());
+    EXPECT_EQ(problem.tuned_names(), from_file) << entry.path() << ": XML-RPC sorts by name";
+    ++studies;
+  }
+  EXPECT_GE(studies, 2);
 }
 
 }  // namespace

@@ -9,8 +9,7 @@
 namespace codesign {
 
 /// A pendulum with a spring-like controller, to be swung at one radian per second: two parameters to tune, a third that could be.
-inline Problem pendulum() {
-  const std::string urdf = R"(<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
+inline const std::string kPendulumUrdf = R"(<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
   <codesign:parameter name="length" value="0.5" lower="0.3" upper="0.8" unit="m"/>
   <codesign:parameter name="mass" value="1" lower="0.5" upper="2" unit="kg"/>
   <link name="ground"/>
@@ -28,7 +27,8 @@ inline Problem pendulum() {
   </joint>
 </robot>
 )";
-  const std::string study = R"(duration: 0.5
+
+inline const std::string kPendulumStudy = R"(duration: 0.5
 initial_state: {hinge: {position: 0.5, velocity: 0.0}}
 controllers:
   hold: {type: pid, input: hinge/position, setpoint: 0.0, output: hinge, gains: {p: "${Kp}"}}
@@ -40,8 +40,8 @@ objective:
 solver: {relative_tolerance: 1.0e-6, absolute_tolerance: 1.0e-7}
 optimizer: {algorithm: lbfgs, max_evaluations: 30}
 )";
-  return load_problem({"pendulum.urdf", urdf}, {}, {"pendulum.yaml", study});
-}
+
+inline Problem pendulum() { return load_problem({"pendulum.urdf", kPendulumUrdf}, {}, {"pendulum.yaml", kPendulumStudy}); }
 
 }  // namespace codesign
 

@@ -36,6 +36,8 @@ class Assembly {
   Status solve_rates(Equations<double>* equations, State<double>* state);
   /// The name of the loop that is violated most in the last failed assembly; empty if none.
   const std::string& worst_loop() const { return worst_loop_; }
+  /// How near that assembly came: the largest constraint error of the loops [m or -].
+  double nearest_miss() const { return nearest_miss_; }
 
  private:
   struct Dependents {
@@ -65,6 +67,7 @@ class Assembly {
   Linearization<double> derivatives_;
   IterationMatrix matrix_;
   std::string worst_loop_;
+  double nearest_miss_ = 0.0;
 };
 
 }  // namespace codesign

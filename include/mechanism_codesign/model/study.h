@@ -81,6 +81,7 @@ struct OptimizerOptions {
   std::string algorithm = "lbfgs";
   int max_evaluations = 200;
   double relative_tolerance = 1e-6;       ///< on the objective
+  SourceLocation where;                   ///< of the algorithm
 };
 
 /// What to do with the model, as its author wrote it.

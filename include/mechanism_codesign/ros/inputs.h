@@ -17,6 +17,7 @@ struct Inputs {
   SourceText urdf;
   std::vector<SourceText> overlays;
   SourceText study;
+  bool study_is_tree = false;  ///< from the parameter server, not from a file
   ParameterSettings settings;
 };
 
@@ -27,6 +28,13 @@ struct Inputs {
 /// - `~set`: parameter values that replace those of model and study, by name.
 /// @throws InputError for a missing or ill-typed parameter or a file that cannot be read.
 Inputs read_inputs(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+
+/// Makes sure that a study tunes what its author wrote.
+///
+/// The parameter server keeps no empty mapping: of `crank_length: {}`, "tune it between the model's bounds", nothing arrives. A study that
+/// comes as a tree must therefore name each parameter of the model, with `{tune: false}` those that stay as they are.
+/// @throws InputError for a parameter of the model that a tree does not name.
+void require_every_parameter(const Inputs& inputs, const RobotDescription& robot);
 
 /// A private parameter that must be a finite number above zero, or `fallback` if it is not set. @throws InputError if it is none.
 double read_positive(const ros::NodeHandle& private_node, const std::string& key, double fallback);

@@ -39,7 +39,7 @@ class OptimizationNode {
   bool on_optimize(mechanism_codesign::Optimize::Request& request, mechanism_codesign::Optimize::Response& response);
   bool on_evaluate(mechanism_codesign::Evaluate::Request& request, mechanism_codesign::Evaluate::Response& response);
   void on_goal(GoalHandle goal);
-  void on_cancel(GoalHandle goal);
+  void on_cancel(const GoalHandle& goal);
 
   /// What whoever asked for a job is told, all of it in the worker's thread.
   struct Client {

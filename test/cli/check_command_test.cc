@@ -1,0 +1,31 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "cli/slider_crank.h"
+
+namespace codesign::cli {
+namespace {
+
+TEST(CheckCommand, PrintsThePapersTable) {
+  const Outcome outcome = run_words({"check", kModel, kStudy});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  for (const char* row : {"bodies", "coordinates", "first-order equations", "degrees of freedom", "dynamic equations", "equations in all"})
+    EXPECT_NE(outcome.out.find(row), std::string::npos) << row;
+  Json counts = json_of(run_words({"check", kModel, kStudy, "--json"}))["counts"];
+  const std::vector<std::pair<std::string, int>> expected = {
+      {"bodies", 3},          {"coordinates", 21},          {"first_order_equations", 42}, {"degrees_of_freedom", 1},
+      {"constraints", 20},    {"redundant_constraints", 0}, {"dynamic_equations", 62},     {"parameters", 5},
+      {"sensitivities", 310}, {"total_equations", 372}};
+  for (const auto& [key, value] : expected) EXPECT_EQ(counts[key], value) << key;
+}
+
+TEST(CheckCommand, TakesAMechanismAlone) {
+  Json object = json_of(run_words({"check", kModel, "--json", "--set", "crank_length=0.07"}));
+  EXPECT_EQ(object["counts"]["parameters"], 0);
+  EXPECT_EQ(object["counts"]["total_equations"], 62);
+  EXPECT_EQ(object["parameters"]["crank_length"], 0.07);
+  EXPECT_FALSE(object["parameters"].contains("Kp"));
+}
+
+}  // namespace
+}  // namespace codesign::cli

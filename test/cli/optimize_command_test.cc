@@ -1,0 +1,72 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <utility>
+
+#include "cli/slider_crank.h"
+
+namespace codesign::cli {
+namespace {
+
+TEST(OptimizeCommand, WritesItsFolder) {
+  const ScratchFolder folder;
+  const Outcome outcome = run_words({"optimize", kModel, short_study(folder), "--json", "--output", folder.path("job")});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  Json object = json_of(outcome);
+  expect_keys(object, {"objective", "initial_objective", "gradient", "parameters", "initial_parameters", "iterations", "evaluations",
+                       "termination", "steps", "rejected_steps", "cpu_seconds", "counts"});
+  EXPECT_LT(object["objective"].get<double>(), object["initial_objective"].get<double>());
+  EXPECT_EQ(Json::parse(read_text_file(folder.path("job/result.json"))), object);
+  const std::vector<std::string> convergence = lines_of(read_text_file(folder.path("job/convergence.csv")));
+  EXPECT_EQ(convergence.at(0),
+            "evaluation,iteration,status,objective,best_objective,gradient_norm,crank_length,rod_length,slider_length,slider_width,Kp");
+  EXPECT_EQ(convergence.size(), 1U + object["evaluations"].get<std::size_t>());
+  for (const char* name : {"job/initial.csv", "job/tuned.csv"}) EXPECT_EQ(lines_of(read_text_file(folder.path(name))).size(), 102U) << name;
+  Json tuned = json_of(run_words({"check", folder.path("job/tuned.urdf"), "--json"}));
+  EXPECT_NEAR(tuned["parameters"]["crank_length"].get<double>(), object["parameters"]["crank_length"].get<double>(), 1e-15);
+}
+
+TEST(OptimizeCommand, PrintsStartAndTunedDesign) {
+  const ScratchFolder folder;
+  const Outcome outcome = run_words({"optimize", kModel, short_study(folder)});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  for (const std::string& name : kTuned) EXPECT_NE(outcome.out.find("\n" + name + " "), std::string::npos) << name;
+  EXPECT_NE(outcome.out.find("max_evaluations_reached"), std::string::npos) << outcome.out;
+  EXPECT_EQ(lines_of(outcome.err).size(), 4U) << outcome.err;
+  EXPECT_EQ(outcome.err.substr(0, 8), "trial 1:");
+}
+
+/// Raises a flag once a text has been written to it, as a user would who reads along.
+class WatchingBuffer : public std::stringbuf {
+ public:
+  WatchingBuffer(std::string text, std::atomic<bool>* flag) : text_(std::move(text)), flag_(flag) {}
+
+ protected:
+  int sync() override {
+    if (str().find(text_) != std::string::npos) *flag_ = true;
+    return 0;
+  }
+
+ private:
+  std::string text_;
+  std::atomic<bool>* flag_;
+};
+
+TEST(OptimizeCommand, ACancelledOptimizationKeepsItsBestPoint) {
+  const ScratchFolder folder;
+  std::atomic<bool> cancel{false};
+  WatchingBuffer buffer("trial 3:", &cancel);
+  std::ostringstream out;
+  std::ostream err(&buffer);
+  EXPECT_EQ(run({"optimize", kModel, short_study(folder), "--json", "--output", folder.path("job")}, {out, err, cancel}), kFailed);
+  Json object = Json::parse(out.str());
+  EXPECT_EQ(object["termination"], "cancelled");
+  EXPECT_EQ(object["error"]["code"], "cancelled");
+  EXPECT_EQ(object["evaluations"], 3);
+  EXPECT_LE(object["objective"].get<double>(), object["initial_objective"].get<double>());
+  EXPECT_EQ(lines_of(read_text_file(folder.path("job/tuned.csv"))).size(), 102U);
+}
+
+}  // namespace
+}  // namespace codesign::cli

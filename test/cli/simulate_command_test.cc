@@ -1,0 +1,63 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "cli/slider_crank.h"
+
+namespace codesign::cli {
+namespace {
+
+TEST(SimulateCommand, WritesTheSignalsAskedFor) {
+  const Outcome outcome =
+      run_words({"simulate", kModel, kStudy, "--signals", "crank_joint/velocity,slider_joint/position", "--samples", "3"});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  const std::vector<std::string> lines = lines_of(outcome.out);
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_EQ(lines[0], "time,crank_joint/velocity,slider_joint/position");
+  EXPECT_EQ(lines[1].substr(0, 2), "0,");
+  EXPECT_NEAR(std::stod(lines[1].substr(2)), -10.0, 1e-9);
+  EXPECT_EQ(lines[2].substr(0, 2), "1,");
+  EXPECT_EQ(lines[3].substr(0, 2), "2,");
+}
+
+TEST(SimulateCommand, GivesSeriesAndObjectiveAsJson) {
+  const ScratchFolder folder;
+  const Outcome outcome = run_words({"simulate", kModel, kStudy, "--json", "--csv", folder.path("run.csv")});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  Json object = json_of(outcome);
+  expect_keys(object, {"objective", "parameters", "steps", "rejected_steps", "cpu_seconds", "counts", "series"});
+  EXPECT_NEAR(object["objective"].get<double>() / 0.05925272691, 1.0, 1e-4);
+  expect_keys(object["series"], {"time", "crank_joint/position", "slider_joint/velocity", "slider_joint/friction",
+                                 "slider_joint/normal_force", "slider_joint/sliding_velocity", "crank_speed/output"});
+  EXPECT_EQ(object["series"]["time"].size(), 101U);
+  EXPECT_EQ(object["series"]["slider_joint/friction"].size(), 101U);
+  EXPECT_EQ(lines_of(read_text_file(folder.path("run.csv"))).size(), 102U);
+}
+
+TEST(SimulateCommand, ARunThatFailsNamesStatusTimeAndCause) {
+  const ScratchFolder folder;
+  const std::string study = folder.edited("study.yaml", read_text_file(kStudy), "solver: {", "solver: {maximum_steps: 20, ");
+  const Outcome outcome = run_words({"simulate", kModel, study, "--json", "--samples", "2001"});
+  EXPECT_EQ(outcome.code, kFailed);
+  Json object = json_of(outcome);
+  EXPECT_EQ(object["error"]["code"], "too_many_steps");
+  EXPECT_GT(object["error"]["time"].get<double>(), 0.0);
+  EXPECT_GT(object["series"]["time"].size(), 1U);
+  EXPECT_NE(outcome.err.find("too_many_steps at t = "), std::string::npos) << outcome.err;
+  EXPECT_EQ(run_words({"gradient", kModel, study}).code, kFailed);
+  EXPECT_EQ(run_words({"optimize", kModel, study}).code, kFailed);
+}
+
+TEST(SimulateCommand, ALoopThatCannotBeClosedIsBadInput) {
+  const ScratchFolder folder;
+  const std::string lower = "name=\"rod_length\" value=\"0.3\" lower=";
+  const std::string text = read_text_file(shipped("urdf/slider_crank_haug.urdf"));
+  const std::string model = folder.edited("model.urdf", text, lower + "\"0.2\"", lower + "\"0.01\"");
+  const Outcome outcome = run_words({"simulate", model, shipped("config/slider_crank_haug.yaml"), "--json", "--set", "rod_length=0.05"});
+  EXPECT_EQ(outcome.code, kBadInput);
+  Json error = json_of(outcome)["error"];
+  EXPECT_EQ(error["file"], model);
+  EXPECT_NE(error["element"].get<std::string>().find("slider_pin"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace codesign::cli

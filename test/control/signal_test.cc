@@ -1,0 +1,93 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/control/signal.h"
+
+#include <gtest/gtest.h>
+
+#include "model/urdf_fixture.h"
+
+namespace codesign {
+namespace {
+
+/// ground - yaw - massless fork - pitch - arm, an end frame on the arm, and a finger without mass on a hinge of its own.
+struct Fixture {
+  RobotDescription robot = read_urdf(robot_text(
+      kGround + link_with("fork", "") + link_with("arm") + link_with("camera", "") + link_with("finger", "") +
+      joint_with("yaw", "continuous", "ground", "fork", "<axis xyz='0 0 1'/>") +
+      joint_with("pitch", "continuous", "fork", "arm", "<axis xyz='0 1 0'/>") +
+      joint_with("mount", "fixed", "arm", "camera", "<origin xyz='0 0 1'/>") + joint_with("grip", "continuous", "arm", "finger")));
+  Topology topology = derive_topology(robot);
+  std::vector<ControllerDescription> controllers = {{"hold", "pid", {}, 0.0, "pitch", 1.0, 0.0, 0.0, {}}};
+
+  Signal resolve(const std::string& text) const {
+    return resolve_signal(parse_signal(text, {"s.yaml", 4}, "signal"), robot, topology, controllers);
+  }
+  Signal rate(const std::string& text) const {
+    const SignalDescription description = parse_signal(text, {"s.yaml", 4}, "signal");
+    return differentiate(resolve_signal(description, robot, topology, controllers), description, "controllers.hold.input");
+  }
+  std::string refusal(const std::string& text) const {
+    try {
+      resolve(text);
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.fault().where.line, 4);
+      return error.what();
+    }
+    ADD_FAILURE() << "accepted " << text;
+    return "";
+  }
+};
+
+TEST(ResolveSignal, AJointOfAFoldedChainIsAnElementOfItsPair) {
+  const Fixture fixture;
+  const Signal signal = fixture.resolve("pitch/velocity - yaw/velocity");
+  ASSERT_EQ(signal.size(), 2U);
+  EXPECT_EQ(signal[0].kind, SignalKind::kJointVelocity);
+  EXPECT_EQ(signal[0].pair, signal[1].pair);
+  EXPECT_EQ(signal[0].element, 1);
+  EXPECT_EQ(signal[1].element, 0);
+  EXPECT_EQ(signal[0].factor, 1.0);
+  EXPECT_EQ(signal[1].factor, -1.0);
+}
+
+TEST(ResolveSignal, ALinkHasComponentsAndAControllerNone) {
+  const Fixture fixture;
+  const Signal signal = fixture.resolve("camera/angular_velocity/z + hold/error + arm/position/y");
+  ASSERT_EQ(signal.size(), 3U);
+  EXPECT_EQ(signal[0].kind, SignalKind::kLinkAngularVelocity);
+  EXPECT_EQ(signal[0].link, 3);
+  EXPECT_EQ(signal[0].axis, 2);
+  EXPECT_EQ(signal[1].kind, SignalKind::kControllerError);
+  EXPECT_EQ(signal[1].controller, 0);
+  EXPECT_EQ(signal[2].kind, SignalKind::kLinkPosition);
+  EXPECT_EQ(signal[2].axis, 1);
+}
+
+TEST(ResolveSignal, WhatHasNoMassHasNothingToRead) {
+  const Fixture fixture;
+  EXPECT_NE(fixture.refusal("fork/position/x").find("no <inertial>"), std::string::npos);
+  EXPECT_NE(fixture.refusal("grip/velocity").find("without <inertial>"), std::string::npos);
+  EXPECT_NE(fixture.refusal("pich/velocity").find("pitch"), std::string::npos);
+}
+
+TEST(Differentiate, FollowsEachTerm) {
+  const Fixture fixture;
+  const Signal rate = fixture.rate("pitch/position + pitch/velocity - arm/position/x + arm/velocity/y");
+  ASSERT_EQ(rate.size(), 4U);
+  EXPECT_EQ(rate[0].kind, SignalKind::kJointVelocity);
+  EXPECT_EQ(rate[1].kind, SignalKind::kJointAcceleration);
+  EXPECT_EQ(rate[2].kind, SignalKind::kLinkVelocity);
+  EXPECT_EQ(rate[2].factor, -1.0);
+  EXPECT_EQ(rate[3].kind, SignalKind::kLinkAcceleration);
+  EXPECT_EQ(rate[3].axis, 1);
+  EXPECT_EQ(fixture.rate("hold/integral")[0].kind, SignalKind::kControllerError);
+  EXPECT_EQ(fixture.rate("hold/error")[0].kind, SignalKind::kControllerErrorRate);
+}
+
+TEST(Differentiate, AForceHasNoRate) {
+  const Fixture fixture;
+  for (const char* text : {"pitch/acceleration", "pitch/effort", "hold/output", "arm/angular_velocity/x", "pitch/position + pitch/effort"})
+    EXPECT_THROW(fixture.rate(text), InputError) << text;
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,104 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/integration/simulation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "dynamics/compiled.h"
+
+namespace codesign {
+namespace {
+
+const char* const kTight = "solver: {method: rodas5p, relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}\n";
+
+std::shared_ptr<const System> system_of(const std::string& urdf, const std::string& study) {
+  const RobotDescription robot = read_urdf({"test.urdf", urdf});
+  return make_system(robot, read_study({"test.yaml", study}, robot));
+}
+
+/// A small swing of a bar, and its angular frequency: 9.81 * 0.5 over its moment of inertia about the hinge.
+std::shared_ptr<const System> small_swing() {
+  return system_of(pendulum(), let_go("{hinge: {position: 1.0e-4}}", "hinge/position", kTight));
+}
+const double kFrequency = std::sqrt(9.81 * 0.5 / (0.0834 + 0.25));
+
+TEST(Simulation, ASmallSwingIsHarmonicBetweenStepsToo) {
+  Simulation simulation(small_swing(), {}, {parse_signal("hinge/velocity", {}, "signal")});
+  std::vector<double> times;
+  const Status status = simulate(&simulation, 1.0, 51, [&](const Frame& frame) {
+    times.push_back(frame.time);
+    const double phase = kFrequency * frame.time;
+    EXPECT_NEAR(frame.joints[0].position, 1e-4 * std::cos(phase), 1e-11);
+    EXPECT_NEAR(frame.signals[0], -1e-4 * kFrequency * std::sin(phase), 1e-10);
+    EXPECT_NEAR(frame.joints[0].acceleration, -1e-4 * kFrequency * kFrequency * std::cos(phase), 1e-9);
+    return true;
+  });
+  ASSERT_TRUE(status.ok()) << status.cause;
+  ASSERT_EQ(times.size(), 51U);
+  EXPECT_EQ(times.front(), 0.0);
+  EXPECT_EQ(times.back(), 1.0);
+}
+
+TEST(Simulation, TheObjectiveGrowsToItsIntegral) {
+  Simulation simulation(small_swing(), {});
+  Frame frame;
+  ASSERT_TRUE(simulation.start().ok());
+  ASSERT_TRUE(simulation.advance(1.0).ok());
+  simulation.sample(1.0, &frame);
+  // The integral of (a cos wt)^2 from 0 to 1.
+  const double expected = 1e-8 * (0.5 + std::sin(2.0 * kFrequency) / (4.0 * kFrequency));
+  EXPECT_NEAR(frame.objective, expected, 1e-6 * expected);
+}
+
+TEST(Simulation, TheInstantsAskedForDoNotChangeTheRun) {
+  Frame coarse, fine;
+  const auto last = [](Frame* frame) {
+    return [frame](const Frame& f) {
+      *frame = f;
+      return true;
+    };
+  };
+  Simulation a(small_swing(), {}), b(small_swing(), {});
+  ASSERT_TRUE(simulate(&a, 1.0, 2, last(&coarse)).ok());
+  ASSERT_TRUE(simulate(&b, 1.0, 201, last(&fine)).ok());
+  EXPECT_EQ(coarse.joints[0].position, fine.joints[0].position);
+  EXPECT_EQ(a.statistics().steps, b.statistics().steps);
+}
+
+TEST(Simulation, RunsOnBeyondTheDuration) {
+  Simulation simulation(small_swing(), {});
+  Frame frame;
+  ASSERT_TRUE(simulation.start().ok());
+  for (double time : {0.5, 1.0, 1.7, 3.0}) {
+    ASSERT_TRUE(simulation.advance(time).ok());
+    simulation.sample(time, &frame);
+    EXPECT_NEAR(frame.joints[0].position, 1e-4 * std::cos(kFrequency * time), 1e-10);
+  }
+}
+
+TEST(Simulation, ContinuousJointsCountTheirTurns) {
+  Simulation simulation(system_of(pendulum(), let_go("{hinge: {position: 14.0, velocity: 20.0}}", "hinge/velocity", kTight)), {});
+  double previous = 14.0;
+  const Status status = simulate(&simulation, 1.0, 101, [&](const Frame& frame) {
+    EXPECT_GE(frame.joints[0].position, previous);
+    EXPECT_LT(frame.joints[0].position, previous + 0.5);
+    previous = frame.joints[0].position;
+    return true;
+  });
+  ASSERT_TRUE(status.ok());
+  EXPECT_GT(previous, 14.0 + 12.0);
+}
+
+TEST(Simulation, AnObserverMayEndIt) {
+  Simulation simulation(small_swing(), {});
+  int frames = 0;
+  const Status status = simulate(&simulation, 1.0, 11, [&frames](const Frame&) { return ++frames < 3; });
+  EXPECT_EQ(status.code, StatusCode::kCancelled);
+  EXPECT_NEAR(status.time, 0.2, 1e-15);
+  EXPECT_EQ(frames, 3);
+}
+
+}  // namespace
+}  // namespace codesign
