@@ -134,12 +134,13 @@ void IdasIntegrator::Implementation::start_sensitivities(const std::vector<doubl
   if (first) {
     require(IDASensInit(ida, count, IDA_STAGGERED, IdasEquations::sensitivity_residual, y_rho_->get(), y_dot_rho_->get()), "IDASensInit");
     require(IDAQuadSensInit(ida, IdasEquations::sensitivity_integrand, psi_rho_->get()), "IDAQuadSensInit");
-    require(IDASetSensErrCon(ida, SUNTRUE), "IDASetSensErrCon");
     require(IDASensEEtolerances(ida), "IDASensEEtolerances");
   } else {
     require(IDASensReInit(ida, IDA_STAGGERED, y_rho_->get(), y_dot_rho_->get()), "IDASensReInit");
     require(IDAQuadSensReInit(ida, psi_rho_->get()), "IDAQuadSensReInit");
   }
+  // A solution without sensitivities in between switches it off.
+  require(IDASetSensErrCon(ida, SUNTRUE), "IDASetSensErrCon");
   require(IDASetSensParams(ida, nullptr, scales_.data(), nullptr), "IDASetSensParams");
 }
 
