@@ -13,6 +13,7 @@ namespace codesign {
 
 /// The equations in IDAS's terms: y = (q, v, s, lambda), F(t, y, y') = (q' - v, G(q, v, s; v', lambda, s')); doc/theory.md (25).
 ///
+/// The constraints' rows are stabilized, Phi'' + 2 kappa Phi' + kappa^2 Phi, which changes neither the solution nor its sensitivities.
 /// The static functions are IDAS's callbacks; their user data is an IdasEquations. No exception leaves them.
 class IdasEquations {
  public:
@@ -47,13 +48,13 @@ class IdasEquations {
   void visit(double t, const double* y, const double* y_dot);
   void derivative(int k, const double* y_rho, const double* y_dot_rho);
 
-  const System& system_;
   const Layout& layout_;
   IdasNewton& newton_;
   Equations<double> equations_;
   IdasSensitivities* sensitivities_ = nullptr;
   State<double> state_, direction_;
-  VectorX<double> G_, dG_;
+  VectorX<double> G_, dG_, Phi_, Phi_rate_;
+  double kappa_;  ///< [1/s]
   std::vector<double> visited_;  ///< t, y, y' of the point whose derivatives are present
   std::string failure_;
 };

@@ -49,6 +49,7 @@ void IdasNewton::solve(const double* b, double* x) {
   const double h = 1.0 / c_j_;
   u_ = Eigen::Map<const VectorX<double>>(b + layout.n, layout.columns());
   subtract_position_product(system_, derivatives_, b, h, u_.data());
+  u_.segment(layout.n, layout.m) /= (1.0 + kappa_ * h) * (1.0 + kappa_ * h);
   reduced_.lu().solve(u_.data());
   Eigen::Map<VectorX<double>> x_q(x, layout.n), x_v(x + layout.n, layout.n), x_s(x + 2 * layout.n, layout.states),
       x_lambda(x + 2 * layout.n + layout.states, layout.m);

@@ -54,13 +54,19 @@ void IdasTangent::start(const std::vector<double>& parameters, const State<doubl
   }
 }
 
-void IdasTangent::linearize(const State<double>& state, Equations<double>* equations) {
+void IdasTangent::linearize(const State<double>& state, double kappa, Equations<double>* equations) {
+  kappa_ = kappa;
   equations->linearize(state, &derivatives_);
   groups_.for_each([&](auto* group) {
     typename std::remove_pointer_t<decltype(group)>::Scalar g(0.0);
     group->equations.turn_references() = equations->turn_references();
     group->load(state, nullptr);
     group->equations.residual(group->state, &group->G, &g);
+    if (kappa > 0.0) {
+      group->equations.constraint_errors(group->state.q, group->state.v, &group->Phi, &group->Phi_rate);
+      for (int row = 0; row < system_.layout().m; ++row)
+        group->G[system_.layout().n + row] += 2.0 * kappa * group->Phi_rate[row] + kappa * kappa * group->Phi[row];
+    }
     for (int k = 0; k < group->range.count; ++k) {
       auto column = partial_.col(group->range.first + k);
       for (Eigen::Index row = 0; row < group->G.size(); ++row) column[row] = group->G[row].v[k];
@@ -69,14 +75,24 @@ void IdasTangent::linearize(const State<double>& state, Equations<double>* equat
   });
 }
 
+// Along (q, v, a), Phi'' + 2 kappa Phi' + kappa^2 Phi changes as Phi'' does along (q, v + kappa q, a + 2 kappa v + kappa^2 q), since
+// (Phi'')_v = 2 (Phi')_q and (Phi'')_a = (Phi')_v = Phi_q.
 void IdasTangent::derivative(int k, const State<double>& direction, VectorX<double>* result) {
+  const Layout& layout = system_.layout();
   directional_derivative(system_, derivatives_, direction, result);
+  if (kappa_ > 0.0) {
+    stabilized_direction_ = direction;
+    stabilized_direction_.v += kappa_ * direction.q;
+    stabilized_direction_.z.head(layout.n) += 2.0 * kappa_ * direction.v + kappa_ * kappa_ * direction.q;
+    directional_derivative(system_, derivatives_, stabilized_direction_, &stabilized_);
+    result->segment(layout.n, layout.m) = stabilized_.segment(layout.n, layout.m);
+  }
   *result += partial_.col(k);
 }
 
 void IdasTangent::terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions, Eigen::VectorXd* gradient) {
   gradient->setZero(count());
-  linearize(state, equations);
+  linearize(state, 0.0, equations);
   if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) gradient->setConstant(std::numeric_limits<double>::quiet_NaN());
   for (int k = 0; k < count(); ++k) {
     State<double>& direction = (*directions)[static_cast<std::size_t>(k)];

@@ -11,7 +11,7 @@
 namespace codesign {
 
 /// The sensitivity equations that IDAS integrates; doc/theory.md (27):
-///   0 = G_q q_rho + G_v v_rho + G_s s_rho + G_z z_rho + G_rho, and g's the same.
+///   0 = G_q q_rho + G_v v_rho + G_s s_rho + G_z z_rho + G_rho, and g's the same; rows of constraints stabilized as IDAS's residual.
 /// By states the derivatives are the hand-written ones, by parameters automatic: once per point, whatever the corrector then asks for.
 class IdasTangent final : public IdasSensitivities {
  public:
@@ -20,7 +20,7 @@ class IdasTangent final : public IdasSensitivities {
   int count() const override { return static_cast<int>(partial_.cols()); }
   void start(const std::vector<double>& parameters, const State<double>& initial, Integrator* integrator, std::vector<State<double>>* sensitivities,
              std::vector<double>* scales) override;
-  void linearize(const State<double>& state, Equations<double>* equations) override;
+  void linearize(const State<double>& state, double kappa, Equations<double>* equations) override;
   void derivative(int k, const State<double>& direction, VectorX<double>* result) override;
 
   /// w_rho of the terminal terms at a consistent state. @param directions (q, v, s)_rho per parameter; their z is solved for.
@@ -37,7 +37,7 @@ class IdasTangent final : public IdasSensitivities {
     LaneRange<N> range;
     Equations<Scalar> equations;
     State<Scalar> state;
-    VectorX<Scalar> G;
+    VectorX<Scalar> G, Phi, Phi_rate;
   };
 
   const System& system_;
@@ -45,7 +45,9 @@ class IdasTangent final : public IdasSensitivities {
   Linearization<double> derivatives_;
   Eigen::MatrixXd partial_;  ///< (G, g)_rho at the present point
   IterationMatrix matrix_;
-  VectorX<double> dG_;
+  VectorX<double> dG_, stabilized_;
+  State<double> stabilized_direction_;
+  double kappa_ = 0.0;
 };
 
 }  // namespace codesign

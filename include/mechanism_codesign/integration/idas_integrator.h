@@ -20,16 +20,17 @@ class IdasSensitivities {
   /// @param scales the size of each parameter, never zero: sensitivities are as accurate relative to 1/scale as the state is to 1.
   virtual void start(const std::vector<double>& parameters, const State<double>& initial, Integrator* integrator,
                      std::vector<State<double>>* sensitivities, std::vector<double>* scales) = 0;
-  /// Makes the derivatives at a state the present ones.
-  virtual void linearize(const State<double>& state, Equations<double>* equations) = 0;
-  /// d(G, g)/d(rho_k) along a direction (q, v, s, z)_rho at the present point: columns() + 1 entries.
+  /// Makes the derivatives at a state the present ones. @param kappa rate of stabilization [1/s] of the constraints' rows.
+  virtual void linearize(const State<double>& state, double kappa, Equations<double>* equations) = 0;
+  /// d(G, g)/d(rho_k), stabilized, along a direction (q, v, s, z)_rho at the present point: columns() + 1 entries.
   virtual void derivative(int k, const State<double>& direction, VectorX<double>* result) = 0;
 };
 
 /// Variable-order BDF by SUNDIALS IDAS on q' = v, 0 = G(q, v, s; v', lambda, s'), psi' = g; doc/theory.md (25)-(27).
 ///
 /// The unknowns are (q, v, s, lambda); a and sigma are derivatives, not unknowns. Newton's systems are reduced to the size of (a, lambda, sigma).
-/// lambda stays out of the error test. Failures of IDAS come back as a Status with time and cause.
+/// lambda stays out of the error test. A multistep method has no place for a projection, so the constraints' rows are stabilized.
+/// Failures of IDAS come back as a Status with time and cause.
 class IdasIntegrator final : public Integrator {
  public:
   explicit IdasIntegrator(const System& system);
