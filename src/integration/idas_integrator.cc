@@ -4,7 +4,7 @@
 #include <idas/idas_ls.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "integration/idas_equations.h"
 #include "integration/idas_status.h"
@@ -89,6 +89,8 @@ void IdasIntegrator::Implementation::set_up() {
   require(IDASetId(ida, differential.get()), "IDASetId");
   require(IDASetSuppressAlg(ida, SUNTRUE), "IDASetSuppressAlg");
   require(IDASetInitStep(ida, options_.initial_step), "IDASetInitStep");
+  // Shorter ones get lost in the time they are added to.
+  require(IDASetMinStep(ida, std::numeric_limits<double>::epsilon() * system_.study().duration), "IDASetMinStep");
   require(IDASetMaxStep(ida, options_.maximum_step), "IDASetMaxStep");
   require(IDASetLinearSolver(ida, newton_.solver(), newton_.matrix()), "IDASetLinearSolver");
   require(IDASetJacFn(ida, IdasEquations::jacobian), "IDASetJacFn");
