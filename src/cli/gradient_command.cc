@@ -17,13 +17,13 @@ GradientCheck compute(const Arguments& arguments, const Problem& problem, const 
   return result;
 }
 
-void print_table(const Arguments& arguments, const Problem& problem, const GradientCheck& result, std::ostream& out) {
+void print_table(const Problem& problem, const GradientCheck& result, std::ostream& out) {
   const std::vector<std::string> names = problem.tuned_names();
   const Eigen::VectorXd rho = problem.start();
   const bool verified = result.reference.size() == rho.size();
   Table table;
   std::vector<std::string> header = {"parameter", "value", "gradient"};
-  if (verified) header.insert(header.end(), {name_of(arguments.method), "difference"});
+  if (verified) header.insert(header.end(), {name_of(result.method), "difference"});
   table.add(std::move(header));
   for (Eigen::Index k = 0; k < rho.size(); ++k) {
     const double gradient = result.evaluation.gradient[k];
@@ -45,7 +45,7 @@ Json result_json(const Arguments& arguments, const Problem& problem, const Gradi
   add_statistics(result.evaluation.statistics, &object);
   add_counts(problem, problem.parameters(), &object);
   if (!arguments.verify || !result.status.ok()) return object;
-  object["verification"] = {{"method", name_of(arguments.method)},
+  object["verification"] = {{"method", name_of(result.method)},
                             {"reference", by_name(names, result.reference)},
                             {"reference_error", by_name(names, result.reference_error)},
                             {"largest_relative_difference", result.largest_relative_difference}};
@@ -58,7 +58,7 @@ int gradient(const Arguments& arguments, const Console& console) {
   const Problem problem = load_tunable(arguments);
   const GradientCheck result = compute(arguments, problem, console);
   const bool known = result.evaluation.status.ok() && result.evaluation.gradient.size() > 0;
-  if (!arguments.json && known) print_table(arguments, problem, result, console.out);
+  if (!arguments.json && known) print_table(problem, result, console.out);
   return finish(arguments, result.status, result_json(arguments, problem, result), console);
 }
 

@@ -15,7 +15,7 @@ commands
     --csv FILE             where to; by default standard output
     --samples N            equally spaced instants, from 2; by default 101
   gradient MODEL STUDY     the objective and its gradient by direct sensitivities
-    --verify[=METHOD]      beside complex_step (the default) or ridders
+    --verify[=METHOD]      beside complex_step (the default) or ridders (always with idas)
   optimize MODEL STUDY     tune the study's parameters; Ctrl-C ends with the best point so far
     --output DIR           write tuned.urdf, result.json, convergence.csv, initial.csv and tuned.csv
   help                     this text

@@ -81,8 +81,8 @@ double compliance_of(const System& system) {
 std::shared_ptr<const System> make_system(const RobotDescription& robot, const Study& study) {
   if (!rosenbrock_tableau(study.solver.method))
     throw InputError({{study.file, 0}, "solver.method", "no such Rosenbrock method", study.solver.method, "rodas4, rodas4p2, rodas5p"});
-  if (study.solver.integrator != "rosenbrock")
-    throw InputError({{study.file, 0}, "solver.integrator", "no such integrator in this version", study.solver.integrator, "rosenbrock"});
+  if (study.solver.integrator != "rosenbrock" && study.solver.integrator != "idas")
+    throw InputError({{study.file, 0}, "solver.integrator", "no such integrator", study.solver.integrator, "rosenbrock, idas"});
   auto system = std::make_shared<const System>(robot, study);
   if (has_redundant_constraints(*system)) return std::make_shared<const System>(robot, study, compliance_of(*system));
   return system;

@@ -17,11 +17,7 @@ RosenbrockIntegrator::RosenbrockIntegrator(const System& system)
 Status RosenbrockIntegrator::start(const std::vector<double>& parameters) {
   statistics_ = {};
   controller_ = StepController(step_.tableau().order);
-  Equations<double>& equations = step_.equations();
-  equations.set_design(parameters);
-  if (std::string fault = find_impossible(system_.robot(), system_.topology(), equations.constants()); !fault.empty())
-    return {StatusCode::kInvalidDesign, 0.0, fault};
-  if (Status status = assembly_.solve(parameters, &equations, &initial_); !status.ok()) return status;
+  if (Status status = assemble_start(system_, parameters, &assembly_, &step_.equations(), &initial_); !status.ok()) return status;
   step_.start(initial_);
   proposal_ = options_.initial_step > 0.0 ? options_.initial_step : first_step();
   return {};
@@ -38,6 +34,12 @@ double RosenbrockIntegrator::first_step() const {
   }
   const double h = rate > 0.0 && size > 0.0 ? 0.01 * std::sqrt(size / rate) : 1e-6;
   return std::min(h, 0.01 * system_.study().duration);
+}
+
+void RosenbrockIntegrator::interpolate(double time, State<double>* state, double* psi) {
+  const double h = step_.step_size();
+  step_.interpolate(h > 0.0 ? (time - step_.previous().t) / h : 1.0, state, psi);
+  state->t = time;
 }
 
 Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_accept) {

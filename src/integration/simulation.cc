@@ -6,7 +6,7 @@
 
 #include "mechanism_codesign/dynamics/observer.h"
 #include "mechanism_codesign/dynamics/system.h"
-#include "mechanism_codesign/integration/rosenbrock_integrator.h"
+#include "mechanism_codesign/integration/integrator.h"
 #include "mechanism_codesign/math/cpu_timer.h"
 
 namespace codesign {
@@ -14,14 +14,14 @@ namespace codesign {
 class Simulation::Implementation {
  public:
   Implementation(std::shared_ptr<const System> system, const std::vector<double>& parameters, const std::vector<SignalDescription>& signals)
-      : system_(std::move(system)), parameters_(parameters), observer_(*system_, signals), integrator_(*system_) {
+      : system_(std::move(system)), parameters_(parameters), observer_(*system_, signals), integrator_(make_integrator(*system_)) {
     sample_.resize(system_->layout());
   }
 
   Status start() {
     const CpuTimer timer;
-    const Status status = integrator_.start(parameters_);
-    statistics_ = integrator_.statistics();
+    const Status status = integrator_->start(parameters_);
+    statistics_ = integrator_->statistics();
     statistics_.cpu_seconds += timer.seconds();
     return status;
   }
@@ -31,25 +31,22 @@ class Simulation::Implementation {
     const CpuTimer timer;
     const double duration = system_->study().duration;
     Status status;
-    while (status.ok() && integrator_.step().state().t < time) {
-      const double now = integrator_.step().state().t;
-      status = integrator_.advance(now < duration && time <= duration ? duration : std::max(time, now) + duration);
+    while (status.ok() && integrator_->state().t < time) {
+      const double now = integrator_->state().t;
+      status = integrator_->advance(now < duration && time <= duration ? duration : std::max(time, now) + duration);
     }
     const double cpu = statistics_.cpu_seconds + timer.seconds();
-    statistics_ = integrator_.statistics();
+    statistics_ = integrator_->statistics();
     statistics_.cpu_seconds = cpu;
     return status;
   }
 
   // The interpolated accelerations and multipliers are of lower order; they are solved for anew from q, v and s.
   void sample(double time, Frame* frame) {
-    RosenbrockStep<double>& step = integrator_.step();
     double psi = 0.0;
-    const double h = step.step_size();
-    step.interpolate(h > 0.0 ? (time - step.previous().t) / h : 1.0, &sample_, &psi);
-    sample_.t = time;
-    if (h > 0.0) integrator_.assembly().solve_rates(&step.equations(), &sample_);
-    observer_.observe(sample_, psi, integrator_.assembly().theta(), &step.equations(), frame);
+    integrator_->interpolate(time, &sample_, &psi);
+    if (integrator_->state().t > 0.0) integrator_->assembly().solve_rates(&integrator_->equations(), &sample_);
+    observer_.observe(sample_, psi, integrator_->assembly().theta(), &integrator_->equations(), frame);
   }
 
   const FrameNames& names() const { return observer_.names(); }
@@ -59,7 +56,7 @@ class Simulation::Implementation {
   std::shared_ptr<const System> system_;
   std::vector<double> parameters_;
   Observer observer_;
-  RosenbrockIntegrator integrator_;
+  std::unique_ptr<Integrator> integrator_;
   State<double> sample_;
   Statistics statistics_;
 };

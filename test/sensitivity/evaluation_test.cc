@@ -27,8 +27,9 @@ Case shipped(const std::string& name) {
 }
 
 /// References: an independent solution of the same data by other formulations and tolerances down to 1e-12.
-void expect_reference(const std::string& name, double objective, const std::vector<double>& gradient) {
-  const Case c = shipped(name);
+void expect_reference(const std::string& name, const std::string& integrator, double objective, const std::vector<double>& gradient) {
+  Case c = shipped(name);
+  c.study.solver.integrator = integrator;
   const Evaluation evaluation = Evaluator(make_system(c.robot, c.study)).evaluate(c.rho, true);
   ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
   EXPECT_NEAR(evaluation.objective, objective, 1e-7 * objective);
@@ -38,11 +39,13 @@ void expect_reference(const std::string& name, double objective, const std::vect
 }
 
 TEST(Evaluation, SliderCrankMeetsTheReference) {
-  expect_reference("slider_crank", 0.05925272691, {1.674310, 0.0386376, 0.895474, 3.578859, -0.1185753});
+  for (const char* integrator : {"rosenbrock", "idas"})
+    expect_reference("slider_crank", integrator, 0.05925272691, {1.674310, 0.0386376, 0.895474, 3.578859, -0.1185753});
 }
 
 TEST(Evaluation, HaugsSliderCrankMeetsTheReference) {
-  expect_reference("slider_crank_haug", 0.717975196477, {32.0105032, -15.462857, -0.0754624, -0.3394216, -1.0274846});
+  for (const char* integrator : {"rosenbrock", "idas"})
+    expect_reference("slider_crank_haug", integrator, 0.717975196477, {32.0105032, -15.462857, -0.0754624, -0.3394216, -1.0274846});
 }
 
 TEST(Evaluation, TangentIsExactForEveryMethod) {
@@ -66,9 +69,39 @@ TEST(Evaluation, RiddersDifferencesAgree) {
   EXPECT_LT(check.largest_relative_difference, 1e-4);
 }
 
-TEST(Evaluation, FailuresAreStatuses) {
+// Whatever check is asked for: there is no complex step through IDAS, and differences of the other integrator say more.
+TEST(Evaluation, AGradientByIdasIsCheckedByTheOtherIntegrator) {
+  Case c = shipped("slider_crank");
+  c.study.duration = 0.3;
+  c.study.solver.integrator = "idas";
+  for (CheckMethod method : {CheckMethod::kComplexStep, CheckMethod::kRidders}) {
+    const GradientCheck check = check_gradient(make_system(c.robot, c.study), c.rho, method);
+    ASSERT_TRUE(check.status.ok()) << check.status.cause;
+    EXPECT_EQ(check.method, CheckMethod::kRidders);
+    EXPECT_GT(check.largest_relative_difference, 0.0);
+    EXPECT_LT(check.largest_relative_difference, 1e-5);
+  }
+}
+
+// A rod too short for a whole turn: the crank stops, held by friction, and the mechanism stays there.
+TEST(Evaluation, AJammedDesignHasTheSameValueWithBothIntegrators) {
+  double objective[2];
+  for (int k = 0; k < 2; ++k) {
+    Case c = shipped("slider_crank_haug");
+    c.study.solver.integrator = k ? "idas" : "rosenbrock";
+    c.rho[1] = 0.24;
+    const Evaluation evaluation = Evaluator(make_system(c.robot, c.study)).evaluate(c.rho, false);
+    ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
+    objective[k] = evaluation.objective;
+  }
+  EXPECT_GT(objective[0], 100.0);
+  EXPECT_NEAR(objective[0], objective[1], 1e-6 * objective[0]);
+}
+
+void expect_failures_are_statuses(const std::string& integrator) {
   Case c = shipped("slider_crank_haug");
   c.study.duration = 0.02;
+  c.study.solver.integrator = integrator;
   Evaluator evaluator(make_system(c.robot, c.study));
   Eigen::VectorXd rho = c.rho;
   // The rod does not reach the slider's rail.
@@ -83,7 +116,11 @@ TEST(Evaluation, FailuresAreStatuses) {
   const std::atomic<bool> cancelled{true};
   EXPECT_EQ(evaluator.evaluate(c.rho, false, &cancelled).status.code, StatusCode::kCancelled);
   // The workspace is whole afterwards.
-  EXPECT_TRUE(evaluator.evaluate(c.rho, false).status.ok());
+  EXPECT_TRUE(evaluator.evaluate(c.rho, true).status.ok());
+}
+
+TEST(Evaluation, FailuresAreStatuses) {
+  for (const char* integrator : {"rosenbrock", "idas"}) expect_failures_are_statuses(integrator);
 }
 
 }  // namespace

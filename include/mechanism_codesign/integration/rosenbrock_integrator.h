@@ -5,32 +5,34 @@
 #include <functional>
 #include <vector>
 
-#include "mechanism_codesign/dynamics/assembly.h"
+#include "mechanism_codesign/integration/integrator.h"
 #include "mechanism_codesign/integration/rosenbrock_step.h"
-#include "mechanism_codesign/integration/simulation.h"
 #include "mechanism_codesign/integration/step_controller.h"
 
 namespace codesign {
 
-/// Integrates one design with an adaptive Rosenbrock-Wanner method. Reusable: start() begins anew without allocating once warm.
-class RosenbrockIntegrator {
+/// An adaptive Rosenbrock-Wanner method; doc/theory.md (15)-(17). Once warm, steps do not allocate.
+class RosenbrockIntegrator final : public Integrator {
  public:
   explicit RosenbrockIntegrator(const System& system);
 
-  /// Assembles the start of a design.
-  Status start(const std::vector<double>& parameters);
+  Status start(const std::vector<double>& parameters) override;
+  Status advance(double limit) override { return advance(limit, {}); }
+  const State<double>& state() const override { return step_.state(); }
+  double psi() const override { return step_.psi(); }
+  void interpolate(double time, State<double>* state, double* psi) override;
+  Equations<double>& equations() override { return step_.equations(); }
+  Assembly& assembly() override { return assembly_; }
+  const Statistics& statistics() const override { return statistics_; }
 
   /// Called when a step's error has been accepted, before it is taken: the tangent of its stages is due.
   using BeforeAccept = std::function<void(const RosenbrockStep<double>&)>;
 
-  /// Takes one accepted step, not beyond `limit` [s].
-  Status advance(double limit, const BeforeAccept& before_accept = {});
+  Status advance(double limit, const BeforeAccept& before_accept);
 
   const RosenbrockStep<double>& step() const { return step_; }
   RosenbrockStep<double>& step() { return step_; }
-  Assembly& assembly() { return assembly_; }
   const State<double>& initial_state() const { return initial_; }
-  const Statistics& statistics() const { return statistics_; }
 
  private:
   double first_step() const;

@@ -38,19 +38,21 @@ class Evaluator {
 
 /// How a gradient is checked.
 enum class CheckMethod {
-  kComplexStep,  ///< complex step through the same sequence of steps; exact to rounding
+  kComplexStep,  ///< complex step through the same sequence of steps, of `rosenbrock` alone; exact to rounding
   kRidders,      ///< Ridders' extrapolated differences of tight integrations; independent of the step sequence
 };
 
 /// A gradient beside an independently computed one.
 struct GradientCheck {
   Status status;
+  CheckMethod method = CheckMethod::kComplexStep;  ///< that was used
   Evaluation evaluation;
   Eigen::VectorXd reference;
   Eigen::VectorXd reference_error;         ///< its own error estimate (zero for the complex step)
   double largest_relative_difference = 0;  ///< max_k |g_k - r_k| / max(|r_k|, 1e-3 max_j |r_j|)
 };
 
+/// Computes a gradient twice. That of `idas` is always checked by differences, and they are of `rosenbrock`: each integrator is the other's check.
 GradientCheck check_gradient(const std::shared_ptr<const System>& system, const Eigen::VectorXd& rho, CheckMethod method,
                              const std::atomic<bool>* cancel = nullptr);
 

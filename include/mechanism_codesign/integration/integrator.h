@@ -1,0 +1,43 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_INTEGRATION_INTEGRATOR_H_
+#define MECHANISM_CODESIGN_INTEGRATION_INTEGRATOR_H_
+
+#include <memory>
+#include <vector>
+
+#include "mechanism_codesign/dynamics/assembly.h"
+#include "mechanism_codesign/integration/simulation.h"
+
+namespace codesign {
+
+/// Integrates one design of a mechanism step by step. Reusable: start() begins anew, in the same memory. Not thread-safe.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+
+  /// Assembles the start of a design. @param parameters all named parameters.
+  virtual Status start(const std::vector<double>& parameters) = 0;
+  /// Takes one accepted step, not beyond `limit` [s].
+  virtual Status advance(double limit) = 0;
+
+  /// At the end of the last step.
+  virtual const State<double>& state() const = 0;
+  /// Integral of the objective's integrand so far.
+  virtual double psi() const = 0;
+  /// Dense output at `time` [s] within the last step; `state->z` of the lower order that it comes with.
+  virtual void interpolate(double time, State<double>* state, double* psi) = 0;
+
+  virtual Equations<double>& equations() = 0;
+  virtual Assembly& assembly() = 0;
+  virtual const Statistics& statistics() const = 0;
+};
+
+/// The integrator that the study asks for.
+std::unique_ptr<Integrator> make_integrator(const System& system);
+
+/// The common beginning of every integration: constants of the design, then a consistent state at t = 0.
+Status assemble_start(const System& system, const std::vector<double>& parameters, Assembly* assembly, Equations<double>* equations, State<double>* initial);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_INTEGRATION_INTEGRATOR_H_

@@ -1,0 +1,37 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_GRADIENT_ENGINE_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_GRADIENT_ENGINE_H_
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "mechanism_codesign/integration/integrator.h"
+
+namespace codesign {
+
+/// An integration that can carry the gradient of psi along; one implementation per integrator. Reusable; not thread-safe.
+class GradientEngine {
+ public:
+  virtual ~GradientEngine() = default;
+
+  /// Assembles the start of a design. @param parameters all named parameters.
+  virtual Status start(const std::vector<double>& parameters, bool with_gradient) = 0;
+  /// Takes one step, with its sensitivities if start() was asked for them, not beyond `limit` [s].
+  virtual Status advance(double limit) = 0;
+
+  /// Time reached [s].
+  virtual double time() const = 0;
+  /// psi if the motion ended here: the integral so far and the terminal terms.
+  virtual double objective() = 0;
+  /// d psi / d rho at the same point, in the order of Study::tuned.
+  virtual void gradient(Eigen::VectorXd* gradient) = 0;
+  virtual const Statistics& statistics() const = 0;
+};
+
+/// The engine of the study's integrator.
+std::unique_ptr<GradientEngine> make_gradient_engine(const System& system);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_GRADIENT_ENGINE_H_

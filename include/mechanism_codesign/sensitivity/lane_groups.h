@@ -1,0 +1,53 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_LANE_GROUPS_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_LANE_GROUPS_H_
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "mechanism_codesign/dynamics/system.h"
+#include "mechanism_codesign/math/lanes.h"
+
+namespace codesign {
+
+/// The tuned parameters rho_first, rho_first+1, ... whose derivatives N lanes carry.
+template <int N>
+struct LaneRange {
+  int first = 0, count = 0;
+
+  /// All named parameters, lane k seeded with the direction of rho_(first+k).
+  std::vector<Lanes<N>> seed(const System& system, const std::vector<double>& parameters) const {
+    std::vector<Lanes<N>> lanes(parameters.begin(), parameters.end());
+    for (int k = 0; k < count; ++k) lanes[static_cast<std::size_t>(system.study().tuned[static_cast<std::size_t>(first + k)])].v[k] = 1.0;
+    return lanes;
+  }
+};
+
+/// All tuned parameters in groups: eight at a time; a last group of four or fewer takes the narrower kind.
+/// Group<N> is made from (system, LaneRange<N>, further arguments).
+template <template <int> class Group>
+class LaneGroups {
+ public:
+  template <class... Arguments>
+  explicit LaneGroups(const System& system, const Arguments&... arguments) {
+    const int count = static_cast<int>(system.study().tuned.size());
+    int first = 0;
+    for (; count - first > 4; first += 8) wide_.push_back(std::make_unique<Group<8>>(system, LaneRange<8>{first, std::min(8, count - first)}, arguments...));
+    if (first < count) narrow_.push_back(std::make_unique<Group<4>>(system, LaneRange<4>{first, count - first}, arguments...));
+  }
+
+  template <class Action>
+  void for_each(const Action& action) {
+    for (auto& group : wide_) action(group.get());
+    for (auto& group : narrow_) action(group.get());
+  }
+
+ private:
+  std::vector<std::unique_ptr<Group<8>>> wide_;
+  std::vector<std::unique_ptr<Group<4>>> narrow_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_LANE_GROUPS_H_

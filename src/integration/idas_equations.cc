@@ -1,0 +1,162 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "integration/idas_equations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace codesign {
+namespace {
+
+using ConstMap = Eigen::Map<const VectorX<double>>;
+using Map = Eigen::Map<VectorX<double>>;
+
+const double* read(N_Vector vector) { return N_VGetArrayPointer(vector); }
+
+// What callbacks tell IDAS: go on; try a smaller step; give up.
+constexpr int kDone = 0, kRetry = 1, kGiveUp = -1;
+
+// Drift dies out this many times within a study: often enough to stay what a twentieth of the study makes it, slowly enough never to stiffen.
+constexpr double kStabilizations = 20.0;
+
+/// Keeps exceptions on this side of the C callback.
+template <class Action>
+int guarded(std::string* failure, const Action& action) {
+  try {
+    return action();
+  } catch (const std::exception& error) {
+    *failure = error.what();
+  } catch (...) {
+    *failure = "unknown exception";
+  }
+  return kGiveUp;
+}
+
+}  // namespace
+
+IdasEquations::IdasEquations(const System& system, IdasNewton* newton)
+    : layout_(system.layout()),
+      newton_(*newton),
+      equations_(system),
+      kappa_(kStabilizations / system.study().duration),
+      visited_(static_cast<std::size_t>(1 + 2 * size())) {
+  state_.resize(layout_);
+  direction_.resize(layout_);
+  start();
+}
+
+void IdasEquations::start() {
+  visited_[0] = std::numeric_limits<double>::quiet_NaN();
+  failure_.clear();
+}
+
+void IdasEquations::unpack(double t, const double* y, const double* y_dot, State<double>* state) const {
+  const int n = layout_.n, m = layout_.m, states = layout_.states;
+  state->t = t;
+  state->q = ConstMap(y, n);
+  state->v = ConstMap(y + n, n);
+  state->s = ConstMap(y + 2 * n, states);
+  state->z.head(n) = ConstMap(y_dot + n, n);
+  state->z.segment(n, m) = ConstMap(y + 2 * n + states, m);
+  state->z.tail(states) = ConstMap(y_dot + 2 * n, states);
+}
+
+// The multipliers' derivative appears nowhere; zero predicts them to be what they are.
+void IdasEquations::pack(const State<double>& state, double* y, double* y_dot) const {
+  const int n = layout_.n, m = layout_.m, states = layout_.states;
+  Map(y, n) = state.q;
+  Map(y + n, n) = state.v;
+  Map(y + 2 * n, states) = state.s;
+  Map(y + 2 * n + states, m) = state.z.segment(n, m);
+  Map(y_dot, n) = state.v;
+  Map(y_dot + n, n) = state.z.head(n);
+  Map(y_dot + 2 * n, states) = state.z.tail(states);
+  Map(y_dot + 2 * n + states, m).setZero();
+}
+
+int IdasEquations::residual(double t, const double* y, const double* y_dot, double* F) {
+  double g = 0.0;
+  unpack(t, y, y_dot, &state_);
+  equations_.residual(state_, &G_, &g);
+  equations_.constraint_errors(state_.q, state_.v, &Phi_, &Phi_rate_);
+  G_.segment(layout_.n, layout_.m) += 2.0 * kappa_ * Phi_rate_ + kappa_ * kappa_ * Phi_;
+  Map(F, layout_.n) = ConstMap(y_dot, layout_.n) - state_.v;
+  Map(F + layout_.n, layout_.columns()) = G_;
+  return std::isfinite(G_.sum()) ? kDone : kRetry;
+}
+
+int IdasEquations::jacobian(double t, double c_j, const double* y, const double* y_dot) {
+  unpack(t, y, y_dot, &state_);
+  equations_.linearize(state_, newton_.derivatives());
+  newton_.set_rates(c_j, kappa_);
+  return kDone;
+}
+
+int IdasEquations::integrand(double t, const double* y, const double* y_dot, double* g) {
+  unpack(t, y, y_dot, &state_);
+  equations_.residual(state_, &G_, g);
+  return std::isfinite(*g) ? kDone : kRetry;
+}
+
+void IdasEquations::visit(double t, const double* y, const double* y_dot) {
+  double* known = visited_.data();
+  if (known[0] == t && std::equal(y, y + size(), known + 1) && std::equal(y_dot, y_dot + size(), known + 1 + size())) return;
+  known[0] = t;
+  std::copy(y, y + size(), known + 1);
+  std::copy(y_dot, y_dot + size(), known + 1 + size());
+  unpack(t, y, y_dot, &state_);
+  sensitivities_->linearize(state_, kappa_, &equations_);
+}
+
+void IdasEquations::derivative(int k, const double* y_rho, const double* y_dot_rho) {
+  unpack(state_.t, y_rho, y_dot_rho, &direction_);
+  sensitivities_->derivative(k, direction_, &dG_);
+}
+
+int IdasEquations::residual(realtype t, N_Vector y, N_Vector y_dot, N_Vector F, void* self) {
+  auto* equations = static_cast<IdasEquations*>(self);
+  return guarded(&equations->failure_, [&] { return equations->residual(t, read(y), read(y_dot), N_VGetArrayPointer(F)); });
+}
+
+int IdasEquations::jacobian(realtype t, realtype c_j, N_Vector y, N_Vector y_dot, N_Vector, SUNMatrix, void* self, N_Vector, N_Vector, N_Vector) {
+  auto* equations = static_cast<IdasEquations*>(self);
+  return guarded(&equations->failure_, [&] { return equations->jacobian(t, c_j, read(y), read(y_dot)); });
+}
+
+int IdasEquations::integrand(realtype t, N_Vector y, N_Vector y_dot, N_Vector g, void* self) {
+  auto* equations = static_cast<IdasEquations*>(self);
+  return guarded(&equations->failure_, [&] { return equations->integrand(t, read(y), read(y_dot), N_VGetArrayPointer(g)); });
+}
+
+int IdasEquations::sensitivity_residual(int count, realtype t, N_Vector y, N_Vector y_dot, N_Vector, N_Vector* y_rho, N_Vector* y_dot_rho, N_Vector* F_rho,
+                                        void* self, N_Vector, N_Vector, N_Vector) {
+  auto* equations = static_cast<IdasEquations*>(self);
+  return guarded(&equations->failure_, [&] {
+    const Layout& layout = equations->layout_;
+    bool finite = true;
+    equations->visit(t, read(y), read(y_dot));
+    for (int k = 0; k < count; ++k) {
+      double* F = N_VGetArrayPointer(F_rho[k]);
+      equations->derivative(k, read(y_rho[k]), read(y_dot_rho[k]));
+      Map(F, layout.n) = ConstMap(read(y_dot_rho[k]), layout.n) - equations->direction_.v;
+      Map(F + layout.n, layout.columns()) = equations->dG_.head(layout.columns());
+      finite = finite && std::isfinite(equations->dG_.sum());
+    }
+    return finite ? kDone : kRetry;
+  });
+}
+
+int IdasEquations::sensitivity_integrand(int count, realtype t, N_Vector y, N_Vector y_dot, N_Vector* y_rho, N_Vector* y_dot_rho, N_Vector, N_Vector* g_rho,
+                                         void* self, N_Vector, N_Vector, N_Vector) {
+  auto* equations = static_cast<IdasEquations*>(self);
+  return guarded(&equations->failure_, [&] {
+    equations->visit(t, read(y), read(y_dot));
+    for (int k = 0; k < count; ++k) {
+      equations->derivative(k, read(y_rho[k]), read(y_dot_rho[k]));
+      *N_VGetArrayPointer(g_rho[k]) = equations->dG_[equations->layout_.columns()];
+    }
+    return kDone;
+  });
+}
+
+}  // namespace codesign

@@ -1,0 +1,74 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_HANDLES_H_
+#define MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_HANDLES_H_
+
+#include <idas/idas.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
+
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+namespace codesign {
+
+/// Calls its function on what it owns, at the end.
+template <auto kFree>
+struct Release {
+  template <class T>
+  void operator()(T* object) const {
+    kFree(object);
+  }
+};
+
+inline void free_context(SUNContext context) { SUNContext_Free(&context); }
+inline void free_ida(void* ida) { IDAFree(&ida); }
+
+using ContextHandle = std::unique_ptr<std::remove_pointer_t<SUNContext>, Release<free_context>>;
+using IdaHandle = std::unique_ptr<void, Release<free_ida>>;
+using VectorHandle = std::unique_ptr<std::remove_pointer_t<N_Vector>, Release<N_VDestroy>>;
+using MatrixHandle = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, Release<SUNMatDestroy>>;
+using LinearSolverHandle = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, Release<SUNLinSolFree>>;
+
+/// Several vectors side by side, as SUNDIALS takes them.
+class VectorArray {
+ public:
+  VectorArray(int count, N_Vector like) : count_(count), vectors_(N_VCloneVectorArray(count, like)) {
+    if (!vectors_) throw std::bad_alloc();
+  }
+  ~VectorArray() { N_VDestroyVectorArray(vectors_, count_); }
+  VectorArray(const VectorArray&) = delete;
+  VectorArray& operator=(const VectorArray&) = delete;
+
+  N_Vector* get() { return vectors_; }
+  double* data(int k) const { return N_VGetArrayPointer(vectors_[k]); }
+
+ private:
+  int count_;
+  N_Vector* vectors_;
+};
+
+inline ContextHandle make_context() {
+  SUNContext context = nullptr;
+  if (SUNContext_Create(nullptr, &context) != 0) throw std::bad_alloc();
+  return ContextHandle(context);
+}
+
+inline VectorHandle make_vector(int size, SUNContext context) {
+  N_Vector vector = N_VNew_Serial(size, context);
+  if (!vector) throw std::bad_alloc();
+  N_VConst(0.0, vector);
+  return VectorHandle(vector);
+}
+
+/// For calls that only fail when we call them wrongly, or out of memory.
+inline void require(int flag, const char* call) {
+  if (flag < 0) throw std::logic_error(std::string(call) + " failed with " + std::to_string(flag));
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_HANDLES_H_

@@ -1,0 +1,219 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/integration/idas_integrator.h"
+
+#include <idas/idas_ls.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "integration/idas_equations.h"
+#include "integration/idas_status.h"
+
+namespace codesign {
+
+class IdasIntegrator::Implementation {
+ public:
+  Implementation(const System& system, Integrator* owner)
+      : system_(system),
+        options_(system.study().solver),
+        owner_(owner),
+        assembly_(system),
+        context_(make_context()),
+        newton_(system, context_.get()),
+        equations_(system, &newton_),
+        y_(make_vector(equations_.size(), context_.get())),
+        y_dot_(make_vector(equations_.size(), context_.get())),
+        dense_(make_vector(equations_.size(), context_.get())),
+        dense_dot_(make_vector(equations_.size(), context_.get())),
+        psi_(make_vector(1, context_.get())),
+        ida_(IDACreate(context_.get())) {
+    if (!ida_) throw std::bad_alloc();
+    state_.resize(system.layout());
+    set_up();
+  }
+
+  void carry(IdasSensitivities* sensitivities) {
+    carried_ = sensitivities;
+    equations_.set_sensitivities(sensitivities);
+  }
+
+  Status start(const std::vector<double>& parameters);
+  Status advance(double limit);
+  void interpolate(double time, State<double>* state, double* psi);
+  void sensitivity(int k, State<double>* direction) const { equations_.unpack(state_.t, y_rho_->data(k), y_dot_rho_->data(k), direction); }
+
+  const State<double>& state() const { return state_; }
+  double psi() const { return *N_VGetArrayPointer(psi_.get()); }
+  double psi_sensitivity(int k) const { return *psi_rho_->data(k); }
+  double largest_drift() const { return largest_drift_; }
+  Equations<double>& equations() { return equations_.equations(); }
+  Assembly& assembly() { return assembly_; }
+  const Statistics& statistics() const { return statistics_; }
+
+ private:
+  void set_up();
+  void start_sensitivities(const std::vector<double>& parameters);
+  void take_over(double time);
+  void count_steps();
+  static void note_error(int, const char*, const char*, char* message, void* self) { static_cast<Implementation*>(self)->message_ = message; }
+
+  const System& system_;
+  const SolverOptions& options_;
+  Integrator* owner_;
+  Assembly assembly_;
+  ContextHandle context_;
+  IdasNewton newton_;
+  IdasEquations equations_;
+  VectorHandle y_, y_dot_, dense_, dense_dot_, psi_;
+  std::unique_ptr<VectorArray> y_rho_, y_dot_rho_, psi_rho_;
+  IdaHandle ida_;
+  IdasSensitivities* carried_ = nullptr;
+  State<double> initial_, state_;
+  std::vector<State<double>> initial_rho_;
+  std::vector<double> scales_;
+  VectorX<double> drift_, drift_rate_;
+  double largest_drift_ = 0.0;
+  std::string message_;
+  Statistics statistics_;
+};
+
+void IdasIntegrator::Implementation::set_up() {
+  void* ida = ida_.get();
+  const VectorHandle differential = make_vector(equations_.size(), context_.get());
+  N_VConst(1.0, differential.get());
+  std::fill_n(N_VGetArrayPointer(differential.get()) + equations_.size() - system_.layout().m, system_.layout().m, 0.0);
+  require(IDASetErrHandlerFn(ida, note_error, this), "IDASetErrHandlerFn");
+  require(IDAInit(ida, IdasEquations::residual, 0.0, y_.get(), y_dot_.get()), "IDAInit");
+  require(IDASetUserData(ida, &equations_), "IDASetUserData");
+  require(IDASStolerances(ida, options_.relative_tolerance, options_.absolute_tolerance), "IDASStolerances");
+  require(IDASetId(ida, differential.get()), "IDASetId");
+  require(IDASetSuppressAlg(ida, SUNTRUE), "IDASetSuppressAlg");
+  require(IDASetInitStep(ida, options_.initial_step), "IDASetInitStep");
+  // Shorter ones get lost in the time they are added to.
+  require(IDASetMinStep(ida, std::numeric_limits<double>::epsilon() * system_.study().duration), "IDASetMinStep");
+  require(IDASetMaxStep(ida, options_.maximum_step), "IDASetMaxStep");
+  require(IDASetLinearSolver(ida, newton_.solver(), newton_.matrix()), "IDASetLinearSolver");
+  require(IDASetJacFn(ida, IdasEquations::jacobian), "IDASetJacFn");
+  require(IDAQuadInit(ida, IdasEquations::integrand, psi_.get()), "IDAQuadInit");
+}
+
+Status IdasIntegrator::Implementation::start(const std::vector<double>& parameters) {
+  statistics_ = {};
+  largest_drift_ = 0.0;
+  message_.clear();
+  equations_.start();
+  if (Status status = assemble_start(system_, parameters, &assembly_, &equations(), &initial_); !status.ok()) return status;
+  equations_.pack(initial_, N_VGetArrayPointer(y_.get()), N_VGetArrayPointer(y_dot_.get()));
+  N_VConst(0.0, psi_.get());
+  require(IDAReInit(ida_.get(), 0.0, y_.get(), y_dot_.get()), "IDAReInit");
+  require(IDAQuadReInit(ida_.get(), psi_.get()), "IDAQuadReInit");
+  start_sensitivities(parameters);
+  state_ = initial_;
+  return {};
+}
+
+void IdasIntegrator::Implementation::start_sensitivities(const std::vector<double>& parameters) {
+  void* ida = ida_.get();
+  if (!carried_ || carried_->count() == 0) {
+    if (y_rho_) require(IDASensToggleOff(ida), "IDASensToggleOff");
+    return;
+  }
+  const int count = carried_->count();
+  const bool first = !y_rho_;
+  if (first) {
+    y_rho_ = std::make_unique<VectorArray>(count, y_.get());
+    y_dot_rho_ = std::make_unique<VectorArray>(count, y_.get());
+    psi_rho_ = std::make_unique<VectorArray>(count, psi_.get());
+    initial_rho_.resize(static_cast<std::size_t>(count), initial_);
+    scales_.resize(static_cast<std::size_t>(count));
+  }
+  carried_->start(parameters, initial_, owner_, &initial_rho_, &scales_);
+  for (int k = 0; k < count; ++k) {
+    equations_.pack(initial_rho_[static_cast<std::size_t>(k)], y_rho_->data(k), y_dot_rho_->data(k));
+    *psi_rho_->data(k) = 0.0;
+  }
+  // Only the staggered corrector gets past the first steps; without the error test the tangent grows wrong at the higher orders.
+  if (first) {
+    require(IDASensInit(ida, count, IDA_STAGGERED, IdasEquations::sensitivity_residual, y_rho_->get(), y_dot_rho_->get()), "IDASensInit");
+    require(IDAQuadSensInit(ida, IdasEquations::sensitivity_integrand, psi_rho_->get()), "IDAQuadSensInit");
+    require(IDASensEEtolerances(ida), "IDASensEEtolerances");
+  } else {
+    require(IDASensReInit(ida, IDA_STAGGERED, y_rho_->get(), y_dot_rho_->get()), "IDASensReInit");
+    require(IDAQuadSensReInit(ida, psi_rho_->get()), "IDAQuadSensReInit");
+  }
+  // A solution without sensitivities in between switches it off.
+  require(IDASetSensErrCon(ida, SUNTRUE), "IDASetSensErrCon");
+  require(IDASetSensParams(ida, nullptr, scales_.data(), nullptr), "IDASetSensParams");
+}
+
+Status IdasIntegrator::Implementation::advance(double limit) {
+  if (statistics_.steps + statistics_.rejected_steps >= options_.maximum_steps)
+    return {StatusCode::kTooManySteps, state_.t, "more than " + std::to_string(options_.maximum_steps) + " steps"};
+  void* ida = ida_.get();
+  double time = state_.t;
+  require(IDASetStopTime(ida, limit), "IDASetStopTime");
+  const int flag = IDASolve(ida, limit, &time, y_.get(), y_dot_.get(), IDA_ONE_STEP);
+  count_steps();
+  if (flag < 0) return idas_status(flag, state_.t, newton_.singular(), equations_.failure().empty() ? message_ : equations_.failure());
+  take_over(time);
+  return {};
+}
+
+void IdasIntegrator::Implementation::take_over(double time) {
+  equations_.unpack(time, N_VGetArrayPointer(y_.get()), N_VGetArrayPointer(y_dot_.get()), &state_);
+  double reached = time;
+  require(IDAGetQuad(ida_.get(), &reached, psi_.get()), "IDAGetQuad");
+  if (carried_ && carried_->count() > 0) {
+    require(IDAGetSensDky(ida_.get(), time, 0, y_rho_->get()), "IDAGetSensDky");
+    require(IDAGetSensDky(ida_.get(), time, 1, y_dot_rho_->get()), "IDAGetSensDky");
+    require(IDAGetQuadSens(ida_.get(), &reached, psi_rho_->get()), "IDAGetQuadSens");
+  }
+  equations().track_turns(state_);
+  equations().constraint_errors(state_.q, state_.v, &drift_, &drift_rate_);
+  largest_drift_ = std::max(largest_drift_, drift_.cwiseAbs().maxCoeff());
+}
+
+void IdasIntegrator::Implementation::count_steps() {
+  long steps = 0, test_failures = 0, solve_failures = 0, sensitivity_failures = 0, sensitivity_solve_failures = 0;
+  IDAGetNumSteps(ida_.get(), &steps);
+  IDAGetNumErrTestFails(ida_.get(), &test_failures);
+  IDAGetNumStepSolveFails(ida_.get(), &solve_failures);
+  if (carried_ && carried_->count() > 0) {
+    IDAGetSensNumErrTestFails(ida_.get(), &sensitivity_failures);
+    IDAGetNumStepSensSolveFails(ida_.get(), &sensitivity_solve_failures);
+  }
+  statistics_.steps = steps;
+  statistics_.rejected_steps = test_failures + solve_failures + sensitivity_failures + sensitivity_solve_failures;
+}
+
+void IdasIntegrator::Implementation::interpolate(double time, State<double>* state, double* psi) {
+  *psi = this->psi();
+  *state = state_;
+  if (statistics_.steps == 0) return;
+  require(IDAGetDky(ida_.get(), time, 0, dense_.get()), "IDAGetDky");
+  require(IDAGetDky(ida_.get(), time, 1, dense_dot_.get()), "IDAGetDky");
+  equations_.unpack(time, N_VGetArrayPointer(dense_.get()), N_VGetArrayPointer(dense_dot_.get()), state);
+  double at_end = this->psi();
+  require(IDAGetQuadDky(ida_.get(), time, 0, psi_.get()), "IDAGetQuadDky");
+  std::swap(*psi, at_end);
+  *psi = *N_VGetArrayPointer(psi_.get());
+  *N_VGetArrayPointer(psi_.get()) = at_end;
+}
+
+IdasIntegrator::IdasIntegrator(const System& system) : implementation_(std::make_unique<Implementation>(system, this)) {}
+IdasIntegrator::~IdasIntegrator() = default;
+
+void IdasIntegrator::carry(IdasSensitivities* sensitivities) { implementation_->carry(sensitivities); }
+Status IdasIntegrator::start(const std::vector<double>& parameters) { return implementation_->start(parameters); }
+Status IdasIntegrator::advance(double limit) { return implementation_->advance(limit); }
+const State<double>& IdasIntegrator::state() const { return implementation_->state(); }
+double IdasIntegrator::psi() const { return implementation_->psi(); }
+void IdasIntegrator::interpolate(double time, State<double>* state, double* psi) { implementation_->interpolate(time, state, psi); }
+Equations<double>& IdasIntegrator::equations() { return implementation_->equations(); }
+Assembly& IdasIntegrator::assembly() { return implementation_->assembly(); }
+const Statistics& IdasIntegrator::statistics() const { return implementation_->statistics(); }
+void IdasIntegrator::sensitivity(int k, State<double>* direction) const { implementation_->sensitivity(k, direction); }
+double IdasIntegrator::psi_sensitivity(int k) const { return implementation_->psi_sensitivity(k); }
+double IdasIntegrator::largest_drift() const { return implementation_->largest_drift(); }
+
+}  // namespace codesign

@@ -1,0 +1,62 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "integration/idas_newton.h"
+
+#include "mechanism_codesign/dynamics/derivative_products.h"
+
+namespace codesign {
+namespace {
+
+// SUNDIALS frees content itself or leaves it alone; ours belongs to IdasNewton.
+int free_shell(SUNLinearSolver solver) {
+  SUNLinSolFreeEmpty(solver);
+  return SUNLS_SUCCESS;
+}
+
+}  // namespace
+
+IdasNewton::IdasNewton(const System& system, SUNContext context)
+    : system_(system), reduced_(system), matrix_(SUNMatNewEmpty(context)), solver_(SUNLinSolNewEmpty(context)) {
+  if (!matrix_ || !solver_) throw std::bad_alloc();
+  derivatives_.resize(system.sparsity().nonzeros());
+  u_.setZero(system.layout().columns());
+  // The matrix is only there because a direct solver must have one; its numbers are the derivatives.
+  matrix_->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
+  matrix_->ops->zero = [](SUNMatrix) { return SUNMAT_SUCCESS; };
+  matrix_->ops->destroy = SUNMatFreeEmpty;
+  solver_->content = this;
+  solver_->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
+  solver_->ops->getid = [](SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; };
+  solver_->ops->setup = setup;
+  solver_->ops->solve = solve;
+  solver_->ops->free = free_shell;
+}
+
+int IdasNewton::setup(SUNLinearSolver solver, SUNMatrix) {
+  auto* self = static_cast<IdasNewton*>(solver->content);
+  const double h = 1.0 / self->c_j_;
+  self->singular_ = !self->reduced_.factor(self->derivatives_, h, h * h, h);
+  // Positive: IDAS tries a smaller step.
+  return self->singular_ ? SUNLS_LUFACT_FAIL : SUNLS_SUCCESS;
+}
+
+int IdasNewton::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+  static_cast<IdasNewton*>(solver->content)->solve(N_VGetArrayPointer(b), N_VGetArrayPointer(x));
+  return SUNLS_SUCCESS;
+}
+
+void IdasNewton::solve(const double* b, double* x) {
+  const Layout& layout = system_.layout();
+  const double h = 1.0 / c_j_;
+  u_ = Eigen::Map<const VectorX<double>>(b + layout.n, layout.columns());
+  subtract_position_product(system_, derivatives_, b, h, u_.data());
+  u_.segment(layout.n, layout.m) /= (1.0 + kappa_ * h) * (1.0 + kappa_ * h);
+  reduced_.lu().solve(u_.data());
+  Eigen::Map<VectorX<double>> x_q(x, layout.n), x_v(x + layout.n, layout.n), x_s(x + 2 * layout.n, layout.states),
+      x_lambda(x + 2 * layout.n + layout.states, layout.m);
+  x_v = h * u_.head(layout.n);
+  x_q = h * (x_v + Eigen::Map<const VectorX<double>>(b, layout.n));
+  x_s = h * u_.tail(layout.states);
+  x_lambda = u_.segment(layout.n, layout.m);
+}
+
+}  // namespace codesign

@@ -1,0 +1,50 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_NEWTON_H_
+#define MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_NEWTON_H_
+
+#include "integration/idas_handles.h"
+#include "mechanism_codesign/dynamics/iteration_matrix.h"
+
+namespace codesign {
+
+/// Newton's linear systems of IDAS, J x = b with J = F_y + c_j F_y', in the shape of a SUNLinearSolver with a SUNMatrix; doc/theory.md (26).
+///
+/// With y = (q, v, s, lambda) and F = (q' - v, G), the rows q' - v and the columns of q are eliminated:
+///   (G_z + G_v/c_j + G_q/c_j^2) (u_a, u_lambda, u_sigma) = b_G - G_q b_q/c_j,
+///   x_v = u_a/c_j,  x_q = (x_v + b_q)/c_j,  x_s = u_sigma/c_j,  x_lambda = u_lambda.
+/// In a stabilized constraint row Phi_q grows to (1 + kappa/c_j)^2 Phi_q; b is divided instead, and what that does to the row's other terms,
+/// of order kappa/c_j^2, is left to Newton's iteration.
+class IdasNewton {
+ public:
+  IdasNewton(const System& system, SUNContext context);
+
+  /// Forms and factors the reduced matrix at the next setup.
+  Linearization<double>* derivatives() { return &derivatives_; }
+  void set_rates(double c_j, double kappa) {
+    c_j_ = c_j;
+    kappa_ = kappa;
+  }
+
+  SUNMatrix matrix() { return matrix_.get(); }
+  SUNLinearSolver solver() { return solver_.get(); }
+  /// Whether the last matrix was singular.
+  bool singular() const { return singular_; }
+
+ private:
+  static int setup(SUNLinearSolver solver, SUNMatrix matrix);
+  static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b, realtype tolerance);
+  void solve(const double* b, double* x);
+
+  const System& system_;
+  IterationMatrix reduced_;
+  Linearization<double> derivatives_;
+  VectorX<double> u_;
+  double c_j_ = 1.0, kappa_ = 0.0;  ///< [1/s]
+  bool singular_ = false;
+  MatrixHandle matrix_;
+  LinearSolverHandle solver_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_NEWTON_H_

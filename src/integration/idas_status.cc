@@ -1,0 +1,54 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "integration/idas_status.h"
+
+#include <idas/idas.h>
+
+namespace codesign {
+namespace {
+
+StatusCode code_of(int flag, bool singular) {
+  switch (flag) {
+    case IDA_LSETUP_FAIL:
+    case IDA_LSOLVE_FAIL:
+      return StatusCode::kSingularMatrix;
+    case IDA_RES_FAIL:
+    case IDA_REP_RES_ERR:
+    case IDA_FIRST_RES_FAIL:
+    case IDA_QRHS_FAIL:
+    case IDA_FIRST_QRHS_ERR:
+    case IDA_REP_QRHS_ERR:
+    case IDA_SRES_FAIL:
+    case IDA_REP_SRES_ERR:
+    case IDA_QSRHS_FAIL:
+    case IDA_FIRST_QSRHS_ERR:
+    case IDA_REP_QSRHS_ERR:
+      return StatusCode::kNonFinite;
+    case IDA_TOO_MUCH_WORK:
+      return StatusCode::kTooManySteps;
+    default:
+      return singular ? StatusCode::kSingularMatrix : StatusCode::kStepSizeTooSmall;
+  }
+}
+
+const char* sentence_of(StatusCode code) {
+  switch (code) {
+    case StatusCode::kSingularMatrix:
+      return "the equations of motion become singular: a dead point or lock-up";
+    case StatusCode::kNonFinite:
+      return "the equations of motion are not finite";
+    case StatusCode::kTooManySteps:
+      return "too many steps";
+    default:
+      return "no smaller step succeeds: the motion is not resolvable";
+  }
+}
+
+}  // namespace
+
+Status idas_status(int flag, double time, bool singular, const std::string& message) {
+  if (flag >= 0) return {};
+  const StatusCode code = code_of(flag, singular);
+  return {code, time, sentence_of(code) + (message.empty() ? std::string() : " (IDAS: " + message + ")")};
+}
+
+}  // namespace codesign

@@ -1,0 +1,21 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/integration/integrator.h"
+
+#include "mechanism_codesign/integration/idas_integrator.h"
+#include "mechanism_codesign/integration/rosenbrock_integrator.h"
+
+namespace codesign {
+
+std::unique_ptr<Integrator> make_integrator(const System& system) {
+  if (system.study().solver.integrator == "idas") return std::make_unique<IdasIntegrator>(system);
+  return std::make_unique<RosenbrockIntegrator>(system);
+}
+
+Status assemble_start(const System& system, const std::vector<double>& parameters, Assembly* assembly, Equations<double>* equations, State<double>* initial) {
+  equations->set_design(parameters);
+  if (std::string fault = find_impossible(system.robot(), system.topology(), equations->constants()); !fault.empty())
+    return {StatusCode::kInvalidDesign, 0.0, fault};
+  return assembly->solve(parameters, equations, initial);
+}
+
+}  // namespace codesign

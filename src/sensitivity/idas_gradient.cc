@@ -1,0 +1,30 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sensitivity/idas_gradient.h"
+
+namespace codesign {
+
+IdasGradient::IdasGradient(const System& system) : system_(system), integrator_(system) {}
+
+// Memory for sensitivities is only taken by who asks for a gradient.
+Status IdasGradient::start(const std::vector<double>& parameters, bool with_gradient) {
+  if (with_gradient && !tangent_) tangent_ = std::make_unique<IdasTangent>(system_);
+  integrator_.carry(with_gradient ? tangent_.get() : nullptr);
+  return integrator_.start(parameters);
+}
+
+const State<double>& IdasGradient::consistent_state() {
+  end_ = integrator_.state();
+  integrator_.assembly().solve_rates(&integrator_.equations(), &end_);
+  return end_;
+}
+
+double IdasGradient::objective() { return integrator_.psi() + integrator_.equations().terminal(consistent_state(), nullptr); }
+
+void IdasGradient::gradient(Eigen::VectorXd* gradient) {
+  directions_.resize(static_cast<std::size_t>(tangent_->count()), integrator_.state());
+  for (int k = 0; k < tangent_->count(); ++k) integrator_.sensitivity(k, &directions_[static_cast<std::size_t>(k)]);
+  tangent_->terminal(consistent_state(), &integrator_.equations(), &directions_, gradient);
+  for (int k = 0; k < tangent_->count(); ++k) (*gradient)[k] += integrator_.psi_sensitivity(k);
+}
+
+}  // namespace codesign

@@ -1,0 +1,38 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SRC_SENSITIVITY_IDAS_GRADIENT_H_
+#define MECHANISM_CODESIGN_SRC_SENSITIVITY_IDAS_GRADIENT_H_
+
+#include <memory>
+#include <vector>
+
+#include "mechanism_codesign/sensitivity/gradient_engine.h"
+#include "sensitivity/idas_tangent.h"
+
+namespace codesign {
+
+/// Gradient by IDAS's staggered forward sensitivities; doc/theory.md (27).
+class IdasGradient final : public GradientEngine {
+ public:
+  explicit IdasGradient(const System& system);
+
+  Status start(const std::vector<double>& parameters, bool with_gradient) override;
+  Status advance(double limit) override { return integrator_.advance(limit); }
+  double time() const override { return integrator_.state().t; }
+  double objective() override;
+  void gradient(Eigen::VectorXd* gradient) override;
+  const Statistics& statistics() const override { return integrator_.statistics(); }
+
+ private:
+  /// The present state with rates that satisfy the equations at it.
+  const State<double>& consistent_state();
+
+  const System& system_;
+  IdasIntegrator integrator_;
+  std::unique_ptr<IdasTangent> tangent_;
+  State<double> end_;
+  std::vector<State<double>> directions_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SRC_SENSITIVITY_IDAS_GRADIENT_H_

@@ -1,0 +1,111 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sensitivity/idas_tangent.h"
+
+#include "mechanism_codesign/dynamics/derivative_products.h"
+
+namespace codesign {
+
+template <int N>
+IdasTangent::Group<N>::Group(const System& system, LaneRange<N> lanes) : range(lanes), equations(system) {
+  state.resize(system.layout());
+}
+
+template <int N>
+void IdasTangent::Group<N>::load(const State<double>& at, const std::vector<State<double>>* directions) {
+  state.t = at.t;
+  for (VectorX<double> State<double>::*part : {&State<double>::q, &State<double>::v, &State<double>::s, &State<double>::z}) {
+    VectorX<Lanes<N>>& lanes = part == &State<double>::q ? state.q : part == &State<double>::v ? state.v : part == &State<double>::s ? state.s : state.z;
+    for (Eigen::Index i = 0; i < lanes.size(); ++i) {
+      lanes[i] = (at.*part)[i];
+      for (int k = 0; directions && k < range.count; ++k) lanes[i].v[k] = ((*directions)[static_cast<std::size_t>(range.first + k)].*part)[i];
+    }
+  }
+}
+
+IdasTangent::IdasTangent(const System& system)
+    : system_(system),
+      groups_(system),
+      partial_(system.layout().columns() + 1, static_cast<Eigen::Index>(system.study().tuned.size())),
+      matrix_(system) {
+  derivatives_.resize(system.sparsity().nonzeros());
+}
+
+void IdasTangent::start(const std::vector<double>& parameters, const State<double>& initial, Integrator* integrator,
+                        std::vector<State<double>>* sensitivities, std::vector<double>* scales) {
+  groups_.for_each([&](auto* group) {
+    const auto lanes = group->range.seed(system_, parameters);
+    group->equations.set_design(lanes);
+    group->equations.turn_references() = integrator->equations().turn_references();
+    integrator->assembly().extend(lanes, initial, &group->equations, &group->state);
+    for (int k = 0; k < group->range.count; ++k) {
+      State<double>& to = (*sensitivities)[static_cast<std::size_t>(group->range.first + k)];
+      const auto take = [k](const auto& from, VectorX<double>* direction) {
+        for (Eigen::Index i = 0; i < from.size(); ++i) (*direction)[i] = from[i].v[k];
+      };
+      take(group->state.q, &to.q);
+      take(group->state.v, &to.v);
+      take(group->state.s, &to.s);
+      take(group->state.z, &to.z);
+    }
+  });
+  for (std::size_t k = 0; k < scales->size(); ++k) {
+    const double value = std::abs(parameters[static_cast<std::size_t>(system_.study().tuned[k])]);
+    (*scales)[k] = value > 0.0 ? value : 1.0;
+  }
+}
+
+void IdasTangent::linearize(const State<double>& state, double kappa, Equations<double>* equations) {
+  kappa_ = kappa;
+  equations->linearize(state, &derivatives_);
+  groups_.for_each([&](auto* group) {
+    typename std::remove_pointer_t<decltype(group)>::Scalar g(0.0);
+    group->equations.turn_references() = equations->turn_references();
+    group->load(state, nullptr);
+    group->equations.residual(group->state, &group->G, &g);
+    if (kappa > 0.0) {
+      group->equations.constraint_errors(group->state.q, group->state.v, &group->Phi, &group->Phi_rate);
+      for (int row = 0; row < system_.layout().m; ++row)
+        group->G[system_.layout().n + row] += 2.0 * kappa * group->Phi_rate[row] + kappa * kappa * group->Phi[row];
+    }
+    for (int k = 0; k < group->range.count; ++k) {
+      auto column = partial_.col(group->range.first + k);
+      for (Eigen::Index row = 0; row < group->G.size(); ++row) column[row] = group->G[row].v[k];
+      column[group->G.size()] = g.v[k];
+    }
+  });
+}
+
+// Along (q, v, a), Phi'' + 2 kappa Phi' + kappa^2 Phi changes as Phi'' does along (q, v + kappa q, a + 2 kappa v + kappa^2 q), since
+// (Phi'')_v = 2 (Phi')_q and (Phi'')_a = (Phi')_v = Phi_q.
+void IdasTangent::derivative(int k, const State<double>& direction, VectorX<double>* result) {
+  const Layout& layout = system_.layout();
+  directional_derivative(system_, derivatives_, direction, result);
+  if (kappa_ > 0.0) {
+    stabilized_direction_ = direction;
+    stabilized_direction_.v += kappa_ * direction.q;
+    stabilized_direction_.z.head(layout.n) += 2.0 * kappa_ * direction.v + kappa_ * kappa_ * direction.q;
+    directional_derivative(system_, derivatives_, stabilized_direction_, &stabilized_);
+    result->segment(layout.n, layout.m) = stabilized_.segment(layout.n, layout.m);
+  }
+  *result += partial_.col(k);
+}
+
+void IdasTangent::terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions, Eigen::VectorXd* gradient) {
+  gradient->setZero(count());
+  linearize(state, 0.0, equations);
+  if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) gradient->setConstant(std::numeric_limits<double>::quiet_NaN());
+  for (int k = 0; k < count(); ++k) {
+    State<double>& direction = (*directions)[static_cast<std::size_t>(k)];
+    direction.z.setZero();
+    derivative(k, direction, &dG_);
+    matrix_.lu().solve(dG_.data());
+    direction.z = -dG_.head(direction.z.size());
+  }
+  groups_.for_each([&](auto* group) {
+    group->load(state, directions);
+    const auto w = group->equations.terminal(group->state, nullptr);
+    for (int k = 0; k < group->range.count; ++k) (*gradient)[group->range.first + k] += w.v[k];
+  });
+}
+
+}  // namespace codesign

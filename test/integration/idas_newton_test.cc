@@ -1,0 +1,85 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "integration/idas_newton.h"
+
+#include <gtest/gtest.h>
+
+#include "integration/servo.h"
+#include "mechanism_codesign/dynamics/assembly.h"
+#include "mechanism_codesign/dynamics/derivative_products.h"
+
+namespace codesign {
+namespace {
+
+struct IdasNewtonTest : ::testing::Test {
+  IdasNewtonTest() : system(servo("{}")), layout(system->layout()), context(make_context()), newton(*system, context.get()) {
+    Equations<double> equations(*system);
+    Assembly assembly(*system);
+    equations.set_design(system->parameters());
+    State<double> state;
+    if (!assembly.solve(system->parameters(), &equations, &state).ok()) throw std::logic_error("the start cannot be assembled");
+    equations.linearize(state, newton.derivatives());
+    size = 2 * layout.n + layout.states + layout.m;
+    x = make_vector(size, context.get());
+    b = make_vector(size, context.get());
+    for (int k = 0; k < size; ++k) data(b)[k] = std::sin(3.0 * k);
+  }
+
+  static double* data(const VectorHandle& vector) { return N_VGetArrayPointer(vector.get()); }
+
+  /// J x for the unknowns (q, v, s, lambda) whose derivatives are c_j times themselves.
+  VectorX<double> product(double c_j) {
+    State<double> direction;
+    direction.resize(layout);
+    const Eigen::Map<const VectorX<double>> all(data(x), size);
+    direction.q = all.head(layout.n);
+    direction.v = all.segment(layout.n, layout.n);
+    direction.s = all.segment(2 * layout.n, layout.states);
+    direction.z << c_j * direction.v, all.tail(layout.m), c_j * direction.s;
+    VectorX<double> dG, result(size);
+    directional_derivative(*system, *newton.derivatives(), direction, &dG);
+    result << c_j * direction.q - direction.v, dG.head(layout.columns());
+    return result;
+  }
+
+  std::shared_ptr<const System> system;
+  const Layout& layout;
+  ContextHandle context;
+  IdasNewton newton;
+  int size;
+  VectorHandle x, b;
+};
+
+TEST_F(IdasNewtonTest, SolvesTheWholeSystem) {
+  for (double c_j : {10.0, 1e3, 1e6}) {
+    newton.set_rates(c_j, 0.0);
+    ASSERT_EQ(SUNLinSolSetup(newton.solver(), newton.matrix()), SUNLS_SUCCESS);
+    ASSERT_EQ(SUNLinSolSolve(newton.solver(), newton.matrix(), x.get(), b.get(), 0.0), SUNLS_SUCCESS);
+    EXPECT_LT((product(c_j) - Eigen::Map<const VectorX<double>>(data(b), size)).cwiseAbs().maxCoeff(), 1e-9) << c_j;
+  }
+}
+
+TEST_F(IdasNewtonTest, StabilizationOnlyScalesTheConstraintRows) {
+  const double c_j = 1e3, kappa = 50.0, growth = std::pow(1.0 + kappa / c_j, 2);
+  newton.set_rates(c_j, kappa);
+  ASSERT_EQ(SUNLinSolSetup(newton.solver(), newton.matrix()), SUNLS_SUCCESS);
+  ASSERT_EQ(SUNLinSolSolve(newton.solver(), newton.matrix(), x.get(), b.get(), 0.0), SUNLS_SUCCESS);
+  VectorX<double> expected = Eigen::Map<const VectorX<double>>(data(b), size);
+  VectorX<double> result = product(c_j);
+  // What the left-out terms of order kappa/c_j^2 would change; q' - v is not among them.
+  expected.segment(2 * layout.n, layout.m) /= growth;
+  const double left_out = (result - expected).segment(2 * layout.n, layout.m).cwiseAbs().maxCoeff();
+  result.segment(2 * layout.n, layout.m) = expected.segment(2 * layout.n, layout.m);
+  EXPECT_LT((result - expected).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT(left_out, 0.1);
+}
+
+TEST_F(IdasNewtonTest, ASingularMatrixIsARecoverableFailure) {
+  newton.derivatives()->resize(system->sparsity().nonzeros());
+  for (std::vector<double>* values : {&newton.derivatives()->by_position, &newton.derivatives()->by_velocity, &newton.derivatives()->by_rate})
+    std::fill(values->begin(), values->end(), 0.0);
+  EXPECT_GT(SUNLinSolSetup(newton.solver(), newton.matrix()), 0);
+  EXPECT_TRUE(newton.singular());
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,77 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/sensitivity/gradient_engine.h"
+
+#include <gtest/gtest.h>
+
+#include "integration/servo.h"
+#include "sensitivity/idas_gradient.h"
+#include "sensitivity/rosenbrock_gradient.h"
+
+namespace codesign {
+namespace {
+
+struct Result {
+  Status status;
+  double objective = 0.0;
+  Eigen::VectorXd gradient;
+  std::int64_t steps = 0;
+};
+
+Result run(GradientEngine* engine, const std::vector<double>& parameters, double duration, bool with_gradient = true) {
+  Result result;
+  result.status = engine->start(parameters, with_gradient);
+  while (result.status.ok() && engine->time() < duration) result.status = engine->advance(duration);
+  if (!result.status.ok()) return result;
+  result.objective = engine->objective();
+  if (with_gradient) engine->gradient(&result.gradient);
+  result.steps = engine->statistics().steps;
+  return result;
+}
+
+const char* const kRosenbrock = "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}";
+
+std::string idas(const std::string& tolerance) { return "{integrator: idas, relative_tolerance: " + tolerance + ", absolute_tolerance: " + tolerance + "}"; }
+
+TEST(GradientEngine, TheStudyChooses) {
+  EXPECT_NE(dynamic_cast<RosenbrockGradient*>(make_gradient_engine(*servo("{}")).get()), nullptr);
+  EXPECT_NE(dynamic_cast<IdasGradient*>(make_gradient_engine(*servo("{integrator: idas}")).get()), nullptr);
+}
+
+// An extra state, terminal terms with accelerations, friction, a parameter in the initial state and one in the objective alone.
+TEST(GradientEngine, TheIntegratorsAgreeToTheToleranceAskedFor) {
+  const auto exact = servo(kRosenbrock);
+  const Result reference = run(make_gradient_engine(*exact).get(), exact->parameters(), 0.6);
+  ASSERT_TRUE(reference.status.ok()) << reference.status.cause;
+  const double scale = reference.gradient.cwiseAbs().maxCoeff();
+  for (const auto& [tolerance, bound] : {std::pair{"1.0e-5", 2e-3}, std::pair{"1.0e-7", 5e-5}, std::pair{"1.0e-9", 1e-6}}) {
+    const auto system = servo(idas(tolerance));
+    const Result result = run(make_gradient_engine(*system).get(), system->parameters(), 0.6);
+    ASSERT_TRUE(result.status.ok()) << result.status.cause;
+    EXPECT_NEAR(result.objective, reference.objective, bound * reference.objective) << tolerance;
+    EXPECT_LT((result.gradient - reference.gradient).cwiseAbs().maxCoeff(), bound * scale) << tolerance;
+  }
+}
+
+TEST(GradientEngine, IdasStartsAnewToTheLastBitWithAndWithoutGradient) {
+  const auto system = servo(idas("1.0e-6"));
+  const auto engine = make_gradient_engine(*system);
+  const Result first = run(engine.get(), system->parameters(), 0.6), alone = run(engine.get(), system->parameters(), 0.6, false);
+  const Result second = run(engine.get(), system->parameters(), 0.6), alone_again = run(engine.get(), system->parameters(), 0.6, false);
+  ASSERT_TRUE(first.status.ok() && alone.status.ok());
+  EXPECT_EQ(first.objective, second.objective);
+  EXPECT_EQ(first.gradient, second.gradient);
+  EXPECT_EQ(first.steps, second.steps);
+  EXPECT_EQ(alone.objective, alone_again.objective);
+  EXPECT_EQ(alone.gradient.size(), 0);
+  EXPECT_NEAR(alone.objective, first.objective, 1e-3 * first.objective);
+}
+
+TEST(GradientEngine, NothingTunedIsNoGradient) {
+  const auto system = compile(pendulum(), "duration: 0.1\nparameters: {}\nobjective: {integral: [{signal: hinge/velocity}]}\nsolver: {integrator: idas}\n");
+  const Result result = run(make_gradient_engine(*system).get(), {}, 0.1);
+  EXPECT_TRUE(result.status.ok());
+  EXPECT_EQ(result.gradient.size(), 0);
+}
+
+}  // namespace
+}  // namespace codesign
