@@ -20,9 +20,9 @@ using Dual = Lanes<1>;
 class KernelBench {
  public:
   KernelBench(const System& system, const State<double>& state)
-      : by_hand_(system, constants<double>(system)),
-        wide_(system, constants<Wide>(system)),
-        dual_(system, constants<Dual>(system)),
+      : by_hand_(system, constants(system)),
+        wide_(system, constants(system)),
+        dual_(system, constants(system)),
         n_(by_hand_.columns()),
         m_(by_hand_.rows()),
         entries_(by_hand_.entries()) {
@@ -101,10 +101,8 @@ class KernelBench {
  private:
   static constexpr double kStep = 1e-6, kLongStep = 1e-4;
 
-  template <class T>
-  static Constants<T> constants(const System& system) {
-    const std::vector<double> parameters = system.parameters();
-    return evaluate_constants(system.robot(), system.topology(), std::vector<T>(parameters.begin(), parameters.end()));
+  static Constants<double> constants(const System& system) {
+    return evaluate_constants(system.robot(), system.topology(), system.parameters());
   }
   std::size_t index(int row, int column) const { return static_cast<std::size_t>(row * n_ + column); }
   double difference(int row) const {

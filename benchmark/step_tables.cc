@@ -60,7 +60,7 @@ void add_tangents(const Problem& problem, Report* report) {
   jobs.push_back(make_job("simulation", [&] { evaluators[0]->evaluate(problems[0].start(), false); }));
   for (std::size_t k = 0; k < counts.size(); ++k)
     jobs.push_back(make_job("gradient " + std::to_string(counts[k]), [&, k] { evaluators[k]->evaluate(problems[k].start(), true); }));
-  const std::vector<double> seconds = median_cpu_seconds(jobs);
+  const std::vector<double> seconds = median_cpu_seconds(jobs, 5);
   const auto steps = static_cast<double>(evaluation.statistics.steps);
   Table table{"tangent",
               "Cost of the tangent of a step of rodas4 on the slider-crank",

@@ -79,12 +79,13 @@ std::vector<Sweep> race(const std::string& name, const std::string& what, bool w
                         const std::vector<double>& tolerances, Report* report) {
   std::vector<Sweep> sweeps(contestants.size());
   std::vector<Job> jobs;
-  for (std::size_t c = 0; c < contestants.size(); ++c)
-    for (double tolerance : tolerances) {
-      const std::function<Outcome()> run = contestants[c].prepare(tolerance, with_gradient);
-      sweeps[c].push_back({tolerance, run(), 0.0});
-      jobs.push_back(make_job(contestants[c].name + " " + one_digit(tolerance), [run] { run(); }));
+  for (std::size_t c = 0; c < contestants.size(); ++c) {
+    for (double tolerance : tolerances) sweeps[c].push_back({tolerance, {}, 0.0});
+    for (Measured& slot : sweeps[c]) {
+      const std::function<Outcome()> run = contestants[c].prepare(slot.tolerance, with_gradient);
+      jobs.push_back(make_job(contestants[c].name + " " + one_digit(slot.tolerance), [run, &slot] { slot.outcome = run(); }));
     }
+  }
   const std::vector<double> seconds = median_cpu_seconds(jobs, with_gradient ? 3 : 5, 0.01);
   std::size_t next = 0;
   for (Sweep& sweep : sweeps)
