@@ -67,7 +67,8 @@ int run(bool markdown, const std::set<std::string>& chosen) {
     part.measure(&report);
     for (std::size_t k = first; k < report.tables.size(); ++k) print(report.tables[k]);
   }
-  print(summary(report.findings));
+  // Of some parts only, it would be no summary.
+  if (chosen.empty()) print(summary(report.findings));
   return 0;
 }
 

@@ -61,21 +61,20 @@ std::string study(const std::string& initial_state, const std::string& parameter
 }
 
 GeneratedCase chain(int links, bool parametric, const std::string& tuned) {
-  std::string parameters, content;
+  std::string parameters, content, initial;
   for (int k = 0; k < links; ++k) {
     const std::string index = std::to_string(k), suffix = parametric ? "_" + index : "",
                       before = parametric ? "_" + std::to_string(k - 1) : "";
     if (parametric)
       parameters += parameter("length" + suffix, kLength) + parameter("mass" + suffix, kMass) + parameter("radius" + suffix, kRadius) +
                     parameter("friction" + suffix, kFriction);
+    initial += (k == 0 ? "" : ", ") + ("hinge_" + index) + ": {position: 0.5}";
     content += bar("link_" + index, suffix);
     content +=
         hinge("hinge_" + index, k == 0 ? "ground" : "link_" + std::to_string(k - 1), "link_" + index,
               k == 0 ? on_z(0.0) : on_z(-kLength, parametric ? "-length" + before : ""), k % 2 == 0 ? "0 1 0" : "1 0 0", friction(suffix));
   }
-  const std::string last = "hinge_" + std::to_string(links - 1);
-  return {{"chain.urdf", robot("chain", parameters + content)},
-          {"chain.yaml", study("hinge_0: {position: 1.0}", tuned, last + "/velocity")}};
+  return {{"chain.urdf", robot("chain", parameters + content)}, {"chain.yaml", study(initial, tuned, "hinge_0/velocity")}};
 }
 
 }  // namespace

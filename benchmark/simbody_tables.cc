@@ -16,7 +16,7 @@ const std::vector<double> kTolerances = {1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
 /// Central differences, with the step that balances their error against the integration's.
 Eigen::VectorXd simbody_gradient(const Eigen::VectorXd& rho, double accuracy, long* steps) {
   Eigen::VectorXd gradient(rho.size());
-  const double relative_step = std::cbrt(accuracy);
+  const double relative_step = 0.2 * std::cbrt(accuracy);
   for (Eigen::Index k = 0; k < rho.size(); ++k) {
     double difference = 0.0;
     const double h = relative_step * rho[k];
