@@ -123,8 +123,8 @@ void ConstraintKernels<T>::add_joint(const Pair& pair, const PairConstants<doubl
                     j = pair.body_j < 0 ? ground : static_cast<std::size_t>(pair.body_j);
   const PairRows<double> rows = pair_rows(pair.kind, constants);
   if (rows.coincident) {
-    coincidences_.push_back({row, i, -1.0, true, !rows.s_i.isZero(0.0), -rows.s_i.template cast<T>()});
-    coincidences_.push_back({row, j, 1.0, false, !rows.s_j.isZero(0.0), rows.s_j.template cast<T>()});
+    coincidences_.push_back({row, i, -1.0, true, !rows.point(Side::kI).isZero(0.0), -rows.point(Side::kI).template cast<T>()});
+    coincidences_.push_back({row, j, 1.0, false, !rows.point(Side::kJ).isZero(0.0), rows.point(Side::kJ).template cast<T>()});
     row += 3;
   }
   for (const ProductRow<double>& product : rows.products) {

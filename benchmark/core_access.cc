@@ -33,7 +33,7 @@ StepProbe::StepProbe(std::shared_ptr<const System> system, double time, double h
   while (p.status.ok() && p.integrator.step().state().t < time) p.status = p.integrator.advance(time);
   if (!p.status.ok()) return;
   p.state = p.integrator.step().state();
-  p.derivatives.resize(p.system->sparsity().nonzeros());
+  p.derivatives.resize(p.system->patterns());
   p.equations.set_design(p.system->parameters());
   p.step.equations().set_design(p.system->parameters());
   rewind();

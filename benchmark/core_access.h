@@ -15,25 +15,24 @@ namespace codesign {
 /// By what the equations are derived: (q, s), v, or z.
 enum class Variable { kPosition, kVelocity, kRate };
 
-/// Calls visit(variable, row, column, value) for every stored derivative of the equations; the integrand g is the row below them.
+/// Calls visit(variable, row, column, value) for every stored derivative of the equations; the integrand g is the row below them. Columns
+/// are those of (q, s), of v, or of z.
 template <class Visit>
 void for_each_derivative(const System& system, const Linearization<double>& derivatives, const Visit& visit) {
-  const Sparsity& pattern = system.sparsity();
-  for (int column = 0; column < pattern.columns; ++column) {
-    for (int k = pattern.column_start[static_cast<std::size_t>(column)]; k < pattern.column_start[static_cast<std::size_t>(column) + 1];
-         ++k) {
-      const auto e = static_cast<std::size_t>(k);
-      visit(Variable::kPosition, pattern.row_index[e], column, derivatives.by_position[e]);
-      visit(Variable::kVelocity, pattern.row_index[e], column, derivatives.by_velocity[e]);
-      visit(Variable::kRate, pattern.row_index[e], column, derivatives.by_rate[e]);
-    }
-  }
+  const auto matrix = [&visit](Variable variable, const Sparsity& pattern, const std::vector<double>& values) {
+    for (int row = 0; row < pattern.rows; ++row)
+      for (int k = pattern.first(row); k < pattern.first(row + 1); ++k)
+        visit(variable, row, pattern.column(k), values[static_cast<std::size_t>(k)]);
+  };
+  matrix(Variable::kPosition, system.patterns().position, derivatives.position);
+  matrix(Variable::kVelocity, system.patterns().velocity, derivatives.velocity);
+  matrix(Variable::kRate, system.patterns().rate, derivatives.rate);
 }
 
 /// Derivatives of the equations with the memory to hold them.
 class Derivatives {
  public:
-  explicit Derivatives(const System& system) : system_(system) { values_.resize(system.sparsity().nonzeros()); }
+  explicit Derivatives(const System& system) : system_(system) { values_.resize(system.patterns()); }
 
   void evaluate(Equations<double>* equations, const State<double>& state) { equations->linearize(state, &values_); }
   template <class Visit>

@@ -1,9 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
 
 #include "benchmark/constraint_kernels.h"
 #include "benchmark/core_access.h"
+#include "benchmark/dual.h"
 #include "benchmark/report.h"
 #include "benchmark/slider_crank.h"
 #include "benchmark/timing.h"
@@ -13,7 +16,40 @@ namespace {
 
 constexpr int kWidth = 8;
 using Wide = Lanes<kWidth>;
-using Dual = Lanes<1>;
+
+int width_of(const Dual*) { return 1; }
+int width_of(const Wide*) { return kWidth; }
+double& derivative(Dual* x, int) { return x->d; }
+double& derivative(Wide* x, int lane) { return x->v[lane]; }
+
+/// Phi with numbers that carry derivatives, and the memory for it.
+template <class T>
+struct ForwardMode {
+  ForwardMode(const System& system, const Constants<double>& constants)
+      : kernels(system, constants),
+        q(static_cast<std::size_t>(kernels.columns())),
+        v(q.size()),
+        Phi(static_cast<std::size_t>(kernels.rows())) {}
+
+  /// Evaluates Phi along the columns of the identity, as many at a time as T carries; calls take(column, row, derivative).
+  template <class Take>
+  void for_each_derivative(const std::vector<double>& at, const Take& take) {
+    const int width = width_of(q.data()), columns = kernels.columns();
+    for (std::size_t k = 0; k < q.size(); ++k) q[k] = T(at[k]);
+    for (int first = 0; first < columns; first += width) {
+      const int count = std::min(width, columns - first);
+      for (int lane = 0; lane < count; ++lane) derivative(&q[static_cast<std::size_t>(first + lane)], lane) = 1.0;
+      kernels.values(q.data(), Phi.data());
+      for (int lane = 0; lane < count; ++lane) {
+        derivative(&q[static_cast<std::size_t>(first + lane)], lane) = 0.0;
+        for (std::size_t row = 0; row < Phi.size(); ++row) take(first + lane, row, derivative(&Phi[row], lane));
+      }
+    }
+  }
+
+  ConstraintKernels<T> kernels;
+  std::vector<T> q, v, Phi;
+};
 
 /// One state of the slider-crank on its way, and the four operations at it in four ways. All results are lists of m, n or entries()
 /// numbers.
@@ -43,33 +79,28 @@ class KernelBench {
   void transposed_by_hand() { by_hand_.transposed_times(q_.data(), lambda_.data(), out_.data()); }
   void curvature_by_hand() { by_hand_.curvature(q_.data(), v_.data(), out_.data()); }
 
-  template <int N>
+  template <class T>
   void jacobian_forward() {
-    for_each_pass<N>([this](int column, int lane, const std::vector<Lanes<N>>& Phi) {
-      for (int row = 0; row < m_; ++row) jacobian_[index(row, column)] = Phi[static_cast<std::size_t>(row)].v[lane];
-    });
+    forward<T>().for_each_derivative(
+        q_, [this](int column, std::size_t row, double value) { jacobian_[index(static_cast<int>(row), column)] = value; });
     gather();
   }
-  template <int N>
+  template <class T>
   void transposed_forward() {
-    for_each_pass<N>([this](int column, int lane, const std::vector<Lanes<N>>& Phi) {
-      double sum = 0.0;
-      for (std::size_t row = 0; row < Phi.size(); ++row) sum += lambda_[row] * Phi[row].v[lane];
-      out_[static_cast<std::size_t>(column)] = sum;
-    });
+    std::fill(out_.begin(), out_.begin() + n_, 0.0);
+    forward<T>().for_each_derivative(
+        q_, [this](int column, std::size_t row, double value) { out_[static_cast<std::size_t>(column)] += lambda_[row] * value; });
   }
   void product_forward() {
-    std::vector<Dual>&q = lanes<1>().q, &Phi = lanes<1>().Phi;
-    seed_along_v(&q);
-    dual_.values(q.data(), Phi.data());
-    for (std::size_t row = 0; row < Phi.size(); ++row) out_[row] = Phi[row].v[0];
+    seed_along_v();
+    dual_.kernels.values(dual_.q.data(), dual_.Phi.data());
+    for (std::size_t row = 0; row < dual_.Phi.size(); ++row) out_[row] = dual_.Phi[row].d;
   }
   void curvature_forward() {
-    std::vector<Dual>&q = lanes<1>().q, &v = lanes<1>().v, &Phi = lanes<1>().Phi;
-    seed_along_v(&q);
-    for (std::size_t k = 0; k < v.size(); ++k) v[k] = Dual(v_[k]);
-    dual_.jacobian_times(q.data(), v.data(), Phi.data());
-    for (std::size_t row = 0; row < Phi.size(); ++row) out_[row] = Phi[row].v[0];
+    seed_along_v();
+    for (std::size_t k = 0; k < v_.size(); ++k) dual_.v[k] = Dual(v_[k]);
+    dual_.kernels.jacobian_times(dual_.q.data(), dual_.v.data(), dual_.Phi.data());
+    for (std::size_t row = 0; row < dual_.Phi.size(); ++row) out_[row] = dual_.Phi[row].d;
   }
 
   void jacobian_by_differences() {
@@ -112,45 +143,15 @@ class KernelBench {
     for (std::size_t k = 0; k < entries_.size(); ++k) out_[k] = jacobian_[index(entries_[k].row, entries_[k].column)];
   }
 
-  template <int N>
-  struct Scratch {
-    std::vector<Lanes<N>> q, v, Phi;
-  };
-  template <int N>
-  Scratch<N>& lanes() {
-    static Scratch<N> scratch;
-    scratch.q.resize(q_.size());
-    scratch.v.resize(q_.size());
-    scratch.Phi.resize(upper_.size());
-    return scratch;
-  }
-  template <int N>
-  ConstraintKernels<Lanes<N>>& kernels() {
-    if constexpr (N == 1)
+  template <class T>
+  ForwardMode<T>& forward() {
+    if constexpr (std::is_same_v<T, Dual>)
       return dual_;
     else
       return wide_;
   }
-  /// Evaluates Phi with N columns of the identity as directions at a time; calls take(column, lane, Phi).
-  template <int N, class Take>
-  void for_each_pass(const Take& take) {
-    Scratch<N>& scratch = lanes<N>();
-    for (std::size_t k = 0; k < q_.size(); ++k) scratch.q[k] = Lanes<N>(q_[k]);
-    for (int first = 0; first < n_; first += N) {
-      const int count = std::min(N, n_ - first);
-      for (int lane = 0; lane < count; ++lane) scratch.q[static_cast<std::size_t>(first + lane)].v[lane] = 1.0;
-      kernels<N>().values(scratch.q.data(), scratch.Phi.data());
-      for (int lane = 0; lane < count; ++lane) {
-        scratch.q[static_cast<std::size_t>(first + lane)].v[lane] = 0.0;
-        take(first + lane, lane, scratch.Phi);
-      }
-    }
-  }
-  void seed_along_v(std::vector<Dual>* q) const {
-    for (std::size_t k = 0; k < q->size(); ++k) {
-      (*q)[k].a = q_[k];
-      (*q)[k].v[0] = v_[k];
-    }
+  void seed_along_v() {
+    for (std::size_t k = 0; k < q_.size(); ++k) dual_.q[k] = Dual(q_[k], v_[k]);
   }
   template <class Take>
   void for_each_difference(const Take& take) {
@@ -170,8 +171,8 @@ class KernelBench {
   }
 
   ConstraintKernels<double> by_hand_;
-  ConstraintKernels<Wide> wide_;
-  ConstraintKernels<Dual> dual_;
+  ForwardMode<Wide> wide_;
+  ForwardMode<Dual> dual_;
   int n_, m_;
   std::vector<ConstraintKernels<double>::Entry> entries_;
   std::vector<double> q_, v_, lambda_, out_, moved_, upper_, lower_, middle_, jacobian_;
@@ -187,12 +188,12 @@ struct Kernel {
 };
 
 constexpr Kernel kKernels[] = {
-    {"Phi_q", 22.0, 178.0, 1042.0, &KernelBench::jacobian_by_hand, &KernelBench::jacobian_forward<kWidth>,
-     &KernelBench::jacobian_forward<1>, &KernelBench::jacobian_by_differences},
+    {"Phi_q", 22.0, 178.0, 1042.0, &KernelBench::jacobian_by_hand, &KernelBench::jacobian_forward<Wide>,
+     &KernelBench::jacobian_forward<Dual>, &KernelBench::jacobian_by_differences},
     {"Phi_q v", 16.6, 152.0, 858.0, &KernelBench::product_by_hand, nullptr, &KernelBench::product_forward,
      &KernelBench::product_by_differences},
-    {"Phi_q^T lambda", 30.3, 178.0, 996.0, &KernelBench::transposed_by_hand, &KernelBench::transposed_forward<kWidth>,
-     &KernelBench::transposed_forward<1>, &KernelBench::transposed_by_differences},
+    {"Phi_q^T lambda", 30.3, 178.0, 996.0, &KernelBench::transposed_by_hand, &KernelBench::transposed_forward<Wide>,
+     &KernelBench::transposed_forward<Dual>, &KernelBench::transposed_by_differences},
     {"(Phi_q v)_q v", 18.2, 159.0, 938.0, &KernelBench::curvature_by_hand, nullptr, &KernelBench::curvature_forward,
      &KernelBench::curvature_by_differences}};
 

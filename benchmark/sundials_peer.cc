@@ -189,11 +189,10 @@ class SundialsPeer::Implementation {
     for (int k = 0; k < at_.states; ++k) visit(at_.s + k, at_.psi - at_.states + k, -1.0, false);
     visit(at_.psi, at_.psi, 1.0, true);
     derivatives_.for_each([&](Variable by, int row, int column, double value) {
-      const int state = column - (at_.columns - at_.states);
       int place = at_.z + column;
-      if (by == Variable::kVelocity) place = column < at_.n ? at_.v + column : -1;
-      if (by == Variable::kPosition) place = column < at_.n ? column : state >= 0 ? at_.s + state : -1;
-      if (place >= 0) visit(at_.z + row, place, row < at_.columns ? value : -value, false);
+      if (by == Variable::kVelocity) place = at_.v + column;
+      if (by == Variable::kPosition) place = column < at_.n ? column : at_.s + column - at_.n;
+      visit(at_.z + row, place, row < at_.columns ? value : -value, false);
     });
   }
 
