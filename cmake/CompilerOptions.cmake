@@ -17,7 +17,8 @@ endif()
 function(codesign_optimize target)
   target_compile_options(${target} PRIVATE -fno-math-errno -fno-trapping-math -fno-semantic-interposition)
   file(GLOB hot ${PROJECT_SOURCE_DIR}/src/dynamics/equations_*.cc ${PROJECT_SOURCE_DIR}/src/integration/rosenbrock_step.cc
-    ${PROJECT_SOURCE_DIR}/src/sensitivity/tangent_step.cc ${PROJECT_SOURCE_DIR}/src/math/lu_schedule.cc)
+    ${PROJECT_SOURCE_DIR}/src/sensitivity/tangent_step.cc ${PROJECT_SOURCE_DIR}/src/math/lu_schedule.cc
+    ${PROJECT_SOURCE_DIR}/benchmark/kernel_tables.cc)
   # The formulas are many small functions of small matrices: with GCC's own limits on inlining they become calls, and cost five to ten times more.
   set(hot_options -O3 -fvisibility-inlines-hidden)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
