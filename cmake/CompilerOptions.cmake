@@ -31,6 +31,7 @@ function(codesign_optimize target)
   set(hot math/lu_schedule dynamics/equations_double dynamics/equations_lanes4 dynamics/equations_lanes8 integration/rosenbrock_step sensitivity/tangent_step)
   list(TRANSFORM hot PREPEND ${PROJECT_SOURCE_DIR}/src/)
   list(TRANSFORM hot APPEND .cc)
+  list(APPEND hot ${PROJECT_SOURCE_DIR}/benchmark/kernel_tables.cc)
   set_source_files_properties(${hot} PROPERTIES COMPILE_OPTIONS "$<$<NOT:$<CONFIG:Debug>>:${hot_options}>")
 endfunction()
 

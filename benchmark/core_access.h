@@ -1,0 +1,79 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_BENCHMARK_CORE_ACCESS_H_
+#define MECHANISM_CODESIGN_BENCHMARK_CORE_ACCESS_H_
+
+// The only file of benchmark/ that knows how the core stores derivatives and takes a step.
+
+#include <memory>
+#include <vector>
+
+#include "mechanism_codesign/dynamics/equations.h"
+#include "mechanism_codesign/dynamics/status.h"
+
+namespace codesign {
+
+/// By what the equations are derived: (q, s), v, or z.
+enum class Variable { kPosition, kVelocity, kRate };
+
+/// Calls visit(variable, row, column, value) for every stored derivative of the equations; the integrand g is the row below them. Columns
+/// are those of (q, s), of v, or of z.
+template <class Visit>
+void for_each_derivative(const System& system, const Linearization<double>& derivatives, const Visit& visit) {
+  const auto matrix = [&visit](Variable variable, const Sparsity& pattern, const std::vector<double>& values) {
+    for (int row = 0; row < pattern.rows; ++row)
+      for (int k = pattern.first(row); k < pattern.first(row + 1); ++k)
+        visit(variable, row, pattern.column(k), values[static_cast<std::size_t>(k)]);
+  };
+  matrix(Variable::kPosition, system.patterns().position, derivatives.position);
+  matrix(Variable::kVelocity, system.patterns().velocity, derivatives.velocity);
+  matrix(Variable::kRate, system.patterns().rate, derivatives.rate);
+}
+
+/// Derivatives of the equations with the memory to hold them.
+class Derivatives {
+ public:
+  explicit Derivatives(const System& system) : system_(system) { values_.resize(system.patterns()); }
+
+  void evaluate(Equations<double>* equations, const State<double>& state) { equations->linearize(state, &values_); }
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for_each_derivative(system_, values_, visit);
+  }
+
+ private:
+  const System& system_;
+  Linearization<double> values_;
+};
+
+/// The pieces of a step, each to be called over and over at one state of a running simulation.
+class StepProbe {
+ public:
+  /// Runs `system` at its start values up to `time` [s].
+  StepProbe(std::shared_ptr<const System> system, double time, double h);
+  ~StepProbe();
+
+  const Status& status() const;
+  const State<double>& state() const;
+  int matrix_size() const;
+  int stages() const;
+
+  void residual();
+  void linearize();
+  /// Of the stage's matrix, numerically.
+  void factor();
+  void solve();
+  /// All stages: one factorization, then per stage a residual, products and a solve.
+  void attempt();
+  /// attempt(), then projection and the derivatives at the end.
+  void step();
+  /// Back to the state that the constructor reached.
+  void rewind();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_BENCHMARK_CORE_ACCESS_H_

@@ -1,0 +1,28 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_BENCHMARK_MECHANISMS_H_
+#define MECHANISM_CODESIGN_BENCHMARK_MECHANISMS_H_
+
+#include "mechanism_codesign/model/urdf_reader.h"
+
+namespace codesign {
+
+/// A mechanism of any size and a study of it.
+struct GeneratedCase {
+  SourceText urdf, study;
+};
+
+/// An open chain of `links` slender bars under gravity, hinged about y and x in turn, with friction that depends on the reactions: as many
+/// degrees of freedom as links.
+GeneratedCase open_chain(int links);
+
+/// The same chain, each of whose links has four parameters: length, mass, the hinge's pin radius and its friction coefficient.
+/// @param tuned how many of the 4 links parameters are tuned: the first ones of length_0, mass_0, radius_0, friction_0, length_1, ...
+GeneratedCase parametric_chain(int links, int tuned);
+
+/// A ladder of `loops` closed loops: loops + 1 posts hang on hinges with friction from the ground, and each two neighbours are joined by a
+/// coupler, with a ball joint to the one and a universal joint to the other. One degree of freedom, no redundant constraint.
+GeneratedCase ladder(int loops);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_BENCHMARK_MECHANISMS_H_

@@ -1,0 +1,38 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_BENCHMARK_REPORT_H_
+#define MECHANISM_CODESIGN_BENCHMARK_REPORT_H_
+
+#include <string>
+#include <vector>
+
+#include "benchmark/table.h"
+
+namespace codesign {
+
+/// One of the figures that the package sets out to reach.
+struct Finding {
+  std::string what;
+  std::string unit;
+  double measured;
+  double target;
+  bool at_least;  ///< whether the target is a lower bound
+};
+
+/// Everything measured so far.
+struct Report {
+  std::vector<Table> tables;
+  std::vector<Finding> findings;
+};
+
+// Each measures its part in one run and adds its tables. They throw std::runtime_error if a computation fails that has to succeed.
+void measure_kernels(Report* report);
+void measure_steps(Report* report);
+void measure_work_precision(Report* report);
+void measure_parameters(Report* report);
+void measure_optimization(Report* report);
+void measure_scaling(Report* report);
+void measure_simbody(Report* report);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_BENCHMARK_REPORT_H_

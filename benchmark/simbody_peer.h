@@ -1,0 +1,18 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_BENCHMARK_SIMBODY_PEER_H_
+#define MECHANISM_CODESIGN_BENCHMARK_SIMBODY_PEER_H_
+
+namespace codesign {
+
+struct SimbodyResult {
+  double psi;
+  int steps;
+};
+
+/// The problem with_dry_friction() built of Simbody's own joints (a pin, a ball, a slider) and constraints (a ball and a constant angle),
+/// run by its Runge-Kutta-Merson integrator with its projection.
+SimbodyResult run_simbody(double crank_length, double rod_length, double Kp, double accuracy);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_BENCHMARK_SIMBODY_PEER_H_

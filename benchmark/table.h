@@ -1,0 +1,31 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_BENCHMARK_TABLE_H_
+#define MECHANISM_CODESIGN_BENCHMARK_TABLE_H_
+
+#include <string>
+#include <vector>
+
+namespace codesign {
+
+/// A table of a report. `name` marks its place in doc/performance.md.
+struct Table {
+  std::string name, title;
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// For a terminal: columns aligned, the first to the left.
+std::string to_text(const Table& table);
+
+/// For doc/performance.md, between the markers `<!-- table: NAME -->` and `<!-- end: NAME -->`.
+std::string to_markdown(const Table& table);
+
+/// `value` with three significant digits and no exponent between 0.01 and 100000; "-" if it is not a number.
+std::string three_digits(double value);
+
+/// `value` as a power of ten with one digit, as errors and tolerances are written: "3e-07"; "-" if it is not a number.
+std::string one_digit(double value);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_BENCHMARK_TABLE_H_

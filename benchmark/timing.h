@@ -1,0 +1,39 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_BENCHMARK_TIMING_H_
+#define MECHANISM_CODESIGN_BENCHMARK_TIMING_H_
+
+#include <benchmark/benchmark.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace codesign {
+
+/// Something to be timed, under a name that is unique within one call of median_cpu_seconds().
+struct Job {
+  std::string name;
+  std::function<void(benchmark::State&)> body;
+};
+
+/// A job that calls `function()` over and over; before each repetition, and outside its time, `prepare()`.
+template <class Function, class Prepare>
+Job make_job(std::string name, Function function, Prepare prepare) {
+  return {std::move(name), [function, prepare](benchmark::State& state) mutable {
+            prepare();
+            for (auto _ : state) function();
+          }};
+}
+template <class Function>
+Job make_job(std::string name, Function function) {
+  return make_job(std::move(name), std::move(function), [] {});
+}
+
+/// Processor time of one call of each job [s]: the median of its repetitions, which are shuffled among those of all the jobs, so that
+/// whatever else the machine does meets all of them alike. Each repetition calls its job for at least `shortest` seconds.
+std::vector<double> median_cpu_seconds(const std::vector<Job>& jobs, int repetitions = 7, double shortest = 0.02);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_BENCHMARK_TIMING_H_

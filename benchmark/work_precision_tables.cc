@@ -1,0 +1,51 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <memory>
+
+#include "benchmark/report.h"
+#include "benchmark/slider_crank.h"
+#include "benchmark/sundials_peer.h"
+#include "benchmark/work_precision.h"
+
+namespace codesign {
+namespace {
+
+const std::vector<double> kTolerances = {1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8};
+constexpr std::size_t kDefaultTolerance = 4;  // a study's default, 1e-6
+
+Contestant sundials(const Problem& problem, const std::string& name, SundialsMatrix matrix, const Reference& reference) {
+  return {name, [problem, matrix, reference](double tolerance, bool with_gradient) -> std::function<Outcome()> {
+            const auto peer = std::make_shared<SundialsPeer>(problem.system, matrix);
+            return [peer, reference, tolerance, with_gradient] {
+              const SundialsResult r = peer->run(tolerance, with_gradient);
+              return r.ok ? outcome_of(reference, with_gradient, r.psi, r.gradient, r.steps) : Outcome{};
+            };
+          }};
+}
+
+}  // namespace
+
+void measure_work_precision(Report* report) {
+  const Problem problem = load_slider_crank();
+  const Reference reference{kReferencePsi, Eigen::Map<const Eigen::VectorXd>(kReferenceGradient, 5)};
+  std::vector<Contestant> contestants;
+  for (const char* name : {"rodas4", "rodas4p2", "rodas5p", "idas"})
+    if (with_solver(problem, name, 1e-6)) contestants.push_back(own_solver(problem, name, reference));
+  const std::size_t klu = contestants.size();
+  contestants.push_back(sundials(problem, "SUNDIALS, KLU", SundialsMatrix::kSparseExact, reference));
+  contestants.push_back(sundials(problem, "SUNDIALS, dense", SundialsMatrix::kDenseDifferences, reference));
+  const std::vector<Sweep> simulation =
+      race("simulation", "Simulation of the slider-crank over 2 s", false, contestants, kTolerances, report);
+  const std::vector<Sweep> gradient = race("gradient", "psi and its gradient by 5 parameters", true, contestants, kTolerances, report);
+
+  const double own_simulation = seconds_to(1e-6, simulation[0]), own_gradient = seconds_to(1e-5, gradient[0]);
+  const double ratio = gradient[0][kDefaultTolerance].seconds / simulation[0][kDefaultTolerance].seconds;
+  report->findings.push_back({"simulation, psi to 1e-6", "ms", 1e3 * own_simulation, 5.0, false});
+  report->findings.push_back(
+      {"the same by SUNDIALS with KLU, in times of ours", "", seconds_to(1e-6, simulation[klu]) / own_simulation, 4.0, true});
+  report->findings.push_back({"gradient by 5 parameters to 1e-5", "ms", 1e3 * own_gradient, 25.0, false});
+  report->findings.push_back(
+      {"the same by SUNDIALS with KLU, in times of ours", "", seconds_to(1e-5, gradient[klu]) / own_gradient, 6.0, true});
+  report->findings.push_back({"gradient by 5 parameters, in simulations, both at tolerance 1e-6", "", ratio, 4.0, false});
+}
+
+}  // namespace codesign

@@ -1,0 +1,100 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "benchmark/constraint_kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <complex>
+
+#include "benchmark/mechanisms.h"
+#include "mechanism_codesign/dynamics/equations.h"
+#include "mechanism_codesign/optimization/problem.h"
+
+namespace codesign {
+namespace {
+
+/// Each kernel against what the equations of motion say, at an arbitrary point off the constraints.
+class ConstraintKernelsTest : public testing::TestWithParam<std::string> {
+ protected:
+  ConstraintKernelsTest()
+      : problem_(load()),
+        kernels_(*problem_.system, evaluate_constants(problem_.robot, problem_.system->topology(), problem_.parameters())),
+        n_(kernels_.columns()),
+        m_(kernels_.rows()),
+        q_(n_),
+        v_(n_),
+        lambda_(m_),
+        Phi_q_(m_, n_) {
+    for (int k = 0; k < n_; ++k) q_[k] = std::sin(1.0 + 7.0 * k), v_[k] = std::cos(2.0 + 5.0 * k);
+    for (int k = 0; k < m_; ++k) lambda_[k] = std::sin(3.0 + 11.0 * k);
+    for (int k = 0; k < n_; ++k) Phi_q_.col(k) = errors<double>(q_, Eigen::VectorXd::Unit(n_, k)).second;
+  }
+
+  static Problem load() {
+    if (GetParam() == "chain") return load(open_chain(3));
+    if (GetParam() == "ladder") return load(ladder(2));
+    const std::string source = CODESIGN_SOURCE_DIR;
+    return load({read_source(source + "/urdf/" + GetParam() + ".urdf"), read_source(source + "/config/" + GetParam() + ".yaml")});
+  }
+  static Problem load(const GeneratedCase& generated) { return load_problem(generated.urdf, {}, generated.study); }
+
+  /// Phi and Phi_q v by the equations of motion.
+  template <class T>
+  std::pair<VectorX<T>, VectorX<T>> errors(const VectorX<T>& q, const VectorX<T>& v) const {
+    Equations<T> equations(*problem_.system);
+    const std::vector<double> parameters = problem_.parameters();
+    equations.set_design(std::vector<T>(parameters.begin(), parameters.end()));
+    VectorX<T> Phi, rate;
+    equations.constraint_errors(q, v, &Phi, &rate);
+    return {Phi, rate};
+  }
+  template <class Vector>
+  static void expect_near(const Vector& actual, const Vector& expected) {
+    EXPECT_LT((actual - expected).cwiseAbs().maxCoeff(), 1e-12 * (1.0 + expected.cwiseAbs().maxCoeff()));
+  }
+
+  Problem problem_;
+  ConstraintKernels<double> kernels_;
+  int n_, m_;
+  Eigen::VectorXd q_, v_, lambda_;
+  Eigen::MatrixXd Phi_q_;
+};
+
+TEST_P(ConstraintKernelsTest, Values) {
+  Eigen::VectorXd Phi(m_);
+  kernels_.values(q_.data(), Phi.data());
+  expect_near(Phi, errors<double>(q_, v_).first);
+}
+
+TEST_P(ConstraintKernelsTest, Jacobian) {
+  const auto entries = kernels_.entries();
+  std::vector<double> values(entries.size());
+  kernels_.jacobian(q_.data(), values.data());
+  Eigen::MatrixXd Phi_q = Eigen::MatrixXd::Zero(m_, n_);
+  for (std::size_t k = 0; k < entries.size(); ++k) Phi_q(entries[k].row, entries[k].column) += values[k];
+  expect_near(Phi_q, Phi_q_);
+}
+
+TEST_P(ConstraintKernelsTest, JacobianTimesVelocity) {
+  Eigen::VectorXd product(m_);
+  kernels_.jacobian_times(q_.data(), v_.data(), product.data());
+  expect_near<Eigen::VectorXd>(product, Phi_q_ * v_);
+}
+
+TEST_P(ConstraintKernelsTest, TransposedTimesMultipliers) {
+  Eigen::VectorXd product(n_);
+  kernels_.transposed_times(q_.data(), lambda_.data(), product.data());
+  expect_near<Eigen::VectorXd>(product, Phi_q_.transpose() * lambda_);
+}
+
+TEST_P(ConstraintKernelsTest, Curvature) {
+  constexpr double kStep = 1e-30;
+  const VectorX<std::complex<double>> q = q_ + std::complex<double>(0.0, kStep) * v_, v = v_;
+  Eigen::VectorXd product(m_);
+  kernels_.curvature(q_.data(), v_.data(), product.data());
+  expect_near<Eigen::VectorXd>(product, errors<std::complex<double>>(q, v).second.imag() / kStep);
+}
+
+INSTANTIATE_TEST_SUITE_P(Mechanisms, ConstraintKernelsTest, testing::Values("slider_crank_haug", "chain", "ladder"));
+
+}  // namespace
+}  // namespace codesign
