@@ -19,7 +19,8 @@ function(codesign_optimize target)
   set(hot_options -O3 -fvisibility-inlines-hidden)
   # The formulas are many small functions of small matrices: with GCC's own limits on inlining they become calls, and cost five to ten times more.
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-    foreach(limit inline-unit-growth=1000 large-function-growth=2000 max-inline-insns-single=2000 max-inline-insns-auto=500)
+    foreach(limit inline-unit-growth=1000 large-function-growth=2000 large-function-insns=100000
+        large-stack-frame=100000 large-stack-frame-growth=100000 max-inline-insns-single=2000 max-inline-insns-auto=500)
       list(APPEND hot_options --param=${limit})
     endforeach()
   endif()

@@ -67,7 +67,7 @@ bool touches(const ProductRow<T>& row, Side side) {
 template <class T>
 void row_gradient(const ProductRow<T>& row, const PairMotion<T>& shared, const VectorMotion<T>& x, const VectorMotion<T>& y,
                   const bool (&fixed)[2], ProductGradient<T>* g) {
-  *g = ProductGradient<T>();
+  g->clear();
   const auto add = [&](const PairVector<T>& own, const VectorMotion<T>& partner) {
     for (int k = 0; k < own.terms; ++k)
       if (!fixed[static_cast<int>(own.term[k].side)]) add_term_gradient(own.term[k], shared.jacobian_of(own.term[k]), partner, g);

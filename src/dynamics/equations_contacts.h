@@ -9,9 +9,10 @@ namespace codesign {
 // Isotropic friction of tables, planar and spherical joints, theory (13a): the equations get + sum of J_k^T L_k over the slip coordinates.
 
 template <class T>
-ContactFriction<T> Equations<T>::contact(int pair) const {
+ContactFriction<T> Equations<T>::contact(int pair, CoordinateDetail detail) const {
   const Pair& p = system_.topology().pairs[static_cast<std::size_t>(pair)];
-  return contact_friction(p.kind, constants_.pairs[static_cast<std::size_t>(pair)], body(p.body_i), body(p.body_j), normal_force(pair));
+  return contact_friction(p.kind, constants_.pairs[static_cast<std::size_t>(pair)], body(p.body_i), body(p.body_j), normal_force(pair),
+                          detail);
 }
 
 template <class T>
@@ -37,7 +38,7 @@ void Equations<T>::append_contact_load(int pair, const ContactFriction<T>& conta
 
 template <class T>
 void Equations<T>::contact_residual(int pair, VectorX<T>* G) {
-  const ContactFriction<T> c = contact(pair);
+  const ContactFriction<T> c = contact(pair, CoordinateDetail::kRate);
   for (std::size_t k = 0; k < c.size; ++k)
     for (int local = 0; local < kLocalSize; ++local)
       if (const int row = column(pair, local); row >= 0) (*G)[row] += c.motion[k].J[local] * c.load[static_cast<Eigen::Index>(k)];

@@ -14,13 +14,17 @@ template <class T>
 CoordinateMotion<T> Equations<T>::coordinate(int pair, int element, CoordinateDetail detail) const {
   const Pair& p = system_.topology().pairs[static_cast<std::size_t>(pair)];
   const PairConstants<T>& c = constants_.pairs[static_cast<std::size_t>(pair)];
-  CoordinateMotion<T> motion =
-      coordinate_motion(c, c.coordinates[static_cast<std::size_t>(element)], body(p.body_i), body(p.body_j), detail);
-  if (detail == CoordinateDetail::kAll && c.coordinates[static_cast<std::size_t>(element)].kind != CoordinateConstants<T>::Kind::kSlide) {
-    const double reference = turn_references_[static_cast<std::size_t>(pair)][static_cast<std::size_t>(element)];
-    motion.position += T(2.0 * M_PI * std::round((reference - value_of(motion.position)) / (2.0 * M_PI)));
-  }
+  const CoordinateConstants<T>& coordinate = c.coordinates[static_cast<std::size_t>(element)];
+  CoordinateMotion<T> motion = coordinate_motion(c, coordinate, body(p.body_i), body(p.body_j), detail);
+  if (detail == CoordinateDetail::kAll) motion.position += whole_turns(pair, element, motion.position);
   return motion;
+}
+
+template <class T>
+double Equations<T>::whole_turns(int pair, int element, const T& position) const {
+  const auto p = static_cast<std::size_t>(pair), e = static_cast<std::size_t>(element);
+  if (constants_.pairs[p].coordinates[e].kind == CoordinateConstants<T>::Kind::kSlide) return 0.0;
+  return 2.0 * M_PI * std::round((turn_references_[p][e] - value_of(position)) / (2.0 * M_PI));
 }
 
 template <class T>
@@ -32,9 +36,14 @@ bool Equations<T>::coordinate_moves_r(int pair, int element) const {
 template <class T>
 void Equations<T>::track_turns(const State<T>& state) {
   load(state);
-  for (std::size_t pair = 0; pair < turn_references_.size(); ++pair)
-    for (std::size_t element = 0; element < turn_references_[pair].size(); ++element)
-      turn_references_[pair][element] = value_of(coordinate(static_cast<int>(pair), static_cast<int>(element)).position);
+  for (std::size_t p = 0; p < turn_references_.size(); ++p) {
+    const Pair& pair = system_.topology().pairs[p];
+    const PairConstants<T>& c = constants_.pairs[p];
+    for (std::size_t e = 0; e < turn_references_[p].size(); ++e) {
+      const T position = coordinate_position(c, c.coordinates[e], body(pair.body_i), body(pair.body_j));
+      turn_references_[p][e] = value_of(position) + whole_turns(static_cast<int>(p), static_cast<int>(e), position);
+    }
+  }
 }
 
 template <class T>
@@ -172,7 +181,8 @@ void Equations<T>::load_residual(const JointLoad& load, VectorX<T>* G) {
 template <class T>
 template <class Sink>
 void Equations<T>::assemble_load(const JointLoad& load, Sink* sink) {
-  const CoordinateMotion<T> motion = coordinate(load.pair, load.element, load.passive ? CoordinateDetail::kAll : CoordinateDetail::kRate);
+  const CoordinateMotion<T> motion =
+      coordinate(load.pair, load.element, load.passive ? CoordinateDetail::kAll : CoordinateDetail::kGradient);
   gradient_.clear();
   const T value = joint_load(load, motion, &gradient_);
   const bool with_r = coordinate_moves_r(load.pair, load.element);

@@ -9,7 +9,11 @@ namespace codesign {
 template <class T>
 T Equations<T>::joint_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient) {
   const bool position = term.kind == SignalKind::kJointPosition;
-  const CoordinateMotion<T> m = coordinate(term.pair, term.element, position ? CoordinateDetail::kAll : CoordinateDetail::kRate);
+  const bool rate_alone = !gradient && term.kind != SignalKind::kJointAcceleration;
+  const CoordinateMotion<T> m = coordinate(term.pair, term.element,
+                                           position     ? CoordinateDetail::kAll
+                                           : rate_alone ? CoordinateDetail::kRate
+                                                        : CoordinateDetail::kGradient);
   const bool with_r = coordinate_moves_r(term.pair, term.element);
   switch (term.kind) {
     case SignalKind::kJointPosition:

@@ -17,7 +17,7 @@ int free_shell(SUNLinearSolver solver) {
 IdasNewton::IdasNewton(const System& system, SUNContext context)
     : system_(system), reduced_(system), matrix_(SUNMatNewEmpty(context)), solver_(SUNLinSolNewEmpty(context)) {
   if (!matrix_ || !solver_) throw std::bad_alloc();
-  derivatives_.resize(system.sparsity().nonzeros());
+  derivatives_.resize(system.patterns());
   u_.setZero(system.layout().columns());
   // The matrix is only there because a direct solver must have one; its numbers are the derivatives.
   matrix_->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };

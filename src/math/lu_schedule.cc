@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mechanism_codesign/math/lanes.h"
+
 namespace codesign {
 namespace {
 
@@ -84,27 +86,51 @@ void LuSchedule::eliminate() {
 
 namespace {
 
+/// N numbers side by side, in the registers' own type where there are several.
+template <int N>
+struct Row {
+  using Block = typename Lanes<4>::Four;
+  static constexpr int kBlocks = N / 4;
+  Block block[kBlocks];
+
+  explicit Row(const double* from) {
+    for (int k = 0; k < kBlocks; ++k) block[k] = reinterpret_cast<const Block*>(from)[k];
+  }
+  void store(double* to) const {
+    for (int k = 0; k < kBlocks; ++k) reinterpret_cast<Block*>(to)[k] = block[k];
+  }
+  void subtract(double factor, const Row& other) {
+    for (int k = 0; k < kBlocks; ++k) block[k] -= factor * other.block[k];
+  }
+};
+
+template <>
+struct Row<1> {
+  double value;
+
+  explicit Row(const double* from) : value(*from) {}
+  void store(double* to) const { *to = value; }
+  void subtract(double factor, const Row& other) { value -= factor * other.value; }
+};
+
 /// y[row of e] -= factors[e] y[k] for the entries from `first` to `last`.
 template <int N>
 void subtract_column(const double* factors, const int* row, int first, int last, const double* pivot_row, double* y) {
-  double x[N];
-  for (int c = 0; c < N; ++c) x[c] = pivot_row[c];
+  const Row<N> x(pivot_row);
   for (int e = first; e < last; ++e) {
     double* const target = y + N * row[e];
-    for (int c = 0; c < N; ++c) target[c] -= factors[e] * x[c];
+    Row<N> t(target);
+    t.subtract(factors[e], x);
+    t.store(target);
   }
 }
 
 /// y[k] -= sum of factors[e] y[row of e].
 template <int N>
 void subtract_products(const double* factors, const int* row, int first, int last, double* pivot_row, const double* y) {
-  double x[N];
-  for (int c = 0; c < N; ++c) x[c] = pivot_row[c];
-  for (int e = first; e < last; ++e) {
-    const double* const source = y + N * row[e];
-    for (int c = 0; c < N; ++c) x[c] -= factors[e] * source[c];
-  }
-  for (int c = 0; c < N; ++c) pivot_row[c] = x[c];
+  Row<N> x(pivot_row);
+  for (int e = first; e < last; ++e) x.subtract(factors[e], Row<N>(y + N * row[e]));
+  x.store(pivot_row);
 }
 
 }  // namespace

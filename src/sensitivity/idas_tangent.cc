@@ -27,7 +27,7 @@ IdasTangent::IdasTangent(const System& system)
       groups_(system),
       partial_(system.layout().columns() + 1, static_cast<Eigen::Index>(system.study().tuned.size())),
       matrix_(system) {
-  derivatives_.resize(system.sparsity().nonzeros());
+  derivatives_.resize(system.patterns());
 }
 
 void IdasTangent::start(const std::vector<double>& parameters, const State<double>& initial, Integrator* integrator,

@@ -82,17 +82,15 @@ void TangentStep<N>::stage_rows(std::size_t i, const RosenbrockStep<double>& ste
   const double time_shift = step.step_size() * tableau_.gamma_i[i];
   for (int row = 0; row <= at_.z_size; ++row) {
     const Lanes<N>& own = row < at_.z_size ? residual_[row] : g_;
-    double sum[N];
-    for (int k = 0; k < N; ++k) sum[k] = own.v[k] + time_shift * derivatives_.time[row].v[k];
+    Vector sum = own.v + time_shift * derivatives_.time[row].v;
     if (row < at_.z_size) {
-      add_row_product<N>(patterns.position, matrices.position, row, dx, sum);
-      add_row_product<N>(patterns.velocity, matrices.velocity, row, dv, sum);
+      add_row_product<N>(patterns.position, matrices.position, row, dx, &sum);
+      add_row_product<N>(patterns.velocity, matrices.velocity, row, dv, &sum);
     }
-    add_row_tangent<N>(patterns.position, derivatives_.position, row, x, sum);
-    add_row_tangent<N>(patterns.velocity, derivatives_.velocity, row, v, sum);
-    add_row_tangent<N>(patterns.rate, derivatives_.rate, row, z, sum);
-    const double sign = row < at_.z_size ? -1.0 : 1.0;
-    for (int k = 0; k < N; ++k) rows_(k, row) = sign * sum[k];
+    add_row_tangent<N>(patterns.position, derivatives_.position, row, x, &sum);
+    add_row_tangent<N>(patterns.velocity, derivatives_.velocity, row, v, &sum);
+    add_row_tangent<N>(patterns.rate, derivatives_.rate, row, z, &sum);
+    vector_at(&rows_, row) = row < at_.z_size ? -sum : sum;
   }
 }
 
@@ -113,14 +111,13 @@ void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& 
   u_v += hg * u_a;
   u_q += hg * hg * u_a;
   u_s += hg * u.middleCols(at_.sigma(), at_.states);
-  auto psi = u.col(at_.psi());
-  psi = rows_.col(at_.z_size) + sum_.col(at_.psi());
   const ByVariable<Sparsity>& patterns = system_.patterns();
   const Linearization<double>& matrices = step.derivatives();
-  add_row_product<N>(patterns.position, matrices.position, at_.z_size, u.data(), psi.data());
-  add_row_product<N>(patterns.velocity, matrices.velocity, at_.z_size, u.data() + N * at_.v(), psi.data());
-  add_row_product<N>(patterns.rate, matrices.rate, at_.z_size, u.data() + N * at_.z(), psi.data());
-  psi *= hg;
+  Vector psi = vector_at(&rows_, at_.z_size) + vector_at(&sum_, at_.psi());
+  add_row_product<N>(patterns.position, matrices.position, at_.z_size, u.data(), &psi);
+  add_row_product<N>(patterns.velocity, matrices.velocity, at_.z_size, u.data() + N * at_.v(), &psi);
+  add_row_product<N>(patterns.rate, matrices.rate, at_.z_size, u.data() + N * at_.z(), &psi);
+  vector_at(&u, at_.psi()) = hg * psi;
 }
 
 template <int N>
@@ -134,11 +131,11 @@ void TangentStep<N>::advance_stages(const RosenbrockStep<double>& step) {
 template <int N>
 void TangentStep<N>::project(const VectorX<double>& correction, const VectorX<Lanes<N>>& errors, const SparseLu& lu, double* target) {
   for (int row = 0; row < at_.z_size; ++row) {
-    double sum[N] = {};
-    add_row_tangent<N>(system_.patterns().rate, derivatives_.rate, row, correction.data(), sum);
+    Vector sum{};
+    add_row_tangent<N>(system_.patterns().rate, derivatives_.rate, row, correction.data(), &sum);
     const int constraint = row - layout_.n;
-    const bool constrained = constraint >= 0 && constraint < layout_.m;
-    for (int k = 0; k < N; ++k) rows_(k, row) = -sum[k] - (constrained ? errors[constraint].v[k] : 0.0);
+    if (constraint >= 0 && constraint < layout_.m) sum += errors[constraint].v;
+    vector_at(&rows_, row) = -sum;
   }
   lu.template solve_rows<N>(rows_.data());
   for (int k = 0; k < N * layout_.n; ++k) target[k] += rows_.data()[k];

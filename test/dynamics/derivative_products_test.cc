@@ -19,7 +19,7 @@ struct DerivativeProducts : ::testing::Test {
       for (VectorX<double>* part : {&s->q, &s->v, &s->s, &s->z})
         for (Eigen::Index k = 0; k < part->size(); ++k) (*part)[k] = std::sin(3.0 * static_cast<double>(++count));
     }
-    derivatives.resize(system->sparsity().nonzeros());
+    derivatives.resize(system->patterns());
     equations.linearize(state, &derivatives);
   }
 

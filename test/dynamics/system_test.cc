@@ -63,7 +63,7 @@ TEST(System, OnlyJointsWithALoadAreListed) {
 
 TEST(System, ThePatternHoldsTheIntegrandBelowTheEquations) {
   const System system = compile(pendulum(), let_go("{}", "hinge/velocity"));
-  EXPECT_EQ(system.sparsity().columns, system.layout().columns());
+  EXPECT_EQ(system.patterns().rate.columns, system.layout().columns());
   // The hinge's rate is read off p and p' of the bar alone.
   for (const System::IntegrandEntry& entry : system.integrand_entries()) {
     EXPECT_GE(entry.column, 3);

@@ -74,8 +74,8 @@ TEST_F(IdasNewtonTest, StabilizationOnlyScalesTheConstraintRows) {
 }
 
 TEST_F(IdasNewtonTest, ASingularMatrixIsARecoverableFailure) {
-  newton.derivatives()->resize(system->sparsity().nonzeros());
-  for (std::vector<double>* values : {&newton.derivatives()->by_position, &newton.derivatives()->by_velocity, &newton.derivatives()->by_rate})
+  newton.derivatives()->resize(system->patterns());
+  for (std::vector<double>* values : {&newton.derivatives()->position, &newton.derivatives()->velocity, &newton.derivatives()->rate})
     std::fill(values->begin(), values->end(), 0.0);
   EXPECT_GT(SUNLinSolSetup(newton.solver(), newton.matrix()), 0);
   EXPECT_TRUE(newton.singular());

@@ -43,7 +43,7 @@ struct ContactFriction {
 
 template <class T>
 ContactFriction<T> contact_friction(PairKind kind, const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
-                                    const NormalForce<T>& normal) {
+                                    const NormalForce<T>& normal, CoordinateDetail detail) {
   ContactFriction<T> contact;
   contact.normal = normal;
   contact.size = pair.slip.coordinates.size();
@@ -51,7 +51,7 @@ ContactFriction<T> contact_friction(PairKind kind, const PairConstants<T>& pair,
   Vector3<T> u = Vector3<T>::Zero(), arm = Vector3<T>::Zero();
   for (std::size_t k = 0; k < contact.size; ++k) {
     const auto e = static_cast<Eigen::Index>(k);
-    contact.motion[k] = coordinate_motion(pair, pair.slip.coordinates[k], i, j, CoordinateDetail::kRate);
+    contact.motion[k] = coordinate_motion(pair, pair.slip.coordinates[k], i, j, detail);
     arm[e] = pair.slip.arm[k];
     u[e] = arm[e] * contact.motion[k].rate;
   }

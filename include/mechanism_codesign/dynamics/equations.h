@@ -10,7 +10,7 @@
 #include "mechanism_codesign/dynamics/system.h"
 #include "mechanism_codesign/forces/normal_force.h"
 #include "mechanism_codesign/forces/spring_damper.h"
-#include "mechanism_codesign/joints/coordinate.h"
+#include "mechanism_codesign/joints/coordinate_load.h"
 #include "mechanism_codesign/joints/pair_motion.h"
 #include "mechanism_codesign/model/constants.h"
 
@@ -66,7 +66,7 @@ class Equations {
   CoordinateMotion<T> coordinate(int pair, int element, CoordinateDetail detail = CoordinateDetail::kAll) const;
   FrictionState<T> friction(int pair, int element);
   /// Isotropic friction of a pair among System::contacts().
-  ContactFriction<T> contact(int pair) const;
+  ContactFriction<T> contact(int pair, CoordinateDetail detail = CoordinateDetail::kGradient) const;
   /// The k-th spring-damper of the description.
   SpringForce<T> spring(std::size_t k) const;
   T effort(int pair, int element);
@@ -131,6 +131,8 @@ class Equations {
   /// Global column of a local coordinate of a pair, or -1 on the ground.
   int column(int pair, int local) const;
   bool coordinate_moves_r(int pair, int element) const;
+  /// What to add to a position so that it continues its reference.
+  double whole_turns(int pair, int element, const T& position) const;
   BodyLoad<T>& load_on(int body);
 
   const System& system_;

@@ -15,26 +15,21 @@ T row_product(const Sparsity& pattern, const std::vector<T>& values, int row, co
   return sum;
 }
 
-/// One row of a real sparse matrix times N vectors, stored row by row: sum[k] += sum over the row of values x[N column + k].
+/// One row of a real sparse matrix times N vectors, stored row by row: sum_k += sum over the row of values x[N column + k].
 template <int N>
-void add_row_product(const Sparsity& pattern, const std::vector<double>& values, int row, const double* x, double* sum) {
+void add_row_product(const Sparsity& pattern, const std::vector<double>& values, int row, const double* x, typename Lanes<N>::Vector* sum) {
+  using Vector = typename Lanes<N>::Vector;
   const int* const column = pattern.column_index.data();
-  for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) {
-    const double value = values[static_cast<std::size_t>(e)];
-    const double* const y = x + N * column[e];
-    for (int k = 0; k < N; ++k) sum[k] += value * y[k];
-  }
+  for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
+    *sum += values[static_cast<std::size_t>(e)] * *reinterpret_cast<const Vector*>(x + N * column[e]);
 }
 
-/// One row of the directional derivatives of a sparse matrix times a real vector: sum[k] += sum over the row of dvalues_k x[column].
+/// One row of the directional derivatives of a sparse matrix times a real vector: sum_k += sum over the row of dvalues_k x[column].
 template <int N>
-void add_row_tangent(const Sparsity& pattern, const std::vector<Lanes<N>>& values, int row, const double* x, double* sum) {
+void add_row_tangent(const Sparsity& pattern, const std::vector<Lanes<N>>& values, int row, const double* x,
+                     typename Lanes<N>::Vector* sum) {
   const int* const column = pattern.column_index.data();
-  for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) {
-    const double factor = x[column[e]];
-    const double* const d = values[static_cast<std::size_t>(e)].directions().data();
-    for (int k = 0; k < N; ++k) sum[k] += factor * d[k];
-  }
+  for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) *sum += x[column[e]] * values[static_cast<std::size_t>(e)].v;
 }
 
 }  // namespace codesign

@@ -31,7 +31,15 @@ ProductMotion<T> product_motion(const VectorMotion<T>& x, const VectorMotion<T>&
 /// Gradients over the pair's coordinates: phi_q (= phid_v = phidd_a), phid_q (= phidd_v / 2) and phidd_q.
 template <class T>
 struct ProductGradient {
-  LocalRow<T> phi_q = LocalRow<T>::Zero(), phid_q = LocalRow<T>::Zero(), phidd_q = LocalRow<T>::Zero();
+  LocalRow<T> phi_q, phid_q, phidd_q;
+
+  /// Zero up to this order; the rest stays uninitialized.
+  void clear(int order = 2) {
+    phi_q.setZero();
+    if (order < 1) return;
+    phid_q.setZero();
+    phidd_q.setZero();
+  }
 };
 
 /// B of a body-fixed vector along p, p' and p'': the Jacobians of A s, (A s)' and (A s)'' by p.
@@ -65,14 +73,27 @@ void add_term_gradient(const VectorTerm<T>& term, const VectorJacobian<T>& J, co
   }
 }
 
+/// As above, of phi_q alone.
+template <class T>
+void add_term_slope(const VectorTerm<T>& term, const Matrix34<T>& B, const Vector3<T>& y, LocalRow<T>* phi_q) {
+  const T sign(term.sign);
+  if (term.point)
+    for (int c = 0; c < 3; ++c) (*phi_q)[r_offset(term.side) + c] += sign * y[c];
+  for (int c = 0; c < 4; ++c) (*phi_q)[p_offset(term.side) + c] += sign * dot<T>(B.col(c), y);
+}
+
+/// @param order 0: phi_q alone; 2: all.
 template <class T>
 ProductGradient<T> product_gradient(const PairVector<T>& X, const PairVector<T>& Y, const VectorMotion<T>& x, const VectorMotion<T>& y,
-                                    const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
+                                    const BodyKinematics<T>& i, const BodyKinematics<T>& j, int order = 2) {
   ProductGradient<T> gradient;
+  gradient.clear(order);
   const auto add = [&](const PairVector<T>& own, const VectorMotion<T>& partner) {
     for (int k = 0; k < own.terms; ++k) {
       const VectorTerm<T>& term = own.term[k];
-      add_term_gradient(term, vector_jacobian(term.side == Side::kI ? i : j, term.s), partner, &gradient);
+      const BodyKinematics<T>& body = term.side == Side::kI ? i : j;
+      if (order == 0) add_term_slope(term, rotated_vector_jacobian(body.p, term.s), partner.x, &gradient.phi_q);
+      if (order > 0) add_term_gradient(term, vector_jacobian(body, term.s), partner, &gradient);
     }
   };
   add(X, y);

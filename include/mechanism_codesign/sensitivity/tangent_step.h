@@ -40,6 +40,9 @@ class TangentStep {
   const Directions<N>& directions() const { return y_; }
 
  private:
+  using Vector = typename Lanes<N>::Vector;
+  static Vector& vector_at(Directions<N>* x, int column) { return *reinterpret_cast<Vector*>(x->data() + N * column); }
+
   /// Values and derivatives side by side.
   void load_lanes(const State<double>& values, const Directions<N>& directions);
   void stage_state(std::size_t i, const RosenbrockStep<double>& step);
