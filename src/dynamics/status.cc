@@ -5,16 +5,26 @@ namespace codesign {
 
 const char* name_of(StatusCode code) {
   switch (code) {
-    case StatusCode::kSuccess: return "success";
-    case StatusCode::kCancelled: return "cancelled";
-    case StatusCode::kAssemblyFailed: return "assembly_failed";
-    case StatusCode::kInitialVelocityFailed: return "initial_velocity_failed";
-    case StatusCode::kInitialReactionsFailed: return "initial_reactions_failed";
-    case StatusCode::kSingularMatrix: return "singular_matrix";
-    case StatusCode::kStepSizeTooSmall: return "step_size_too_small";
-    case StatusCode::kTooManySteps: return "too_many_steps";
-    case StatusCode::kNonFinite: return "non_finite";
-    case StatusCode::kInvalidDesign: return "invalid_design";
+    case StatusCode::kSuccess:
+      return "success";
+    case StatusCode::kCancelled:
+      return "cancelled";
+    case StatusCode::kAssemblyFailed:
+      return "assembly_failed";
+    case StatusCode::kInitialVelocityFailed:
+      return "initial_velocity_failed";
+    case StatusCode::kInitialReactionsFailed:
+      return "initial_reactions_failed";
+    case StatusCode::kSingularMatrix:
+      return "singular_matrix";
+    case StatusCode::kStepSizeTooSmall:
+      return "step_size_too_small";
+    case StatusCode::kTooManySteps:
+      return "too_many_steps";
+    case StatusCode::kNonFinite:
+      return "non_finite";
+    case StatusCode::kInvalidDesign:
+      return "invalid_design";
   }
   return "unknown";
 }

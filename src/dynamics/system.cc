@@ -179,7 +179,11 @@ void System::refuse_unsupported() const {
     throw InputError({where, element, what + " is read but not computed by this version", "", ""});
   };
   if (topology_.bodies.empty())
-    throw InputError({{robot_.file, 0}, "<robot name=\"" + robot_.name + "\">", "nothing moves: no link with an <inertial> hangs on a movable joint", "", ""});
+    throw InputError({{robot_.file, 0},
+                      "<robot name=\"" + robot_.name + "\">",
+                      "nothing moves: no link with an <inertial> hangs on a movable joint",
+                      "",
+                      ""});
   for (const JointDescription& joint : robot_.joints) {
     const std::string element = (joint.is_loop ? "<loop name=\"" : "<joint name=\"") + joint.name + "\">";
     if (joint.mimic) refuse(joint.where, element, "<mimic>");

@@ -10,10 +10,14 @@ int coordinates_of(JointType type) {
   switch (type) {
     case JointType::kRevolute:
     case JointType::kContinuous:
-    case JointType::kPrismatic: return 1;
-    case JointType::kPlanar: return 3;
-    case JointType::kFloating: return 6;
-    default: return 0;
+    case JointType::kPrismatic:
+      return 1;
+    case JointType::kPlanar:
+      return 3;
+    case JointType::kFloating:
+      return 6;
+    default:
+      return 0;
   }
 }
 
@@ -50,8 +54,12 @@ JointMotion<T> joint_motion(const JointDescription& joint, const std::vector<T>&
   };
   switch (joint.type) {
     case JointType::kRevolute:
-    case JointType::kContinuous: turn(axis_at(joint.axis, parameters), 0); break;
-    case JointType::kPrismatic: slide(axis_at(joint.axis, parameters), 0); break;
+    case JointType::kContinuous:
+      turn(axis_at(joint.axis, parameters), 0);
+      break;
+    case JointType::kPrismatic:
+      slide(axis_at(joint.axis, parameters), 0);
+      break;
     case JointType::kPlanar: {
       const Vector3<T> z = axis_at(joint.axis, parameters), x = transverse_axis<T>(z, std::nullopt);
       slide(x, 0);
@@ -63,7 +71,8 @@ JointMotion<T> joint_motion(const JointDescription& joint, const std::vector<T>&
       for (int k = 0; k < 3; ++k) slide(Vector3<T>(Vector3<T>::Unit(k)), k);
       for (int k = 0; k < 3; ++k) turn(Vector3<T>(Vector3<T>::Unit(k)), 3 + k);
       break;
-    default: break;
+    default:
+      break;
   }
   return m;
 }
@@ -90,8 +99,8 @@ TreeLayout::TreeLayout(const RobotDescription& robot) : offset(robot.joints.size
 }
 
 template <class T>
-std::vector<LinkMotion<T>> link_motions(const RobotDescription& robot, const TreeLayout& layout, const std::vector<T>& parameters, const VectorX<T>& theta,
-                                        const VectorX<T>& theta_rate) {
+std::vector<LinkMotion<T>> link_motions(const RobotDescription& robot, const TreeLayout& layout, const std::vector<T>& parameters,
+                                        const VectorX<T>& theta, const VectorX<T>& theta_rate) {
   std::vector<LinkMotion<T>> links(robot.links.size());
   for (int k : layout.joint_order) {
     const JointDescription& joint = robot.joints[static_cast<std::size_t>(k)];
@@ -108,7 +117,8 @@ std::vector<LinkMotion<T>> link_motions(const RobotDescription& robot, const Tre
 }
 
 template <class T>
-void body_coordinates(const System& system, const Constants<T>& constants, const std::vector<LinkMotion<T>>& links, VectorX<T>* q, VectorX<T>* v) {
+void body_coordinates(const System& system, const Constants<T>& constants, const std::vector<LinkMotion<T>>& links, VectorX<T>* q,
+                      VectorX<T>* v) {
   const Topology& topology = system.topology();
   q->resize(system.layout().n);
   v->resize(system.layout().n);
@@ -124,8 +134,9 @@ void body_coordinates(const System& system, const Constants<T>& constants, const
   }
 }
 
-#define CODESIGN_INSTANTIATE(T)                                                                                                                          \
-  template std::vector<LinkMotion<T>> link_motions(const RobotDescription&, const TreeLayout&, const std::vector<T>&, const VectorX<T>&, const VectorX<T>&); \
+#define CODESIGN_INSTANTIATE(T)                                                                                                          \
+  template std::vector<LinkMotion<T>> link_motions(const RobotDescription&, const TreeLayout&, const std::vector<T>&, const VectorX<T>&, \
+                                                   const VectorX<T>&);                                                                   \
   template void body_coordinates(const System&, const Constants<T>&, const std::vector<LinkMotion<T>>&, VectorX<T>*, VectorX<T>*);
 CODESIGN_INSTANTIATE(double)
 CODESIGN_INSTANTIATE(std::complex<double>)

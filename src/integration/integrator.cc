@@ -11,7 +11,8 @@ std::unique_ptr<Integrator> make_integrator(const System& system) {
   return std::make_unique<RosenbrockIntegrator>(system);
 }
 
-Status assemble_start(const System& system, const std::vector<double>& parameters, Assembly* assembly, Equations<double>* equations, State<double>* initial) {
+Status assemble_start(const System& system, const std::vector<double>& parameters, Assembly* assembly, Equations<double>* equations,
+                      State<double>* initial) {
   equations->set_design(parameters);
   if (std::string fault = find_impossible(system.robot(), system.topology(), equations->constants()); !fault.empty())
     return {StatusCode::kInvalidDesign, 0.0, fault};

@@ -58,7 +58,8 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     if (!last && h > 0.5 * rest) h = 0.5 * rest;
     if (h < smallest)
       return singular ? Status{StatusCode::kSingularMatrix, t, "the equations of motion become singular: a dead point or lock-up"}
-                      : Status{StatusCode::kStepSizeTooSmall, t, "the step size fell below " + std::to_string(smallest * 1e12) + " ps: the motion is not resolvable"};
+                      : Status{StatusCode::kStepSizeTooSmall, t,
+                               "the step size fell below " + std::to_string(smallest * 1e12) + " ps: the motion is not resolvable"};
     if (!step_.attempt(h)) {
       singular = true;
       ++statistics_.rejected_steps;

@@ -61,7 +61,8 @@ class Simulation::Implementation {
   Statistics statistics_;
 };
 
-Simulation::Simulation(std::shared_ptr<const System> system, const std::vector<double>& parameters, const std::vector<SignalDescription>& signals)
+Simulation::Simulation(std::shared_ptr<const System> system, const std::vector<double>& parameters,
+                       const std::vector<SignalDescription>& signals)
     : implementation_(std::make_unique<Implementation>(std::move(system), parameters, signals)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;

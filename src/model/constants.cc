@@ -15,7 +15,8 @@ std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 /// Sums the links of a rigid group about their common centre of mass.
 template <class T>
-BodyConstants<T> body_constants(const RobotDescription& robot, const Topology& topology, const Body& body, const std::vector<T>& parameters) {
+BodyConstants<T> body_constants(const RobotDescription& robot, const Topology& topology, const Body& body,
+                                const std::vector<T>& parameters) {
   BodyConstants<T> result;
   std::vector<MassProperties<T>> parts;
   for (int link : body.links) {
@@ -49,8 +50,8 @@ SpringDamperConstants<T> spring_constants(const RobotDescription& robot, const T
   const auto attach = [&](int link, const PoseDescription& origin, int* body, Vector3<T>* s) {
     *body = topology.link_body[index(link)];
     if (*body == Topology::kMassless)
-      throw InputError({spring.where, "<codesign:spring_damper name=\"" + spring.name + "\">", "a spring cannot pull on a link without <inertial>",
-                        robot.links[index(link)].name, ""});
+      throw InputError({spring.where, "<codesign:spring_damper name=\"" + spring.name + "\">",
+                        "a spring cannot pull on a link without <inertial>", robot.links[index(link)].name, ""});
     *s = constants.links[index(link)].R * vector_at(origin.xyz, parameters) + constants.links[index(link)].s;
   };
   attach(spring.predecessor, spring.predecessor_origin, &result.body_i, &result.s_i);
@@ -62,7 +63,8 @@ SpringDamperConstants<T> spring_constants(const RobotDescription& robot, const T
 }
 
 std::string body_fault(const Body& body, const BodyConstants<double>& constants) {
-  if (!(constants.mass > 0.0) || !std::isfinite(constants.mass)) return "mass of body '" + body.name + "' is " + std::to_string(constants.mass);
+  if (!(constants.mass > 0.0) || !std::isfinite(constants.mass))
+    return "mass of body '" + body.name + "' is " + std::to_string(constants.mass);
   const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(constants.J, Eigen::EigenvaluesOnly).eigenvalues();
   if (!moments.allFinite() || !(moments[0] > 0.0)) return "inertia of body '" + body.name + "' is not positive definite";
   if (moments[2] > (moments[0] + moments[1]) * (1.0 + 1e-9)) return "inertia of body '" + body.name + "' breaks the triangle inequality";
@@ -70,8 +72,8 @@ std::string body_fault(const Body& body, const BodyConstants<double>& constants)
 }
 
 std::string friction_fault(const Pair& pair, const FrictionConstants<double>& f) {
-  const bool possible = f.mu_static >= f.mu_dynamic && f.mu_dynamic >= 0.0 && f.transition_velocity > 0.0 && f.joint_length > 0.0 && f.joint_width > 0.0 &&
-                        f.pin_radius >= 0.0 && f.smoothing > 0.0 && f.viscous >= 0.0;
+  const bool possible = f.mu_static >= f.mu_dynamic && f.mu_dynamic >= 0.0 && f.transition_velocity > 0.0 && f.joint_length > 0.0 &&
+                        f.joint_width > 0.0 && f.pin_radius >= 0.0 && f.smoothing > 0.0 && f.viscous >= 0.0;
   return possible ? "" : "friction geometry or coefficients of joint '" + pair.name + "' are out of range";
 }
 

@@ -60,27 +60,39 @@ std::optional<PairKind> fold_axes(const Axes& axes) {
 
 std::optional<PairKind> kind_of_single(JointType type) {
   switch (type) {
-    case JointType::kFixed: return PairKind::kFixed;
+    case JointType::kFixed:
+      return PairKind::kFixed;
     case JointType::kRevolute:
-    case JointType::kContinuous: return PairKind::kRevolute;
-    case JointType::kPrismatic: return PairKind::kPrismatic;
-    case JointType::kPlanar: return PairKind::kPlanar;
-    case JointType::kFloating: return PairKind::kFree;
-    case JointType::kSpherical: return PairKind::kSpherical;
-    case JointType::kUniversal: return PairKind::kUniversal;
-    case JointType::kCylindrical: return PairKind::kCylindrical;
-    case JointType::kDistance: return PairKind::kDistance;
+    case JointType::kContinuous:
+      return PairKind::kRevolute;
+    case JointType::kPrismatic:
+      return PairKind::kPrismatic;
+    case JointType::kPlanar:
+      return PairKind::kPlanar;
+    case JointType::kFloating:
+      return PairKind::kFree;
+    case JointType::kSpherical:
+      return PairKind::kSpherical;
+    case JointType::kUniversal:
+      return PairKind::kUniversal;
+    case JointType::kCylindrical:
+      return PairKind::kCylindrical;
+    case JointType::kDistance:
+      return PairKind::kDistance;
   }
   return std::nullopt;
 }
 
 [[noreturn]] void refuse(const RobotDescription& robot, const std::vector<ChainElement>& chain) {
   std::string names;
-  for (const ChainElement& element : chain) names += (names.empty() ? "" : ", ") + robot.joints[static_cast<std::size_t>(element.joint)].name;
+  for (const ChainElement& element : chain)
+    names += (names.empty() ? "" : ", ") + robot.joints[static_cast<std::size_t>(element.joint)].name;
   const JointDescription& joint = robot.joints[static_cast<std::size_t>(chain.front().joint)];
-  throw InputError({joint.where, "<joint name=\"" + joint.name + "\">", "a chain of links without <inertial> that cannot be folded into one joint", names,
-                    "concurrent revolutes (universal, spherical), a coaxial revolute and prismatic, two or three prismatics, two prismatics with a "
-                    "revolute normal to them; or give the links an <inertial>"});
+  throw InputError(
+      {joint.where, "<joint name=\"" + joint.name + "\">", "a chain of links without <inertial> that cannot be folded into one joint",
+       names,
+       "concurrent revolutes (universal, spherical), a coaxial revolute and prismatic, two or three prismatics, two prismatics with a "
+       "revolute normal to them; or give the links an <inertial>"});
 }
 
 }  // namespace
@@ -98,8 +110,11 @@ PairKind fold_chain(const RobotDescription& robot, const Topology& topology, con
         axes.turn.push_back(geometry.axes[k]);
         axes.turn_point.push_back(geometry.frames[k].t);
         break;
-      case JointType::kPrismatic: axes.slide.push_back(geometry.axes[k]); break;
-      default: refuse(robot, chain);
+      case JointType::kPrismatic:
+        axes.slide.push_back(geometry.axes[k]);
+        break;
+      default:
+        refuse(robot, chain);
     }
   }
   const auto kind = fold_axes(axes);

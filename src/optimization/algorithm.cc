@@ -13,10 +13,10 @@ struct Algorithm {
 
 const std::map<std::string, Algorithm>& algorithms() {
   static const std::map<std::string, Algorithm> table{
-      {"lbfgs", {nlopt::LD_LBFGS, false}}, {"var1", {nlopt::LD_VAR1, false}},
-      {"var2", {nlopt::LD_VAR2, false}},   {"tnewton", {nlopt::LD_TNEWTON_PRECOND_RESTART, false}},
-      {"mma", {nlopt::LD_MMA, true}},      {"ccsaq", {nlopt::LD_CCSAQ, true}},
-      {"slsqp", {nlopt::LD_SLSQP, true}},  {"cobyla", {nlopt::LN_COBYLA, true}},
+      {"lbfgs", {nlopt::LD_LBFGS, false}},   {"var1", {nlopt::LD_VAR1, false}},
+      {"var2", {nlopt::LD_VAR2, false}},     {"tnewton", {nlopt::LD_TNEWTON_PRECOND_RESTART, false}},
+      {"mma", {nlopt::LD_MMA, true}},        {"ccsaq", {nlopt::LD_CCSAQ, true}},
+      {"slsqp", {nlopt::LD_SLSQP, true}},    {"cobyla", {nlopt::LN_COBYLA, true}},
       {"bobyqa", {nlopt::LN_BOBYQA, false}}, {"auglag_lbfgs", {nlopt::LD_AUGLAG, true}}};
   return table;
 }
@@ -51,15 +51,24 @@ nlopt::opt make_optimizer(const Study& study, unsigned dimension) {
 
 std::string termination_name(nlopt::result result) {
   switch (result) {
-    case nlopt::SUCCESS: return "success";
-    case nlopt::STOPVAL_REACHED: return "objective_value_reached";
-    case nlopt::FTOL_REACHED: return "objective_tolerance_reached";
-    case nlopt::XTOL_REACHED: return "parameter_tolerance_reached";
-    case nlopt::MAXEVAL_REACHED: return "max_evaluations_reached";
-    case nlopt::MAXTIME_REACHED: return "max_time_reached";
-    case nlopt::FORCED_STOP: return "cancelled";
-    case nlopt::ROUNDOFF_LIMITED: return "roundoff_limited";
-    default: return "algorithm_failed";
+    case nlopt::SUCCESS:
+      return "success";
+    case nlopt::STOPVAL_REACHED:
+      return "objective_value_reached";
+    case nlopt::FTOL_REACHED:
+      return "objective_tolerance_reached";
+    case nlopt::XTOL_REACHED:
+      return "parameter_tolerance_reached";
+    case nlopt::MAXEVAL_REACHED:
+      return "max_evaluations_reached";
+    case nlopt::MAXTIME_REACHED:
+      return "max_time_reached";
+    case nlopt::FORCED_STOP:
+      return "cancelled";
+    case nlopt::ROUNDOFF_LIMITED:
+      return "roundoff_limited";
+    default:
+      return "algorithm_failed";
   }
 }
 

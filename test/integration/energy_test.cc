@@ -96,7 +96,8 @@ TEST(Energy, APuckThatSlidesAndTurnsLosesItsFrictionWork) {
 }
 
 TEST(Energy, ABallJointLosesItsFrictionWork) {
-  const Balance b = balance(ball_pendulum(), motion_study(2.0, "{ball_x: {position: 1.0}, ball_z: {velocity: 8.0}}", "ball_x/velocity", kFriction));
+  const Balance b =
+      balance(ball_pendulum(), motion_study(2.0, "{ball_x: {position: 1.0}, ball_z: {velocity: 8.0}}", "ball_x/velocity", kFriction));
   ASSERT_TRUE(b.status.ok()) << b.status.cause;
   EXPECT_GT(b.friction_work, 0.1);
   EXPECT_NEAR(b.start - b.end, b.friction_work, 1e-6 * b.friction_work);

@@ -48,7 +48,8 @@ TEST(MakeSystem, ALoopThatCannotBeClosedIsNamedWithItsPlace) {
 
 TEST(MakeSystem, SomethingMustMove) {
   const std::string study = let_go("{}", "ground/position/x");
-  for (const char* content : {"", "<link name='frame'/><joint name='j' type='continuous'><parent link='ground'/><child link='frame'/></joint>"})
+  for (const char* content :
+       {"", "<link name='frame'/><joint name='j' type='continuous'><parent link='ground'/><child link='frame'/></joint>"})
     EXPECT_NE(fault(robot(content), study).message.find("nothing moves"), std::string::npos);
 }
 

@@ -14,9 +14,9 @@ namespace codesign {
 
 /// Consistent initial conditions of a design; doc/theory.md (19), (20).
 ///
-/// Positions: the tree's joint coordinates theta start from the study's values (or guesses, or zero); those the study fixes stay, and as many of
-/// the others as the loops determine are solved for by Newton's method, the rest staying where they started. Velocities likewise, linearly.
-/// Accelerations and multipliers: Newton on G(z) = 0 from z = 0, where friction has no normal force to act on.
+/// Positions: the tree's joint coordinates theta start from the study's values (or guesses, or zero); those the study fixes stay, and as
+/// many of the others as the loops determine are solved for by Newton's method, the rest staying where they started. Velocities likewise,
+/// linearly. Accelerations and multipliers: Newton on G(z) = 0 from z = 0, where friction has no normal force to act on.
 class Assembly {
  public:
   explicit Assembly(const System& system);
@@ -59,7 +59,7 @@ class Assembly {
 
   const System& system_;
   TreeLayout tree_;
-  std::vector<int> loop_rows_;                   ///< constraint rows that the tree does not satisfy by itself
+  std::vector<int> loop_rows_;  ///< constraint rows that the tree does not satisfy by itself
   std::vector<int> loop_row_pair_;
   std::vector<bool> position_given_, velocity_given_;
   VectorX<double> theta_, theta_rate_;

@@ -11,8 +11,8 @@
 
 namespace codesign {
 
-/// Where the coordinates theta of each tree joint stand: one for revolute, continuous and prismatic joints, three for planar (x, y, turn), six for
-/// floating ones (translation, then turns about x, y, z), none for fixed ones.
+/// Where the coordinates theta of each tree joint stand: one for revolute, continuous and prismatic joints, three for planar (x, y, turn),
+/// six for floating ones (translation, then turns about x, y, z), none for fixed ones.
 struct TreeLayout {
   std::vector<int> joint_order;  ///< tree joints, parents before children
   std::vector<int> offset;       ///< per joint of the description: first coordinate
@@ -30,12 +30,13 @@ struct LinkMotion {
 
 /// Forward kinematics of the URDF tree: motions of all links at theta and its rate.
 template <class T>
-std::vector<LinkMotion<T>> link_motions(const RobotDescription& robot, const TreeLayout& layout, const std::vector<T>& parameters, const VectorX<T>& theta,
-                                        const VectorX<T>& theta_rate);
+std::vector<LinkMotion<T>> link_motions(const RobotDescription& robot, const TreeLayout& layout, const std::vector<T>& parameters,
+                                        const VectorX<T>& theta, const VectorX<T>& theta_rate);
 
 /// Centroidal coordinates and velocities of the bodies that hang on these links.
 template <class T>
-void body_coordinates(const System& system, const Constants<T>& constants, const std::vector<LinkMotion<T>>& links, VectorX<T>* q, VectorX<T>* v);
+void body_coordinates(const System& system, const Constants<T>& constants, const std::vector<LinkMotion<T>>& links, VectorX<T>* q,
+                      VectorX<T>* v);
 
 }  // namespace codesign
 

@@ -36,7 +36,8 @@ class Integrator {
 std::unique_ptr<Integrator> make_integrator(const System& system);
 
 /// The common beginning of every integration: constants of the design, then a consistent state at t = 0.
-Status assemble_start(const System& system, const std::vector<double>& parameters, Assembly* assembly, Equations<double>* equations, State<double>* initial);
+Status assemble_start(const System& system, const std::vector<double>& parameters, Assembly* assembly, Equations<double>* equations,
+                      State<double>* initial);
 
 }  // namespace codesign
 

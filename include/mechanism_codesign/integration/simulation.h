@@ -19,7 +19,8 @@ namespace codesign {
 class System;  // the immutable equations of motion, dynamics/system.h
 
 /// Compiles a mechanism and a study into equations of motion.
-/// @throws InputError for a mechanism that cannot be (two masses on one loop end, a massless chain that cannot be folded, an unknown signal, ...).
+/// @throws InputError for a mechanism that cannot be (two masses on one loop end, a massless chain that cannot be folded, an unknown
+/// signal, ...).
 std::shared_ptr<const System> make_system(const RobotDescription& robot, const Study& study);
 
 /// What an integration cost.
@@ -33,7 +34,8 @@ class Simulation {
  public:
   /// @param parameters all named parameters (Study::parameters order).
   /// @param signals extra signals to sample into Frame::signals. @throws InputError for one that does not exist.
-  Simulation(std::shared_ptr<const System> system, const std::vector<double>& parameters, const std::vector<SignalDescription>& signals = {});
+  Simulation(std::shared_ptr<const System> system, const std::vector<double>& parameters,
+             const std::vector<SignalDescription>& signals = {});
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;

@@ -20,7 +20,8 @@ class StepController {
       rejected_ = true;
       return false;
     }
-    if (accepted_error_ > 0.0) factor = std::max(factor, limit(accepted_h_ / h * std::pow(error * error / accepted_error_, exponent_) / kSafety));
+    if (accepted_error_ > 0.0)
+      factor = std::max(factor, limit(accepted_h_ / h * std::pow(error * error / accepted_error_, exponent_) / kSafety));
     if (rejected_) factor = std::max(factor, 1.0);
     accepted_h_ = h;
     accepted_error_ = std::max(1e-2, error);

@@ -16,12 +16,12 @@ struct RosenbrockTableau {
 
   const char* name;
   int stages;
-  int order;             ///< of y_1; the embedded solution has one less
+  int order;  ///< of y_1; the embedded solution has one less
   double gamma;
   std::array<Row, kMaximumStages> a, c;
-  Row weights;           ///< of y_1
+  Row weights;  ///< of y_1
   Row alpha, gamma_i;
-  int dense_terms;       ///< rows of `dense` in use
+  int dense_terms;           ///< rows of `dense` in use
   std::array<Row, 3> dense;  ///< y(theta) = (1-theta) y + theta (y_1 + (1-theta) (d_0 + theta (d_1 + theta d_2))), d_k = sum_j dense_kj u_j
 };
 

@@ -24,8 +24,10 @@ ChainGeometry<T> chain_geometry(const RobotDescription& robot, const Topology& t
   ChainGeometry<T> geometry;
   for (const ChainElement& element : chain) {
     const JointDescription& joint = robot.joints[static_cast<std::size_t>(element.joint)];
-    const Pose<T> X_PF = link_in_base(robot, topology.link_base, topology.link_parent_joint, joint.parent, parameters) * pose_at(joint.origin, parameters);
-    const Pose<T> X_CF = link_in_base(robot, topology.link_base, topology.link_parent_joint, joint.child, parameters) * pose_at(joint.child_origin, parameters);
+    const Pose<T> X_PF =
+        link_in_base(robot, topology.link_base, topology.link_parent_joint, joint.parent, parameters) * pose_at(joint.origin, parameters);
+    const Pose<T> X_CF = link_in_base(robot, topology.link_base, topology.link_parent_joint, joint.child, parameters) *
+                         pose_at(joint.child_origin, parameters);
     const Pose<T> X_iF = geometry.X_ij * (element.reversed ? X_CF : X_PF);
     geometry.frames.push_back(X_iF);
     geometry.axes.push_back(X_iF.R * axis_at(joint.axis, parameters));

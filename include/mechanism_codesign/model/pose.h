@@ -58,7 +58,8 @@ Pose<T> link_in_base(const RobotDescription& robot, const std::vector<int>& link
   return pose;
 }
 
-/// A column of an orthonormal frame chosen across the joint axis z: the given direction, else the next axis in x, y, z, x order; made normal to z.
+/// A column of an orthonormal frame chosen across the joint axis z: the given direction, else the next axis in x, y, z, x order; made
+/// normal to z.
 template <class T>
 Vector3<T> transverse_axis(const Vector3<T>& z, const std::optional<std::array<double, 3>>& preferred) {
   using std::sqrt;

@@ -16,10 +16,11 @@ namespace codesign {
 
 /// One term of a signal: `+ crank_joint/velocity`, `- plate/position/x`.
 struct SignalTerm {
-  double factor = 1.0;     ///< +1 or -1
-  std::string object;      ///< name of a joint, loop, link or controller
-  std::string quantity;    ///< position, velocity, acceleration, effort, friction, normal_force, sliding_velocity, angular_velocity, error, ...
-  std::string component;   ///< x, y or z for link signals, else empty
+  double factor = 1.0;  ///< +1 or -1
+  std::string object;   ///< name of a joint, loop, link or controller
+  std::string
+      quantity;  ///< position, velocity, acceleration, effort, friction, normal_force, sliding_velocity, angular_velocity, error, ...
+  std::string component;  ///< x, y or z for link signals, else empty
 };
 
 /// A sum or difference of named signals, see doc/study.md.
@@ -47,7 +48,7 @@ struct ControllerDescription {
   std::string type = "pid";
   SignalDescription input;
   Quantity setpoint;
-  std::string output;                ///< the joint it drives [N m or N]
+  std::string output;  ///< the joint it drives [N m or N]
   Quantity p, i, d;
   SourceLocation where;
 };
@@ -72,22 +73,22 @@ struct SolverOptions {
   std::string method = "rodas4";          ///< rosenbrock: rodas4, rodas4p2, rodas5p
   double relative_tolerance = 1e-6;
   double absolute_tolerance = 1e-7;
-  double initial_step = 0.0;              ///< [s]; 0: chosen
-  double maximum_step = 0.0;              ///< [s]; 0: none
+  double initial_step = 0.0;  ///< [s]; 0: chosen
+  double maximum_step = 0.0;  ///< [s]; 0: none
   int maximum_steps = 200000;
 };
 
 struct OptimizerOptions {
   std::string algorithm = "lbfgs";
   int max_evaluations = 200;
-  double relative_tolerance = 1e-6;       ///< on the objective
-  SourceLocation where;                   ///< of the algorithm
+  double relative_tolerance = 1e-6;  ///< on the objective
+  SourceLocation where;              ///< of the algorithm
 };
 
 /// What to do with the model, as its author wrote it.
 struct Study {
-  double duration = 0.0;                              ///< [s]
-  std::array<double, 3> gravity{0.0, 0.0, -9.81};     ///< [m/s^2], in the root link's frame
+  double duration = 0.0;                           ///< [s]
+  std::array<double, 3> gravity{0.0, 0.0, -9.81};  ///< [m/s^2], in the root link's frame
   std::vector<InitialJointState> initial_state;
   std::vector<ControllerDescription> controllers;
   /// All named parameters: the model's in their order, then the study's own. `parameters[tuned[k]]` is rho_k.

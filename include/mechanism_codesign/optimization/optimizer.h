@@ -12,11 +12,11 @@ namespace codesign {
 
 /// One trial point of an optimization.
 struct Trial {
-  int evaluation = 0;           ///< 1, 2, ...
-  int iteration = 0;            ///< improvements of the best point so far
-  Status status;                ///< not ok: the point could not be assembled or integrated, and was stepped back from
+  int evaluation = 0;  ///< 1, 2, ...
+  int iteration = 0;   ///< improvements of the best point so far
+  Status status;       ///< not ok: the point could not be assembled or integrated, and was stepped back from
   double objective = 0.0;
-  double gradient_norm = 0.0;   ///< of the gradient scaled by the parameters' ranges
+  double gradient_norm = 0.0;  ///< of the gradient scaled by the parameters' ranges
   Eigen::VectorXd gradient;
   Eigen::VectorXd rho;
   double best_objective = 0.0;
@@ -26,18 +26,18 @@ struct Trial {
 using TrialObserver = std::function<bool(const Trial&)>;
 
 struct OptimizationResult {
-  Status status;                ///< ok, or cancelled, or why not even the start could be evaluated
-  std::string termination;      ///< snake case: "objective_tolerance_reached", "max_evaluations_reached", "cancelled", ...
+  Status status;            ///< ok, or cancelled, or why not even the start could be evaluated
+  std::string termination;  ///< snake case: "objective_tolerance_reached", "max_evaluations_reached", "cancelled", ...
   double initial_objective = 0.0;
-  double objective = 0.0;       ///< at `rho`, the best feasible point seen
+  double objective = 0.0;  ///< at `rho`, the best feasible point seen
   Eigen::VectorXd initial_gradient;
-  Eigen::VectorXd gradient;     ///< at `rho`
+  Eigen::VectorXd gradient;  ///< at `rho`
   Eigen::VectorXd initial_rho;
   Eigen::VectorXd rho;
   int iterations = 0;
   int evaluations = 0;
   int failed_evaluations = 0;
-  Statistics statistics;        ///< summed over the evaluations
+  Statistics statistics;  ///< summed over the evaluations
   std::vector<Trial> history;
 };
 
