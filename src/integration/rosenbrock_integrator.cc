@@ -67,14 +67,15 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
       continue;
     }
     const double kept = proposal_;
-    if (!controller_.accept(h, step_.error(options_.relative_tolerance, options_.absolute_tolerance), &proposal_)) {
+    double error = step_.error(options_.relative_tolerance, options_.absolute_tolerance);
+    if (error <= 1.0 && before_accept) error = std::max(error, before_accept(step_));
+    if (!controller_.accept(h, error, &proposal_)) {
       ++statistics_.rejected_steps;
       continue;
     }
     // A step cut short by the limit says little about the next one.
     if (last && h < 0.5 * kept) proposal_ = std::max(proposal_, kept);
     ++statistics_.steps;
-    if (before_accept) before_accept(step_);
     if (!step_.accept()) return {StatusCode::kSingularMatrix, t + h, "the augmented matrix of the equations of motion is singular"};
     step_.equations().track_turns(step_.state());
     return {};

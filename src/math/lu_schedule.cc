@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 #include "mechanism_codesign/math/lanes.h"
 
@@ -49,6 +51,28 @@ void LuSchedule::lay_out(const LuPattern& pattern) {
     start_.push_back(static_cast<int>(row_.size()));
   }
   factors_.resize(row_.size());
+  own_.resize(row_.size());
+  std::iota(own_.begin(), own_.end(), 0);
+  lower_ = by_rows(true);
+  upper_ = by_rows(false);
+}
+
+LuSchedule::Rows LuSchedule::by_rows(bool lower) const {
+  std::vector<std::vector<std::pair<int, int>>> rows(n_);
+  for (std::size_t k = 0; k < n_; ++k) {
+    const int first = lower ? diagonal_[k] + 1 : start_[k], last = lower ? start_[k + 1] : diagonal_[k];
+    for (int e = first; e < last; ++e) rows[at(row_[at(e)])].emplace_back(e, static_cast<int>(k));
+  }
+  Rows result;
+  result.start.push_back(0);
+  for (const auto& row : rows) {
+    for (const auto& [entry, column] : row) {
+      result.entry.push_back(entry);
+      result.column.push_back(column);
+    }
+    result.start.push_back(static_cast<int>(result.entry.size()));
+  }
+  return result;
 }
 
 LuSchedule::Quality LuSchedule::refactor(const double* values) {
@@ -99,6 +123,9 @@ struct Row {
   void store(double* to) const {
     for (int k = 0; k < kBlocks; ++k) reinterpret_cast<Block*>(to)[k] = block[k];
   }
+  void scale(double factor) {
+    for (int k = 0; k < kBlocks; ++k) block[k] *= factor;
+  }
   void subtract(double factor, const Row& other) {
     for (int k = 0; k < kBlocks; ++k) block[k] -= factor * other.block[k];
   }
@@ -110,27 +137,18 @@ struct Row<1> {
 
   explicit Row(const double* from) : value(*from) {}
   void store(double* to) const { *to = value; }
+  void scale(double factor) { value *= factor; }
   void subtract(double factor, const Row& other) { value -= factor * other.value; }
 };
 
-/// y[row of e] -= factors[e] y[k] for the entries from `first` to `last`.
+/// y[k] -= sum of factors[entry of e] y[index of e], times `factor`.
 template <int N>
-void subtract_column(const double* factors, const int* row, int first, int last, const double* pivot_row, double* y) {
-  const Row<N> x(pivot_row);
-  for (int e = first; e < last; ++e) {
-    double* const target = y + N * row[e];
-    Row<N> t(target);
-    t.subtract(factors[e], x);
-    t.store(target);
-  }
-}
-
-/// y[k] -= sum of factors[e] y[row of e].
-template <int N>
-void subtract_products(const double* factors, const int* row, int first, int last, double* pivot_row, const double* y) {
-  Row<N> x(pivot_row);
-  for (int e = first; e < last; ++e) x.subtract(factors[e], Row<N>(y + N * row[e]));
-  x.store(pivot_row);
+void subtract_products(const double* factors, const int* entry, const int* index, int first, int last, double factor, std::size_t k,
+                       double* y) {
+  Row<N> x(y + N * k);
+  for (int e = first; e < last; ++e) x.subtract(factors[entry[e]], Row<N>(y + N * index[e]));
+  x.scale(factor);
+  x.store(y + N * k);
 }
 
 }  // namespace
@@ -138,28 +156,26 @@ void subtract_products(const double* factors, const int* row, int first, int las
 template <int N>
 void LuSchedule::solve(double* x) const {
   double* const y = work_.data();
+  const double* const f = factors_.data();
   for (std::size_t k = 0; k < n_; ++k)
     for (std::size_t c = 0; c < N; ++c) y[N * k + c] = inverse_scale_[k] * x[N * at(row_of_[k]) + c];
-  for (std::size_t k = 0; k < n_; ++k) subtract_column<N>(factors_.data(), row_.data(), diagonal_[k] + 1, start_[k + 1], y + N * k, y);
-  for (std::size_t k = n_; k-- > 0;) {
-    for (std::size_t c = 0; c < N; ++c) y[N * k + c] *= factors_[at(diagonal_[k])];
-    subtract_column<N>(factors_.data(), row_.data(), start_[k], diagonal_[k], y + N * k, y);
-  }
+  for (std::size_t k = 0; k < n_; ++k)
+    subtract_products<N>(f, lower_.entry.data(), lower_.column.data(), lower_.start[k], lower_.start[k + 1], 1.0, k, y);
+  for (std::size_t k = n_; k-- > 0;)
+    subtract_products<N>(f, upper_.entry.data(), upper_.column.data(), upper_.start[k], upper_.start[k + 1], f[diagonal_[k]], k, y);
   for (std::size_t k = 0; k < n_; ++k)
     for (std::size_t c = 0; c < N; ++c) x[N * at(column_of_[k]) + c] = y[N * k + c];
 }
 
-// A^T = Q U^T L^T P R^-T: the same lists, read by columns where solve() scatters.
+// A^T = Q U^T L^T P R^-T: rows of the transposed factors are the columns as they lie.
 template <int N>
 void LuSchedule::solve_transposed(double* x) const {
   double* const y = work_.data();
+  const double* const f = factors_.data();
   for (std::size_t k = 0; k < n_; ++k)
     for (std::size_t c = 0; c < N; ++c) y[N * k + c] = x[N * at(column_of_[k]) + c];
-  for (std::size_t k = 0; k < n_; ++k) {
-    subtract_products<N>(factors_.data(), row_.data(), start_[k], diagonal_[k], y + N * k, y);
-    for (std::size_t c = 0; c < N; ++c) y[N * k + c] *= factors_[at(diagonal_[k])];
-  }
-  for (std::size_t k = n_; k-- > 0;) subtract_products<N>(factors_.data(), row_.data(), diagonal_[k] + 1, start_[k + 1], y + N * k, y);
+  for (std::size_t k = 0; k < n_; ++k) subtract_products<N>(f, own_.data(), row_.data(), start_[k], diagonal_[k], f[diagonal_[k]], k, y);
+  for (std::size_t k = n_; k-- > 0;) subtract_products<N>(f, own_.data(), row_.data(), diagonal_[k] + 1, start_[k + 1], 1.0, k, y);
   for (std::size_t k = 0; k < n_; ++k)
     for (std::size_t c = 0; c < N; ++c) x[N * at(row_of_[k]) + c] = inverse_scale_[k] * y[N * k + c];
 }

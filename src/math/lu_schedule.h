@@ -34,7 +34,13 @@ class LuSchedule {
   void solve_transposed(double* x) const;
 
  private:
+  /// The entries of L or U row by row: sums over a row stay in registers, where columns would go through memory.
+  struct Rows {
+    std::vector<int> start, entry, column;
+  };
+
   void lay_out(const LuPattern& pattern);
+  Rows by_rows(bool lower) const;
   void eliminate();
 
   std::size_t n_;
@@ -42,7 +48,9 @@ class LuSchedule {
   std::vector<double> inverse_scale_;
   std::vector<int> start_, diagonal_;  ///< per column: first entry, and the pivot's place; start_ has n + 1
   std::vector<int> row_;               ///< row of each entry
-  std::vector<int> source_slot_;       ///< where each entry of A goes
+  std::vector<int> own_;               ///< entries in their own order, for the columns
+  Rows lower_, upper_;
+  std::vector<int> source_slot_;  ///< where each entry of A goes
   std::vector<double> source_scale_;
   std::vector<int> target_;      ///< where each product of the elimination is subtracted, in order
   std::vector<double> factors_;  ///< of L and U, with inverse pivots

@@ -29,12 +29,13 @@ void read_count(const YamlValue& parent, const std::string& key, int* count) {
 
 SolverOptions read_solver_options(const YamlValue& solver) {
   solver.require_keys(
-      {}, {"integrator", "method", "relative_tolerance", "absolute_tolerance", "initial_step", "maximum_step", "maximum_steps"});
+      {}, {"integrator", "method", "relative_tolerance", "absolute_tolerance", "sensitivity_tolerance", "initial_step", "maximum_step", "maximum_steps"});
   SolverOptions options;
   if (const auto integrator = solver.find("integrator")) options.integrator = integrator->choice("integrator", {"rosenbrock", "idas"});
   if (const auto method = solver.find("method")) options.method = method->choice("method", {"rodas4", "rodas4p2", "rodas5p"});
   read_tolerance(solver, "relative_tolerance", &options.relative_tolerance);
   read_tolerance(solver, "absolute_tolerance", &options.absolute_tolerance);
+  read_tolerance(solver, "sensitivity_tolerance", &options.sensitivity_tolerance);
   read_step(solver, "initial_step", &options.initial_step);
   read_step(solver, "maximum_step", &options.maximum_step);
   read_count(solver, "maximum_steps", &options.maximum_steps);

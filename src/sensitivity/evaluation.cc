@@ -19,7 +19,8 @@ class Evaluator::Implementation {
     evaluation.status = run(full_parameters(rho), with_gradient, cancel);
     if (evaluation.status.ok()) {
       evaluation.objective = engine_->objective();
-      if (!std::isfinite(evaluation.objective)) evaluation.status = {StatusCode::kNonFinite, engine_->time(), "the objective is not finite"};
+      if (!std::isfinite(evaluation.objective))
+        evaluation.status = {StatusCode::kNonFinite, engine_->time(), "the objective is not finite"};
       if (with_gradient) engine_->gradient(&evaluation.gradient);
     }
     evaluation.statistics = engine_->statistics();
@@ -30,7 +31,8 @@ class Evaluator::Implementation {
  private:
   std::vector<double> full_parameters(const Eigen::VectorXd& rho) const {
     std::vector<double> parameters = system_->parameters();
-    for (Eigen::Index k = 0; k < rho.size(); ++k) parameters[static_cast<std::size_t>(system_->study().tuned[static_cast<std::size_t>(k)])] = rho[k];
+    for (Eigen::Index k = 0; k < rho.size(); ++k)
+      parameters[static_cast<std::size_t>(system_->study().tuned[static_cast<std::size_t>(k)])] = rho[k];
     return parameters;
   }
 

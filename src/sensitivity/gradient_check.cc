@@ -6,6 +6,7 @@
 #include "mechanism_codesign/integration/rosenbrock_integrator.h"
 #include "mechanism_codesign/math/ridders.h"
 #include "mechanism_codesign/sensitivity/evaluation.h"
+#include "sensitivity/rosenbrock_gradient.h"
 
 namespace codesign {
 namespace {
@@ -15,23 +16,25 @@ constexpr double kComplexStep = 1e-30;
 
 std::vector<double> full_parameters(const System& system, const Eigen::VectorXd& rho) {
   std::vector<double> parameters = system.parameters();
-  for (Eigen::Index k = 0; k < rho.size(); ++k) parameters[static_cast<std::size_t>(system.study().tuned[static_cast<std::size_t>(k)])] = rho[k];
+  for (Eigen::Index k = 0; k < rho.size(); ++k)
+    parameters[static_cast<std::size_t>(system.study().tuned[static_cast<std::size_t>(k)])] = rho[k];
   return parameters;
 }
 
-/// The sizes of the steps that a real integration takes.
-Status record_steps(const std::vector<double>& parameters, double duration, RosenbrockIntegrator* integrator, std::vector<double>* steps) {
-  Status status = integrator->start(parameters);
-  while (status.ok() && integrator->step().state().t < duration) {
-    status = integrator->advance(duration);
-    if (status.ok()) steps->push_back(integrator->step().step_size());
+/// The sizes of the steps that an integration with sensitivities takes.
+Status record_steps(const System& system, const std::vector<double>& parameters, std::vector<double>* steps) {
+  RosenbrockGradient run(system);
+  Status status = run.start(parameters, true);
+  while (status.ok() && run.time() < system.study().duration) {
+    status = run.advance(system.study().duration);
+    if (status.ok()) steps->push_back(run.step_size());
   }
   return status;
 }
 
 /// psi after the same steps in complex arithmetic.
-Complex replay(const System& system, const std::vector<Complex>& parameters, const std::vector<double>& steps, RosenbrockIntegrator* integrator,
-               const std::vector<double>& real_parameters) {
+Complex replay(const System& system, const std::vector<Complex>& parameters, const std::vector<double>& steps,
+               RosenbrockIntegrator* integrator, const std::vector<double>& real_parameters) {
   RosenbrockStep<Complex> step(system, integrator->step().tableau());
   step.equations().set_design(parameters);
   integrator->start(real_parameters);
@@ -61,7 +64,7 @@ void check_by_complex_step(const System& system, const Eigen::VectorXd& rho, con
   RosenbrockIntegrator integrator(system);
   std::vector<double> steps;
   const std::vector<double> parameters = full_parameters(system, rho);
-  check->status = record_steps(parameters, system.study().duration, &integrator, &steps);
+  check->status = record_steps(system, parameters, &steps);
   for (Eigen::Index k = 0; check->status.ok() && k < rho.size(); ++k) {
     if (cancel && *cancel) {
       check->status = {StatusCode::kCancelled, 0.0, "cancelled"};
@@ -100,7 +103,8 @@ void check_by_differences(const System& system, const Eigen::VectorXd& rho, cons
 
 }  // namespace
 
-GradientCheck check_gradient(const std::shared_ptr<const System>& system, const Eigen::VectorXd& rho, CheckMethod method, const std::atomic<bool>* cancel) {
+GradientCheck check_gradient(const std::shared_ptr<const System>& system, const Eigen::VectorXd& rho, CheckMethod method,
+                             const std::atomic<bool>* cancel) {
   GradientCheck check;
   check.method = system->study().solver.integrator == "idas" ? CheckMethod::kRidders : method;
   check.reference.setZero(rho.size());

@@ -14,10 +14,14 @@ template <int N>
 void IdasTangent::Group<N>::load(const State<double>& at, const std::vector<State<double>>* directions) {
   state.t = at.t;
   for (VectorX<double> State<double>::*part : {&State<double>::q, &State<double>::v, &State<double>::s, &State<double>::z}) {
-    VectorX<Lanes<N>>& lanes = part == &State<double>::q ? state.q : part == &State<double>::v ? state.v : part == &State<double>::s ? state.s : state.z;
+    VectorX<Lanes<N>>& lanes = part == &State<double>::q   ? state.q
+                               : part == &State<double>::v ? state.v
+                               : part == &State<double>::s ? state.s
+                                                           : state.z;
     for (Eigen::Index i = 0; i < lanes.size(); ++i) {
       lanes[i] = (at.*part)[i];
-      for (int k = 0; directions && k < range.count; ++k) lanes[i].v[k] = ((*directions)[static_cast<std::size_t>(range.first + k)].*part)[i];
+      for (int k = 0; directions && k < range.count; ++k)
+        lanes[i].v[k] = ((*directions)[static_cast<std::size_t>(range.first + k)].*part)[i];
     }
   }
 }
@@ -90,7 +94,8 @@ void IdasTangent::derivative(int k, const State<double>& direction, VectorX<doub
   *result += partial_.col(k);
 }
 
-void IdasTangent::terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions, Eigen::VectorXd* gradient) {
+void IdasTangent::terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
+                           Eigen::VectorXd* gradient) {
   gradient->setZero(count());
   linearize(state, 0.0, equations);
   if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) gradient->setConstant(std::numeric_limits<double>::quiet_NaN());

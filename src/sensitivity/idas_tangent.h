@@ -18,13 +18,14 @@ class IdasTangent final : public IdasSensitivities {
   explicit IdasTangent(const System& system);
 
   int count() const override { return static_cast<int>(partial_.cols()); }
-  void start(const std::vector<double>& parameters, const State<double>& initial, Integrator* integrator, std::vector<State<double>>* sensitivities,
-             std::vector<double>* scales) override;
+  void start(const std::vector<double>& parameters, const State<double>& initial, Integrator* integrator,
+             std::vector<State<double>>* sensitivities, std::vector<double>* scales) override;
   void linearize(const State<double>& state, double kappa, Equations<double>* equations) override;
   void derivative(int k, const State<double>& direction, VectorX<double>* result) override;
 
   /// w_rho of the terminal terms at a consistent state. @param directions (q, v, s)_rho per parameter; their z is solved for.
-  void terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions, Eigen::VectorXd* gradient);
+  void terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
+                Eigen::VectorXd* gradient);
 
  private:
   template <int N>

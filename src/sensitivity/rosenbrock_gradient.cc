@@ -1,10 +1,20 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensitivity/rosenbrock_gradient.h"
 
+#include <algorithm>
+
 namespace codesign {
 
 RosenbrockGradient::RosenbrockGradient(const System& system) : system_(system), integrator_(system) {
-  stages_ = [this](const RosenbrockStep<double>& step) { groups_->for_each([&step](auto* group) { group->step.advance_stages(step); }); };
+  const double tolerance = system.study().solver.sensitivity_tolerance;
+  stages_ = [this, tolerance](const RosenbrockStep<double>& step) {
+    double error = 0.0;
+    groups_->for_each([&](auto* group) {
+      group->step.attempt(step);
+      if (tolerance > 0.0) error = std::max(error, group->step.error(tolerance));
+    });
+    return error;
+  };
 }
 
 // Memory for tangents is only taken by who asks for a gradient.
@@ -22,7 +32,7 @@ Status RosenbrockGradient::start(const std::vector<double>& parameters, bool wit
 Status RosenbrockGradient::advance(double limit) {
   if (!with_gradient_) return integrator_.advance(limit);
   Status status = integrator_.advance(limit, stages_);
-  if (status.ok()) groups_->for_each([this](auto* group) { group->step.advance_projection(integrator_.step()); });
+  if (status.ok()) groups_->for_each([this](auto* group) { group->step.accept(integrator_.step()); });
   return status;
 }
 

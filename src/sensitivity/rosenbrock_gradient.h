@@ -18,6 +18,8 @@ class RosenbrockGradient final : public GradientEngine {
 
   Status start(const std::vector<double>& parameters, bool with_gradient) override;
   Status advance(double limit) override;
+  /// Size of the last step [s].
+  double step_size() const { return integrator_.step().step_size(); }
   double time() const override { return integrator_.state().t; }
   double objective() override;
   void gradient(Eigen::VectorXd* gradient) override;

@@ -1,6 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mechanism_codesign/sensitivity/tangent_step.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "mechanism_codesign/dynamics/row_product.h"
 
 namespace codesign {
@@ -54,18 +57,28 @@ void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assemb
   take(state_.v, at_.v());
   take(state_.z, at_.z());
   equations_.linearize(state_, &derivatives_);
+  largest_x_.setZero();
+  largest_v_.setZero();
+  measure();
 }
 
 template <int N>
 void TangentStep<N>::stage_state(std::size_t i, const RosenbrockStep<double>& step) {
-  stage_y_ = y_;
-  sum_.setZero();
-  shift_.setZero();
-  for (std::size_t j = 0; j < i; ++j) {
-    stage_y_ += tableau_.a[i][j] * stages_[j];
-    sum_ += (tableau_.c[i][j] / step.step_size()) * stages_[j];
-    shift_ += tableau_.a[i][j] * step.increments()[j];
+  const auto &a = tableau_.a[i], &c = tableau_.c[i];
+  const double inverse_h = 1.0 / step.step_size();
+  // One pass over the stages: each is read once for both sums.
+  for (int column = 0; column < at_.size(); ++column) {
+    Vector y = vector_at(&y_, column), sum{};
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vector& u = vector_at(&stages_[j], column);
+      y += a[j] * u;
+      sum += (c[j] * inverse_h) * u;
+    }
+    vector_at(&stage_y_, column) = y;
+    vector_at(&sum_, column) = sum;
   }
+  shift_.setZero();
+  for (std::size_t j = 0; j < i; ++j) shift_ += a[j] * step.increments()[j];
   stage_ = step.state();
   add_increment(at_, shift_, &stage_);
   stage_.t += tableau_.alpha[i] * step.step_size();
@@ -121,10 +134,27 @@ void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& 
 }
 
 template <int N>
-void TangentStep<N>::advance_stages(const RosenbrockStep<double>& step) {
+void TangentStep<N>::attempt(const RosenbrockStep<double>& step) {
   equations_.turn_references() = step.equations().turn_references();
   for (std::size_t i = 0; i < stages_.size(); ++i) stage_tangent(i, step);
-  for (std::size_t j = 0; j < stages_.size(); ++j) y_ += tableau_.weights[j] * stages_[j];
+}
+
+template <int N>
+double TangentStep<N>::error(double relative_tolerance) const {
+  const Directions<N>& u = stages_.back();
+  const auto ratio = [](const auto& change, const Eigen::Array<double, N, 1>& size) {
+    const Eigen::Array<double, N, 1> squares = change.rowwise().squaredNorm().array();
+    // A parameter that moves nothing has no error.
+    return (size > 0.0).select(squares / size, 0.0).maxCoeff();
+  };
+  const double largest = std::max(ratio(u.leftCols(at_.x_size), largest_x_), ratio(u.middleCols(at_.v(), at_.n), largest_v_));
+  return std::sqrt(largest) / relative_tolerance;
+}
+
+template <int N>
+void TangentStep<N>::measure() {
+  largest_x_ = largest_x_.max(y_.leftCols(at_.x_size).rowwise().squaredNorm().array());
+  largest_v_ = largest_v_.max(y_.middleCols(at_.v(), at_.n).rowwise().squaredNorm().array());
 }
 
 // Differentiates [G_a G_lambda; Phi_q 0] [delta; mu] = [0; -error].
@@ -142,7 +172,8 @@ void TangentStep<N>::project(const VectorX<double>& correction, const VectorX<La
 }
 
 template <int N>
-void TangentStep<N>::advance_projection(const RosenbrockStep<double>& step) {
+void TangentStep<N>::accept(const RosenbrockStep<double>& step) {
+  for (std::size_t j = 0; j < stages_.size(); ++j) y_ += tableau_.weights[j] * stages_[j];
   const SparseLu& lu = step.projection_matrix().lu();
   load_lanes(step.unprojected(), y_);
   equations_.linearize(state_, &derivatives_);
@@ -153,6 +184,7 @@ void TangentStep<N>::advance_projection(const RosenbrockStep<double>& step) {
   load_lanes(projected_, y_);
   equations_.constraint_errors(state_.q, state_.v, &errors_, &rates_);
   project(step.velocity_correction(), rates_, lu, y_.data() + N * at_.v());
+  measure();
 }
 
 template <int N>

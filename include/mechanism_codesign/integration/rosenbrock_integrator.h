@@ -26,7 +26,7 @@ class RosenbrockIntegrator final : public Integrator {
   const Statistics& statistics() const override { return statistics_; }
 
   /// Called when a step's error has been accepted, before it is taken: the tangent of its stages is due.
-  using BeforeAccept = std::function<void(const RosenbrockStep<double>&)>;
+  using BeforeAccept = std::function<double(const RosenbrockStep<double>&)>;
 
   Status advance(double limit, const BeforeAccept& before_accept);
 

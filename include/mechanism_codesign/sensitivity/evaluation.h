@@ -52,7 +52,8 @@ struct GradientCheck {
   double largest_relative_difference = 0;  ///< max_k |g_k - r_k| / max(|r_k|, 1e-3 max_j |r_j|)
 };
 
-/// Computes a gradient twice. That of `idas` is always checked by differences, and they are of `rosenbrock`: each integrator is the other's check.
+/// Computes a gradient twice. That of `idas` is always checked by differences, and they are of `rosenbrock`: each integrator is the other's
+/// check.
 GradientCheck check_gradient(const std::shared_ptr<const System>& system, const Eigen::VectorXd& rho, CheckMethod method,
                              const std::atomic<bool>* cancel = nullptr);
 

@@ -33,7 +33,8 @@ class LaneGroups {
   explicit LaneGroups(const System& system, const Arguments&... arguments) {
     const int count = static_cast<int>(system.study().tuned.size());
     int first = 0;
-    for (; count - first > 4; first += 8) wide_.push_back(std::make_unique<Group<8>>(system, LaneRange<8>{first, std::min(8, count - first)}, arguments...));
+    for (; count - first > 4; first += 8)
+      wide_.push_back(std::make_unique<Group<8>>(system, LaneRange<8>{first, std::min(8, count - first)}, arguments...));
     if (first < count) narrow_.push_back(std::make_unique<Group<4>>(system, LaneRange<4>{first, count - first}, arguments...));
   }
 

@@ -27,10 +27,13 @@ class TangentStep {
   void start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly, const State<double>& initial,
              const RosenbrockStep<double>& step);
 
-  /// Tangent of the stages of an attempt that is about to be accepted.
-  void advance_stages(const RosenbrockStep<double>& step);
-  /// Tangent of the projection, after RosenbrockStep::accept().
-  void advance_projection(const RosenbrockStep<double>& step);
+  /// Tangent of the stages of the step's last attempt.
+  void attempt(const RosenbrockStep<double>& step);
+  /// Scaled error of the last attempt: the largest over the parameters of |u_last| / (tolerance |y'|), norms over positions or velocities,
+  /// with the largest |y'| so far.
+  double error(double relative_tolerance) const;
+  /// Takes the last attempt: tangent of its sum and projection, after RosenbrockStep::accept().
+  void accept(const RosenbrockStep<double>& step);
 
   /// Derivatives of the objective: its integral so far, and with the terminal terms at the present state.
   Eigen::Matrix<double, N, 1> psi() const { return y_.col(at_.psi()); }
@@ -46,6 +49,7 @@ class TangentStep {
   /// Values and derivatives side by side.
   void load_lanes(const State<double>& values, const Directions<N>& directions);
   void stage_state(std::size_t i, const RosenbrockStep<double>& step);
+  void measure();
   void stage_tangent(std::size_t i, const RosenbrockStep<double>& step);
   /// Right-hand sides of a stage, row by row, and the integrand's.
   void stage_rows(std::size_t i, const RosenbrockStep<double>& step);
@@ -64,6 +68,7 @@ class TangentStep {
   std::vector<Directions<N>> stages_;
   VectorX<Lanes<N>> residual_, errors_, rates_;
   Lanes<N> g_;
+  Eigen::Array<double, N, 1> largest_x_, largest_v_;  ///< squared norms
 };
 
 }  // namespace codesign
