@@ -93,7 +93,10 @@ void IdasTangent::derivative(int k, const State<double>& direction, VectorX<doub
 void IdasTangent::terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions, Eigen::VectorXd* gradient) {
   gradient->setZero(count());
   linearize(state, 0.0, equations);
-  if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) gradient->setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) {
+    gradient->setConstant(std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
   for (int k = 0; k < count(); ++k) {
     State<double>& direction = (*directions)[static_cast<std::size_t>(k)];
     direction.z.setZero();
