@@ -98,7 +98,10 @@ void IdasTangent::terminal(const State<double>& state, Equations<double>* equati
                            Eigen::VectorXd* gradient) {
   gradient->setZero(count());
   linearize(state, 0.0, equations);
-  if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) gradient->setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) {
+    gradient->setConstant(std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
   for (int k = 0; k < count(); ++k) {
     State<double>& direction = (*directions)[static_cast<std::size_t>(k)];
     direction.z.setZero();

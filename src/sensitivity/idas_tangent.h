@@ -23,7 +23,8 @@ class IdasTangent final : public IdasSensitivities {
   void linearize(const State<double>& state, double kappa, Equations<double>* equations) override;
   void derivative(int k, const State<double>& direction, VectorX<double>* result) override;
 
-  /// w_rho of the terminal terms at a consistent state. @param directions (q, v, s)_rho per parameter; their z is solved for.
+  /// w_rho of the terminal terms at a consistent state; not a number where G_z is singular. @param directions (q, v, s)_rho per parameter;
+  /// their z is solved for.
   void terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
                 Eigen::VectorXd* gradient);
 
