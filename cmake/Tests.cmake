@@ -15,7 +15,7 @@ foreach(folder math model joints forces control dynamics integration sensitivity
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/test)
   target_compile_definitions(${target} PRIVATE CODESIGN_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${target} PRIVATE codesign_core GTest::gtest GTest::gtest_main
-    SUNDIALS::idas codesign_klu tinyxml2::tinyxml2 console_bridge::console_bridge yaml-cpp nlohmann_json::nlohmann_json)
+    SUNDIALS::idas NLopt::nlopt codesign_klu tinyxml2::tinyxml2 console_bridge::console_bridge yaml-cpp nlohmann_json::nlohmann_json)
   if(folder STREQUAL ros)
     target_link_libraries(${target} PRIVATE codesign_ros)
   elseif(folder STREQUAL cli AND TARGET codesign)

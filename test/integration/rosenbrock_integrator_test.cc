@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include <cmath>
 
 #include "dynamics/compiled.h"
@@ -86,10 +88,30 @@ TEST(RosenbrockIntegrator, TheTangentIsCalledOncePerAcceptedStep) {
                              [&](const RosenbrockStep<double>& step) {
                                ++calls;
                                EXPECT_EQ(step.state().t, before) << "before the step is taken";
+                               return 0.0;
                              })
                     .ok());
   }
   EXPECT_EQ(calls, integrator.statistics().steps);
+}
+
+TEST(RosenbrockIntegrator, ATangentMayRefuseAStep) {
+  const System system = swinging("{}");
+  RosenbrockIntegrator integrator(system);
+  ASSERT_TRUE(integrator.start({}).ok());
+  std::vector<double> sizes;
+  ASSERT_TRUE(integrator
+                  .advance(1.0,
+                           [&sizes](const RosenbrockStep<double>& step) {
+                             sizes.push_back(step.step_size());
+                             return sizes.size() < 3 ? 10.0 : 0.0;
+                           })
+                  .ok());
+  ASSERT_EQ(sizes.size(), 3U);
+  EXPECT_LT(sizes[1], sizes[0]);
+  EXPECT_LT(sizes[2], sizes[1]);
+  EXPECT_EQ(integrator.statistics().steps, 1);
+  EXPECT_EQ(integrator.statistics().rejected_steps, 2);
 }
 
 TEST(RosenbrockIntegrator, TooManyStepsAndAnImpossibleDesignAreStatuses) {

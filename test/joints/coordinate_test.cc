@@ -3,32 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include "joints/two_bodies.h"
 #include "mechanism_codesign/math/derivative_check.h"
 
 namespace codesign {
 namespace {
 
 using Kind = CoordinateConstants<double>::Kind;
-
-/// Two bodies at a generic point: [r_i, p_i, r_j, p_j] and its rate.
-Eigen::VectorXd generic(double phase) {
-  Eigen::VectorXd x(kLocalSize);
-  for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = 0.6 * std::sin(2.3 * static_cast<double>(k) + phase);
-  return x;
-}
-
-template <class T>
-BodyKinematics<T> body(const VectorX<T>& q, const VectorX<T>& v, const VectorX<T>& a, int first) {
-  BodyKinematics<T> b;
-  b.r = q.template segment<3>(first);
-  b.p = q.template segment<4>(first + 3);
-  b.rd = v.template segment<3>(first);
-  b.pd = v.template segment<4>(first + 3);
-  b.rdd = a.template segment<3>(first);
-  b.pdd = a.template segment<4>(first + 3);
-  b.update_rotation();
-  return b;
-}
 
 template <class T>
 PairConstants<T> pair() {
@@ -53,12 +34,12 @@ CoordinateConstants<T> coordinate(Kind kind, bool fixed_in_j) {
 
 template <class T>
 CoordinateMotion<T> motion(Kind kind, bool fixed_in_j, const VectorX<T>& q, const VectorX<T>& v, const VectorX<T>& a) {
-  return coordinate_motion(pair<T>(), coordinate<T>(kind, fixed_in_j), body(q, v, a, 0), body(q, v, a, kBodySize));
+  return coordinate_motion(pair<T>(), coordinate<T>(kind, fixed_in_j), local_body(q, v, a, 0), local_body(q, v, a, kBodySize));
 }
 
 void expect_exact(Kind kind, bool fixed_in_j = false) {
   using C = std::complex<double>;
-  const Eigen::VectorXd q = generic(0.2), v = generic(1.3), a = generic(2.1);
+  const Eigen::VectorXd q = generic_local(0.2), v = generic_local(1.3), a = generic_local(2.1);
   const CoordinateMotion<double> m = motion<double>(kind, fixed_in_j, q, v, a);
   const auto all = [&](const Eigen::VectorXcd& z, int which) {
     const VectorX<C> cq = which == 0 ? z : Eigen::VectorXcd(q.cast<C>()), cv = which == 1 ? z : Eigen::VectorXcd(v.cast<C>());
@@ -90,13 +71,13 @@ TEST(Coordinate, TurnReadsAnAngleAndItsRate) {
   v.segment<4>(kBodySize + 3) = 0.5 * ground_rate_matrix<double>(q.segment<4>(kBodySize + 3)).transpose() * Vector3<double>(0.0, 0.0, 2.0);
   CoordinateConstants<double> c;
   c.kind = Kind::kTurn;
-  const CoordinateMotion<double> m = coordinate_motion(PairConstants<double>(), c, body(q, v, a, 0), body(q, v, a, kBodySize));
+  const CoordinateMotion<double> m = coordinate_motion(PairConstants<double>(), c, local_body(q, v, a, 0), local_body(q, v, a, kBodySize));
   EXPECT_NEAR(m.position, 0.7, 1e-15);
   EXPECT_NEAR(m.rate, 2.0, 1e-15);
 }
 
 TEST(Coordinate, SpinIsAComponentOfTheRelativeAngularVelocity) {
-  VectorX<double> q = generic(0.2), v = VectorX<double>::Zero(kLocalSize);
+  VectorX<double> q = generic_local(0.2), v = VectorX<double>::Zero(kLocalSize);
   const Eigen::Vector3d omega_i(0.3, -1.0, 0.7), omega_j(2.0, 0.5, -0.4);
   for (int first : {3, kBodySize + 3}) q.segment<4>(first).normalize();
   v.segment<4>(3) = 0.5 * ground_rate_matrix<double>(q.segment<4>(3)).transpose() * omega_i;
@@ -104,17 +85,17 @@ TEST(Coordinate, SpinIsAComponentOfTheRelativeAngularVelocity) {
   CoordinateConstants<double> c;
   c.kind = Kind::kSpin;
   c.a = Eigen::Vector3d(0.6, 0.0, 0.8);
-  const CoordinateMotion<double> m = coordinate_motion(PairConstants<double>(), c, body(q, v, v, 0), body(q, v, v, kBodySize));
+  const CoordinateMotion<double> m = coordinate_motion(PairConstants<double>(), c, local_body(q, v, v, 0), local_body(q, v, v, kBodySize));
   EXPECT_NEAR(m.rate, c.a.dot(omega_j - omega_i), 1e-14);
 }
 
 TEST(Coordinate, LoadGradientIsTheDerivativeOfJTransposed) {
   using C = std::complex<double>;
-  const Eigen::VectorXd q = generic(0.4), zero = Eigen::VectorXd::Zero(kLocalSize);
+  const Eigen::VectorXd q = generic_local(0.4), zero = Eigen::VectorXd::Zero(kLocalSize);
   for (Kind kind : {Kind::kTurn, Kind::kSlide, Kind::kAngle, Kind::kSine, Kind::kSpin}) {
     LocalMatrix<double> gradient = LocalMatrix<double>::Zero();
-    coordinate_load_gradient(pair<double>(), coordinate<double>(kind, false), body<double>(q, zero, zero, 0),
-                             body<double>(q, zero, zero, kBodySize), 1.7,
+    coordinate_load_gradient(pair<double>(), coordinate<double>(kind, false), local_body<double>(q, zero, zero, 0),
+                             local_body<double>(q, zero, zero, kBodySize), 1.7,
                              [&gradient](int r, int c, double value) { gradient(r, c) += value; });
     const Eigen::MatrixXd expected = complex_step_jacobian(
         [&](const Eigen::VectorXcd& z) { return Eigen::VectorXcd(C(1.7) * motion<C>(kind, false, z, zero.cast<C>(), zero.cast<C>()).J); },

@@ -9,8 +9,8 @@ namespace codesign {
 namespace {
 
 /// The k-th of two independent variables.
-Lanes<2> lane(double value, int k) {
-  Lanes<2> x(value);
+Lanes<4> lane(double value, int k) {
+  Lanes<4> x(value);
   x.v[k] = 1.0;
   return x;
 }
@@ -91,7 +91,7 @@ TEST(MassProperties, DerivativesAgreeWithTheComplexStep) {
       shape(Kind::kBox, {quantity(0.3, "a"), quantity(0.5, "b"), 0.2}, {quantity(0.5, "b"), 0.1, 0.0}, {0.3, quantity(0.3, "a"), 0.2}),
       shape(Kind::kCylinder, {quantity(0.25, "b/2"), quantity(0.6, "2*a")}),
       shape(Kind::kSphere, {quantity(0.15, "a*b")}, {0.0, 0.0, quantity(0.3, "a")})};
-  const MassProperties<Lanes<2>> lanes = mass_properties(inertial, std::vector<Lanes<2>>{lane(0.3, 0), lane(0.5, 1)});
+  const MassProperties<Lanes<4>> lanes = mass_properties(inertial, std::vector<Lanes<4>>{lane(0.3, 0), lane(0.5, 1)});
   for (int k = 0; k < 2; ++k) {
     std::vector<std::complex<double>> at = {0.3, 0.5};
     at[static_cast<std::size_t>(k)] += std::complex<double>(0.0, 1e-30);

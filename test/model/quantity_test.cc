@@ -7,8 +7,8 @@ namespace codesign {
 namespace {
 
 /// The k-th of two independent variables.
-Lanes<2> lane(double value, int k) {
-  Lanes<2> x(value);
+Lanes<4> lane(double value, int k) {
+  Lanes<4> x(value);
   x.v[k] = 1.0;
   return x;
 }
@@ -18,7 +18,7 @@ TEST(Quantity, ConstantIsTheSameEverywhere) {
   EXPECT_TRUE(constant.is_constant());
   EXPECT_EQ(constant.at(std::vector<double>{7.0}), 3.0);
   EXPECT_EQ(constant.at(std::vector<std::complex<double>>{{7.0, 1.0}}), std::complex<double>(3.0));
-  const Lanes<2> lanes = constant.at(std::vector<Lanes<2>>{lane(7.0, 0)});
+  const Lanes<4> lanes = constant.at(std::vector<Lanes<4>>{lane(7.0, 0)});
   EXPECT_EQ(lanes.a, 3.0);
   EXPECT_EQ(lanes.v[0], 0.0);
   EXPECT_EQ(lanes.v[1], 0.0);
@@ -27,9 +27,9 @@ TEST(Quantity, ConstantIsTheSameEverywhere) {
 TEST(Quantity, LanesCarryTheChainRule) {
   const Quantity product(6.0, std::make_shared<const Expression>("x*y", std::vector<std::string>{"x", "y"}));
   EXPECT_EQ(product.nominal(), 6.0);
-  std::vector<Lanes<2>> at = {lane(2.0, 0), lane(5.0, 1)};
-  at[0].v *= 10.0;  // x itself depends on something
-  const Lanes<2> value = product.at(at);
+  std::vector<Lanes<4>> at = {lane(2.0, 0), lane(5.0, 1)};
+  at[0].v = 10.0 * at[0].v;  // x itself depends on something
+  const Lanes<4> value = product.at(at);
   EXPECT_DOUBLE_EQ(value.a, 10.0);
   EXPECT_DOUBLE_EQ(value.v[0], 50.0);
   EXPECT_DOUBLE_EQ(value.v[1], 2.0);

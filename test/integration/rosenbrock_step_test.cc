@@ -1,0 +1,71 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/integration/rosenbrock_step.h"
+
+#include <gtest/gtest.h>
+
+#include "integration/servo.h"
+#include "mechanism_codesign/dynamics/assembly.h"
+
+namespace codesign {
+namespace {
+
+class RosenbrockStepTest : public ::testing::TestWithParam<const char*> {
+ protected:
+  const std::shared_ptr<const System> system = servo("{integrator: rosenbrock}");
+  RosenbrockStep<double> step{*system, *rosenbrock_tableau(GetParam())};
+
+  /// The state after a span in `count` equal steps.
+  State<double> run(double span, int count) {
+    Assembly assembly(*system);
+    State<double> initial;
+    step.equations().set_design(system->parameters());
+    EXPECT_TRUE(assembly.solve(system->parameters(), &step.equations(), &initial).ok());
+    step.start(initial);
+    for (int k = 0; k < count; ++k) {
+      EXPECT_TRUE(step.attempt(span / count));
+      EXPECT_TRUE(step.accept());
+    }
+    return step.state();
+  }
+};
+
+TEST_P(RosenbrockStepTest, ConvergesWithItsOrder) {
+  const auto distance = [](const State<double>& x, const State<double>& y) { return (x.q - y.q).norm() + (x.v - y.v).norm(); };
+  const State<double> exact = run(0.02, 400);
+  const double ratio = distance(run(0.02, 20), exact) / distance(run(0.02, 40), exact);
+  // Halving the step gains 2^order; projection and the first steps blur it a little.
+  EXPECT_GT(ratio, 0.7 * std::pow(2.0, step.tableau().order));
+}
+
+TEST_P(RosenbrockStepTest, EndsOnTheConstraints) {
+  const State<double> end = run(0.1, 10);
+  VectorX<double> Phi, rates;
+  step.equations().constraint_errors(end.q, end.v, &Phi, &rates);
+  EXPECT_LT(Phi.cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT(rates.cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST_P(RosenbrockStepTest, DenseOutputMeetsBothEndsAndTheMiddle) {
+  const State<double> end = run(0.01, 1);
+  State<double> at;
+  double psi = 0.0;
+  step.interpolate(1.0, &at, &psi);
+  EXPECT_LT((at.q - end.q).norm() + (at.v - end.v).norm(), 1e-14);
+  EXPECT_DOUBLE_EQ(psi, step.psi());
+  step.interpolate(0.5, &at, &psi);
+  EXPECT_LT((at.q - run(0.005, 10).q).norm(), 1e-6);
+}
+
+TEST_P(RosenbrockStepTest, ErrorIsThatOfTheEmbeddedSolution) {
+  run(0.01, 1);
+  ASSERT_TRUE(step.attempt(0.01));
+  const double coarse = step.error(1e-6, 1e-6);
+  EXPECT_NEAR(step.error(1e-7, 1e-7) / coarse, 10.0, 1e-9);
+  ASSERT_TRUE(step.attempt(0.005));
+  EXPECT_LT(step.error(1e-6, 1e-6), 0.2 * coarse);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, RosenbrockStepTest, ::testing::Values("rodas4", "rodas4p2", "rodas5p"));
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,35 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_JOINTS_TWO_BODIES_H_
+#define MECHANISM_CODESIGN_TEST_JOINTS_TWO_BODIES_H_
+
+#include <cmath>
+
+#include "mechanism_codesign/joints/body_kinematics.h"
+#include "mechanism_codesign/joints/local_row.h"
+
+namespace codesign {
+
+/// [r_i, p_i, r_j, p_j] or a rate of it at a generic point; formulas hold off the unit spheres too.
+inline Eigen::VectorXd generic_local(double phase) {
+  Eigen::VectorXd x(kLocalSize);
+  for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = 0.6 * std::sin(2.3 * static_cast<double>(k) + phase);
+  return x;
+}
+
+/// One body of a pair, its coordinates starting at `first`.
+template <class T>
+BodyKinematics<T> local_body(const VectorX<T>& q, const VectorX<T>& v, const VectorX<T>& a, int first) {
+  BodyKinematics<T> b;
+  b.r = q.template segment<3>(first);
+  b.p = q.template segment<4>(first + 3);
+  b.rd = v.template segment<3>(first);
+  b.pd = v.template segment<4>(first + 3);
+  b.rdd = a.template segment<3>(first);
+  b.pdd = a.template segment<4>(first + 3);
+  b.update_rotation();
+  return b;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_TEST_JOINTS_TWO_BODIES_H_
