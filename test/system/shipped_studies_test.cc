@@ -50,7 +50,7 @@ TEST_P(ShippedStudies, GradientIsThatOfTheStepsTaken) {
   EXPECT_LT(check.largest_relative_difference, 1e-9);
 }
 
-INSTANTIATE_TEST_SUITE_P(Config, ShippedStudies, ::testing::ValuesIn(shipped_names()), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Config, ShippedStudies, ::testing::ValuesIn(shipped_names()), [](const auto& study) { return study.param; });
 
 TEST(ShippedList, HoldsThePapersCases) {
   const std::vector<std::string> names = shipped_names();
