@@ -4,7 +4,7 @@
 namespace codesign {
 namespace {
 
-/// Springs between two bodies (damped), between the ground and a body (not damped), and within one body.
+/// Springs between two bodies (damped) and between the ground and a body (not damped).
 const char* const kMechanism = R"(
 <robot name="springs" xmlns:codesign="urn:test">
   <codesign:parameter name="k" value="30"/>
@@ -18,8 +18,6 @@ const char* const kMechanism = R"(
     <predecessor link="a"><origin xyz="0.1 0.2 0"/></predecessor><successor link="b"><origin xyz="0 0 0.3"/></successor></codesign:spring_damper>
   <codesign:spring_damper name="hook" stiffness="10" free_length="0.1"><predecessor link="ground"><origin xyz="0 0 1"/></predecessor>
     <successor link="a"/></codesign:spring_damper>
-  <codesign:spring_damper name="inner" stiffness="10" damping="1"><predecessor link="a"/><successor link="a"><origin xyz="0 0.3 0"/></successor>
-  </codesign:spring_damper>
 </robot>)";
 
 const char* const kStudy = R"(
@@ -40,7 +38,7 @@ class EquationsSpringsTest : public ::testing::Test, public EquationsFixture {
 TEST_F(EquationsSpringsTest, EveryDerivativeIsExact) { expect_exact_derivatives(1e-11); }
 
 TEST_F(EquationsSpringsTest, PullsAreEqualAndOpposite) {
-  // Without gravity the sum of all forces is what the hook exerts on the ground, and the inner spring does nothing.
+  // Without gravity the sum of all forces is what the hook exerts on the ground.
   VectorX<double> G;
   double g = 0.0;
   state.z.setZero();
