@@ -30,6 +30,8 @@ RobotDescription robot() {
   robot.joints = {joint("hinge", JointType::kRevolute, 1), joint("slide", JointType::kPrismatic, 2), joint("plane", JointType::kPlanar, 3),
                   joint("weld", JointType::kFixed, 4), joint("needle", JointType::kRevolute, 5)};
   robot.joints[1].friction.emplace();
+  robot.joints[1].friction->joint_length = Quantity(0.1);
+  robot.joints[1].friction->joint_width = Quantity(0.05);
   robot.joints[2].dry_friction = 0.1;
   return robot;
 }
