@@ -29,6 +29,8 @@ foreach(folder math model joints forces control dynamics integration sensitivity
   # catkin's choice, the devel space, is where rosrun looks for programs.
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test)
   codesign_warnings(${target})
+  # A quarter less time to compile; the code under test is optimized all the same.
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   add_dependencies(tests ${target})
   gtest_discover_tests(${target} DISCOVERY_TIMEOUT 120 TEST_PREFIX ${folder}. PROPERTIES TIMEOUT 300)
 endforeach()
