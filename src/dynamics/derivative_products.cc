@@ -11,7 +11,8 @@ void directional_derivative(const System& system, const Linearization<double>& d
   result->resize(patterns.rate.rows);
   // Positions are (q, s); only these few lie apart.
   for (int row = 0; row < patterns.rate.rows; ++row) {
-    double sum = row_product(patterns.velocity, d.velocity, row, direction.v.data()) + row_product(patterns.rate, d.rate, row, direction.z.data());
+    double sum =
+        row_product(patterns.velocity, d.velocity, row, direction.v.data()) + row_product(patterns.rate, d.rate, row, direction.z.data());
     for (int e = patterns.position.first(row); e < patterns.position.first(row + 1); ++e) {
       const int column = patterns.position.column(e);
       sum += d.position[static_cast<std::size_t>(e)] * (column < layout.n ? direction.q[column] : direction.s[column - layout.n]);

@@ -16,7 +16,8 @@ const double* read(N_Vector vector) { return N_VGetArrayPointer(vector); }
 // What callbacks tell IDAS: go on; try a smaller step; give up.
 constexpr int kDone = 0, kRetry = 1, kGiveUp = -1;
 
-// Drift dies out this many times within a study: often enough to stay what a twentieth of the study makes it, slowly enough never to stiffen.
+// Drift dies out this many times within a study: often enough to stay what a twentieth of the study makes it, slowly enough never to
+// stiffen.
 constexpr double kStabilizations = 20.0;
 
 /// Keeps exceptions on this side of the C callback.
@@ -118,7 +119,8 @@ int IdasEquations::residual(realtype t, N_Vector y, N_Vector y_dot, N_Vector F, 
   return guarded(&equations->failure_, [&] { return equations->residual(t, read(y), read(y_dot), N_VGetArrayPointer(F)); });
 }
 
-int IdasEquations::jacobian(realtype t, realtype c_j, N_Vector y, N_Vector y_dot, N_Vector, SUNMatrix, void* self, N_Vector, N_Vector, N_Vector) {
+int IdasEquations::jacobian(realtype t, realtype c_j, N_Vector y, N_Vector y_dot, N_Vector, SUNMatrix, void* self, N_Vector, N_Vector,
+                            N_Vector) {
   auto* equations = static_cast<IdasEquations*>(self);
   return guarded(&equations->failure_, [&] { return equations->jacobian(t, c_j, read(y), read(y_dot)); });
 }
@@ -128,8 +130,8 @@ int IdasEquations::integrand(realtype t, N_Vector y, N_Vector y_dot, N_Vector g,
   return guarded(&equations->failure_, [&] { return equations->integrand(t, read(y), read(y_dot), N_VGetArrayPointer(g)); });
 }
 
-int IdasEquations::sensitivity_residual(int count, realtype t, N_Vector y, N_Vector y_dot, N_Vector, N_Vector* y_rho, N_Vector* y_dot_rho, N_Vector* F_rho,
-                                        void* self, N_Vector, N_Vector, N_Vector) {
+int IdasEquations::sensitivity_residual(int count, realtype t, N_Vector y, N_Vector y_dot, N_Vector, N_Vector* y_rho, N_Vector* y_dot_rho,
+                                        N_Vector* F_rho, void* self, N_Vector, N_Vector, N_Vector) {
   auto* equations = static_cast<IdasEquations*>(self);
   return guarded(&equations->failure_, [&] {
     const Layout& layout = equations->layout_;
@@ -146,8 +148,8 @@ int IdasEquations::sensitivity_residual(int count, realtype t, N_Vector y, N_Vec
   });
 }
 
-int IdasEquations::sensitivity_integrand(int count, realtype t, N_Vector y, N_Vector y_dot, N_Vector* y_rho, N_Vector* y_dot_rho, N_Vector, N_Vector* g_rho,
-                                         void* self, N_Vector, N_Vector, N_Vector) {
+int IdasEquations::sensitivity_integrand(int count, realtype t, N_Vector y, N_Vector y_dot, N_Vector* y_rho, N_Vector* y_dot_rho, N_Vector,
+                                         N_Vector* g_rho, void* self, N_Vector, N_Vector, N_Vector) {
   auto* equations = static_cast<IdasEquations*>(self);
   return guarded(&equations->failure_, [&] {
     equations->visit(t, read(y), read(y_dot));

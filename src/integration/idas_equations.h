@@ -33,12 +33,13 @@ class IdasEquations {
   const std::string& failure() const { return failure_; }
 
   static int residual(realtype t, N_Vector y, N_Vector y_dot, N_Vector F, void* self);
-  static int jacobian(realtype t, realtype c_j, N_Vector y, N_Vector y_dot, N_Vector F, SUNMatrix J, void* self, N_Vector, N_Vector, N_Vector);
+  static int jacobian(realtype t, realtype c_j, N_Vector y, N_Vector y_dot, N_Vector F, SUNMatrix J, void* self, N_Vector, N_Vector,
+                      N_Vector);
   static int integrand(realtype t, N_Vector y, N_Vector y_dot, N_Vector g, void* self);
-  static int sensitivity_residual(int count, realtype t, N_Vector y, N_Vector y_dot, N_Vector F, N_Vector* y_rho, N_Vector* y_dot_rho, N_Vector* F_rho,
-                                  void* self, N_Vector, N_Vector, N_Vector);
-  static int sensitivity_integrand(int count, realtype t, N_Vector y, N_Vector y_dot, N_Vector* y_rho, N_Vector* y_dot_rho, N_Vector g, N_Vector* g_rho,
-                                   void* self, N_Vector, N_Vector, N_Vector);
+  static int sensitivity_residual(int count, realtype t, N_Vector y, N_Vector y_dot, N_Vector F, N_Vector* y_rho, N_Vector* y_dot_rho,
+                                  N_Vector* F_rho, void* self, N_Vector, N_Vector, N_Vector);
+  static int sensitivity_integrand(int count, realtype t, N_Vector y, N_Vector y_dot, N_Vector* y_rho, N_Vector* y_dot_rho, N_Vector g,
+                                   N_Vector* g_rho, void* self, N_Vector, N_Vector, N_Vector);
 
  private:
   int residual(double t, const double* y, const double* y_dot, double* F);
@@ -54,7 +55,7 @@ class IdasEquations {
   IdasSensitivities* sensitivities_ = nullptr;
   State<double> state_, direction_;
   VectorX<double> G_, dG_, Phi_, Phi_rate_;
-  double kappa_;  ///< [1/s]
+  double kappa_;                 ///< [1/s]
   std::vector<double> visited_;  ///< t, y, y' of the point whose derivatives are present
   std::string failure_;
 };

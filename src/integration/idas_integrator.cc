@@ -55,7 +55,9 @@ class IdasIntegrator::Implementation {
   void start_sensitivities(const std::vector<double>& parameters);
   void take_over(double time);
   void count_steps();
-  static void note_error(int, const char*, const char*, char* message, void* self) { static_cast<Implementation*>(self)->message_ = message; }
+  static void note_error(int, const char*, const char*, char* message, void* self) {
+    static_cast<Implementation*>(self)->message_ = message;
+  }
 
   const System& system_;
   const SolverOptions& options_;

@@ -7,13 +7,14 @@
 
 namespace codesign {
 
-/// Newton's linear systems of IDAS, J x = b with J = F_y + c_j F_y', in the shape of a SUNLinearSolver with a SUNMatrix; doc/theory.md (26).
+/// Newton's linear systems of IDAS, J x = b with J = F_y + c_j F_y', in the shape of a SUNLinearSolver with a SUNMatrix; doc/theory.md
+/// (26).
 ///
 /// With y = (q, v, s, lambda) and F = (q' - v, G), the rows q' - v and the columns of q are eliminated:
 ///   (G_z + G_v/c_j + G_q/c_j^2) (u_a, u_lambda, u_sigma) = b_G - G_q b_q/c_j,
 ///   x_v = u_a/c_j,  x_q = (x_v + b_q)/c_j,  x_s = u_sigma/c_j,  x_lambda = u_lambda.
-/// In a stabilized constraint row Phi_q grows to (1 + kappa/c_j)^2 Phi_q; b is divided instead, and what that does to the row's other terms,
-/// of order kappa/c_j^2, is left to Newton's iteration.
+/// In a stabilized constraint row Phi_q grows to (1 + kappa/c_j)^2 Phi_q; b is divided instead, and what that does to the row's other
+/// terms, of order kappa/c_j^2, is left to Newton's iteration.
 class IdasNewton {
  public:
   IdasNewton(const System& system, SUNContext context);

@@ -9,7 +9,8 @@
 namespace codesign {
 
 /// Our status for a flag of IDASolve.
-/// @param time [s] that was reached. @param singular whether the last Newton matrix was. @param message IDAS's own, or of an exception in a callback.
+/// @param time [s] that was reached. @param singular whether the last Newton matrix was. @param message IDAS's own, or of an exception in a
+/// callback.
 Status idas_status(int flag, double time, bool singular, const std::string& message);
 
 }  // namespace codesign

@@ -28,8 +28,8 @@ void read_count(const YamlValue& parent, const std::string& key, int* count) {
 }  // namespace
 
 SolverOptions read_solver_options(const YamlValue& solver) {
-  solver.require_keys(
-      {}, {"integrator", "method", "relative_tolerance", "absolute_tolerance", "sensitivity_tolerance", "initial_step", "maximum_step", "maximum_steps"});
+  solver.require_keys({}, {"integrator", "method", "relative_tolerance", "absolute_tolerance", "sensitivity_tolerance", "initial_step",
+                           "maximum_step", "maximum_steps"});
   SolverOptions options;
   if (const auto integrator = solver.find("integrator")) options.integrator = integrator->choice("integrator", {"rosenbrock", "idas"});
   if (const auto method = solver.find("method")) options.method = method->choice("method", {"rodas4", "rodas4p2", "rodas5p"});

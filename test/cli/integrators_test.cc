@@ -25,7 +25,8 @@ TEST(Integrators, EveryCommandTakesEither) {
 TEST(Integrators, GiveTheSameNumbers) {
   const ScratchFolder folder;
   const std::string study = idas_study(folder);
-  Json rosenbrock = json_of(run_words({"gradient", kModel, short_study(folder), "--json"})), idas = json_of(run_words({"gradient", kModel, study, "--json"}));
+  Json rosenbrock = json_of(run_words({"gradient", kModel, short_study(folder), "--json"})),
+       idas = json_of(run_words({"gradient", kModel, study, "--json"}));
   EXPECT_NE(rosenbrock["steps"], idas["steps"]);
   EXPECT_NEAR(idas["objective"].get<double>() / rosenbrock["objective"].get<double>(), 1.0, 1e-6);
   for (const std::string& name : kTuned)

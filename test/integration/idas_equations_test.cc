@@ -19,7 +19,12 @@ struct Faulty : IdasSensitivities {
 };
 
 struct IdasEquationsTest : ::testing::Test {
-  IdasEquationsTest() : system(servo("{}")), layout(system->layout()), context(make_context()), newton(*system, context.get()), equations(*system, &newton) {
+  IdasEquationsTest()
+      : system(servo("{}")),
+        layout(system->layout()),
+        context(make_context()),
+        newton(*system, context.get()),
+        equations(*system, &newton) {
     Assembly assembly(*system);
     equations.equations().set_design(system->parameters());
     if (!assembly.solve(system->parameters(), &equations.equations(), &state).ok()) throw std::logic_error("the start cannot be assembled");
@@ -82,7 +87,9 @@ TEST_F(IdasEquationsTest, ExceptionsStayOnThisSide) {
   Faulty faulty;
   equations.set_sensitivities(&faulty);
   N_Vector one[] = {y.get()}, two[] = {y_dot.get()}, three[] = {F.get()};
-  EXPECT_LT(IdasEquations::sensitivity_residual(1, 0.0, y.get(), y_dot.get(), F.get(), one, two, three, &equations, nullptr, nullptr, nullptr), 0);
+  EXPECT_LT(
+      IdasEquations::sensitivity_residual(1, 0.0, y.get(), y_dot.get(), F.get(), one, two, three, &equations, nullptr, nullptr, nullptr),
+      0);
   EXPECT_EQ(equations.failure(), "no derivatives today");
 }
 

@@ -14,8 +14,8 @@ const char* const kIdas = "{integrator: idas, relative_tolerance: 1.0e-9, absolu
 const char* const kRosenbrock = "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}";
 
 /// Integrates to the end, taking dense output at each of `times` on the way.
-Status run(Integrator* integrator, const System& system, const std::vector<double>& times = {}, std::vector<State<double>>* samples = nullptr,
-           std::vector<double>* psi = nullptr) {
+Status run(Integrator* integrator, const System& system, const std::vector<double>& times = {},
+           std::vector<State<double>>* samples = nullptr, std::vector<double>* psi = nullptr) {
   Status status = integrator->start(system.parameters());
   for (std::size_t next = 0; status.ok() && integrator->state().t < system.study().duration;) {
     status = integrator->advance(system.study().duration);
@@ -60,7 +60,9 @@ std::string swing(const std::string& initial, const std::string& signal) {
   return "duration: 0.5\ninitial_state: " + initial + "\nobjective: {integral: [{signal: " + signal + "}]}\n";
 }
 
-TEST(IdasIntegrator, AgreesWithRosenbrockOnAPendulum) { expect_agreement(pendulum(pin_friction()), swing("{hinge: {position: 1.0}}", "hinge/velocity")); }
+TEST(IdasIntegrator, AgreesWithRosenbrockOnAPendulum) {
+  expect_agreement(pendulum(pin_friction()), swing("{hinge: {position: 1.0}}", "hinge/velocity"));
+}
 
 TEST(IdasIntegrator, AgreesWithRosenbrockOnRedundantConstraints) {
   expect_agreement(four_bar(pin_friction()), swing("{left_hinge: {position: 0.6, velocity: 1.0}}", "left_hinge/velocity"));
@@ -73,9 +75,12 @@ TEST(IdasIntegrator, AgreesWithRosenbrockWithAnExtraState) {
 
 TEST(IdasIntegrator, DriftStaysOfTheOrderOfTheTolerance) {
   for (const auto& [tolerance, bound] : {std::pair{"1.0e-5", 1e-3}, std::pair{"1.0e-8", 1e-6}}) {
-    const std::string solver = std::string("{integrator: idas, relative_tolerance: ") + tolerance + ", absolute_tolerance: " + tolerance + "}";
-    const auto system =
-        compile(double_pendulum(), "duration: 20.0\ninitial_state: {shoulder: {position: 2.0}}\nobjective: {integral: [{signal: elbow/velocity}]}\nsolver: " + solver + "\n");
+    const std::string solver =
+        std::string("{integrator: idas, relative_tolerance: ") + tolerance + ", absolute_tolerance: " + tolerance + "}";
+    const auto system = compile(
+        double_pendulum(),
+        "duration: 20.0\ninitial_state: {shoulder: {position: 2.0}}\nobjective: {integral: [{signal: elbow/velocity}]}\nsolver: " + solver +
+            "\n");
     IdasIntegrator integrator(*system);
     const Status status = run(&integrator, *system);
     ASSERT_TRUE(status.ok()) << status.cause;
@@ -135,10 +140,12 @@ TEST(IdasIntegrator, ObeysItsOptions) {
 
 // A controller with the wrong sign makes the speed grow by e every 30 microseconds.
 TEST(IdasIntegrator, WhatRunsAwayEndsWithAStatus) {
-  const auto system = compile(pendulum(), "duration: 0.5\ninitial_state: {hinge: {velocity: 1.0}}\n"
-                                          "controllers: {c: {type: pid, input: hinge/velocity, setpoint: 0.0, output: hinge, gains: {p: \"${gain}\"}}}\n"
-                                          "parameters: {gain: {initial: 1.0}}\nobjective: {terminal: [{signal: hinge/velocity}]}\n"
-                                          "solver: {integrator: idas, maximum_steps: 20000}\n");
+  const auto system =
+      compile(pendulum(),
+              "duration: 0.5\ninitial_state: {hinge: {velocity: 1.0}}\n"
+              "controllers: {c: {type: pid, input: hinge/velocity, setpoint: 0.0, output: hinge, gains: {p: \"${gain}\"}}}\n"
+              "parameters: {gain: {initial: 1.0}}\nobjective: {terminal: [{signal: hinge/velocity}]}\n"
+              "solver: {integrator: idas, maximum_steps: 20000}\n");
   IdasIntegrator integrator(*system);
   ASSERT_TRUE(integrator.start({-1e4}).ok());
   Status status;

@@ -30,7 +30,9 @@ Result run(GradientEngine* engine, const std::vector<double>& parameters, double
 
 const char* const kRosenbrock = "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}";
 
-std::string idas(const std::string& tolerance) { return "{integrator: idas, relative_tolerance: " + tolerance + ", absolute_tolerance: " + tolerance + "}"; }
+std::string idas(const std::string& tolerance) {
+  return "{integrator: idas, relative_tolerance: " + tolerance + ", absolute_tolerance: " + tolerance + "}";
+}
 
 TEST(GradientEngine, TheStudyChooses) {
   EXPECT_NE(dynamic_cast<RosenbrockGradient*>(make_gradient_engine(*servo("{}")).get()), nullptr);
@@ -67,7 +69,8 @@ TEST(GradientEngine, IdasStartsAnewToTheLastBitWithAndWithoutGradient) {
 }
 
 TEST(GradientEngine, NothingTunedIsNoGradient) {
-  const auto system = compile(pendulum(), "duration: 0.1\nparameters: {}\nobjective: {integral: [{signal: hinge/velocity}]}\nsolver: {integrator: idas}\n");
+  const auto system =
+      compile(pendulum(), "duration: 0.1\nparameters: {}\nobjective: {integral: [{signal: hinge/velocity}]}\nsolver: {integrator: idas}\n");
   const Result result = run(make_gradient_engine(*system).get(), {}, 0.1);
   EXPECT_TRUE(result.status.ok());
   EXPECT_EQ(result.gradient.size(), 0);

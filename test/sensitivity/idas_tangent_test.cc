@@ -92,7 +92,9 @@ TEST_F(IdasTangentTest, TerminalTermsUseConsistentRates) {
       ASSERT_TRUE(integrator.start(parameters).ok());
       w[side] = integrator.equations().terminal(integrator.state(), nullptr);
     }
-    EXPECT_NEAR(gradient[static_cast<Eigen::Index>(k)], (w[1] - w[0]) / 2e-5, 1e-6 * (1.0 + std::abs(gradient[static_cast<Eigen::Index>(k)]))) << k;
+    EXPECT_NEAR(gradient[static_cast<Eigen::Index>(k)], (w[1] - w[0]) / 2e-5,
+                1e-6 * (1.0 + std::abs(gradient[static_cast<Eigen::Index>(k)])))
+        << k;
   }
 }
 

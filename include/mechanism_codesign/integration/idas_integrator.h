@@ -16,7 +16,8 @@ class IdasSensitivities {
 
   /// How many parameters.
   virtual int count() const = 0;
-  /// Takes a design over. @param initial its assembled start. @param sensitivities one direction (q, v, s, z)_rho of the start for each parameter.
+  /// Takes a design over. @param initial its assembled start. @param sensitivities one direction (q, v, s, z)_rho of the start for each
+  /// parameter.
   /// @param scales the size of each parameter, never zero: sensitivities are as accurate relative to 1/scale as the state is to 1.
   virtual void start(const std::vector<double>& parameters, const State<double>& initial, Integrator* integrator,
                      std::vector<State<double>>* sensitivities, std::vector<double>* scales) = 0;
@@ -28,8 +29,8 @@ class IdasSensitivities {
 
 /// Variable-order BDF by SUNDIALS IDAS on q' = v, 0 = G(q, v, s; v', lambda, s'), psi' = g; doc/theory.md (25)-(27).
 ///
-/// The unknowns are (q, v, s, lambda); a and sigma are derivatives, not unknowns. Newton's systems are reduced to the size of (a, lambda, sigma).
-/// lambda stays out of the error test. A multistep method has no place for a projection, so the constraints' rows are stabilized.
+/// The unknowns are (q, v, s, lambda); a and sigma are derivatives, not unknowns. Newton's systems are reduced to the size of (a, lambda,
+/// sigma). lambda stays out of the error test. A multistep method has no place for a projection, so the constraints' rows are stabilized.
 /// Failures of IDAS come back as a Status with time and cause.
 class IdasIntegrator final : public Integrator {
  public:

@@ -74,8 +74,8 @@ struct SolverOptions {
   double relative_tolerance = 1e-6;
   double absolute_tolerance = 1e-7;
   double sensitivity_tolerance = 0.0;  ///< rosenbrock: relative, of each parameter's sensitivities; 0: they stay out of the error test
-  double initial_step = 0.0;  ///< [s]; 0: chosen
-  double maximum_step = 0.0;  ///< [s]; 0: none
+  double initial_step = 0.0;           ///< [s]; 0: chosen
+  double maximum_step = 0.0;           ///< [s]; 0: none
   int maximum_steps = 200000;
 };
 
