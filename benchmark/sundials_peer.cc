@@ -71,7 +71,7 @@ class SundialsPeer::Implementation {
     memory_.reset(IDACreate(context_));
     void* ida = memory_.get();
     IDAInit(ida, &Implementation::residual, 0.0, y.get(), yp.get());
-    IDASStolerances(ida, relative_tolerance, 0.1 * relative_tolerance);
+    IDASStolerances(ida, relative_tolerance, 0.01 * relative_tolerance);
     IDASetUserData(ida, this);
     IDASetMaxNumSteps(ida, 1000000);
     IDASetStopTime(ida, system_->study().duration);
