@@ -71,7 +71,7 @@ class SundialsPeer::Implementation {
     memory_.reset(IDACreate(context_));
     void* ida = memory_.get();
     IDAInit(ida, &Implementation::residual, 0.0, y.get(), yp.get());
-    IDASStolerances(ida, relative_tolerance, 0.1 * relative_tolerance);
+    IDASStolerances(ida, relative_tolerance, 0.01 * relative_tolerance);
     IDASetUserData(ida, this);
     IDASetMaxNumSteps(ida, 1000000);
     IDASetStopTime(ida, system_->study().duration);
@@ -243,7 +243,7 @@ class SundialsPeer::Implementation {
     std::vector<Wide> lanes(parameters.begin(), parameters.end());
     std::vector<double> scales;
     for (std::size_t p = 0; p < tuned.size(); ++p) {
-      lanes[static_cast<std::size_t>(tuned[p])].v[p] = 1.0;
+      lanes[static_cast<std::size_t>(tuned[p])].v[static_cast<int>(p)] = 1.0;
       scales.push_back(std::abs(parameters[static_cast<std::size_t>(tuned[p])]));
     }
     wide_.set_design(lanes);
@@ -255,7 +255,7 @@ class SundialsPeer::Implementation {
       State<double> direction;
       direction.resize(system_->layout());
       const auto take = [p](const VectorX<Wide>& from, VectorX<double>* to) {
-        for (Eigen::Index k = 0; k < from.size(); ++k) (*to)[k] = from[k].v[p];
+        for (Eigen::Index k = 0; k < from.size(); ++k) (*to)[k] = from[k].v[static_cast<int>(p)];
       };
       take(wide_state_.q, &direction.q);
       take(wide_state_.v, &direction.v);
@@ -268,7 +268,7 @@ class SundialsPeer::Implementation {
       store(direction, NV_DATA_S(S.back()));
       NV_Ith_S(S.back(), at_.psi) = 0.0;
       rates(direction, NV_DATA_S(Sp.back()));
-      NV_Ith_S(Sp.back(), at_.psi) = g.v[p];
+      NV_Ith_S(Sp.back(), at_.psi) = g.v[static_cast<int>(p)];
     }
     void* ida = memory_.get();
     IDASensInit(ida, static_cast<int>(tuned.size()), IDA_STAGGERED, &Implementation::sensitivity_residual, S.data(), Sp.data());

@@ -1,4 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
 #include <memory>
 
 #include "benchmark/report.h"
@@ -9,8 +10,8 @@
 namespace codesign {
 namespace {
 
-const std::vector<double> kTolerances = {1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8};
-constexpr std::size_t kDefaultTolerance = 4;  // a study's default, 1e-6
+const std::vector<double> kTolerances = {1e-4, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 1e-9};
+constexpr std::size_t kDefaultTolerance = 3;  // a study's default, 1e-6
 
 Contestant sundials(const Problem& problem, const std::string& name, SundialsMatrix matrix, const Reference& reference) {
   return {name, [problem, matrix, reference](double tolerance, bool with_gradient) -> std::function<Outcome()> {
@@ -22,15 +23,22 @@ Contestant sundials(const Problem& problem, const std::string& name, SundialsMat
           }};
 }
 
+/// The cost of an accuracy by the fastest of the contestants from `first` on.
+double fastest(double error, const std::vector<Sweep>& sweeps, std::size_t first) {
+  double seconds = std::nan("");
+  for (std::size_t c = first; c < sweeps.size(); ++c) seconds = std::fmin(seconds, seconds_to(error, sweeps[c]));
+  return seconds;
+}
+
 }  // namespace
 
 void measure_work_precision(Report* report) {
   const Problem problem = load_slider_crank();
   const Reference reference{kReferencePsi, Eigen::Map<const Eigen::VectorXd>(kReferenceGradient, 5)};
   std::vector<Contestant> contestants;
-  for (const char* name : {"rodas4", "rodas4p2", "rodas5p", "idas"})
-    if (with_solver(problem, name, 1e-6)) contestants.push_back(own_solver(problem, name, reference));
-  const std::size_t klu = contestants.size();
+  for (const char* name : {"rodas4", "rodas4p2", "rodas5p"}) contestants.push_back(own_solver(problem, name, reference));
+  const std::size_t ida = contestants.size();
+  if (with_solver(problem, "idas", 1e-6)) contestants.push_back(own_solver(problem, "idas", reference));
   contestants.push_back(sundials(problem, "SUNDIALS, KLU", SundialsMatrix::kSparseExact, reference));
   contestants.push_back(sundials(problem, "SUNDIALS, dense", SundialsMatrix::kDenseDifferences, reference));
   const std::vector<Sweep> simulation =
@@ -39,12 +47,12 @@ void measure_work_precision(Report* report) {
 
   const double own_simulation = seconds_to(1e-6, simulation[0]), own_gradient = seconds_to(1e-5, gradient[0]);
   const double ratio = gradient[0][kDefaultTolerance].seconds / simulation[0][kDefaultTolerance].seconds;
-  report->findings.push_back({"simulation, psi to 1e-6", "ms", 1e3 * own_simulation, 5.0, false});
+  report->findings.push_back({"simulation by rodas4, psi to 1e-6", "ms", 1e3 * own_simulation, 5.0, false});
   report->findings.push_back(
-      {"the same by SUNDIALS with KLU, in times of ours", "", seconds_to(1e-6, simulation[klu]) / own_simulation, 4.0, true});
-  report->findings.push_back({"gradient by 5 parameters to 1e-5", "ms", 1e3 * own_gradient, 25.0, false});
+      {"the same by the fastest IDAS, in times of rodas4", "", fastest(1e-6, simulation, ida) / own_simulation, 4.0, true});
+  report->findings.push_back({"gradient by 5 parameters by rodas4, to 1e-5", "ms", 1e3 * own_gradient, 25.0, false});
   report->findings.push_back(
-      {"the same by SUNDIALS with KLU, in times of ours", "", seconds_to(1e-5, gradient[klu]) / own_gradient, 6.0, true});
+      {"the same by the fastest IDAS, in times of rodas4", "", fastest(1e-5, gradient, ida) / own_gradient, 6.0, true});
   report->findings.push_back({"gradient by 5 parameters, in simulations, both at tolerance 1e-6", "", ratio, 4.0, false});
 }
 
