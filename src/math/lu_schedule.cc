@@ -146,7 +146,7 @@ template <int N>
 void subtract_products(const double* factors, const int* entry, const int* index, int first, int last, double factor, std::size_t k,
                        double* y) {
   Row<N> x(y + N * k);
-  for (int e = first; e < last; ++e) x.subtract(factors[entry[e]], Row<N>(y + N * index[e]));
+  for (int e = first; e < last; ++e) x.subtract(factors[entry[e]], Row<N>(y + std::ptrdiff_t{N} * index[e]));
   x.scale(factor);
   x.store(y + N * k);
 }

@@ -25,7 +25,7 @@ struct SparseLu::Implementation {
   klu_symbolic* symbolic = nullptr;
   klu_numeric* numeric = nullptr;
   std::optional<LuSchedule> schedule;
-  long full_factorizations = 0;
+  std::int64_t full_factorizations = 0;
 
   ~Implementation() {
     klu_free_numeric(&numeric, &common);
@@ -109,7 +109,7 @@ void SparseLu::solve_transposed_rows(double* x) const {
   implementation_->schedule->solve_transposed<N>(x);
 }
 
-long SparseLu::full_factorizations() const { return implementation_->full_factorizations; }
+std::int64_t SparseLu::full_factorizations() const { return implementation_->full_factorizations; }
 
 #define CODESIGN_INSTANTIATE(N)                         \
   template void SparseLu::solve_rows<N>(double*) const; \

@@ -2,6 +2,9 @@
 #ifndef MECHANISM_CODESIGN_DYNAMICS_ROW_PRODUCT_H_
 #define MECHANISM_CODESIGN_DYNAMICS_ROW_PRODUCT_H_
 
+#include <cstddef>
+#include <vector>
+
 #include "mechanism_codesign/dynamics/sparsity.h"
 
 namespace codesign {
@@ -21,7 +24,7 @@ void add_row_product(const Sparsity& pattern, const std::vector<double>& values,
   using Vector = typename Lanes<N>::Vector;
   const int* const column = pattern.column_index.data();
   for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
-    *sum += values[static_cast<std::size_t>(e)] * *reinterpret_cast<const Vector*>(x + N * column[e]);
+    *sum += values[static_cast<std::size_t>(e)] * *reinterpret_cast<const Vector*>(x + std::ptrdiff_t{N} * column[e]);
 }
 
 /// One row of the directional derivatives of a sparse matrix times a real vector: sum_k += sum over the row of dvalues_k x[column].

@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_MATH_SPARSE_LU_H_
 #define MECHANISM_CODESIGN_MATH_SPARSE_LU_H_
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -32,7 +33,7 @@ class SparseLu {
   void solve_transposed_rows(double* x) const;
 
   /// How often pivots had to be chosen since construction.
-  long full_factorizations() const;
+  std::int64_t full_factorizations() const;
 
  private:
   struct Implementation;
