@@ -4,6 +4,8 @@
 
 #include "equations_assembly.h"
 #include "equations_contacts.h"
+#include "equations_couplings.h"
+#include "equations_limits.h"
 #include "equations_loads.h"
 #include "equations_residual.h"
 #include "equations_signals.h"

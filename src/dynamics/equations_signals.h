@@ -125,7 +125,7 @@ T Equations<T>::load_term(const SignalReference& term, const T& factor, SparseGr
   for (const JointLoad& load : system_.loads()) {
     if (load.pair != term.pair || load.element != term.element) continue;
     JointLoad part = load;
-    part.passive = false;
+    part.passive = part.stop = false;
     if (term.kind == SignalKind::kJointEffort) {
       part.reaction_friction = part.constant_friction = false;
     } else {

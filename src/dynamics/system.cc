@@ -47,6 +47,7 @@ System::System(const RobotDescription& robot, const Study& study, double complia
   refuse_unsupported();
   lay_out();
   find_coordinates();
+  check_couplings();
   resolve_objective();
   resolve_controllers();
   collect_loads();
@@ -66,7 +67,8 @@ void System::lay_out() {
     layout_.pair_row.push_back(layout_.m);
     layout_.m += constraint_rows(pair.kind);
   }
-  layout_.m += layout_.bodies;
+  layout_.couplings = static_cast<int>(topology_.couplings.size());
+  layout_.m += layout_.couplings + layout_.bodies;
 }
 
 void System::resolve_objective() {
@@ -123,10 +125,12 @@ void System::collect_loads() {
         const JointDescription& joint = robot_.joints[static_cast<std::size_t>(pair.chain[e].joint)];
         load.constant_friction = !zero(joint.dry_friction);
         load.passive = !zero(joint.damping) || joint.spring.has_value();
+        load.stop = study_.limits.position && has_stops(joint);
+        load.saturated = study_.limits.effort && joint.limit && joint.limit->bounds_effort();
       }
       for (std::size_t c = 0; c < controllers_.size(); ++c)
         if (controllers_[c].pair == load.pair && controllers_[c].element == load.element) load.controllers.push_back(static_cast<int>(c));
-      if (!load.reaction_friction && !load.constant_friction && !load.passive && load.controllers.empty()) continue;
+      if (!load.reaction_friction && !load.constant_friction && !load.needs_position() && load.controllers.empty()) continue;
       if (!has_coordinate_[p][e]) refuse_load(load.pair, load.element);
       loads_.push_back(load);
     }
@@ -145,9 +149,19 @@ void System::refuse_load(int pair, int element) const {
   const ChainElement& in_chain = topology_.pairs[static_cast<std::size_t>(pair)].chain[static_cast<std::size_t>(element)];
   const JointDescription& joint = robot_.joints[static_cast<std::size_t>(in_chain.joint)];
   throw InputError({joint.where, "<joint name=\"" + joint.name + "\">",
-                    "a controller, spring, damping or stock friction on a joint without a scalar coordinate of its own",
+                    "a controller, spring, damping, stop or stock friction on a joint without a scalar coordinate of its own",
                     topology_.pairs[static_cast<std::size_t>(pair)].name,
                     "revolute, continuous and prismatic joints; in a ball joint of three hinges those at right angles to each other"});
+}
+
+void System::check_couplings() const {
+  for (const Coupling& coupling : topology_.couplings)
+    for (const CouplingTerm& term : coupling.terms)
+      if (!has_coordinate_[static_cast<std::size_t>(term.pair)][static_cast<std::size_t>(term.element)])
+        throw InputError({coupling.where, coupling.element(),
+                          "a joint of a chain of links without <inertial> has no coordinate in closed form",
+                          robot_.joints[static_cast<std::size_t>(term.joint)].name,
+                          "in a ball joint of three hinges, hinges at right angles to each other"});
 }
 
 void System::check_readable(const Signal& signal, const SignalDescription& description) const {
@@ -186,12 +200,9 @@ void System::refuse_unsupported() const {
                       ""});
   for (const JointDescription& joint : robot_.joints) {
     const std::string element = (joint.is_loop ? "<loop name=\"" : "<joint name=\"") + joint.name + "\">";
-    if (joint.mimic) refuse(joint.where, element, "<mimic>");
     if (joint.friction && joint.friction->model != FrictionModel::kBrownMcPhee)
       refuse(joint.friction->where, element, "a friction model other than brown_mcphee");
   }
-  for (const CouplingDescription& coupling : robot_.couplings)
-    refuse(coupling.where, "<coupling name=\"" + coupling.name + "\">", "a coupling");
 }
 
 }  // namespace codesign

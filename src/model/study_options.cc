@@ -25,7 +25,25 @@ void read_count(const YamlValue& parent, const std::string& key, int* count) {
   if (*count < 1) value->fail("count out of range", "1 or more");
 }
 
+void read_positive(const YamlValue& parent, const std::string& key, bool zero_allowed, double* number) {
+  const auto value = parent.find(key);
+  if (!value) return;
+  *number = value->number();
+  if (*number < 0.0 || (*number == 0.0 && !zero_allowed)) value->fail(key + " out of range", zero_allowed ? "0 or more" : "more than 0");
+}
+
 }  // namespace
+
+LimitOptions read_limit_options(const YamlValue& limits) {
+  limits.require_keys({}, {"effort", "position", "stiffness", "dissipation", "width"});
+  LimitOptions options;
+  if (const auto effort = limits.find("effort")) options.effort = effort->boolean();
+  if (const auto position = limits.find("position")) options.position = position->boolean();
+  read_positive(limits, "stiffness", false, &options.stiffness);
+  read_positive(limits, "dissipation", true, &options.dissipation);
+  read_positive(limits, "width", false, &options.width);
+  return options;
+}
 
 SolverOptions read_solver_options(const YamlValue& solver) {
   solver.require_keys({}, {"integrator", "method", "relative_tolerance", "absolute_tolerance", "sensitivity_tolerance", "initial_step",

@@ -38,6 +38,7 @@ class Equations {
   void set_design(const std::vector<T>& parameters);
   const Constants<T>& constants() const { return constants_; }
   const std::vector<T>& parameters() const { return parameters_; }
+  const PairRows<T>& rows(int pair) const { return rows_[static_cast<std::size_t>(pair)]; }
   const T& setpoint(int controller) const { return setpoints_[static_cast<std::size_t>(controller)]; }
 
   /// Residual G (columns() rows) and the objective's integrand g at a state.
@@ -86,9 +87,14 @@ class Equations {
   template <class Sink>
   void assemble_product(int pair, const ProductRow<T>& product, const PairMotion<T>& shared, int row, Sink* sink);
   template <class Sink>
+  void assemble_coupling(std::size_t k, Sink* sink);
+  template <class Sink>
   void assemble_body(std::size_t b, Sink* sink);
   template <class Sink>
   void assemble_load(const JointLoad& load, Sink* sink);
+  /// Adds (J^T load)_q of a load along a coordinate.
+  template <class Sink>
+  void assemble_load_curvature(int pair, int element, const T& load, Sink* sink);
   template <class Sink>
   void assemble_contact(int pair, Sink* sink);
   template <class Sink>
@@ -99,6 +105,8 @@ class Equations {
   void assemble_objective(Sink* sink);
 
   void pair_residual(std::size_t k, VectorX<T>* G);
+  void coupling_residual(std::size_t k, VectorX<T>* G);
+  void coupling_error(std::size_t k, VectorX<T>* Phi, VectorX<T>* Phi_rate);
   void body_residual(std::size_t b, VectorX<T>* G);
   void load_residual(const JointLoad& load, VectorX<T>* G);
   void contact_residual(int pair, VectorX<T>* G);
@@ -108,6 +116,10 @@ class Equations {
   NormalForce<T> normal_force(int pair) const;
   T reaction_friction(int pair, int element, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient, FrictionState<T>* state);
   T passive_load(int pair, int element, const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient) const;
+  /// What the controllers of a load apply, within the effort limit if that holds.
+  T applied_effort(const JointLoad& load, SparseGradient<T>* gradient);
+  /// Load of the stops, positive against the coordinate.
+  T stop_load(const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient) const;
   void append_normal_gradient(int pair, const Vector3<T>& F, const Vector3<T>& torque, const T& factor, SparseGradient<T>* gradient) const;
   void append_local(int pair, const LocalRow<T>& row, const T& factor, bool with_r, typename SparseGradient<T>::Entries* entries) const;
   /// Gradient of a coordinate's rate.

@@ -33,7 +33,11 @@ struct JointLoad {
   bool reaction_friction = false;  ///< an annotated friction law acts on this coordinate
   bool constant_friction = false;  ///< `<dynamics friction>`
   bool passive = false;            ///< damping or a torsion spring
+  bool stop = false;               ///< `<limit lower upper>` as stops
+  bool saturated = false;          ///< `<limit effort>` bounds what the controllers apply
   std::vector<int> controllers;    ///< that drive this coordinate
+
+  bool needs_position() const { return passive || stop; }
 };
 
 /// A mechanism and a study compiled into equations of motion; immutable, shared by all workspaces.
@@ -75,6 +79,7 @@ class System {
   void collect_loads();
   void find_coordinates();
   void refuse_load(int pair, int element) const;
+  void check_couplings() const;
   void resolve_objective();
   void record_pattern();
   void refuse_unsupported() const;

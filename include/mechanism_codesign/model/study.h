@@ -68,6 +68,15 @@ struct ParameterConstraint {
   SourceLocation where;
 };
 
+/// Which of URDF's `<limit>` are enforced, and what the stops are made of; doc/theory.md (13c), (13d).
+struct LimitOptions {
+  bool effort = false;       ///< saturates what controllers apply
+  bool position = false;     ///< stops at lower and upper
+  double stiffness = 1e4;    ///< of a stop [N/m or N m/rad]
+  double dissipation = 1.0;  ///< of a stop: relative growth of its force per speed [s/m or s/rad]
+  double width = 1e-3;       ///< over which a stop takes hold [m or rad]
+};
+
 struct SolverOptions {
   std::string integrator = "rosenbrock";  ///< or "idas"
   std::string method = "rodas4";          ///< rosenbrock: rodas4, rodas4p2, rodas5p
@@ -98,6 +107,7 @@ struct Study {
   std::vector<ObjectiveTerm> integral;
   std::vector<ObjectiveTerm> terminal;
   std::vector<ParameterConstraint> constraints;
+  LimitOptions limits;
   SolverOptions solver;
   OptimizerOptions optimizer;
   std::string file;
