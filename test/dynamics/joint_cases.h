@@ -16,6 +16,7 @@ struct JointCase {
   std::string content;   ///< between the bodies `base` and `tip`
   int rows = 0;          ///< of the joint, and of what is coupled to it
   bool reaction = true;  ///< Equations::reaction gives F'' and T'' in full
+  bool loaded = true;    ///< its reaction is not zero where the bodies fly freely
 };
 
 inline void PrintTo(const JointCase& c, std::ostream* out) { *out << c.name; }
@@ -77,8 +78,8 @@ inline std::vector<JointCase> trees() {
           {"universal", chain({{'R', "1 0 0"}, {'R', "0.3 1 0"}}), 4, false},
           {"planar", one("planar"), 3},
           {"table", chain({{'P', "1 0 0"}, {'P', "0.4 1 0"}}), 4},
-          {"translational", chain({{'P', "1 0 0"}, {'P', "0.4 1 0"}, {'P', "0 0.2 1"}}), 3},
-          {"floating", one("floating"), 0}};
+          {"translational", chain({{'P', "1 0 0"}, {'P', "0.4 1 0"}, {'P', "0 0.2 1"}}), 3, true, false},
+          {"floating", one("floating"), 0, true, false}};
 }
 
 inline std::vector<JointCase> loops() {

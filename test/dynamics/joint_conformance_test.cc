@@ -121,10 +121,9 @@ TEST_P(JointConformance, ParameterDerivativesOfLanesAreThoseOfTheComplexStep) {
       },
       Eigen::Map<const Eigen::VectorXd>(parameters.data(), 3));
   EXPECT_LT(compare_jacobians(derivative, reference).largest, 1e-11);
-  EXPECT_GT(derivative.col(1).norm(), 1e-3) << "the mass counts in every case";
-  if (GetParam().rows > 0) {
-    EXPECT_GT(derivative.col(0).norm(), 1e-3) << "so does the joint's place";
-  }
+  if (!GetParam().loaded) return;
+  EXPECT_GT(derivative.col(0).norm(), 1e-3) << "the joint's place counts";
+  EXPECT_GT(derivative.col(1).norm(), 1e-3) << "and so does the mass";
 }
 
 /// Force on a body in ground axes and torque about its centre in body axes.

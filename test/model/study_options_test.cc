@@ -41,6 +41,24 @@ TEST(StudyOptions, RefusesBadSolverValues) {
   expect_fault(with("solver: {tolerance: 1e-6}"), "solver.tolerance", "unknown key", 3);
 }
 
+TEST(StudyOptions, ReadsTheLimits) {
+  const LimitOptions none = read_text(kLeastStudy).limits;
+  EXPECT_FALSE(none.effort || none.position);
+  const LimitOptions limits = read_text(with("limits: {effort: true, position: true, stiffness: 2e3, dissipation: 0, width: 1e-2}")).limits;
+  EXPECT_TRUE(limits.effort && limits.position);
+  EXPECT_EQ(limits.stiffness, 2e3);
+  EXPECT_EQ(limits.dissipation, 0.0);
+  EXPECT_EQ(limits.width, 1e-2);
+}
+
+TEST(StudyOptions, RefusesBadLimits) {
+  expect_fault(with("limits: {effort: 3}"), "limits.effort", "not a truth value", 3);
+  expect_fault(with("limits: {stiffness: 0}"), "limits.stiffness", "out of range", 3);
+  expect_fault(with("limits: {dissipation: -1}"), "limits.dissipation", "out of range", 3);
+  expect_fault(with("limits: {width: 0}"), "limits.width", "out of range", 3);
+  expect_fault(with("limits: {positions: true}"), "limits.positions", "unknown key", 3);
+}
+
 TEST(StudyOptions, RefusesBadOptimizerValues) {
   expect_fault(with("optimizer: {algorithm: slqsp}"), "optimizer.algorithm", "did you mean \"slsqp\"", 3);
   expect_fault(with("optimizer: {max_evaluations: 0}"), "optimizer.max_evaluations", "out of range", 3);
