@@ -84,7 +84,7 @@ TEST(VendorArm, FaultsAreNamedWithTheirPlace) {
   EXPECT_NE(error["message"].get<std::string>().find("did you mean \"elbow_joint\"?"), std::string::npos);
   error = fault("codesign:multiplier=\"${finger_multiplier}\"", "codesign:multiplier=\"${2*finger_multiplier}\"");
   EXPECT_EQ(error["line"], 18);
-  EXPECT_EQ(error["element"], "<mimic>");
+  EXPECT_EQ(error["element"], "<joint name=\"right_finger_joint\"> <mimic>");
 }
 
 }  // namespace
