@@ -33,6 +33,7 @@ struct JointLoad {
   bool reaction_friction = false;  ///< an annotated friction law acts on this coordinate
   bool constant_friction = false;  ///< `<dynamics friction>`
   bool passive = false;            ///< damping or a torsion spring
+  bool spring = false;             ///< a torsion spring, which depends on the position
   std::vector<int> controllers;    ///< that drive this coordinate
 };
 
