@@ -88,14 +88,14 @@ void Equations<T>::assemble_pair(std::size_t k, Sink* sink) {
   int row = layout_.lambda_column(layout_.pair_row[k]);
   if (rows.coincident) {
     const Vector3<T> lambda = state_->z.template segment<3>(row);
-    add_vector_load(PairVector<T>::displacement(rows.point(Side::kI), rows.point(Side::kJ)), lambda, &load_on(pair.body_i),
-                    &load_on(pair.body_j));
+    add_vector_load(PairVector<T>::displacement(rows.point(Side::kI), rows.point(Side::kJ)), lambda, load_on(pair.body_i),
+                    load_on(pair.body_j));
     if (pair.body_i >= 0) internal::assemble_coincidence(i, rows.point(Side::kI), -1.0, kBodySize * pair.body_i, row, sink);
     if (pair.body_j >= 0) internal::assemble_coincidence(j, rows.point(Side::kJ), 1.0, kBodySize * pair.body_j, row, sink);
     row += 3;
   }
   PairMotion<T> shared;
-  shared.update(rows, i, pair.body_i < 0, j, pair.body_j < 0, true);
+  shared.update(rows, i, j, true);
   for (const ProductRow<T>& product : rows.products) assemble_product(static_cast<int>(k), product, shared, row++, sink);
   if (system_.compliance() == 0.0) return;
   for (int r = row - rows.size(); r < row; ++r) sink->rate(r, r, T(-system_.compliance()));
@@ -110,7 +110,7 @@ void Equations<T>::assemble_product(int index, const ProductRow<T>& product, con
   ProductGradient<T> g;
   internal::row_gradient(product, shared, x, y, fixed, &g);
   const T scale(product.scale), twice(2.0 * product.scale), lambda = scale * state_->z[row];
-  add_product_load(product.X, product.Y, x, y, lambda, &load_on(pair.body_i), &load_on(pair.body_j));
+  add_product_load(product.X, product.Y, x, y, lambda, load_on(pair.body_i), load_on(pair.body_j));
   for (int local = 0; local < kLocalSize; ++local) {
     const Side side = local < kBodySize ? Side::kI : Side::kJ;
     const int c = column(index, local);

@@ -18,9 +18,8 @@ void Equations<T>::coupling_error(std::size_t k, VectorX<T>* Phi, VectorX<T>* Ph
   (*Phi_rate)[row] = T(0.0);
   for (std::size_t t = 0; t < coupling.terms.size(); ++t) {
     const CouplingTerm& term = coupling.terms[t];
-    const CoordinateMotion<T> motion = coordinate(term.pair, term.element);
-    (*Phi)[row] += c.coefficients[t] * motion.position;
-    (*Phi_rate)[row] += c.coefficients[t] * motion.rate;
+    (*Phi)[row] += c.coefficients[t] * coordinate_value(term.pair, term.element);
+    (*Phi_rate)[row] += c.coefficients[t] * coordinate(term.pair, term.element, CoordinateDetail::kRate).rate;
   }
 }
 
@@ -33,7 +32,7 @@ void Equations<T>::coupling_residual(std::size_t k, VectorX<T>* G) {
   for (std::size_t t = 0; t < coupling.terms.size(); ++t) {
     const CouplingTerm& term = coupling.terms[t];
     const T coefficient = constants_.couplings[k].coefficients[t];
-    const CoordinateMotion<T> motion = coordinate(term.pair, term.element, CoordinateDetail::kGradient);
+    const CoordinateMotion<T>& motion = coordinate(term.pair, term.element, CoordinateDetail::kGradient);
     (*G)[row] += coefficient * motion.acceleration;
     for (int local = 0; local < kLocalSize; ++local)
       if (const int c = column(term.pair, local); c >= 0) (*G)[c] += motion.J[local] * coefficient * lambda;
@@ -49,7 +48,7 @@ void Equations<T>::assemble_coupling(std::size_t k, Sink* sink) {
   for (std::size_t t = 0; t < coupling.terms.size(); ++t) {
     const CouplingTerm& term = coupling.terms[t];
     const T coefficient = constants_.couplings[k].coefficients[t];
-    const CoordinateMotion<T> motion = coordinate(term.pair, term.element, CoordinateDetail::kGradient);
+    const CoordinateMotion<T>& motion = coordinate(term.pair, term.element, CoordinateDetail::kGradient);
     const bool with_r = coordinate_moves_r(term.pair, term.element);
     for (int local = 0; local < kLocalSize; ++local) {
       const int c = column(term.pair, local);

@@ -27,7 +27,7 @@ T Equations<T>::stop_load(const JointLoad& load, const CoordinateMotion<T>& moti
   const JointDynamicsConstants<T>& d =
       constants_.pairs[static_cast<std::size_t>(load.pair)].dynamics[static_cast<std::size_t>(load.element)];
   const LimitOptions& stop = system_.study().limits;
-  const T below = d.lower - motion.position, above = motion.position - d.upper;
+  const T position = coordinate_value(load.pair, load.element), below = d.lower - position, above = position - d.upper;
   const StopForce<T> at_upper = joint_stop(above, motion.rate, stop.stiffness, stop.dissipation, stop.width);
   const StopForce<T> at_lower = joint_stop(below, T(-motion.rate), stop.stiffness, stop.dissipation, stop.width);
   if (gradient) {

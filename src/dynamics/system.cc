@@ -124,13 +124,14 @@ void System::collect_loads() {
       if (e < pair.chain.size()) {
         const JointDescription& joint = robot_.joints[static_cast<std::size_t>(pair.chain[e].joint)];
         load.constant_friction = !zero(joint.dry_friction);
-        load.passive = !zero(joint.damping) || joint.spring.has_value();
+        load.spring = joint.spring.has_value();
+        load.passive = !zero(joint.damping) || load.spring;
         load.stop = study_.limits.position && has_stops(joint);
         load.saturated = study_.limits.effort && joint.limit && joint.limit->bounds_effort();
       }
       for (std::size_t c = 0; c < controllers_.size(); ++c)
         if (controllers_[c].pair == load.pair && controllers_[c].element == load.element) load.controllers.push_back(static_cast<int>(c));
-      if (!load.reaction_friction && !load.constant_friction && !load.needs_position() && load.controllers.empty()) continue;
+      if (!load.reaction_friction && !load.constant_friction && !load.passive && !load.stop && load.controllers.empty()) continue;
       if (!has_coordinate_[p][e]) refuse_load(load.pair, load.element);
       loads_.push_back(load);
     }

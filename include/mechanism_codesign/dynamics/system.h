@@ -33,11 +33,12 @@ struct JointLoad {
   bool reaction_friction = false;  ///< an annotated friction law acts on this coordinate
   bool constant_friction = false;  ///< `<dynamics friction>`
   bool passive = false;            ///< damping or a torsion spring
+  bool spring = false;             ///< a torsion spring, which depends on the position
   bool stop = false;               ///< `<limit lower upper>` as stops
   bool saturated = false;          ///< `<limit effort>` bounds what the controllers apply
   std::vector<int> controllers;    ///< that drive this coordinate
 
-  bool needs_position() const { return passive || stop; }
+  bool needs_position() const { return spring || stop; }
 };
 
 /// A mechanism and a study compiled into equations of motion; immutable, shared by all workspaces.

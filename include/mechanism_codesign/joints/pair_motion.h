@@ -14,21 +14,14 @@ struct PairMotion {
   std::array<VectorMotion<T>, PairRows<T>::kVectors> motion;
   std::array<VectorJacobian<T>, PairRows<T>::kVectors> jacobian;
 
-  /// @param fixed_i, fixed_j whether that body is the ground, on which vectors rest and have no Jacobian.
-  void update(const PairRows<T>& rows, const BodyKinematics<T>& i, bool fixed_i, const BodyKinematics<T>& j, bool fixed_j,
-              bool with_jacobians) {
+  /// Vectors that are fixed in the ground have no Jacobian.
+  void update(const PairRows<T>& rows, const BodyKinematics<T>& i, const BodyKinematics<T>& j, bool with_jacobians) {
     for (std::size_t k = 0; k < rows.vectors.size(); ++k) {
       if (!rows.used[k]) continue;
       const VectorTerm<T>& term = rows.vectors[k];
-      const bool fixed = term.side == Side::kI ? fixed_i : fixed_j;
       const BodyKinematics<T>& body = term.side == Side::kI ? i : j;
-      motion[k] = fixed ? VectorMotion<T>{term.s, Vector3<T>::Zero(), Vector3<T>::Zero()} : direction_motion(body, term.s);
-      if (term.point && !fixed) {
-        motion[k].x += body.r;
-        motion[k].xd += body.rd;
-        motion[k].xdd += body.rdd;
-      }
-      if (with_jacobians && !fixed) jacobian[k] = vector_jacobian(body, term.s);
+      motion[k] = term.point ? point_motion(body, term.s) : direction_motion(body, term.s);
+      if (with_jacobians && !body.at_rest) jacobian[k] = vector_jacobian(body, term.s);
     }
   }
 
