@@ -14,6 +14,13 @@ Equations<T>::Equations(const System& system) : system_(system), layout_(system.
   kinematics_.back().at_rest = true;
   loads_.resize(static_cast<std::size_t>(layout_.bodies));
   constraint_state_.resize(layout_);
+  for (const Pair& pair : system.topology().pairs) {
+    std::array<int, kLocalSize>& columns = columns_.emplace_back();
+    for (int local = 0; local < kLocalSize; ++local) {
+      const int body = local < kBodySize ? pair.body_i : pair.body_j;
+      columns[static_cast<std::size_t>(local)] = body < 0 ? -1 : kBodySize * body + local % kBodySize;
+    }
+  }
 }
 
 template <class T>
@@ -101,7 +108,7 @@ void Equations<T>::pair_residual(std::size_t k, VectorX<T>* G) {
   PairMotion<T> shared;
   shared.update(rows, i, j, false);
   for (const ProductRow<T>& product : rows.products) {
-    const VectorMotion<T> x = shared.of(product.X), y = shared.of(product.Y);
+    const VectorMotion<T>&x = shared.of(product.X), &y = shared.of(product.Y);
     const T scale(product.scale);
     (*G)[row] = scale * product_motion(x, y).phidd;
     add_product_load(product.X, product.Y, x, y, T(scale * state_->z[row]), load_i, load_j);
@@ -188,13 +195,6 @@ void Equations<T>::reaction(int pair, Vector3<T>* F, Vector3<T>* torque) const {
   (*torque)[1] = lambda(next);
   (*torque)[0] = -lambda(next + 1);
   if (rows.size() > next + 2) (*torque)[2] = lambda(next + 2);
-}
-
-template <class T>
-int Equations<T>::column(int pair, int local) const {
-  const Pair& p = system_.topology().pairs[static_cast<std::size_t>(pair)];
-  const int body = local < kBodySize ? p.body_i : p.body_j;
-  return body < 0 ? -1 : kBodySize * body + local % kBodySize;
 }
 
 }  // namespace codesign

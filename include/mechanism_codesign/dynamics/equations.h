@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_DYNAMICS_EQUATIONS_H_
 #define MECHANISM_CODESIGN_DYNAMICS_EQUATIONS_H_
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -145,7 +146,7 @@ class Equations {
                     SparseGradient<T>* gradient);
 
   /// Global column of a local coordinate of a pair, or -1 on the ground.
-  int column(int pair, int local) const;
+  int column(int pair, int local) const { return columns_[static_cast<std::size_t>(pair)][static_cast<std::size_t>(local)]; }
   bool coordinate_moves_r(int pair, int element) const;
   /// What to add to a position so that it continues its reference.
   double whole_turns(int pair, int element, const T& position) const;
@@ -157,6 +158,7 @@ class Equations {
   std::vector<T> parameters_;
   Constants<T> constants_;
   std::vector<PairRows<T>> rows_;
+  std::vector<std::array<int, kLocalSize>> columns_;  ///< of each pair's local coordinates
   std::vector<T> setpoints_, gains_p_, gains_i_, gains_d_;
   std::vector<T> integral_weights_, integral_references_, terminal_weights_, terminal_references_;
   Vector3<T> gravity_;

@@ -63,7 +63,7 @@ class System {
   /// Patterns of the equations' derivatives (columns() rows) with the integrand g as one row below them. Columns: Layout::position_column()
   /// for positions, coordinates for velocities, Layout::columns() for rates.
   const ByVariable<Sparsity>& patterns() const { return patterns_; }
-  /// Slots of the assembly's calls in order.
+  /// Slots of the assembly's calls in order, as PatternRecorder::build() gives them.
   const ByVariable<std::vector<int>>& slots() const { return slots_; }
 
   double compliance() const { return compliance_; }
