@@ -76,7 +76,7 @@ bool AdjointGradient::step_back(int k) {
   const bool has_stages = k + 1 < back_->path.size(), is_projected = k > 0;
   adjoint.clear();
   if (has_stages) adjoint.reverse_stages(step);
-  if (is_projected) adjoint.reverse_projection(step);
+  if (is_projected) adjoint.reverse_projection(back_->point, step);
   adjoint.reverse_matrices(back_->point, step);
   back_->parameters->for_each([&](auto* lanes) {
     if (has_stages) lanes->add_stages(adjoint, step.equations());

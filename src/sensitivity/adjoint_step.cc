@@ -153,10 +153,10 @@ void AdjointStep::solve_projection(const RosenbrockStep<double>& step, int first
 }
 
 // (Phi_q v)_q is half the derivative of the acceleration rows by v; theory (6).
-void AdjointStep::reverse_velocity_errors(const RosenbrockStep<double>& step) {
+void AdjointStep::reverse_velocity_errors(const State<double>& start, const RosenbrockStep<double>& step) {
   const RowRange constraints{layout_.n, layout_.n + layout_.m};
   const double* const mu = velocity_errors_.mu.data();
-  velocity_errors_.point = step.unprojected();
+  velocity_errors_.point = start;
   velocity_errors_.point.q = step.state().q;
   equations_.turn_references() = step.equations().turn_references();
   equations_.linearize(velocity_errors_.point, &derivatives_);
@@ -166,15 +166,15 @@ void AdjointStep::reverse_velocity_errors(const RosenbrockStep<double>& step) {
   adjoint_.segment(at_.v(), at_.n) += z_.head(at_.n);
 }
 
-void AdjointStep::reverse_projection(const RosenbrockStep<double>& step) {
+void AdjointStep::reverse_projection(const State<double>& start, const RosenbrockStep<double>& step) {
   const int first_pair = tableau_.stages;
   solve_projection(step, at_.v(), &velocity_errors_);
-  reverse_velocity_errors(step);
+  reverse_velocity_errors(start, step);
   direction_.segment(at_.z(), at_.z_size) = step.velocity_correction();
   add_pair(first_pair + kVelocityPair, direction_, velocity_errors_.mu);
 
   solve_projection(step, at_.x(), &position_errors_);
-  position_errors_.point = step.unprojected();
+  position_errors_.point = start;
   z_.setZero();
   add_transposed_product(system_.patterns().rate, step.derivatives().rate, {layout_.n, layout_.n + layout_.m}, 1.0,
                          position_errors_.mu.data(), z_.data());

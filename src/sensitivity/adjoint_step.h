@@ -30,9 +30,9 @@ class AdjointStep {
 
   /// Back over the stages of the step's last attempt, from where it ended to where it began.
   void reverse_stages(const RosenbrockStep<double>& step);
-  /// Back over the projection onto the constraints with which the step was taken up, RosenbrockStep::resume().
-  void reverse_projection(const RosenbrockStep<double>& step);
-  /// Adds what stages and projection owe to the matrices, made at `start` of the step (unprojected).
+  /// Back over the projection onto the constraints with which the step was taken up, RosenbrockStep::resume(start).
+  void reverse_projection(const State<double>& start, const RosenbrockStep<double>& step);
+  /// Adds what stages and projection owe to the matrices, made at `start` too.
   void reverse_matrices(const State<double>& start, const RosenbrockStep<double>& step);
 
   /// psi_y where reverse_matrices() left it.
@@ -58,7 +58,7 @@ class AdjointStep {
   void reverse_elimination(std::size_t i, double hg);
   void reverse_point(std::size_t i, const RosenbrockStep<double>& step);
   void solve_projection(const RosenbrockStep<double>& step, int first, WeightedPoint* errors);
-  void reverse_velocity_errors(const RosenbrockStep<double>& step);
+  void reverse_velocity_errors(const State<double>& start, const RosenbrockStep<double>& step);
   void add_products(const Linearization<double>& derivatives, RowRange rows, const VectorX<double>& mu, VectorX<double>* adjoint) const;
   void add_pair(int k, const VectorX<double>& u, const VectorX<double>& mu);
 

@@ -6,7 +6,7 @@
 namespace codesign {
 namespace {
 
-constexpr int kStart = 4;  // the parameter that moves the initial state alone
+constexpr int kStart = 3;  // the parameter that moves the initial state alone
 
 class AdjointStepTest : public ::testing::TestWithParam<const char*> {};
 

@@ -51,7 +51,7 @@ struct ServoSteps {
         EXPECT_TRUE(step.attempt(kSize));
         adjoint.reverse_stages(step);
       }
-      if (k > 0) adjoint.reverse_projection(step);
+      if (k > 0) adjoint.reverse_projection(points[k], step);
       adjoint.reverse_matrices(points[k], step);
       visit(k);
     }
