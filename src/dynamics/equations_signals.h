@@ -124,16 +124,16 @@ T Equations<T>::load_term(const SignalReference& term, const T& factor, SparseGr
   T sum(0.0);
   for (const JointLoad& load : system_.loads()) {
     if (load.pair != term.pair || load.element != term.element) continue;
-    JointLoad part = load;
-    part.passive = false;
-    if (term.kind == SignalKind::kJointEffort) {
-      part.reaction_friction = part.constant_friction = false;
-    } else {
-      part.controllers.clear();
-    }
-    const CoordinateMotion<T> motion = coordinate(term.pair, term.element);
     const auto before = mark(gradient);
-    sum -= factor * joint_load(part, motion, gradient);
+    if (term.kind == SignalKind::kJointEffort) {
+      for (int controller : load.controllers) sum += factor * controller_output(controller, gradient);
+      if (gradient) gradient->scale_from(before, factor);
+      continue;
+    }
+    // A copy without the list of controllers takes no memory.
+    const JointLoad friction{load.pair, load.element, load.reaction_friction, load.constant_friction, false, {}};
+    const CoordinateMotion<T> motion = coordinate(term.pair, term.element);
+    sum -= factor * joint_load(friction, motion, gradient);
     if (gradient) gradient->scale_from(before, T(-factor));
   }
   return sum;

@@ -32,7 +32,9 @@ TEST_P(StepLoop, OfASimulationAsksForNoMemory) {
   for (const bool warm : {false, true}) {
     ASSERT_TRUE(integrator->start(system->parameters()).ok());
     const std::int64_t count = allocations_of_steps(integrator.get(), test.study.duration, [&] { return integrator->state().t; });
-    if (warm) EXPECT_EQ(count, 0);
+    if (warm) {
+      EXPECT_EQ(count, 0);
+    }
   }
 }
 
@@ -45,7 +47,9 @@ TEST_P(StepLoop, OfAGradientAsksForNoMemory) {
       ASSERT_TRUE(engine->start(system->parameters(), true).ok());
       const std::int64_t count = allocations_of_steps(engine.get(), test.study.duration, [&] { return engine->time(); });
       engine->gradient(&result);
-      if (warm) EXPECT_EQ(count, 0) << gradient;
+      if (warm) {
+        EXPECT_EQ(count, 0) << gradient;
+      }
     }
   }
 }

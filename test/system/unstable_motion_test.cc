@@ -1,5 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 // Haug's slider-crank where it is hard: gains of the wrong sign, a stuck slider, a stiff controller. Counts of steps, no times.
+#include <algorithm>
+
 #include "mechanism_codesign/optimization/optimizer.h"
 #include "system/shipped.h"
 
@@ -15,6 +17,7 @@ class HardSliderCrank : public ::testing::Test {
     rho[kGain] = Kp;
     return Evaluator(make_system(shipped.robot, shipped.study)).evaluate(rho, with_gradient);
   }
+  /// The optimizer begins there.
   void start_at(double Kp) { shipped.study.parameters[static_cast<std::size_t>(shipped.study.tuned[kGain])].value = Kp; }
 
   Shipped shipped{"slider_crank_haug"};
@@ -39,21 +42,24 @@ TEST_F(HardSliderCrank, RunsAwayOnlyBrieflyWithIdas) {
   }
 }
 
-// From Kp = 0.05 down the slope of a made-up objective: the less speed the better, so that the search goes for the wrong sign.
+// The less effort the better: the search runs through Kp = 0 to gains of the wrong sign.
 TEST_F(HardSliderCrank, AnOptimizerThatStepsThereGoesOn) {
+  shipped.study.tuned = {shipped.study.tuned[kGain]};
+  shipped.study.constraints.clear();
+  shipped.study.integral.erase(shipped.study.integral.begin());
   shipped.study.solver.relative_tolerance = 1e-6;
   shipped.study.solver.absolute_tolerance = 1e-7;
-  shipped.study.optimizer.algorithm = "cobyla";
-  shipped.study.optimizer.max_evaluations = 25;
-  start_at(0.1);
-  const auto system = make_system(shipped.robot, shipped.study);
-  int failed = 0;
-  const OptimizationResult result = optimize(system, shipped.study, [&](const Trial& trial) {
-    if (!trial.status.ok()) ++failed;
+  shipped.study.optimizer.algorithm = "lbfgs";
+  shipped.study.optimizer.max_evaluations = 15;
+  std::vector<StatusCode> codes;
+  const OptimizationResult result = optimize(make_system(shipped.robot, shipped.study), shipped.study, [&](const Trial& trial) {
+    codes.push_back(trial.status.code);
     return true;
   });
   EXPECT_TRUE(result.status.ok()) << result.status.cause;
+  const auto failed = std::count(codes.begin(), codes.end(), StatusCode::kUnstableMotion);
   EXPECT_GT(failed, 0);
+  EXPECT_EQ(codes.back(), StatusCode::kSuccess) << "it went on";
   EXPECT_EQ(result.failed_evaluations, failed);
   EXPECT_LT(result.objective, result.initial_objective);
 }
