@@ -9,8 +9,9 @@ namespace codesign {
 template <class T>
 T Equations<T>::joint_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient) {
   const bool position = term.kind == SignalKind::kJointPosition;
+  if (position && !gradient) return factor * coordinate_value(term.pair, term.element);
   const bool rate_alone = !gradient && term.kind != SignalKind::kJointAcceleration;
-  const CoordinateMotion<T> m = coordinate(term.pair, term.element,
+  const CoordinateMotion<T>& m = coordinate(term.pair, term.element,
                                            position     ? CoordinateDetail::kAll
                                            : rate_alone ? CoordinateDetail::kRate
                                                         : CoordinateDetail::kGradient);
@@ -131,8 +132,12 @@ T Equations<T>::load_term(const SignalReference& term, const T& factor, SparseGr
       continue;
     }
     // A copy without the list of controllers takes no memory.
-    const JointLoad friction{load.pair, load.element, load.reaction_friction, load.constant_friction, false, {}};
-    const CoordinateMotion<T> motion = coordinate(term.pair, term.element);
+    JointLoad friction;
+    friction.pair = load.pair;
+    friction.element = load.element;
+    friction.reaction_friction = load.reaction_friction;
+    friction.constant_friction = load.constant_friction;
+    const CoordinateMotion<T>& motion = coordinate(term.pair, term.element, gradient ? CoordinateDetail::kGradient : CoordinateDetail::kRate);
     sum -= factor * joint_load(friction, motion, gradient);
     if (gradient) gradient->scale_from(before, T(-factor));
   }

@@ -21,7 +21,6 @@ AdjointStep::AdjointStep(const System& system, const RosenbrockTableau& tableau)
       start_adjoint_(adjoint_),
       stage_adjoint_(adjoint_),
       sum_adjoint_(adjoint_),
-      shift_(adjoint_),
       z_(VectorX<double>::Zero(at_.z_size)),
       direction_(adjoint_),
       time_weights_(VectorX<double>::Zero(at_.z_size + 1)),
@@ -59,15 +58,6 @@ void AdjointStep::add_products(const Linearization<double>& derivatives, RowRang
   add_transposed_product(patterns.position, derivatives.position, rows, 1.0, mu.data(), adjoint->data() + at_.x());
   add_transposed_product(patterns.velocity, derivatives.velocity, rows, 1.0, mu.data(), adjoint->data() + at_.v());
   add_transposed_product(patterns.rate, derivatives.rate, rows, 1.0, mu.data(), adjoint->data() + at_.z());
-}
-
-void AdjointStep::place_stage(std::size_t i, const RosenbrockStep<double>& step) {
-  State<double>& stage = stages_[i].point;
-  shift_.setZero();
-  for (std::size_t j = 0; j < i; ++j) shift_ += tableau_.a[i][j] * step.increments()[j];
-  stage = step.state();
-  add_increment(at_, shift_, &stage);
-  stage.t += tableau_.alpha[i] * step.step_size();
 }
 
 // u_psi = h gamma (g + Sigma_psi + g_y u).
@@ -111,7 +101,7 @@ void AdjointStep::reverse_elimination(std::size_t i, double hg) {
 }
 
 void AdjointStep::reverse_point(std::size_t i, const RosenbrockStep<double>& step) {
-  place_stage(i, step);
+  stages_[i].point = step.stages()[i];
   equations_.linearize(stages_[i].point, &derivatives_);
   add_products(derivatives_, {0, at_.z_size + 1}, stages_[i].mu, &stage_adjoint_);
   start_adjoint_ += stage_adjoint_;

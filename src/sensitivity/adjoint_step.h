@@ -52,7 +52,6 @@ class AdjointStep {
   void clear();
 
  private:
-  void place_stage(std::size_t i, const RosenbrockStep<double>& step);
   void reverse_integrand(std::size_t i, const RosenbrockStep<double>& step);
   void reverse_solve(std::size_t i, const RosenbrockStep<double>& step);
   void reverse_elimination(std::size_t i, double hg);
@@ -70,7 +69,7 @@ class AdjointStep {
   Linearization<double> derivatives_;
   Curvature<8> curvature_;
   std::optional<Curvature<4>> more_curvature_;  ///< of methods with more than six stages: the projection's
-  VectorX<double> adjoint_, start_adjoint_, stage_adjoint_, sum_adjoint_, shift_, z_, direction_, time_weights_;
+  VectorX<double> adjoint_, start_adjoint_, stage_adjoint_, sum_adjoint_, z_, direction_, time_weights_;
   std::vector<VectorX<double>> increment_adjoints_;
   std::vector<WeightedPoint> stages_;
   WeightedPoint position_errors_, velocity_errors_;
