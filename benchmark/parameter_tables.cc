@@ -55,11 +55,12 @@ void measure_parameters(Report* report) {
   const std::vector<double> seconds = median_cpu_seconds(jobs, 3);
   const auto direct_at = [&](std::size_t k) { return seconds[1 + 2 * k] / seconds[0]; };
   const auto adjoint_at = [&](std::size_t k) { return seconds[2 + 2 * k] / seconds[0]; };
-  Table table{"parameters",
-              "Gradient of a chain of " + std::to_string(kLinks) + " links against the number of parameters (simulation: " +
-                  three_digits(1e3 * seconds[0]) + " ms, " + std::to_string(steps) + " steps)",
-              {"parameters", "direct, ms", "in simulations", "beyond the simulation, per parameter", "adjoint, ms", "in simulations", "auto"},
-              {}};
+  Table table{
+      "parameters",
+      "Gradient of a chain of " + std::to_string(kLinks) + " links against the number of parameters (simulation: " +
+          three_digits(1e3 * seconds[0]) + " ms, " + std::to_string(steps) + " steps)",
+      {"parameters", "direct, ms", "in simulations", "beyond the simulation, per parameter", "adjoint, ms", "in simulations", "auto"},
+      {}};
   for (std::size_t k = 0; k < kCounts.size(); ++k) {
     const bool backwards = prefers_adjoint(*direct[k]->problem.system);
     table.rows.push_back({std::to_string(kCounts[k]), three_digits(1e3 * seconds[1 + 2 * k]), three_digits(direct_at(k)),

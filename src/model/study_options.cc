@@ -43,8 +43,8 @@ void read_gradient(const YamlValue& solver, SolverOptions* options) {
 }  // namespace
 
 SolverOptions read_solver_options(const YamlValue& solver) {
-  solver.require_keys({}, {"integrator", "method", "gradient", "relative_tolerance", "absolute_tolerance", "sensitivity_tolerance", "initial_step",
-                           "maximum_step", "maximum_steps", "maximum_speed"});
+  solver.require_keys({}, {"integrator", "method", "gradient", "relative_tolerance", "absolute_tolerance", "sensitivity_tolerance",
+                           "initial_step", "maximum_step", "maximum_steps", "maximum_speed"});
   SolverOptions options;
   if (const auto integrator = solver.find("integrator")) options.integrator = integrator->choice("integrator", {"rosenbrock", "idas"});
   if (const auto method = solver.find("method")) options.method = method->choice("method", {"rodas4", "rodas4p2", "rodas5p"});

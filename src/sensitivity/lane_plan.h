@@ -8,8 +8,8 @@
 
 namespace codesign {
 
-/// Which tuned parameters share a lane: those that no row of the equations has in common, so that each row's derivative along the lane is that
-/// by one parameter (Curtis, Powell and Reid's compression); doc/theory.md (18d).
+/// Which tuned parameters share a lane: those that no row of the equations has in common, so that each row's derivative along the lane is
+/// that by one parameter (Curtis, Powell and Reid's compression); doc/theory.md (18d).
 struct LanePlan {
   std::vector<std::vector<int>> rows;  ///< per parameter, ascending: the rows that depend on it, the integrand's last
   std::vector<int> lane;               ///< per parameter

@@ -10,8 +10,8 @@
 
 namespace codesign {
 
-/// The explicit part of the gradient, sum of mu^T G_rho over all that the steps evaluated, for the parameters in up to N - 1 lanes of a plan;
-/// doc/theory.md (18d). It is summed by rows, which tell the parameters of a lane apart.
+/// The explicit part of the gradient, sum of mu^T G_rho over all that the steps evaluated, for the parameters in up to N - 1 lanes of a
+/// plan; doc/theory.md (18d). It is summed by rows, which tell the parameters of a lane apart.
 ///
 /// A plan is believed only as far as it is seen to hold: one more lane carries the direction sum_k xi_k e_k of all parameters of the group,
 /// and each row's derivative along it must be that which the plan makes of the others.
@@ -48,8 +48,8 @@ class ParameterLanes {
   State<Scalar> state_;
   VectorX<Scalar> G_, Phi_, Phi_rate_;
   Scalar g_;
-  std::vector<Vector> sums_;                      ///< per row
-  std::vector<Vector> xi_;                        ///< per row and lane: that of the parameter to which the plan gives them
+  std::vector<Vector> sums_;                     ///< per row
+  std::vector<Vector> xi_;                       ///< per row and lane: that of the parameter to which the plan gives them
   std::vector<double> largest_, largest_error_;  ///< per row, of the derivative along the checking lane
 };
 

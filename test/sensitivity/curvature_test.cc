@@ -42,7 +42,8 @@ class CurvatureTest : public ::testing::Test {
     const auto add = [&](const Sparsity& pattern, const std::vector<T>& values, int first) {
       for (int row = 0; row < pattern.rows; ++row)
         for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
-          for (std::size_t k = 0; k < kPairs; ++k) sum += mu[k][row] * u[k][first + pattern.column(e)] * values[static_cast<std::size_t>(e)];
+          for (std::size_t k = 0; k < kPairs; ++k)
+            sum += mu[k][row] * u[k][first + pattern.column(e)] * values[static_cast<std::size_t>(e)];
     };
     add(system->patterns().position, d.position, at.x());
     add(system->patterns().velocity, d.velocity, at.v());

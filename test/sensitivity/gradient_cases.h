@@ -47,19 +47,25 @@ inline GradientCase four_bar_case() {
   const std::string plain = "<mass value='1'/>";
   urdf.replace(urdf.find(plain), plain.size(), "<mass value='1' codesign:value='${mass}'/>");
   urdf.insert(urdf.find("<link name='ground'/>"), "<codesign:parameter name='mass' value='1' lower='0.5' upper='2'/>");
-  return from_texts("four_bar", urdf,
-                    "duration: 0.4\ninitial_state: {left_hinge: {position: 0.4}, right_hinge: {guess: 0.4}}\nparameters: {mass: {}, torque: {initial: 2.0}}\n"
-                    "controllers: {motor: {type: pid, input: left_hinge/velocity, setpoint: \"${torque}\", output: left_hinge, gains: {p: 0.7}}}\n"
-                    "objective: {integral: [{signal: left_hinge/velocity}, {signal: left_hinge/friction, weight: 0.1}],\n"
-                    "  terminal: [{signal: coupler/position/z, weight: \"${mass}\"}]}\n");
+  return from_texts(
+      "four_bar", urdf,
+      "duration: 0.4\ninitial_state: {left_hinge: {position: 0.4}, right_hinge: {guess: 0.4}}\nparameters: {mass: {}, torque: {initial: "
+      "2.0}}\n"
+      "controllers: {motor: {type: pid, input: left_hinge/velocity, setpoint: \"${torque}\", output: left_hinge, gains: {p: 0.7}}}\n"
+      "objective: {integral: [{signal: left_hinge/velocity}, {signal: left_hinge/friction, weight: 0.1}],\n"
+      "  terminal: [{signal: coupler/position/z, weight: \"${mass}\"}]}\n");
 }
 
 inline std::vector<GradientCase> gradient_cases() {
   const GeneratedCase chain = parametric_chain(6, 24);
   GradientCase chain_case = from_texts("chain", chain.urdf.text, chain.study.text);
   chain_case.study.duration = 0.1;
-  return {shipped_case("slider_crank_haug", 0.3), shipped_case("inverted_pendulum", 0.2), shipped_case("governor", 0.05),
-          from_texts("servo", double_pendulum(pin_friction()), servo_study("{}")), four_bar_case(), chain_case};
+  return {shipped_case("slider_crank_haug", 0.3),
+          shipped_case("inverted_pendulum", 0.2),
+          shipped_case("governor", 0.05),
+          from_texts("servo", double_pendulum(pin_friction()), servo_study("{}")),
+          four_bar_case(),
+          chain_case};
 }
 
 /// One gradient, with its objective.

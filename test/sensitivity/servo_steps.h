@@ -17,7 +17,11 @@ struct ServoSteps {
   static constexpr double kSize = 2e-3;
 
   explicit ServoSteps(const std::string& method)
-      : tableau(*rosenbrock_tableau(method)), step(*system, tableau), tangent(*system, tableau), adjoint(*system, tableau), assembly(*system) {
+      : tableau(*rosenbrock_tableau(method)),
+        step(*system, tableau),
+        tangent(*system, tableau),
+        adjoint(*system, tableau),
+        assembly(*system) {
     step.equations().set_design(parameters);
     EXPECT_TRUE(assembly.solve(parameters, &step.equations(), &initial).ok());
     step.start(initial);

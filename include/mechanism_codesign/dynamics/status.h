@@ -17,8 +17,8 @@ enum class StatusCode {
   kStepSizeTooSmall,
   kTooManySteps,
   kUnstableMotion,  ///< a body became faster than it has reason to be
-  kNonFinite,      ///< a value overflowed or became NaN
-  kInvalidDesign,  ///< the parameters give a mass, inertia or dimension that cannot be
+  kNonFinite,       ///< a value overflowed or became NaN
+  kInvalidDesign,   ///< the parameters give a mass, inertia or dimension that cannot be
 };
 
 /// Snake-case name, as sent over ROS and printed in JSON: "assembly_failed".
