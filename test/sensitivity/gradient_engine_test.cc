@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "integration/servo.h"
+#include "sensitivity/adjoint_gradient.h"
+#include "sensitivity/gradient_cases.h"
 #include "sensitivity/idas_gradient.h"
 #include "sensitivity/rosenbrock_gradient.h"
 
@@ -40,6 +41,25 @@ TEST(GradientEngine, TheStudyChooses) {
 }
 
 // An extra state, terminal terms with accelerations, friction, a parameter in the initial state and one in the objective alone.
+TEST(GradientEngine, TheStudyChoosesTheDirection) {
+  EXPECT_NE(dynamic_cast<AdjointGradient*>(make_gradient_engine(*servo("{gradient: adjoint}")).get()), nullptr);
+  EXPECT_NE(dynamic_cast<RosenbrockGradient*>(make_gradient_engine(*servo("{gradient: direct}")).get()), nullptr);
+  EXPECT_FALSE(prefers_adjoint(*servo("{integrator: idas}")));
+}
+
+// Auto: few parameters forwards, many local ones backwards, but not where their sensitivities are to be tested.
+TEST(GradientEngine, ManyLocalParametersGoBackwards) {
+  const auto prefers = [](int tuned, double sensitivity_tolerance) {
+    const GeneratedCase chain = parametric_chain(12, tuned);
+    GradientCase test = from_texts("chain", chain.urdf.text, chain.study.text);
+    test.study.solver.sensitivity_tolerance = sensitivity_tolerance;
+    return prefers_adjoint(*test.compile("rodas4", "auto"));
+  };
+  EXPECT_FALSE(prefers(5, 0.0));
+  EXPECT_TRUE(prefers(48, 0.0));
+  EXPECT_FALSE(prefers(48, 1e-4));
+}
+
 TEST(GradientEngine, TheIntegratorsAgreeToTheToleranceAskedFor) {
   const auto exact = servo(kRosenbrock);
   const Result reference = run(make_gradient_engine(*exact).get(), exact->parameters(), 0.6);
