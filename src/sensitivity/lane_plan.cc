@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr int kWidth = 8;
 using Scalar = Lanes<kWidth>;
+constexpr int kInstants = 64;  // at which parameters are looked for that act for a time only
 
 /// Rows whose derivatives along a lane are no numbers, for `kWidth` parameters at a time.
 class RowProbe {
@@ -66,6 +68,12 @@ class RowProbe {
   State<Scalar> state_;
   std::vector<Scalar> touched_;
 };
+
+std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
+  std::vector<int> all;
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
+  return all;
+}
 
 bool share(const std::vector<int>& a, const std::vector<int>& b) {
   std::vector<int> common;
@@ -123,9 +131,16 @@ LanePlan plan_lanes(const System& system) {
   Equations<double> equations(system);
   equations.set_design(parameters);
   Assembly assembly(system);
-  State<double> start;
-  assembly.solve(parameters, &equations, &start);
-  return plan_lanes(dependent_rows(system, parameters, start));
+  State<double> at;
+  assembly.solve(parameters, &equations, &at);
+  std::vector<std::vector<int>> rows = dependent_rows(system, parameters, at);
+  const auto hidden = [](const std::vector<int>& found) { return found.empty(); };
+  for (int k = 1; k <= kInstants && std::any_of(rows.begin(), rows.end(), hidden); ++k) {
+    at.t = system.study().duration * k / kInstants;
+    const std::vector<std::vector<int>> then = dependent_rows(system, parameters, at);
+    for (std::size_t parameter = 0; parameter < rows.size(); ++parameter) rows[parameter] = united(rows[parameter], then[parameter]);
+  }
+  return plan_lanes(std::move(rows));
 }
 
 }  // namespace codesign

@@ -76,13 +76,14 @@ struct GradientRun {
   std::int64_t steps = 0;
 };
 
-inline GradientRun run_gradient(GradientEngine* engine, const System& system, const std::vector<double>& parameters) {
+inline GradientRun run_gradient(GradientEngine* engine, const System& system, const std::vector<double>& parameters,
+                                bool with_gradient = true) {
   GradientRun run;
-  run.status = engine->start(parameters, true);
+  run.status = engine->start(parameters, with_gradient);
   while (run.status.ok() && engine->time() < system.study().duration) run.status = engine->advance(system.study().duration);
   if (!run.status.ok()) return run;
   run.objective = engine->objective();
-  engine->gradient(&run.gradient);
+  if (with_gradient) engine->gradient(&run.gradient);
   run.steps = engine->statistics().steps;
   return run;
 }

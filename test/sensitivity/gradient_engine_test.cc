@@ -11,24 +11,6 @@
 namespace codesign {
 namespace {
 
-struct Result {
-  Status status;
-  double objective = 0.0;
-  Eigen::VectorXd gradient;
-  std::int64_t steps = 0;
-};
-
-Result run(GradientEngine* engine, const std::vector<double>& parameters, double duration, bool with_gradient = true) {
-  Result result;
-  result.status = engine->start(parameters, with_gradient);
-  while (result.status.ok() && engine->time() < duration) result.status = engine->advance(duration);
-  if (!result.status.ok()) return result;
-  result.objective = engine->objective();
-  if (with_gradient) engine->gradient(&result.gradient);
-  result.steps = engine->statistics().steps;
-  return result;
-}
-
 const char* const kRosenbrock = "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}";
 
 std::string idas(const std::string& tolerance) {
@@ -62,12 +44,12 @@ TEST(GradientEngine, ManyLocalParametersGoBackwards) {
 
 TEST(GradientEngine, TheIntegratorsAgreeToTheToleranceAskedFor) {
   const auto exact = servo(kRosenbrock);
-  const Result reference = run(make_gradient_engine(*exact).get(), exact->parameters(), 0.6);
+  const GradientRun reference = run_gradient(make_gradient_engine(*exact).get(), *exact, exact->parameters());
   ASSERT_TRUE(reference.status.ok()) << reference.status.cause;
   const double scale = reference.gradient.cwiseAbs().maxCoeff();
   for (const auto& [tolerance, bound] : {std::pair{"1.0e-5", 2e-3}, std::pair{"1.0e-7", 5e-5}, std::pair{"1.0e-9", 1e-6}}) {
     const auto system = servo(idas(tolerance));
-    const Result result = run(make_gradient_engine(*system).get(), system->parameters(), 0.6);
+    const GradientRun result = run_gradient(make_gradient_engine(*system).get(), *system, system->parameters());
     ASSERT_TRUE(result.status.ok()) << result.status.cause;
     EXPECT_NEAR(result.objective, reference.objective, bound * reference.objective) << tolerance;
     EXPECT_LT((result.gradient - reference.gradient).cwiseAbs().maxCoeff(), bound * scale) << tolerance;
@@ -77,8 +59,10 @@ TEST(GradientEngine, TheIntegratorsAgreeToTheToleranceAskedFor) {
 TEST(GradientEngine, IdasStartsAnewToTheLastBitWithAndWithoutGradient) {
   const auto system = servo(idas("1.0e-6"));
   const auto engine = make_gradient_engine(*system);
-  const Result first = run(engine.get(), system->parameters(), 0.6), alone = run(engine.get(), system->parameters(), 0.6, false);
-  const Result second = run(engine.get(), system->parameters(), 0.6), alone_again = run(engine.get(), system->parameters(), 0.6, false);
+  const GradientRun first = run_gradient(engine.get(), *system, system->parameters()),
+                    alone = run_gradient(engine.get(), *system, system->parameters(), false);
+  const GradientRun second = run_gradient(engine.get(), *system, system->parameters()),
+                    alone_again = run_gradient(engine.get(), *system, system->parameters(), false);
   ASSERT_TRUE(first.status.ok() && alone.status.ok());
   EXPECT_EQ(first.objective, second.objective);
   EXPECT_EQ(first.gradient, second.gradient);
@@ -91,7 +75,7 @@ TEST(GradientEngine, IdasStartsAnewToTheLastBitWithAndWithoutGradient) {
 TEST(GradientEngine, NothingTunedIsNoGradient) {
   const auto system =
       compile(pendulum(), "duration: 0.1\nparameters: {}\nobjective: {integral: [{signal: hinge/velocity}]}\nsolver: {integrator: idas}\n");
-  const Result result = run(make_gradient_engine(*system).get(), {}, 0.1);
+  const GradientRun result = run_gradient(make_gradient_engine(*system).get(), *system, {});
   EXPECT_TRUE(result.status.ok());
   EXPECT_EQ(result.gradient.size(), 0);
 }
