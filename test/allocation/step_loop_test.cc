@@ -76,8 +76,8 @@ TEST_P(StepLoop, BackwardsAsksForNoMoreMemoryOnALongerWay) {
 INSTANTIATE_TEST_SUITE_P(Mechanisms, StepLoop,
                          ::testing::Combine(::testing::Range(std::size_t{0}, gradient_cases().size()),
                                             ::testing::Values("rodas4", "rodas5p")),
-                         [](const auto& info) {
-                           return gradient_cases().at(std::get<0>(info.param)).name + "_" + std::get<1>(info.param);
+                         [](const auto& instance) {
+                           return gradient_cases().at(std::get<0>(instance.param)).name + "_" + std::get<1>(instance.param);
                          });
 
 }  // namespace

@@ -23,7 +23,7 @@ TEST_P(AdjointStepTest, IsTheTransposedTangent) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, AdjointStepTest, ::testing::Values("rodas4", "rodas4p2", "rodas5p"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& instance) { return std::string(instance.param); });
 
 }  // namespace
 }  // namespace codesign
