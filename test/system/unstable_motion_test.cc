@@ -25,6 +25,7 @@ class HardSliderCrank : public ::testing::Test {
     shipped.study.solver.method = "rodas4";
     shipped.study.solver.relative_tolerance = 1e-8;
     shipped.study.solver.absolute_tolerance = 1e-9;
+    shipped.study.solver.sensitivity_tolerance = 0.0;
     return shipped;
   }
 
