@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mechanism_codesign/integration/integrator.h"
+#include "mechanism_codesign/integration/motion_watch.h"
 #include "mechanism_codesign/integration/rosenbrock_step.h"
 #include "mechanism_codesign/integration/step_controller.h"
 
@@ -43,6 +44,7 @@ class RosenbrockIntegrator final : public Integrator {
   Assembly assembly_;
   State<double> initial_;
   StepController controller_;
+  MotionWatch watch_;
   double proposal_ = 0.0;
   Statistics statistics_;
 };

@@ -82,10 +82,12 @@ struct SolverOptions {
   std::string method = "rodas4";          ///< rosenbrock: rodas4, rodas4p2, rodas5p
   double relative_tolerance = 1e-6;
   double absolute_tolerance = 1e-7;
+  std::string gradient = "auto";       ///< rosenbrock: "direct", "adjoint", or the cheaper
   double sensitivity_tolerance = 0.0;  ///< rosenbrock: relative, of each parameter's sensitivities; 0: they stay out of the error test
   double initial_step = 0.0;           ///< [s]; 0: chosen
   double maximum_step = 0.0;           ///< [s]; 0: none
   int maximum_steps = 200000;
+  double maximum_speed = 0.0;  ///< of any body [m/s] and [rad/s]; 0: chosen, see MotionWatch
 };
 
 struct OptimizerOptions {
