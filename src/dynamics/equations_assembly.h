@@ -28,6 +28,7 @@ void Equations<T>::assemble(Sink* sink) {
   for (int b = 0; b < layout_.bodies; ++b) assemble_body(static_cast<std::size_t>(b), sink);
   for (const JointLoad& load : system_.loads()) assemble_load(load, sink);
   for (int pair : system_.contacts()) assemble_contact(pair, sink);
+  for (const BristleContact& contact : system_.bristles()) assemble_bristle(contact, sink);
   assemble_states(sink);
   assemble_objective(sink);
 }
