@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "integration/servo.h"
+#include "mechanism_codesign/dynamics/system.h"
 #include "mechanism_codesign/sensitivity/evaluation.h"
 
 namespace codesign {
@@ -27,7 +28,7 @@ std::string rubbing(const std::string& model) {
 }
 
 std::shared_ptr<const System> rubbing_servo(const std::string& model, const std::string& solver) {
-  std::string study = servo_study(solver);
+  std::string study = std::regex_replace(servo_study(solver), std::regex("duration: 0.6"), "duration: 0.25");
   study.replace(study.find("parameters: {"), 13,
                 std::string("parameters: {mu_s: {tune: true}, v_s: {tune: true}, sigma_0: {tune: true}, sigma_1: {tune: true}, ") +
                     (model == "gonthier" ? "tau: {tune: true}, " : ""));
@@ -69,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, FrictionModels, ::testing::Values("gonthier", "lu
 
 /// A puck that slides and turns on a slope, drawn with its axes along the slope or turned about the normal by the angle whose sine is 0.6.
 Evaluation slide(const std::string& model, bool turned) {
-  std::string urdf = std::regex_replace(puck(), std::regex("<codesign:friction"), "<codesign:friction model='" + model + "'");
+  std::string urdf = with_friction_model(puck(), model);
   urdf = std::regex_replace(urdf, std::regex("rpy='0 0.6 0'"), turned ? "rpy='0 0 0.6435011087932844'" : "rpy='0 0 0'");
   if (turned) urdf = std::regex_replace(urdf, std::regex("xyz='0 0.1 0'"), "xyz='0.06 0.08 0' rpy='0 0 -0.6435011087932844'");
   const std::string study =
