@@ -9,12 +9,7 @@ TEST(SliderCrank, CountsAreThePapers) {
   for (const char* name : {"slider_crank", "slider_crank_haug"}) expect_counts(Shipped(name), {21, 42, 1, 20, 62, 5, 310, 372});
 }
 
-TEST(SliderCrank, ObjectiveAndGradientMeetTheReference) {
-  expect_reference(Shipped("slider_crank"), 0.05925272691, 1e-7, {1.6743095487, 0.0386375710, 0.8954736211, 3.5788590861, -0.1185753317},
-                   1e-5);
-  expect_reference(Shipped("slider_crank_haug"), 0.717975196477, 1e-7, {32.0105032, -15.462857, -0.0754624, -0.3394216, -1.0274846}, 1e-5);
-}
-
+// Objective and gradient are checked with both integrators in test/sensitivity/evaluation_test.cc.
 TEST(SliderCrank, SeriesMeetTheReference) {
   expect_series(
       Shipped("slider_crank"),
