@@ -86,21 +86,9 @@ class Minimization {
     return -margin.value(parameters);
   }
 
-  // SLSQP asks for the point it has accepted a second time.
   double objective(const std::vector<double>& x, std::vector<double>* gradient) {
     // Some of NLopt's line searches finish their work after a forced stop.
     if (cancelled_) stop();
-    if (x != last_x_ || (!gradient->empty() && last_gradient_.empty())) {
-      last_value_ = evaluate(x, gradient);
-      last_x_ = x;
-      last_gradient_ = *gradient;
-    } else if (!gradient->empty()) {
-      *gradient = last_gradient_;
-    }
-    return last_value_;
-  }
-
-  double evaluate(const std::vector<double>& x, std::vector<double>* gradient) {
     const Eigen::VectorXd rho = scaling_.from_scaled(x);
     // At its bounds an algorithm may ask again for where it stands.
     if (rho.size() != last_rho_.size() || rho != last_rho_) evaluate(rho);
@@ -203,8 +191,6 @@ class Minimization {
   OptimizationResult result_;
   Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"};
   std::string failure_;
-  std::vector<double> last_x_, last_gradient_;
-  double last_value_ = 0.0;
   double worst_ = 0.0, unit_ = 1.0;  ///< of the objective: NLopt sees it divided by `unit_`
   bool have_best_ = false, best_feasible_ = false, cancelled_ = false;
 };
