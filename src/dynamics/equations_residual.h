@@ -82,6 +82,7 @@ void Equations<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
   for (std::size_t k = 0; k < constants_.couplings.size(); ++k) coupling_residual(k, G);
   for (const JointLoad& load : system_.loads()) load_residual(load, G);
   for (int pair : system_.contacts()) contact_residual(pair, G);
+  for (const BristleContact& contact : system_.bristles()) bristle_residual(contact, G);
   for (std::size_t c = 0; c < system_.controllers().size(); ++c) {
     const int s = system_.controllers()[c].state;
     if (s >= 0) (*G)[layout_.state_column(s)] = state.z[layout_.state_column(s)] - controller_error(static_cast<int>(c), nullptr);

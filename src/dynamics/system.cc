@@ -51,6 +51,7 @@ System::System(const RobotDescription& robot, const Study& study, double complia
   resolve_objective();
   resolve_controllers();
   collect_loads();
+  collect_bristles();
   record_pattern();
 }
 
@@ -138,6 +139,27 @@ void System::collect_loads() {
   }
 }
 
+void System::add_bristle(int pair, int element, int size) {
+  const int joint = topology_.pairs[static_cast<std::size_t>(pair)].friction_joint;
+  const FrictionModel model = robot_.joints[static_cast<std::size_t>(joint)].friction->model;
+  if (model == FrictionModel::kBrownMcPhee) return;
+  bristles_.push_back({model, pair, element, layout_.states, size});
+  layout_.states += bristles_.back().states();
+}
+
+void System::collect_bristles() {
+  for (const JointLoad& load : loads_)
+    if (load.reaction_friction) add_bristle(load.pair, load.element, 1);
+  for (int contact : contacts_)
+    add_bristle(contact, -1, topology_.pairs[static_cast<std::size_t>(contact)].kind == PairKind::kTable ? 2 : 3);
+}
+
+const BristleContact* System::bristle(int pair, int element) const {
+  for (const BristleContact& contact : bristles_)
+    if (contact.pair == pair && contact.element == element) return &contact;
+  return nullptr;
+}
+
 void System::find_coordinates() {
   for (const PairConstants<double>& pair : evaluate_constants(robot_, topology_, parameters()).pairs) {
     has_coordinate_.emplace_back();
@@ -190,20 +212,12 @@ void System::record_pattern() {
 }
 
 void System::refuse_unsupported() const {
-  const auto refuse = [](const SourceLocation& where, const std::string& element, const std::string& what) {
-    throw InputError({where, element, what + " is read but not computed by this version", "", ""});
-  };
   if (topology_.bodies.empty())
     throw InputError({{robot_.file, 0},
                       "<robot name=\"" + robot_.name + "\">",
                       "nothing moves: no link with an <inertial> hangs on a movable joint",
                       "",
                       ""});
-  for (const JointDescription& joint : robot_.joints) {
-    const std::string element = (joint.is_loop ? "<loop name=\"" : "<joint name=\"") + joint.name + "\">";
-    if (joint.friction && joint.friction->model != FrictionModel::kBrownMcPhee)
-      refuse(joint.friction->where, element, "a friction model other than brown_mcphee");
-  }
 }
 
 }  // namespace codesign

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mechanism_codesign/dynamics/bristle_law.h"
 #include "mechanism_codesign/dynamics/contact_friction.h"
 #include "mechanism_codesign/dynamics/sparsity.h"
 #include "mechanism_codesign/dynamics/state.h"
@@ -29,7 +30,7 @@ struct FrictionState {
 /// The equations of motion of one design, with the scratch memory to evaluate them; doc/theory.md (14):
 ///   rows 0..n:      M a + Phi_q^T lambda - Q - Q_Af = 0
 ///   rows n..n+m:    Phi_q a + (Phi_q v)_q v = 0
-///   rows n+m..:     sigma - s' = 0
+///   rows n+m..:     sigma - s' = 0, integrals of controllers, then states of friction laws
 /// T: double, std::complex<double> or Lanes<N>; the same code gives values and every derivative. No allocation once warm; not thread-safe.
 template <class T>
 class Equations {
@@ -103,6 +104,8 @@ class Equations {
   template <class Sink>
   void assemble_contact(int pair, Sink* sink);
   template <class Sink>
+  void assemble_bristle(const BristleContact& contact, Sink* sink);
+  template <class Sink>
   void assemble_spring(std::size_t k, Sink* sink);
   template <class Sink>
   void assemble_states(Sink* sink);
@@ -115,6 +118,17 @@ class Equations {
   void body_residual(std::size_t b, VectorX<T>* G);
   void load_residual(const JointLoad& load, VectorX<T>* G);
   void contact_residual(int pair, VectorX<T>* G);
+  void bristle_residual(const BristleContact& contact, VectorX<T>* G);
+  ContactSlip<T> bristle_slip(const BristleContact& contact, CoordinateDetail detail) const;
+  /// The body whose turning the deflections follow, omega x zeta in their rate, though their axes do not; -1 if none.
+  int bristle_carrier(const BristleContact& contact) const;
+  Vector3<T> bristle_turn(const BristleContact& contact) const;
+  void append_bristle_slip(const BristleContact& contact, const ContactSlip<T>& slip, const Vector3<T>& by_u,
+                           SparseGradient<T>* gradient) const;
+  void append_bristle_states(const BristleContact& contact, const Vector3<T>& by_zeta, const T& by_dwell,
+                             SparseGradient<T>* gradient) const;
+  /// Gradient of factor . omega of a body.
+  void append_spin(int body, const Vector3<T>& factor, SparseGradient<T>* gradient) const;
   void add_spring_load(std::size_t k, const SpringForce<T>& force);
   /// Scalar load along a coordinate, positive against it; its gradient is appended.
   T joint_load(const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient);

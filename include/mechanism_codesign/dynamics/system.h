@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mechanism_codesign/control/signal.h"
+#include "mechanism_codesign/dynamics/bristle_law.h"
 #include "mechanism_codesign/dynamics/sparsity.h"
 #include "mechanism_codesign/dynamics/state.h"
 #include "mechanism_codesign/model/robot.h"
@@ -57,6 +58,10 @@ class System {
   const std::vector<JointLoad>& loads() const { return loads_; }
   /// Pairs with isotropic friction.
   const std::vector<int>& contacts() const { return contacts_; }
+  /// Contacts whose friction law has states.
+  const std::vector<BristleContact>& bristles() const { return bristles_; }
+  /// That of a load (of a contact: element -1); null if its law has no states.
+  const BristleContact* bristle(int pair, int element) const;
   const std::vector<ResolvedTerm>& integral() const { return integral_; }
   const std::vector<ResolvedTerm>& terminal() const { return terminal_; }
 
@@ -78,6 +83,8 @@ class System {
   void lay_out();
   void resolve_controllers();
   void collect_loads();
+  void collect_bristles();
+  void add_bristle(int pair, int element, int size);
   void find_coordinates();
   void refuse_load(int pair, int element) const;
   void check_couplings() const;
@@ -93,6 +100,7 @@ class System {
   std::vector<Controller> controllers_;
   std::vector<JointLoad> loads_;
   std::vector<int> contacts_;
+  std::vector<BristleContact> bristles_;
   std::vector<std::vector<bool>> has_coordinate_;  ///< per pair and chain element
   std::vector<ResolvedTerm> integral_, terminal_;
   ByVariable<Sparsity> patterns_;
