@@ -4,6 +4,7 @@
 
 #include "equations_assembly.h"
 #include "equations_contacts.h"
+#include "equations_controllers.h"
 #include "equations_loads.h"
 #include "equations_residual.h"
 #include "equations_signals.h"

@@ -50,6 +50,15 @@ TEST_P(ShippedStudies, GradientIsThatOfTheStepsTaken) {
   EXPECT_LT(check.largest_relative_difference, 1e-9);
 }
 
+// Each integrator is the other's check, at the tolerance asked for.
+TEST_P(ShippedStudies, BothIntegratorsAgree) {
+  const Evaluation rosenbrock = Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), false);
+  shipped.study.solver.integrator = "idas";
+  const Evaluation idas = Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), false);
+  ASSERT_TRUE(rosenbrock.status.ok() && idas.status.ok()) << rosenbrock.status.cause << idas.status.cause;
+  EXPECT_NEAR(idas.objective, rosenbrock.objective, kAgreement * shipped.study.solver.relative_tolerance * std::abs(rosenbrock.objective));
+}
+
 INSTANTIATE_TEST_SUITE_P(Config, ShippedStudies, ::testing::ValuesIn(shipped_names()), [](const auto& study) { return study.param; });
 
 TEST(ShippedList, HoldsThePapersCases) {
