@@ -9,9 +9,9 @@ namespace codesign {
 namespace {
 
 struct Resolved {
-  explicit Resolved(const std::string& controllers, const std::string& signal = "shoulder/velocity")
+  explicit Resolved(const std::string& laws, const std::string& signal = "shoulder/velocity")
       : robot(read_urdf({"test.urdf", double_pendulum()})),
-        study(read_study({"test.yaml", "duration: 1.0\ncontrollers:\n" + controllers + "objective: {integral: [{signal: " + signal + "}]}\n"}, robot)),
+        study(read_study({"test.yaml", "duration: 1.0\ncontrollers:\n" + laws + "objective: {integral: [{signal: " + signal + "}]}\n"}, robot)),
         topology(derive_topology(robot)),
         controllers(resolve_controllers(study, robot, topology, {resolve_signal(study.integral[0].signal, robot, topology, study.controllers)}, &states)) {}
 

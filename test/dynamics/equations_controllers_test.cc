@@ -32,7 +32,7 @@ TEST(EquationsControllers, APidThatFollowsAMovingSetpointHasExactDerivatives) {
 
 TEST(EquationsControllers, GravityCompensationHasExactDerivatives) {
   for (const char* joint : {"travel", "turn", "reach", "wrist"})
-    expect_exact(crane(), study(std::string("  a: {type: pd_gravity, output: ") + joint + ", gains: {p: 3.0, d: 0.5}, setpoint: " + kSine + "}\n",
+    expect_exact(crane(), study(std::string("  servo: {type: pd_gravity, output: ") + joint + ", gains: {p: 3.0, d: 0.5}, setpoint: " + kSine + "}\n",
                                 std::string("{signal: ") + joint + "/effort}"));
 }
 
