@@ -1,5 +1,7 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 
+include(CheckCXXCompilerFlag)
+
 # Warnings are errors on our own targets; the headers of others are SYSTEM includes.
 # GCC 12 sees uninitialized memory in moved-from strings and in fixed-size Eigen expressions that are whole: that one warning is off.
 function(codesign_warnings target)
@@ -28,6 +30,11 @@ function(codesign_optimize target)
   # library whatever they compile for; the compiler itself uses the wide ones. doc/decisions/0011-processor.md
   if(CODESIGN_NATIVE)
     list(APPEND hot_options -march=native -U__AVX__ -U__AVX2__ -U__FMA__ -U__AVX512F__ -U__AVX512DQ__)
+    # Structures copied in halves of a register and read back whole wait for the store buffer each time.
+    check_cxx_compiler_flag("-march=native -mmove-max=256 -mstore-max=256" CODESIGN_HAS_MOVE_MAX)
+    if(CODESIGN_HAS_MOVE_MAX)
+      list(APPEND hot_options -mmove-max=256 -mstore-max=256)
+    endif()
   endif()
   set(hot math/lu_schedule dynamics/equations_double dynamics/equations_lanes4 dynamics/equations_lanes8 dynamics/derivative_products integration/rosenbrock_step sensitivity/tangent_step)
   list(TRANSFORM hot PREPEND ${PROJECT_SOURCE_DIR}/src/)

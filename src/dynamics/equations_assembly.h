@@ -63,11 +63,18 @@ bool touches(const ProductRow<T>& row, Side side) {
   return touched(row.X) || touched(row.Y);
 }
 
-/// Gradients of one product row over the pair's coordinates, from the shared vectors. `fixed` tells which side is the ground.
+/// Gradients of one product row over those of the pair's coordinates that it touches, from the shared vectors. `fixed` tells which side is
+/// the ground.
 template <class T>
 void row_gradient(const ProductRow<T>& row, const PairMotion<T>& shared, const VectorMotion<T>& x, const VectorMotion<T>& y,
                   const bool (&fixed)[2], ProductGradient<T>* g) {
-  g->clear();
+  for (Side side : {Side::kI, Side::kJ}) {
+    if (fixed[static_cast<int>(side)] || !touches(row, side)) continue;
+    for (LocalRow<T>* part : {&g->phi_q, &g->phid_q, &g->phidd_q}) {
+      if (moves_r(row)) part->template segment<3>(r_offset(side)).setZero();
+      part->template segment<4>(p_offset(side)).setZero();
+    }
+  }
   const auto add = [&](const PairVector<T>& own, const VectorMotion<T>& partner) {
     for (int k = 0; k < own.terms; ++k)
       if (!fixed[static_cast<int>(own.term[k].side)]) add_term_gradient(own.term[k], shared.jacobian_of(own.term[k]), partner, g);
@@ -87,14 +94,14 @@ void Equations<T>::assemble_pair(std::size_t k, Sink* sink) {
   int row = layout_.lambda_column(layout_.pair_row[k]);
   if (rows.coincident) {
     const Vector3<T> lambda = state_->z.template segment<3>(row);
-    add_vector_load(PairVector<T>::displacement(rows.point(Side::kI), rows.point(Side::kJ)), lambda, &load_on(pair.body_i),
-                    &load_on(pair.body_j));
+    add_vector_load(PairVector<T>::displacement(rows.point(Side::kI), rows.point(Side::kJ)), lambda, load_on(pair.body_i),
+                    load_on(pair.body_j));
     if (pair.body_i >= 0) internal::assemble_coincidence(i, rows.point(Side::kI), -1.0, kBodySize * pair.body_i, row, sink);
     if (pair.body_j >= 0) internal::assemble_coincidence(j, rows.point(Side::kJ), 1.0, kBodySize * pair.body_j, row, sink);
     row += 3;
   }
   PairMotion<T> shared;
-  shared.update(rows, i, pair.body_i < 0, j, pair.body_j < 0, true);
+  shared.update(rows, i, j, true);
   for (const ProductRow<T>& product : rows.products) assemble_product(static_cast<int>(k), product, shared, row++, sink);
   if (system_.compliance() == 0.0) return;
   for (int r = row - rows.size(); r < row; ++r) sink->rate(r, r, T(-system_.compliance()));
@@ -105,11 +112,11 @@ template <class Sink>
 void Equations<T>::assemble_product(int index, const ProductRow<T>& product, const PairMotion<T>& shared, int row, Sink* sink) {
   const Pair& pair = system_.topology().pairs[static_cast<std::size_t>(index)];
   const bool fixed[2] = {pair.body_i < 0, pair.body_j < 0};
-  const VectorMotion<T> x = shared.of(product.X), y = shared.of(product.Y);
+  const VectorMotion<T>&x = shared.of(product.X), &y = shared.of(product.Y);
   ProductGradient<T> g;
   internal::row_gradient(product, shared, x, y, fixed, &g);
   const T scale(product.scale), twice(2.0 * product.scale), lambda = scale * state_->z[row];
-  add_product_load(product.X, product.Y, x, y, lambda, &load_on(pair.body_i), &load_on(pair.body_j));
+  add_product_load(product.X, product.Y, x, y, lambda, load_on(pair.body_i), load_on(pair.body_j));
   for (int local = 0; local < kLocalSize; ++local) {
     const Side side = local < kBodySize ? Side::kI : Side::kJ;
     const int c = column(index, local);

@@ -11,13 +11,25 @@ namespace codesign {
 // Loads along joint coordinates. A load L opposes the coordinate, so the equations get + J^T L; a controller's output counts as -L.
 
 template <class T>
-CoordinateMotion<T> Equations<T>::coordinate(int pair, int element, CoordinateDetail detail) const {
+const CoordinateMotion<T>& Equations<T>::coordinate(int pair, int element, CoordinateDetail detail) const {
+  KnownCoordinate& known = coordinates_[static_cast<std::size_t>(pair)][static_cast<std::size_t>(element)];
+  if (known.version == version_ && known.detail >= detail) return known.motion;
+  known.version = version_;
+  known.detail = detail;
   const Pair& p = system_.topology().pairs[static_cast<std::size_t>(pair)];
   const PairConstants<T>& c = constants_.pairs[static_cast<std::size_t>(pair)];
   const CoordinateConstants<T>& coordinate = c.coordinates[static_cast<std::size_t>(element)];
-  CoordinateMotion<T> motion = coordinate_motion(c, coordinate, body(p.body_i), body(p.body_j), detail);
-  if (detail == CoordinateDetail::kAll) motion.position += whole_turns(pair, element, motion.position);
-  return motion;
+  known.motion = coordinate_motion(c, coordinate, body(p.body_i), body(p.body_j), detail);
+  if (detail == CoordinateDetail::kAll) known.motion.position += whole_turns(pair, element, known.motion.position);
+  return known.motion;
+}
+
+template <class T>
+T Equations<T>::coordinate_value(int pair, int element) const {
+  const Pair& p = system_.topology().pairs[static_cast<std::size_t>(pair)];
+  const PairConstants<T>& c = constants_.pairs[static_cast<std::size_t>(pair)];
+  const T position = coordinate_position(c, c.coordinates[static_cast<std::size_t>(element)], body(p.body_i), body(p.body_j));
+  return position + whole_turns(pair, element, position);
 }
 
 template <class T>
@@ -36,14 +48,10 @@ bool Equations<T>::coordinate_moves_r(int pair, int element) const {
 template <class T>
 void Equations<T>::track_turns(const State<T>& state) {
   load(state);
-  for (std::size_t p = 0; p < turn_references_.size(); ++p) {
-    const Pair& pair = system_.topology().pairs[p];
-    const PairConstants<T>& c = constants_.pairs[p];
-    for (std::size_t e = 0; e < turn_references_[p].size(); ++e) {
-      const T position = coordinate_position(c, c.coordinates[e], body(pair.body_i), body(pair.body_j));
-      turn_references_[p][e] = value_of(position) + whole_turns(static_cast<int>(p), static_cast<int>(e), position);
-    }
-  }
+  for (std::size_t p = 0; p < turn_references_.size(); ++p)
+    for (std::size_t e = 0; e < turn_references_[p].size(); ++e)
+      turn_references_[p][e] = value_of(coordinate_value(static_cast<int>(p), static_cast<int>(e)));
+  ++version_;
 }
 
 template <class T>
@@ -143,7 +151,8 @@ T Equations<T>::passive_load(int pair, int element, const JointLoad& load, const
   T value(0.0), slope(0.0);
   if (load.passive) {
     slope = d.damping + d.spring_damping;
-    value = slope * motion.rate + d.stiffness * (motion.position - d.free_position);
+    value = slope * motion.rate;
+    if (load.spring) value += d.stiffness * (coordinate_value(pair, element) - d.free_position);
   }
   if (load.constant_friction) {
     const FrictionCoefficient<T> S = brown_mcphee<T>(motion.rate, T(1.0), T(1.0), T(kDryTransitionVelocity));
@@ -152,7 +161,7 @@ T Equations<T>::passive_load(int pair, int element, const JointLoad& load, const
   }
   if (gradient) {
     append_rate(pair, element, motion, slope, gradient);
-    if (load.passive) append_local(pair, motion.position_q, d.stiffness, coordinate_moves_r(pair, element), &gradient->position);
+    if (load.spring) append_local(pair, motion.position_q, d.stiffness, coordinate_moves_r(pair, element), &gradient->position);
   }
   return value;
 }
@@ -172,7 +181,7 @@ T Equations<T>::joint_load(const JointLoad& load, const CoordinateMotion<T>& mot
 
 template <class T>
 void Equations<T>::load_residual(const JointLoad& load, VectorX<T>* G) {
-  const CoordinateMotion<T> motion = coordinate(load.pair, load.element, load.passive ? CoordinateDetail::kAll : CoordinateDetail::kRate);
+  const CoordinateMotion<T>& motion = coordinate(load.pair, load.element, CoordinateDetail::kRate);
   const T value = joint_load(load, motion, nullptr);
   for (int local = 0; local < kLocalSize; ++local)
     if (const int c = column(load.pair, local); c >= 0) (*G)[c] += motion.J[local] * value;
@@ -181,8 +190,8 @@ void Equations<T>::load_residual(const JointLoad& load, VectorX<T>* G) {
 template <class T>
 template <class Sink>
 void Equations<T>::assemble_load(const JointLoad& load, Sink* sink) {
-  const CoordinateMotion<T> motion =
-      coordinate(load.pair, load.element, load.passive ? CoordinateDetail::kAll : CoordinateDetail::kGradient);
+  const CoordinateMotion<T>& motion =
+      coordinate(load.pair, load.element, load.spring ? CoordinateDetail::kAll : CoordinateDetail::kGradient);
   gradient_.clear();
   const T value = joint_load(load, motion, &gradient_);
   const bool with_r = coordinate_moves_r(load.pair, load.element);
@@ -201,7 +210,7 @@ void Equations<T>::assemble_load(const JointLoad& load, Sink* sink) {
 
 template <class T>
 FrictionState<T> Equations<T>::friction(int pair, int element) {
-  const CoordinateMotion<T> motion = coordinate(pair, element);
+  const CoordinateMotion<T>& motion = coordinate(pair, element);
   FrictionState<T> state;
   for (const JointLoad& load : system_.loads()) {
     if (load.pair != pair || load.element != element) continue;
@@ -209,7 +218,7 @@ FrictionState<T> Equations<T>::friction(int pair, int element) {
     if (load.reaction_friction) reaction_friction(pair, element, motion, nullptr, &state);
     if (load.constant_friction) {
       JointLoad dry = load;
-      dry.passive = false;
+      dry.passive = dry.spring = false;
       state.load += passive_load(pair, element, dry, motion, nullptr);
     }
   }

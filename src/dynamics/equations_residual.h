@@ -11,7 +11,8 @@ template <class T>
 Equations<T>::Equations(const System& system) : system_(system), layout_(system.layout()) {
   for (int k = 0; k < 3; ++k) gravity_[k] = T(system.study().gravity[static_cast<std::size_t>(k)]);
   kinematics_.resize(static_cast<std::size_t>(layout_.bodies) + 1);
-  loads_.resize(kinematics_.size());
+  kinematics_.back().at_rest = true;
+  loads_.resize(static_cast<std::size_t>(layout_.bodies));
   constraint_state_.resize(layout_);
   std::size_t nodes = 0;
   for (const Controller& controller : system.controllers()) {
@@ -20,17 +21,28 @@ Equations<T>::Equations(const System& system) : system_(system), layout_(system.
   }
   accelerations_.resize(nodes, T(0.0));
   by_acceleration_.resize(nodes, T(0.0));
+  for (const Pair& pair : system.topology().pairs) {
+    std::array<int, kLocalSize>& columns = columns_.emplace_back();
+    for (int local = 0; local < kLocalSize; ++local) {
+      const int body = local < kBodySize ? pair.body_i : pair.body_j;
+      columns[static_cast<std::size_t>(local)] = body < 0 ? -1 : kBodySize * body + local % kBodySize;
+    }
+  }
 }
 
 template <class T>
 void Equations<T>::set_design(const std::vector<T>& parameters) {
+  ++version_;
   parameters_ = parameters;
   constants_ = evaluate_constants(system_.robot(), system_.topology(), parameters);
   rows_.clear();
   for (std::size_t k = 0; k < constants_.pairs.size(); ++k)
     rows_.push_back(pair_rows(system_.topology().pairs[k].kind, constants_.pairs[k]));
   if (turn_references_.empty())
-    for (const PairConstants<T>& pair : constants_.pairs) turn_references_.emplace_back(pair.coordinates.size(), 0.0);
+    for (const PairConstants<T>& pair : constants_.pairs) {
+      turn_references_.emplace_back(pair.coordinates.size(), 0.0);
+      coordinates_.emplace_back(pair.coordinates.size());
+    }
   const auto evaluate = [&parameters](const auto& terms, std::vector<T>* weights, std::vector<Reference<T>>* references) {
     weights->clear();
     references->clear();
@@ -48,6 +60,7 @@ void Equations<T>::set_design(const std::vector<T>& parameters) {
 
 template <class T>
 void Equations<T>::load(const State<T>& state) {
+  ++version_;
   state_ = &state;
   for (int b = 0; b < layout_.bodies; ++b) {
     BodyKinematics<T>& k = kinematics_[static_cast<std::size_t>(b)];
@@ -83,31 +96,28 @@ void Equations<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
 }
 
 template <class T>
-BodyLoad<T>& Equations<T>::load_on(int body) {
-  return loads_[static_cast<std::size_t>(body < 0 ? layout_.bodies : body)];
-}
-
-template <class T>
 void Equations<T>::pair_residual(std::size_t k, VectorX<T>* G) {
   const Pair& pair = system_.topology().pairs[k];
   const PairRows<T>& rows = rows_[k];
   const BodyKinematics<T>&i = body(pair.body_i), &j = body(pair.body_j);
-  BodyLoad<T>&load_i = load_on(pair.body_i), &load_j = load_on(pair.body_j);
+  BodyLoad<T>*load_i = load_on(pair.body_i), *load_j = load_on(pair.body_j);
   int row = layout_.lambda_column(layout_.pair_row[k]);
   if (rows.coincident) {
     const Vector3<T>&s_i = rows.point(Side::kI), &s_j = rows.point(Side::kJ);
-    G->template segment<3>(row) = j.rdd + j.Add * s_j - i.rdd - i.Add * s_i;
+    G->template segment<3>(row).setZero();
+    if (load_j) G->template segment<3>(row) = j.rdd + j.Add * s_j;
+    if (load_i) G->template segment<3>(row) -= i.rdd + i.Add * s_i;
     const Vector3<T> lambda = state_->z.template segment<3>(row);
-    add_vector_load(PairVector<T>::displacement(s_i, s_j), lambda, &load_i, &load_j);
+    add_vector_load(PairVector<T>::displacement(s_i, s_j), lambda, load_i, load_j);
     row += 3;
   }
   PairMotion<T> shared;
-  shared.update(rows, i, pair.body_i < 0, j, pair.body_j < 0, false);
+  shared.update(rows, i, j, false);
   for (const ProductRow<T>& product : rows.products) {
-    const VectorMotion<T> x = shared.of(product.X), y = shared.of(product.Y);
+    const VectorMotion<T>&x = shared.of(product.X), &y = shared.of(product.Y);
     const T scale(product.scale);
     (*G)[row] = scale * product_motion(x, y).phidd;
-    add_product_load(product.X, product.Y, x, y, T(scale * state_->z[row]), &load_i, &load_j);
+    add_product_load(product.X, product.Y, x, y, T(scale * state_->z[row]), load_i, load_j);
     ++row;
   }
   if (system_.compliance() == 0.0) return;
@@ -190,13 +200,6 @@ void Equations<T>::reaction(int pair, Vector3<T>* F, Vector3<T>* torque) const {
   (*torque)[1] = lambda(next);
   (*torque)[0] = -lambda(next + 1);
   if (rows.size() > next + 2) (*torque)[2] = lambda(next + 2);
-}
-
-template <class T>
-int Equations<T>::column(int pair, int local) const {
-  const Pair& p = system_.topology().pairs[static_cast<std::size_t>(pair)];
-  const int body = local < kBodySize ? p.body_i : p.body_j;
-  return body < 0 ? -1 : kBodySize * body + local % kBodySize;
 }
 
 }  // namespace codesign

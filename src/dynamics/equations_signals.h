@@ -9,8 +9,9 @@ namespace codesign {
 template <class T>
 T Equations<T>::joint_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient) {
   const bool position = term.kind == SignalKind::kJointPosition;
+  if (position && !gradient) return factor * coordinate_value(term.pair, term.element);
   const bool rate_alone = !gradient && term.kind != SignalKind::kJointAcceleration;
-  const CoordinateMotion<T> m = coordinate(term.pair, term.element,
+  const CoordinateMotion<T>& m = coordinate(term.pair, term.element,
                                            position     ? CoordinateDetail::kAll
                                            : rate_alone ? CoordinateDetail::kRate
                                                         : CoordinateDetail::kGradient);
@@ -106,13 +107,13 @@ T Equations<T>::load_term(const SignalReference& term, const T& factor, SparseGr
   for (const JointLoad& load : system_.loads()) {
     if (load.pair != term.pair || load.element != term.element) continue;
     JointLoad part = load;
-    part.passive = false;
+    part.passive = part.spring = false;
     if (term.kind == SignalKind::kJointEffort) {
       part.reaction_friction = part.constant_friction = false;
     } else {
       part.controllers.clear();
     }
-    const CoordinateMotion<T> motion = coordinate(term.pair, term.element);
+    const CoordinateMotion<T>& motion = coordinate(term.pair, term.element, gradient ? CoordinateDetail::kGradient : CoordinateDetail::kRate);
     const auto before = mark(gradient);
     sum -= factor * joint_load(part, motion, gradient);
     if (gradient) gradient->scale_from(before, T(-factor));

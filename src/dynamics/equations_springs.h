@@ -20,7 +20,7 @@ SpringForce<T> Equations<T>::spring(std::size_t k) const {
 template <class T>
 void Equations<T>::add_spring_load(std::size_t k, const SpringForce<T>& force) {
   const SpringDamperConstants<T>& c = constants_.springs[k];
-  add_vector_load(PairVector<T>::displacement(c.s_i, c.s_j), force.pull, &load_on(c.body_i), &load_on(c.body_j));
+  add_vector_load(PairVector<T>::displacement(c.s_i, c.s_j), force.pull, load_on(c.body_i), load_on(c.body_j));
 }
 
 namespace internal {

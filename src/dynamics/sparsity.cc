@@ -19,8 +19,12 @@ Sparsity PatternRecorder::build(const Calls& calls, int rows, int columns, std::
   }
   for (std::size_t k = 1; k < pattern.row_start.size(); ++k) pattern.row_start[k] += pattern.row_start[k - 1];
   slots->clear();
-  for (const auto& call : calls)
-    slots->push_back(static_cast<int>(std::lower_bound(entries.begin(), entries.end(), call) - entries.begin()));
+  std::vector<bool> touched(entries.size(), false);
+  for (const auto& call : calls) {
+    const auto slot = std::lower_bound(entries.begin(), entries.end(), call) - entries.begin();
+    slots->push_back(touched[static_cast<std::size_t>(slot)] ? static_cast<int>(slot) : ~static_cast<int>(slot));
+    touched[static_cast<std::size_t>(slot)] = true;
+  }
   return pattern;
 }
 

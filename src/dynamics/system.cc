@@ -115,7 +115,8 @@ void System::collect_loads() {
       if (e < pair.chain.size()) {
         const JointDescription& joint = robot_.joints[static_cast<std::size_t>(pair.chain[e].joint)];
         load.constant_friction = !zero(joint.dry_friction);
-        load.passive = !zero(joint.damping) || joint.spring.has_value();
+        load.spring = joint.spring.has_value();
+        load.passive = !zero(joint.damping) || load.spring;
       }
       for (std::size_t c = 0; c < controllers_.size(); ++c)
         if (controllers_[c].pair == load.pair && controllers_[c].element == load.element) load.controllers.push_back(static_cast<int>(c));

@@ -29,11 +29,11 @@ RosenbrockStep<T>::RosenbrockStep(const System& system, const RosenbrockTableau&
       equations_(system),
       stage_matrix_(system),
       projection_matrix_(system),
-      increments_(static_cast<std::size_t>(tableau.stages), VectorX<T>::Zero(at_.size())) {
+      increments_(static_cast<std::size_t>(tableau.stages), VectorX<T>::Zero(at_.size())),
+      stages_(static_cast<std::size_t>(tableau.stages)) {
   derivatives_.resize(system.patterns());
-  for (State<T>* state : {&state_, &previous_, &stage_, &end_}) state->resize(layout_);
-  shift_.setZero(at_.size());
-  sum_.setZero(at_.size());
+  for (State<T>* state : {&state_, &previous_, &end_}) state->resize(layout_);
+  for (State<T>& stage : stages_) stage.resize(layout_);
   for (VectorX<T>* z : {&z_, &position_correction_, &velocity_correction_}) z->setZero(layout_.columns());
 }
 
@@ -46,47 +46,48 @@ void RosenbrockStep<T>::start(const State<T>& state) {
   equations_.linearize(state_, &derivatives_);
 }
 
+// u_v = w_v = h gamma r_v, u_q = w_q = h gamma (r_q + w_v), u_s = w_s = h gamma r_s, with r the stage's rates and sums of c_ij u_j / h.
 template <class T>
-void RosenbrockStep<T>::stage_state(int i, double h) {
-  const auto row = static_cast<std::size_t>(i);
-  shift_.setZero();
-  sum_.setZero();
-  for (std::size_t j = 0; j < row; ++j) {
-    shift_ += T(tableau_.a[row][j]) * increments_[j];
-    sum_ += T(tableau_.c[row][j] / h) * increments_[j];
-  }
-  copy_state(state_, &stage_);
-  add_increment(at_, shift_, &stage_);
-  stage_.t = state_.t + tableau_.alpha[row] * h;
+void RosenbrockStep<T>::stage_start(std::size_t i) {
+  const T hg(h_ * tableau_.gamma);
+  const State<T>& stage = stages_[i];
+  VectorX<T>& u = increments_[i];
+  double factors[RosenbrockTableau::kMaximumStages];
+  for (std::size_t j = 0; j < i; ++j) factors[j] = tableau_.c[i][j] / h_;
+  combine(stage.z.data(), factors, increments_, i, at_.v(), at_.n, u.data() + at_.v());
+  combine(stage.v.data(), factors, increments_, i, at_.x(), at_.n, u.data() + at_.x());
+  combine(stage.z.data() + at_.z_size - at_.states, factors, increments_, i, at_.s(), at_.states, u.data() + at_.s());
+  u[at_.psi()] = T(0.0);
+  combine(&u[at_.psi()], factors, increments_, i, at_.psi(), 1, &u[at_.psi()]);
+  u.segment(at_.v(), at_.n) *= hg;
+  u.segment(at_.x(), at_.n) = hg * (u.segment(at_.x(), at_.n) + u.segment(at_.v(), at_.n));
+  u.segment(at_.s(), at_.states) *= hg;
 }
 
-// With w_v = h gamma r_v, w_q = h gamma (r_q + w_v), w_s = h gamma r_s, the stage's matrix gives u_z and then u_v = w_v + h gamma u_a etc.
+// With these, the stage's matrix gives u_z, and then u_v = w_v + h gamma u_a etc.
 template <class T>
-bool RosenbrockStep<T>::solve_stage(int i, double h) {
-  VectorX<T>& u = increments_[static_cast<std::size_t>(i)];
-  const T hg(h * tableau_.gamma), time_shift(h * tableau_.gamma_i[static_cast<std::size_t>(i)]);
+bool RosenbrockStep<T>::solve_stage(std::size_t i) {
+  VectorX<T>& u = increments_[i];
+  const T hg(h_ * tableau_.gamma), time_shift(h_ * tableau_.gamma_i[i]);
   T g(0.0);
-  stage_state(i, h);
-  equations_.residual(stage_, &residual_, &g);
-  auto u_q = u.segment(at_.x(), at_.n), u_s = u.segment(at_.s(), at_.states), u_v = u.segment(at_.v(), at_.n),
-       u_z = u.segment(at_.z(), at_.z_size);
-  u_v = hg * (stage_.z.head(at_.n) + sum_.segment(at_.v(), at_.n));
-  u_q = hg * (stage_.v + sum_.segment(at_.x(), at_.n) + u_v);
-  u_s = hg * (stage_.z.tail(at_.states) + sum_.segment(at_.s(), at_.states));
+  combine(at_, state_, tableau_.a[i].data(), increments_, i, &stages_[i]);
+  stages_[i].t = state_.t + tableau_.alpha[i] * h_;
+  equations_.residual(stages_[i], &residual_, &g);
+  stage_start(i);
   const ByVariable<Sparsity>& patterns = system_.patterns();
   const T *const x = u.data(), *const v = x + at_.v();
   for (int row = 0; row < at_.z_size; ++row)
     z_[row] = -(residual_[row] + time_shift * derivatives_.time[row] + row_product(patterns.position, derivatives_.position, row, x) +
                 row_product(patterns.velocity, derivatives_.velocity, row, v));
   stage_matrix_.solve(&z_);
-  u_z = z_;
-  u_v += hg * z_.head(at_.n);
-  u_q += hg * hg * z_.head(at_.n);
-  u_s += hg * z_.tail(at_.states);
+  u.segment(at_.z(), at_.z_size) = z_;
+  u.segment(at_.v(), at_.n) += hg * z_.head(at_.n);
+  u.segment(at_.x(), at_.n) += hg * hg * z_.head(at_.n);
+  u.segment(at_.s(), at_.states) += hg * z_.tail(at_.states);
   const int last = at_.z_size;
   u[at_.psi()] =
       hg *
-      (g + sum_[at_.psi()] + time_shift * derivatives_.time[last] + row_product(patterns.position, derivatives_.position, last, x) +
+      (g + u[at_.psi()] + time_shift * derivatives_.time[last] + row_product(patterns.position, derivatives_.position, last, x) +
        row_product(patterns.velocity, derivatives_.velocity, last, v) + row_product(patterns.rate, derivatives_.rate, last, x + at_.z()));
   return std::isfinite(value_of(u[at_.psi()])) && std::isfinite(value_of(z_.sum()));
 }
@@ -96,12 +97,9 @@ bool RosenbrockStep<T>::attempt(double h) {
   const double hg = h * tableau_.gamma;
   h_ = h;
   if (!stage_matrix_.factor(derivatives_, hg, hg * hg, hg)) return false;
-  for (int i = 0; i < tableau_.stages; ++i)
-    if (!solve_stage(i, h)) return false;
-  copy_state(state_, &end_);
-  shift_.setZero();
-  for (std::size_t j = 0; j < increments_.size(); ++j) shift_ += T(tableau_.weights[j]) * increments_[j];
-  add_increment(at_, shift_, &end_);
+  for (std::size_t i = 0; i < stages_.size(); ++i)
+    if (!solve_stage(i)) return false;
+  combine(at_, state_, tableau_.weights.data(), increments_, increments_.size(), &end_);
   end_.t = state_.t + h;
   return true;
 }
@@ -160,13 +158,15 @@ void RosenbrockStep<T>::interpolate(double theta, State<T>* state, T* psi) const
   blend(previous_.s, state_.s, &state->s);
   blend(previous_.z, state_.z, &state->z);
   *psi = left * previous_psi_ + right * psi_;
+  double weights[RosenbrockTableau::kMaximumStages];
   for (std::size_t j = 0; j < increments_.size(); ++j) {
     double weight = 0.0;
     for (int k = tableau_.dense_terms - 1; k >= 0; --k) weight = weight * theta + tableau_.dense[static_cast<std::size_t>(k)][j];
     weight *= theta * (1.0 - theta);
-    add_increment<T>(at_, T(weight) * increments_[j], state);
+    weights[j] = weight;
     *psi += T(weight) * increments_[j][at_.psi()];
   }
+  combine(at_, *state, weights, increments_, increments_.size(), state);
   state->t = previous_.t + theta * h_;
 }
 

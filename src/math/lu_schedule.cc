@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <utility>
 
 #include "mechanism_codesign/math/lanes.h"
 
@@ -22,90 +20,88 @@ LuSchedule::LuSchedule(const LuPattern& pattern, const std::vector<int>& column_
     : n_(pattern.row_of.size()), row_of_(pattern.row_of), column_of_(pattern.column_of), work_(n_ * kWidest) {
   for (double scale : pattern.row_scale) inverse_scale_.push_back(1.0 / scale);
   lay_out(pattern);
-  std::vector<int> pivot_of_row(n_), slot(n_);
+  place_sources(column_start, row_index);
+  list_targets();
+}
+
+// Columns are visited in order, so that they ascend within each row.
+void LuSchedule::lay_out(const LuPattern& pattern) {
+  std::vector<std::vector<int>> lower(n_), upper(n_);
+  for (std::size_t k = 0; k < n_; ++k) {
+    for (int row : pattern.L[k]) lower[at(row)].push_back(static_cast<int>(k));
+    for (int row : pattern.U[k]) upper[at(row)].push_back(static_cast<int>(k));
+  }
+  start_.push_back(0);
+  for (std::size_t k = 0; k < n_; ++k) {
+    column_.insert(column_.end(), lower[k].begin(), lower[k].end());
+    diagonal_.push_back(static_cast<int>(column_.size()));
+    column_.push_back(static_cast<int>(k));
+    column_.insert(column_.end(), upper[k].begin(), upper[k].end());
+    start_.push_back(static_cast<int>(column_.size()));
+  }
+  factors_.resize(column_.size());
+}
+
+void LuSchedule::place_sources(const std::vector<int>& column_start, const std::vector<int>& row_index) {
+  std::vector<int> pivot_of_row(n_);
   for (std::size_t k = 0; k < n_; ++k) pivot_of_row[at(row_of_[k])] = static_cast<int>(k);
   source_slot_.resize(row_index.size());
   source_scale_.resize(row_index.size());
   for (std::size_t k = 0; k < n_; ++k) {
-    for (int e = start_[k]; e < start_[k + 1]; ++e) slot[at(row_[at(e)])] = e;
     const std::size_t column = at(column_of_[k]);
     for (int e = column_start[column]; e < column_start[column + 1]; ++e) {
-      const int pivot = pivot_of_row[at(row_index[at(e)])];
-      source_slot_[at(e)] = slot[at(pivot)];
-      source_scale_[at(e)] = inverse_scale_[at(pivot)];
-    }
-    for (int u = start_[k]; u < diagonal_[k]; ++u) {
-      const std::size_t j = at(row_[at(u)]);
-      for (int l = diagonal_[j] + 1; l < start_[j + 1]; ++l) target_.push_back(slot[at(row_[at(l)])]);
+      const std::size_t pivot = at(pivot_of_row[at(row_index[at(e)])]);
+      const auto first = column_.begin() + start_[pivot], last = column_.begin() + start_[pivot + 1];
+      source_slot_[at(e)] = static_cast<int>(std::lower_bound(first, last, static_cast<int>(k)) - column_.begin());
+      source_scale_[at(e)] = inverse_scale_[pivot];
     }
   }
 }
 
-void LuSchedule::lay_out(const LuPattern& pattern) {
-  start_.push_back(0);
+void LuSchedule::list_targets() {
+  std::vector<int> slot(n_);
   for (std::size_t k = 0; k < n_; ++k) {
-    row_.insert(row_.end(), pattern.U[k].begin(), pattern.U[k].end());
-    diagonal_.push_back(static_cast<int>(row_.size()));
-    row_.push_back(static_cast<int>(k));
-    row_.insert(row_.end(), pattern.L[k].begin(), pattern.L[k].end());
-    start_.push_back(static_cast<int>(row_.size()));
-  }
-  factors_.resize(row_.size());
-  own_.resize(row_.size());
-  std::iota(own_.begin(), own_.end(), 0);
-  lower_ = by_rows(true);
-  upper_ = by_rows(false);
-}
-
-LuSchedule::Rows LuSchedule::by_rows(bool lower) const {
-  std::vector<std::vector<std::pair<int, int>>> rows(n_);
-  for (std::size_t k = 0; k < n_; ++k) {
-    const int first = lower ? diagonal_[k] + 1 : start_[k], last = lower ? start_[k + 1] : diagonal_[k];
-    for (int e = first; e < last; ++e) rows[at(row_[at(e)])].emplace_back(e, static_cast<int>(k));
-  }
-  Rows result;
-  result.start.push_back(0);
-  for (const auto& row : rows) {
-    for (const auto& [entry, column] : row) {
-      result.entry.push_back(entry);
-      result.column.push_back(column);
+    for (int e = start_[k]; e < start_[k + 1]; ++e) slot[at(column_[at(e)])] = e;
+    for (int l = start_[k]; l < diagonal_[k]; ++l) {
+      const std::size_t j = at(column_[at(l)]);
+      for (int u = diagonal_[j] + 1; u < start_[j + 1]; ++u) target_.push_back(slot[at(column_[at(u)])]);
     }
-    result.start.push_back(static_cast<int>(result.entry.size()));
   }
-  return result;
 }
 
 LuSchedule::Quality LuSchedule::refactor(const double* values) {
   std::fill(factors_.begin(), factors_.end(), 0.0);
   for (std::size_t e = 0; e < source_slot_.size(); ++e) factors_[at(source_slot_[e])] = source_scale_[e] * values[e];
-  eliminate();
   Quality quality;
+  quality.growth = eliminate();
   double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
-  for (std::size_t k = 0; k < n_; ++k) {
-    const double inverse = std::abs(factors_[at(diagonal_[k])]);
+  for (int diagonal : diagonal_) {
+    const double inverse = std::abs(factors_[at(diagonal)]);
     // A vanished pivot has an infinite inverse; a product with NaN stays NaN.
     smallest = std::min(smallest, inverse);
     largest = std::max(largest, inverse);
     quality.growth += inverse - inverse;
-    for (int l = diagonal_[k] + 1; l < start_[k + 1]; ++l) quality.growth = std::max(quality.growth, std::abs(factors_[at(l)]));
   }
   quality.pivot_ratio = smallest / largest;
   return quality;
 }
 
-void LuSchedule::eliminate() {
+// Row by row: each earlier row that stands to the left is subtracted with its multiplier. Returns the largest multiplier.
+double LuSchedule::eliminate() {
   double* const w = factors_.data();
-  const int* target = target_.data();
+  const int *target = target_.data(), *const column = column_.data(), *const diagonal = diagonal_.data(), *const start = start_.data();
+  double growth = 0.0;
   for (std::size_t k = 0; k < n_; ++k) {
-    for (int u = start_[k]; u < diagonal_[k]; ++u) {
-      const std::size_t j = at(row_[at(u)]);
-      const double factor = w[u];
-      for (int l = diagonal_[j] + 1; l < start_[j + 1]; ++l) w[*target++] -= w[l] * factor;
+    for (int l = start[k]; l < diagonal[k]; ++l) {
+      const int j = column[l], pivot = diagonal[j], end = start[j + 1];
+      const double factor = w[l] * w[pivot];
+      w[l] = factor;
+      growth = std::max(growth, std::abs(factor));
+      for (int u = pivot + 1; u < end; ++u) w[*target++] -= factor * w[u];
     }
-    const double inverse = 1.0 / w[diagonal_[k]];
-    w[diagonal_[k]] = inverse;
-    for (int l = diagonal_[k] + 1; l < start_[k + 1]; ++l) w[l] *= inverse;
+    w[diagonal[k]] = 1.0 / w[diagonal[k]];
   }
+  return growth;
 }
 
 namespace {
@@ -141,14 +137,34 @@ struct Row<1> {
   void subtract(double factor, const Row& other) { value -= factor * other.value; }
 };
 
-/// y[k] -= sum of factors[entry of e] y[index of e], times `factor`.
+/// x -= sum of factors[e] y[column[e]].
 template <int N>
-void subtract_products(const double* factors, const int* entry, const int* index, int first, int last, double factor, std::size_t k,
-                       double* y) {
-  Row<N> x(y + N * k);
-  for (int e = first; e < last; ++e) x.subtract(factors[entry[e]], Row<N>(y + std::ptrdiff_t{N} * index[e]));
-  x.scale(factor);
-  x.store(y + N * k);
+void subtract_products(const double* factors, const int* column, int first, int last, const double* y, Row<N>* x) {
+  for (int e = first; e < last; ++e) x->subtract(factors[e], Row<N>(y + std::ptrdiff_t{N} * column[e]));
+}
+
+/// As above; two sums, because each addition would wait for the one before it.
+template <>
+void subtract_products<1>(const double* factors, const int* column, int first, int last, const double* y, Row<1>* x) {
+  double odd = 0.0;
+  int e = first;
+  for (; e + 1 < last; e += 2) {
+    x->value -= factors[e] * y[column[e]];
+    odd += factors[e + 1] * y[column[e + 1]];
+  }
+  if (e < last) odd += factors[e] * y[column[e]];
+  x->value -= odd;
+}
+
+/// y[column[e]] -= factors[e] x.
+template <int N>
+void spread_products(const double* factors, const int* column, int first, int last, const Row<N>& x, double* y) {
+  for (int e = first; e < last; ++e) {
+    double* const to = y + std::ptrdiff_t{N} * column[e];
+    Row<N> sum(to);
+    sum.subtract(factors[e], x);
+    sum.store(to);
+  }
 }
 
 }  // namespace
@@ -157,27 +173,41 @@ template <int N>
 void LuSchedule::solve(double* x) const {
   double* const y = work_.data();
   const double* const f = factors_.data();
-  for (std::size_t k = 0; k < n_; ++k)
-    for (std::size_t c = 0; c < N; ++c) y[N * k + c] = inverse_scale_[k] * x[N * at(row_of_[k]) + c];
-  for (std::size_t k = 0; k < n_; ++k)
-    subtract_products<N>(f, lower_.entry.data(), lower_.column.data(), lower_.start[k], lower_.start[k + 1], 1.0, k, y);
-  for (std::size_t k = n_; k-- > 0;)
-    subtract_products<N>(f, upper_.entry.data(), upper_.column.data(), upper_.start[k], upper_.start[k + 1], f[diagonal_[k]], k, y);
-  for (std::size_t k = 0; k < n_; ++k)
-    for (std::size_t c = 0; c < N; ++c) x[N * at(column_of_[k]) + c] = y[N * k + c];
+  const int *const column = column_.data(), *const start = start_.data(), *const diagonal = diagonal_.data();
+  for (std::size_t k = 0; k < n_; ++k) {
+    Row<N> sum(x + N * at(row_of_[k]));
+    sum.scale(inverse_scale_[k]);
+    subtract_products<N>(f, column, start[k], diagonal[k], y, &sum);
+    sum.store(y + N * k);
+  }
+  for (std::size_t k = n_; k-- > 0;) {
+    Row<N> sum(y + N * k);
+    subtract_products<N>(f, column, diagonal[k] + 1, start[k + 1], y, &sum);
+    sum.scale(f[diagonal[k]]);
+    sum.store(y + N * k);
+    sum.store(x + N * at(column_of_[k]));
+  }
 }
 
-// A^T = Q U^T L^T P R^-T: rows of the transposed factors are the columns as they lie.
+// A^T = Q U^T L^T P R^-T: the rows of the factors are the columns of their transposes.
 template <int N>
 void LuSchedule::solve_transposed(double* x) const {
   double* const y = work_.data();
   const double* const f = factors_.data();
-  for (std::size_t k = 0; k < n_; ++k)
-    for (std::size_t c = 0; c < N; ++c) y[N * k + c] = x[N * at(column_of_[k]) + c];
-  for (std::size_t k = 0; k < n_; ++k) subtract_products<N>(f, own_.data(), row_.data(), start_[k], diagonal_[k], f[diagonal_[k]], k, y);
-  for (std::size_t k = n_; k-- > 0;) subtract_products<N>(f, own_.data(), row_.data(), diagonal_[k] + 1, start_[k + 1], 1.0, k, y);
-  for (std::size_t k = 0; k < n_; ++k)
-    for (std::size_t c = 0; c < N; ++c) x[N * at(row_of_[k]) + c] = inverse_scale_[k] * y[N * k + c];
+  const int *const column = column_.data(), *const start = start_.data(), *const diagonal = diagonal_.data();
+  for (std::size_t k = 0; k < n_; ++k) Row<N>(x + N * at(column_of_[k])).store(y + N * k);
+  for (std::size_t k = 0; k < n_; ++k) {
+    Row<N> own(y + N * k);
+    own.scale(f[diagonal[k]]);
+    own.store(y + N * k);
+    spread_products<N>(f, column, diagonal[k] + 1, start[k + 1], own, y);
+  }
+  for (std::size_t k = n_; k-- > 0;) {
+    Row<N> own(y + N * k);
+    spread_products<N>(f, column, start[k], diagonal[k], own, y);
+    own.scale(inverse_scale_[k]);
+    own.store(x + N * at(row_of_[k]));
+  }
 }
 
 #define CODESIGN_INSTANTIATE(N)                      \

@@ -14,9 +14,10 @@ struct LuPattern {
   std::vector<std::vector<int>> U, L;  ///< per column: rows above, rows below the diagonal
 };
 
-/// The left-looking refactorization and the triangular solves for one LuPattern, as flat lists of what to do.
+/// The refactorization and the triangular solves for one LuPattern, as flat lists of what to do.
 ///
-/// All factors lie in one array, column after column: the entries of U, the pivot, the entries of L.
+/// All factors lie in one array, row after row: the entries of L, the inverse pivot, the entries of U. Rows, because a triangular solve then
+/// reads the array from end to end and keeps its sums in registers.
 class LuSchedule {
  public:
   /// @param column_start, row_index pattern of A.
@@ -34,23 +35,17 @@ class LuSchedule {
   void solve_transposed(double* x) const;
 
  private:
-  /// The entries of L or U row by row: sums over a row stay in registers, where columns would go through memory.
-  struct Rows {
-    std::vector<int> start, entry, column;
-  };
-
   void lay_out(const LuPattern& pattern);
-  Rows by_rows(bool lower) const;
-  void eliminate();
+  void place_sources(const std::vector<int>& column_start, const std::vector<int>& row_index);
+  void list_targets();
+  double eliminate();
 
   std::size_t n_;
   std::vector<int> row_of_, column_of_;
   std::vector<double> inverse_scale_;
-  std::vector<int> start_, diagonal_;  ///< per column: first entry, and the pivot's place; start_ has n + 1
-  std::vector<int> row_;               ///< row of each entry
-  std::vector<int> own_;               ///< entries in their own order, for the columns
-  Rows lower_, upper_;
-  std::vector<int> source_slot_;  ///< where each entry of A goes
+  std::vector<int> start_, diagonal_;  ///< per row: first entry, and the pivot's place; start_ has n + 1
+  std::vector<int> column_;            ///< of each entry
+  std::vector<int> source_slot_;       ///< where each entry of A goes
   std::vector<double> source_scale_;
   std::vector<int> target_;      ///< where each product of the elimination is subtracted, in order
   std::vector<double> factors_;  ///< of L and U, with inverse pivots

@@ -90,20 +90,27 @@ class Minimization {
     // Some of NLopt's line searches finish their work after a forced stop.
     if (cancelled_) stop();
     const Eigen::VectorXd rho = scaling_.from_scaled(x);
-    const Evaluation evaluation = evaluator_.evaluate(rho, true, cancel_);
-    if (evaluation.status.code == StatusCode::kCancelled) stop();
-    const Trial trial = note(evaluation, rho);
-    if (observer_ && !observer_(trial)) stop();
+    // At its bounds an algorithm may ask again for where it stands.
+    if (rho.size() != last_rho_.size() || rho != last_rho_) evaluate(rho);
+    const Evaluation& evaluation = last_;
     if (!evaluation.status.ok()) return step_back(x, gradient);
-    // Quasi-Newton methods begin with a step as long as the gradient: the first shall not leave the neighbourhood in which variables are
-    // scaled.
-    if (trial.evaluation == 1) unit_ = std::max(1.0, trial.gradient_norm);
     if (!gradient->empty()) {
       *gradient = scaling_.scale_gradient(evaluation.gradient);
       for (double& component : *gradient) component /= unit_;
     }
     worst_ = std::max(worst_, evaluation.objective);
     return evaluation.objective / unit_;
+  }
+
+  void evaluate(const Eigen::VectorXd& rho) {
+    last_ = evaluator_.evaluate(rho, true, cancel_);
+    if (last_.status.code == StatusCode::kCancelled) stop();
+    last_rho_ = rho;
+    const Trial trial = note(last_, rho);
+    if (observer_ && !observer_(trial)) stop();
+    // Quasi-Newton methods begin with a step as long as the gradient: the first shall not leave the neighbourhood in which variables are
+    // scaled.
+    if (trial.evaluation == 1 && last_.status.ok()) unit_ = std::max(1.0, trial.gradient_norm);
   }
 
   // NLopt's line searches may end with another reason than the one given here.
@@ -178,6 +185,8 @@ class Minimization {
   const std::atomic<bool>* cancel_;
   Evaluator evaluator_;
   Scaling scaling_;
+  Eigen::VectorXd last_rho_;
+  Evaluation last_;  ///< at last_rho_
   std::vector<Constraint> constraints_;
   OptimizationResult result_;
   Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"};

@@ -17,13 +17,11 @@ TangentStep<N>::TangentStep(const System& system, const RosenbrockTableau& table
       equations_(system),
       y_(Directions<N>::Zero(N, at_.size())),
       stage_y_(y_),
-      sum_(y_),
       rows_(Directions<N>::Zero(N, layout_.columns() + 1)),
-      shift_(VectorX<double>::Zero(at_.size())),
-      stages_(static_cast<std::size_t>(tableau.stages), y_) {
+      stages_(static_cast<std::size_t>(tableau.stages), y_),
+      matrix_changes_(stages_.size(), rows_) {
   derivatives_.resize(system.patterns());
   state_.resize(layout_);
-  stage_.resize(layout_);
   projected_.resize(layout_);
 }
 
@@ -63,72 +61,87 @@ void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assemb
 }
 
 template <int N>
-void TangentStep<N>::stage_state(std::size_t i, const RosenbrockStep<double>& step) {
-  const auto &a = tableau_.a[i], &c = tableau_.c[i];
-  const double inverse_h = 1.0 / step.step_size();
-  // One pass over the stages: each is read once for both sums.
-  for (int column = 0; column < at_.size(); ++column) {
-    Vector y = vector_at(&y_, column), sum{};
-    for (std::size_t j = 0; j < i; ++j) {
-      const Vector& u = vector_at(&stages_[j], column);
-      y += a[j] * u;
-      sum += (c[j] * inverse_h) * u;
-    }
-    vector_at(&stage_y_, column) = y;
-    vector_at(&sum_, column) = sum;
+void TangentStep<N>::combine(const Directions<N>& from, const double* factors, std::size_t count, int first, int size, Directions<N>* to) {
+  for (int k = 0; k < size; ++k) {
+    Vector sum = vector_at(from, first + k);
+    for (std::size_t j = 0; j < count; ++j) sum += factors[j] * vector_at(stages_[j], first + k);
+    vector_at(to, first + k) = sum;
   }
-  shift_.setZero();
-  for (std::size_t j = 0; j < i; ++j) shift_ += a[j] * step.increments()[j];
-  stage_ = step.state();
-  add_increment(at_, shift_, &stage_);
-  stage_.t += tableau_.alpha[i] * step.step_size();
-  load_lanes(stage_, stage_y_);
 }
 
+// The stage's u' as far as it is known before the solve; as RosenbrockStep::stage_start().
 template <int N>
-void TangentStep<N>::stage_rows(std::size_t i, const RosenbrockStep<double>& step) {
+void TangentStep<N>::stage_start(std::size_t i, double h) {
+  const double hg = h * tableau_.gamma;
+  Directions<N>& u = stages_[i];
+  double factors[RosenbrockTableau::kMaximumStages];
+  for (std::size_t j = 0; j < i; ++j) factors[j] = tableau_.c[i][j] / h;
+  const auto add = [&](int rate, int k) {
+    Vector sum = vector_at(stage_y_, rate);
+    for (std::size_t j = 0; j < i; ++j) sum += factors[j] * vector_at(stages_[j], k);
+    return hg * sum;
+  };
+  for (int k = 0; k < at_.n; ++k) {
+    const Vector u_v = add(at_.z() + k, at_.v() + k);
+    vector_at(&u, at_.v() + k) = u_v;
+    vector_at(&u, at_.x() + k) = add(at_.v() + k, at_.x() + k) + hg * u_v;
+  }
+  for (int k = 0; k < at_.states; ++k) vector_at(&u, at_.s() + k) = add(at_.sigma() + k, at_.s() + k);
+  Vector sum{};
+  for (std::size_t j = 0; j < i; ++j) sum += factors[j] * vector_at(stages_[j], at_.psi());
+  vector_at(&u, at_.psi()) = sum;
+}
+
+// (dG_q) u_q + (dG_s) u_s + (dG_v) u_v + (dG_z) u_z and the integrand's, for all stages: the u are the step's own, known beforehand, and dG
+// is by far the largest array, to be read once.
+template <int N>
+void TangentStep<N>::change_matrices(const RosenbrockStep<double>& step) {
   const ByVariable<Sparsity>& patterns = system_.patterns();
-  const Linearization<double>& matrices = step.derivatives();
-  const VectorX<double>& u = step.increments()[i];
-  const double *const x = u.data(), *const v = x + at_.v(), *const z = x + at_.z();
-  const double *const dx = stages_[i].data(), *const dv = dx + N * at_.v();
-  const double time_shift = step.step_size() * tableau_.gamma_i[i];
-  for (int row = 0; row <= at_.z_size; ++row) {
-    const Lanes<N>& own = row < at_.z_size ? residual_[row] : g_;
-    Vector sum = own.v + time_shift * derivatives_.time[row].v;
-    if (row < at_.z_size) {
-      add_row_product<N>(patterns.position, matrices.position, row, dx, &sum);
-      add_row_product<N>(patterns.velocity, matrices.velocity, row, dv, &sum);
+  constexpr std::size_t kTogether = 4;
+  for (std::size_t first = 0; first < stages_.size(); first += kTogether) {
+    const std::size_t count = std::min(kTogether, stages_.size() - first);
+    const double* u[kTogether];
+    for (std::size_t k = 0; k < kTogether; ++k) u[k] = step.increments()[first + std::min(k, count - 1)].data();
+    for (int row = 0; row <= at_.z_size; ++row) {
+      Vector sums[kTogether] = {};
+      add_row_tangents<N, kTogether>(patterns.position, derivatives_.position, row, u, at_.x(), sums);
+      add_row_tangents<N, kTogether>(patterns.velocity, derivatives_.velocity, row, u, at_.v(), sums);
+      add_row_tangents<N, kTogether>(patterns.rate, derivatives_.rate, row, u, at_.z(), sums);
+      for (std::size_t k = 0; k < count; ++k)
+        vector_at(&matrix_changes_[first + k], row) =
+            sums[k] + (step.step_size() * tableau_.gamma_i[first + k]) * derivatives_.time[row].v;
     }
-    add_row_tangent<N>(patterns.position, derivatives_.position, row, x, &sum);
-    add_row_tangent<N>(patterns.velocity, derivatives_.velocity, row, v, &sum);
-    add_row_tangent<N>(patterns.rate, derivatives_.rate, row, z, &sum);
-    vector_at(&rows_, row) = row < at_.z_size ? -sum : sum;
   }
 }
 
 template <int N>
 void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& step) {
   const double hg = step.step_size() * tableau_.gamma;
-  stage_state(i, step);
-  equations_.residual(state_, &residual_, &g_);
-  Directions<N>& u = stages_[i];
-  auto u_q = u.middleCols(at_.x(), at_.n), u_s = u.middleCols(at_.s(), at_.states), u_v = u.middleCols(at_.v(), at_.n);
-  u_v = hg * (stage_y_.middleCols(at_.z(), at_.n) + sum_.middleCols(at_.v(), at_.n));
-  u_q = hg * (stage_y_.middleCols(at_.v(), at_.n) + sum_.middleCols(at_.x(), at_.n) + u_v);
-  u_s = hg * (stage_y_.middleCols(at_.sigma(), at_.states) + sum_.middleCols(at_.s(), at_.states));
-  stage_rows(i, step);
-  step.stage_matrix().lu().template solve_rows<N>(rows_.data());
-  u.middleCols(at_.z(), at_.z_size) = rows_.leftCols(at_.z_size);
-  const auto u_a = u.middleCols(at_.z(), at_.n);
-  u_v += hg * u_a;
-  u_q += hg * hg * u_a;
-  u_s += hg * u.middleCols(at_.sigma(), at_.states);
   const ByVariable<Sparsity>& patterns = system_.patterns();
   const Linearization<double>& matrices = step.derivatives();
-  Vector psi = vector_at(&rows_, at_.z_size) + vector_at(&sum_, at_.psi());
-  add_row_product<N>(patterns.position, matrices.position, at_.z_size, u.data(), &psi);
-  add_row_product<N>(patterns.velocity, matrices.velocity, at_.z_size, u.data() + N * at_.v(), &psi);
+  combine(y_, tableau_.a[i].data(), i, 0, at_.psi(), &stage_y_);
+  load_lanes(step.stages()[i], stage_y_);
+  equations_.residual(state_, &residual_, &g_);
+  stage_start(i, step.step_size());
+  Directions<N>& u = stages_[i];
+  const double *const x = u.data() + N * at_.x(), *const v = u.data() + N * at_.v();
+  for (int row = 0; row < at_.z_size; ++row) {
+    Vector sum = residual_[row].v + vector_at(matrix_changes_[i], row);
+    add_row_product<N>(patterns.position, matrices.position, row, x, &sum);
+    add_row_product<N>(patterns.velocity, matrices.velocity, row, v, &sum);
+    vector_at(&rows_, row) = -sum;
+  }
+  step.stage_matrix().lu().template solve_rows<N>(rows_.data());
+  u.middleCols(at_.z(), at_.z_size) = rows_.leftCols(at_.z_size);
+  for (int k = 0; k < at_.n; ++k) {
+    const Vector change = hg * vector_at(rows_, k);
+    vector_at(&u, at_.v() + k) += change;
+    vector_at(&u, at_.x() + k) += hg * change;
+  }
+  for (int k = 0; k < at_.states; ++k) vector_at(&u, at_.s() + k) += hg * vector_at(u, at_.sigma() + k);
+  Vector psi = g_.v + vector_at(matrix_changes_[i], at_.z_size) + vector_at(u, at_.psi());
+  add_row_product<N>(patterns.position, matrices.position, at_.z_size, x, &psi);
+  add_row_product<N>(patterns.velocity, matrices.velocity, at_.z_size, v, &psi);
   add_row_product<N>(patterns.rate, matrices.rate, at_.z_size, u.data() + N * at_.z(), &psi);
   vector_at(&u, at_.psi()) = hg * psi;
 }
@@ -136,6 +149,7 @@ void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& 
 template <int N>
 void TangentStep<N>::attempt(const RosenbrockStep<double>& step) {
   equations_.turn_references() = step.equations().turn_references();
+  change_matrices(step);
   for (std::size_t i = 0; i < stages_.size(); ++i) stage_tangent(i, step);
 }
 
@@ -161,11 +175,12 @@ void TangentStep<N>::measure() {
 template <int N>
 void TangentStep<N>::project(const VectorX<double>& correction, const VectorX<Lanes<N>>& errors, const SparseLu& lu, double* target) {
   for (int row = 0; row < at_.z_size; ++row) {
-    Vector sum{};
-    add_row_tangent<N>(system_.patterns().rate, derivatives_.rate, row, correction.data(), &sum);
+    Vector sum[1] = {};
+    const double* const x[1] = {correction.data()};
+    add_row_tangents<N, 1>(system_.patterns().rate, derivatives_.rate, row, x, 0, sum);
     const int constraint = row - layout_.n;
-    if (constraint >= 0 && constraint < layout_.m) sum += errors[constraint].v;
-    vector_at(&rows_, row) = -sum;
+    if (constraint >= 0 && constraint < layout_.m) sum[0] += errors[constraint].v;
+    vector_at(&rows_, row) = -sum[0];
   }
   lu.template solve_rows<N>(rows_.data());
   for (int k = 0; k < N * layout_.n; ++k) target[k] += rows_.data()[k];
@@ -173,7 +188,7 @@ void TangentStep<N>::project(const VectorX<double>& correction, const VectorX<La
 
 template <int N>
 void TangentStep<N>::accept(const RosenbrockStep<double>& step) {
-  for (std::size_t j = 0; j < stages_.size(); ++j) y_ += tableau_.weights[j] * stages_[j];
+  combine(y_, tableau_.weights.data(), stages_.size(), 0, at_.size(), &y_);
   const SparseLu& lu = step.projection_matrix().lu();
   load_lanes(step.unprojected(), y_);
   equations_.linearize(state_, &derivatives_);

@@ -24,11 +24,15 @@ TEST(RowProduct, OfSeveralVectorsAndOfTangents) {
 
   std::vector<Lanes<4>> values{Lanes<4>(3.0), Lanes<4>(5.0)};
   values[1].v[2] = 7.0;
-  const double u[] = {1.0, 100.0, 2.0};
-  Lanes<4>::Vector tangent{};
-  add_row_tangent<4>(kPattern, values, 0, u, &tangent);
-  EXPECT_EQ(tangent[2], 14.0);
-  EXPECT_EQ(tangent[0], 0.0);
+  const double u[] = {1.0, 100.0, 2.0, 0.0, 0.0, 0.0, 0.0};
+  const double* const both[] = {u, x};
+  Lanes<4>::Vector tangents[2] = {};
+  add_row_tangents<4>(kPattern, values, 0, both, 0, tangents);
+  EXPECT_EQ(tangents[0][2], 14.0);
+  EXPECT_EQ(tangents[0][0], 0.0);
+  EXPECT_EQ(tangents[1][2], 14.0);
+  add_row_tangents<4>(kPattern, values, 0, both, 4, tangents);
+  EXPECT_EQ(tangents[1][2], 14.0 + 42.0);
 }
 
 }  // namespace

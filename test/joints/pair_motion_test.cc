@@ -16,7 +16,7 @@ TEST(PairMotion, SharedVectorsMoveAsTheirOwn) {
   c.s_j = Vector3<double>(-0.3, 0.1, 0.2);
   const PairRows<double> rows = pair_rows(PairKind::kPrismatic, c);
   PairMotion<double> shared;
-  shared.update(rows, i, false, j, false, true);
+  shared.update(rows, i, j, true);
   for (const ProductRow<double>& row : rows.products) {
     for (const PairVector<double>* x : {&row.X, &row.Y}) {
       const VectorMotion<double> one = shared.of(*x), other = motion_of(*x, i, j);
@@ -32,7 +32,9 @@ TEST(PairMotion, VectorsOnTheGroundRest) {
   const auto j = local_body<double>(q, v, a, kBodySize);
   const PairRows<double> rows = pair_rows(PairKind::kPlanar, PairConstants<double>());
   PairMotion<double> shared;
-  shared.update(rows, BodyKinematics<double>(), true, j, false, false);
+  BodyKinematics<double> ground;
+  ground.at_rest = true;
+  shared.update(rows, ground, j, false);
   const VectorMotion<double> z = shared.of(rows.products.front().X);
   EXPECT_EQ(z.x, Vector3<double>::UnitZ());
   EXPECT_EQ(z.xd, Vector3<double>::Zero());

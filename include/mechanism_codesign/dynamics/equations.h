@@ -2,6 +2,8 @@
 #ifndef MECHANISM_CODESIGN_DYNAMICS_EQUATIONS_H_
 #define MECHANISM_CODESIGN_DYNAMICS_EQUATIONS_H_
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "mechanism_codesign/control/controller_constants.h"
@@ -59,14 +61,17 @@ class Equations {
   void constraint_errors(const VectorX<T>& q, const VectorX<T>& v, VectorX<T>* Phi, VectorX<T>* Phi_rate);
 
   /// Counts whole turns: positions of turning joints are continued from the value nearest to these. One per pair and chain element.
-  std::vector<std::vector<double>>& turn_references() { return turn_references_; }
+  std::vector<std::vector<double>>& turn_references() {
+    ++version_;
+    return turn_references_;
+  }
   const std::vector<std::vector<double>>& turn_references() const { return turn_references_; }
   /// Makes the present positions the references.
   void track_turns(const State<T>& state);
 
   /// Samplers used by the observer; the state must have been loaded by load().
   void load(const State<T>& state);
-  CoordinateMotion<T> coordinate(int pair, int element, CoordinateDetail detail = CoordinateDetail::kAll) const;
+  const CoordinateMotion<T>& coordinate(int pair, int element, CoordinateDetail detail = CoordinateDetail::kAll) const;
   FrictionState<T> friction(int pair, int element);
   /// Isotropic friction of a pair among System::contacts().
   ContactFriction<T> contact(int pair, CoordinateDetail detail = CoordinateDetail::kGradient) const;
@@ -142,17 +147,19 @@ class Equations {
   T shaped_input(int controller, SparseGradient<T>* gradient);
 
   /// Global column of a local coordinate of a pair, or -1 on the ground.
-  int column(int pair, int local) const;
+  int column(int pair, int local) const { return columns_[static_cast<std::size_t>(pair)][static_cast<std::size_t>(local)]; }
   bool coordinate_moves_r(int pair, int element) const;
   /// What to add to a position so that it continues its reference.
   double whole_turns(int pair, int element, const T& position) const;
-  BodyLoad<T>& load_on(int body);
+  BodyLoad<T>* load_on(int body) { return body < 0 ? nullptr : &loads_[static_cast<std::size_t>(body)]; }
+  T coordinate_value(int pair, int element) const;
 
   const System& system_;
   const Layout& layout_;
   std::vector<T> parameters_;
   Constants<T> constants_;
   std::vector<PairRows<T>> rows_;
+  std::vector<std::array<int, kLocalSize>> columns_;  ///< of each pair's local coordinates
   std::vector<ControllerConstants<T>> controllers_;
   std::vector<InverseDynamics<T>> inverse_dynamics_;  ///< one per controller
   std::vector<T> accelerations_, by_acceleration_;    ///< of the nodes of one controller's tree
@@ -162,7 +169,16 @@ class Equations {
   const State<T>* state_ = nullptr;
   State<T> constraint_state_;                  ///< scratch of constraint_errors()
   std::vector<BodyKinematics<T>> kinematics_;  ///< the ground last
-  std::vector<BodyLoad<T>> loads_;             ///< multiplier loads per body, the ground last
+  std::vector<BodyLoad<T>> loads_;             ///< multiplier loads per body
+
+  /// A coordinate's motion, kept for the several that ask for it at the same state.
+  struct KnownCoordinate {
+    std::uint64_t version = 0;
+    CoordinateDetail detail = CoordinateDetail::kRate;
+    CoordinateMotion<T> motion;
+  };
+  mutable std::vector<std::vector<KnownCoordinate>> coordinates_;  ///< per pair and chain element
+  std::uint64_t version_ = 0;                                      ///< of what coordinates depend on
   std::vector<std::vector<double>> turn_references_;
   SparseGradient<T> gradient_, objective_gradient_;
 };

@@ -27,12 +27,20 @@ void add_row_product(const Sparsity& pattern, const std::vector<double>& values,
     *sum += values[static_cast<std::size_t>(e)] * *reinterpret_cast<const Vector*>(x + std::ptrdiff_t{N} * column[e]);
 }
 
-/// One row of the directional derivatives of a sparse matrix times a real vector: sum_k += sum over the row of dvalues_k x[column].
-template <int N>
-void add_row_tangent(const Sparsity& pattern, const std::vector<Lanes<N>>& values, int row, const double* x,
-                     typename Lanes<N>::Vector* sum) {
+/// One row of the directional derivatives of a sparse matrix times M real vectors, each from its entry `offset` on:
+/// sums[m]_k += sum over the row of dvalues_k x[m][offset + column].
+template <int N, std::size_t M>
+void add_row_tangents(const Sparsity& pattern, const std::vector<Lanes<N>>& values, int row, const double* const (&x)[M], int offset,
+                      typename Lanes<N>::Vector (&sums)[M]) {
   const int* const column = pattern.column_index.data();
-  for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) *sum += x[column[e]] * values[static_cast<std::size_t>(e)].v;
+  typename Lanes<N>::Vector total[M];
+  for (std::size_t m = 0; m < M; ++m) total[m] = sums[m];
+  for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) {
+    const typename Lanes<N>::Vector change = values[static_cast<std::size_t>(e)].v;
+    const int k = offset + column[e];
+    for (std::size_t m = 0; m < M; ++m) total[m] += x[m][k] * change;
+  }
+  for (std::size_t m = 0; m < M; ++m) sums[m] = total[m];
 }
 
 }  // namespace codesign

@@ -2,7 +2,6 @@
 #ifndef MECHANISM_CODESIGN_DYNAMICS_SPARSITY_H_
 #define MECHANISM_CODESIGN_DYNAMICS_SPARSITY_H_
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -48,7 +47,7 @@ class PatternRecorder {
   using Calls = std::vector<std::pair<int, int>>;
   const ByVariable<Calls>& calls() const { return calls_; }
 
-  /// The pattern of one matrix, and for each call in order the slot it adds to.
+  /// The pattern of one matrix, and for each call in order the slot it adds to; the complement of the slot for the first that touches it.
   static Sparsity build(const Calls& calls, int rows, int columns, std::vector<int>* slots);
 
  private:
@@ -74,16 +73,23 @@ class AssemblySink {
  public:
   AssemblySink(const ByVariable<std::vector<int>>& slots, Linearization<T>* values)
       : slot_{slots.position.data(), slots.velocity.data(), slots.rate.data()}, values_(values) {
-    for (std::vector<T>* v : {&values->position, &values->velocity, &values->rate}) std::fill(v->begin(), v->end(), T(0.0));
     values->time.setZero();
   }
 
-  void position(int, int, const T& x) { values_->position[static_cast<std::size_t>(*slot_.position++)] += x; }
-  void velocity(int, int, const T& x) { values_->velocity[static_cast<std::size_t>(*slot_.velocity++)] += x; }
-  void rate(int, int, const T& x) { values_->rate[static_cast<std::size_t>(*slot_.rate++)] += x; }
+  void position(int, int, const T& x) { add(*slot_.position++, x, &values_->position); }
+  void velocity(int, int, const T& x) { add(*slot_.velocity++, x, &values_->velocity); }
+  void rate(int, int, const T& x) { add(*slot_.rate++, x, &values_->rate); }
   void time(int row, const T& x) { values_->time[row] += x; }
 
  private:
+  // The first to touch a slot sets it, so that nothing need be cleared beforehand.
+  static void add(int slot, const T& x, std::vector<T>* values) {
+    if (slot < 0)
+      (*values)[static_cast<std::size_t>(~slot)] = x;
+    else
+      (*values)[static_cast<std::size_t>(slot)] += x;
+  }
+
   ByVariable<const int*> slot_;
   Linearization<T>* values_;
 };

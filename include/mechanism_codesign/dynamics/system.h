@@ -27,6 +27,7 @@ struct JointLoad {
   bool reaction_friction = false;  ///< an annotated friction law acts on this coordinate
   bool constant_friction = false;  ///< `<dynamics friction>`
   bool passive = false;            ///< damping or a torsion spring
+  bool spring = false;             ///< a torsion spring, which depends on the position
   std::vector<int> controllers;    ///< that drive this coordinate
 };
 
@@ -52,7 +53,7 @@ class System {
   /// Patterns of the equations' derivatives (columns() rows) with the integrand g as one row below them. Columns: Layout::position_column()
   /// for positions, coordinates for velocities, Layout::columns() for rates.
   const ByVariable<Sparsity>& patterns() const { return patterns_; }
-  /// Slots of the assembly's calls in order.
+  /// Slots of the assembly's calls in order, as PatternRecorder::build() gives them.
   const ByVariable<std::vector<int>>& slots() const { return slots_; }
 
   double compliance() const { return compliance_; }

@@ -43,6 +43,7 @@ class RosenbrockStep {
   // What the tangent of the step needs.
   const IncrementLayout& increment_layout() const { return at_; }
   const std::vector<VectorX<T>>& increments() const { return increments_; }       ///< u_i of the last attempt
+  const std::vector<State<T>>& stages() const { return stages_; }                 ///< where the last attempt evaluated the equations
   const State<T>& previous() const { return previous_; }                          ///< where the last accepted step began
   const State<T>& unprojected() const { return end_; }                            ///< where the last attempt ended
   const Linearization<T>& derivatives() const { return derivatives_; }            ///< that the next step will use
@@ -55,8 +56,8 @@ class RosenbrockStep {
   void interpolate(double theta, State<T>* state, T* psi) const;
 
  private:
-  void stage_state(int i, double h);
-  bool solve_stage(int i, double h);
+  void stage_start(std::size_t i);
+  bool solve_stage(std::size_t i);
   bool project();
 
   const System& system_;
@@ -66,10 +67,10 @@ class RosenbrockStep {
   Equations<T> equations_;
   StageMatrix<T> stage_matrix_, projection_matrix_;
   Linearization<T> derivatives_;
-  State<T> state_, previous_, stage_, end_;
+  State<T> state_, previous_, end_;
   T psi_{0.0}, previous_psi_{0.0};
   std::vector<VectorX<T>> increments_;
-  VectorX<T> shift_, sum_;  ///< sums of a_ij u_j and of c_ij u_j / h
+  std::vector<State<T>> stages_;
   VectorX<T> residual_, z_, constraint_, constraint_rate_, position_correction_, velocity_correction_;
   double h_ = 0.0;
 };

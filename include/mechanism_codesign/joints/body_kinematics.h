@@ -13,6 +13,7 @@ struct BodyKinematics {
   Vector3<T> r = Vector3<T>::Zero(), rd = Vector3<T>::Zero(), rdd = Vector3<T>::Zero();
   Vector4<T> p = Vector4<T>(T(1.0), T(0.0), T(0.0), T(0.0)), pd = Vector4<T>::Zero(), pdd = Vector4<T>::Zero();
   Matrix3<T> A = Matrix3<T>::Identity(), Ad = Matrix3<T>::Zero(), Add = Matrix3<T>::Zero();
+  bool at_rest = false;  ///< the ground: what is fixed in it need not be computed, and has no derivatives
 
   /// Fills A, Ad = DA(p)[p'], Add = DA(p)[p''] + 2 A(p') from p, pd, pdd.
   void update_rotation() {
@@ -31,13 +32,26 @@ struct VectorMotion {
 /// Motion of a body-fixed direction A a.
 template <class T>
 VectorMotion<T> direction_motion(const BodyKinematics<T>& body, const Vector3<T>& a) {
+  if (body.at_rest) return {a, Vector3<T>::Zero(), Vector3<T>::Zero()};
   return {body.A * a, body.Ad * a, body.Add * a};
+}
+
+/// Motion of the body-fixed point r + A s.
+template <class T>
+VectorMotion<T> point_motion(const BodyKinematics<T>& body, const Vector3<T>& s) {
+  VectorMotion<T> x = direction_motion(body, s);
+  if (body.at_rest) return x;
+  x.x += body.r;
+  x.xd += body.rd;
+  x.xdd += body.rdd;
+  return x;
 }
 
 /// Motion of the vector from point s_i of body i to point s_j of body j.
 template <class T>
 VectorMotion<T> displacement_motion(const BodyKinematics<T>& i, const Vector3<T>& s_i, const BodyKinematics<T>& j, const Vector3<T>& s_j) {
-  return {j.r + j.A * s_j - i.r - i.A * s_i, j.rd + j.Ad * s_j - i.rd - i.Ad * s_i, j.rdd + j.Add * s_j - i.rdd - i.Add * s_i};
+  const VectorMotion<T> to = point_motion(j, s_j), from = point_motion(i, s_i);
+  return {to.x - from.x, to.xd - from.xd, to.xdd - from.xdd};
 }
 
 }  // namespace codesign

@@ -79,6 +79,7 @@ void angular_rate(const RateMatrix& rate_matrix, const Vector3<T>& u_i, const Ve
   if (gradient)
     for (LocalRow<T>* row : {&m->rate_q, &m->acceleration_q, &m->acceleration_v}) row->setZero();
   const auto add = [&](Side side, const BodyKinematics<T>& body, const Vector3<T>& u) {
+    if (body.at_rest) return;
     const Vector4<T> row = rate_matrix(body.p).transpose() * u;
     m->J.template segment<4>(p_offset(side)) = row;
     for (int k = 0; k < 4; ++k) m->rate += row[k] * body.pd[k];

@@ -13,33 +13,27 @@ template <class T>
 struct PairMotion {
   std::array<VectorMotion<T>, PairRows<T>::kVectors> motion;
   std::array<VectorJacobian<T>, PairRows<T>::kVectors> jacobian;
+  VectorMotion<T> displacement;  ///< from the point of i to the point of j
 
-  /// @param fixed_i, fixed_j whether that body is the ground, on which vectors rest and have no Jacobian.
-  void update(const PairRows<T>& rows, const BodyKinematics<T>& i, bool fixed_i, const BodyKinematics<T>& j, bool fixed_j,
-              bool with_jacobians) {
+  /// Vectors that are fixed in the ground have no Jacobian.
+  void update(const PairRows<T>& rows, const BodyKinematics<T>& i, const BodyKinematics<T>& j, bool with_jacobians) {
     for (std::size_t k = 0; k < rows.vectors.size(); ++k) {
       if (!rows.used[k]) continue;
       const VectorTerm<T>& term = rows.vectors[k];
-      const bool fixed = term.side == Side::kI ? fixed_i : fixed_j;
       const BodyKinematics<T>& body = term.side == Side::kI ? i : j;
-      motion[k] = fixed ? VectorMotion<T>{term.s, Vector3<T>::Zero(), Vector3<T>::Zero()} : direction_motion(body, term.s);
-      if (term.point && !fixed) {
-        motion[k].x += body.r;
-        motion[k].xd += body.rd;
-        motion[k].xdd += body.rdd;
-      }
-      if (with_jacobians && !fixed) jacobian[k] = vector_jacobian(body, term.s);
+      motion[k] = term.point ? point_motion(body, term.s) : direction_motion(body, term.s);
+      if (with_jacobians && !body.at_rest) jacobian[k] = vector_jacobian(body, term.s);
     }
+    constexpr auto from = static_cast<std::size_t>(PairRows<T>::shared(Side::kI, PairRows<T>::kPoint)),
+                   to = static_cast<std::size_t>(PairRows<T>::shared(Side::kJ, PairRows<T>::kPoint));
+    if (rows.used[from]) displacement = {motion[to].x - motion[from].x, motion[to].xd - motion[from].xd, motion[to].xdd - motion[from].xdd};
   }
 
   const VectorMotion<T>& of(const VectorTerm<T>& term) const { return motion[static_cast<std::size_t>(term.shared)]; }
   const VectorJacobian<T>& jacobian_of(const VectorTerm<T>& term) const { return jacobian[static_cast<std::size_t>(term.shared)]; }
 
-  VectorMotion<T> of(const PairVector<T>& x) const {
-    if (x.terms == 1) return of(x.term[0]);
-    const VectorMotion<T>&to = of(x.term[0]), &from = of(x.term[1]);
-    return {to.x - from.x, to.xd - from.xd, to.xdd - from.xdd};
-  }
+  /// Of a direction, or of the displacement.
+  const VectorMotion<T>& of(const PairVector<T>& x) const { return x.terms == 1 ? of(x.term[0]) : displacement; }
 };
 
 }  // namespace codesign

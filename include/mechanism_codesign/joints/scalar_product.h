@@ -92,6 +92,7 @@ ProductGradient<T> product_gradient(const PairVector<T>& X, const PairVector<T>&
     for (int k = 0; k < own.terms; ++k) {
       const VectorTerm<T>& term = own.term[k];
       const BodyKinematics<T>& body = term.side == Side::kI ? i : j;
+      if (body.at_rest) continue;
       if (order == 0) add_term_slope(term, rotated_vector_jacobian(body.p, term.s), partner.x, &gradient.phi_q);
       if (order > 0) add_term_gradient(term, vector_jacobian(body, term.s), partner, &gradient);
     }
@@ -108,11 +109,13 @@ struct BodyLoad {
   Matrix3<T> W = Matrix3<T>::Zero();
 };
 
+/// @param i, j nullptr for the ground.
 template <class T>
 void add_vector_load(const PairVector<T>& x, const Vector3<T>& b, BodyLoad<T>* i, BodyLoad<T>* j) {
   for (int k = 0; k < x.terms; ++k) {
     const VectorTerm<T>& term = x.term[k];
     BodyLoad<T>* load = term.side == Side::kI ? i : j;
+    if (!load) continue;
     const Vector3<T> signed_b = T(term.sign) * b;
     if (term.point) load->force += signed_b;
     load->W += signed_b * term.s.transpose();

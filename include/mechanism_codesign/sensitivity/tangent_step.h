@@ -45,14 +45,16 @@ class TangentStep {
  private:
   using Vector = typename Lanes<N>::Vector;
   static Vector& vector_at(Directions<N>* x, int column) { return *reinterpret_cast<Vector*>(x->data() + N * column); }
+  static const Vector& vector_at(const Directions<N>& x, int column) { return *reinterpret_cast<const Vector*>(x.data() + N * column); }
 
   /// Values and derivatives side by side.
   void load_lanes(const State<double>& values, const Directions<N>& directions);
-  void stage_state(std::size_t i, const RosenbrockStep<double>& step);
-  void measure();
+  /// to = from + sum over j < count of factors[j] u'_j, of `size` components.
+  void combine(const Directions<N>& from, const double* factors, std::size_t count, int first, int size, Directions<N>* to);
+  void change_matrices(const RosenbrockStep<double>& step);
+  void stage_start(std::size_t i, double h);
   void stage_tangent(std::size_t i, const RosenbrockStep<double>& step);
-  /// Right-hand sides of a stage, row by row, and the integrand's.
-  void stage_rows(std::size_t i, const RosenbrockStep<double>& step);
+  void measure();
   void project(const VectorX<double>& correction, const VectorX<Lanes<N>>& errors, const SparseLu& lu, double* target);
 
   const System& system_;
@@ -62,10 +64,10 @@ class TangentStep {
   Equations<Lanes<N>> equations_;
   Linearization<Lanes<N>> derivatives_;
   State<Lanes<N>> state_;
-  State<double> stage_, projected_;
-  Directions<N> y_, stage_y_, sum_, rows_;
-  VectorX<double> shift_;
-  std::vector<Directions<N>> stages_;
+  State<double> projected_;
+  Directions<N> y_, stage_y_, rows_;
+  std::vector<Directions<N>> stages_;          ///< u' of each stage
+  std::vector<Directions<N>> matrix_changes_;  ///< dG u of each stage, row by row
   VectorX<Lanes<N>> residual_, errors_, rates_;
   Lanes<N> g_;
   Eigen::Array<double, N, 1> largest_x_, largest_v_;  ///< squared norms
