@@ -12,9 +12,9 @@ T Equations<T>::joint_term(const SignalReference& term, const T& factor, SparseG
   if (position && !gradient) return factor * coordinate_value(term.pair, term.element);
   const bool rate_alone = !gradient && term.kind != SignalKind::kJointAcceleration;
   const CoordinateMotion<T>& m = coordinate(term.pair, term.element,
-                                           position     ? CoordinateDetail::kAll
-                                           : rate_alone ? CoordinateDetail::kRate
-                                                        : CoordinateDetail::kGradient);
+                                            position     ? CoordinateDetail::kAll
+                                            : rate_alone ? CoordinateDetail::kRate
+                                                         : CoordinateDetail::kGradient);
   const bool with_r = coordinate_moves_r(term.pair, term.element);
   switch (term.kind) {
     case SignalKind::kJointPosition:
@@ -113,7 +113,8 @@ T Equations<T>::load_term(const SignalReference& term, const T& factor, SparseGr
     } else {
       part.controllers.clear();
     }
-    const CoordinateMotion<T>& motion = coordinate(term.pair, term.element, gradient ? CoordinateDetail::kGradient : CoordinateDetail::kRate);
+    const CoordinateMotion<T>& motion =
+        coordinate(term.pair, term.element, gradient ? CoordinateDetail::kGradient : CoordinateDetail::kRate);
     const auto before = mark(gradient);
     sum -= factor * joint_load(part, motion, gradient);
     if (gradient) gradient->scale_from(before, T(-factor));

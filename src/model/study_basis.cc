@@ -28,7 +28,8 @@ std::vector<double> read_starts(const YamlValue& coefficients, std::size_t count
   std::vector<double> starts;
   for (const YamlValue& item : initial->items()) starts.push_back(item.number());
   if (starts.size() != count)
-    initial->fail("found " + std::to_string(starts.size()) + " values for " + std::to_string(count) + " coefficients", "one per coefficient");
+    initial->fail("found " + std::to_string(starts.size()) + " values for " + std::to_string(count) + " coefficients",
+                  "one per coefficient");
   return starts;
 }
 

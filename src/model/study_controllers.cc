@@ -68,7 +68,8 @@ void read_model_based(const YamlValue& value, const Context& context, Controller
 void read_state_feedback(const YamlValue& value, const Context& context, ControllerDescription* controller) {
   value.require_keys({"type", "output", "feedback"}, {"feedforward"});
   const std::vector<Parameter>& parameters = context.study.parameters;
-  if (const auto feedforward = value.find("feedforward")) controller->feedforward = read_reference(*feedforward, parameters, context.loader);
+  if (const auto feedforward = value.find("feedforward"))
+    controller->feedforward = read_reference(*feedforward, parameters, context.loader);
   const YamlValue feedback = value.at("feedback");
   for (const YamlValue& item : feedback.items()) {
     item.require_keys({"signal", "gain"}, {"reference"});

@@ -60,7 +60,9 @@ RecordedTrajectory load(const TrajectoryAddress& address, const std::string& pat
   using Point = trajectory_msgs::JointTrajectoryPoint;
   const trajectory_msgs::JointTrajectory message = find_message(address, path);
   const std::size_t joint = index_of(message, address.joint);
-  RecordedTrajectory trajectory{{}, column(message, joint, &Point::positions), column(message, joint, &Point::velocities),
+  RecordedTrajectory trajectory{{},
+                                column(message, joint, &Point::positions),
+                                column(message, joint, &Point::velocities),
                                 column(message, joint, &Point::accelerations)};
   for (const Point& point : message.points) trajectory.times.push_back(point.time_from_start.toSec());
   if (trajectory.positions.empty()) fail(address, "topic", "the trajectory has no positions", address.topic, "one in each point");

@@ -9,13 +9,14 @@ namespace codesign {
 namespace {
 
 TEST(ControllerConstants, EveryNumberOfALawIsEvaluatedAtTheDesign) {
-  const Study study = read_text(kLeastStudy +
-                                "parameters: {k: {initial: 2.0}}\n"
-                                "controllers:\n"
-                                "  speed: {type: pid, input: crank_joint/velocity, setpoint: \"${3*k}\", output: crank_joint, gains: {p: \"${k}\", d: 0.5}}\n"
-                                "  hold: {type: state_feedback, output: slider_joint, feedforward: \"${k}\",\n"
-                                "         feedback: [{signal: slider_joint/position, gain: \"${k*k}\", reference: 0.1}]}\n"
-                                "  push: {type: basis, output: slider_joint, coefficients: [1.0, \"${k + rod_length}\"]}\n");
+  const Study study = read_text(
+      kLeastStudy +
+      "parameters: {k: {initial: 2.0}}\n"
+      "controllers:\n"
+      "  speed: {type: pid, input: crank_joint/velocity, setpoint: \"${3*k}\", output: crank_joint, gains: {p: \"${k}\", d: 0.5}}\n"
+      "  hold: {type: state_feedback, output: slider_joint, feedforward: \"${k}\",\n"
+      "         feedback: [{signal: slider_joint/position, gain: \"${k*k}\", reference: 0.1}]}\n"
+      "  push: {type: basis, output: slider_joint, coefficients: [1.0, \"${k + rod_length}\"]}\n");
   std::vector<double> parameters;
   for (const Parameter& parameter : study.parameters) parameters.push_back(parameter.name == "k" ? 5.0 : parameter.value);
   const ControllerConstants<double> speed = controller_constants(study.controllers.at(0), parameters);

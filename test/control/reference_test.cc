@@ -74,7 +74,8 @@ TEST(Reference, AQuinticFromRestToRestIsTheKnownPolynomial) {
 }
 
 TEST(Reference, QuinticPiecesMeetInPositionVelocityAndAcceleration) {
-  const WaypointsDescription given{Interpolation::kQuintic, {0.0, 0.7, 1.0, 2.5}, {0.0, 1.0, -0.5, 2.0}, {0.0, 3.0, -1.0, 0.0}, {0.0, 4.0, 2.0, 0.0}};
+  const WaypointsDescription given{
+      Interpolation::kQuintic, {0.0, 0.7, 1.0, 2.5}, {0.0, 1.0, -0.5, 2.0}, {0.0, 3.0, -1.0, 0.0}, {0.0, 4.0, 2.0, 0.0}};
   WaypointsDescription chosen = given;
   chosen.velocities.clear();
   chosen.accelerations.clear();

@@ -19,12 +19,14 @@ inline std::string crane(const std::string& more = "") {
            "/><axis xyz='" + axis + "'/>" + (type == "prismatic" ? "<limit effort='1' velocity='1'/>" : "") + "</joint>";
   };
   return "<robot name='crane' xmlns:codesign='urn:test'><link name='ground'/>" + link("trolley", "0.02 0.01 0", "3") +
-         link("mast", "0.05 0 0.3", "2") + link("boom", "0.3 0.02 0", "1.5") + link("gripper", "0.1 0 -0.2", "0.7") + link("bob", "0 0.01 -0.1", "0.4") +
-         "<link name='a'/><link name='b'/>" + joint("travel", "prismatic", "ground", "trolley", "xyz='0 0 1' rpy='0.1 0 0'", "1 0 0") +
+         link("mast", "0.05 0 0.3", "2") + link("boom", "0.3 0.02 0", "1.5") + link("gripper", "0.1 0 -0.2", "0.7") +
+         link("bob", "0 0.01 -0.1", "0.4") + "<link name='a'/><link name='b'/>" +
+         joint("travel", "prismatic", "ground", "trolley", "xyz='0 0 1' rpy='0.1 0 0'", "1 0 0") +
          joint("turn", "continuous", "trolley", "mast", "xyz='0.1 0 0.2' rpy='0 0.2 0'", "0 0 1") +
          joint("reach", "prismatic", "mast", "boom", "xyz='0.1 0 0.5' rpy='0 0.3 0'", "1 0 0.2") +
          joint("wrist", "continuous", "boom", "gripper", "xyz='0.6 0 0' rpy='0.3 0 0'", "0 1 0") +
-         joint("ball_x", "continuous", "boom", "a", "xyz='0.3 0 -0.1'", "1 0 0") + joint("ball_y", "continuous", "a", "b", "xyz='0 0 0'", "0 1 0") +
+         joint("ball_x", "continuous", "boom", "a", "xyz='0.3 0 -0.1'", "1 0 0") +
+         joint("ball_y", "continuous", "a", "b", "xyz='0 0 0'", "0 1 0") +
          joint("ball_z", "continuous", "b", "bob", "xyz='0 0 0'", "0 0 1") + more + "</robot>";
 }
 

@@ -11,9 +11,11 @@ namespace {
 struct Resolved {
   explicit Resolved(const std::string& laws, const std::string& signal = "shoulder/velocity")
       : robot(read_urdf({"test.urdf", double_pendulum()})),
-        study(read_study({"test.yaml", "duration: 1.0\ncontrollers:\n" + laws + "objective: {integral: [{signal: " + signal + "}]}\n"}, robot)),
+        study(read_study({"test.yaml", "duration: 1.0\ncontrollers:\n" + laws + "objective: {integral: [{signal: " + signal + "}]}\n"},
+                         robot)),
         topology(derive_topology(robot)),
-        controllers(resolve_controllers(study, robot, topology, {resolve_signal(study.integral[0].signal, robot, topology, study.controllers)}, &states)) {}
+        controllers(resolve_controllers(study, robot, topology,
+                                        {resolve_signal(study.integral[0].signal, robot, topology, study.controllers)}, &states)) {}
 
   RobotDescription robot;
   Study study;
@@ -35,16 +37,19 @@ TEST(Controller, ALaterControllerMakesAnEarlierOneProvideItsRate) {
 TEST(Controller, ALaterControllerMakesAnEarlierOneIntegrate) {
   EXPECT_EQ(Resolved(kInner).states, 0);
   EXPECT_EQ(Resolved(kInner, "inner/integral").states, 1);
-  const Resolved by_input(std::string(kInner) + "  outer: {type: pid, input: inner/integral, setpoint: 0.0, output: elbow, gains: {p: 1.0}}\n");
+  const Resolved by_input(std::string(kInner) +
+                          "  outer: {type: pid, input: inner/integral, setpoint: 0.0, output: elbow, gains: {p: 1.0}}\n");
   EXPECT_EQ(by_input.controllers.at(0).state, 0);
   EXPECT_EQ(by_input.controllers.at(1).state, -1);
-  const Resolved by_feedback(std::string(kInner) + "  outer: {type: state_feedback, output: elbow, feedback: [{signal: inner/integral, gain: 1.0}]}\n");
+  const Resolved by_feedback(std::string(kInner) +
+                             "  outer: {type: state_feedback, output: elbow, feedback: [{signal: inner/integral, gain: 1.0}]}\n");
   EXPECT_EQ(by_feedback.states, 1);
 }
 
 TEST(Controller, FeedbackReadsEarlierControllersOnly) {
   EXPECT_THROW(Resolved("  a: {type: state_feedback, output: elbow, feedback: [{signal: elbow/effort, gain: 1.0}]}\n"), InputError);
-  EXPECT_NO_THROW(Resolved(std::string(kInner) + "  a: {type: state_feedback, output: elbow, feedback: [{signal: inner/output, gain: 1.0}]}\n"));
+  EXPECT_NO_THROW(
+      Resolved(std::string(kInner) + "  a: {type: state_feedback, output: elbow, feedback: [{signal: inner/output, gain: 1.0}]}\n"));
 }
 
 TEST(Controller, ComputedTorquesKnowOfEachOther) {

@@ -19,10 +19,11 @@ Counts counts_of(const std::string& urdf, const std::string& study) {
 }
 
 TEST(Counts, OfADoublePendulumWithAnIntegralAndTwoParameters) {
-  const Counts c = counts_of(double_pendulum(), let_go("{}", "elbow/velocity",
-                                                       "parameters: {k: {initial: 1.0}, l: {initial: 2.0}}\n"
-                                                       "controllers: {servo: {type: pid, input: elbow/position, setpoint: 0.0, output: elbow, "
-                                                       "gains: {p: \"${k}\", i: \"${l}\"}}}\n"));
+  const Counts c =
+      counts_of(double_pendulum(), let_go("{}", "elbow/velocity",
+                                          "parameters: {k: {initial: 1.0}, l: {initial: 2.0}}\n"
+                                          "controllers: {servo: {type: pid, input: elbow/position, setpoint: 0.0, output: elbow, "
+                                          "gains: {p: \"${k}\", i: \"${l}\"}}}\n"));
   EXPECT_EQ(c.bodies, 2);
   EXPECT_EQ(c.coordinates, 14);
   EXPECT_EQ(c.first_order_equations, 28);

@@ -73,7 +73,8 @@ TEST(DrivenTree, WhatTheLawsCannotWorkThroughIsRefused) {
 
 TEST(DrivenTree, ALoopBelowTheJointDoesNotMatter) {
   const std::string loop =
-      "<loop name='link' type='codesign:distance'><codesign:length value='0.5'/><predecessor link='boom'/><successor link='gripper'/></loop>";
+      "<loop name='link' type='codesign:distance'><codesign:length value='0.5'/><predecessor link='boom'/><successor "
+      "link='gripper'/></loop>";
   const Trees trees(crane(loop));
   EXPECT_EQ(trees.fault("reach", false), "");
   EXPECT_NE(trees.fault("wrist", false), "");

@@ -23,16 +23,18 @@ void expect_exact(const std::string& urdf, const std::string& text) {
 }
 
 TEST(EquationsControllers, APidThatFollowsAMovingSetpointHasExactDerivatives) {
-  expect_exact(double_pendulum(),
-               study("  a: {type: pid, input: shoulder/position, output: shoulder, gains: {p: 3.0, i: 2.0, d: 0.5}, setpoint: " +
-                         std::string(kSine) + "}\n  b: {type: pid, input: a/error - elbow/position, output: elbow, gains: {p: 1.0, d: 0.7}, setpoint: " +
-                         kPoints + "}\n",
-                     "{signal: a/output, reference: " + std::string(kPoints) + "}, {signal: b/error + b/output}"));
+  expect_exact(
+      double_pendulum(),
+      study(
+          "  a: {type: pid, input: shoulder/position, output: shoulder, gains: {p: 3.0, i: 2.0, d: 0.5}, setpoint: " + std::string(kSine) +
+              "}\n  b: {type: pid, input: a/error - elbow/position, output: elbow, gains: {p: 1.0, d: 0.7}, setpoint: " + kPoints + "}\n",
+          "{signal: a/output, reference: " + std::string(kPoints) + "}, {signal: b/error + b/output}"));
 }
 
 TEST(EquationsControllers, GravityCompensationHasExactDerivatives) {
   for (const char* joint : {"travel", "turn", "reach", "wrist"})
-    expect_exact(crane(), study(std::string("  servo: {type: pd_gravity, output: ") + joint + ", gains: {p: 3.0, d: 0.5}, setpoint: " + kSine + "}\n",
+    expect_exact(crane(), study(std::string("  servo: {type: pd_gravity, output: ") + joint +
+                                    ", gains: {p: 3.0, d: 0.5}, setpoint: " + kSine + "}\n",
                                 std::string("{signal: ") + joint + "/effort}"));
 }
 
@@ -56,7 +58,8 @@ std::string torques(const std::vector<std::string>& joints) {
 }
 
 TEST(EquationsControllers, ComputedTorqueHasExactDerivatives) {
-  expect_exact(arm(), study(torques({"travel", "turn", "reach", "wrist"}), "{signal: turn/effort}, {signal: reach_servo/output, weight: 0.1}"));
+  expect_exact(arm(),
+               study(torques({"travel", "turn", "reach", "wrist"}), "{signal: turn/effort}, {signal: reach_servo/output, weight: 0.1}"));
   expect_exact(arm(), study(torques({"turn", "wrist"}), "{signal: wrist/effort}"));
 }
 
@@ -71,9 +74,10 @@ TEST(EquationsControllers, StateFeedbackAndShapedInputsHaveExactDerivatives) {
 }
 
 TEST(EquationsControllers, AWrongTimeDerivativeIsNoticed) {
-  EquationsFixture fixture(double_pendulum(), study("  a: {type: pid, input: elbow/position, output: elbow, gains: {p: 3.0}, setpoint: " +
-                                                        std::string(kSine) + "}\n",
-                                                    "{signal: a/error}"));
+  EquationsFixture fixture(
+      double_pendulum(),
+      study("  a: {type: pid, input: elbow/position, output: elbow, gains: {p: 3.0}, setpoint: " + std::string(kSine) + "}\n",
+            "{signal: a/error}"));
   fixture.state.t = 0.37;
   const Eigen::VectorXd reference = fixture.time_reference();
   EXPECT_GT(reference.cwiseAbs().maxCoeff(), 0.1);
@@ -93,15 +97,18 @@ TEST(EquationsControllers, WhatIsHeldAgainstGravityStaysWhereItIs) {
   std::string controllers = "controllers:\n";
   for (const char* joint : {"travel", "turn", "reach", "wrist"})
     controllers += std::string("  ") + joint + "_hold: {type: pd_gravity, output: " + joint + ", setpoint: 0.3, gains: {p: 2.0}}\n";
-  Compiled c(arm(), let_go("{travel: {position: 0.3}, turn: {position: 0.3}, reach: {position: 0.3}, wrist: {position: 0.3}}", "turn/position", controllers));
+  Compiled c(arm(), let_go("{travel: {position: 0.3}, turn: {position: 0.3}, reach: {position: 0.3}, wrist: {position: 0.3}}",
+                           "turn/position", controllers));
   ASSERT_TRUE(c.start().ok());
   EXPECT_LT(c.state.z.head(c.system.layout().n).cwiseAbs().maxCoeff(), 1e-11);
 }
 
 TEST(EquationsControllers, ComputedTorqueGivesEachJointTheAccelerationAskedFor) {
-  Compiled c(arm(), let_go("{travel: {position: 0.3, velocity: 0.5}, turn: {position: 1.3, velocity: -2.0}, reach: {position: 0.1, velocity: 0.7}, "
-                           "wrist: {position: -0.6, velocity: 3.0}}",
-                           "turn/position", "controllers:\n" + torques({"travel", "turn", "reach", "wrist"})));
+  Compiled c(
+      arm(),
+      let_go("{travel: {position: 0.3, velocity: 0.5}, turn: {position: 1.3, velocity: -2.0}, reach: {position: 0.1, velocity: 0.7}, "
+             "wrist: {position: -0.6, velocity: 3.0}}",
+             "turn/position", "controllers:\n" + torques({"travel", "turn", "reach", "wrist"})));
   ASSERT_TRUE(c.start().ok());
   c.equations.load(c.state);
   const double w = 2.0 * M_PI / 1.3, s = 0.7 * std::sin(0.4), cosine = 0.7 * std::cos(0.4);
@@ -114,8 +121,10 @@ TEST(EquationsControllers, ComputedTorqueGivesEachJointTheAccelerationAskedFor) 
 
 // At the inner joint the whole double pendulum moves as one bar if the elbow's acceleration is asked to be nil: theory (C6).
 TEST(EquationsControllers, JointsWithoutComputedTorqueAreTakenToKeepTheirRates) {
-  Compiled c(double_pendulum(), "duration: 1.0\ngravity: [0, 0, 0]\ncontrollers: {servo: {type: computed_torque, output: shoulder, setpoint: 1.0, gains: {p: 3.0}}}\n"
-                                "objective: {integral: [{signal: servo/output}]}\n");
+  Compiled c(
+      double_pendulum(),
+      "duration: 1.0\ngravity: [0, 0, 0]\ncontrollers: {servo: {type: computed_torque, output: shoulder, setpoint: 1.0, gains: {p: 3.0}}}\n"
+      "objective: {integral: [{signal: servo/output}]}\n");
   ASSERT_TRUE(c.start().ok());
   c.equations.load(c.state);
   // Two bars of 1 kg, inertia 0.0834 about their centres, 0.5 m and 1.5 m below the shoulder.
@@ -123,9 +132,11 @@ TEST(EquationsControllers, JointsWithoutComputedTorqueAreTakenToKeepTheirRates) 
 }
 
 TEST(EquationsControllers, StateFeedbackByHand) {
-  Compiled c(pendulum(), let_go("{hinge: {position: 0.4, velocity: -2.0}}", "hinge/position",
-                                "controllers: {hold: {type: state_feedback, output: hinge, feedforward: 1.5, feedback: [{signal: hinge/position, gain: 3.0, "
-                                "reference: 0.1}, {signal: hinge/velocity, gain: 0.25}]}}\n"));
+  Compiled c(
+      pendulum(),
+      let_go("{hinge: {position: 0.4, velocity: -2.0}}", "hinge/position",
+             "controllers: {hold: {type: state_feedback, output: hinge, feedforward: 1.5, feedback: [{signal: hinge/position, gain: 3.0, "
+             "reference: 0.1}, {signal: hinge/velocity, gain: 0.25}]}}\n"));
   ASSERT_TRUE(c.start().ok());
   c.equations.load(c.state);
   EXPECT_NEAR(c.equations.controller_output(0, nullptr), 1.5 - 3.0 * 0.3 + 0.25 * 2.0, 1e-13);

@@ -11,7 +11,8 @@ namespace {
 /// The double pendulum at a start, with the tree of its shoulder.
 struct Shoulder : Compiled {
   explicit Shoulder(bool accelerations)
-      : Compiled(double_pendulum(), let_go("{shoulder: {position: 0.3, velocity: 2.0}, elbow: {position: 0.5, velocity: -1.0}}", "elbow/position")),
+      : Compiled(double_pendulum(),
+                 let_go("{shoulder: {position: 0.3, velocity: 2.0}, elbow: {position: 0.5, velocity: -1.0}}", "elbow/position")),
         tree(driven_tree(system.topology(), system.topology().joint_pair[0], accelerations, {}, "")),
         inverse(tree) {
     EXPECT_TRUE(start().ok());

@@ -10,13 +10,16 @@ namespace codesign {
 namespace {
 
 Study study_of(const std::string& controllers, const std::string& reference = "0.0") {
-  return read_study({"test.yaml", "duration: 2.0\ncontrollers:\n" + controllers + "objective: {integral: [{signal: hinge/position, reference: " + reference + "}]}\n"},
+  return read_study({"test.yaml", "duration: 2.0\ncontrollers:\n" + controllers +
+                                      "objective: {integral: [{signal: hinge/position, reference: " + reference + "}]}\n"},
                     read_urdf({"test.urdf", pendulum()}));
 }
 
 TEST(BreakTimes, AreWaypointsOfSetpointsAndReferences) {
-  const BreakTimes breaks(study_of("  a: {type: pid, input: hinge/position, output: hinge, gains: {p: 1.0}, setpoint: {type: waypoints, times: [0.5, 1.5], positions: [0, 1]}}\n",
-                                   "{type: waypoints, times: [0.0, 0.7], positions: [0, 1]}"));
+  const BreakTimes breaks(
+      study_of("  a: {type: pid, input: hinge/position, output: hinge, gains: {p: 1.0}, setpoint: {type: waypoints, times: [0.5, 1.5], "
+               "positions: [0, 1]}}\n",
+               "{type: waypoints, times: [0.0, 0.7], positions: [0, 1]}"));
   EXPECT_EQ(breaks.next(0.0, 2.0), 0.5);
   EXPECT_EQ(breaks.next(0.5, 2.0), 0.7);
   EXPECT_EQ(breaks.next(0.5 - 1e-15, 2.0), 0.7) << "reached, to rounding";
@@ -36,11 +39,13 @@ TEST(BreakTimes, OfAShapedInputAreItsKinks) {
 // The push acts for 20 ms in the middle of a long rest.
 TEST(BreakTimes, NothingIsOverlookedAfterARest) {
   for (const char* integrator : {"rosenbrock", "idas"}) {
-    const auto system = compile(pendulum(), std::string("duration: 2.0\nobjective: {integral: [{signal: hinge/velocity}]}\ncontrollers:\n"
-                                                        "  push: {type: state_feedback, output: hinge, feedback: [{signal: hinge/velocity, gain: 0.0}],\n"
-                                                        "    feedforward: {type: waypoints, times: [1.0, 1.01, 1.02], positions: [0, 10, 0], interpolation: linear}}\n"
-                                                        "solver: {integrator: ") +
-                                                integrator + "}\n");
+    const auto system =
+        compile(pendulum(),
+                std::string("duration: 2.0\nobjective: {integral: [{signal: hinge/velocity}]}\ncontrollers:\n"
+                            "  push: {type: state_feedback, output: hinge, feedback: [{signal: hinge/velocity, gain: 0.0}],\n"
+                            "    feedforward: {type: waypoints, times: [1.0, 1.01, 1.02], positions: [0, 10, 0], interpolation: linear}}\n"
+                            "solver: {integrator: ") +
+                    integrator + "}\n");
     const auto engine = make_integrator(*system);
     ASSERT_TRUE(engine->start({}).ok());
     std::vector<double> ends;

@@ -21,7 +21,8 @@ std::string forced_study(const std::string& solver) {
          "  help: {type: state_feedback, output: elbow, feedforward: {type: sine, amplitude: 0.4, period: 0.7},\n"
          "    feedback: [{signal: lower/velocity/x, gain: \"${K}\", reference: {type: sine, amplitude: 0.3, frequency: 1.1}}]}\n"
          "  push: {type: basis, shape: cubic, output: shoulder, coefficients: {count: 6, initial: [0, 1, -1, 2, 0, 1]}}\n"
-         "parameters: {A: {initial: 0.5}, f: {initial: 0.9}, phase: {initial: 0.2}, through: {initial: 0.6}, stiffness: {initial: 30.0}, K: {initial: 0.8}}\n"
+         "parameters: {A: {initial: 0.5}, f: {initial: 0.9}, phase: {initial: 0.2}, through: {initial: 0.6}, stiffness: {initial: 30.0}, "
+         "K: {initial: 0.8}}\n"
          "objective:\n"
          "  integral: [{signal: servo/error}, {signal: lower/position/x, reference: {type: sine, amplitude: \"${A}\", period: 1.5}}]\n"
          "  terminal: [{signal: elbow/velocity, reference: {type: sine, amplitude: 1.0, frequency: \"${f}\"}}]\nsolver: " +
@@ -101,11 +102,13 @@ TEST(ForcedMotion, BothIntegratorsAgreeOnObjectiveAndGradient) {
 
 // The closed loop of a computed torque without friction is e'' + d e' + p e = 0, whatever the mechanism.
 TEST(ForcedMotion, ComputedTorqueLeavesALinearError) {
-  const std::string servo = ": {type: computed_torque, gains: {p: 16.0, d: 10.0}, setpoint: {type: sine, amplitude: 1.0, period: 1.1}, output: ";
-  const auto system = compile(double_pendulum(), "duration: 1.0\ninitial_state: {shoulder: {position: 0.5}, elbow: {velocity: 1.0}}\ncontrollers:\n  a" +
-                                                     servo + "shoulder}\n  b" + servo +
-                                                     "elbow}\nobjective: {integral: [{signal: a/error}]}\n"
-                                                     "solver: {method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}\n");
+  const std::string servo =
+      ": {type: computed_torque, gains: {p: 16.0, d: 10.0}, setpoint: {type: sine, amplitude: 1.0, period: 1.1}, output: ";
+  const auto system =
+      compile(double_pendulum(), "duration: 1.0\ninitial_state: {shoulder: {position: 0.5}, elbow: {velocity: 1.0}}\ncontrollers:\n  a" +
+                                     servo + "shoulder}\n  b" + servo +
+                                     "elbow}\nobjective: {integral: [{signal: a/error}]}\n"
+                                     "solver: {method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}\n");
   const double w = 2.0 * M_PI / 1.1;
   // e = c e^-2t + k e^-8t from e(0) and e'(0).
   const auto error = [](double e, double rate, double t) {
@@ -125,7 +128,8 @@ double lasting_error(const std::string& keys) {
   std::string study = "duration: 8.0\nobjective: {integral: [{signal: a/error}]}\ncontrollers:\n";
   for (const auto& [name, joint] : {std::pair<std::string, std::string>{"a", "shoulder"}, {"b", "elbow"}}) {
     std::string controller = "  " + name + ": {setpoint: 0.8, output: JOINT, " + keys + "}\n";
-    for (std::size_t at = controller.find("JOINT"); at != std::string::npos; at = controller.find("JOINT")) controller.replace(at, 5, joint);
+    for (std::size_t at = controller.find("JOINT"); at != std::string::npos; at = controller.find("JOINT"))
+      controller.replace(at, 5, joint);
     study += controller;
   }
   const auto system = compile(double_pendulum(), study);

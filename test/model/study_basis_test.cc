@@ -11,7 +11,8 @@ std::string push(const std::string& rest, const std::string& more = "") {
 }
 
 TEST(StudyBasis, ACountDeclaresThatManyParametersBehindAllOthers) {
-  const Study study = read_text(push("shape: cubic, coefficients: {count: 5, initial: 0.5, lower: -1.0, upper: 2.0}", "parameters: {rod_length: {}}\n"));
+  const Study study =
+      read_text(push("shape: cubic, coefficients: {count: 5, initial: 0.5, lower: -1.0, upper: 2.0}", "parameters: {rod_length: {}}\n"));
   ASSERT_EQ(study.parameters.size(), 7U);
   EXPECT_EQ(study.parameters[2].name, "push_c0");
   EXPECT_EQ(study.parameters[6].name, "push_c4");

@@ -81,9 +81,10 @@ TEST(StudyControllers, LawsThatKnowTheModelReadTheJointTheyDrive) {
 
 TEST(StudyControllers, StateFeedbackIsAListOfSignalsWithGains) {
   const std::string start = kLeastStudy + "controllers: {a: {type: state_feedback, output: slider_joint, ";
-  const Study study = read_text(start +
-                                "feedforward: 2.0, feedback: [{signal: slider_joint/position, gain: 3.0, reference: {type: waypoints, times: [0, 1], "
-                                "positions: [0, 1]}}, {signal: slider_joint/velocity - crank_joint/velocity, gain: \"${rod_length}\"}]}}\n");
+  const Study study =
+      read_text(start +
+                "feedforward: 2.0, feedback: [{signal: slider_joint/position, gain: 3.0, reference: {type: waypoints, times: [0, 1], "
+                "positions: [0, 1]}}, {signal: slider_joint/velocity - crank_joint/velocity, gain: \"${rod_length}\"}]}}\n");
   const ControllerDescription& a = study.controllers.at(0);
   EXPECT_EQ(a.kind, ControllerKind::kStateFeedback);
   EXPECT_EQ(a.feedforward.constant.nominal(), 2.0);

@@ -7,7 +7,8 @@ namespace codesign {
 namespace {
 
 std::string with_reference(const std::string& reference) {
-  return "duration: 2.0\nobjective: {integral: [{signal: crank_joint/velocity, reference: " + reference + "}]}\nparameters: {A: {initial: 2.0}}\n";
+  return "duration: 2.0\nobjective: {integral: [{signal: crank_joint/velocity, reference: " + reference +
+         "}]}\nparameters: {A: {initial: 2.0}}\n";
 }
 
 ReferenceDescription read(const std::string& reference) { return read_text(with_reference(reference)).integral.at(0).reference; }

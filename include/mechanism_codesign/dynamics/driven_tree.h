@@ -14,18 +14,19 @@ namespace codesign {
 struct DrivenTree {
   struct Node {
     int body = -1;
-    int parent = -1;         ///< index of a node, or -1: the ground, or (without a pair) nothing
-    int pair = -1;           ///< between parent and body; -1 for a body that only carries the driven joint
-    bool slides = false;     ///< prismatic, else it turns
-    bool moved = false;      ///< by the driven joint
-    int controller = -1;     ///< that asks for an acceleration of this joint, or -1
+    int parent = -1;      ///< index of a node, or -1: the ground, or (without a pair) nothing
+    int pair = -1;        ///< between parent and body; -1 for a body that only carries the driven joint
+    bool slides = false;  ///< prismatic, else it turns
+    bool moved = false;   ///< by the driven joint
+    int controller = -1;  ///< that asks for an acceleration of this joint, or -1
   };
   std::vector<Node> nodes;  ///< parents before children
   int driven = -1;          ///< the node whose joint is driven; -1: there is none
 };
 
 /// What a law that knows the model must find above and below the joint of `pair`.
-/// @param accelerations whether accelerations are asked for, which need every body from the ground on, over revolute and prismatic joints alone.
+/// @param accelerations whether accelerations are asked for, which need every body from the ground on, over revolute and prismatic joints
+/// alone.
 /// @param where, element the controller, for messages.
 /// @throws InputError if the joint is folded with others, a loop ties what it moves to the rest, or a joint on the way is of another kind.
 DrivenTree driven_tree(const Topology& topology, int pair, bool accelerations, const SourceLocation& where, const std::string& element);

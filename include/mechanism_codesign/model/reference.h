@@ -25,10 +25,10 @@ struct SineDescription {
 /// Points that a function of time goes through; theory (C2).
 struct WaypointsDescription {
   Interpolation interpolation = Interpolation::kQuintic;
-  std::vector<double> times;                     ///< [s], ascending
-  std::vector<Quantity> positions;               ///< one per time
-  std::vector<Quantity> velocities;              ///< one per time, or none: chosen
-  std::vector<Quantity> accelerations;           ///< likewise
+  std::vector<double> times;            ///< [s], ascending
+  std::vector<Quantity> positions;      ///< one per time
+  std::vector<Quantity> velocities;     ///< one per time, or none: chosen
+  std::vector<Quantity> accelerations;  ///< likewise
 };
 
 /// A prescribed function of time: what a controller's setpoint or an objective's reference follows.
