@@ -50,13 +50,20 @@ TEST_P(ShippedStudies, GradientIsThatOfTheStepsTaken) {
   EXPECT_LT(check.largest_relative_difference, 1e-9);
 }
 
-// Each integrator is the other's check, at the tolerance asked for.
+// Each integrator is the other's check. Errors of steps add up: over a second to some tens of the tolerance.
 TEST_P(ShippedStudies, BothIntegratorsAgree) {
+  constexpr double kTolerance = 1e-7;
+  shipped.study = Shipped(GetParam()).study;
+  SolverOptions& solver = shipped.study.solver;
+  shipped.study.duration = std::min(shipped.study.duration, 1.0);
+  solver.relative_tolerance = kTolerance;
+  solver.absolute_tolerance = 0.1 * kTolerance;
+  solver.maximum_steps = 200000;
   const Evaluation rosenbrock = Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), false);
-  shipped.study.solver.integrator = "idas";
+  solver.integrator = "idas";
   const Evaluation idas = Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), false);
   ASSERT_TRUE(rosenbrock.status.ok() && idas.status.ok()) << rosenbrock.status.cause << idas.status.cause;
-  EXPECT_NEAR(idas.objective, rosenbrock.objective, kAgreement * shipped.study.solver.relative_tolerance * std::abs(rosenbrock.objective));
+  EXPECT_NEAR(idas.objective, rosenbrock.objective, 100.0 * kTolerance * std::abs(rosenbrock.objective));
 }
 
 INSTANTIATE_TEST_SUITE_P(Config, ShippedStudies, ::testing::ValuesIn(shipped_names()), [](const auto& study) { return study.param; });
