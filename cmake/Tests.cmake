@@ -41,6 +41,8 @@ endforeach()
 add_test(NAME layering COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_layering.py ${PROJECT_SOURCE_DIR})
 add_test(NAME layering_self_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_layering_test.py)
 
+add_test(NAME launch_files COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/ros/launch_files_test.py ${PROJECT_SOURCE_DIR})
+add_test(NAME trajectory_from_bag COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/trajectory_from_bag_test.py)
 add_test(NAME update_tables COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/benchmark/update_tables_test.py)
 
 add_test(NAME figures COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/figures_test.py)

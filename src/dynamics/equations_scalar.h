@@ -5,6 +5,7 @@
 #include "equations_assembly.h"
 #include "equations_bristles.h"
 #include "equations_contacts.h"
+#include "equations_controllers.h"
 #include "equations_couplings.h"
 #include "equations_limits.h"
 #include "equations_loads.h"

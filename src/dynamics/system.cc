@@ -33,13 +33,6 @@ int constraint_rows(PairKind kind) {
 
 bool zero(const Quantity& q) { return q.is_constant() && q.nominal() == 0.0; }
 
-bool reads(const std::vector<ResolvedTerm>& terms, SignalKind kind, int controller) {
-  return std::any_of(terms.begin(), terms.end(), [&](const ResolvedTerm& term) {
-    return std::any_of(term.signal.begin(), term.signal.end(),
-                       [&](const SignalReference& r) { return r.kind == kind && r.controller == controller; });
-  });
-}
-
 }  // namespace
 
 System::System(const RobotDescription& robot, const Study& study, double compliance)
@@ -50,6 +43,7 @@ System::System(const RobotDescription& robot, const Study& study, double complia
   check_couplings();
   resolve_objective();
   resolve_controllers();
+  check_signals();
   collect_loads();
   collect_bristles();
   record_pattern();
@@ -58,6 +52,13 @@ System::System(const RobotDescription& robot, const Study& study, double complia
 std::vector<double> System::parameters() const {
   std::vector<double> values;
   for (const Parameter& parameter : study_.parameters) values.push_back(parameter.value);
+  return values;
+}
+
+std::vector<double> System::parameters(const Eigen::VectorXd& rho) const {
+  std::vector<double> values = parameters();
+  for (std::size_t k = 0; k < study_.tuned.size(); ++k)
+    values[static_cast<std::size_t>(study_.tuned[k])] = rho[static_cast<Eigen::Index>(k)];
   return values;
 }
 
@@ -76,7 +77,6 @@ void System::resolve_objective() {
   const auto resolve = [this](const std::vector<ObjectiveTerm>& terms, std::vector<ResolvedTerm>* resolved) {
     for (std::size_t k = 0; k < terms.size(); ++k) {
       resolved->push_back({resolve_signal(terms[k].signal, robot_, topology_, study_.controllers), static_cast<int>(k)});
-      check_readable(resolved->back().signal, terms[k].signal);
     }
   };
   resolve(study_.integral, &integral_);
@@ -84,31 +84,24 @@ void System::resolve_objective() {
 }
 
 void System::resolve_controllers() {
+  std::vector<Signal> observed;
+  for (const std::vector<ResolvedTerm>* terms : {&integral_, &terminal_})
+    for (const ResolvedTerm& term : *terms) observed.push_back(term.signal);
+  controllers_ = codesign::resolve_controllers(study_, robot_, topology_, observed, &layout_.states);
+}
+
+void System::check_signals() const {
   for (std::size_t k = 0; k < study_.controllers.size(); ++k) {
     const ControllerDescription& description = study_.controllers[k];
-    const std::string element = "controllers." + description.name;
-    Controller controller;
-    controller.input = resolve_signal(description.input, robot_, topology_, study_.controllers);
-    check_readable(controller.input, description.input);
-    for (const SignalReference& term : controller.input)
-      if (term.controller >= static_cast<int>(k) || term.kind == SignalKind::kJointEffort)
-        throw InputError({description.where, element + ".input", "a controller cannot read an effort, itself or a later controller",
-                          description.input.text, "controllers defined before it"});
-    const int index = static_cast<int>(k);
-    const bool error_rate = reads(integral_, SignalKind::kControllerErrorRate, index);
-    if (!zero(description.d) || error_rate) controller.input_rate = differentiate(controller.input, description.input, element + ".input");
-    const bool integral =
-        reads(integral_, SignalKind::kControllerIntegral, index) || reads(terminal_, SignalKind::kControllerIntegral, index);
-    if (!zero(description.i) || integral) controller.state = layout_.states++;
-    for (std::size_t joint = 0; joint < robot_.joints.size(); ++joint) {
-      if (robot_.joints[joint].name != description.output) continue;
-      SignalDescription output{description.output + "/velocity", {{1.0, description.output, "velocity", ""}}, description.where};
-      const Signal resolved = resolve_signal(output, robot_, topology_, study_.controllers);
-      controller.pair = resolved.front().pair;
-      controller.element = resolved.front().element;
-    }
-    controllers_.push_back(controller);
+    check_readable(controllers_[k].input, description.input);
+    for (std::size_t term = 0; term < description.feedback.size(); ++term)
+      check_readable(controllers_[k].feedback[term], description.feedback[term].signal);
   }
+  const auto check = [this](const std::vector<ResolvedTerm>& resolved, const std::vector<ObjectiveTerm>& terms) {
+    for (const ResolvedTerm& term : resolved) check_readable(term.signal, terms[static_cast<std::size_t>(term.description)].signal);
+  };
+  check(integral_, study_.integral);
+  check(terminal_, study_.terminal);
 }
 
 void System::collect_loads() {
@@ -189,6 +182,9 @@ void System::check_couplings() const {
 
 void System::check_readable(const Signal& signal, const SignalDescription& description) const {
   for (const SignalReference& term : signal) {
+    if (term.kind == SignalKind::kControllerIntegral && controllers_[static_cast<std::size_t>(term.controller)].state < 0)
+      throw InputError({description.where, "signal", "the controller has no i gain, so that its error is not integrated", description.text,
+                        "an i gain, or the signal in the objective or in a later controller"});
     const bool coordinate = term.kind == SignalKind::kJointPosition || term.kind == SignalKind::kJointVelocity ||
                             term.kind == SignalKind::kJointAcceleration || term.kind == SignalKind::kJointSlidingVelocity;
     if (!coordinate || has_coordinate_[static_cast<std::size_t>(term.pair)][static_cast<std::size_t>(term.element)]) continue;

@@ -10,6 +10,7 @@ namespace codesign {
 RosenbrockIntegrator::RosenbrockIntegrator(const System& system)
     : system_(system),
       options_(system.study().solver),
+      breaks_(system.study()),
       step_(system, *rosenbrock_tableau(options_.method)),
       assembly_(system),
       controller_(step_.tableau().order),
@@ -54,7 +55,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     double h = proposal_;
     if (options_.maximum_step > 0.0) h = std::min(h, options_.maximum_step);
     // Stretched by up to a tenth, or halved, so that no sliver is left before the limit.
-    const double rest = limit - t;
+    const double rest = breaks_.next(t, limit) - t;
     const bool last = h >= rest / 1.1;
     if (last) h = rest;
     if (!last && h > 0.5 * rest) h = 0.5 * rest;

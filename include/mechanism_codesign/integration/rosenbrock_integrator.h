@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "mechanism_codesign/integration/break_times.h"
 #include "mechanism_codesign/integration/integrator.h"
 #include "mechanism_codesign/integration/motion_watch.h"
 #include "mechanism_codesign/integration/rosenbrock_step.h"
@@ -40,6 +41,7 @@ class RosenbrockIntegrator final : public Integrator {
 
   const System& system_;
   const SolverOptions& options_;
+  const BreakTimes breaks_;
   RosenbrockStep<double> step_;
   Assembly assembly_;
   State<double> initial_;
