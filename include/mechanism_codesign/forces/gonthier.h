@@ -27,17 +27,17 @@ ValueAndSlope<T> direction_per_speed(const T& square, const T& v_e) {
 
 /// Cuts a vector off at a length, doc/theory.md (13e): x where |x| <= limit, else limit x/|x|.
 template <class T>
-struct Saturation {
+struct CutVector {
   Vector3<T> value = Vector3<T>::Zero();
   Matrix3<T> by_x = Matrix3<T>::Identity();
   Vector3<T> by_limit = Vector3<T>::Zero();
 };
 
 template <class T>
-Saturation<T> saturate(const Vector3<T>& x, const T& limit) {
+CutVector<T> cut_off(const Vector3<T>& x, const T& limit) {
   using std::sqrt;
   const T square = dot(x, x);
-  Saturation<T> cut;
+  CutVector<T> cut;
   cut.value = x;
   if (value_of(square) <= value_of(limit) * value_of(limit)) return cut;
   const T inverse = T(1.0) / sqrt(square);
@@ -75,7 +75,7 @@ Bristle<T> gonthier(const Vector3<T>& u, const BristleState<T>& state, const Fri
   const T rise = c.mu_static - c.mu_dynamic;
   const Vector3<T> f = s * resting + left * sliding;
   const Matrix3<T> f_u = (resting - sliding) * s_u.transpose() + (s * c.bristle_damping) * I + left * sliding_u;
-  const Saturation<T> cut = saturate<T>(f, T(c.mu_dynamic + rise * state.dwell));
+  const CutVector<T> cut = cut_off<T>(f, T(c.mu_dynamic + rise * state.dwell));
   b.mu = cut.value;
   b.mu_u = cut.by_x * f_u;
   b.mu_zeta = s * cut.by_x;
