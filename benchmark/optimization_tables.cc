@@ -23,7 +23,7 @@ struct Way {
 }  // namespace
 
 void measure_optimization(Report* report) {
-  std::vector<Way> ways = {{"rodas4", 1e-6}, {"rodas4", 1e-8}};
+  std::vector<Way> ways = {{kControlled, 1e-4}, {"rodas4", 1e-6}, {"rodas5p", 1e-8}};
   if (with_solver(load_slider_crank(), "idas", 1e-6)) ways.push_back({"idas", 1e-6});
   std::vector<OptimizationResult> results(ways.size());
   std::vector<Job> jobs;

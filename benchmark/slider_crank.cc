@@ -34,7 +34,8 @@ Problem load_slider_crank() { return load_problem(read_source(kUrdf), {}, read_s
 std::optional<Problem> with_solver(const Problem& problem, const std::string& name, double relative_tolerance) {
   Problem changed = problem;
   changed.study.solver.integrator = name == "idas" ? "idas" : "rosenbrock";
-  if (name != "idas") changed.study.solver.method = name;
+  if (name != "idas") changed.study.solver.method = name == kControlled ? "rodas5p" : name;
+  changed.study.solver.sensitivity_tolerance = name == kControlled ? relative_tolerance : 0.0;
   changed.study.solver.relative_tolerance = relative_tolerance;
   changed.study.solver.absolute_tolerance = 0.1 * relative_tolerance;
   try {
@@ -56,7 +57,7 @@ Problem with_tuned(const Problem& problem, int tuned) {
 Problem with_dry_friction(const Problem& problem) {
   const std::string friction = "<dynamics friction=\"" + std::to_string(kDryFriction) + "\"/>";
   const SourceText urdf{kUrdf, replaced(problem.urdf.text, "<codesign:friction", "/>", friction)};
-  return load_problem(urdf, {}, {kStudy, replaced(read_source(kStudy).text, "  slider_length: {}\n", "  slider_width: {}\n", "")});
+  return load_problem(urdf, {}, {kStudy, replaced(read_source(kStudy).text, "  slider_length: {", "  slider_width: {tune: true}\n", "")});
 }
 
 }  // namespace codesign

@@ -13,9 +13,12 @@ namespace codesign {
 /// the current folder, as the files stand.
 Problem load_slider_crank();
 
-/// A solver of the library by the name used in the tables: a Rosenbrock method, or "idas".
+/// A solver of the library by the name used in the tables: a Rosenbrock method, kControlled for rodas5p with the sensitivities in its error
+/// test, or "idas".
 /// @return the same problem with this solver; nothing if the library has no such solver.
 std::optional<Problem> with_solver(const Problem& problem, const std::string& name, double relative_tolerance);
+
+constexpr const char* kControlled = "rodas5p, controlled";
 
 /// The same problem with three more parameters, the masses, and the first `tuned` of all eight tuned.
 Problem with_tuned(const Problem& problem, int tuned);

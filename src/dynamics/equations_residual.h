@@ -86,8 +86,10 @@ void Equations<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
   for (std::size_t k = 0; k < rows_.size(); ++k) pair_residual(k, G);
   for (std::size_t k = 0; k < constants_.springs.size(); ++k) add_spring_load(k, spring(k));
   for (int b = 0; b < layout_.bodies; ++b) body_residual(static_cast<std::size_t>(b), G);
+  for (std::size_t k = 0; k < constants_.couplings.size(); ++k) coupling_residual(k, G);
   for (const JointLoad& load : system_.loads()) load_residual(load, G);
   for (int pair : system_.contacts()) contact_residual(pair, G);
+  for (const BristleContact& contact : system_.bristles()) bristle_residual(contact, G);
   for (std::size_t c = 0; c < system_.controllers().size(); ++c) {
     const int s = system_.controllers()[c].state;
     if (s >= 0) (*G)[layout_.state_column(s)] = state.z[layout_.state_column(s)] - controller_error(static_cast<int>(c), nullptr);
@@ -163,6 +165,7 @@ void Equations<T>::constraint_errors(const VectorX<T>& q, const VectorX<T>& v, V
       ++row;
     }
   }
+  for (std::size_t k = 0; k < constants_.couplings.size(); ++k) coupling_error(k, Phi, Phi_rate);
   for (int b = 0; b < layout_.bodies; ++b) {
     T square(0.0), rate(0.0);
     for (int e = 0; e < 4; ++e) {

@@ -106,17 +106,21 @@ T Equations<T>::load_term(const SignalReference& term, const T& factor, SparseGr
   T sum(0.0);
   for (const JointLoad& load : system_.loads()) {
     if (load.pair != term.pair || load.element != term.element) continue;
-    JointLoad part = load;
-    part.passive = part.spring = false;
+    const auto before = mark(gradient);
     if (term.kind == SignalKind::kJointEffort) {
-      part.reaction_friction = part.constant_friction = false;
-    } else {
-      part.controllers.clear();
+      sum += factor * applied_effort(load, gradient);
+      if (gradient) gradient->scale_from(before, factor);
+      continue;
     }
+    // A copy without the list of controllers takes no memory.
+    JointLoad friction;
+    friction.pair = load.pair;
+    friction.element = load.element;
+    friction.reaction_friction = load.reaction_friction;
+    friction.constant_friction = load.constant_friction;
     const CoordinateMotion<T>& motion =
         coordinate(term.pair, term.element, gradient ? CoordinateDetail::kGradient : CoordinateDetail::kRate);
-    const auto before = mark(gradient);
-    sum -= factor * joint_load(part, motion, gradient);
+    sum -= factor * joint_load(friction, motion, gradient);
     if (gradient) gradient->scale_from(before, T(-factor));
   }
   return sum;

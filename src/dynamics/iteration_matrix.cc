@@ -44,7 +44,7 @@ IterationMatrix::Pattern::Pattern(const System& system) {
 }
 
 IterationMatrix::IterationMatrix(const System& system)
-    : pattern_(system), values_(pattern_.row_index.size()), lu_(system.layout().columns(), pattern_.column_start, pattern_.row_index) {}
+    : pattern_(system), values_(pattern_.row_index.size()), lu_(pattern_.column_start, pattern_.row_index) {}
 
 bool IterationMatrix::factor(const Linearization<double>& d, double c_v, double c_q, double c_s) {
   std::fill(values_.begin(), values_.end(), 0.0);

@@ -40,10 +40,12 @@ System::System(const RobotDescription& robot, const Study& study, double complia
   refuse_unsupported();
   lay_out();
   find_coordinates();
+  check_couplings();
   resolve_objective();
   resolve_controllers();
   check_signals();
   collect_loads();
+  collect_bristles();
   record_pattern();
 }
 
@@ -67,7 +69,8 @@ void System::lay_out() {
     layout_.pair_row.push_back(layout_.m);
     layout_.m += constraint_rows(pair.kind);
   }
-  layout_.m += layout_.bodies;
+  layout_.couplings = static_cast<int>(topology_.couplings.size());
+  layout_.m += layout_.couplings + layout_.bodies;
 }
 
 void System::resolve_objective() {
@@ -117,14 +120,37 @@ void System::collect_loads() {
         load.constant_friction = !zero(joint.dry_friction);
         load.spring = joint.spring.has_value();
         load.passive = !zero(joint.damping) || load.spring;
+        load.stop = study_.limits.position && has_stops(joint);
+        load.saturated = study_.limits.effort && joint.limit && joint.limit->bounds_effort();
       }
       for (std::size_t c = 0; c < controllers_.size(); ++c)
         if (controllers_[c].pair == load.pair && controllers_[c].element == load.element) load.controllers.push_back(static_cast<int>(c));
-      if (!load.reaction_friction && !load.constant_friction && !load.passive && load.controllers.empty()) continue;
+      if (!load.reaction_friction && !load.constant_friction && !load.passive && !load.stop && load.controllers.empty()) continue;
       if (!has_coordinate_[p][e]) refuse_load(load.pair, load.element);
       loads_.push_back(load);
     }
   }
+}
+
+void System::add_bristle(int pair, int element, int size) {
+  const int joint = topology_.pairs[static_cast<std::size_t>(pair)].friction_joint;
+  const FrictionModel model = robot_.joints[static_cast<std::size_t>(joint)].friction->model;
+  if (model == FrictionModel::kBrownMcPhee) return;
+  bristles_.push_back({model, pair, element, layout_.states, size});
+  layout_.states += bristles_.back().states();
+}
+
+void System::collect_bristles() {
+  for (const JointLoad& load : loads_)
+    if (load.reaction_friction) add_bristle(load.pair, load.element, 1);
+  for (int contact : contacts_)
+    add_bristle(contact, -1, topology_.pairs[static_cast<std::size_t>(contact)].kind == PairKind::kTable ? 2 : 3);
+}
+
+const BristleContact* System::bristle(int pair, int element) const {
+  for (const BristleContact& contact : bristles_)
+    if (contact.pair == pair && contact.element == element) return &contact;
+  return nullptr;
 }
 
 void System::find_coordinates() {
@@ -139,9 +165,19 @@ void System::refuse_load(int pair, int element) const {
   const ChainElement& in_chain = topology_.pairs[static_cast<std::size_t>(pair)].chain[static_cast<std::size_t>(element)];
   const JointDescription& joint = robot_.joints[static_cast<std::size_t>(in_chain.joint)];
   throw InputError({joint.where, "<joint name=\"" + joint.name + "\">",
-                    "a controller, spring, damping or stock friction on a joint without a scalar coordinate of its own",
+                    "a controller, spring, damping, stop or stock friction on a joint without a scalar coordinate of its own",
                     topology_.pairs[static_cast<std::size_t>(pair)].name,
                     "revolute, continuous and prismatic joints; in a ball joint of three hinges those at right angles to each other"});
+}
+
+void System::check_couplings() const {
+  for (const Coupling& coupling : topology_.couplings)
+    for (const CouplingTerm& term : coupling.terms)
+      if (!has_coordinate_[static_cast<std::size_t>(term.pair)][static_cast<std::size_t>(term.element)])
+        throw InputError({coupling.where, coupling.element(),
+                          "a joint of a chain of links without <inertial> has no coordinate in closed form",
+                          robot_.joints[static_cast<std::size_t>(term.joint)].name,
+                          "in a ball joint of three hinges, hinges at right angles to each other"});
 }
 
 void System::check_readable(const Signal& signal, const SignalDescription& description) const {
@@ -172,23 +208,12 @@ void System::record_pattern() {
 }
 
 void System::refuse_unsupported() const {
-  const auto refuse = [](const SourceLocation& where, const std::string& element, const std::string& what) {
-    throw InputError({where, element, what + " is read but not computed by this version", "", ""});
-  };
   if (topology_.bodies.empty())
     throw InputError({{robot_.file, 0},
                       "<robot name=\"" + robot_.name + "\">",
                       "nothing moves: no link with an <inertial> hangs on a movable joint",
                       "",
                       ""});
-  for (const JointDescription& joint : robot_.joints) {
-    const std::string element = (joint.is_loop ? "<loop name=\"" : "<joint name=\"") + joint.name + "\">";
-    if (joint.mimic) refuse(joint.where, element, "<mimic>");
-    if (joint.friction && joint.friction->model != FrictionModel::kBrownMcPhee)
-      refuse(joint.friction->where, element, "a friction model other than brown_mcphee");
-  }
-  for (const CouplingDescription& coupling : robot_.couplings)
-    refuse(coupling.where, "<coupling name=\"" + coupling.name + "\">", "a coupling");
 }
 
 }  // namespace codesign

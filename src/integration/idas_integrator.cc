@@ -9,6 +9,7 @@
 #include "integration/idas_equations.h"
 #include "integration/idas_status.h"
 #include "mechanism_codesign/integration/break_times.h"
+#include "mechanism_codesign/integration/motion_watch.h"
 
 namespace codesign {
 
@@ -20,6 +21,7 @@ class IdasIntegrator::Implementation {
         breaks_(system.study()),
         owner_(owner),
         assembly_(system),
+        watch_(system),
         context_(make_context()),
         newton_(system, context_.get()),
         equations_(system, &newton_),
@@ -66,6 +68,7 @@ class IdasIntegrator::Implementation {
   const BreakTimes breaks_;
   Integrator* owner_;
   Assembly assembly_;
+  MotionWatch watch_;
   ContextHandle context_;
   IdasNewton newton_;
   IdasEquations equations_;
@@ -114,6 +117,7 @@ Status IdasIntegrator::Implementation::start(const std::vector<double>& paramete
   require(IDAQuadReInit(ida_.get(), psi_.get()), "IDAQuadReInit");
   start_sensitivities(parameters);
   state_ = initial_;
+  watch_.start(equations(), initial_);
   return {};
 }
 
@@ -162,7 +166,7 @@ Status IdasIntegrator::Implementation::advance(double limit) {
   count_steps();
   if (flag < 0) return idas_status(flag, state_.t, newton_.singular(), equations_.failure().empty() ? message_ : equations_.failure());
   take_over(time);
-  return {};
+  return watch_.check(state_, statistics_.steps + statistics_.rejected_steps);
 }
 
 void IdasIntegrator::Implementation::take_over(double time) {

@@ -227,6 +227,11 @@ class PairBuilder {
     JointDynamicsConstants<T> d;
     d.damping = joint.damping.at(parameters_);
     d.dry_friction = joint.dry_friction.at(parameters_);
+    if (joint.limit) {
+      d.lower = joint.limit->lower.at(parameters_);
+      d.upper = joint.limit->upper.at(parameters_);
+      d.effort = joint.limit->effort.at(parameters_);
+    }
     if (!joint.spring) return d;
     d.stiffness = joint.spring->stiffness.at(parameters_);
     d.spring_damping = joint.spring->damping.at(parameters_);
@@ -249,6 +254,9 @@ class PairBuilder {
     c.preload = f.preload.at(parameters_);
     c.smoothing = f.smoothing.at(parameters_);
     c.viscous = f.viscous.at(parameters_);
+    c.bristle_stiffness = f.bristle_stiffness.at(parameters_);
+    c.bristle_damping = f.bristle_damping.at(parameters_);
+    c.dwell_time = f.dwell_time.at(parameters_);
     return c;
   }
 

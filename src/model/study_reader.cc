@@ -49,7 +49,7 @@ void read_initial_state(const YamlValue& study_value, const RobotDescription& ro
 Study read_study(const SourceText& yaml, const RobotDescription& robot, const TrajectoryLoader& loader) {
   const YamlValue root = YamlValue::parse(yaml);
   root.require_keys({"duration", "objective"},
-                    {"gravity", "initial_state", "controllers", "parameters", "constraints", "solver", "optimizer"});
+                    {"gravity", "initial_state", "controllers", "parameters", "constraints", "limits", "solver", "optimizer"});
   Study study;
   study.file = yaml.name;
   study.duration = read_duration(root.at("duration"));
@@ -60,6 +60,7 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot, const Tr
   read_initial_state(root, robot, &study);
   read_controllers(root, robot, loader, &study);
   read_objective(root, robot, loader, &study);
+  if (const auto limits = root.find("limits")) study.limits = read_limit_options(*limits);
   if (const auto solver = root.find("solver")) study.solver = read_solver_options(*solver);
   if (const auto optimizer = root.find("optimizer")) study.optimizer = read_optimizer_options(*optimizer);
   return study;

@@ -18,7 +18,7 @@ Eigen::Matrix4d matrix(double corner) {
 }
 
 TEST(SparseLu, SolvesAndRefactors) {
-  SparseLu lu(4, kStart, kRows);
+  SparseLu lu(kStart, kRows);
   for (double corner : {4.0, 3.0, -2.0}) {
     const Eigen::Matrix4d m = matrix(corner);
     ASSERT_TRUE(lu.factor(m.data()));
@@ -33,7 +33,7 @@ TEST(SparseLu, SolvesAndRefactors) {
 }
 
 TEST(SparseLu, FallsBackWhenOldPivotsVanish) {
-  SparseLu lu(4, kStart, kRows);
+  SparseLu lu(kStart, kRows);
   ASSERT_TRUE(lu.factor(matrix(1e8).data()));
   Eigen::Matrix4d m = matrix(0.0);
   m(1, 1) = 0.0;
@@ -46,7 +46,7 @@ TEST(SparseLu, FallsBackWhenOldPivotsVanish) {
 }
 
 TEST(SparseLu, ReportsSingularMatrices) {
-  SparseLu lu(4, kStart, kRows);
+  SparseLu lu(kStart, kRows);
   Eigen::Matrix4d m = matrix(4.0);
   m.col(3) = m.col(2);
   EXPECT_FALSE(lu.factor(m.data()));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mechanism_codesign/control/controller_constants.h"
+#include "mechanism_codesign/dynamics/bristle_law.h"
 #include "mechanism_codesign/dynamics/contact_friction.h"
 #include "mechanism_codesign/dynamics/inverse_dynamics.h"
 #include "mechanism_codesign/dynamics/sparsity.h"
@@ -31,7 +32,7 @@ struct FrictionState {
 /// The equations of motion of one design, with the scratch memory to evaluate them; doc/theory.md (14):
 ///   rows 0..n:      M a + Phi_q^T lambda - Q - Q_Af = 0
 ///   rows n..n+m:    Phi_q a + (Phi_q v)_q v = 0
-///   rows n+m..:     sigma - s' = 0
+///   rows n+m..:     sigma - s' = 0, integrals of controllers, then states of friction laws
 /// T: double, std::complex<double> or Lanes<N>; the same code gives values and every derivative. No allocation once warm; not thread-safe.
 template <class T>
 class Equations {
@@ -42,6 +43,7 @@ class Equations {
   void set_design(const std::vector<T>& parameters);
   const Constants<T>& constants() const { return constants_; }
   const std::vector<T>& parameters() const { return parameters_; }
+  const PairRows<T>& rows(int pair) const { return rows_[static_cast<std::size_t>(pair)]; }
   /// A controller's setpoint at the loaded state's time.
   T setpoint(int controller) const { return controllers_[static_cast<std::size_t>(controller)].setpoint.at(state_->t).value; }
 
@@ -94,11 +96,18 @@ class Equations {
   template <class Sink>
   void assemble_product(int pair, const ProductRow<T>& product, const PairMotion<T>& shared, int row, Sink* sink);
   template <class Sink>
+  void assemble_coupling(std::size_t k, Sink* sink);
+  template <class Sink>
   void assemble_body(std::size_t b, Sink* sink);
   template <class Sink>
   void assemble_load(const JointLoad& load, Sink* sink);
+  /// Adds (J^T load)_q of a load along a coordinate.
+  template <class Sink>
+  void assemble_load_curvature(int pair, int element, const T& load, Sink* sink);
   template <class Sink>
   void assemble_contact(int pair, Sink* sink);
+  template <class Sink>
+  void assemble_bristle(const BristleContact& contact, Sink* sink);
   template <class Sink>
   void assemble_spring(std::size_t k, Sink* sink);
   template <class Sink>
@@ -107,15 +116,32 @@ class Equations {
   void assemble_objective(Sink* sink);
 
   void pair_residual(std::size_t k, VectorX<T>* G);
+  void coupling_residual(std::size_t k, VectorX<T>* G);
+  void coupling_error(std::size_t k, VectorX<T>* Phi, VectorX<T>* Phi_rate);
   void body_residual(std::size_t b, VectorX<T>* G);
   void load_residual(const JointLoad& load, VectorX<T>* G);
   void contact_residual(int pair, VectorX<T>* G);
+  void bristle_residual(const BristleContact& contact, VectorX<T>* G);
+  ContactSlip<T> bristle_slip(const BristleContact& contact, CoordinateDetail detail) const;
+  /// The body whose turning the deflections follow, omega x zeta in their rate, though their axes do not; -1 if none.
+  int bristle_carrier(const BristleContact& contact) const;
+  Vector3<T> bristle_turn(const BristleContact& contact) const;
+  void append_bristle_slip(const BristleContact& contact, const ContactSlip<T>& slip, const Vector3<T>& by_u,
+                           SparseGradient<T>* gradient) const;
+  void append_bristle_states(const BristleContact& contact, const Vector3<T>& by_zeta, const T& by_dwell,
+                             SparseGradient<T>* gradient) const;
+  /// Gradient of factor . omega of a body.
+  void append_spin(int body, const Vector3<T>& factor, SparseGradient<T>* gradient) const;
   void add_spring_load(std::size_t k, const SpringForce<T>& force);
   /// Scalar load along a coordinate, positive against it; its gradient is appended.
   T joint_load(const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient);
   NormalForce<T> normal_force(int pair) const;
   T reaction_friction(int pair, int element, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient, FrictionState<T>* state);
   T passive_load(int pair, int element, const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient) const;
+  /// What the controllers of a load apply, within the effort limit if that holds.
+  T applied_effort(const JointLoad& load, SparseGradient<T>* gradient);
+  /// Load of the stops, positive against the coordinate.
+  T stop_load(const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient) const;
   void append_normal_gradient(int pair, const Vector3<T>& F, const Vector3<T>& torque, const T& factor, SparseGradient<T>* gradient) const;
   void append_local(int pair, const LocalRow<T>& row, const T& factor, bool with_r, typename SparseGradient<T>::Entries* entries) const;
   /// Gradient of a coordinate's rate.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mechanism_codesign/control/signal.h"
+#include "mechanism_codesign/dynamics/bristle_law.h"
 #include "mechanism_codesign/dynamics/controller.h"
 #include "mechanism_codesign/dynamics/sparsity.h"
 #include "mechanism_codesign/dynamics/state.h"
@@ -28,7 +29,11 @@ struct JointLoad {
   bool constant_friction = false;  ///< `<dynamics friction>`
   bool passive = false;            ///< damping or a torsion spring
   bool spring = false;             ///< a torsion spring, which depends on the position
+  bool stop = false;               ///< `<limit lower upper>` as stops
+  bool saturated = false;          ///< `<limit effort>` bounds what the controllers apply
   std::vector<int> controllers;    ///< that drive this coordinate
+
+  bool needs_position() const { return spring || stop; }
 };
 
 /// A mechanism and a study compiled into equations of motion; immutable, shared by all workspaces.
@@ -47,6 +52,10 @@ class System {
   const std::vector<JointLoad>& loads() const { return loads_; }
   /// Pairs with isotropic friction.
   const std::vector<int>& contacts() const { return contacts_; }
+  /// Contacts whose friction law has states.
+  const std::vector<BristleContact>& bristles() const { return bristles_; }
+  /// That of a load (of a contact: element -1); null if its law has no states.
+  const BristleContact* bristle(int pair, int element) const;
   const std::vector<ResolvedTerm>& integral() const { return integral_; }
   const std::vector<ResolvedTerm>& terminal() const { return terminal_; }
 
@@ -72,8 +81,11 @@ class System {
   void resolve_controllers();
   void check_signals() const;
   void collect_loads();
+  void collect_bristles();
+  void add_bristle(int pair, int element, int size);
   void find_coordinates();
   void refuse_load(int pair, int element) const;
+  void check_couplings() const;
   void resolve_objective();
   void record_pattern();
   void refuse_unsupported() const;
@@ -86,6 +98,7 @@ class System {
   std::vector<Controller> controllers_;
   std::vector<JointLoad> loads_;
   std::vector<int> contacts_;
+  std::vector<BristleContact> bristles_;
   std::vector<std::vector<bool>> has_coordinate_;  ///< per pair and chain element
   std::vector<ResolvedTerm> integral_, terminal_;
   ByVariable<Sparsity> patterns_;

@@ -7,6 +7,7 @@
 
 #include "mechanism_codesign/integration/break_times.h"
 #include "mechanism_codesign/integration/integrator.h"
+#include "mechanism_codesign/integration/motion_watch.h"
 #include "mechanism_codesign/integration/rosenbrock_step.h"
 #include "mechanism_codesign/integration/step_controller.h"
 
@@ -45,6 +46,7 @@ class RosenbrockIntegrator final : public Integrator {
   Assembly assembly_;
   State<double> initial_;
   StepController controller_;
+  MotionWatch watch_;
   double proposal_ = 0.0;
   Statistics statistics_;
 };

@@ -10,12 +10,12 @@ namespace codesign {
 
 /// LU factorization of square sparse matrices that share one pattern: ordered and pivoted once, refactored numerically afterwards.
 ///
-/// KLU chooses ordering and pivots. A refactorization follows a list of its operations, without any search; when a multiplier grows beyond
-/// 1e6 or a pivot vanishes, the old pivots are distrusted and KLU chooses anew. Not thread-safe.
+/// KLU proposes orders and pivots, of which the cheapest is taken. A refactorization follows a list of its operations, without any search;
+/// when a multiplier grows beyond 1e6 or a pivot vanishes, the old pivots are distrusted and they are chosen anew. Not thread-safe.
 class SparseLu {
  public:
   /// @param column_start, row_index compressed-column pattern of an n x n matrix.
-  SparseLu(int n, const std::vector<int>& column_start, const std::vector<int>& row_index);
+  SparseLu(const std::vector<int>& column_start, const std::vector<int>& row_index);
   ~SparseLu();
   SparseLu(SparseLu&&) noexcept;
   SparseLu& operator=(SparseLu&&) noexcept;

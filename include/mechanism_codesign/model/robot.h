@@ -47,6 +47,7 @@ struct LinkDescription {
 /// Tree joints have URDF's types; `kSpherical` and those behind it exist as loops only.
 enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic, kPlanar, kFloating, kSpherical, kUniversal, kCylindrical, kDistance };
 
+/// Laws of the friction coefficient; Gonthier's and the LuGre model have states of their own.
 enum class FrictionModel { kBrownMcPhee, kGonthier, kLuGre };
 
 /// `<codesign:friction>`, see doc/annotations.md. SI units.
@@ -62,18 +63,30 @@ struct FrictionDescription {
   Quantity preload;                    ///< [N]
   Quantity smoothing{1e-3};            ///< epsilon [N]
   Quantity viscous;                    ///< [N s/m] or [N m s/rad]
+  Quantity bristle_stiffness{1e4};     ///< sigma_0 [1/m], per normal force; of the models with states
+  Quantity bristle_damping{10.0};      ///< sigma_1 [s/m], per normal force
+  Quantity dwell_time{2.0};            ///< tau_dw [s]; of Gonthier's model
   std::optional<std::array<double, 3>> transverse_axis;  ///< x'' in the joint frame
   SourceLocation where;
 };
 
+/// `<limit>`. What exporters write for "not known" is none: see the three functions.
 struct LimitDescription {
-  double lower = 0.0, upper = 0.0;  ///< position [rad or m]
-  double effort = 0.0, velocity = 0.0;
+  Quantity lower, upper;      ///< position [rad or m]
+  Quantity effort, velocity;  ///< [N m or N], [rad/s or m/s]
+
+  static bool given(const Quantity& q) { return !q.is_constant() || q.nominal() != 0.0; }
+  /// Equal limits, as where neither is written, bound nothing.
+  bool bounds_position() const { return given(lower) || given(upper); }
+  bool bounds_effort() const { return given(effort); }
+  bool bounds_velocity() const { return given(velocity); }
 };
 
+/// `<mimic>`: theta = multiplier theta_joint + offset.
 struct MimicDescription {
   std::string joint;
-  double multiplier = 1.0, offset = 0.0;
+  Quantity multiplier{1.0}, offset{0.0};
+  SourceLocation where;
 };
 
 struct TorsionSpringDescription {
@@ -98,6 +111,11 @@ struct JointDescription {
   std::optional<TorsionSpringDescription> spring;
   SourceLocation where;
 };
+
+/// Whether `<limit lower upper>` bounds a joint's position: URDF ignores both on a continuous joint.
+inline bool has_stops(const JointDescription& joint) {
+  return joint.limit && joint.limit->bounds_position() && joint.type != JointType::kContinuous;
+}
 
 /// URDF+ `<coupling>`: the successor's joint turns `ratio` times the predecessor's.
 struct CouplingDescription {

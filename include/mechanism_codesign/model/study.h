@@ -91,15 +91,26 @@ struct ParameterConstraint {
   SourceLocation where;
 };
 
+/// Which of URDF's `<limit>` are enforced, and what the stops are made of; doc/theory.md (13c), (13d).
+struct LimitOptions {
+  bool effort = false;       ///< saturates what controllers apply
+  bool position = false;     ///< stops at lower and upper
+  double stiffness = 1e4;    ///< of a stop [N/m or N m/rad]
+  double dissipation = 1.0;  ///< of a stop: relative growth of its force per speed [s/m or s/rad]
+  double width = 1e-3;       ///< over which a stop takes hold [m or rad]
+};
+
 struct SolverOptions {
   std::string integrator = "rosenbrock";  ///< or "idas"
   std::string method = "rodas4";          ///< rosenbrock: rodas4, rodas4p2, rodas5p
   double relative_tolerance = 1e-6;
   double absolute_tolerance = 1e-7;
+  std::string gradient = "auto";       ///< rosenbrock: "direct", "adjoint", or the cheaper
   double sensitivity_tolerance = 0.0;  ///< rosenbrock: relative, of each parameter's sensitivities; 0: they stay out of the error test
   double initial_step = 0.0;           ///< [s]; 0: chosen
   double maximum_step = 0.0;           ///< [s]; 0: none
   int maximum_steps = 200000;
+  double maximum_speed = 0.0;  ///< of any body [m/s] and [rad/s]; 0: chosen, see MotionWatch
 };
 
 struct OptimizerOptions {
@@ -121,6 +132,7 @@ struct Study {
   std::vector<ObjectiveTerm> integral;
   std::vector<ObjectiveTerm> terminal;
   std::vector<ParameterConstraint> constraints;
+  LimitOptions limits;
   SolverOptions solver;
   OptimizerOptions optimizer;
   std::string file;

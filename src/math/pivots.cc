@@ -1,0 +1,116 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "math/pivots.h"
+
+#include <suitesparse/klu.h>
+
+#include <set>
+#include <utility>
+
+namespace codesign {
+namespace {
+
+constexpr int kAmd = 0, kColamd = 1;
+
+/// What KLU is asked for. With `blocks` it first permutes the matrix to block triangular form, which also puts entries on a diagonal of
+/// zeros.
+struct Proposal {
+  bool blocks;
+  int ordering;
+  double threshold;
+};
+
+constexpr Proposal kProposals[] = {{false, kAmd, 1e-3},   {false, kAmd, 0.1},    {true, kAmd, 1e-3},  {true, kAmd, 0.1},
+                                   {false, kColamd, 0.1}, {true, kColamd, 1e-3}, {true, kColamd, 0.1}};
+
+/// One run of KLU with what it leaves behind.
+class Run {
+ public:
+  Run(const Proposal& proposal, const std::vector<int>& column_start, const std::vector<int>& row_index, const double* values)
+      : n_(static_cast<int>(column_start.size()) - 1) {
+    klu_defaults(&common_);
+    common_.btf = proposal.blocks ? 1 : 0;
+    common_.ordering = proposal.ordering;
+    common_.tol = proposal.threshold;
+    // KLU only reads the pattern and the values.
+    int *const starts = const_cast<int*>(column_start.data()), *const rows = const_cast<int*>(row_index.data());
+    symbolic_ = klu_analyze(n_, starts, rows, &common_);
+    if (symbolic_) numeric_ = klu_factor(starts, rows, const_cast<double*>(values), symbolic_, &common_);
+  }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+  ~Run() {
+    klu_free_numeric(&numeric_, &common_);
+    klu_free_symbolic(&symbolic_, &common_);
+  }
+
+  bool ok() const { return numeric_ && common_.status == KLU_OK; }
+
+  Pivots pivots() {
+    const auto size = static_cast<std::size_t>(n_);
+    Pivots pivots{std::vector<int>(size), std::vector<int>(size), std::vector<double>(size)};
+    klu_extract(numeric_, symbolic_, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, pivots.row_of.data(),
+                pivots.column_of.data(), pivots.row_scale.data(), nullptr, &common_);
+    return pivots;
+  }
+
+ private:
+  int n_;
+  klu_common common_{};
+  klu_symbolic* symbolic_ = nullptr;
+  klu_numeric* numeric_ = nullptr;
+};
+
+}  // namespace
+
+// Row by row: what stands left of the diagonal brings in the row of U with that number, whose entries lie further right.
+LuPattern eliminate_pattern(const Pivots& pivots, const std::vector<int>& column_start, const std::vector<int>& row_index) {
+  const std::size_t n = pivots.row_of.size();
+  LuPattern pattern{pivots.row_of, pivots.column_of, pivots.row_scale, {}, {}};
+  pattern.U.resize(n);
+  pattern.L.resize(n);
+  std::vector<int> pivot_of_row(n);
+  for (std::size_t k = 0; k < n; ++k) pivot_of_row[static_cast<std::size_t>(pivots.row_of[k])] = static_cast<int>(k);
+  std::vector<std::set<int>> rows(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto column = static_cast<std::size_t>(pivots.column_of[k]);
+    for (int e = column_start[column]; e < column_start[column + 1]; ++e)
+      rows[static_cast<std::size_t>(pivot_of_row[static_cast<std::size_t>(row_index[static_cast<std::size_t>(e)])])].insert(
+          static_cast<int>(k));
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    const int diagonal = static_cast<int>(k);
+    for (auto j = rows[k].begin(); j != rows[k].end() && *j < diagonal; ++j) {
+      const std::set<int>& other = rows[static_cast<std::size_t>(*j)];
+      rows[k].insert(other.upper_bound(*j), other.end());
+    }
+    for (int column : rows[k])
+      if (column != diagonal) (column < diagonal ? pattern.L : pattern.U)[static_cast<std::size_t>(column)].push_back(diagonal);
+  }
+  return pattern;
+}
+
+std::int64_t count_products(const LuPattern& pattern) {
+  std::vector<std::int64_t> length(pattern.row_of.size(), 0);  // of the rows of U
+  for (const std::vector<int>& column : pattern.U)
+    for (int row : column) ++length[static_cast<std::size_t>(row)];
+  std::int64_t products = 0;
+  for (std::size_t k = 0; k < length.size(); ++k) products += length[k] * static_cast<std::int64_t>(pattern.L[k].size());
+  return products;
+}
+
+std::optional<LuPattern> choose_pivots(const std::vector<int>& column_start, const std::vector<int>& row_index, const double* values) {
+  std::optional<LuPattern> best;
+  std::int64_t least = 0;
+  for (const Proposal& proposal : kProposals) {
+    Run run(proposal, column_start, row_index, values);
+    if (!run.ok()) continue;
+    LuPattern pattern = eliminate_pattern(run.pivots(), column_start, row_index);
+    const std::int64_t products = count_products(pattern);
+    if (best && products >= least) continue;
+    least = products;
+    best = std::move(pattern);
+  }
+  return best;
+}
+
+}  // namespace codesign
