@@ -37,7 +37,7 @@ std::shared_ptr<const System> smoothly_forced() {
                  "duration: 1.0\ninitial_state: {elbow: {position: 0.5}}\ncontrollers:\n"
                  "  servo: {type: pid, input: shoulder/position, output: shoulder, gains: {p: 40.0, i: 10.0, d: 4.0},\n"
                  "    setpoint: {type: sine, amplitude: 0.8, frequency: 1.5, phase: 0.4}}\n"
-                 "objective: {integral: [{signal: elbow/velocity, reference: {type: sine, amplitude: 1.0, frequency: 2.0}}]}\n");
+                 "objective: {integral: [{signal: elbow/position, reference: {type: sine, amplitude: 1.0, frequency: 2.0}}]}\n");
 }
 
 /// State and psi after a span in `count` equal steps.
