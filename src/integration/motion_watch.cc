@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanism_codesign/control/reference.h"
 #include "mechanism_codesign/math/decimal.h"
 
 namespace codesign {
@@ -13,6 +14,7 @@ constexpr double kBeyondReason = 10.0;  // times the typical speed
 constexpr std::int64_t kWindow = 500;   // steps that tell the present pace
 constexpr double kPatience = 0.1;       // of maximum_steps
 constexpr double kLeastPatience = 5000.0;
+constexpr int kInstants = 100;  // at which moving setpoints are looked at
 
 bool is_velocity(const Signal& signal) {
   return std::any_of(signal.begin(), signal.end(), [](const SignalReference& term) {
@@ -41,20 +43,22 @@ MotionWatch::Speeds MotionWatch::speeds(const State<double>& state) const {
   return fastest;
 }
 
-// Angles and lengths are not told apart: a target speed excuses both kinds.
+// Angles and lengths are not told apart: a speed asked for excuses both kinds.
 double MotionWatch::target(const Equations<double>& equations) const {
   const Study& study = system_.study();
   double largest = 0.0;
-  for (std::size_t c = 0; c < system_.controllers().size(); ++c)
-    if (is_velocity(system_.controllers()[c].input)) largest = std::max(largest, std::abs(equations.setpoint(static_cast<int>(c))));
-  const auto look = [&](const std::vector<ResolvedTerm>& terms, const std::vector<ObjectiveTerm>& descriptions) {
-    for (const ResolvedTerm& term : terms) {
-      const Quantity& reference = descriptions[static_cast<std::size_t>(term.description)].reference;
-      if (is_velocity(term.signal)) largest = std::max(largest, std::abs(reference.at(equations.parameters())));
+  const auto look = [&](const Signal& signal, const ReferenceDescription& description) {
+    const Reference<double> reference(description, equations.parameters());
+    const bool velocity = is_velocity(signal);
+    for (int k = 0; k <= kInstants; ++k) {
+      const ReferenceMotion<double> r = reference.at(study.duration * k / kInstants);
+      largest = std::max(largest, std::abs(velocity ? r.value : r.rate));
     }
   };
-  look(system_.integral(), study.integral);
-  look(system_.terminal(), study.terminal);
+  for (std::size_t c = 0; c < system_.controllers().size(); ++c)
+    if (has_error(study.controllers[c].kind)) look(system_.controllers()[c].input, study.controllers[c].setpoint);
+  for (const ResolvedTerm& term : system_.integral()) look(term.signal, study.integral[static_cast<std::size_t>(term.description)].reference);
+  for (const ResolvedTerm& term : system_.terminal()) look(term.signal, study.terminal[static_cast<std::size_t>(term.description)].reference);
   return largest;
 }
 

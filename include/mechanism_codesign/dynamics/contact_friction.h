@@ -47,7 +47,7 @@ struct ContactFriction {
 /// Slip over one to three coordinates: their motion, and u [m/s], each rate times its arm.
 template <class T>
 struct ContactSlip {
-  std::array<CoordinateMotion<T>, 3> motion;
+  std::array<CoordinateMotion<T>, 3> motion{};
   Vector3<T> arm = Vector3<T>::Zero(), u = Vector3<T>::Zero();
 };
 
