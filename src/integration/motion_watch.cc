@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "mechanism_codesign/control/reference.h"
 #include "mechanism_codesign/math/decimal.h"
 
 namespace codesign {
@@ -14,10 +16,16 @@ constexpr std::int64_t kWindow = 500;   // steps that tell the present pace
 constexpr double kPatience = 0.1;       // of maximum_steps
 constexpr double kLeastPatience = 5000.0;
 
-bool is_velocity(const Signal& signal) {
-  return std::any_of(signal.begin(), signal.end(), [](const SignalReference& term) {
-    return term.kind == SignalKind::kJointVelocity || term.kind == SignalKind::kLinkVelocity ||
-           term.kind == SignalKind::kLinkAngularVelocity || term.kind == SignalKind::kJointSlidingVelocity;
+constexpr int kInstants = 64;  // at which setpoints and references that vary are looked at
+
+constexpr SignalKind kVelocities[] = {SignalKind::kJointVelocity, SignalKind::kJointSlidingVelocity, SignalKind::kLinkVelocity,
+                                      SignalKind::kLinkAngularVelocity};
+constexpr SignalKind kPositions[] = {SignalKind::kJointPosition, SignalKind::kLinkPosition};
+
+template <std::size_t N>
+bool reads(const Signal& signal, const SignalKind (&kinds)[N]) {
+  return std::any_of(signal.begin(), signal.end(), [&kinds](const SignalReference& term) {
+    return std::find(std::begin(kinds), std::end(kinds), term.kind) != std::end(kinds);
   });
 }
 
@@ -45,16 +53,19 @@ MotionWatch::Speeds MotionWatch::speeds(const State<double>& state) const {
 double MotionWatch::target(const Equations<double>& equations) const {
   const Study& study = system_.study();
   double largest = 0.0;
-  for (std::size_t c = 0; c < system_.controllers().size(); ++c)
-    if (is_velocity(system_.controllers()[c].input)) largest = std::max(largest, std::abs(equations.setpoint(static_cast<int>(c))));
-  const auto look = [&](const std::vector<ResolvedTerm>& terms, const std::vector<ObjectiveTerm>& descriptions) {
-    for (const ResolvedTerm& term : terms) {
-      const Quantity& reference = descriptions[static_cast<std::size_t>(term.description)].reference;
-      if (is_velocity(term.signal)) largest = std::max(largest, std::abs(reference.at(equations.parameters())));
+  const auto look = [&](const Signal& signal, const ReferenceDescription& description) {
+    const bool velocity = reads(signal, kVelocities), position = reads(signal, kPositions);
+    const Reference<double> reference(description, equations.parameters());
+    for (int k = 0; (velocity || position) && k <= kInstants; ++k) {
+      const ReferenceMotion<double> asked = reference.at(study.duration * k / kInstants);
+      largest = std::max(largest, std::abs(velocity ? asked.value : asked.rate));
     }
   };
-  look(system_.integral(), study.integral);
-  look(system_.terminal(), study.terminal);
+  for (std::size_t c = 0; c < study.controllers.size(); ++c) look(system_.controllers()[c].input, study.controllers[c].setpoint);
+  for (const ResolvedTerm& term : system_.integral())
+    look(term.signal, study.integral[static_cast<std::size_t>(term.description)].reference);
+  for (const ResolvedTerm& term : system_.terminal())
+    look(term.signal, study.terminal[static_cast<std::size_t>(term.description)].reference);
   return largest;
 }
 
