@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "mechanism_codesign/control/reference.h"
 #include "mechanism_codesign/math/decimal.h"
@@ -14,12 +15,17 @@ constexpr double kBeyondReason = 10.0;  // times the typical speed
 constexpr std::int64_t kWindow = 500;   // steps that tell the present pace
 constexpr double kPatience = 0.1;       // of maximum_steps
 constexpr double kLeastPatience = 5000.0;
-constexpr int kInstants = 100;  // at which moving setpoints are looked at
 
-bool is_velocity(const Signal& signal) {
-  return std::any_of(signal.begin(), signal.end(), [](const SignalReference& term) {
-    return term.kind == SignalKind::kJointVelocity || term.kind == SignalKind::kLinkVelocity ||
-           term.kind == SignalKind::kLinkAngularVelocity || term.kind == SignalKind::kJointSlidingVelocity;
+constexpr int kInstants = 64;  // at which setpoints and references that vary are looked at
+
+constexpr SignalKind kVelocities[] = {SignalKind::kJointVelocity, SignalKind::kJointSlidingVelocity, SignalKind::kLinkVelocity,
+                                      SignalKind::kLinkAngularVelocity};
+constexpr SignalKind kPositions[] = {SignalKind::kJointPosition, SignalKind::kLinkPosition};
+
+template <std::size_t N>
+bool reads(const Signal& signal, const SignalKind (&kinds)[N]) {
+  return std::any_of(signal.begin(), signal.end(), [&kinds](const SignalReference& term) {
+    return std::find(std::begin(kinds), std::end(kinds), term.kind) != std::end(kinds);
   });
 }
 
@@ -43,22 +49,23 @@ MotionWatch::Speeds MotionWatch::speeds(const State<double>& state) const {
   return fastest;
 }
 
-// Angles and lengths are not told apart: a speed asked for excuses both kinds.
+// Angles and lengths are not told apart: a target speed excuses both kinds.
 double MotionWatch::target(const Equations<double>& equations) const {
   const Study& study = system_.study();
   double largest = 0.0;
   const auto look = [&](const Signal& signal, const ReferenceDescription& description) {
+    const bool velocity = reads(signal, kVelocities), position = reads(signal, kPositions);
     const Reference<double> reference(description, equations.parameters());
-    const bool velocity = is_velocity(signal);
-    for (int k = 0; k <= kInstants; ++k) {
-      const ReferenceMotion<double> r = reference.at(study.duration * k / kInstants);
-      largest = std::max(largest, std::abs(velocity ? r.value : r.rate));
+    for (int k = 0; (velocity || position) && k <= kInstants; ++k) {
+      const ReferenceMotion<double> asked = reference.at(study.duration * k / kInstants);
+      largest = std::max(largest, std::abs(velocity ? asked.value : asked.rate));
     }
   };
-  for (std::size_t c = 0; c < system_.controllers().size(); ++c)
-    if (has_error(study.controllers[c].kind)) look(system_.controllers()[c].input, study.controllers[c].setpoint);
-  for (const ResolvedTerm& term : system_.integral()) look(term.signal, study.integral[static_cast<std::size_t>(term.description)].reference);
-  for (const ResolvedTerm& term : system_.terminal()) look(term.signal, study.terminal[static_cast<std::size_t>(term.description)].reference);
+  for (std::size_t c = 0; c < study.controllers.size(); ++c) look(system_.controllers()[c].input, study.controllers[c].setpoint);
+  for (const ResolvedTerm& term : system_.integral())
+    look(term.signal, study.integral[static_cast<std::size_t>(term.description)].reference);
+  for (const ResolvedTerm& term : system_.terminal())
+    look(term.signal, study.terminal[static_cast<std::size_t>(term.description)].reference);
   return largest;
 }
 
