@@ -1,11 +1,26 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/commands.h"
 #include "cli/inputs.h"
+#include "cli/limit_watch.h"
 #include "cli/report.h"
 #include "cli/table.h"
 
 namespace codesign::cli {
 namespace {
+
+void print_names(const std::string& what, const std::vector<std::string>& names, std::ostream& out) {
+  if (names.empty()) return;
+  out << what << '\n';
+  for (const std::string& name : names) out << "  " << name << '\n';
+}
+
+void print_redundancy(const Counts& counts, std::ostream& out) {
+  std::vector<std::string> rows;
+  for (const ConstraintRow& row : counts.redundant_rows) rows.push_back(row.joint + ", row " + std::to_string(row.row) + ": " + row.kind);
+  print_names("redundant rows (they follow from the others at the start)", rows, out);
+  print_names("reactions that rigid bodies leave open, taken as those of least norm", counts.undetermined_reactions, out);
+  print_names("friction that is a choice, since it is computed from such a reaction", counts.chosen_friction, out);
+}
 
 void print_table(const Counts& counts, std::ostream& out) {
   Table table;
@@ -22,9 +37,18 @@ void print_table(const Counts& counts, std::ostream& out) {
   add("sensitivities", counts.sensitivities);
   add("equations in all", counts.total_equations);
   table.print(out);
-  if (counts.redundant_rows.empty()) return;
-  out << "redundant rows (friction computed from their reactions is a choice: the reactions of least norm)\n";
-  for (const std::string& row : counts.redundant_rows) out << "  " << row << '\n';
+  print_redundancy(counts, out);
+}
+
+/// Limits that the start already exceeds.
+std::vector<LimitCrossing> crossings_at_start(const Problem& problem, const std::vector<double>& parameters) {
+  Simulation simulation(problem.system, parameters);
+  LimitWatch watch(problem, parameters, simulation.names());
+  Frame frame;
+  if (!simulation.start().ok()) return {};
+  simulation.sample(0.0, &frame);
+  watch.observe(frame);
+  return watch.crossings();
 }
 
 }  // namespace
@@ -34,11 +58,16 @@ int check(const Arguments& arguments, const Console& console) {
   const std::vector<double> parameters = problem.parameters();
   Status status;
   const Counts counts = count_equations(problem.system, parameters, &status);
-  if (!arguments.json && status.ok()) print_table(counts, console.out);
+  const std::vector<LimitCrossing> crossings = crossings_at_start(problem, parameters);
+  if (!arguments.json && status.ok()) {
+    print_table(counts, console.out);
+    for (const LimitCrossing& crossing : crossings) console.out << describe(crossing) << '\n';
+  }
   Json object;
   object["model"] = problem.robot.name;
   object["parameters"] = parameters_json(problem, parameters);
   if (status.ok()) object["counts"] = to_json(counts);
+  object["limits_exceeded"] = to_json(crossings);
   return finish(arguments, status, std::move(object), console);
 }
 

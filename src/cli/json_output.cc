@@ -2,6 +2,15 @@
 #include "cli/json_output.h"
 
 namespace codesign::cli {
+namespace {
+
+Json to_json(const std::vector<ConstraintRow>& rows) {
+  Json array = Json::array();
+  for (const ConstraintRow& row : rows) array.push_back({{"joint", row.joint}, {"row", row.row}, {"kind", row.kind}});
+  return array;
+}
+
+}  // namespace
 
 Json to_json(const Counts& counts) {
   return {{"bodies", counts.bodies},
@@ -15,13 +24,22 @@ Json to_json(const Counts& counts) {
           {"parameters", counts.parameters},
           {"sensitivities", counts.sensitivities},
           {"total_equations", counts.total_equations},
-          {"redundant_rows", counts.redundant_rows}};
+          {"redundant_rows", to_json(counts.redundant_rows)},
+          {"undetermined_reactions", counts.undetermined_reactions},
+          {"chosen_friction", counts.chosen_friction}};
 }
 
 Json to_json(const InputError& error) {
   const InputFault& fault = error.fault();
   return {{"code", "bad_input"},      {"message", error.what()}, {"file", fault.where.file}, {"line", fault.where.line},
           {"element", fault.element}, {"value", fault.value},    {"allowed", fault.allowed}};
+}
+
+Json to_json(const std::vector<LimitCrossing>& crossings) {
+  Json array = Json::array();
+  for (const LimitCrossing& c : crossings)
+    array.push_back({{"joint", c.joint}, {"limit", c.limit}, {"bound", c.bound}, {"worst", c.worst}, {"time", c.time}});
+  return array;
 }
 
 Json to_json(const Status& status) { return {{"code", name_of(status.code)}, {"message", status.cause}, {"time", status.time}}; }

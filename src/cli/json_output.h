@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/limit_watch.h"
 #include "mechanism_codesign/dynamics/counts.h"
 #include "mechanism_codesign/dynamics/status.h"
 #include "mechanism_codesign/integration/simulation.h"
@@ -22,6 +23,8 @@ using Json = nlohmann::ordered_json;
 Json to_json(const Counts& counts);
 /// `{code, message, file, line, element, value, allowed}` with code `bad_input`.
 Json to_json(const InputError& error);
+/// `[{joint, limit, bound, worst, time}]`
+Json to_json(const std::vector<LimitCrossing>& crossings);
 /// `{code, message, time}`
 Json to_json(const Status& status);
 /// Values by name.

@@ -6,8 +6,10 @@ namespace codesign::cli {
 RunSummary record_run(const Problem& problem, const std::vector<double>& parameters, const std::vector<SignalDescription>& signals,
                       int samples, const RowSink& sink, const std::atomic<bool>* cancel) {
   Simulation simulation(problem.system, parameters, signals);
+  LimitWatch watch(problem, parameters, simulation.names());
   std::vector<double> row;
   const auto observer = [&](const Frame& frame) {
+    watch.observe(frame);
     row.assign(1, frame.time);
     row.insert(row.end(), frame.signals.begin(), frame.signals.end());
     sink(row);
@@ -16,6 +18,7 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
   RunSummary summary;
   summary.status = codesign::simulate(&simulation, problem.study.duration, samples, observer);
   summary.statistics = simulation.statistics();
+  summary.crossings = watch.crossings();
   return summary;
 }
 

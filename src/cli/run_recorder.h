@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/limit_watch.h"
 #include "mechanism_codesign/optimization/problem.h"
 
 namespace codesign::cli {
@@ -15,6 +16,7 @@ namespace codesign::cli {
 struct RunSummary {
   Status status;
   Statistics statistics;
+  std::vector<LimitCrossing> crossings;  ///< seen at the sampled instants
 };
 
 /// Called with `time, signal, ...` at each instant.

@@ -26,6 +26,7 @@ Json series_json(const std::vector<std::string>& names, const std::vector<std::v
 void summarize(const RunSummary& run, double duration, std::ostream& err) {
   err << "simulated " << readable(duration) << " s in " << run.statistics.steps << " steps (" << run.statistics.rejected_steps
       << " rejected), " << readable(run.statistics.cpu_seconds) << " s of processor time" << std::endl;
+  for (const LimitCrossing& crossing : run.crossings) err << describe(crossing) << std::endl;
 }
 
 /// The objective needs its own quadrature beside the run, so it is computed only where it is shown.
@@ -38,6 +39,7 @@ Json run_json(const Problem& problem, const RunSummary& run, Json series, const 
   object["parameters"] = parameters_json(problem, problem.parameters());
   add_statistics(run.statistics, &object);
   add_counts(problem, problem.parameters(), &object);
+  object["limits_exceeded"] = to_json(run.crossings);
   object["series"] = std::move(series);
   return object;
 }

@@ -40,20 +40,25 @@ Assembly::Assembly(const System& system) : system_(system), tree_(system.robot()
   const Topology& topology = system.topology();
   for (std::size_t k = 0; k < topology.pairs.size(); ++k) {
     if (!topology.pairs[k].is_loop) continue;
-    const int last = k + 1 < topology.pairs.size() ? system.layout().pair_row[k + 1] : system.layout().norm_row(0);
-    for (int row = system.layout().pair_row[k]; row < last; ++row) {
+    for (int row = system.layout().pair_row[k]; row < system.layout().pair_end(static_cast<int>(k)); ++row) {
       loop_rows_.push_back(row);
-      loop_row_pair_.push_back(static_cast<int>(k));
+      loop_row_name_.push_back(topology.pairs[k].name);
     }
   }
   const auto size = static_cast<std::size_t>(tree_.size);
-  position_given_.assign(size, false);
-  velocity_given_.assign(size, false);
+  for (std::vector<bool>* flags : {&position_given_, &guess_given_, &velocity_given_, &follows_}) flags->assign(size, false);
+  for (std::size_t k = 0; k < topology.couplings.size(); ++k) {
+    loop_rows_.push_back(system.layout().coupling_row(static_cast<int>(k)));
+    loop_row_name_.push_back(topology.couplings[k].name);
+    followers_.push_back(tree_.offset[static_cast<std::size_t>(topology.couplings[k].terms.front().joint)]);
+    follows_[static_cast<std::size_t>(followers_.back())] = true;
+  }
   for (const InitialJointState& initial : system.study().initial_state) {
     const int joint = joint_named(system.robot(), initial.joint);
     if (joint < 0) continue;
     const auto c = static_cast<std::size_t>(tree_.offset[static_cast<std::size_t>(joint)]);
     position_given_[c] = initial.position.has_value();
+    guess_given_[c] = initial.guess.has_value();
     velocity_given_[c] = initial.velocity.has_value();
   }
   derivatives_.resize(system.patterns());
@@ -72,7 +77,44 @@ void Assembly::set_start(const std::vector<double>& parameters) {
   }
 }
 
+// Followers of followers come right after as many passes as there are couplings.
+void Assembly::follow_couplings(const Constants<double>& constants) {
+  const std::vector<Coupling>& couplings = system_.topology().couplings;
+  for (std::size_t pass = 0; pass < couplings.size(); ++pass) {
+    for (std::size_t k = 0; k < couplings.size(); ++k) {
+      double position = constants.couplings[k].offset, rate = 0.0;
+      for (std::size_t t = 1; t < couplings[k].terms.size(); ++t) {
+        const int c = tree_.offset[static_cast<std::size_t>(couplings[k].terms[t].joint)];
+        position -= constants.couplings[k].coefficients[t] * theta_[c];
+        rate -= constants.couplings[k].coefficients[t] * theta_rate_[c];
+      }
+      const auto follower = static_cast<std::size_t>(followers_[k]);
+      if (!position_given_[follower] && !guess_given_[follower]) theta_[followers_[k]] = position;
+      if (!velocity_given_[follower]) theta_rate_[followers_[k]] = rate;
+    }
+  }
+}
+
+// Positions are continued from the tree's: a start of several turns counts.
+void Assembly::set_turns(Equations<double>* equations) const {
+  for (std::size_t p = 0; p < system_.topology().pairs.size(); ++p) {
+    const Pair& pair = system_.topology().pairs[p];
+    for (std::size_t e = 0; e < pair.chain.size(); ++e) {
+      const JointDescription& joint = system_.robot().joints[static_cast<std::size_t>(pair.chain[e].joint)];
+      equations->turn_references()[p][e] = joint.is_loop ? 0.0 : theta_[tree_.offset[static_cast<std::size_t>(pair.chain[e].joint)]];
+    }
+  }
+}
+
+std::vector<std::vector<int>> Assembly::by_preference(const std::vector<bool>& given) const {
+  std::vector<std::vector<int>> lists(2);
+  for (int c = 0; c < tree_.size; ++c)
+    if (const auto k = static_cast<std::size_t>(c); !given[k]) lists[follows_[k] ? 0 : 1].push_back(c);
+  return lists;
+}
+
 void Assembly::place(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) const {
+  set_turns(equations);
   body_coordinates(system_, equations->constants(), link_motions(system_.robot(), tree_, parameters, theta_, theta_rate_), &state->q,
                    &state->v);
 }
@@ -132,11 +174,14 @@ bool Assembly::newton(const std::vector<double>& parameters, Equations<double>* 
     const double error = loops.size() == 0 ? 0.0 : loops.cwiseAbs().maxCoeff();
     if (!std::isfinite(error)) return false;
     // Converged when rounding stops the quadratic decrease.
-    if (error == 0.0 || (error < kClosed && error >= 0.5 * previous)) return true;
+    const double closed = kClosed * (1.0 + theta_.cwiseAbs().maxCoeff());
+    if (error == 0.0 || (error < closed && error >= 0.5 * previous)) return true;
     previous = error;
     note_worst_loop(loops);
     Eigen::VectorXd step = pseudo_inverse(columns_of(loop_jacobian(parameters, equations), free)) * loops;
-    const double largest = step.size() == 0 ? 0.0 : step.cwiseAbs().maxCoeff();
+    double largest = 0.0;  // but for what only follows: a coupling is linear and has no branches
+    for (std::size_t k = 0; k < free.size(); ++k)
+      if (!follows_[static_cast<std::size_t>(free[k])]) largest = std::max(largest, std::abs(step[static_cast<Eigen::Index>(k)]));
     if (largest > kLargestTurn) step *= kLargestTurn / largest;
     for (std::size_t k = 0; k < free.size(); ++k) theta_[free[k]] -= step[static_cast<Eigen::Index>(k)];
   }
@@ -149,35 +194,41 @@ void Assembly::note_worst_loop(const Eigen::VectorXd& errors) {
   const double error = errors.cwiseAbs().maxCoeff(&worst);
   if (!worst_loop_.empty() && error >= nearest_miss_) return;
   nearest_miss_ = error;
-  worst_loop_ = system_.topology().pairs[static_cast<std::size_t>(loop_row_pair_[static_cast<std::size_t>(worst)])].name;
+  worst_loop_ = loop_row_name_[static_cast<std::size_t>(worst)];
 }
 
 Status Assembly::solve_positions(const std::vector<double>& parameters, Equations<double>* equations) {
-  std::vector<int> open;
-  for (int c = 0; c < tree_.size; ++c)
-    if (!position_given_[static_cast<std::size_t>(c)]) open.push_back(c);
+  const std::vector<std::vector<int>> preferences = by_preference(position_given_);
+  std::vector<int> open = preferences[0];
+  open.insert(open.end(), preferences[1].begin(), preferences[1].end());
+  std::sort(open.begin(), open.end());
   const VectorX<double> start = theta_;
   worst_loop_.clear();
-  positions_ = choose(loop_jacobian(parameters, equations), {open});
+  positions_ = choose(loop_jacobian(parameters, equations), preferences);
   if (!newton(parameters, equations, positions_.columns)) {
     // The start may be singular (a stretched-out linkage): let every open coordinate move.
     theta_ = start;
     if (!newton(parameters, equations, open))
-      return {StatusCode::kAssemblyFailed, 0.0, "loop '" + worst_loop_ + "' cannot be closed from the given initial state"};
+      return {StatusCode::kAssemblyFailed, 0.0, "loop or coupling '" + worst_loop_ + "' cannot be closed from the given initial state"};
   }
-  positions_ = choose(loop_jacobian(parameters, equations), {open});
+  positions_ = choose(loop_jacobian(parameters, equations), preferences);
   worst_loop_.clear();
   return {};
 }
 
 Status Assembly::solve_velocities(const std::vector<double>& parameters, Equations<double>* equations) {
-  std::vector<int> open, held;
+  std::vector<int> held;
+  std::vector<bool> not_open = velocity_given_;
   for (int c = 0; c < tree_.size; ++c) {
-    if (velocity_given_[static_cast<std::size_t>(c)]) continue;
-    (position_given_[static_cast<std::size_t>(c)] ? held : open).push_back(c);
+    const auto k = static_cast<std::size_t>(c);
+    if (!position_given_[k] || velocity_given_[k]) continue;
+    held.push_back(c);
+    not_open[k] = true;
   }
+  std::vector<std::vector<int>> preferences = by_preference(not_open);
+  preferences.push_back(held);
   const Eigen::MatrixXd jacobian = loop_jacobian(parameters, equations);
-  velocities_ = choose(jacobian, {open, held});
+  velocities_ = choose(jacobian, preferences);
   const Eigen::VectorXd rates = jacobian * theta_rate_;
   const Eigen::VectorXd step = velocities_.inverse * rates;
   for (std::size_t k = 0; k < velocities_.columns.size(); ++k) theta_rate_[velocities_.columns[k]] -= step[static_cast<Eigen::Index>(k)];
@@ -191,23 +242,18 @@ Status Assembly::solve(const std::vector<double>& parameters, Equations<double>*
   state->resize(system_.layout());
   state->t = 0.0;
   set_start(parameters);
+  follow_couplings(equations->constants());
   if (Status status = solve_positions(parameters, equations); !status.ok()) return status;
   if (Status status = solve_velocities(parameters, equations); !status.ok()) return status;
   place(parameters, equations, state);
-  // Positions are continued from the tree's: a start of several turns counts.
-  for (std::size_t p = 0; p < system_.topology().pairs.size(); ++p) {
-    const Pair& pair = system_.topology().pairs[p];
-    for (std::size_t e = 0; e < pair.chain.size(); ++e) {
-      const JointDescription& joint = system_.robot().joints[static_cast<std::size_t>(pair.chain[e].joint)];
-      equations->turn_references()[p][e] = joint.is_loop ? 0.0 : theta_[tree_.offset[static_cast<std::size_t>(pair.chain[e].joint)]];
-    }
-  }
   return solve_rates(equations, state);
 }
 
 Status Assembly::solve_rates(Equations<double>* equations, State<double>* state) {
   VectorX<double> G, step;
   double g = 0.0, previous = std::numeric_limits<double>::infinity();
+  // Rounding of the redundant rows, divided by their compliance, is left in the reactions that these rows leave open.
+  const double converged = system_.compliance() == 0.0 ? 1e-11 : 1e-7;
   for (int iteration = 0; iteration < 100; ++iteration) {
     equations->residual(*state, &G, &g);
     const double error = G.cwiseAbs().maxCoeff();
@@ -219,7 +265,7 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
     matrix_.lu().solve(step.data());
     const double size = step.cwiseAbs().maxCoeff() / (1.0 + state->z.cwiseAbs().maxCoeff());
     state->z -= step;
-    if (size < 1e-15 || (size < 1e-11 && size >= 0.5 * previous)) return {};
+    if (size < 1e-15 || (size < converged && size >= 0.5 * previous)) return {};
     previous = size;
   }
   return {StatusCode::kInitialReactionsFailed, state->t,

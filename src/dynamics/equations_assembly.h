@@ -26,6 +26,7 @@ void Equations<T>::assemble(Sink* sink) {
   for (std::size_t k = 0; k < rows_.size(); ++k) assemble_pair(k, sink);
   for (std::size_t k = 0; k < constants_.springs.size(); ++k) assemble_spring(k, sink);
   for (int b = 0; b < layout_.bodies; ++b) assemble_body(static_cast<std::size_t>(b), sink);
+  for (std::size_t k = 0; k < constants_.couplings.size(); ++k) assemble_coupling(k, sink);
   for (const JointLoad& load : system_.loads()) assemble_load(load, sink);
   for (int pair : system_.contacts()) assemble_contact(pair, sink);
   for (const BristleContact& contact : system_.bristles()) assemble_bristle(contact, sink);

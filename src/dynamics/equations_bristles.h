@@ -6,7 +6,7 @@
 
 namespace codesign {
 
-// Rows of the states of friction laws, theory (13c), (13d): sigma - zeta' = 0 for each deflection, then sigma - s_dw' = 0.
+// Rows of the states of friction laws, theory (13e), (13f): sigma - zeta' = 0 for each deflection, then sigma - s_dw' = 0.
 
 template <class T>
 ContactSlip<T> Equations<T>::bristle_slip(const BristleContact& contact, CoordinateDetail detail) const {

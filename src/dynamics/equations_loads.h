@@ -182,11 +182,11 @@ T Equations<T>::joint_load(const JointLoad& load, const CoordinateMotion<T>& mot
   T value(0.0);
   if (load.reaction_friction) value += reaction_friction(load.pair, load.element, motion, gradient, nullptr);
   if (load.passive || load.constant_friction) value += passive_load(load.pair, load.element, load, motion, gradient);
-  for (int controller : load.controllers) {
-    const auto before = mark(gradient);
-    value -= controller_output(controller, gradient);
-    if (gradient) gradient->scale_from(before, T(-1.0));
-  }
+  if (load.stop) value += stop_load(load, motion, gradient);
+  if (load.controllers.empty()) return value;
+  const auto before = mark(gradient);
+  value -= applied_effort(load, gradient);
+  if (gradient) gradient->scale_from(before, T(-1.0));
   return value;
 }
 
@@ -202,7 +202,7 @@ template <class T>
 template <class Sink>
 void Equations<T>::assemble_load(const JointLoad& load, Sink* sink) {
   const CoordinateMotion<T>& motion =
-      coordinate(load.pair, load.element, load.spring ? CoordinateDetail::kAll : CoordinateDetail::kGradient);
+      coordinate(load.pair, load.element, load.needs_position() ? CoordinateDetail::kAll : CoordinateDetail::kGradient);
   gradient_.clear();
   const T value = joint_load(load, motion, &gradient_);
   const bool with_r = coordinate_moves_r(load.pair, load.element);
@@ -210,11 +210,17 @@ void Equations<T>::assemble_load(const JointLoad& load, Sink* sink) {
     const int row = column(load.pair, local);
     if (row >= 0 && (local % kBodySize >= 3 || with_r)) add_row(row, motion.J[local], gradient_, sink);
   }
-  const Pair& pair = system_.topology().pairs[static_cast<std::size_t>(load.pair)];
-  const PairConstants<T>& c = constants_.pairs[static_cast<std::size_t>(load.pair)];
-  coordinate_load_gradient(c, c.coordinates[static_cast<std::size_t>(load.element)], body(pair.body_i), body(pair.body_j), value,
+  assemble_load_curvature(load.pair, load.element, value, sink);
+}
+
+template <class T>
+template <class Sink>
+void Equations<T>::assemble_load_curvature(int index, int element, const T& load, Sink* sink) {
+  const Pair& pair = system_.topology().pairs[static_cast<std::size_t>(index)];
+  const PairConstants<T>& c = constants_.pairs[static_cast<std::size_t>(index)];
+  coordinate_load_gradient(c, c.coordinates[static_cast<std::size_t>(element)], body(pair.body_i), body(pair.body_j), load,
                            [&](int r, int local_column, const T& entry) {
-                             const int row = column(load.pair, r), global_column = column(load.pair, local_column);
+                             const int row = column(index, r), global_column = column(index, local_column);
                              if (row >= 0 && global_column >= 0) sink->position(row, global_column, entry);
                            });
 }
@@ -240,8 +246,7 @@ template <class T>
 T Equations<T>::effort(int pair, int element) {
   T sum(0.0);
   for (const JointLoad& load : system_.loads())
-    if (load.pair == pair && load.element == element)
-      for (int controller : load.controllers) sum += controller_output(controller, nullptr);
+    if (load.pair == pair && load.element == element) sum += applied_effort(load, nullptr);
   return sum;
 }
 

@@ -34,6 +34,11 @@ void Observer::name_joints() {
     names_.joints.push_back(robot.joints[k].name);
     if (!robot.joints[k].is_loop) ++names_.tree_joints;
   }
+  for (JointSource& source : joints_) {
+    const auto& mimic = robot.joints[static_cast<std::size_t>(source.joint)].mimic;
+    if (source.pair >= 0 || !mimic) continue;
+    source.mimicked = static_cast<int>(std::find(names_.joints.begin(), names_.joints.end(), mimic->joint) - names_.joints.begin());
+  }
 }
 
 void Observer::name_frictions() {
@@ -90,11 +95,30 @@ void Observer::observe(const State<double>& state, double objective, const Vecto
     sample = {motion.position, motion.rate, motion.acceleration, equations->effort(source.pair, source.element)};
     if (k < names_.tree_joints) positions[c] = motion.position;
   }
+  follow_mimics(equations->parameters(), &positions, frame);
   observe_frictions(equations, frame);
   observe_controllers(state, equations, frame);
   observe_links(positions, equations, frame);
   frame->signals.resize(signals_.size());
   for (std::size_t k = 0; k < signals_.size(); ++k) frame->signals[k] = equations->signal(signals_[k], state);
+}
+
+// A joint that moves nothing with mass has no equation, but follows what it mimics all the same.
+void Observer::follow_mimics(const std::vector<double>& parameters, VectorX<double>* positions, Frame* frame) const {
+  for (std::size_t k = 0; k < joints_.size(); ++k) {
+    double factor = 1.0, offset = 0.0;
+    std::size_t target = k;
+    while (joints_[target].mimicked >= 0) {
+      const MimicDescription& mimic = *system_.robot().joints[static_cast<std::size_t>(joints_[target].joint)].mimic;
+      offset += factor * mimic.offset.at(parameters);
+      factor *= mimic.multiplier.at(parameters);
+      target = static_cast<std::size_t>(joints_[target].mimicked);
+    }
+    if (target == k) continue;
+    const JointSample& source = frame->joints[target];
+    frame->joints[k] = {factor * source.position + offset, factor * source.velocity, factor * source.acceleration, 0.0};
+    (*positions)[tree_.offset[static_cast<std::size_t>(joints_[k].joint)]] = frame->joints[k].position;
+  }
 }
 
 void Observer::observe_frictions(Equations<double>* equations, Frame* frame) const {
@@ -176,8 +200,7 @@ void Observer::observe_loops(const State<double>& state, Equations<double>* equa
   frame->loop_errors.resize(loops_.size());
   for (std::size_t k = 0; k < loops_.size(); ++k) {
     const auto pair = static_cast<std::size_t>(loops_[k]);
-    const int first = system_.layout().pair_row[pair];
-    const int last = pair + 1 < system_.layout().pair_row.size() ? system_.layout().pair_row[pair + 1] : system_.layout().norm_row(0);
+    const int first = system_.layout().pair_row[pair], last = system_.layout().pair_end(loops_[k]);
     frame->loop_errors[k] = last > first ? errors_.segment(first, last - first).cwiseAbs().maxCoeff() : 0.0;
   }
 }

@@ -1,7 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include <Eigen/QR>
-
 #include "mechanism_codesign/dynamics/assembly.h"
+#include "mechanism_codesign/dynamics/redundancy.h"
 #include "mechanism_codesign/dynamics/system.h"
 #include "mechanism_codesign/integration/simulation.h"
 #include "mechanism_codesign/integration/tableau.h"
@@ -10,45 +9,19 @@
 namespace codesign {
 namespace {
 
-constexpr double kRankTolerance = 1e-9;
-
-/// Phi_q at a state, dense.
-Eigen::MatrixXd constraint_jacobian(const System& system, Equations<double>* equations, const State<double>& state) {
-  Linearization<double> d;
-  d.resize(system.patterns());
-  equations->linearize(state, &d);
-  const Layout& layout = system.layout();
-  const Sparsity& G_z = system.patterns().rate;
-  Eigen::MatrixXd Phi_q = Eigen::MatrixXd::Zero(layout.m, layout.n);
-  for (int row = 0; row < layout.m; ++row)
-    for (int e = G_z.first(layout.lambda_column(row)); e < G_z.first(layout.lambda_column(row) + 1); ++e)
-      if (G_z.column(e) < layout.n) Phi_q(row, G_z.column(e)) = d.rate[static_cast<std::size_t>(e)];
-  return Phi_q;
-}
-
-/// Rows that depend on the others, each described by its joint.
-std::vector<std::string> redundant_rows(const System& system, const Eigen::MatrixXd& Phi_q) {
-  std::vector<std::string> names;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(kRankTolerance);
-  qr.compute(Phi_q.transpose());
-  for (Eigen::Index k = qr.rank(); k < Phi_q.rows(); ++k) {
-    const int row = static_cast<int>(qr.colsPermutation().indices()[k]);
-    std::size_t pair = system.layout().pair_row.size();
-    while (pair > 0 && system.layout().pair_row[pair - 1] > row) --pair;
-    names.push_back("row " + std::to_string(row - system.layout().pair_row[pair - 1] + 1) + " of joint '" +
-                    system.topology().pairs[pair - 1].name + "'");
+/// The start values contradict a loop or a coupling.
+[[noreturn]] void refuse_start(const System& system, const Assembly& assembly, const Status& status) {
+  const std::string miss = "constraint error " + to_decimal(assembly.nearest_miss()) + " at the nearest", allowed = "0, to rounding";
+  for (const Coupling& coupling : system.topology().couplings)
+    if (coupling.name == assembly.worst_loop())
+      throw InputError({coupling.where, coupling.element(), "the start values contradict it", miss, allowed});
+  for (const Pair& pair : system.topology().pairs) {
+    if (pair.name != assembly.worst_loop()) continue;
+    for (const ChainElement& element : pair.chain)
+      if (const JointDescription& loop = system.robot().joints[static_cast<std::size_t>(element.joint)]; loop.is_loop)
+        throw InputError({loop.where, "<loop name=\"" + loop.name + "\">", "the loop cannot be closed at the start values", miss, allowed});
   }
-  return names;
-}
-
-const JointDescription* loop_of(const System& system, const std::string& pair_name) {
-  for (const Pair& pair : system.topology().pairs)
-    if (pair.name == pair_name)
-      for (const ChainElement& element : pair.chain)
-        if (system.robot().joints[static_cast<std::size_t>(element.joint)].is_loop)
-          return &system.robot().joints[static_cast<std::size_t>(element.joint)];
-  return nullptr;
+  throw InputError({{system.study().file, 0}, "initial_state", status.cause, "", ""});
 }
 
 /// Rank and start of a system at its start values. A design that cannot start is bad input; later ones are trial points.
@@ -59,12 +32,8 @@ bool has_redundant_constraints(const System& system) {
   State<double> state;
   const Status status = assembly.solve(system.parameters(), &equations, &state);
   if (status.code != StatusCode::kAssemblyFailed && status.code != StatusCode::kInitialVelocityFailed)
-    return !redundant_rows(system, constraint_jacobian(system, &equations, state)).empty();
-  const JointDescription* loop = loop_of(system, assembly.worst_loop());
-  if (loop)
-    throw InputError({loop->where, "<loop name=\"" + loop->name + "\">", "the loop cannot be closed at the start values",
-                      "constraint error " + to_decimal(assembly.nearest_miss()) + " at the nearest", "0, to rounding"});
-  throw InputError({{system.study().file, 0}, "initial_state", status.cause, "", ""});
+    return !analyse_redundancy(system, equations, constraint_jacobian(system, &equations, state)).rows.empty();
+  refuse_start(system, assembly, status);
 }
 
 /// A billionth of what a body yields to a force: far above rounding, far below what a motion shows; theory (23).
@@ -103,7 +72,10 @@ Counts count_equations(const std::shared_ptr<const System>& system, const std::v
   State<double> state;
   *status = assembly.solve(parameters, &equations, &state);
   if (status->code == StatusCode::kAssemblyFailed) return counts;
-  counts.redundant_rows = redundant_rows(*system, constraint_jacobian(*system, &equations, state));
+  const Redundancy redundancy = analyse_redundancy(*system, equations, constraint_jacobian(*system, &equations, state));
+  counts.redundant_rows = redundancy.rows;
+  counts.undetermined_reactions = redundancy.undetermined;
+  counts.chosen_friction = redundancy.friction_chosen;
   counts.redundant_constraints = static_cast<int>(counts.redundant_rows.size());
   counts.degrees_of_freedom = layout.n - (layout.m - counts.redundant_constraints);
   counts.dynamic_equations = counts.first_order_equations + counts.constraints;

@@ -54,6 +54,8 @@ std::vector<ElementRule> make_rules() {
 
   rules.push_back({"robot/joint", false, {}, {}, {}, {"codesign:friction", "codesign:torsion_spring"}});
   rules.push_back({"robot/joint/origin", false, {}, {"xyz", "rpy"}, {}, {}});
+  rules.push_back({"robot/joint/limit", false, {}, {"lower", "upper", "effort", "velocity"}, {}, {}});
+  rules.push_back({"robot/joint/mimic", false, {}, {"multiplier", "offset"}, {}, {}});
   add_joint_parts("robot/joint", false, &rules);
 
   rules.push_back({"robot/loop",

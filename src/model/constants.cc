@@ -62,6 +62,14 @@ SpringDamperConstants<T> spring_constants(const RobotDescription& robot, const T
   return result;
 }
 
+template <class T>
+CouplingConstants<T> coupling_constants(const Coupling& coupling, const std::vector<T>& parameters) {
+  CouplingConstants<T> result;
+  for (const CouplingTerm& term : coupling.terms) result.coefficients.push_back(T(term.sign) * term.factor.at(parameters));
+  result.offset = coupling.offset.at(parameters);
+  return result;
+}
+
 std::string body_fault(const Body& body, const BodyConstants<double>& constants) {
   if (!(constants.mass > 0.0) || !std::isfinite(constants.mass))
     return "mass of body '" + body.name + "' is " + std::to_string(constants.mass);
@@ -76,6 +84,15 @@ std::string friction_fault(const Pair& pair, const FrictionConstants<double>& f)
                         f.joint_width > 0.0 && f.pin_radius >= 0.0 && f.smoothing > 0.0 && f.viscous >= 0.0 && f.bristle_stiffness > 0.0 &&
                         f.bristle_damping > 0.0 && f.dwell_time > 0.0;
   return possible ? "" : "friction geometry or coefficients of joint '" + pair.name + "' are out of range";
+}
+
+std::string limit_fault(const RobotDescription& robot, const Pair& pair, const PairConstants<double>& constants) {
+  for (std::size_t e = 0; e < pair.chain.size(); ++e) {
+    const JointDescription& joint = robot.joints[index(pair.chain[e].joint)];
+    const JointDynamicsConstants<double>& d = constants.dynamics[e];
+    if (joint.limit && !(d.lower <= d.upper && d.effort >= 0.0)) return "a limit of joint '" + joint.name + "' is out of range";
+  }
+  return "";
 }
 
 }  // namespace
@@ -95,6 +112,7 @@ Constants<T> evaluate_constants(const RobotDescription& robot, const Topology& t
         pair_constants(robot, topology, pair, centre_of(constants, pair.body_i), centre_of(constants, pair.body_j), parameters));
   for (const SpringDamperDescription& spring : robot.spring_dampers)
     constants.springs.push_back(spring_constants(robot, topology, spring, constants, parameters));
+  for (const Coupling& coupling : topology.couplings) constants.couplings.push_back(coupling_constants(coupling, parameters));
   return constants;
 }
 
@@ -103,6 +121,7 @@ std::string find_impossible(const RobotDescription& robot, const Topology& topol
     if (std::string fault = body_fault(topology.bodies[k], constants.bodies[k]); !fault.empty()) return fault;
   for (std::size_t k = 0; k < topology.pairs.size(); ++k) {
     const PairConstants<double>& pair = constants.pairs[k];
+    if (std::string fault = limit_fault(robot, topology.pairs[k], pair); !fault.empty()) return fault;
     if (!pair.s_i.allFinite() || !pair.s_j.allFinite() || !pair.C_i.allFinite() || !pair.C_j.allFinite())
       return "geometry of joint '" + topology.pairs[k].name + "' is not finite";
     if (topology.pairs[k].friction_joint < 0) continue;
@@ -111,6 +130,11 @@ std::string find_impossible(const RobotDescription& robot, const Topology& topol
   for (std::size_t k = 0; k < robot.spring_dampers.size(); ++k)
     if (!std::isfinite(constants.springs[k].stiffness + constants.springs[k].damping + constants.springs[k].free_length))
       return "spring-damper '" + robot.spring_dampers[k].name + "' is not finite";
+  for (std::size_t k = 0; k < topology.couplings.size(); ++k) {
+    double sum = constants.couplings[k].offset;
+    for (double coefficient : constants.couplings[k].coefficients) sum += coefficient;
+    if (!std::isfinite(sum)) return topology.couplings[k].element() + " is not finite";
+  }
   return "";
 }
 

@@ -28,35 +28,36 @@ bool has_one_coordinate(JointType type) {
   return type == JointType::kRevolute || type == JointType::kContinuous || type == JointType::kPrismatic;
 }
 
-LimitDescription read_limit(const XmlElement& element) {
+LimitDescription read_limit(const XmlElement& element, const ParameterTable& table) {
   LimitDescription limit;
-  limit.lower = read_number_or(0.0, element, "lower", Range::kAny);
-  limit.upper = read_number_or(0.0, element, "upper", Range::kAny);
-  limit.effort = read_number(element, "effort", Range::kNonNegative);
-  limit.velocity = read_number(element, "velocity", Range::kNonNegative);
-  if (limit.lower > limit.upper)
+  limit.lower = read_quantity_or(0.0, element, "lower", Range::kAny, table);
+  limit.upper = read_quantity_or(0.0, element, "upper", Range::kAny, table);
+  limit.effort = read_quantity(element, "effort", Range::kNonNegative, table);
+  limit.velocity = read_quantity(element, "velocity", Range::kNonNegative, table);
+  if (limit.lower.nominal() > limit.upper.nominal())
     element.fail_at(element.has("lower") ? "lower" : "upper", "the lower limit is above the upper limit",
-                    "lower <= upper=" + to_decimal(limit.upper));
+                    "lower <= upper=" + to_decimal(limit.upper.nominal()));
   return limit;
 }
 
-MimicDescription read_mimic(const XmlElement& element) {
+MimicDescription read_mimic(const XmlElement& element, const ParameterTable& table) {
   MimicDescription mimic;
   mimic.joint = element.text("joint");
-  mimic.multiplier = read_number_or(1.0, element, "multiplier", Range::kAny);
-  mimic.offset = read_number_or(0.0, element, "offset", Range::kAny);
+  mimic.multiplier = read_quantity_or(1.0, element, "multiplier", Range::kAny, table);
+  mimic.offset = read_quantity_or(0.0, element, "offset", Range::kAny, table);
+  mimic.where = element.where();
   return mimic;
 }
 
-void read_limit_and_mimic(const XmlElement& element, JointDescription* joint) {
+void read_limit_and_mimic(const XmlElement& element, const ParameterTable& table, JointDescription* joint) {
   const std::optional<XmlElement> limit = element.child("limit"), mimic = element.child("mimic");
   const bool bounded = joint->type == JointType::kRevolute || joint->type == JointType::kPrismatic;
   if (bounded && !limit) element.fail("a joint of this type needs a <limit>", element.text("type"));
-  if (limit) joint->limit = read_limit(*limit);
+  if (limit) joint->limit = read_limit(*limit, table);
   if (!mimic) return;
   if (!has_one_coordinate(joint->type))
     mimic->fail("a joint of this type cannot mimic", element.text("type"), "revolute, continuous or prismatic");
-  joint->mimic = read_mimic(*mimic);
+  joint->mimic = read_mimic(*mimic, table);
 }
 
 }  // namespace
@@ -91,7 +92,7 @@ JointDescription read_joint(const XmlElement& element, const ReadContext& contex
   if (joint.parent == joint.child) child.fail_at("link", "parent and child are the same link", "two links");
   joint.origin = read_origin(element, context.table);
   read_joint_parts(element, context, &joint);
-  read_limit_and_mimic(element, &joint);
+  read_limit_and_mimic(element, context.table, &joint);
   return joint;
 }
 

@@ -227,6 +227,11 @@ class PairBuilder {
     JointDynamicsConstants<T> d;
     d.damping = joint.damping.at(parameters_);
     d.dry_friction = joint.dry_friction.at(parameters_);
+    if (joint.limit) {
+      d.lower = joint.limit->lower.at(parameters_);
+      d.upper = joint.limit->upper.at(parameters_);
+      d.effort = joint.limit->effort.at(parameters_);
+    }
     if (!joint.spring) return d;
     d.stiffness = joint.spring->stiffness.at(parameters_);
     d.spring_damping = joint.spring->damping.at(parameters_);

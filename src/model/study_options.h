@@ -7,6 +7,9 @@
 
 namespace codesign {
 
+/// Reads the map `limits:`.
+LimitOptions read_limit_options(const YamlValue& limits);
+
 /// Reads the map `solver:`.
 SolverOptions read_solver_options(const YamlValue& solver);
 

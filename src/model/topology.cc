@@ -207,6 +207,10 @@ class TopologyBuilder {
 
 }  // namespace
 
-Topology derive_topology(const RobotDescription& robot) { return TopologyBuilder(robot).build(); }
+Topology derive_topology(const RobotDescription& robot) {
+  Topology topology = TopologyBuilder(robot).build();
+  topology.couplings = derive_couplings(robot, topology);
+  return topology;
+}
 
 }  // namespace codesign

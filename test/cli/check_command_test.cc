@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/slider_crank.h"
+#include "integration/mechanisms.h"
 
 namespace codesign::cli {
 namespace {
@@ -17,6 +18,26 @@ TEST(CheckCommand, PrintsThePapersTable) {
       {"constraints", 20},    {"redundant_constraints", 0}, {"dynamic_equations", 62},     {"parameters", 5},
       {"sensitivities", 310}, {"total_equations", 372}};
   for (const auto& [key, value] : expected) EXPECT_EQ(counts[key], value) << key;
+}
+
+TEST(CheckCommand, NamesRedundantRowsAndFrictionThatIsAChoice) {
+  const ScratchFolder folder;
+  const std::string model = folder.edited("four_bar.urdf", four_bar(pin_friction()), "name='test'", "name='four_bar'");
+  const std::string study = folder.edited("study.yaml", "duration: 1.0\ninitial_state: {left_hinge: {position: 0.6}}\n", "duration: 1.0",
+                                          "objective: {integral: [{signal: left_hinge/velocity}]}\nduration: 1.0");
+  const Outcome outcome = run_words({"check", model, study});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  const Json counts = json_of(run_words({"check", model, study, "--json"}))["counts"];
+  ASSERT_EQ(counts["redundant_rows"].size(), 3U);
+  for (const Json& row : counts["redundant_rows"]) {
+    const std::string line =
+        row["joint"].get<std::string>() + ", row " + std::to_string(row["row"].get<int>()) + ": " + row["kind"].get<std::string>();
+    EXPECT_NE(outcome.out.find(line), std::string::npos) << line;
+  }
+  EXPECT_EQ(counts["undetermined_reactions"].size(), 4U);
+  EXPECT_EQ(counts["chosen_friction"], Json::array({"left_hinge"}));
+  EXPECT_NE(outcome.out.find("friction that is a choice, since it is computed from such a reaction\n  left_hinge\n"), std::string::npos)
+      << outcome.out;
 }
 
 TEST(CheckCommand, TakesAMechanismAlone) {

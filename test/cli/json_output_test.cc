@@ -29,11 +29,13 @@ TEST(JsonOutput, CountsHaveTheirNames) {
   Counts counts;
   counts.bodies = 3;
   counts.total_equations = 372;
-  counts.redundant_rows = {"row"};
+  counts.redundant_rows = {{"pin", 4, "parallel axes, x_i . z_j"}};
   const Json object = to_json(counts);
   EXPECT_EQ(object["bodies"], 3);
   EXPECT_EQ(object["total_equations"], 372);
-  EXPECT_EQ(object["redundant_rows"][0], "row");
+  EXPECT_EQ(object["redundant_rows"][0]["joint"], "pin");
+  EXPECT_EQ(object["redundant_rows"][0]["row"], 4);
+  EXPECT_EQ(object["redundant_rows"][0]["kind"], "parallel axes, x_i . z_j");
   for (const char* key : {"coordinates", "first_order_equations", "controller_states", "degrees_of_freedom", "constraints",
                           "redundant_constraints", "dynamic_equations", "parameters", "sensitivities"})
     EXPECT_TRUE(object.contains(key)) << key;

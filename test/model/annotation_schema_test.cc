@@ -41,10 +41,10 @@ TEST(AnnotationSchema, ATwinNeedsItsPlainAttribute) {
   expect_error(pendulum("<origin codesign:xyz=\"0 0 ${length}\"/>"), {"the twin codesign:xyz lacks its plain attribute xyz"});
 }
 
-TEST(AnnotationSchema, LimitsTakeNoTwin) {
-  expect_error(pendulum("<limit effort=\"1\" velocity=\"1\" codesign:effort=\"${length}\"/>"), {"effort cannot depend on parameters"});
-  expect_error(pendulum("<mimic joint=\"x\" multiplier=\"1\" codesign:multiplier=\"${length}\"/>"),
-               {"multiplier cannot depend on parameters"});
+TEST(AnnotationSchema, WhatIsNotSimulatedTakesNoTwin) {
+  expect_error(pendulum("<safety_controller k_velocity=\"1\" codesign:k_velocity=\"${length}\"/>"),
+               {"k_velocity cannot depend on parameters"});
+  expect_error(pendulum("<limit effort=\"1\" velocity=\"1\" codesign:efort=\"1\"/>"), {"did you mean \"codesign:effort\"?"});
 }
 
 TEST(AnnotationSchema, ThePrefixMustBeDeclared) {

@@ -52,13 +52,32 @@ TEST(JointReader, AxisAndDynamicsMayHaveTwins) {
 
 TEST(JointReader, Limits) {
   const JointDescription joint = hinge(R"(<limit lower="-1" upper="2" effort="3" velocity="4"/>)");
-  EXPECT_EQ(joint.limit->lower, -1.0);
-  EXPECT_EQ(joint.limit->upper, 2.0);
-  EXPECT_EQ(joint.limit->effort, 3.0);
-  EXPECT_EQ(joint.limit->velocity, 4.0);
+  EXPECT_EQ(joint.limit->lower.nominal(), -1.0);
+  EXPECT_EQ(joint.limit->upper.nominal(), 2.0);
+  EXPECT_EQ(joint.limit->effort.nominal(), 3.0);
+  EXPECT_EQ(joint.limit->velocity.nominal(), 4.0);
   expect_error(typed("prismatic"), {"needs a <limit>"});
   expect_error(pendulum(R"(<limit lower="2" upper="1" effort="1" velocity="1"/>)"), {"the lower limit is above the upper limit"});
   expect_error(pendulum(R"(<limit velocity="1"/>)"), {"the attribute effort is missing"});
+  expect_error(pendulum(R"(<limit effort="-1" velocity="1"/>)"), {"<limit>: effort is negative (value: -1, allowed: >= 0)"});
+}
+
+TEST(JointReader, LimitsThatDependOnTheDesign) {
+  const JointDescription joint =
+      hinge(R"(<limit lower="-0.2" codesign:lower="${-length}" effort="2" codesign:effort="${10*length}" velocity="4"/>)");
+  EXPECT_EQ(joint.limit->lower.at(std::vector<double>{0.3}), -0.3);
+  EXPECT_EQ(joint.limit->effort.at(std::vector<double>{0.3}), 3.0);
+}
+
+TEST(JointReader, ZeroLimitsBoundNothing) {
+  const auto limit = [](const std::string& numbers) { return *read_urdf(typed("revolute", "<limit " + numbers + "/>")).joints[0].limit; };
+  const LimitDescription unknown = limit(R"(lower="0" upper="0" effort="0" velocity="0")");
+  EXPECT_FALSE(unknown.bounds_position() || unknown.bounds_effort() || unknown.bounds_velocity());
+  EXPECT_FALSE(limit(R"(effort="1" velocity="2")").bounds_position());
+  const LimitDescription known = limit(R"(upper="1" effort="1" velocity="2")");
+  EXPECT_TRUE(known.bounds_position() && known.bounds_effort() && known.bounds_velocity());
+  EXPECT_TRUE(has_stops(read_urdf(typed("revolute", R"(<limit upper="1" effort="1" velocity="2"/>)")).joints[0]));
+  EXPECT_FALSE(has_stops(read_urdf(typed("continuous", R"(<limit upper="1" effort="1" velocity="2"/>)")).joints[0]));
 }
 
 TEST(JointReader, Springs) {
@@ -76,8 +95,8 @@ TEST(JointReader, Mimics) {
       link_with("tip") + joint_with("wrist", "continuous", "arm", "tip", R"(<mimic joint="hinge" multiplier="-2" offset="1"/>)");
   const MimicDescription mimic = *read_urdf(pendulum("", second)).joints[1].mimic;
   EXPECT_EQ(mimic.joint, "hinge");
-  EXPECT_EQ(mimic.multiplier, -2.0);
-  EXPECT_EQ(mimic.offset, 1.0);
+  EXPECT_EQ(mimic.multiplier.nominal(), -2.0);
+  EXPECT_EQ(mimic.offset.nominal(), 1.0);
   expect_error(typed("planar", "<mimic joint=\"x\"/>"), {"a joint of this type cannot mimic"});
 }
 

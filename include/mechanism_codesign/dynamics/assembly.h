@@ -15,8 +15,9 @@ namespace codesign {
 /// Consistent initial conditions of a design; doc/theory.md (19), (20).
 ///
 /// Positions: the tree's joint coordinates theta start from the study's values (or guesses, or zero); those the study fixes stay, and as
-/// many of the others as the loops determine are solved for by Newton's method, the rest staying where they started. Velocities likewise,
-/// linearly. Accelerations and multipliers: Newton on G(z) = 0 from z = 0, where friction has no normal force to act on.
+/// many of the others as loops and couplings determine are solved for by Newton's method, the rest staying where they started. Joints that
+/// follow others by a coupling start from them, and depend rather than they. Velocities likewise, linearly. Accelerations and multipliers:
+/// Newton on G(z) = 0 from z = 0, where friction has no normal force to act on.
 class Assembly {
  public:
   explicit Assembly(const System& system);
@@ -34,9 +35,9 @@ class Assembly {
   const TreeLayout& tree() const { return tree_; }
   /// Accelerations and multipliers consistent with state->q, v, s; starts from state->z.
   Status solve_rates(Equations<double>* equations, State<double>* state);
-  /// The name of the loop that is violated most in the last failed assembly; empty if none.
+  /// The name of the loop or coupling that is violated most in the last failed assembly; empty if none.
   const std::string& worst_loop() const { return worst_loop_; }
-  /// How near that assembly came: the largest constraint error of the loops [m or -].
+  /// How near that assembly came: the largest constraint error of the loops and couplings [m, rad or -].
   double nearest_miss() const { return nearest_miss_; }
 
  private:
@@ -50,6 +51,9 @@ class Assembly {
   bool newton(const std::vector<double>& parameters, Equations<double>* equations, const std::vector<int>& free);
   void place(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) const;
   void set_start(const std::vector<double>& parameters);
+  void follow_couplings(const Constants<double>& constants);
+  void set_turns(Equations<double>* equations) const;
+  std::vector<std::vector<int>> by_preference(const std::vector<bool>& given) const;
   Eigen::MatrixXd loop_jacobian(const std::vector<double>& parameters, Equations<double>* equations);
   Eigen::VectorXd loop_part(const VectorX<double>& rows) const;
   Dependents choose(const Eigen::MatrixXd& jacobian, const std::vector<std::vector<int>>& preferences) const;
@@ -60,8 +64,10 @@ class Assembly {
   const System& system_;
   TreeLayout tree_;
   std::vector<int> loop_rows_;  ///< constraint rows that the tree does not satisfy by itself
-  std::vector<int> loop_row_pair_;
-  std::vector<bool> position_given_, velocity_given_;
+  std::vector<std::string> loop_row_name_;
+  std::vector<int> followers_;  ///< per coupling: the coordinate that follows the others
+  std::vector<bool> follows_;   ///< per coordinate
+  std::vector<bool> position_given_, guess_given_, velocity_given_;
   VectorX<double> theta_, theta_rate_;
   Dependents positions_, velocities_;
   Linearization<double> derivatives_;

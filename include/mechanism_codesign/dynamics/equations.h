@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "mechanism_codesign/control/controller_constants.h"
 #include "mechanism_codesign/dynamics/bristle_law.h"
 #include "mechanism_codesign/dynamics/contact_friction.h"
+#include "mechanism_codesign/dynamics/inverse_dynamics.h"
 #include "mechanism_codesign/dynamics/sparsity.h"
 #include "mechanism_codesign/dynamics/state.h"
 #include "mechanism_codesign/dynamics/system.h"
@@ -41,7 +43,9 @@ class Equations {
   void set_design(const std::vector<T>& parameters);
   const Constants<T>& constants() const { return constants_; }
   const std::vector<T>& parameters() const { return parameters_; }
-  const T& setpoint(int controller) const { return setpoints_[static_cast<std::size_t>(controller)]; }
+  const PairRows<T>& rows(int pair) const { return rows_[static_cast<std::size_t>(pair)]; }
+  /// A controller's setpoint at the loaded state's time.
+  T setpoint(int controller) const { return controllers_[static_cast<std::size_t>(controller)].setpoint.at(state_->t).value; }
 
   /// Residual G (columns() rows) and the objective's integrand g at a state.
   void residual(const State<T>& state, VectorX<T>* G, T* g);
@@ -92,9 +96,14 @@ class Equations {
   template <class Sink>
   void assemble_product(int pair, const ProductRow<T>& product, const PairMotion<T>& shared, int row, Sink* sink);
   template <class Sink>
+  void assemble_coupling(std::size_t k, Sink* sink);
+  template <class Sink>
   void assemble_body(std::size_t b, Sink* sink);
   template <class Sink>
   void assemble_load(const JointLoad& load, Sink* sink);
+  /// Adds (J^T load)_q of a load along a coordinate.
+  template <class Sink>
+  void assemble_load_curvature(int pair, int element, const T& load, Sink* sink);
   template <class Sink>
   void assemble_contact(int pair, Sink* sink);
   template <class Sink>
@@ -107,6 +116,8 @@ class Equations {
   void assemble_objective(Sink* sink);
 
   void pair_residual(std::size_t k, VectorX<T>* G);
+  void coupling_residual(std::size_t k, VectorX<T>* G);
+  void coupling_error(std::size_t k, VectorX<T>* Phi, VectorX<T>* Phi_rate);
   void body_residual(std::size_t b, VectorX<T>* G);
   void load_residual(const JointLoad& load, VectorX<T>* G);
   void contact_residual(int pair, VectorX<T>* G);
@@ -127,6 +138,10 @@ class Equations {
   NormalForce<T> normal_force(int pair) const;
   T reaction_friction(int pair, int element, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient, FrictionState<T>* state);
   T passive_load(int pair, int element, const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient) const;
+  /// What the controllers of a load apply, within the effort limit if that holds.
+  T applied_effort(const JointLoad& load, SparseGradient<T>* gradient);
+  /// Load of the stops, positive against the coordinate.
+  T stop_load(const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient) const;
   void append_normal_gradient(int pair, const Vector3<T>& F, const Vector3<T>& torque, const T& factor, SparseGradient<T>* gradient) const;
   void append_local(int pair, const LocalRow<T>& row, const T& factor, bool with_r, typename SparseGradient<T>::Entries* entries) const;
   /// Gradient of a coordinate's rate.
@@ -144,8 +159,18 @@ class Equations {
   T contact_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
   T link_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
   T signal_value(const Signal& signal, const T& factor, SparseGradient<T>* gradient);
-  T objective_terms(const std::vector<ResolvedTerm>& terms, const std::vector<T>& weights, const std::vector<T>& references,
+  T objective_terms(const std::vector<ResolvedTerm>& terms, const std::vector<T>& weights, const std::vector<Reference<T>>& references,
                     SparseGradient<T>* gradient);
+
+  T controller_error_rate(int controller, const T& factor, SparseGradient<T>* gradient);
+  /// p e + i s + d e'.
+  T pid(int controller, SparseGradient<T>* gradient);
+  /// Load of the driven joint's tree; fills by_acceleration_ with the gradient.
+  T inverse_dynamics(int controller, const T* accelerations, SparseGradient<T>* gradient);
+  T computed_torque(int controller, SparseGradient<T>* gradient);
+  T wanted_acceleration(int controller, SparseGradient<T>* gradient);
+  T state_feedback(int controller, SparseGradient<T>* gradient);
+  T shaped_input(int controller, SparseGradient<T>* gradient);
 
   /// Global column of a local coordinate of a pair, or -1 on the ground.
   int column(int pair, int local) const { return columns_[static_cast<std::size_t>(pair)][static_cast<std::size_t>(local)]; }
@@ -161,8 +186,11 @@ class Equations {
   Constants<T> constants_;
   std::vector<PairRows<T>> rows_;
   std::vector<std::array<int, kLocalSize>> columns_;  ///< of each pair's local coordinates
-  std::vector<T> setpoints_, gains_p_, gains_i_, gains_d_;
-  std::vector<T> integral_weights_, integral_references_, terminal_weights_, terminal_references_;
+  std::vector<ControllerConstants<T>> controllers_;
+  std::vector<InverseDynamics<T>> inverse_dynamics_;  ///< one per controller
+  std::vector<T> accelerations_, by_acceleration_;    ///< of the nodes of one controller's tree
+  std::vector<T> integral_weights_, terminal_weights_;
+  std::vector<Reference<T>> integral_references_, terminal_references_;
   Vector3<T> gravity_;
   const State<T>* state_ = nullptr;
   State<T> constraint_state_;                  ///< scratch of constraint_errors()

@@ -24,6 +24,7 @@ class Observer {
  private:
   struct JointSource {
     int joint = -1, pair = -1, element = -1;  ///< pair -1: a joint below which nothing has mass
+    int mimicked = -1;                        ///< what such a joint mimics, as an index of joints_; or -1
   };
   static constexpr int kContact = -2;  ///< in place of an element: isotropic friction of the whole pair
   struct FrictionSource {
@@ -33,6 +34,7 @@ class Observer {
   void name_joints();
   void name_frictions();
   void name_links();
+  void follow_mimics(const std::vector<double>& parameters, VectorX<double>* positions, Frame* frame) const;
   void observe_frictions(Equations<double>* equations, Frame* frame) const;
   void observe_contact(int index, Equations<double>* equations, FrictionSample* sample) const;
   void observe_controllers(const State<double>& state, Equations<double>* equations, Frame* frame) const;

@@ -16,7 +16,8 @@ namespace codesign {
 struct Layout {
   int bodies = 0;
   int n = 0;                  ///< 7 per body: r, p
-  int m = 0;                  ///< constraints: pairs in order, then |p| = 1 per body
+  int m = 0;                  ///< constraints: pairs in order, then couplings, then |p| = 1 per body
+  int couplings = 0;          ///< `<mimic>` and `<coupling>`, one row each
   int states = 0;             ///< extra first-order states s (integrals of controllers)
   std::vector<int> pair_row;  ///< first constraint row of each pair
 
@@ -26,6 +27,12 @@ struct Layout {
   int state_column(int k) const { return n + m + k; }  ///< of sigma_k, and its row
   int position_column(int k) const { return n + k; }   ///< of s_k
   int norm_row(int body) const { return m - bodies + body; }
+  int coupling_row(int k) const { return m - bodies - couplings + k; }
+  /// One behind the last row of a pair.
+  int pair_end(int pair) const {
+    const auto next = static_cast<std::size_t>(pair) + 1;
+    return next < pair_row.size() ? pair_row[next] : coupling_row(0);
+  }
 };
 
 /// A point of the differential-algebraic system.

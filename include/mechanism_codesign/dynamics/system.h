@@ -7,6 +7,7 @@
 
 #include "mechanism_codesign/control/signal.h"
 #include "mechanism_codesign/dynamics/bristle_law.h"
+#include "mechanism_codesign/dynamics/controller.h"
 #include "mechanism_codesign/dynamics/sparsity.h"
 #include "mechanism_codesign/dynamics/state.h"
 #include "mechanism_codesign/model/robot.h"
@@ -14,13 +15,6 @@
 #include "mechanism_codesign/model/topology.h"
 
 namespace codesign {
-
-/// A controller with its names resolved: u = p e + i s + d e', e = setpoint - input.
-struct Controller {
-  Signal input, input_rate;  ///< input_rate is empty without a d gain
-  int pair = -1, element = -1;
-  int state = -1;  ///< index of its integral among the extra states, or -1
-};
 
 /// One objective term, weight (signal - reference)^2.
 struct ResolvedTerm {
@@ -35,7 +29,11 @@ struct JointLoad {
   bool constant_friction = false;  ///< `<dynamics friction>`
   bool passive = false;            ///< damping or a torsion spring
   bool spring = false;             ///< a torsion spring, which depends on the position
+  bool stop = false;               ///< `<limit lower upper>` as stops
+  bool saturated = false;          ///< `<limit effort>` bounds what the controllers apply
   std::vector<int> controllers;    ///< that drive this coordinate
+
+  bool needs_position() const { return spring || stop; }
 };
 
 /// A mechanism and a study compiled into equations of motion; immutable, shared by all workspaces.
@@ -69,20 +67,25 @@ class System {
 
   double compliance() const { return compliance_; }
 
-  /// @throws InputError if a signal reads a coordinate that has no closed form (of a joint in a folded chain).
+  /// @throws InputError if a signal reads a coordinate that has no closed form (of a joint in a folded chain), or an integral that nobody
+  /// computes.
   void check_readable(const Signal& signal, const SignalDescription& description) const;
 
   /// Start values of all named parameters.
   std::vector<double> parameters() const;
+  /// All named parameters, the tuned ones at `rho` (order of Study::tuned), the others at their start values.
+  std::vector<double> parameters(const Eigen::VectorXd& rho) const;
 
  private:
   void lay_out();
   void resolve_controllers();
+  void check_signals() const;
   void collect_loads();
   void collect_bristles();
   void add_bristle(int pair, int element, int size);
   void find_coordinates();
   void refuse_load(int pair, int element) const;
+  void check_couplings() const;
   void resolve_objective();
   void record_pattern();
   void refuse_unsupported() const;

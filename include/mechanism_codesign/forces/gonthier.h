@@ -12,7 +12,7 @@
 
 namespace codesign {
 
-/// Direction of a velocity per speed, dir(u) = u d(u.u), over the square of the speed, doc/theory.md (13c): 1/|u|, but below `v_e` the
+/// Direction of a velocity per speed, dir(u) = u d(u.u), over the square of the speed, doc/theory.md (13e): 1/|u|, but below `v_e` the
 /// parabola (3 - u.u/v_e^2)/(2 v_e), which is finite at rest and meets it with the same slope. Returns [s/m], [s^3/m^3].
 template <class T>
 ValueAndSlope<T> direction_per_speed(const T& square, const T& v_e) {
@@ -25,7 +25,7 @@ ValueAndSlope<T> direction_per_speed(const T& square, const T& v_e) {
   return {inverse, T(-0.5) * inverse / square};
 }
 
-/// Cuts a vector off at a length, doc/theory.md (13c): x where |x| <= limit, else limit x/|x|.
+/// Cuts a vector off at a length, doc/theory.md (13e): x where |x| <= limit, else limit x/|x|.
 template <class T>
 struct Saturation {
   Vector3<T> value = Vector3<T>::Zero();
@@ -47,7 +47,7 @@ Saturation<T> saturate(const Vector3<T>& x, const T& limit) {
   return cut;
 }
 
-/// Gonthier, McPhee, Lange and Piedboeuf (2004) per unit of normal force, doc/theory.md (13c). A resting contact is a spring and a damper
+/// Gonthier, McPhee, Lange and Piedboeuf (2004) per unit of normal force, doc/theory.md (13e). A resting contact is a spring and a damper
 /// (sigma_0, sigma_1); the share s of it that rests falls as exp(-u.u/v_s^2), and what it can hold grows with the dwell state s_dw from
 /// mu_d to mu_s. With zeta = sigma_0 z, c = mu_d dir(u) and f = s (zeta + sigma_1 u) + (1 - s) c:
 ///   mu = f cut off at mu_d + (mu_s - mu_d) s_dw,   zeta' = sigma_0 s u + (1 - s) sigma_0/sigma_1 (c - zeta),

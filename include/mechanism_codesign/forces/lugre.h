@@ -10,7 +10,7 @@
 
 namespace codesign {
 
-/// Canudas de Wit, Olsson, Astrom and Lischinsky (1995) per unit of normal force, doc/theory.md (13d); the same in all directions:
+/// Canudas de Wit, Olsson, Astrom and Lischinsky (1995) per unit of normal force, doc/theory.md (13f); the same in all directions:
 ///   zeta' = sigma_0 (u - |u|/g zeta),   g = mu_d + (mu_s - mu_d) exp(-u.u/v_s^2),   mu = zeta + sigma_1/sigma_0 zeta',
 /// zeta = sigma_0 z. Sliding steadily mu = g. At rest |u| has a corner; its slope is taken as zero there.
 /// @param u slip velocity [m/s]; of a joint with one direction in u[0]. The dwell state has no part in it.

@@ -52,10 +52,11 @@ struct FrictionConstants {
       preload{0.0}, smoothing{1.0}, viscous{0.0}, bristle_stiffness{1.0}, bristle_damping{1.0}, dwell_time{1.0};
 };
 
-/// URDF's `<dynamics>` and our torsion spring on one joint.
+/// URDF's `<dynamics>` and `<limit>`, and our torsion spring on one joint.
 template <class T>
 struct JointDynamicsConstants {
   T damping{0.0}, dry_friction{0.0}, stiffness{0.0}, spring_damping{0.0}, free_position{0.0};
+  T lower{0.0}, upper{0.0}, effort{0.0};  ///< meaningless where LimitDescription says that they bound nothing
 };
 
 /// Geometry of a kinematic pair in body coordinates.
@@ -86,6 +87,13 @@ struct SpringDamperConstants {
   T stiffness{0.0}, damping{0.0}, free_length{0.0};
 };
 
+/// A row sum of coefficients_k theta_k = offset; terms as in Coupling.
+template <class T>
+struct CouplingConstants {
+  std::vector<T> coefficients;
+  T offset{0.0};
+};
+
 /// Every number of a mechanism at one design rho.
 template <class T>
 struct Constants {
@@ -93,6 +101,7 @@ struct Constants {
   std::vector<PairConstants<T>> pairs;
   std::vector<LinkConstants<T>> links;  ///< of links that belong to a body or the ground
   std::vector<SpringDamperConstants<T>> springs;
+  std::vector<CouplingConstants<T>> couplings;
 };
 
 /// Evaluates the description at `parameters` (all named parameters). T: double, std::complex<double>, Lanes<N>.

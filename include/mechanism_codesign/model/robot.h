@@ -70,14 +70,23 @@ struct FrictionDescription {
   SourceLocation where;
 };
 
+/// `<limit>`. What exporters write for "not known" is none: see the three functions.
 struct LimitDescription {
-  double lower = 0.0, upper = 0.0;  ///< position [rad or m]
-  double effort = 0.0, velocity = 0.0;
+  Quantity lower, upper;      ///< position [rad or m]
+  Quantity effort, velocity;  ///< [N m or N], [rad/s or m/s]
+
+  static bool given(const Quantity& q) { return !q.is_constant() || q.nominal() != 0.0; }
+  /// Equal limits, as where neither is written, bound nothing.
+  bool bounds_position() const { return given(lower) || given(upper); }
+  bool bounds_effort() const { return given(effort); }
+  bool bounds_velocity() const { return given(velocity); }
 };
 
+/// `<mimic>`: theta = multiplier theta_joint + offset.
 struct MimicDescription {
   std::string joint;
-  double multiplier = 1.0, offset = 0.0;
+  Quantity multiplier{1.0}, offset{0.0};
+  SourceLocation where;
 };
 
 struct TorsionSpringDescription {
@@ -102,6 +111,11 @@ struct JointDescription {
   std::optional<TorsionSpringDescription> spring;
   SourceLocation where;
 };
+
+/// Whether `<limit lower upper>` bounds a joint's position: URDF ignores both on a continuous joint.
+inline bool has_stops(const JointDescription& joint) {
+  return joint.limit && joint.limit->bounds_position() && joint.type != JointType::kContinuous;
+}
 
 /// URDF+ `<coupling>`: the successor's joint turns `ratio` times the predecessor's.
 struct CouplingDescription {

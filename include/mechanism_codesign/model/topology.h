@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanism_codesign/model/coupling.h"
 #include "mechanism_codesign/model/robot.h"
 
 namespace codesign {
@@ -64,6 +65,7 @@ struct Topology {
   std::vector<int> link_base;          ///< per link: base link of its rigid group
   std::vector<int> link_parent_joint;  ///< per link: the tree joint above it, -1 for the root
   std::vector<int> joint_pair;         ///< per joint: its pair, or -1 (fixed inside a body; moves a massless end link)
+  std::vector<Coupling> couplings;
 };
 
 /// Merges links joined by fixed joints and folds massless chains.

@@ -1,0 +1,43 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SRC_DYNAMICS_EQUATIONS_LIMITS_H_
+#define MECHANISM_CODESIGN_SRC_DYNAMICS_EQUATIONS_LIMITS_H_
+
+#include "mechanism_codesign/dynamics/equations.h"
+#include "mechanism_codesign/forces/joint_stop.h"
+#include "mechanism_codesign/forces/saturation.h"
+
+namespace codesign {
+
+// URDF's `<limit>` where the study enforces it, theory (13c), (13d).
+
+template <class T>
+T Equations<T>::applied_effort(const JointLoad& load, SparseGradient<T>* gradient) {
+  const auto before = mark(gradient);
+  T demand(0.0);
+  for (int controller : load.controllers) demand += controller_output(controller, gradient);
+  if (!load.saturated) return demand;
+  const T& limit = constants_.pairs[static_cast<std::size_t>(load.pair)].dynamics[static_cast<std::size_t>(load.element)].effort;
+  const Saturation<T> applied = saturate(demand, limit);
+  if (gradient) gradient->scale_from(before, applied.slope);
+  return applied.value;
+}
+
+template <class T>
+T Equations<T>::stop_load(const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient) const {
+  const JointDynamicsConstants<T>& d =
+      constants_.pairs[static_cast<std::size_t>(load.pair)].dynamics[static_cast<std::size_t>(load.element)];
+  const LimitOptions& stop = system_.study().limits;
+  const T position = coordinate_value(load.pair, load.element), below = d.lower - position, above = position - d.upper;
+  const StopForce<T> at_upper = joint_stop(above, motion.rate, stop.stiffness, stop.dissipation, stop.width);
+  const StopForce<T> at_lower = joint_stop(below, T(-motion.rate), stop.stiffness, stop.dissipation, stop.width);
+  if (gradient) {
+    append_local(load.pair, motion.position_q, at_upper.by_excess + at_lower.by_excess, coordinate_moves_r(load.pair, load.element),
+                 &gradient->position);
+    append_rate(load.pair, load.element, motion, at_upper.by_rate + at_lower.by_rate, gradient);
+  }
+  return at_upper.value - at_lower.value;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SRC_DYNAMICS_EQUATIONS_LIMITS_H_

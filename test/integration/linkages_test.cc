@@ -1,0 +1,86 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// Linkages whose constraints are redundant move as their closed forms say.
+#include "integration/linkages.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "integration/energy_balance.h"
+#include "integration/servo.h"
+
+namespace codesign {
+namespace {
+
+std::vector<SignalDescription> signals(const std::vector<std::string>& texts) {
+  std::vector<SignalDescription> result;
+  for (const std::string& text : texts) result.push_back(parse_signal(text, {"test", 0}, "signal"));
+  return result;
+}
+
+/// theta(t) of theta'' = f(theta) by Runge and Kutta's fourth-order method in many small steps.
+double reference_angle(const std::function<double(double)>& f, double theta, double rate, double t) {
+  constexpr int kSteps = 20000;
+  const double h = t / kSteps;
+  for (int k = 0; k < kSteps; ++k) {
+    const double a1 = f(theta), a2 = f(theta + 0.5 * h * rate), a3 = f(theta + 0.5 * h * rate + 0.25 * h * h * a1),
+                 a4 = f(theta + h * rate + 0.5 * h * h * a2);
+    theta += h * rate + h * h / 6.0 * (a1 + a2 + a3);
+    rate += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+  }
+  return theta;
+}
+
+TEST(Linkages, RowsOfFourBarsSwingAsTheirPlanarEquationSays) {
+  for (int count : {1, 4}) {
+    const auto system =
+        compile(four_bar_row(count), motion_study(1.5, "{bar0_hinge: {position: 0.6, velocity: 1.0}}", "bar0_hinge/velocity", kTight));
+    Status status;
+    const Counts counts = count_equations(system, {}, &status);
+    ASSERT_TRUE(status.ok()) << status.cause;
+    EXPECT_EQ(counts.degrees_of_freedom, 1);
+    EXPECT_EQ(counts.redundant_constraints, 3 * count);
+    Simulation simulation(system, {}, signals({"bar0_hinge/position", "bar1_hinge/position"}));
+    status = simulate(&simulation, 1.5, 6, [&](const Frame& frame) {
+      const auto f = [count](double theta) { return four_bar_row_acceleration(count, theta); };
+      const double theta = frame.time == 0.0 ? 0.6 : reference_angle(f, 0.6, 1.0, frame.time);
+      EXPECT_NEAR(frame.signals[0], theta, 1e-7) << count << " at " << frame.time;
+      EXPECT_NEAR(frame.signals[1], theta, 1e-7);
+      for (double error : frame.loop_errors) EXPECT_LT(error, 1e-9);
+      return true;
+    });
+    EXPECT_TRUE(status.ok()) << status.cause;
+  }
+}
+
+TEST(Linkages, ABricardRingKeepsToItsClosedForm) {
+  const auto system = compile(bricard(), motion_study(2.0, bricard_start(1.2, 0.7), "turn1/velocity", kTight));
+  Status status;
+  const Counts counts = count_equations(system, {}, &status);
+  ASSERT_TRUE(status.ok()) << status.cause;
+  EXPECT_EQ(counts.degrees_of_freedom, 1);
+  EXPECT_EQ(counts.redundant_constraints, 1);
+  double least = 10.0, most = -10.0;
+  Simulation simulation(system, {}, signals({"turn1/position", "turn2/position", "turn3/position", "turn4/position", "turn5/position"}));
+  status = simulate(&simulation, 2.0, 41, [&](const Frame& frame) {
+    const std::vector<double>& theta = frame.signals;
+    least = std::min(least, theta[0]);
+    most = std::max(most, theta[0]);
+    EXPECT_NEAR(theta[2], theta[0], 1e-7);
+    EXPECT_NEAR(theta[4], theta[0], 1e-7);
+    EXPECT_NEAR(theta[3], theta[1], 1e-7);
+    EXPECT_NEAR(std::cos(theta[0]) + std::cos(theta[1]) + std::cos(theta[0]) * std::cos(theta[1]), 0.0, 1e-7) << frame.time;
+    return true;
+  });
+  EXPECT_TRUE(status.ok()) << status.cause;
+  EXPECT_GT(most - least, 0.5) << "it has moved";
+}
+
+TEST(Linkages, ABricardRingConservesEnergy) {
+  const Balance b = balance(bricard(), motion_study(2.0, bricard_start(1.2, 0.7), "turn1/velocity", kTight));
+  ASSERT_TRUE(b.status.ok()) << b.status.cause;
+  EXPECT_LT(b.largest_drift, 1e-7);
+}
+
+}  // namespace
+}  // namespace codesign
