@@ -46,7 +46,7 @@ TEST(FrictionReader, AllAttributesAndTwins) {
   EXPECT_EQ((*f.transverse_axis)[2], 1.0);
   EXPECT_EQ(f.bristle_stiffness.nominal(), 3e4);
   EXPECT_EQ(f.bristle_damping.nominal(), 20.0);
-  EXPECT_DOUBLE_EQ(f.dwell_time.at({0.4}), 3.0);
+  EXPECT_DOUBLE_EQ(f.dwell_time.at(std::vector<double>{0.4}), 3.0);
   EXPECT_EQ(friction(std::string(kPlain) + " model=\"lugre\"").model, FrictionModel::kLuGre);
 }
 
