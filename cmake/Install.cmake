@@ -20,7 +20,7 @@ install(TARGETS codesign_core codesign_ros
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION} FILES_MATCHING PATTERN "*.h")
-install(PROGRAMS scripts/bag_text DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts)
+install(PROGRAMS scripts/bag_text scripts/case_figures scripts/model_mismatch scripts/trajectory_from_bag DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts)
 foreach(folder launch config urdf rviz)
   if(EXISTS ${PROJECT_SOURCE_DIR}/${folder})
     install(DIRECTORY ${folder} DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -5,7 +5,7 @@
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
-foreach(folder math model joints forces control dynamics integration sensitivity optimization cli ros benchmark system)
+foreach(folder math model joints forces control dynamics integration sensitivity optimization cli ros benchmark system allocation)
   file(GLOB test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${folder}/*.cc)
   if(NOT test_sources)
     continue()
@@ -23,6 +23,9 @@ foreach(folder math model joints forces control dynamics integration sensitivity
     target_compile_definitions(${target} PRIVATE CODESIGN_EXECUTABLE="$<TARGET_FILE:codesign>")
     add_dependencies(${target} codesign)
   endif()
+  if(folder MATCHES "^(sensitivity|allocation)$")
+    target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/benchmark/mechanisms.cc)
+  endif()
   if(folder STREQUAL benchmark)
     target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/benchmark/mechanisms.cc ${PROJECT_SOURCE_DIR}/benchmark/table.cc)
   endif()
@@ -38,7 +41,11 @@ endforeach()
 add_test(NAME layering COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_layering.py ${PROJECT_SOURCE_DIR})
 add_test(NAME layering_self_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_layering_test.py)
 
+add_test(NAME launch_files COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/ros/launch_files_test.py ${PROJECT_SOURCE_DIR})
+add_test(NAME trajectory_from_bag COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/trajectory_from_bag_test.py)
 add_test(NAME update_tables COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/benchmark/update_tables_test.py)
+
+add_test(NAME figures COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/figures_test.py)
 
 find_package(rostest REQUIRED)
 file(GLOB rostests RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/ros/*.test)

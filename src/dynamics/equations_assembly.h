@@ -29,6 +29,7 @@ void Equations<T>::assemble(Sink* sink) {
   for (std::size_t k = 0; k < constants_.couplings.size(); ++k) assemble_coupling(k, sink);
   for (const JointLoad& load : system_.loads()) assemble_load(load, sink);
   for (int pair : system_.contacts()) assemble_contact(pair, sink);
+  for (const BristleContact& contact : system_.bristles()) assemble_bristle(contact, sink);
   assemble_states(sink);
   assemble_objective(sink);
 }

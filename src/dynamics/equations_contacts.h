@@ -12,7 +12,7 @@ template <class T>
 ContactFriction<T> Equations<T>::contact(int pair, CoordinateDetail detail) const {
   const Pair& p = system_.topology().pairs[static_cast<std::size_t>(pair)];
   return contact_friction(p.kind, constants_.pairs[static_cast<std::size_t>(pair)], body(p.body_i), body(p.body_j), normal_force(pair),
-                          detail);
+                          system_.bristle(pair, -1), state_->s, detail);
 }
 
 template <class T>
@@ -34,6 +34,8 @@ void Equations<T>::append_contact_load(int pair, const ContactFriction<T>& conta
   for (std::size_t l = 0; l < contact.size; ++l)
     append_slip_rate(pair, contact, l, T(factor * contact.by_rate(row, static_cast<Eigen::Index>(l))), gradient);
   append_normal_gradient(pair, contact.normal.F, contact.normal.torque, T(factor * contact.by_normal[row]), gradient);
+  if (const BristleContact* bristle = system_.bristle(pair, -1))
+    append_bristle_states(*bristle, factor * contact.by_zeta.row(row).transpose(), factor * contact.by_dwell[row], gradient);
 }
 
 template <class T>

@@ -133,12 +133,23 @@ T Equations<T>::reaction_friction(int pair, int element, const CoordinateMotion<
   const bool turning = constants_.pairs[p].coordinates[static_cast<std::size_t>(element)].kind == CoordinateConstants<T>::Kind::kTurn;
   const NormalForce<T> N = normal_force(pair);
   const T radius = turning ? c.pin_radius : T(1.0);
-  const FrictionCoefficient<T> S = brown_mcphee<T>(radius * motion.rate, c.mu_static, c.mu_dynamic, c.transition_velocity);
+  const BristleContact* const bristle = system_.bristle(pair, element);
+  Bristle<T> law;
+  FrictionCoefficient<T> S;
+  if (bristle) {
+    law = bristle_law<T>(*bristle, Vector3<T>(radius * motion.rate, T(0.0), T(0.0)), state_->s, c);
+    S = {law.mu[0], law.mu_u(0, 0)};
+  } else {
+    S = brown_mcphee<T>(radius * motion.rate, c.mu_static, c.mu_dynamic, c.transition_velocity);
+  }
   if (state) *state = {motion.rate, N.value, T(radius * S.value * N.value + c.viscous * motion.rate)};
   if (gradient) {
     const T slope = radius * radius * S.slope * N.value + c.viscous;
     append_rate(pair, element, motion, slope, gradient);
     append_normal_gradient(pair, N.F, N.torque, T(radius * S.value), gradient);
+    const T per_coefficient = radius * N.value;
+    if (bristle)
+      append_bristle_states(*bristle, per_coefficient * law.mu_zeta.row(0).transpose(), per_coefficient * law.mu_dwell[0], gradient);
   }
   return radius * S.value * N.value + c.viscous * motion.rate;
 }

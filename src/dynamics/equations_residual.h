@@ -14,6 +14,13 @@ Equations<T>::Equations(const System& system) : system_(system), layout_(system.
   kinematics_.back().at_rest = true;
   loads_.resize(static_cast<std::size_t>(layout_.bodies));
   constraint_state_.resize(layout_);
+  std::size_t nodes = 0;
+  for (const Controller& controller : system.controllers()) {
+    inverse_dynamics_.emplace_back(controller.tree);
+    nodes = std::max(nodes, controller.tree.nodes.size());
+  }
+  accelerations_.resize(nodes, T(0.0));
+  by_acceleration_.resize(nodes, T(0.0));
   for (const Pair& pair : system.topology().pairs) {
     std::array<int, kLocalSize>& columns = columns_.emplace_back();
     for (int local = 0; local < kLocalSize; ++local) {
@@ -36,19 +43,19 @@ void Equations<T>::set_design(const std::vector<T>& parameters) {
       turn_references_.emplace_back(pair.coordinates.size(), 0.0);
       coordinates_.emplace_back(pair.coordinates.size());
     }
-  const auto evaluate = [&parameters](const auto& descriptions, auto member, std::vector<T>* values) {
-    values->clear();
-    for (const auto& description : descriptions) values->push_back((description.*member).at(parameters));
+  const auto evaluate = [&parameters](const auto& terms, std::vector<T>* weights, std::vector<Reference<T>>* references) {
+    weights->clear();
+    references->clear();
+    for (const ObjectiveTerm& term : terms) {
+      weights->push_back(term.weight.at(parameters));
+      references->emplace_back(term.reference, parameters);
+    }
   };
   const Study& study = system_.study();
-  evaluate(study.controllers, &ControllerDescription::setpoint, &setpoints_);
-  evaluate(study.controllers, &ControllerDescription::p, &gains_p_);
-  evaluate(study.controllers, &ControllerDescription::i, &gains_i_);
-  evaluate(study.controllers, &ControllerDescription::d, &gains_d_);
-  evaluate(study.integral, &ObjectiveTerm::weight, &integral_weights_);
-  evaluate(study.integral, &ObjectiveTerm::reference, &integral_references_);
-  evaluate(study.terminal, &ObjectiveTerm::weight, &terminal_weights_);
-  evaluate(study.terminal, &ObjectiveTerm::reference, &terminal_references_);
+  controllers_.clear();
+  for (const ControllerDescription& description : study.controllers) controllers_.push_back(controller_constants(description, parameters));
+  evaluate(study.integral, &integral_weights_, &integral_references_);
+  evaluate(study.terminal, &terminal_weights_, &terminal_references_);
 }
 
 template <class T>
@@ -82,6 +89,7 @@ void Equations<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
   for (std::size_t k = 0; k < constants_.couplings.size(); ++k) coupling_residual(k, G);
   for (const JointLoad& load : system_.loads()) load_residual(load, G);
   for (int pair : system_.contacts()) contact_residual(pair, G);
+  for (const BristleContact& contact : system_.bristles()) bristle_residual(contact, G);
   for (std::size_t c = 0; c < system_.controllers().size(); ++c) {
     const int s = system_.controllers()[c].state;
     if (s >= 0) (*G)[layout_.state_column(s)] = state.z[layout_.state_column(s)] - controller_error(static_cast<int>(c), nullptr);

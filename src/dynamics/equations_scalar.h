@@ -3,7 +3,9 @@
 #define MECHANISM_CODESIGN_SRC_DYNAMICS_EQUATIONS_SCALAR_H_
 
 #include "equations_assembly.h"
+#include "equations_bristles.h"
 #include "equations_contacts.h"
+#include "equations_controllers.h"
 #include "equations_couplings.h"
 #include "equations_limits.h"
 #include "equations_loads.h"

@@ -60,25 +60,6 @@ T Equations<T>::link_term(const SignalReference& term, const T& factor, SparseGr
 }
 
 template <class T>
-T Equations<T>::controller_error(int controller, SparseGradient<T>* gradient) {
-  const auto c = static_cast<std::size_t>(controller);
-  return setpoints_[c] + signal_value(system_.controllers()[c].input, T(-1.0), gradient);
-}
-
-template <class T>
-T Equations<T>::controller_output(int controller, SparseGradient<T>* gradient) {
-  const auto c = static_cast<std::size_t>(controller);
-  const Controller& pid = system_.controllers()[c];
-  T output = gains_p_[c] * setpoints_[c] + signal_value(pid.input, T(-gains_p_[c]), gradient);
-  if (pid.state >= 0) {
-    output += gains_i_[c] * state_->s[pid.state];
-    if (gradient) gradient->position.push_back({layout_.position_column(pid.state), gains_i_[c]});
-  }
-  if (!pid.input_rate.empty()) output += signal_value(pid.input_rate, T(-gains_d_[c]), gradient);
-  return output;
-}
-
-template <class T>
 T Equations<T>::term_value(const SignalReference& term, const T& factor, SparseGradient<T>* gradient) {
   const auto before = mark(gradient);
   switch (term.kind) {
@@ -93,7 +74,7 @@ T Equations<T>::term_value(const SignalReference& term, const T& factor, SparseG
       return factor * value;
     }
     case SignalKind::kControllerErrorRate:
-      return signal_value(system_.controllers()[static_cast<std::size_t>(term.controller)].input_rate, T(-factor), gradient);
+      return controller_error_rate(term.controller, factor, gradient);
     case SignalKind::kControllerOutput: {
       const T value = controller_output(term.controller, gradient);
       if (gradient) gradient->scale_from(before, factor);
@@ -125,17 +106,21 @@ T Equations<T>::load_term(const SignalReference& term, const T& factor, SparseGr
   T sum(0.0);
   for (const JointLoad& load : system_.loads()) {
     if (load.pair != term.pair || load.element != term.element) continue;
-    JointLoad part = load;
-    part.passive = part.spring = part.stop = false;
+    const auto before = mark(gradient);
     if (term.kind == SignalKind::kJointEffort) {
-      part.reaction_friction = part.constant_friction = false;
-    } else {
-      part.controllers.clear();
+      sum += factor * applied_effort(load, gradient);
+      if (gradient) gradient->scale_from(before, factor);
+      continue;
     }
+    // A copy without the list of controllers takes no memory.
+    JointLoad friction;
+    friction.pair = load.pair;
+    friction.element = load.element;
+    friction.reaction_friction = load.reaction_friction;
+    friction.constant_friction = load.constant_friction;
     const CoordinateMotion<T>& motion =
         coordinate(term.pair, term.element, gradient ? CoordinateDetail::kGradient : CoordinateDetail::kRate);
-    const auto before = mark(gradient);
-    sum -= factor * joint_load(part, motion, gradient);
+    sum -= factor * joint_load(friction, motion, gradient);
     if (gradient) gradient->scale_from(before, T(-factor));
   }
   return sum;
@@ -155,12 +140,14 @@ T Equations<T>::signal(const Signal& signal, const State<T>& state, SparseGradie
 }
 
 template <class T>
-T Equations<T>::objective_terms(const std::vector<ResolvedTerm>& terms, const std::vector<T>& weights, const std::vector<T>& references,
-                                SparseGradient<T>* gradient) {
+T Equations<T>::objective_terms(const std::vector<ResolvedTerm>& terms, const std::vector<T>& weights,
+                                const std::vector<Reference<T>>& references, SparseGradient<T>* gradient) {
   T sum(0.0);
   for (std::size_t k = 0; k < terms.size(); ++k) {
     const auto before = mark(gradient);
-    const T error = signal_value(terms[k].signal, T(1.0), gradient) - references[k];
+    const ReferenceMotion<T> reference = references[k].at(state_->t);
+    const T error = signal_value(terms[k].signal, T(1.0), gradient) - reference.value;
+    if (gradient) gradient->time -= reference.rate;
     sum += weights[k] * error * error;
     if (gradient) gradient->scale_from(before, T(T(2.0) * weights[k] * error));
   }

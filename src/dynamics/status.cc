@@ -21,6 +21,8 @@ const char* name_of(StatusCode code) {
       return "step_size_too_small";
     case StatusCode::kTooManySteps:
       return "too_many_steps";
+    case StatusCode::kUnstableMotion:
+      return "unstable_motion";
     case StatusCode::kNonFinite:
       return "non_finite";
     case StatusCode::kInvalidDesign:

@@ -33,13 +33,6 @@ int constraint_rows(PairKind kind) {
 
 bool zero(const Quantity& q) { return q.is_constant() && q.nominal() == 0.0; }
 
-bool reads(const std::vector<ResolvedTerm>& terms, SignalKind kind, int controller) {
-  return std::any_of(terms.begin(), terms.end(), [&](const ResolvedTerm& term) {
-    return std::any_of(term.signal.begin(), term.signal.end(),
-                       [&](const SignalReference& r) { return r.kind == kind && r.controller == controller; });
-  });
-}
-
 }  // namespace
 
 System::System(const RobotDescription& robot, const Study& study, double compliance)
@@ -50,13 +43,22 @@ System::System(const RobotDescription& robot, const Study& study, double complia
   check_couplings();
   resolve_objective();
   resolve_controllers();
+  check_signals();
   collect_loads();
+  collect_bristles();
   record_pattern();
 }
 
 std::vector<double> System::parameters() const {
   std::vector<double> values;
   for (const Parameter& parameter : study_.parameters) values.push_back(parameter.value);
+  return values;
+}
+
+std::vector<double> System::parameters(const Eigen::VectorXd& rho) const {
+  std::vector<double> values = parameters();
+  for (std::size_t k = 0; k < study_.tuned.size(); ++k)
+    values[static_cast<std::size_t>(study_.tuned[k])] = rho[static_cast<Eigen::Index>(k)];
   return values;
 }
 
@@ -75,7 +77,6 @@ void System::resolve_objective() {
   const auto resolve = [this](const std::vector<ObjectiveTerm>& terms, std::vector<ResolvedTerm>* resolved) {
     for (std::size_t k = 0; k < terms.size(); ++k) {
       resolved->push_back({resolve_signal(terms[k].signal, robot_, topology_, study_.controllers), static_cast<int>(k)});
-      check_readable(resolved->back().signal, terms[k].signal);
     }
   };
   resolve(study_.integral, &integral_);
@@ -83,31 +84,24 @@ void System::resolve_objective() {
 }
 
 void System::resolve_controllers() {
+  std::vector<Signal> observed;
+  for (const std::vector<ResolvedTerm>* terms : {&integral_, &terminal_})
+    for (const ResolvedTerm& term : *terms) observed.push_back(term.signal);
+  controllers_ = codesign::resolve_controllers(study_, robot_, topology_, observed, &layout_.states);
+}
+
+void System::check_signals() const {
   for (std::size_t k = 0; k < study_.controllers.size(); ++k) {
     const ControllerDescription& description = study_.controllers[k];
-    const std::string element = "controllers." + description.name;
-    Controller controller;
-    controller.input = resolve_signal(description.input, robot_, topology_, study_.controllers);
-    check_readable(controller.input, description.input);
-    for (const SignalReference& term : controller.input)
-      if (term.controller >= static_cast<int>(k) || term.kind == SignalKind::kJointEffort)
-        throw InputError({description.where, element + ".input", "a controller cannot read an effort, itself or a later controller",
-                          description.input.text, "controllers defined before it"});
-    const int index = static_cast<int>(k);
-    const bool error_rate = reads(integral_, SignalKind::kControllerErrorRate, index);
-    if (!zero(description.d) || error_rate) controller.input_rate = differentiate(controller.input, description.input, element + ".input");
-    const bool integral =
-        reads(integral_, SignalKind::kControllerIntegral, index) || reads(terminal_, SignalKind::kControllerIntegral, index);
-    if (!zero(description.i) || integral) controller.state = layout_.states++;
-    for (std::size_t joint = 0; joint < robot_.joints.size(); ++joint) {
-      if (robot_.joints[joint].name != description.output) continue;
-      SignalDescription output{description.output + "/velocity", {{1.0, description.output, "velocity", ""}}, description.where};
-      const Signal resolved = resolve_signal(output, robot_, topology_, study_.controllers);
-      controller.pair = resolved.front().pair;
-      controller.element = resolved.front().element;
-    }
-    controllers_.push_back(controller);
+    check_readable(controllers_[k].input, description.input);
+    for (std::size_t term = 0; term < description.feedback.size(); ++term)
+      check_readable(controllers_[k].feedback[term], description.feedback[term].signal);
   }
+  const auto check = [this](const std::vector<ResolvedTerm>& resolved, const std::vector<ObjectiveTerm>& terms) {
+    for (const ResolvedTerm& term : resolved) check_readable(term.signal, terms[static_cast<std::size_t>(term.description)].signal);
+  };
+  check(integral_, study_.integral);
+  check(terminal_, study_.terminal);
 }
 
 void System::collect_loads() {
@@ -136,6 +130,27 @@ void System::collect_loads() {
       loads_.push_back(load);
     }
   }
+}
+
+void System::add_bristle(int pair, int element, int size) {
+  const int joint = topology_.pairs[static_cast<std::size_t>(pair)].friction_joint;
+  const FrictionModel model = robot_.joints[static_cast<std::size_t>(joint)].friction->model;
+  if (model == FrictionModel::kBrownMcPhee) return;
+  bristles_.push_back({model, pair, element, layout_.states, size});
+  layout_.states += bristles_.back().states();
+}
+
+void System::collect_bristles() {
+  for (const JointLoad& load : loads_)
+    if (load.reaction_friction) add_bristle(load.pair, load.element, 1);
+  for (int contact : contacts_)
+    add_bristle(contact, -1, topology_.pairs[static_cast<std::size_t>(contact)].kind == PairKind::kTable ? 2 : 3);
+}
+
+const BristleContact* System::bristle(int pair, int element) const {
+  for (const BristleContact& contact : bristles_)
+    if (contact.pair == pair && contact.element == element) return &contact;
+  return nullptr;
 }
 
 void System::find_coordinates() {
@@ -167,6 +182,9 @@ void System::check_couplings() const {
 
 void System::check_readable(const Signal& signal, const SignalDescription& description) const {
   for (const SignalReference& term : signal) {
+    if (term.kind == SignalKind::kControllerIntegral && controllers_[static_cast<std::size_t>(term.controller)].state < 0)
+      throw InputError({description.where, "signal", "the controller has no i gain, so that its error is not integrated", description.text,
+                        "an i gain, or the signal in the objective or in a later controller"});
     const bool coordinate = term.kind == SignalKind::kJointPosition || term.kind == SignalKind::kJointVelocity ||
                             term.kind == SignalKind::kJointAcceleration || term.kind == SignalKind::kJointSlidingVelocity;
     if (!coordinate || has_coordinate_[static_cast<std::size_t>(term.pair)][static_cast<std::size_t>(term.element)]) continue;
@@ -190,20 +208,12 @@ void System::record_pattern() {
 }
 
 void System::refuse_unsupported() const {
-  const auto refuse = [](const SourceLocation& where, const std::string& element, const std::string& what) {
-    throw InputError({where, element, what + " is read but not computed by this version", "", ""});
-  };
   if (topology_.bodies.empty())
     throw InputError({{robot_.file, 0},
                       "<robot name=\"" + robot_.name + "\">",
                       "nothing moves: no link with an <inertial> hangs on a movable joint",
                       "",
                       ""});
-  for (const JointDescription& joint : robot_.joints) {
-    const std::string element = (joint.is_loop ? "<loop name=\"" : "<joint name=\"") + joint.name + "\">";
-    if (joint.friction && joint.friction->model != FrictionModel::kBrownMcPhee)
-      refuse(joint.friction->where, element, "a friction model other than brown_mcphee");
-  }
 }
 
 }  // namespace codesign

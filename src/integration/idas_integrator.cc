@@ -8,6 +8,8 @@
 
 #include "integration/idas_equations.h"
 #include "integration/idas_status.h"
+#include "mechanism_codesign/integration/break_times.h"
+#include "mechanism_codesign/integration/motion_watch.h"
 
 namespace codesign {
 
@@ -16,8 +18,10 @@ class IdasIntegrator::Implementation {
   Implementation(const System& system, Integrator* owner)
       : system_(system),
         options_(system.study().solver),
+        breaks_(system.study()),
         owner_(owner),
         assembly_(system),
+        watch_(system),
         context_(make_context()),
         newton_(system, context_.get()),
         equations_(system, &newton_),
@@ -61,8 +65,10 @@ class IdasIntegrator::Implementation {
 
   const System& system_;
   const SolverOptions& options_;
+  const BreakTimes breaks_;
   Integrator* owner_;
   Assembly assembly_;
+  MotionWatch watch_;
   ContextHandle context_;
   IdasNewton newton_;
   IdasEquations equations_;
@@ -111,6 +117,7 @@ Status IdasIntegrator::Implementation::start(const std::vector<double>& paramete
   require(IDAQuadReInit(ida_.get(), psi_.get()), "IDAQuadReInit");
   start_sensitivities(parameters);
   state_ = initial_;
+  watch_.start(equations(), initial_);
   return {};
 }
 
@@ -153,12 +160,13 @@ Status IdasIntegrator::Implementation::advance(double limit) {
     return {StatusCode::kTooManySteps, state_.t, "more than " + std::to_string(options_.maximum_steps) + " steps"};
   void* ida = ida_.get();
   double time = state_.t;
-  require(IDASetStopTime(ida, limit), "IDASetStopTime");
-  const int flag = IDASolve(ida, limit, &time, y_.get(), y_dot_.get(), IDA_ONE_STEP);
+  const double stop = breaks_.next(state_.t, limit);
+  require(IDASetStopTime(ida, stop), "IDASetStopTime");
+  const int flag = IDASolve(ida, stop, &time, y_.get(), y_dot_.get(), IDA_ONE_STEP);
   count_steps();
   if (flag < 0) return idas_status(flag, state_.t, newton_.singular(), equations_.failure().empty() ? message_ : equations_.failure());
   take_over(time);
-  return {};
+  return watch_.check(state_, statistics_.steps + statistics_.rejected_steps);
 }
 
 void IdasIntegrator::Implementation::take_over(double time) {

@@ -10,15 +10,18 @@ namespace codesign {
 RosenbrockIntegrator::RosenbrockIntegrator(const System& system)
     : system_(system),
       options_(system.study().solver),
+      breaks_(system.study()),
       step_(system, *rosenbrock_tableau(options_.method)),
       assembly_(system),
-      controller_(step_.tableau().order) {}
+      controller_(step_.tableau().order),
+      watch_(system) {}
 
 Status RosenbrockIntegrator::start(const std::vector<double>& parameters) {
   statistics_ = {};
   controller_ = StepController(step_.tableau().order);
   if (Status status = assemble_start(system_, parameters, &assembly_, &step_.equations(), &initial_); !status.ok()) return status;
   step_.start(initial_);
+  watch_.start(step_.equations(), initial_);
   proposal_ = options_.initial_step > 0.0 ? options_.initial_step : first_step();
   return {};
 }
@@ -52,7 +55,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     double h = proposal_;
     if (options_.maximum_step > 0.0) h = std::min(h, options_.maximum_step);
     // Stretched by up to a tenth, or halved, so that no sliver is left before the limit.
-    const double rest = limit - t;
+    const double rest = breaks_.next(t, limit) - t;
     const bool last = h >= rest / 1.1;
     if (last) h = rest;
     if (!last && h > 0.5 * rest) h = 0.5 * rest;
@@ -78,7 +81,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     ++statistics_.steps;
     if (!step_.accept()) return {StatusCode::kSingularMatrix, t + h, "the augmented matrix of the equations of motion is singular"};
     step_.equations().track_turns(step_.state());
-    return {};
+    return watch_.check(step_.state(), statistics_.steps + statistics_.rejected_steps);
   }
 }
 

@@ -130,6 +130,13 @@ bool RosenbrockStep<T>::accept() {
   return project();
 }
 
+template <class T>
+bool RosenbrockStep<T>::resume(const State<T>& unprojected) {
+  copy_state(unprojected, &end_);
+  equations_.linearize(end_, &derivatives_);
+  return project();
+}
+
 // [G_a G_lambda; Phi_q 0] [delta; mu] = [0; -error], once for positions and once for velocities at the new positions.
 template <class T>
 bool RosenbrockStep<T>::project() {

@@ -31,7 +31,7 @@ void add_joint_parts(const std::string& path, bool strict, std::vector<ElementRu
                     true,
                     {"model", "transverse_axis"},
                     {"mu_static", "mu_dynamic", "transition_velocity", "joint_length", "joint_width", "pin_radius", "friction_arm",
-                     "preload", "smoothing", "viscous"},
+                     "preload", "smoothing", "viscous", "bristle_stiffness", "bristle_damping", "dwell_time"},
                     {},
                     {}});
   rules->push_back({path + "/codesign:torsion_spring", true, {}, {"stiffness", "damping", "free_position"}, {}, {}});

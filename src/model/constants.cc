@@ -81,7 +81,8 @@ std::string body_fault(const Body& body, const BodyConstants<double>& constants)
 
 std::string friction_fault(const Pair& pair, const FrictionConstants<double>& f) {
   const bool possible = f.mu_static >= f.mu_dynamic && f.mu_dynamic >= 0.0 && f.transition_velocity > 0.0 && f.joint_length > 0.0 &&
-                        f.joint_width > 0.0 && f.pin_radius >= 0.0 && f.smoothing > 0.0 && f.viscous >= 0.0;
+                        f.joint_width > 0.0 && f.pin_radius >= 0.0 && f.smoothing > 0.0 && f.viscous >= 0.0 && f.bristle_stiffness > 0.0 &&
+                        f.bristle_damping > 0.0 && f.dwell_time > 0.0;
   return possible ? "" : "friction geometry or coefficients of joint '" + pair.name + "' are out of range";
 }
 

@@ -254,6 +254,9 @@ class PairBuilder {
     c.preload = f.preload.at(parameters_);
     c.smoothing = f.smoothing.at(parameters_);
     c.viscous = f.viscous.at(parameters_);
+    c.bristle_stiffness = f.bristle_stiffness.at(parameters_);
+    c.bristle_damping = f.bristle_damping.at(parameters_);
+    c.dwell_time = f.dwell_time.at(parameters_);
     return c;
   }
 

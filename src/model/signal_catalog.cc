@@ -34,7 +34,7 @@ Offer offer_of(const std::string& name, const RobotDescription& robot, const std
   for (const ControllerDescription& controller : controllers) {
     if (controller.name != name) continue;
     offer.exists = true;
-    for (const char* quantity : {"error", "integral", "output"}) offer.scalars.emplace_back(quantity);
+    offer.scalars = has_error(controller.kind) ? Names{"error", "integral", "output"} : Names{"output"};
   }
   for (const LinkDescription& link : robot.links) {
     if (link.name != name) continue;

@@ -8,8 +8,8 @@
 
 namespace codesign {
 
-/// Reads `controllers:`; needs Study::parameters.
-void read_controllers(const YamlValue& study_value, const RobotDescription& robot, Study* study);
+/// Reads `controllers:`; needs Study::duration and Study::parameters, the coefficients of basis controllers among them.
+void read_controllers(const YamlValue& study_value, const RobotDescription& robot, const TrajectoryLoader& loader, Study* study);
 
 }  // namespace codesign
 

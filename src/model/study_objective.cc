@@ -2,38 +2,39 @@
 #include "study_objective.h"
 
 #include "mechanism_codesign/model/signal_catalog.h"
+#include "study_references.h"
 #include "study_values.h"
 
 namespace codesign {
 namespace {
 
-ObjectiveTerm read_term(const YamlValue& value, const RobotDescription& robot, const Study& study) {
+ObjectiveTerm read_term(const YamlValue& value, const RobotDescription& robot, const TrajectoryLoader& loader, const Study& study) {
   value.require_keys({"signal"}, {"reference", "weight"});
   ObjectiveTerm term;
   term.where = value.where();
   const YamlValue signal = value.at("signal");
   term.signal = parse_signal(signal.text(), signal.where(), signal.path());
   check_signal(term.signal, robot, study.controllers, signal.path());
-  if (const auto reference = value.find("reference")) term.reference = read_quantity(*reference, study.parameters);
+  if (const auto reference = value.find("reference")) term.reference = read_reference(*reference, study.parameters, loader);
   if (const auto weight = value.find("weight")) term.weight = read_quantity(*weight, study.parameters);
   return term;
 }
 
 std::vector<ObjectiveTerm> read_terms(const YamlValue& objective, const std::string& key, const RobotDescription& robot,
-                                      const Study& study) {
+                                      const TrajectoryLoader& loader, const Study& study) {
   std::vector<ObjectiveTerm> terms;
   if (const auto list = objective.find(key))
-    for (const YamlValue& item : list->items()) terms.push_back(read_term(item, robot, study));
+    for (const YamlValue& item : list->items()) terms.push_back(read_term(item, robot, loader, study));
   return terms;
 }
 
 }  // namespace
 
-void read_objective(const YamlValue& study_value, const RobotDescription& robot, Study* study) {
+void read_objective(const YamlValue& study_value, const RobotDescription& robot, const TrajectoryLoader& loader, Study* study) {
   const YamlValue objective = study_value.at("objective");
   objective.require_keys({}, {"integral", "terminal"});
-  study->integral = read_terms(objective, "integral", robot, *study);
-  study->terminal = read_terms(objective, "terminal", robot, *study);
+  study->integral = read_terms(objective, "integral", robot, loader, *study);
+  study->terminal = read_terms(objective, "terminal", robot, loader, *study);
   if (study->integral.empty() && study->terminal.empty())
     objective.fail("the objective has no term", "at least one term under integral or terminal");
 }

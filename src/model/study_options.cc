@@ -11,11 +11,15 @@ void read_tolerance(const YamlValue& parent, const std::string& key, double* tol
   if (*tolerance <= 0.0 || *tolerance >= 1.0) value->fail("tolerance out of range", "between 0 and 1, both excluded");
 }
 
-void read_step(const YamlValue& parent, const std::string& key, double* step) {
+void read_positive_or_zero(const YamlValue& parent, const std::string& key, const char* allowed, double* number) {
   const auto value = parent.find(key);
   if (!value) return;
-  *step = value->number();
-  if (*step < 0.0) value->fail("step out of range", "a positive number of seconds, or 0 for none");
+  *number = value->number();
+  if (*number < 0.0) value->fail("number out of range", allowed);
+}
+
+void read_step(const YamlValue& parent, const std::string& key, double* step) {
+  read_positive_or_zero(parent, key, "a positive number of seconds, or 0 for none", step);
 }
 
 void read_count(const YamlValue& parent, const std::string& key, int* count) {
@@ -32,6 +36,17 @@ void read_positive(const YamlValue& parent, const std::string& key, bool zero_al
   if (*number < 0.0 || (*number == 0.0 && !zero_allowed)) value->fail(key + " out of range", zero_allowed ? "0 or more" : "more than 0");
 }
 
+/// The adjoint follows steps that were taken without it.
+void read_gradient(const YamlValue& solver, SolverOptions* options) {
+  const auto value = solver.find("gradient");
+  if (!value) return;
+  options->gradient = value->choice("gradient", {"auto", "direct", "adjoint"});
+  if (options->gradient != "adjoint") return;
+  if (options->integrator != "rosenbrock") value->fail("there is an adjoint of the Rosenbrock steps alone", "auto or direct with idas");
+  if (options->sensitivity_tolerance > 0.0)
+    value->fail("the adjoint has no sensitivities that could take part in the error test", "auto or direct with sensitivity_tolerance");
+}
+
 }  // namespace
 
 LimitOptions read_limit_options(const YamlValue& limits) {
@@ -46,8 +61,8 @@ LimitOptions read_limit_options(const YamlValue& limits) {
 }
 
 SolverOptions read_solver_options(const YamlValue& solver) {
-  solver.require_keys({}, {"integrator", "method", "relative_tolerance", "absolute_tolerance", "sensitivity_tolerance", "initial_step",
-                           "maximum_step", "maximum_steps"});
+  solver.require_keys({}, {"integrator", "method", "gradient", "relative_tolerance", "absolute_tolerance", "sensitivity_tolerance",
+                           "initial_step", "maximum_step", "maximum_steps", "maximum_speed"});
   SolverOptions options;
   if (const auto integrator = solver.find("integrator")) options.integrator = integrator->choice("integrator", {"rosenbrock", "idas"});
   if (const auto method = solver.find("method")) options.method = method->choice("method", {"rodas4", "rodas4p2", "rodas5p"});
@@ -57,6 +72,8 @@ SolverOptions read_solver_options(const YamlValue& solver) {
   read_step(solver, "initial_step", &options.initial_step);
   read_step(solver, "maximum_step", &options.maximum_step);
   read_count(solver, "maximum_steps", &options.maximum_steps);
+  read_positive_or_zero(solver, "maximum_speed", "a positive speed in m/s and rad/s, or 0: chosen", &options.maximum_speed);
+  read_gradient(solver, &options);
   return options;
 }
 

@@ -22,23 +22,6 @@ Parameter new_parameter(const std::string& name, const YamlValue& value, const s
   throw InputError({value.where(), value.path() + ".initial", "required key is missing: the model has no such parameter" + hint, "", ""});
 }
 
-void read_range(const YamlValue& value, Parameter* parameter) {
-  const auto lower = value.find("lower");
-  const auto upper = value.find("upper");
-  const auto initial = value.find("initial");
-  if (lower) parameter->lower = lower->number();
-  if (upper) parameter->upper = upper->number();
-  if (initial) parameter->value = initial->number();
-  if (!(parameter->lower < parameter->upper)) {
-    const YamlValue& at = lower ? *lower : upper ? *upper : value;
-    at.fail("the lower bound must lie below the upper bound", "lower < upper, not " + range_of(*parameter));
-  }
-  if (parameter->value < parameter->lower || parameter->value > parameter->upper) {
-    const YamlValue& at = initial ? *initial : value;
-    at.fail("the start lies outside the bounds", range_of(*parameter));
-  }
-}
-
 int index_of(const std::string& name, const std::vector<Parameter>& parameters) {
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (parameters[i].name == name) return static_cast<int>(i);
@@ -46,6 +29,19 @@ int index_of(const std::string& name, const std::vector<Parameter>& parameters) 
 }
 
 }  // namespace
+
+void read_bounds(const YamlValue& value, Parameter* parameter) {
+  const auto lower = value.find("lower");
+  const auto upper = value.find("upper");
+  if (lower) parameter->lower = lower->number();
+  if (upper) parameter->upper = upper->number();
+  if (!(parameter->lower < parameter->upper)) {
+    const YamlValue& at = lower ? *lower : upper ? *upper : value;
+    at.fail("the lower bound must lie below the upper bound", "lower < upper, not " + range_of(*parameter));
+  }
+  if (parameter->value < parameter->lower || parameter->value > parameter->upper)
+    value.find("initial").value_or(value).fail("the start lies outside the bounds", range_of(*parameter));
+}
 
 void read_parameters(const YamlValue& study_value, const RobotDescription& robot, Study* study) {
   study->parameters = robot.parameters;
@@ -58,7 +54,9 @@ void read_parameters(const YamlValue& study_value, const RobotDescription& robot
       index = static_cast<int>(study->parameters.size());
       study->parameters.push_back(new_parameter(name, value, robot.parameters));
     }
-    read_range(value, &study->parameters[static_cast<std::size_t>(index)]);
+    Parameter& parameter = study->parameters[static_cast<std::size_t>(index)];
+    if (const auto initial = value.find("initial")) parameter.value = initial->number();
+    read_bounds(value, &parameter);
     const auto tune = value.find("tune");
     if (!tune || tune->boolean()) study->tuned.push_back(index);
   }

@@ -12,6 +12,9 @@ namespace codesign {
 /// Start and bounds default to the model's; a parameter of the study alone needs `initial`.
 void read_parameters(const YamlValue& study_value, const RobotDescription& robot, Study* study);
 
+/// Replaces a parameter's bounds by `lower` and `upper` of a map, where given, and checks that its value lies within them.
+void read_bounds(const YamlValue& value, Parameter* parameter);
+
 /// Reads the list `constraints:`; needs Study::parameters.
 void read_constraints(const YamlValue& study_value, Study* study);
 

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mechanism_codesign/model/study_reader.h"
 
+#include "study_basis.h"
 #include "study_controllers.h"
 #include "study_objective.h"
 #include "study_options.h"
@@ -45,7 +46,7 @@ void read_initial_state(const YamlValue& study_value, const RobotDescription& ro
 
 }  // namespace
 
-Study read_study(const SourceText& yaml, const RobotDescription& robot) {
+Study read_study(const SourceText& yaml, const RobotDescription& robot, const TrajectoryLoader& loader) {
   const YamlValue root = YamlValue::parse(yaml);
   root.require_keys({"duration", "objective"},
                     {"gravity", "initial_state", "controllers", "parameters", "constraints", "limits", "solver", "optimizer"});
@@ -54,10 +55,11 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot) {
   study.duration = read_duration(root.at("duration"));
   if (const auto gravity = root.find("gravity")) study.gravity = read_gravity(*gravity);
   read_parameters(root, robot, &study);
+  declare_coefficients(root, &study);
   read_constraints(root, &study);
   read_initial_state(root, robot, &study);
-  read_controllers(root, robot, &study);
-  read_objective(root, robot, &study);
+  read_controllers(root, robot, loader, &study);
+  read_objective(root, robot, loader, &study);
   if (const auto limits = root.find("limits")) study.limits = read_limit_options(*limits);
   if (const auto solver = root.find("solver")) study.solver = read_solver_options(*solver);
   if (const auto optimizer = root.find("optimizer")) study.optimizer = read_optimizer_options(*optimizer);

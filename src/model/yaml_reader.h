@@ -27,6 +27,10 @@ class YamlValue {
   const std::string& path() const { return path_; }
   SourceLocation where() const;
 
+  bool is_map() const { return node_.IsMap(); }
+  bool is_list() const { return node_.IsSequence(); }
+  bool is_scalar() const { return node_.IsScalar(); }
+
   /// Checks that this is a map whose keys are all known, that none is repeated and that none required is missing.
   void require_keys(const std::vector<std::string>& required, const std::vector<std::string>& optional) const;
   /// The value of a key of a map, if it is there.

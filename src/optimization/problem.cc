@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "mechanism_codesign/dynamics/system.h"
 #include "mechanism_codesign/math/decimal.h"
 #include "mechanism_codesign/model/study_reader.h"
 #include "mechanism_codesign/model/unknown_name.h"
@@ -34,12 +35,7 @@ void apply_settings(const ParameterSettings& settings, Study* study) {
 
 }  // namespace
 
-std::vector<double> Problem::parameters() const {
-  std::vector<double> values;
-  values.reserve(study.parameters.size());
-  for (const Parameter& parameter : study.parameters) values.push_back(parameter.value);
-  return values;
-}
+std::vector<double> Problem::parameters() const { return system->parameters(); }
 
 Eigen::VectorXd Problem::start() const {
   Eigen::VectorXd rho(static_cast<Eigen::Index>(study.tuned.size()));
@@ -48,11 +44,7 @@ Eigen::VectorXd Problem::start() const {
   return rho;
 }
 
-std::vector<double> Problem::parameters(const Eigen::VectorXd& rho) const {
-  std::vector<double> values = parameters();
-  for (std::size_t k = 0; k < study.tuned.size(); ++k) values[static_cast<std::size_t>(study.tuned[k])] = rho[static_cast<Eigen::Index>(k)];
-  return values;
-}
+std::vector<double> Problem::parameters(const Eigen::VectorXd& rho) const { return system->parameters(rho); }
 
 std::vector<std::string> Problem::tuned_names() const {
   std::vector<std::string> names;
@@ -68,12 +60,12 @@ Problem compile(Problem problem, const ParameterSettings& settings) {
 }
 
 Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
-                     const ParameterSettings& settings) {
+                     const ParameterSettings& settings, const TrajectoryLoader& loader) {
   Problem problem;
   problem.urdf = urdf;
   problem.overlays = overlays;
   problem.robot = read_urdf(urdf, overlays);
-  problem.study = read_study(study, problem.robot);
+  problem.study = read_study(study, problem.robot, loader);
   return compile(std::move(problem), settings);
 }
 

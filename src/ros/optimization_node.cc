@@ -10,6 +10,7 @@
 
 #include "mechanism_codesign/model/error.h"
 #include "mechanism_codesign/ros/inputs.h"
+#include "mechanism_codesign/ros/trajectory_bag.h"
 #include "mechanism_codesign/ros/wire.h"
 
 namespace codesign {
@@ -52,7 +53,8 @@ void OptimizationNode::load() {
     options_.rate = read_positive(private_node_, "rate", options_.rate);
     const Inputs inputs = read_inputs(node_, private_node_);
     study_ = inputs.study.text;
-    Problem problem = load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings);
+    Problem problem =
+        load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings, bag_trajectory_loader(study_folder(inputs)));
     require_every_parameter(inputs, problem.robot);
     problem_ = std::move(problem);
     state_.show("robot", problem_->robot.name);

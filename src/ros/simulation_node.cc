@@ -9,6 +9,7 @@
 #include "mechanism_codesign/model/unknown_name.h"
 #include "mechanism_codesign/ros/frame_messages.h"
 #include "mechanism_codesign/ros/inputs.h"
+#include "mechanism_codesign/ros/trajectory_bag.h"
 
 namespace codesign {
 namespace {
@@ -55,7 +56,7 @@ void SimulationNode::load() {
   options_ = read_simulation_options(private_node_);
   clock_ = RunClock(options_.time_scale);
   const Inputs inputs = read_inputs(node_, private_node_);
-  problem_ = load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings);
+  problem_ = load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings, bag_trajectory_loader(study_folder(inputs)));
   state_.show("robot", problem_.robot.name);
   publishers_["joint_states"] = node_.advertise<sensor_msgs::JointState>("joint_states", kQueueSize);
   publishers_["joint_friction"] = node_.advertise<mechanism_codesign::JointFriction>("joint_friction", kQueueSize);

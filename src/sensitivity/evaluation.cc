@@ -16,7 +16,7 @@ class Evaluator::Implementation {
   Evaluation evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel) {
     const CpuTimer timer;
     Evaluation evaluation;
-    evaluation.status = run(full_parameters(rho), with_gradient, cancel);
+    evaluation.status = run(system_->parameters(rho), with_gradient, cancel);
     if (evaluation.status.ok()) {
       evaluation.objective = engine_->objective();
       if (!std::isfinite(evaluation.objective))
@@ -29,13 +29,6 @@ class Evaluator::Implementation {
   }
 
  private:
-  std::vector<double> full_parameters(const Eigen::VectorXd& rho) const {
-    std::vector<double> parameters = system_->parameters();
-    for (Eigen::Index k = 0; k < rho.size(); ++k)
-      parameters[static_cast<std::size_t>(system_->study().tuned[static_cast<std::size_t>(k)])] = rho[k];
-    return parameters;
-  }
-
   Status run(const std::vector<double>& parameters, bool with_gradient, const std::atomic<bool>* cancel) {
     Status status = engine_->start(parameters, with_gradient);
     const double duration = system_->study().duration;

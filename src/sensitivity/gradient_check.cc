@@ -14,13 +14,6 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double kComplexStep = 1e-30;
 
-std::vector<double> full_parameters(const System& system, const Eigen::VectorXd& rho) {
-  std::vector<double> parameters = system.parameters();
-  for (Eigen::Index k = 0; k < rho.size(); ++k)
-    parameters[static_cast<std::size_t>(system.study().tuned[static_cast<std::size_t>(k)])] = rho[k];
-  return parameters;
-}
-
 /// The sizes of the steps that an integration with sensitivities takes.
 Status record_steps(const System& system, const std::vector<double>& parameters, std::vector<double>* steps) {
   RosenbrockGradient run(system);
@@ -63,7 +56,7 @@ void compare(GradientCheck* check) {
 void check_by_complex_step(const System& system, const Eigen::VectorXd& rho, const std::atomic<bool>* cancel, GradientCheck* check) {
   RosenbrockIntegrator integrator(system);
   std::vector<double> steps;
-  const std::vector<double> parameters = full_parameters(system, rho);
+  const std::vector<double> parameters = system.parameters(rho);
   check->status = record_steps(system, parameters, &steps);
   for (Eigen::Index k = 0; check->status.ok() && k < rho.size(); ++k) {
     if (cancel && *cancel) {

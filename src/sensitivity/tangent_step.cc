@@ -108,8 +108,7 @@ void TangentStep<N>::change_matrices(const RosenbrockStep<double>& step) {
       add_row_tangents<N, kTogether>(patterns.velocity, derivatives_.velocity, row, u, at_.v(), sums);
       add_row_tangents<N, kTogether>(patterns.rate, derivatives_.rate, row, u, at_.z(), sums);
       for (std::size_t k = 0; k < count; ++k)
-        vector_at(&matrix_changes_[first + k], row) =
-            sums[k] + (step.step_size() * tableau_.gamma_i[first + k]) * derivatives_.time[row].v;
+        vector_at(&matrix_changes_[first + k], row) = sums[k] + (step.step_size() * tableau_.gamma_i[first + k]) * derivatives_.time[row].v;
     }
   }
 }

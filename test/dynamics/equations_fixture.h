@@ -8,6 +8,7 @@
 
 #include "mechanism_codesign/dynamics/equations.h"
 #include "mechanism_codesign/math/derivative_check.h"
+#include "mechanism_codesign/math/ridders.h"
 #include "mechanism_codesign/model/study_reader.h"
 #include "mechanism_codesign/model/urdf_reader.h"
 
@@ -36,6 +37,7 @@ class EquationsFixture {
   /// [G; g] as a function of one of the state's vectors.
   Eigen::MatrixXd reference(VectorX<std::complex<double>> State<std::complex<double>>::*member, const VectorX<double>& at) {
     State<std::complex<double>> point;
+    point.t = state.t;
     point.q = state.q;
     point.v = state.v;
     point.s = state.s;
@@ -51,6 +53,23 @@ class EquationsFixture {
           return all;
         },
         at);
+  }
+
+  /// d[G; g]/dt by extrapolated differences.
+  Eigen::VectorXd time_reference() {
+    State<double> moved = state;
+    VectorX<double> G;
+    double g = 0.0;
+    Eigen::VectorXd derivative(system.layout().columns() + 1);
+    for (Eigen::Index row = 0; row < derivative.size(); ++row) {
+      const auto entry = [&](double t) {
+        moved.t = t;
+        real.residual(moved, &G, &g);
+        return row < G.size() ? G[row] : g;
+      };
+      derivative[row] = ridders_derivative(entry, state.t, 1e-2).value;
+    }
+    return derivative;
   }
 
   static Eigen::MatrixXd dense(const Sparsity& pattern, const std::vector<double>& values) {
@@ -75,6 +94,7 @@ class EquationsFixture {
     }
     EXPECT_LT(compare_jacobians(dense(system.patterns().velocity, d.velocity), reference(&S::v, state.v)).largest, tolerance);
     EXPECT_LT(compare_jacobians(dense(system.patterns().rate, d.rate), reference(&S::z, state.z)).largest, tolerance);
+    EXPECT_LT(compare_jacobians(d.time, time_reference()).largest, 1e-8);
   }
 
   RobotDescription robot;

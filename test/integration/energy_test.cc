@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "integration/energy_balance.h"
 
 namespace codesign {
@@ -54,6 +56,22 @@ TEST(Energy, ABallJointLosesItsFrictionWork) {
   ASSERT_TRUE(b.status.ok()) << b.status.cause;
   EXPECT_GT(b.friction_work, 0.1);
   EXPECT_NEAR(b.start - b.end, b.friction_work, 1e-6 * b.friction_work);
+}
+
+// Of a bristle's spring too: what it stores is taken from the motion, and given back.
+TEST(Energy, FrictionWithStatesTakesExactlyItsWork) {
+  for (const char* model : {"gonthier", "lugre"}) {
+    const std::vector<std::array<std::string, 2>> cases = {
+        {double_pendulum(pin_friction()), motion_study(1.0, "{shoulder: {position: 1.5}}", "elbow/velocity", kFriction)},
+        {puck(), motion_study(0.5, "{}", "puck/velocity/x", kFriction)},
+        {ball_pendulum(), motion_study(0.5, "{ball_x: {position: 1.0}, ball_z: {velocity: 8.0}}", "ball_x/velocity", kFriction)}};
+    for (const auto& [urdf, study] : cases) {
+      const Balance b = balance(with_friction_model(urdf, model), study);
+      ASSERT_TRUE(b.status.ok()) << model << ": " << b.status.cause;
+      EXPECT_GT(b.friction_work, 0.1) << model;
+      EXPECT_NEAR(b.start - b.end, b.friction_work, 1e-5 * b.friction_work) << model;
+    }
+  }
 }
 
 TEST(Energy, ASpringConservesIt) {

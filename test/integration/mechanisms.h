@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_TEST_INTEGRATION_MECHANISMS_H_
 #define MECHANISM_CODESIGN_TEST_INTEGRATION_MECHANISMS_H_
 
+#include <regex>
 #include <string>
 
 #include "mechanism_codesign/model/study_reader.h"
@@ -30,6 +31,11 @@ inline std::string robot(const std::string& content) {
 inline const char* pin_friction() {
   return "<codesign:friction model='brown_mcphee' mu_static='0.2' mu_dynamic='0.15' transition_velocity='0.01' joint_length='0.05' "
          "pin_radius='0.02'/>";
+}
+
+/// The same mechanism with another law in every annotation.
+inline std::string with_friction_model(const std::string& urdf, const std::string& model) {
+  return std::regex_replace(urdf, std::regex("<codesign:friction( model='brown_mcphee')?"), "<codesign:friction model='" + model + "'");
 }
 
 inline std::string pendulum(const std::string& friction = "") {

@@ -22,13 +22,17 @@ TEST(FrictionReader, Defaults) {
   EXPECT_EQ(f.preload.nominal(), 0.0);
   EXPECT_EQ(f.viscous.nominal(), 0.0);
   EXPECT_FALSE(f.transverse_axis);
+  EXPECT_EQ(f.bristle_stiffness.nominal(), 1e4);
+  EXPECT_EQ(f.bristle_damping.nominal(), 10.0);
+  EXPECT_EQ(f.dwell_time.nominal(), 2.0);
   EXPECT_EQ(f.where.line, 3);
 }
 
 TEST(FrictionReader, AllAttributesAndTwins) {
   const FrictionDescription f = friction(R"(model="gonthier" mu_static="0.4" codesign:mu_static="${2*length}" mu_dynamic="0.2"
       transition_velocity="0.001" joint_length="0.2" codesign:joint_length="${length}" joint_width="0.3" pin_radius="0.02" friction_arm="0.03"
-      preload="5" smoothing="0.01" viscous="0.5" transverse_axis="0 0 1")");
+      preload="5" smoothing="0.01" viscous="0.5" transverse_axis="0 0 1" bristle_stiffness="3e4" bristle_damping="20" dwell_time="1.5"
+      codesign:dwell_time="${7.5*length}")");
   const std::vector<double> at = {0.3};
   EXPECT_EQ(f.model, FrictionModel::kGonthier);
   EXPECT_DOUBLE_EQ(f.mu_static.at(at), 0.6);
@@ -40,6 +44,9 @@ TEST(FrictionReader, AllAttributesAndTwins) {
   EXPECT_EQ(f.smoothing.nominal(), 0.01);
   EXPECT_EQ(f.viscous.nominal(), 0.5);
   EXPECT_EQ((*f.transverse_axis)[2], 1.0);
+  EXPECT_EQ(f.bristle_stiffness.nominal(), 3e4);
+  EXPECT_EQ(f.bristle_damping.nominal(), 20.0);
+  EXPECT_DOUBLE_EQ(f.dwell_time.at({0.4}), 3.0);
   EXPECT_EQ(friction(std::string(kPlain) + " model=\"lugre\"").model, FrictionModel::kLuGre);
 }
 
@@ -54,11 +61,25 @@ TEST(FrictionReader, Faults) {
   expect_error(text_with("mu_static=\"0.3\" mu_dynamic=\"-0.4\""), {"mu_dynamic is negative"});
   for (const char* name : {"transition_velocity", "smoothing", "friction_arm", "joint_width"})
     expect_error(text_with(plain + " " + name + "=\"0\""), {std::string(name) + " is not positive (value: 0, allowed: > 0)"});
+  for (const char* name : {"bristle_stiffness", "bristle_damping", "dwell_time"})
+    expect_error(text_with(plain + " model=\"gonthier\" " + name + "=\"0\""), {std::string(name) + " is not positive"});
   for (const char* name : {"preload", "viscous"})
     expect_error(text_with(plain + " " + name + "=\"-1\""), {std::string(name) + " is negative"});
   expect_error(text_with(plain + " transverse_axis=\"2 0 0\""), {"no direction across the joint axis"});
   expect_error(text_with(plain + " transverse_axis=\"0 0 0\""), {"no direction across the joint axis"});
   expect_error(text_with(plain + " transverse_axis=\"0 1\""), {"wrong count"});
+}
+
+TEST(FrictionReader, AttributesBelongToTheirModels) {
+  const std::string plain = kPlain;
+  expect_error(
+      text_with(plain + " bristle_stiffness=\"1e4\""),
+      {"bristle_stiffness has no meaning for this friction model (value: 1e4, allowed: with model=\"gonthier\" or model=\"lugre\")"});
+  expect_error(text_with(plain + " bristle_damping=\"10\""), {"bristle_damping has no meaning"});
+  expect_error(text_with(plain + " model=\"lugre\" dwell_time=\"1\""),
+               {"dwell_time has no meaning for this friction model (value: 1, allowed: with model=\"gonthier\")"});
+  expect_error(text_with(plain + " model=\"gonthier\" bristle_stifness=\"1e4\""), {"did you mean \"bristle_stiffness\"?"});
+  expect_error(text_with("model=\"lugre\" mu_static=\"0.3\" mu_dynamic=\"0\""), {"mu_dynamic is zero: the LuGre model divides by it"});
 }
 
 }  // namespace

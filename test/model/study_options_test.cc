@@ -11,7 +11,7 @@ std::string with(const std::string& line) { return kLeastStudy + line + "\n"; }
 TEST(StudyOptions, ReadsTheSolver) {
   const SolverOptions solver =
       read_text(with("solver: {integrator: idas, method: rodas5p, relative_tolerance: 1e-9, absolute_tolerance: 1e-10, "
-                     "initial_step: 1e-5, maximum_step: 0.01, maximum_steps: 500}"))
+                     "initial_step: 1e-5, maximum_step: 0.01, maximum_steps: 500, maximum_speed: 50, gradient: direct}"))
           .solver;
   EXPECT_EQ(solver.integrator, "idas");
   EXPECT_EQ(solver.method, "rodas5p");
@@ -20,6 +20,9 @@ TEST(StudyOptions, ReadsTheSolver) {
   EXPECT_EQ(solver.initial_step, 1e-5);
   EXPECT_EQ(solver.maximum_step, 0.01);
   EXPECT_EQ(solver.maximum_steps, 500);
+  EXPECT_EQ(solver.maximum_speed, 50.0);
+  EXPECT_EQ(solver.gradient, "direct");
+  EXPECT_EQ(read_text(kLeastStudy).solver.gradient, "auto");
 }
 
 TEST(StudyOptions, ReadsTheOptimizer) {
@@ -38,6 +41,10 @@ TEST(StudyOptions, RefusesBadSolverValues) {
   expect_fault(with("solver: {maximum_step: -1}"), "solver.maximum_step", "out of range", 3);
   expect_fault(with("solver: {maximum_steps: 0}"), "solver.maximum_steps", "out of range", 3);
   expect_fault(with("solver: {maximum_steps: 2.5}"), "solver.maximum_steps", "not an integer", 3);
+  expect_fault(with("solver: {maximum_speed: -1}"), "solver.maximum_speed", "out of range", 3);
+  expect_fault(with("solver: {gradient: backward}"), "solver.gradient", "unknown gradient", 3);
+  expect_fault(with("solver: {integrator: idas, gradient: adjoint}"), "solver.gradient", "Rosenbrock steps alone", 3);
+  expect_fault(with("solver: {sensitivity_tolerance: 1e-4, gradient: adjoint}"), "solver.gradient", "no sensitivities", 3);
   expect_fault(with("solver: {tolerance: 1e-6}"), "solver.tolerance", "unknown key", 3);
 }
 

@@ -2,135 +2,28 @@
 #include "mechanism_codesign/ros/job.h"
 
 #include <gtest/gtest.h>
-#include <ros/time.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-#include <sensor_msgs/JointState.h>
-
-#include "pendulum.h"
-#include "temporary_directory.h"
 
 namespace codesign {
 namespace {
 
-using mechanism_codesign::EvaluateRequest;
-using mechanism_codesign::OptimizeGoal;
-
-class OptimizationJob : public testing::Test {
- protected:
-  OptimizationJob() { ros::Time::init(); }
-
-  OptimizationOutcome run(const OptimizeGoal& request = OptimizeGoal(), const ProgressObserver& observer = {}) {
-    return run_optimization(pendulum(), "the study", request, {directory_.path().string(), 20.0}, observer, cancel_);
-  }
-
-  bool left_nothing() const { return std::filesystem::is_empty(directory_.path()); }
-
-  TemporaryDirectory directory_;
-  std::atomic<bool> cancel_{false};
-};
-
-TEST_F(OptimizationJob, ImprovesAndReportsEveryTrial) {
-  unsigned trials = 0;
-  const auto result = run(OptimizeGoal(), [&](const mechanism_codesign::OptimizationProgress& progress) {
-                        EXPECT_EQ(progress.evaluation, ++trials);
-                      }).result;
-  EXPECT_TRUE(result.success) << result.message;
-  EXPECT_EQ(result.code, "success");
-  EXPECT_EQ(result.parameters, (std::vector<std::string>{"length", "Kp"}));
-  EXPECT_EQ(result.initial, (std::vector<double>{0.5, 1.0}));
-  EXPECT_LT(result.objective, result.initial_objective);
-  EXPECT_EQ(result.tuned.size(), 2U);
-  EXPECT_EQ(result.gradient.size(), 2U);
-  EXPECT_EQ(result.evaluations, trials);
-  EXPECT_FALSE(result.termination.empty());
+TEST(Job, AStatusIsSaidAsCodeAndSentence) {
+  mechanism_codesign::EvaluateResponse reply;
+  set_status(Status(), &reply);
+  EXPECT_TRUE(reply.success);
+  EXPECT_EQ(reply.code, "success");
+  EXPECT_EQ(reply.message, "");
+  set_status({StatusCode::kTooManySteps, 0.25, "more than 3 steps"}, &reply);
+  EXPECT_FALSE(reply.success);
+  EXPECT_EQ(reply.code, "too_many_steps");
+  EXPECT_EQ(reply.message.rfind("more than 3 steps (at t = 0.25", 0), 0U) << reply.message;
 }
 
-TEST_F(OptimizationJob, TheTunedDescriptionHasTheTunedParameters) {
-  const OptimizationOutcome outcome = run();
-  const RobotDescription robot = read_urdf({"tuned", outcome.tuned_urdf});
-  ASSERT_EQ(robot.parameters[0].name, "length");
-  EXPECT_EQ(robot.parameters[0].value, outcome.result.tuned[0]);
-}
-
-TEST_F(OptimizationJob, TheBagHoldsBothRuns) {
-  rosbag::Bag bag(run().result.bag);
-  for (const std::string topic : {"initial/joint_states", "tuned/joint_states"}) {
-    rosbag::View view(bag, rosbag::TopicQuery(topic));
-    EXPECT_EQ(view.size(), 11U);  // 0.5 s at 20 a second
-    const auto first = view.begin()->instantiate<sensor_msgs::JointState>();
-    EXPECT_EQ(first->name, std::vector<std::string>{"hinge"});
-    EXPECT_NEAR(first->position.at(0), 0.5, 1e-12);
-  }
-}
-
-TEST_F(OptimizationJob, ACancelledOneKeepsItsBestPointAndIsRecorded) {
-  const auto result = run(OptimizeGoal(), [&](const mechanism_codesign::OptimizationProgress& progress) {
-                        if (progress.evaluation == 2) cancel_ = true;
-                      }).result;
-  EXPECT_FALSE(result.success);
-  EXPECT_EQ(result.code, "cancelled");
-  EXPECT_LE(result.objective, result.initial_objective);
-  EXPECT_TRUE(std::filesystem::exists(result.bag));
-}
-
-TEST_F(OptimizationJob, ABadRequestIsAnAnswerAndLeavesNothing) {
-  OptimizeGoal request;
-  request.algorithm = "newton_raphson";
-  const auto result = run(request).result;
-  EXPECT_FALSE(result.success);
-  EXPECT_EQ(result.code, "bad_input");
-  EXPECT_NE(result.message.find("newton_raphson"), std::string::npos) << result.message;
-  EXPECT_TRUE(left_nothing());
-}
-
-TEST_F(OptimizationJob, AnOutputDirectoryThatCannotBeMadeIsAnAnswer) {
-  const auto result = run_optimization(pendulum(), "", OptimizeGoal(), {"/dev/null/bags", 20.0}, {}, cancel_).result;
-  EXPECT_FALSE(result.success);
-  EXPECT_EQ(result.code, "output_failed");
-}
-
-class EvaluationJob : public testing::Test {
- protected:
-  mechanism_codesign::EvaluateResponse run(const EvaluateRequest& request) { return run_evaluation(pendulum(), request, cancel_); }
-  std::atomic<bool> cancel_{false};
-};
-
-TEST_F(EvaluationJob, GivesObjectiveAndGradientAtTheStart) {
-  const auto reply = run(EvaluateRequest());
-  EXPECT_TRUE(reply.success) << reply.message;
-  EXPECT_EQ(reply.values, (std::vector<double>{0.5, 1.0}));
-  EXPECT_GT(reply.objective, 0.0);
-  EXPECT_EQ(reply.gradient.size(), 2U);
-  EXPECT_TRUE(reply.reference.empty());
-}
-
-TEST_F(EvaluationJob, TheObjectiveAloneIsTheSame) {
-  EvaluateRequest request;
-  request.objective_only = 1;
-  const auto reply = run(request);
-  EXPECT_TRUE(reply.gradient.empty());
-  EXPECT_NEAR(reply.objective, run(EvaluateRequest()).objective, 1e-6 * reply.objective);
-}
-
-TEST_F(EvaluationJob, ChecksItsGradient) {
-  for (const auto& [check, tolerance] : {std::pair<const char*, double>{"complex_step", 1e-9}, {"ridders", 1e-4}}) {
-    EvaluateRequest request;
-    request.check = check;
-    const auto reply = run(request);
-    ASSERT_TRUE(reply.success) << reply.message;
-    ASSERT_EQ(reply.reference.size(), 2U);
-    for (int k : {0, 1}) EXPECT_NEAR(reply.gradient[k], reply.reference[k], tolerance * std::abs(reply.reference[k])) << check;
-    EXPECT_LT(reply.largest_relative_difference, tolerance);
-  }
-}
-
-TEST_F(EvaluationJob, AnUnknownCheckNamesTheNearest) {
-  EvaluateRequest request;
-  request.check = "complexstep";
-  const auto reply = run(request);
-  EXPECT_EQ(reply.code, "bad_input");
-  EXPECT_NE(reply.message.find("complex_step"), std::string::npos) << reply.message;
+TEST(Job, ARefusalNamesItsReason) {
+  mechanism_codesign::OptimizeResult reply;
+  refuse("busy", "ask again later", &reply);
+  EXPECT_FALSE(reply.success);
+  EXPECT_EQ(reply.code, "busy");
+  EXPECT_EQ(reply.message, "ask again later");
 }
 
 }  // namespace

@@ -3,30 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include "integration/servo.h"
+#include "sensitivity/adjoint_gradient.h"
+#include "sensitivity/gradient_cases.h"
 #include "sensitivity/idas_gradient.h"
 #include "sensitivity/rosenbrock_gradient.h"
 
 namespace codesign {
 namespace {
-
-struct Result {
-  Status status;
-  double objective = 0.0;
-  Eigen::VectorXd gradient;
-  std::int64_t steps = 0;
-};
-
-Result run(GradientEngine* engine, const std::vector<double>& parameters, double duration, bool with_gradient = true) {
-  Result result;
-  result.status = engine->start(parameters, with_gradient);
-  while (result.status.ok() && engine->time() < duration) result.status = engine->advance(duration);
-  if (!result.status.ok()) return result;
-  result.objective = engine->objective();
-  if (with_gradient) engine->gradient(&result.gradient);
-  result.steps = engine->statistics().steps;
-  return result;
-}
 
 const char* const kRosenbrock = "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}";
 
@@ -40,14 +23,33 @@ TEST(GradientEngine, TheStudyChooses) {
 }
 
 // An extra state, terminal terms with accelerations, friction, a parameter in the initial state and one in the objective alone.
+TEST(GradientEngine, TheStudyChoosesTheDirection) {
+  EXPECT_NE(dynamic_cast<AdjointGradient*>(make_gradient_engine(*servo("{gradient: adjoint}")).get()), nullptr);
+  EXPECT_NE(dynamic_cast<RosenbrockGradient*>(make_gradient_engine(*servo("{gradient: direct}")).get()), nullptr);
+  EXPECT_FALSE(prefers_adjoint(*servo("{integrator: idas}")));
+}
+
+// Auto: few parameters forwards, many local ones backwards, but not where their sensitivities are to be tested.
+TEST(GradientEngine, ManyLocalParametersGoBackwards) {
+  const auto prefers = [](int tuned, double sensitivity_tolerance) {
+    const GeneratedCase chain = parametric_chain(12, tuned);
+    GradientCase test = from_texts("chain", chain.urdf.text, chain.study.text);
+    test.study.solver.sensitivity_tolerance = sensitivity_tolerance;
+    return prefers_adjoint(*test.compile("rodas4", "auto"));
+  };
+  EXPECT_FALSE(prefers(5, 0.0));
+  EXPECT_TRUE(prefers(48, 0.0));
+  EXPECT_FALSE(prefers(48, 1e-4));
+}
+
 TEST(GradientEngine, TheIntegratorsAgreeToTheToleranceAskedFor) {
   const auto exact = servo(kRosenbrock);
-  const Result reference = run(make_gradient_engine(*exact).get(), exact->parameters(), 0.6);
+  const GradientRun reference = run_gradient(make_gradient_engine(*exact).get(), *exact, exact->parameters());
   ASSERT_TRUE(reference.status.ok()) << reference.status.cause;
   const double scale = reference.gradient.cwiseAbs().maxCoeff();
   for (const auto& [tolerance, bound] : {std::pair{"1.0e-5", 2e-3}, std::pair{"1.0e-7", 5e-5}, std::pair{"1.0e-9", 1e-6}}) {
     const auto system = servo(idas(tolerance));
-    const Result result = run(make_gradient_engine(*system).get(), system->parameters(), 0.6);
+    const GradientRun result = run_gradient(make_gradient_engine(*system).get(), *system, system->parameters());
     ASSERT_TRUE(result.status.ok()) << result.status.cause;
     EXPECT_NEAR(result.objective, reference.objective, bound * reference.objective) << tolerance;
     EXPECT_LT((result.gradient - reference.gradient).cwiseAbs().maxCoeff(), bound * scale) << tolerance;
@@ -57,8 +59,10 @@ TEST(GradientEngine, TheIntegratorsAgreeToTheToleranceAskedFor) {
 TEST(GradientEngine, IdasStartsAnewToTheLastBitWithAndWithoutGradient) {
   const auto system = servo(idas("1.0e-6"));
   const auto engine = make_gradient_engine(*system);
-  const Result first = run(engine.get(), system->parameters(), 0.6), alone = run(engine.get(), system->parameters(), 0.6, false);
-  const Result second = run(engine.get(), system->parameters(), 0.6), alone_again = run(engine.get(), system->parameters(), 0.6, false);
+  const GradientRun first = run_gradient(engine.get(), *system, system->parameters()),
+                    alone = run_gradient(engine.get(), *system, system->parameters(), false);
+  const GradientRun second = run_gradient(engine.get(), *system, system->parameters()),
+                    alone_again = run_gradient(engine.get(), *system, system->parameters(), false);
   ASSERT_TRUE(first.status.ok() && alone.status.ok());
   EXPECT_EQ(first.objective, second.objective);
   EXPECT_EQ(first.gradient, second.gradient);
@@ -71,7 +75,7 @@ TEST(GradientEngine, IdasStartsAnewToTheLastBitWithAndWithoutGradient) {
 TEST(GradientEngine, NothingTunedIsNoGradient) {
   const auto system =
       compile(pendulum(), "duration: 0.1\nparameters: {}\nobjective: {integral: [{signal: hinge/velocity}]}\nsolver: {integrator: idas}\n");
-  const Result result = run(make_gradient_engine(*system).get(), {}, 0.1);
+  const GradientRun result = run_gradient(make_gradient_engine(*system).get(), *system, {});
   EXPECT_TRUE(result.status.ok());
   EXPECT_EQ(result.gradient.size(), 0);
 }

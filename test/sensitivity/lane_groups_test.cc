@@ -43,6 +43,22 @@ TEST(LaneGroups, CoverEveryParameterOnce) {
   EXPECT_EQ(groups_of(13), (Groups{{8, 0, 8}, {8, 8, 5}}));
 }
 
+TEST(LaneGroups, KeepALaneWhereAskedTo) {
+  const auto system = servo("{}");
+  const auto groups_of_lanes = [&](int lanes) {
+    LaneGroups<Probe> groups(LaneCount{lanes, 1}, *system, 7);
+    std::vector<std::array<int, 3>> found;
+    groups.for_each([&](auto* group) {
+      found.push_back({std::remove_pointer_t<decltype(group)>::kWidth, group->range.first, group->range.count});
+    });
+    return found;
+  };
+  using Groups = std::vector<std::array<int, 3>>;
+  EXPECT_EQ(groups_of_lanes(3), (Groups{{4, 0, 3}}));
+  EXPECT_EQ(groups_of_lanes(4), (Groups{{8, 0, 4}}));
+  EXPECT_EQ(groups_of_lanes(8), (Groups{{8, 0, 7}, {4, 7, 1}}));
+}
+
 TEST(LaneGroups, SeedOneDirectionPerLane) {
   const auto system = servo("{}");
   const std::vector<Lanes<4>> seeded = LaneRange<4>{1, 2}.seed(*system, system->parameters());

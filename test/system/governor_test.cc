@@ -2,6 +2,7 @@
 // References: an independent solution of the same data at tolerances down to 1e-12 (psi converged to 4e-11 relative).
 #include <gtest/gtest.h>
 
+#include "mechanism_codesign/optimization/optimizer.h"
 #include "system/shipped.h"
 
 namespace codesign {
@@ -30,6 +31,18 @@ TEST(Governor, SeriesMeetTheReference) {
        {"left_hinge/velocity",
         {-0.0016622368726479111, 5.9782097635821362e-05, 9.2986313676669482e-08, -3.7852567239510781e-08},
         0.0767228}});
+}
+
+TEST(Governor, TunesIntoItsFlatValley) {
+  Shipped shipped("governor");
+  // Coarser than shipped: the valley needs no seven digits.
+  shipped.study.solver.relative_tolerance = 1e-6;
+  shipped.study.solver.absolute_tolerance = 1e-7;
+  shipped.study.solver.sensitivity_tolerance = 0.0;
+  const OptimizationResult result = optimize(make_system(shipped.robot, shipped.study), shipped.study);
+  ASSERT_TRUE(result.status.ok()) << result.status.cause;
+  EXPECT_LE(result.objective, 0.6198);
+  EXPECT_LE(result.evaluations, 40);
 }
 
 TEST(Governor, DesignsThatCannotBeAssembledHaveAStatus) {

@@ -17,9 +17,12 @@ namespace codesign {
 
 /// A shipped case: urdf/NAME.urdf with config/NAME.yaml.
 struct Shipped {
-  explicit Shipped(const std::string& name) {
+  /// @param overlay a name in urdf/overlays, or nothing.
+  explicit Shipped(const std::string& name, const std::string& overlay = "") {
     const std::string root = CODESIGN_SOURCE_DIR;
-    robot = read_urdf(read_source(root + "/urdf/" + name + ".urdf"));
+    std::vector<SourceText> overlays;
+    if (!overlay.empty()) overlays.push_back(read_source(root + "/urdf/overlays/" + overlay + ".urdf"));
+    robot = read_urdf(read_source(root + "/urdf/" + name + ".urdf"), overlays);
     study = read_study(read_source(root + "/config/" + name + ".yaml"), robot);
   }
 

@@ -50,6 +50,22 @@ TEST_P(ShippedStudies, GradientIsThatOfTheStepsTaken) {
   EXPECT_LT(check.largest_relative_difference, 1e-9);
 }
 
+// Each integrator is the other's check. Errors of steps add up: over a second to some tens of the tolerance.
+TEST_P(ShippedStudies, BothIntegratorsAgree) {
+  constexpr double kTolerance = 1e-7;
+  shipped.study = Shipped(GetParam()).study;
+  SolverOptions& solver = shipped.study.solver;
+  shipped.study.duration = std::min(shipped.study.duration, 1.0);
+  solver.relative_tolerance = kTolerance;
+  solver.absolute_tolerance = 0.1 * kTolerance;
+  solver.maximum_steps = 200000;
+  const Evaluation rosenbrock = Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), false);
+  solver.integrator = "idas";
+  const Evaluation idas = Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), false);
+  ASSERT_TRUE(rosenbrock.status.ok() && idas.status.ok()) << rosenbrock.status.cause << idas.status.cause;
+  EXPECT_NEAR(idas.objective, rosenbrock.objective, 100.0 * kTolerance * std::abs(rosenbrock.objective));
+}
+
 INSTANTIATE_TEST_SUITE_P(Config, ShippedStudies, ::testing::ValuesIn(shipped_names()), [](const auto& study) { return study.param; });
 
 TEST(ShippedList, HoldsThePapersCases) {

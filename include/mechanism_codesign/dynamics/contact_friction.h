@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "mechanism_codesign/dynamics/bristle_law.h"
 #include "mechanism_codesign/forces/isotropic_friction.h"
 #include "mechanism_codesign/forces/normal_force.h"
 #include "mechanism_codesign/joints/coordinate.h"
@@ -20,6 +21,8 @@ struct ContactFriction {
   Vector3<T> load = Vector3<T>::Zero();       ///< against each rate [N or N m]
   Matrix3<T> by_rate = Matrix3<T>::Zero();    ///< d load / d rate
   Vector3<T> by_normal = Vector3<T>::Zero();  ///< d load / d N
+  Matrix3<T> by_zeta = Matrix3<T>::Zero();    ///< d load / d deflection, of a law with states
+  Vector3<T> by_dwell = Vector3<T>::Zero();   ///< d load / d s_dw
 
   /// Speed of the joint's point [m/s], or of a ball's turn [rad/s].
   T speed() const {
@@ -41,27 +44,52 @@ struct ContactFriction {
   }
 };
 
+/// Slip over one to three coordinates: their motion, and u [m/s], each rate times its arm.
+template <class T>
+struct ContactSlip {
+  std::array<CoordinateMotion<T>, 3> motion;
+  Vector3<T> arm = Vector3<T>::Zero(), u = Vector3<T>::Zero();
+};
+
+/// That of a pair with isotropic friction.
+template <class T>
+ContactSlip<T> contact_slip(const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateDetail detail) {
+  ContactSlip<T> slip;
+  for (std::size_t k = 0; k < pair.slip.coordinates.size(); ++k) {
+    const auto e = static_cast<Eigen::Index>(k);
+    slip.motion[k] = coordinate_motion(pair, pair.slip.coordinates[k], i, j, detail);
+    slip.arm[e] = pair.slip.arm[k];
+    slip.u[e] = slip.arm[e] * slip.motion[k].rate;
+  }
+  return slip;
+}
+
+/// @param bristle the pair's law with states, or null. @param s extra states.
 template <class T>
 ContactFriction<T> contact_friction(PairKind kind, const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
-                                    const NormalForce<T>& normal, CoordinateDetail detail) {
+                                    const NormalForce<T>& normal, const BristleContact* bristle, const VectorX<T>& s,
+                                    CoordinateDetail detail) {
+  const ContactSlip<T> slip = contact_slip(pair, i, j, detail);
+  const FrictionConstants<T>& f = pair.friction;
   ContactFriction<T> contact;
+  contact.motion = slip.motion;
   contact.normal = normal;
   contact.size = pair.slip.coordinates.size();
   contact.reported = kind == PairKind::kSpherical ? 3 : 2;
-  Vector3<T> u = Vector3<T>::Zero(), arm = Vector3<T>::Zero();
-  for (std::size_t k = 0; k < contact.size; ++k) {
-    const auto e = static_cast<Eigen::Index>(k);
-    contact.motion[k] = coordinate_motion(pair, pair.slip.coordinates[k], i, j, detail);
-    arm[e] = pair.slip.arm[k];
-    u[e] = arm[e] * contact.motion[k].rate;
+  IsotropicFriction<T, 3> law;
+  if (bristle) {
+    const Bristle<T> b = bristle_law<T>(*bristle, slip.u, s, f);
+    law = {normal.value * b.mu, normal.value * b.mu_u, b.mu};
+    for (Eigen::Index e = 0; e < 3; ++e) contact.by_zeta.row(e) = (slip.arm[e] * normal.value) * b.mu_zeta.row(e);
+    for (Eigen::Index e = 0; e < 3; ++e) contact.by_dwell[e] = slip.arm[e] * normal.value * b.mu_dwell[e];
+  } else {
+    law = isotropic_friction<T, 3>(slip.u, normal.value, f.mu_static, f.mu_dynamic, f.transition_velocity);
   }
-  const FrictionConstants<T>& f = pair.friction;
-  const IsotropicFriction<T, 3> law = isotropic_friction<T, 3>(u, normal.value, f.mu_static, f.mu_dynamic, f.transition_velocity);
   for (std::size_t k = 0; k < contact.size; ++k) {
     const auto e = static_cast<Eigen::Index>(k);
-    contact.load[e] = arm[e] * law.load[e] + pair.slip.viscous[k] * contact.motion[k].rate;
-    contact.by_normal[e] = arm[e] * law.by_normal[e];
-    for (Eigen::Index l = 0; l < 3; ++l) contact.by_rate(e, l) = arm[e] * law.by_slip(e, l) * arm[l];
+    contact.load[e] = slip.arm[e] * law.load[e] + pair.slip.viscous[k] * contact.motion[k].rate;
+    contact.by_normal[e] = slip.arm[e] * law.by_normal[e];
+    for (Eigen::Index l = 0; l < 3; ++l) contact.by_rate(e, l) = slip.arm[e] * law.by_slip(e, l) * slip.arm[l];
     contact.by_rate(e, e) += pair.slip.viscous[k];
   }
   return contact;

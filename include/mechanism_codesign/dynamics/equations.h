@@ -6,7 +6,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "mechanism_codesign/control/controller_constants.h"
+#include "mechanism_codesign/dynamics/bristle_law.h"
 #include "mechanism_codesign/dynamics/contact_friction.h"
+#include "mechanism_codesign/dynamics/inverse_dynamics.h"
 #include "mechanism_codesign/dynamics/sparsity.h"
 #include "mechanism_codesign/dynamics/state.h"
 #include "mechanism_codesign/dynamics/system.h"
@@ -29,7 +32,7 @@ struct FrictionState {
 /// The equations of motion of one design, with the scratch memory to evaluate them; doc/theory.md (14):
 ///   rows 0..n:      M a + Phi_q^T lambda - Q - Q_Af = 0
 ///   rows n..n+m:    Phi_q a + (Phi_q v)_q v = 0
-///   rows n+m..:     sigma - s' = 0
+///   rows n+m..:     sigma - s' = 0, integrals of controllers, then states of friction laws
 /// T: double, std::complex<double> or Lanes<N>; the same code gives values and every derivative. No allocation once warm; not thread-safe.
 template <class T>
 class Equations {
@@ -41,7 +44,8 @@ class Equations {
   const Constants<T>& constants() const { return constants_; }
   const std::vector<T>& parameters() const { return parameters_; }
   const PairRows<T>& rows(int pair) const { return rows_[static_cast<std::size_t>(pair)]; }
-  const T& setpoint(int controller) const { return setpoints_[static_cast<std::size_t>(controller)]; }
+  /// A controller's setpoint at the loaded state's time.
+  T setpoint(int controller) const { return controllers_[static_cast<std::size_t>(controller)].setpoint.at(state_->t).value; }
 
   /// Residual G (columns() rows) and the objective's integrand g at a state.
   void residual(const State<T>& state, VectorX<T>* G, T* g);
@@ -103,6 +107,8 @@ class Equations {
   template <class Sink>
   void assemble_contact(int pair, Sink* sink);
   template <class Sink>
+  void assemble_bristle(const BristleContact& contact, Sink* sink);
+  template <class Sink>
   void assemble_spring(std::size_t k, Sink* sink);
   template <class Sink>
   void assemble_states(Sink* sink);
@@ -115,6 +121,17 @@ class Equations {
   void body_residual(std::size_t b, VectorX<T>* G);
   void load_residual(const JointLoad& load, VectorX<T>* G);
   void contact_residual(int pair, VectorX<T>* G);
+  void bristle_residual(const BristleContact& contact, VectorX<T>* G);
+  ContactSlip<T> bristle_slip(const BristleContact& contact, CoordinateDetail detail) const;
+  /// The body whose turning the deflections follow, omega x zeta in their rate, though their axes do not; -1 if none.
+  int bristle_carrier(const BristleContact& contact) const;
+  Vector3<T> bristle_turn(const BristleContact& contact) const;
+  void append_bristle_slip(const BristleContact& contact, const ContactSlip<T>& slip, const Vector3<T>& by_u,
+                           SparseGradient<T>* gradient) const;
+  void append_bristle_states(const BristleContact& contact, const Vector3<T>& by_zeta, const T& by_dwell,
+                             SparseGradient<T>* gradient) const;
+  /// Gradient of factor . omega of a body.
+  void append_spin(int body, const Vector3<T>& factor, SparseGradient<T>* gradient) const;
   void add_spring_load(std::size_t k, const SpringForce<T>& force);
   /// Scalar load along a coordinate, positive against it; its gradient is appended.
   T joint_load(const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient);
@@ -142,8 +159,18 @@ class Equations {
   T contact_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
   T link_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
   T signal_value(const Signal& signal, const T& factor, SparseGradient<T>* gradient);
-  T objective_terms(const std::vector<ResolvedTerm>& terms, const std::vector<T>& weights, const std::vector<T>& references,
+  T objective_terms(const std::vector<ResolvedTerm>& terms, const std::vector<T>& weights, const std::vector<Reference<T>>& references,
                     SparseGradient<T>* gradient);
+
+  T controller_error_rate(int controller, const T& factor, SparseGradient<T>* gradient);
+  /// p e + i s + d e'.
+  T pid(int controller, SparseGradient<T>* gradient);
+  /// Load of the driven joint's tree; fills by_acceleration_ with the gradient.
+  T inverse_dynamics(int controller, const T* accelerations, SparseGradient<T>* gradient);
+  T computed_torque(int controller, SparseGradient<T>* gradient);
+  T wanted_acceleration(int controller, SparseGradient<T>* gradient);
+  T state_feedback(int controller, SparseGradient<T>* gradient);
+  T shaped_input(int controller, SparseGradient<T>* gradient);
 
   /// Global column of a local coordinate of a pair, or -1 on the ground.
   int column(int pair, int local) const { return columns_[static_cast<std::size_t>(pair)][static_cast<std::size_t>(local)]; }
@@ -159,8 +186,11 @@ class Equations {
   Constants<T> constants_;
   std::vector<PairRows<T>> rows_;
   std::vector<std::array<int, kLocalSize>> columns_;  ///< of each pair's local coordinates
-  std::vector<T> setpoints_, gains_p_, gains_i_, gains_d_;
-  std::vector<T> integral_weights_, integral_references_, terminal_weights_, terminal_references_;
+  std::vector<ControllerConstants<T>> controllers_;
+  std::vector<InverseDynamics<T>> inverse_dynamics_;  ///< one per controller
+  std::vector<T> accelerations_, by_acceleration_;    ///< of the nodes of one controller's tree
+  std::vector<T> integral_weights_, terminal_weights_;
+  std::vector<Reference<T>> integral_references_, terminal_references_;
   Vector3<T> gravity_;
   const State<T>* state_ = nullptr;
   State<T> constraint_state_;                  ///< scratch of constraint_errors()

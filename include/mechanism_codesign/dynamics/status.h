@@ -16,8 +16,9 @@ enum class StatusCode {
   kSingularMatrix,          ///< the augmented matrix lost its rank (a dead point, a lock-up)
   kStepSizeTooSmall,
   kTooManySteps,
-  kNonFinite,      ///< a value overflowed or became NaN
-  kInvalidDesign,  ///< the parameters give a mass, inertia or dimension that cannot be
+  kUnstableMotion,  ///< a body became faster than it has reason to be
+  kNonFinite,       ///< a value overflowed or became NaN
+  kInvalidDesign,   ///< the parameters give a mass, inertia or dimension that cannot be
 };
 
 /// Snake-case name, as sent over ROS and printed in JSON: "assembly_failed".

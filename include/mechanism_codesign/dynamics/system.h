@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "mechanism_codesign/control/signal.h"
+#include "mechanism_codesign/dynamics/bristle_law.h"
+#include "mechanism_codesign/dynamics/controller.h"
 #include "mechanism_codesign/dynamics/sparsity.h"
 #include "mechanism_codesign/dynamics/state.h"
 #include "mechanism_codesign/model/robot.h"
@@ -13,13 +15,6 @@
 #include "mechanism_codesign/model/topology.h"
 
 namespace codesign {
-
-/// A controller with its names resolved: u = p e + i s + d e', e = setpoint - input.
-struct Controller {
-  Signal input, input_rate;  ///< input_rate is empty without a d gain
-  int pair = -1, element = -1;
-  int state = -1;  ///< index of its integral among the extra states, or -1
-};
 
 /// One objective term, weight (signal - reference)^2.
 struct ResolvedTerm {
@@ -57,6 +52,10 @@ class System {
   const std::vector<JointLoad>& loads() const { return loads_; }
   /// Pairs with isotropic friction.
   const std::vector<int>& contacts() const { return contacts_; }
+  /// Contacts whose friction law has states.
+  const std::vector<BristleContact>& bristles() const { return bristles_; }
+  /// That of a load (of a contact: element -1); null if its law has no states.
+  const BristleContact* bristle(int pair, int element) const;
   const std::vector<ResolvedTerm>& integral() const { return integral_; }
   const std::vector<ResolvedTerm>& terminal() const { return terminal_; }
 
@@ -68,16 +67,22 @@ class System {
 
   double compliance() const { return compliance_; }
 
-  /// @throws InputError if a signal reads a coordinate that has no closed form (of a joint in a folded chain).
+  /// @throws InputError if a signal reads a coordinate that has no closed form (of a joint in a folded chain), or an integral that nobody
+  /// computes.
   void check_readable(const Signal& signal, const SignalDescription& description) const;
 
   /// Start values of all named parameters.
   std::vector<double> parameters() const;
+  /// All named parameters, the tuned ones at `rho` (order of Study::tuned), the others at their start values.
+  std::vector<double> parameters(const Eigen::VectorXd& rho) const;
 
  private:
   void lay_out();
   void resolve_controllers();
+  void check_signals() const;
   void collect_loads();
+  void collect_bristles();
+  void add_bristle(int pair, int element, int size);
   void find_coordinates();
   void refuse_load(int pair, int element) const;
   void check_couplings() const;
@@ -93,6 +98,7 @@ class System {
   std::vector<Controller> controllers_;
   std::vector<JointLoad> loads_;
   std::vector<int> contacts_;
+  std::vector<BristleContact> bristles_;
   std::vector<std::vector<bool>> has_coordinate_;  ///< per pair and chain element
   std::vector<ResolvedTerm> integral_, terminal_;
   ByVariable<Sparsity> patterns_;

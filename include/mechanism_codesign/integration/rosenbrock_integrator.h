@@ -5,7 +5,9 @@
 #include <functional>
 #include <vector>
 
+#include "mechanism_codesign/integration/break_times.h"
 #include "mechanism_codesign/integration/integrator.h"
+#include "mechanism_codesign/integration/motion_watch.h"
 #include "mechanism_codesign/integration/rosenbrock_step.h"
 #include "mechanism_codesign/integration/step_controller.h"
 
@@ -39,10 +41,12 @@ class RosenbrockIntegrator final : public Integrator {
 
   const System& system_;
   const SolverOptions& options_;
+  const BreakTimes breaks_;
   RosenbrockStep<double> step_;
   Assembly assembly_;
   State<double> initial_;
   StepController controller_;
+  MotionWatch watch_;
   double proposal_ = 0.0;
   Statistics statistics_;
 };

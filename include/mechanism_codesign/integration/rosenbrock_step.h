@@ -35,6 +35,8 @@ class RosenbrockStep {
   double error(double relative_tolerance, double absolute_tolerance) const;
   /// Takes the last attempt: projects and linearizes. False if the augmented matrix is singular there.
   bool accept();
+  /// Takes a solution up again where an accepted step ended, before its projection: what accept() made of it is made anew.
+  bool resume(const State<T>& unprojected);
 
   const State<T>& state() const { return state_; }  ///< at the end of the last accepted step, projected
   const T& psi() const { return psi_; }             ///< integral of g so far

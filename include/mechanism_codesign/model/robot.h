@@ -47,6 +47,7 @@ struct LinkDescription {
 /// Tree joints have URDF's types; `kSpherical` and those behind it exist as loops only.
 enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic, kPlanar, kFloating, kSpherical, kUniversal, kCylindrical, kDistance };
 
+/// Laws of the friction coefficient; Gonthier's and the LuGre model have states of their own.
 enum class FrictionModel { kBrownMcPhee, kGonthier, kLuGre };
 
 /// `<codesign:friction>`, see doc/annotations.md. SI units.
@@ -62,6 +63,9 @@ struct FrictionDescription {
   Quantity preload;                    ///< [N]
   Quantity smoothing{1e-3};            ///< epsilon [N]
   Quantity viscous;                    ///< [N s/m] or [N m s/rad]
+  Quantity bristle_stiffness{1e4};     ///< sigma_0 [1/m], per normal force; of the models with states
+  Quantity bristle_damping{10.0};      ///< sigma_1 [s/m], per normal force
+  Quantity dwell_time{2.0};            ///< tau_dw [s]; of Gonthier's model
   std::optional<std::array<double, 3>> transverse_axis;  ///< x'' in the joint frame
   SourceLocation where;
 };

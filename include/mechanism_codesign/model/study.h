@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "mechanism_codesign/model/basis.h"
 #include "mechanism_codesign/model/error.h"
 #include "mechanism_codesign/model/parameter.h"
 #include "mechanism_codesign/model/quantity.h"
+#include "mechanism_codesign/model/reference.h"
 
 namespace codesign {
 
@@ -42,21 +44,42 @@ struct InitialJointState {
   SourceLocation where;
 };
 
-/// output = p e + i int e dt + d de/dt, with e = setpoint - input.
+/// The laws of control; doc/theory.md (C3)-(C8).
+enum class ControllerKind {
+  kPid,             ///< p e + i int e dt + d de/dt, with e = setpoint - input
+  kPdGravity,       ///< p e + d de/dt + what holds the joint against gravity
+  kComputedTorque,  ///< inverse dynamics of the tree at the acceleration setpoint'' + d de/dt + p e
+  kStateFeedback,   ///< feedforward - sum gain (signal - reference)
+  kBasis            ///< a shaped function of time
+};
+
+/// Whether a law compares an input with a setpoint.
+constexpr bool has_error(ControllerKind kind) { return kind != ControllerKind::kStateFeedback && kind != ControllerKind::kBasis; }
+
+/// gain * (signal - reference)
+struct FeedbackTerm {
+  SignalDescription signal;
+  ReferenceDescription reference;
+  Quantity gain;
+};
+
 struct ControllerDescription {
   std::string name;
-  std::string type = "pid";
-  SignalDescription input;
-  Quantity setpoint;
-  std::string output;  ///< the joint it drives [N m or N]
+  ControllerKind kind = ControllerKind::kPid;
+  SignalDescription input;        ///< where has_error()
+  ReferenceDescription setpoint;  ///< where has_error()
+  std::string output;             ///< the joint it drives [N m or N]
   Quantity p, i, d;
+  ReferenceDescription feedforward;    ///< kStateFeedback
+  std::vector<FeedbackTerm> feedback;  ///< kStateFeedback
+  BasisDescription basis;              ///< kBasis
   SourceLocation where;
 };
 
 /// weight * (signal - reference)^2
 struct ObjectiveTerm {
   SignalDescription signal;
-  Quantity reference{0.0};
+  ReferenceDescription reference;
   Quantity weight{1.0};
   SourceLocation where;
 };
@@ -82,10 +105,12 @@ struct SolverOptions {
   std::string method = "rodas4";          ///< rosenbrock: rodas4, rodas4p2, rodas5p
   double relative_tolerance = 1e-6;
   double absolute_tolerance = 1e-7;
+  std::string gradient = "auto";       ///< rosenbrock: "direct", "adjoint", or the cheaper
   double sensitivity_tolerance = 0.0;  ///< rosenbrock: relative, of each parameter's sensitivities; 0: they stay out of the error test
   double initial_step = 0.0;           ///< [s]; 0: chosen
   double maximum_step = 0.0;           ///< [s]; 0: none
   int maximum_steps = 200000;
+  double maximum_speed = 0.0;  ///< of any body [m/s] and [rad/s]; 0: chosen, see MotionWatch
 };
 
 struct OptimizerOptions {

@@ -10,8 +10,9 @@ namespace codesign {
 
 /// Reads a study (YAML) strictly: an unknown, missing or repeated key is an error that names its path.
 /// The robot supplies parameter defaults and the names that may be referred to.
+/// @param loader reads trajectories that the study names in a bag; without one they are refused.
 /// @throws InputError naming file, line, path, value and allowed range.
-Study read_study(const SourceText& yaml, const RobotDescription& robot);
+Study read_study(const SourceText& yaml, const RobotDescription& robot, const TrajectoryLoader& loader = {});
 
 }  // namespace codesign
 

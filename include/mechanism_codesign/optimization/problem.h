@@ -45,9 +45,10 @@ Problem compile(Problem problem, const ParameterSettings& settings);
 
 /// Reads model, overlays and study, replaces parameter values by `settings` and compiles the equations of motion.
 /// A setting of a tuned parameter moves its start.
+/// @param loader reads trajectories that the study names in a bag; without one they are refused.
 /// @throws InputError for bad input, a setting of an unknown parameter, or one outside the parameter's bounds.
 Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
-                     const ParameterSettings& settings = {});
+                     const ParameterSettings& settings = {}, const TrajectoryLoader& loader = {});
 
 /// The mechanism alone: no parameter is tuned, nothing is controlled, and Study::duration is zero.
 Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& overlays, const ParameterSettings& settings = {});

@@ -29,6 +29,10 @@ class GradientEngine {
   virtual const Statistics& statistics() const = 0;
 };
 
+/// Whether the study's gradient is made backwards: where it asks for the adjoint, or leaves the choice and the adjoint is expected to be
+/// cheaper; doc/decisions/0018-adjoint.md.
+bool prefers_adjoint(const System& system);
+
 /// The engine of the study's integrator.
 std::unique_ptr<GradientEngine> make_gradient_engine(const System& system);
 

@@ -24,17 +24,26 @@ struct LaneRange {
   }
 };
 
+/// How many lanes to group, where it is not one per tuned parameter, and how many more each group keeps for itself.
+struct LaneCount {
+  int value = 0, reserved = 0;
+};
+
 /// All tuned parameters in groups: eight at a time; a last group of four or fewer takes the narrower kind.
 /// Group<N> is made from (system, LaneRange<N>, further arguments).
 template <template <int> class Group>
 class LaneGroups {
  public:
   template <class... Arguments>
-  explicit LaneGroups(const System& system, const Arguments&... arguments) {
-    const int count = static_cast<int>(system.study().tuned.size());
+  explicit LaneGroups(const System& system, const Arguments&... arguments)
+      : LaneGroups(LaneCount{static_cast<int>(system.study().tuned.size())}, system, arguments...) {}
+  template <class... Arguments>
+  LaneGroups(LaneCount lanes, const System& system, const Arguments&... arguments) {
+    const int count = lanes.value;
     int first = 0;
-    for (; count - first > 4; first += 8)
-      wide_.push_back(std::make_unique<Group<8>>(system, LaneRange<8>{first, std::min(8, count - first)}, arguments...));
+    const int wide = 8 - lanes.reserved;
+    for (; count - first > 4 - lanes.reserved; first += wide)
+      wide_.push_back(std::make_unique<Group<8>>(system, LaneRange<8>{first, std::min(wide, count - first)}, arguments...));
     if (first < count) narrow_.push_back(std::make_unique<Group<4>>(system, LaneRange<4>{first, count - first}, arguments...));
   }
 

@@ -1,0 +1,155 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/control/reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace codesign {
+namespace {
+
+template <class T>
+struct Knot {
+  T position{0.0}, velocity{0.0}, acceleration{0.0};
+};
+
+template <class T>
+std::vector<T> evaluate(const std::vector<Quantity>& quantities, const std::vector<T>& parameters) {
+  std::vector<T> values;
+  for (const Quantity& quantity : quantities) values.push_back(quantity.at(parameters));
+  return values;
+}
+
+// Slope of the parabola through a point and its neighbours; at rest at both ends.
+template <class T>
+void choose_velocities(const std::vector<double>& times, std::vector<Knot<T>>* knots) {
+  for (std::size_t k = 1; k + 1 < knots->size(); ++k) {
+    const double before = times[k] - times[k - 1], after = times[k + 1] - times[k], both = before + after;
+    const T left = ((*knots)[k].position - (*knots)[k - 1].position) / T(before);
+    const T right = ((*knots)[k + 1].position - (*knots)[k].position) / T(after);
+    (*knots)[k].velocity = (T(after) * left + T(before) * right) / T(both);
+  }
+}
+
+// Mean of what the cubic pieces on both sides would have; none at both ends.
+template <class T>
+void choose_accelerations(const std::vector<double>& times, std::vector<Knot<T>>* knots) {
+  std::vector<T> chosen(knots->size(), T(0.0));
+  for (std::size_t k = 1; k + 1 < knots->size(); ++k) {
+    const Knot<T>&a = (*knots)[k - 1], &b = (*knots)[k], &c = (*knots)[k + 1];
+    const T before(times[k] - times[k - 1]), after(times[k + 1] - times[k]);
+    const T left = (T(2.0) * a.velocity + T(4.0) * b.velocity - T(6.0) * (b.position - a.position) / before) / before;
+    const T right = (T(6.0) * (c.position - b.position) / after - T(4.0) * b.velocity - T(2.0) * c.velocity) / after;
+    chosen[k] = T(0.5) * (left + right);
+  }
+  for (std::size_t k = 0; k < knots->size(); ++k) (*knots)[k].acceleration = chosen[k];
+}
+
+/// Coefficients of the polynomial over a time h from one way-point to the next.
+template <class T>
+std::array<T, 6> polynomial(Interpolation interpolation, const Knot<T>& from, const Knot<T>& to, double duration) {
+  const T h(duration), zero(0.0), rise = to.position - from.position;
+  if (interpolation == Interpolation::kLinear) return {from.position, rise / h, zero, zero, zero, zero};
+  if (interpolation == Interpolation::kCubic)
+    return {from.position,
+            from.velocity,
+            (T(3.0) * rise / h - T(2.0) * from.velocity - to.velocity) / h,
+            (from.velocity + to.velocity - T(2.0) * rise / h) / (h * h),
+            zero,
+            zero};
+  // What the Taylor polynomial at the start misses at the end, in position, velocity and acceleration.
+  const T half = T(0.5) * from.acceleration;
+  const T D = rise - h * (from.velocity + h * half), V = h * (to.velocity - from.velocity - h * from.acceleration),
+          A = T(0.5) * h * h * (to.acceleration - from.acceleration), h3 = h * h * h;
+  return {from.position,
+          from.velocity,
+          half,
+          (T(10.0) * D - T(4.0) * V + A) / h3,
+          (T(7.0) * V - T(15.0) * D - T(2.0) * A) / (h3 * h),
+          (T(6.0) * D - T(3.0) * V + A) / (h3 * h * h)};
+}
+
+}  // namespace
+
+template <class T>
+Reference<T>::Reference(const ReferenceDescription& description, const std::vector<T>& parameters) : kind_(description.kind) {
+  switch (kind_) {
+    case ReferenceDescription::Kind::kConstant:
+      offset_ = description.constant.at(parameters);
+      break;
+    case ReferenceDescription::Kind::kSine: {
+      const SineDescription& sine = description.sine;
+      const T frequency = sine.frequency.at(parameters);
+      offset_ = sine.offset.at(parameters);
+      amplitude_ = sine.amplitude.at(parameters);
+      phase_ = sine.phase.at(parameters);
+      angular_frequency_ = sine.is_period ? T(2.0 * M_PI) / frequency : T(2.0 * M_PI) * frequency;
+      break;
+    }
+    case ReferenceDescription::Kind::kWaypoints:
+      set_waypoints(description.waypoints, parameters);
+      break;
+  }
+}
+
+template <class T>
+typename Reference<T>::Piece Reference<T>::hold(double start, const T& value) {
+  const T zero(0.0);
+  return {start, {value, zero, zero, zero, zero, zero}};
+}
+
+template <class T>
+void Reference<T>::set_waypoints(const WaypointsDescription& description, const std::vector<T>& parameters) {
+  const std::vector<double>& times = description.times;
+  std::vector<Knot<T>> knots(times.size());
+  const auto take = [&](const std::vector<Quantity>& quantities, T Knot<T>::*member) {
+    const std::vector<T> values = evaluate(quantities, parameters);
+    for (std::size_t k = 0; k < values.size(); ++k) knots[k].*member = values[k];
+  };
+  take(description.positions, &Knot<T>::position);
+  if (description.velocities.empty()) choose_velocities(times, &knots);
+  take(description.velocities, &Knot<T>::velocity);
+  if (description.accelerations.empty()) choose_accelerations(times, &knots);
+  take(description.accelerations, &Knot<T>::acceleration);
+  pieces_.push_back(hold(-std::numeric_limits<double>::infinity(), knots.front().position));
+  for (std::size_t k = 0; k + 1 < knots.size(); ++k)
+    pieces_.push_back({times[k], polynomial(description.interpolation, knots[k], knots[k + 1], times[k + 1] - times[k])});
+  pieces_.push_back(hold(times.back(), knots.back().position));
+}
+
+template <class T>
+ReferenceMotion<T> Reference<T>::at(double t) const {
+  using std::cos;
+  using std::sin;
+  ReferenceMotion<T> motion;
+  if (kind_ == ReferenceDescription::Kind::kConstant) {
+    motion.value = offset_;
+    return motion;
+  }
+  if (kind_ == ReferenceDescription::Kind::kSine) {
+    const T angle = angular_frequency_ * T(t) + phase_, s = amplitude_ * sin(angle), c = amplitude_ * cos(angle);
+    const T square = angular_frequency_ * angular_frequency_;
+    return {offset_ + s, angular_frequency_ * c, -(square * s), -(square * angular_frequency_ * c)};
+  }
+  const auto next = std::upper_bound(pieces_.begin(), pieces_.end(), t, [](double time, const Piece& piece) { return time < piece.start; });
+  const Piece& piece = *std::prev(next);
+  if (!std::isfinite(piece.start)) {
+    motion.value = piece.c[0];
+    return motion;
+  }
+  const T x(t - piece.start);
+  for (std::size_t k = piece.c.size(); k-- > 0;) {
+    motion.jerk = motion.jerk * x + T(3.0) * motion.acceleration;
+    motion.acceleration = motion.acceleration * x + T(2.0) * motion.rate;
+    motion.rate = motion.rate * x + motion.value;
+    motion.value = motion.value * x + piece.c[k];
+  }
+  return motion;
+}
+
+template class Reference<double>;
+template class Reference<std::complex<double>>;
+template class Reference<Lanes<4>>;
+template class Reference<Lanes<8>>;
+
+}  // namespace codesign

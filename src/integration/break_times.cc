@@ -1,0 +1,32 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/integration/break_times.h"
+
+#include <algorithm>
+
+namespace codesign {
+
+BreakTimes::BreakTimes(const Study& study) : apart_(1e-12 * study.duration) {
+  for (const ControllerDescription& controller : study.controllers) {
+    add(controller.setpoint);
+    add(controller.feedforward);
+    for (const FeedbackTerm& term : controller.feedback) add(term.reference);
+    const BasisDescription& basis = controller.basis;
+    // Every coefficient begins to act at a knot. A cubic spline is smooth there, but for where it ends.
+    for (int k = 0; k < basis.count() && basis.shape == BasisShape::kLinear; ++k) times_.push_back(basis.support(k)[0]);
+    if (basis.count() > 0) times_.push_back(basis.duration);
+  }
+  for (const ObjectiveTerm& term : study.integral) add(term.reference);
+  std::sort(times_.begin(), times_.end());
+}
+
+void BreakTimes::add(const ReferenceDescription& reference) {
+  if (reference.kind != ReferenceDescription::Kind::kWaypoints) return;
+  times_.insert(times_.end(), reference.waypoints.times.begin(), reference.waypoints.times.end());
+}
+
+double BreakTimes::next(double t, double limit) const {
+  const auto after = std::upper_bound(times_.begin(), times_.end(), t + apart_);
+  return after == times_.end() ? limit : std::min(*after, limit);
+}
+
+}  // namespace codesign

@@ -1,0 +1,102 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "study_references.h"
+
+#include "study_values.h"
+
+namespace codesign {
+namespace {
+
+ReferenceDescription read_sine(const YamlValue& value, const std::vector<Parameter>& parameters) {
+  value.require_keys({"type", "amplitude"}, {"frequency", "period", "phase", "offset"});
+  ReferenceDescription reference;
+  reference.kind = ReferenceDescription::Kind::kSine;
+  SineDescription& sine = reference.sine;
+  sine.amplitude = read_quantity(value.at("amplitude"), parameters);
+  const auto frequency = value.find("frequency"), period = value.find("period");
+  if (frequency.has_value() == period.has_value()) value.fail("a sine has either a frequency or a period", "frequency [Hz] or period [s]");
+  sine.is_period = period.has_value();
+  const YamlValue& pace = frequency ? *frequency : *period;
+  sine.frequency = read_quantity(pace, parameters);
+  if (!(sine.frequency.nominal() > 0.0)) pace.fail("not above zero", frequency ? "more than 0 Hz" : "more than 0 s");
+  if (const auto phase = value.find("phase")) sine.phase = read_quantity(*phase, parameters);
+  if (const auto offset = value.find("offset")) sine.offset = read_quantity(*offset, parameters);
+  return reference;
+}
+
+Interpolation read_interpolation(const YamlValue& value) {
+  const auto interpolation = value.find("interpolation");
+  const std::string name = interpolation ? interpolation->choice("interpolation", {"quintic", "cubic", "linear"}) : "quintic";
+  return name == "linear" ? Interpolation::kLinear : name == "cubic" ? Interpolation::kCubic : Interpolation::kQuintic;
+}
+
+void check_times(const std::vector<double>& times, const YamlValue& value) {
+  if (times.size() < 2) value.fail("a trajectory needs at least two way-points, found " + std::to_string(times.size()));
+  for (std::size_t k = 1; k < times.size(); ++k)
+    if (!(times[k - 1] < times[k])) value.fail("the times must ascend, and way-point " + std::to_string(k) + " does not come later");
+}
+
+std::vector<Quantity> read_list(const YamlValue& value, const std::string& key, std::size_t count,
+                                const std::vector<Parameter>& parameters) {
+  std::vector<Quantity> list;
+  const auto items = value.find(key);
+  if (!items) return list;
+  for (const YamlValue& item : items->items()) list.push_back(read_quantity(item, parameters));
+  if (list.size() != count)
+    items->fail("found " + std::to_string(list.size()) + " values for " + std::to_string(count) + " times", "one per time");
+  return list;
+}
+
+/// What the interpolation does not look at must not be given.
+void refuse_unused(const YamlValue& value, Interpolation interpolation) {
+  const auto velocities = value.find("velocities"), accelerations = value.find("accelerations");
+  if (velocities && interpolation == Interpolation::kLinear) velocities->fail("linear pieces have no use for velocities", "quintic, cubic");
+  if (accelerations && interpolation != Interpolation::kQuintic) accelerations->fail("only quintic pieces have accelerations", "quintic");
+}
+
+ReferenceDescription read_waypoints(const YamlValue& value, const std::vector<Parameter>& parameters) {
+  value.require_keys({"type", "times", "positions"}, {"velocities", "accelerations", "interpolation"});
+  ReferenceDescription reference;
+  reference.kind = ReferenceDescription::Kind::kWaypoints;
+  WaypointsDescription& points = reference.waypoints;
+  points.interpolation = read_interpolation(value);
+  refuse_unused(value, points.interpolation);
+  const YamlValue times = value.at("times");
+  for (const YamlValue& item : times.items()) points.times.push_back(item.number());
+  check_times(points.times, times);
+  points.positions = read_list(value, "positions", points.times.size(), parameters);
+  points.velocities = read_list(value, "velocities", points.times.size(), parameters);
+  points.accelerations = read_list(value, "accelerations", points.times.size(), parameters);
+  return reference;
+}
+
+ReferenceDescription read_trajectory(const YamlValue& value, const TrajectoryLoader& loader) {
+  value.require_keys({"type", "bag", "topic", "joint"}, {"interpolation"});
+  const std::string bag = value.at("bag").text(), topic = value.at("topic").text(), joint = value.at("joint").text();
+  if (!loader)
+    value.fail("a bag is read by the ROS nodes only; `rosrun mechanism_codesign trajectory_from_bag " + bag + " " + topic + " " + joint +
+                   "` prints the same trajectory as way-points",
+               "{type: waypoints, ...}");
+  const RecordedTrajectory recorded = loader({bag, topic, joint, value.where(), value.path()});
+  ReferenceDescription reference;
+  reference.kind = ReferenceDescription::Kind::kWaypoints;
+  WaypointsDescription& points = reference.waypoints;
+  points.interpolation = read_interpolation(value);
+  points.times = recorded.times;
+  check_times(points.times, value);
+  points.positions.assign(recorded.positions.begin(), recorded.positions.end());
+  if (points.interpolation != Interpolation::kLinear) points.velocities.assign(recorded.velocities.begin(), recorded.velocities.end());
+  if (points.interpolation == Interpolation::kQuintic)
+    points.accelerations.assign(recorded.accelerations.begin(), recorded.accelerations.end());
+  return reference;
+}
+
+}  // namespace
+
+ReferenceDescription read_reference(const YamlValue& value, const std::vector<Parameter>& parameters, const TrajectoryLoader& loader) {
+  if (!value.is_map()) return read_quantity(value, parameters);
+  const std::string type = value.at("type").choice("type of reference", {"sine", "waypoints", "trajectory"});
+  if (type == "sine") return read_sine(value, parameters);
+  return type == "waypoints" ? read_waypoints(value, parameters) : read_trajectory(value, loader);
+}
+
+}  // namespace codesign

@@ -1,0 +1,154 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sensitivity/adjoint_gradient.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace codesign {
+
+AdjointGradient::Backward::Backward(const System& system, const RosenbrockTableau& tableau)
+    : replay(system, tableau), adjoint(system, tableau), boundary(system), path(system.layout()) {
+  point.resize(system.layout());
+  final_adjoint.setZero(IncrementLayout(system.layout()).size());
+}
+
+AdjointGradient::AdjointGradient(const System& system, LanePlan plan) : system_(system), plan_(std::move(plan)), integrator_(system) {}
+
+// Memory for the way back is only taken by who asks for a gradient.
+Status AdjointGradient::start(const std::vector<double>& parameters, bool with_gradient) {
+  with_gradient_ = with_gradient;
+  Status status = integrator_.start(parameters);
+  if (!status.ok() || !with_gradient) return status;
+  if (!back_) {
+    back_.emplace(system_, integrator_.step().tableau());
+    share(plan_);
+  }
+  back_->path.clear();
+  back_->path.append(0.0, integrator_.initial_state());
+  back_->initial_turns = integrator_.equations().turn_references();
+  return status;
+}
+
+Status AdjointGradient::advance(double limit) {
+  Status status = integrator_.advance(limit);
+  if (status.ok() && with_gradient_) back_->path.append(integrator_.step().step_size(), integrator_.step().unprojected());
+  return status;
+}
+
+double AdjointGradient::objective() { return integrator_.psi() + integrator_.equations().terminal(integrator_.state(), nullptr); }
+
+// The adjoint of the last state is the terminal terms' gradient.
+void AdjointGradient::prepare() {
+  const std::vector<double>& parameters = integrator_.equations().parameters();
+  const IncrementLayout at(system_.layout());
+  VectorX<double>& adjoint = back_->final_adjoint;
+  back_->terminal.clear();
+  integrator_.equations().terminal(integrator_.state(), &back_->terminal);
+  adjoint.setZero();
+  adjoint[at.psi()] = 1.0;
+  for (const auto& e : back_->terminal.position) adjoint[at.x() + e.column] += e.value;
+  for (const auto& e : back_->terminal.velocity) adjoint[at.v() + e.column] += e.value;
+  for (const auto& e : back_->terminal.rate) adjoint[at.z() + e.column] += e.value;
+  back_->adjoint.start(parameters, adjoint);
+  back_->replay.equations().set_design(parameters);
+  back_->replay.equations().turn_references() = integrator_.equations().turn_references();
+  back_->parameters->for_each([&](auto* lanes) { lanes->start(parameters); });
+}
+
+/// Makes the step that began at point k once more, but not beyond the last point.
+bool AdjointGradient::replay(int k) {
+  RosenbrockStep<double>& step = back_->replay;
+  if (k == 0) {
+    step.start(back_->point);
+  } else if (!step.resume(back_->point)) {
+    return false;
+  }
+  // Backwards too, positions continue the nearest.
+  step.equations().track_turns(step.state());
+  return k + 1 == back_->path.size() || step.attempt(back_->path.step_size(k + 1));
+}
+
+bool AdjointGradient::step_back(int k) {
+  AdjointStep& adjoint = back_->adjoint;
+  back_->path.point(k, &back_->point);
+  if (!replay(k)) return false;
+  const RosenbrockStep<double>& step = back_->replay;
+  const bool has_stages = k + 1 < back_->path.size(), is_projected = k > 0;
+  adjoint.clear();
+  if (has_stages) adjoint.reverse_stages(step);
+  if (is_projected) adjoint.reverse_projection(back_->point, step);
+  adjoint.reverse_matrices(back_->point, step);
+  back_->parameters->for_each([&](auto* lanes) {
+    if (has_stages) lanes->add_stages(adjoint, step.equations());
+    if (is_projected) lanes->add_projection(adjoint);
+    lanes->add_matrices(back_->point, adjoint, step.equations());
+  });
+  return true;
+}
+
+// The start depends on the design, and so do the terminal terms' weights and references: each parameter has its lane here.
+void AdjointGradient::add_boundaries(Eigen::VectorXd* gradient) {
+  const IncrementLayout at(system_.layout());
+  const VectorX<double>& adjoint = back_->adjoint.adjoint();
+  Equations<Lanes<8>>& equations = back_->boundary;
+  const int count = static_cast<int>(gradient->size());
+  for (int first = 0; first < count; first += 8) {
+    const LaneRange<8> range{first, std::min(8, count - first)};
+    const std::vector<Lanes<8>> seeded = range.seed(system_, integrator_.equations().parameters());
+    State<Lanes<8>>& state = back_->boundary_state;
+    equations.set_design(seeded);
+    equations.turn_references() = back_->initial_turns;
+    integrator_.assembly().extend(seeded, integrator_.initial_state(), &equations, &state);
+    auto sum = gradient->segment(first, range.count);
+    const auto add = [&](const VectorX<Lanes<8>>& part, int column) {
+      for (Eigen::Index k = 0; k < part.size(); ++k) sum += adjoint[column + k] * part[k].directions().head(range.count);
+    };
+    add(state.q, at.x());
+    add(state.s, at.s());
+    add(state.v, at.v());
+    add(state.z, at.z());
+    const State<double>& end = integrator_.state();
+    equations.turn_references() = integrator_.equations().turn_references();
+    state.t = end.t;
+    state.q = end.q.cast<Lanes<8>>();
+    state.v = end.v.cast<Lanes<8>>();
+    state.s = end.s.cast<Lanes<8>>();
+    state.z = end.z.cast<Lanes<8>>();
+    sum += equations.terminal(state, nullptr).directions().head(range.count);
+  }
+}
+
+void AdjointGradient::share(LanePlan plan) {
+  plan_ = std::move(plan);
+  back_->parameters.emplace(LaneCount{plan_.lanes, 1}, system_, plan_);
+}
+
+bool AdjointGradient::plan_holds() {
+  bool holds = true;
+  back_->parameters->for_each([&](const auto* lanes) { holds = holds && lanes->plan_holds(); });
+  return holds;
+}
+
+bool AdjointGradient::go_back() {
+  prepare();
+  for (int k = back_->path.size(); k-- > 0;)
+    if (!step_back(k)) return false;
+  return true;
+}
+
+void AdjointGradient::gradient(Eigen::VectorXd* gradient) {
+  gradient->setZero(static_cast<Eigen::Index>(system_.study().tuned.size()));
+  bool done = go_back();
+  if (done && !plan_holds()) {
+    share(unshared_lanes(system_));
+    done = go_back();
+  }
+  if (!done) {
+    gradient->setConstant(std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
+  back_->parameters->for_each([&](auto* lanes) { lanes->collect(gradient); });
+  add_boundaries(gradient);
+}
+
+}  // namespace codesign

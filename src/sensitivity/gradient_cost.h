@@ -1,0 +1,28 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SRC_SENSITIVITY_GRADIENT_COST_H_
+#define MECHANISM_CODESIGN_SRC_SENSITIVITY_GRADIENT_COST_H_
+
+namespace codesign {
+
+// What a gradient costs, in simulations: measured on mechanisms of 3 to 16 bodies, doc/decisions/0018-adjoint.md. Lanes come eight or four
+// at a time.
+
+/// Direct sensitivities of so many parameters.
+inline double direct_cost(int parameters) {
+  constexpr double kSimulation = 1.0, kEight = 7.5, kFour = 4.2;
+  double cost = kSimulation;
+  for (; parameters > 4; parameters -= 8) cost += kEight;
+  return parameters > 0 ? cost + kFour : cost;
+}
+
+/// The adjoint, whose parameters share so many lanes; one lane of each group watches the others.
+inline double adjoint_cost(int lanes) {
+  constexpr double kThereAndBack = 5.0, kEight = 4.8, kFour = 4.0;
+  double cost = kThereAndBack;
+  for (; lanes > 3; lanes -= 7) cost += kEight;
+  return lanes > 0 ? cost + kFour : cost;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SRC_SENSITIVITY_GRADIENT_COST_H_

@@ -1,0 +1,14 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_ALLOCATION_COUNT_H_
+#define MECHANISM_CODESIGN_TEST_ALLOCATION_COUNT_H_
+
+#include <cstdint>
+
+namespace codesign {
+
+/// How often this program asked for memory so far: malloc and its kin, which operator new and Eigen call.
+std::int64_t allocations();
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_TEST_ALLOCATION_COUNT_H_

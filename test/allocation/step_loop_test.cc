@@ -1,0 +1,84 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// No memory is asked for in the loop over time steps, once a first run has shown how much is needed.
+#include "allocation/count.h"
+#include "mechanism_codesign/integration/integrator.h"
+#include "sensitivity/gradient_cases.h"
+
+namespace codesign {
+namespace {
+
+using Parameter = std::tuple<std::size_t, const char*>;
+
+class StepLoop : public ::testing::TestWithParam<Parameter> {
+ protected:
+  const GradientCase test = gradient_cases().at(std::get<0>(GetParam()));
+  const char* const method = std::get<1>(GetParam());
+};
+
+/// Steps to the end; how often memory was asked for on the way.
+template <class Stepper, class Time>
+std::int64_t allocations_of_steps(Stepper* stepper, double duration, const Time& time) {
+  Status status;
+  const std::int64_t before = allocations();
+  while (status.ok() && time() < duration) status = stepper->advance(duration);
+  const std::int64_t count = allocations() - before;
+  EXPECT_TRUE(status.ok()) << status.cause;
+  return count;
+}
+
+TEST_P(StepLoop, OfASimulationAsksForNoMemory) {
+  const auto system = test.compile(method, "direct");
+  const auto integrator = make_integrator(*system);
+  for (const bool warm : {false, true}) {
+    ASSERT_TRUE(integrator->start(system->parameters()).ok());
+    const std::int64_t count = allocations_of_steps(integrator.get(), test.study.duration, [&] { return integrator->state().t; });
+    if (warm) {
+      EXPECT_EQ(count, 0);
+    }
+  }
+}
+
+TEST_P(StepLoop, OfAGradientAsksForNoMemory) {
+  for (const char* gradient : {"direct", "adjoint"}) {
+    const auto system = test.compile(method, gradient);
+    const auto engine = make_gradient_engine(*system);
+    Eigen::VectorXd result;
+    for (const bool warm : {false, true}) {
+      ASSERT_TRUE(engine->start(system->parameters(), true).ok());
+      const std::int64_t count = allocations_of_steps(engine.get(), test.study.duration, [&] { return engine->time(); });
+      engine->gradient(&result);
+      if (warm) {
+        EXPECT_EQ(count, 0) << gradient;
+      }
+    }
+  }
+}
+
+/// Memory asked for by gradient() after a run that ended at `time`.
+std::int64_t allocations_of_way_back(GradientEngine* engine, const System& system, double time) {
+  Eigen::VectorXd result;
+  EXPECT_TRUE(engine->start(system.parameters(), true).ok());
+  allocations_of_steps(engine, time, [&] { return engine->time(); });
+  const std::int64_t before = allocations();
+  engine->gradient(&result);
+  return allocations() - before;
+}
+
+// The design is set up anew on each way back; its steps cost nothing.
+TEST_P(StepLoop, BackwardsAsksForNoMoreMemoryOnALongerWay) {
+  const auto system = test.compile(method, "adjoint");
+  const auto engine = make_gradient_engine(*system);
+  allocations_of_way_back(engine.get(), *system, test.study.duration);
+  const std::int64_t all = allocations_of_way_back(engine.get(), *system, test.study.duration);
+  EXPECT_EQ(allocations_of_way_back(engine.get(), *system, 0.25 * test.study.duration), all);
+}
+
+INSTANTIATE_TEST_SUITE_P(Mechanisms, StepLoop,
+                         ::testing::Combine(::testing::Range(std::size_t{0}, gradient_cases().size()),
+                                            ::testing::Values("rodas4", "rodas5p")),
+                         [](const auto& instance) {
+                           return gradient_cases().at(std::get<0>(instance.param)).name + "_" + std::get<1>(instance.param);
+                         });
+
+}  // namespace
+}  // namespace codesign

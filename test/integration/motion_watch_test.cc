@@ -1,0 +1,76 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/integration/motion_watch.h"
+
+#include <gtest/gtest.h>
+
+#include "integration/servo.h"
+
+namespace codesign {
+namespace {
+
+/// A pendulum of one second, turning at `rate` [rad/s] at some time.
+struct Watched {
+  explicit Watched(const std::string& solver, const std::string& controllers = "{}")
+      : system(compile(pendulum(), "duration: 1\ncontrollers: " + controllers +
+                                       "\nparameters: {}\nobjective: {integral: [{signal: hinge/position}]}\nsolver: " + solver + "\n")),
+        equations(*system),
+        watch(*system) {
+    equations.set_design({});
+    start.resize(system->layout());
+    start.q[2] = -0.5;
+    start.q[3] = 1.0;
+    watch.start(equations, start);
+  }
+
+  Status check(double time, double rate, std::int64_t work) {
+    State<double> state = start;
+    state.t = time;
+    state.v[5] = 0.5 * rate;
+    return watch.check(state, work);
+  }
+
+  std::shared_ptr<const System> system;
+  Equations<double> equations;
+  MotionWatch watch;
+  State<double> start;
+};
+
+// A fall through 0.5 m is sqrt(2 g / 0.5 m) = 6.3 rad/s: 63 rad/s are beyond reason, and so is a pace of 1e6 steps per second.
+TEST(MotionWatch, EndsWhatIsBothTooFastAndTooMuchWork) {
+  Watched slow("{}"), quick("{}"), neither("{}");
+  EXPECT_TRUE(slow.check(5e-4, 60.0, 600).ok());
+  EXPECT_TRUE(quick.check(0.5, 70.0, 600).ok());
+  const Status status = Watched("{}").check(5e-4, 70.0, 600);
+  EXPECT_EQ(status.code, StatusCode::kUnstableMotion);
+  EXPECT_EQ(status.time, 5e-4);
+  EXPECT_NE(status.cause.find("link 'bar' turns at 70 rad/s"), std::string::npos) << status.cause;
+  EXPECT_NE(status.cause.find("solver.maximum_speed"), std::string::npos) << status.cause;
+}
+
+TEST(MotionWatch, JudgesThePaceOfTheLastStepsAlone) {
+  Watched watched("{}");
+  EXPECT_TRUE(watched.check(1e-5, 0.0, 600).ok());
+  EXPECT_TRUE(watched.check(0.5, 70.0, 1200).ok());
+  EXPECT_TRUE(watched.check(0.5001, 70.0, 1600).ok()) << "a window of 400 steps is too short to tell";
+  EXPECT_EQ(watched.check(0.5001, 70.0, 1800).code, StatusCode::kUnstableMotion);
+}
+
+TEST(MotionWatch, SpeedsAskedForAreWithinReason) {
+  const char* const spindle = "{motor: {type: pid, input: hinge/velocity, setpoint: 50, output: hinge, gains: {p: 1}}}";
+  EXPECT_TRUE(Watched("{}", spindle).check(5e-4, 490.0, 600).ok());
+  EXPECT_FALSE(Watched("{}", spindle).check(5e-4, 510.0, 600).ok());
+}
+
+TEST(MotionWatch, MoreStepsMayBeAllowed) { EXPECT_TRUE(Watched("{maximum_steps: 100000000}").check(5e-4, 70.0, 600).ok()); }
+
+TEST(MotionWatch, ASpeedGivenIsTheBoundAtOnce) {
+  Watched watched("{maximum_speed: 20}");
+  EXPECT_TRUE(watched.check(0.1, 19.0, 5).ok());
+  const Status status = watched.check(0.1, 21.0, 6);
+  EXPECT_EQ(status.code, StatusCode::kUnstableMotion);
+  EXPECT_NE(status.cause.find("beyond 20"), std::string::npos) << status.cause;
+  EXPECT_TRUE(Watched("{maximum_speed: 1000}").check(5e-4, 900.0, 600).ok());
+}
+
+}  // namespace
+}  // namespace codesign

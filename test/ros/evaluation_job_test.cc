@@ -1,0 +1,56 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "mechanism_codesign/ros/job.h"
+#include "pendulum.h"
+
+namespace codesign {
+namespace {
+
+using mechanism_codesign::EvaluateRequest;
+
+class EvaluationJob : public testing::Test {
+ protected:
+  mechanism_codesign::EvaluateResponse run(const EvaluateRequest& request) { return run_evaluation(pendulum(), request, cancel_); }
+  std::atomic<bool> cancel_{false};
+};
+
+TEST_F(EvaluationJob, GivesObjectiveAndGradientAtTheStart) {
+  const auto reply = run(EvaluateRequest());
+  EXPECT_TRUE(reply.success) << reply.message;
+  EXPECT_EQ(reply.values, (std::vector<double>{0.5, 1.0}));
+  EXPECT_GT(reply.objective, 0.0);
+  EXPECT_EQ(reply.gradient.size(), 2U);
+  EXPECT_TRUE(reply.reference.empty());
+}
+
+TEST_F(EvaluationJob, TheObjectiveAloneIsTheSame) {
+  EvaluateRequest request;
+  request.objective_only = 1;
+  const auto reply = run(request);
+  EXPECT_TRUE(reply.gradient.empty());
+  EXPECT_NEAR(reply.objective, run(EvaluateRequest()).objective, 1e-6 * reply.objective);
+}
+
+TEST_F(EvaluationJob, ChecksItsGradient) {
+  for (const auto& [check, tolerance] : {std::pair<const char*, double>{"complex_step", 1e-9}, {"ridders", 1e-4}}) {
+    EvaluateRequest request;
+    request.check = check;
+    const auto reply = run(request);
+    ASSERT_TRUE(reply.success) << reply.message;
+    ASSERT_EQ(reply.reference.size(), 2U);
+    for (int k : {0, 1}) EXPECT_NEAR(reply.gradient[k], reply.reference[k], tolerance * std::abs(reply.reference[k])) << check;
+    EXPECT_LT(reply.largest_relative_difference, tolerance);
+  }
+}
+
+TEST_F(EvaluationJob, AnUnknownCheckNamesTheNearest) {
+  EvaluateRequest request;
+  request.check = "complexstep";
+  const auto reply = run(request);
+  EXPECT_EQ(reply.code, "bad_input");
+  EXPECT_NE(reply.message.find("complex_step"), std::string::npos) << reply.message;
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,92 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <ros/time.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/JointState.h>
+
+#include "mechanism_codesign/ros/job.h"
+#include "pendulum.h"
+#include "temporary_directory.h"
+
+namespace codesign {
+namespace {
+
+using mechanism_codesign::OptimizeGoal;
+
+class OptimizationJob : public testing::Test {
+ protected:
+  OptimizationJob() { ros::Time::init(); }
+
+  OptimizationOutcome run(const OptimizeGoal& request = OptimizeGoal(), const ProgressObserver& observer = {}) {
+    return run_optimization(pendulum(), "the study", request, {directory_.path().string(), 20.0}, observer, cancel_);
+  }
+
+  bool left_nothing() const { return std::filesystem::is_empty(directory_.path()); }
+
+  TemporaryDirectory directory_;
+  std::atomic<bool> cancel_{false};
+};
+
+TEST_F(OptimizationJob, ImprovesAndReportsEveryTrial) {
+  unsigned trials = 0;
+  const auto result = run(OptimizeGoal(), [&](const mechanism_codesign::OptimizationProgress& progress) {
+                        EXPECT_EQ(progress.evaluation, ++trials);
+                      }).result;
+  EXPECT_TRUE(result.success) << result.message;
+  EXPECT_EQ(result.code, "success");
+  EXPECT_EQ(result.parameters, (std::vector<std::string>{"length", "Kp"}));
+  EXPECT_EQ(result.initial, (std::vector<double>{0.5, 1.0}));
+  EXPECT_LT(result.objective, result.initial_objective);
+  EXPECT_EQ(result.tuned.size(), 2U);
+  EXPECT_EQ(result.gradient.size(), 2U);
+  EXPECT_EQ(result.evaluations, trials);
+  EXPECT_FALSE(result.termination.empty());
+}
+
+TEST_F(OptimizationJob, TheTunedDescriptionHasTheTunedParameters) {
+  const OptimizationOutcome outcome = run();
+  const RobotDescription robot = read_urdf({"tuned", outcome.tuned_urdf});
+  ASSERT_EQ(robot.parameters[0].name, "length");
+  EXPECT_EQ(robot.parameters[0].value, outcome.result.tuned[0]);
+}
+
+TEST_F(OptimizationJob, TheBagHoldsBothRuns) {
+  rosbag::Bag bag(run().result.bag);
+  for (const std::string topic : {"initial/joint_states", "tuned/joint_states"}) {
+    rosbag::View view(bag, rosbag::TopicQuery(topic));
+    EXPECT_EQ(view.size(), 11U);  // 0.5 s at 20 a second
+    const auto first = view.begin()->instantiate<sensor_msgs::JointState>();
+    EXPECT_EQ(first->name, std::vector<std::string>{"hinge"});
+    EXPECT_NEAR(first->position.at(0), 0.5, 1e-12);
+  }
+}
+
+TEST_F(OptimizationJob, ACancelledOneKeepsItsBestPointAndIsRecorded) {
+  const auto result = run(OptimizeGoal(), [&](const mechanism_codesign::OptimizationProgress& progress) {
+                        if (progress.evaluation == 2) cancel_ = true;
+                      }).result;
+  EXPECT_FALSE(result.success);
+  EXPECT_EQ(result.code, "cancelled");
+  EXPECT_LE(result.objective, result.initial_objective);
+  EXPECT_TRUE(std::filesystem::exists(result.bag));
+}
+
+TEST_F(OptimizationJob, ABadRequestIsAnAnswerAndLeavesNothing) {
+  OptimizeGoal request;
+  request.algorithm = "newton_raphson";
+  const auto result = run(request).result;
+  EXPECT_FALSE(result.success);
+  EXPECT_EQ(result.code, "bad_input");
+  EXPECT_NE(result.message.find("newton_raphson"), std::string::npos) << result.message;
+  EXPECT_TRUE(left_nothing());
+}
+
+TEST_F(OptimizationJob, AnOutputDirectoryThatCannotBeMadeIsAnAnswer) {
+  const auto result = run_optimization(pendulum(), "", OptimizeGoal(), {"/dev/null/bags", 20.0}, {}, cancel_).result;
+  EXPECT_FALSE(result.success);
+  EXPECT_EQ(result.code, "output_failed");
+}
+
+}  // namespace
+}  // namespace codesign

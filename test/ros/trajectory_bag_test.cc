@@ -1,0 +1,105 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/ros/trajectory_bag.h"
+
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <std_msgs/String.h>
+#include <trajectory_msgs/JointTrajectory.h>
+
+#include "pendulum.h"
+#include "temporary_directory.h"
+
+namespace codesign {
+namespace {
+
+/// A bag with a trajectory of two joints on `arm`, one without velocities, two for one joint on `twice`, and a text on `words`.
+class TrajectoryBag : public testing::Test {
+ protected:
+  TrajectoryBag() {
+    rosbag::Bag bag((directory_.path() / "moves.bag").string(), rosbag::bagmode::Write);
+    trajectory_msgs::JointTrajectory message;
+    message.joint_names = {"elbow", "hinge"};
+    for (int k = 0; k < 3; ++k) {
+      trajectory_msgs::JointTrajectoryPoint point;
+      point.time_from_start = ros::Duration(0.25 * k);
+      point.positions = {9.0, 0.5 + 0.1 * k};
+      point.velocities = {9.0, 0.01 * k};
+      message.points.push_back(point);
+    }
+    const ros::Time time(1.0);
+    bag.write("arm", time, message);
+    bag.write("twice", time, message);
+    bag.write("twice", time, message);
+    bag.write("words", time, std_msgs::String());
+    message.points[1].velocities.clear();
+    bag.write("gaps", time, message);
+    message.points[1].positions.clear();
+    bag.write("empty", time, message);
+  }
+
+  RecordedTrajectory load(const std::string& topic, const std::string& joint, const std::string& bag = "moves.bag") const {
+    return bag_trajectory_loader(directory_.path().string())({bag, topic, joint, {"study.yaml", 4}, "setpoint"});
+  }
+  InputFault fault(const std::string& topic, const std::string& joint, const std::string& bag = "moves.bag") const {
+    try {
+      load(topic, joint, bag);
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.fault().where.line, 4);
+      return error.fault();
+    }
+    ADD_FAILURE() << "accepted";
+    return {};
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(TrajectoryBag, GivesTheWaypointsOfOneJoint) {
+  const RecordedTrajectory trajectory = load("arm", "hinge");
+  EXPECT_EQ(trajectory.times, (std::vector<double>{0.0, 0.25, 0.5}));
+  EXPECT_EQ(trajectory.positions, (std::vector<double>{0.5, 0.6, 0.7}));
+  EXPECT_EQ(trajectory.velocities, (std::vector<double>{0.0, 0.01, 0.02}));
+  EXPECT_TRUE(trajectory.accelerations.empty());
+  EXPECT_TRUE(load("gaps", "hinge").velocities.empty());
+}
+
+TEST_F(TrajectoryBag, WhatIsNotThereIsSaid) {
+  EXPECT_NE(fault("arm", "wrist").message.find("no trajectory on this topic names the joint"), std::string::npos);
+  EXPECT_EQ(fault("arm", "wrist").element, "setpoint.joint");
+  EXPECT_NE(fault("leg", "hinge").message.find("no message on this topic"), std::string::npos);
+  EXPECT_NE(fault("words", "hinge").message.find("std_msgs/String"), std::string::npos);
+  EXPECT_NE(fault("twice", "hinge").message.find("2 trajectories name the joint"), std::string::npos);
+  EXPECT_NE(fault("empty", "hinge").message.find("no positions"), std::string::npos);
+  EXPECT_NE(fault("arm", "hinge", "lost.bag").message.find("cannot be read"), std::string::npos);
+}
+
+TEST_F(TrajectoryBag, ARelativePathNeedsAFolder) {
+  Inputs inputs;
+  inputs.study = {(directory_.path() / "study.yaml").string(), ""};
+  EXPECT_EQ(study_folder(inputs), directory_.path().string());
+  inputs.study_is_tree = true;
+  EXPECT_EQ(study_folder(inputs), "");
+  const TrajectoryLoader loader = bag_trajectory_loader("");
+  EXPECT_THROW(loader({"moves.bag", "arm", "hinge", {}, ""}), InputError);
+  EXPECT_EQ(loader({(directory_.path() / "moves.bag").string(), "arm", "hinge", {}, ""}).times.size(), 3U);
+}
+
+TEST_F(TrajectoryBag, AStudyFollowsIt) {
+  std::string study = kPendulumStudy;
+  study.replace(study.find("setpoint: 0.0"), 13, "setpoint: {type: trajectory, bag: moves.bag, topic: arm, joint: hinge}");
+  const Problem problem =
+      load_problem({"pendulum.urdf", kPendulumUrdf}, {}, {"pendulum.yaml", study}, {}, bag_trajectory_loader(directory_.path().string()));
+  Simulation simulation(problem.system, problem.parameters());
+  std::vector<double> setpoints;
+  simulate(&simulation, 0.5, 3, [&setpoints](const Frame& frame) {
+    setpoints.push_back(frame.controllers.at(0).setpoint);
+    return true;
+  });
+  ASSERT_EQ(setpoints.size(), 3U);
+  EXPECT_NEAR(setpoints[0], 0.5, 1e-12);
+  EXPECT_NEAR(setpoints[1], 0.6, 1e-12);
+  EXPECT_NEAR(setpoints[2], 0.7, 1e-12);
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,95 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_SENSITIVITY_GRADIENT_CASES_H_
+#define MECHANISM_CODESIGN_TEST_SENSITIVITY_GRADIENT_CASES_H_
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "benchmark/mechanisms.h"
+#include "integration/servo.h"
+#include "mechanism_codesign/sensitivity/gradient_engine.h"
+#include "system/shipped.h"
+
+namespace codesign {
+
+/// A mechanism and a study that has a gradient.
+struct GradientCase {
+  std::string name;
+  RobotDescription robot;
+  Study study;
+
+  std::shared_ptr<const System> compile(const std::string& method, const std::string& gradient) const {
+    Study changed = study;
+    changed.solver.method = method;
+    changed.solver.gradient = gradient;
+    return make_system(robot, changed);
+  }
+};
+
+inline GradientCase from_texts(const std::string& name, const std::string& urdf, const std::string& study) {
+  const RobotDescription robot = read_urdf({name + ".urdf", urdf});
+  return {name, robot, read_study({name + ".yaml", study}, robot)};
+}
+
+inline GradientCase shipped_case(const std::string& name, double duration) {
+  const Shipped shipped(name);
+  GradientCase result{name, shipped.robot, shipped.study};
+  result.study.duration = duration;
+  result.study.solver.relative_tolerance = 1e-6;
+  result.study.solver.absolute_tolerance = 1e-7;
+  // The adjoint follows steps that no sensitivity has a say in.
+  result.study.solver.sensitivity_tolerance = 0.0;
+  return result;
+}
+
+/// A parallelogram with three constraints too many, so that its multipliers come from compliance.
+inline GradientCase four_bar_case() {
+  std::string urdf = four_bar(pin_friction());
+  const std::string plain = "<mass value='1'/>";
+  urdf.replace(urdf.find(plain), plain.size(), "<mass value='1' codesign:value='${mass}'/>");
+  urdf.insert(urdf.find("<link name='ground'/>"), "<codesign:parameter name='mass' value='1' lower='0.5' upper='2'/>");
+  return from_texts(
+      "four_bar", urdf,
+      "duration: 0.4\ninitial_state: {left_hinge: {position: 0.4}, right_hinge: {guess: 0.4}}\nparameters: {mass: {}, torque: {initial: "
+      "2.0}}\n"
+      "controllers: {motor: {type: pid, input: left_hinge/velocity, setpoint: \"${torque}\", output: left_hinge, gains: {p: 0.7}}}\n"
+      "objective: {integral: [{signal: left_hinge/velocity}, {signal: left_hinge/friction, weight: 0.1}],\n"
+      "  terminal: [{signal: coupler/position/z, weight: \"${mass}\"}]}\n");
+}
+
+inline std::vector<GradientCase> gradient_cases() {
+  const GeneratedCase chain = parametric_chain(6, 24);
+  GradientCase chain_case = from_texts("chain", chain.urdf.text, chain.study.text);
+  chain_case.study.duration = 0.1;
+  return {shipped_case("slider_crank_haug", 0.3),
+          shipped_case("inverted_pendulum", 0.2),
+          shipped_case("governor", 0.05),
+          from_texts("servo", double_pendulum(pin_friction()), servo_study("{}")),
+          four_bar_case(),
+          chain_case};
+}
+
+/// One gradient, with its objective.
+struct GradientRun {
+  Status status;
+  double objective = 0.0;
+  Eigen::VectorXd gradient;
+  std::int64_t steps = 0;
+};
+
+inline GradientRun run_gradient(GradientEngine* engine, const System& system, const std::vector<double>& parameters,
+                                bool with_gradient = true) {
+  GradientRun run;
+  run.status = engine->start(parameters, with_gradient);
+  while (run.status.ok() && engine->time() < system.study().duration) run.status = engine->advance(system.study().duration);
+  if (!run.status.ok()) return run;
+  run.objective = engine->objective();
+  if (with_gradient) engine->gradient(&run.gradient);
+  run.steps = engine->statistics().steps;
+  return run;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_TEST_SENSITIVITY_GRADIENT_CASES_H_

@@ -1,0 +1,79 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_SENSITIVITY_SERVO_STEPS_H_
+#define MECHANISM_CODESIGN_TEST_SENSITIVITY_SERVO_STEPS_H_
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "integration/servo.h"
+#include "sensitivity/adjoint_step.h"
+
+namespace codesign {
+
+/// Three steps of the servo with their tangent for its five parameters, the points between them, and the way back.
+struct ServoSteps {
+  static constexpr double kSize = 2e-3;
+
+  explicit ServoSteps(const std::string& method)
+      : tableau(*rosenbrock_tableau(method)),
+        step(*system, tableau),
+        tangent(*system, tableau),
+        adjoint(*system, tableau),
+        assembly(*system) {
+    step.equations().set_design(parameters);
+    EXPECT_TRUE(assembly.solve(parameters, &step.equations(), &initial).ok());
+    step.start(initial);
+    std::vector<Lanes<8>> lanes(parameters.begin(), parameters.end());
+    for (std::size_t k = 0; k < lanes.size(); ++k) lanes[k].v[static_cast<int>(k)] = 1.0;
+    tangent.start(lanes, assembly, initial, step);
+    begin = tangent.directions();
+    points.push_back(initial);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_TRUE(step.attempt(kSize));
+      tangent.attempt(step);
+      EXPECT_TRUE(step.accept());
+      tangent.accept(step);
+      points.push_back(step.unprojected());
+    }
+    end = tangent.directions();
+  }
+
+  /// The adjoint at the start of one at the end. @param visit called with each point's index after its step has been reversed.
+  template <class Visit>
+  const VectorX<double>& back(const VectorX<double>& last, const Visit& visit) {
+    adjoint.start(parameters, last);
+    for (std::size_t k = points.size(); k-- > 0;) {
+      adjoint.clear();
+      if (k == 0) {
+        step.start(points[k]);
+      } else {
+        EXPECT_TRUE(step.resume(points[k]));
+      }
+      if (k + 1 < points.size()) {
+        EXPECT_TRUE(step.attempt(kSize));
+        adjoint.reverse_stages(step);
+      }
+      if (k > 0) adjoint.reverse_projection(points[k], step);
+      adjoint.reverse_matrices(points[k], step);
+      visit(k);
+    }
+    return adjoint.adjoint();
+  }
+
+  const std::shared_ptr<const System> system = servo("{}");
+  const std::vector<double> parameters = system->parameters();
+  const RosenbrockTableau& tableau;
+  RosenbrockStep<double> step;
+  TangentStep<8> tangent;
+  AdjointStep adjoint;
+  Assembly assembly;
+  State<double> initial;
+  std::vector<State<double>> points;
+  Directions<8> begin, end;  ///< y_rho
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_TEST_SENSITIVITY_SERVO_STEPS_H_
