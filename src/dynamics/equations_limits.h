@@ -17,7 +17,7 @@ T Equations<T>::applied_effort(const JointLoad& load, SparseGradient<T>* gradien
   for (int controller : load.controllers) demand += controller_output(controller, gradient);
   if (!load.saturated) return demand;
   const T& limit = constants_.pairs[static_cast<std::size_t>(load.pair)].dynamics[static_cast<std::size_t>(load.element)].effort;
-  const Saturation<T> applied = saturate(demand, limit);
+  const SaturatedEffort<T> applied = saturate(demand, limit);
   if (gradient) gradient->scale_from(before, applied.slope);
   return applied.value;
 }

@@ -10,7 +10,7 @@ namespace codesign {
 
 /// A bounded effort and its slope.
 template <class T>
-struct Saturation {
+struct SaturatedEffort {
   T value{0.0};  ///< [of u]
   T slope{0.0};  ///< d value / d u, in (0, 1]
 };
@@ -19,7 +19,7 @@ struct Saturation {
 /// Odd and analytic; gain 1 up to terms of order (u/u_max)^8; never reaches u_max.
 /// @param u effort asked for, @param u_max > 0 the largest it can give, in the same unit.
 template <class T>
-Saturation<T> saturate(const T& u, const T& u_max) {
+SaturatedEffort<T> saturate(const T& u, const T& u_max) {
   using std::sqrt;
   const auto eighth_root = [](const T& x) { return sqrt(sqrt(sqrt(x))); };
   const T x = u / u_max;
