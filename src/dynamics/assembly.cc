@@ -286,6 +286,7 @@ void Assembly::correct(const Dependents& dependents, const VectorX<T>& rows, Vec
 template <class T>
 void Assembly::extend(const std::vector<T>& parameters, const State<double>& start, Equations<T>* equations, State<T>* state) const {
   state->resize(system_.layout());
+  state->t = start.t;
   VectorX<T> theta = theta_.template cast<T>(), rate = theta_rate_.template cast<T>(), Phi, Phi_rate;
   for (const InitialJointState& initial : system_.study().initial_state) {
     const int joint = joint_named(system_.robot(), initial.joint);

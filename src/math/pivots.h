@@ -23,7 +23,7 @@ LuPattern eliminate_pattern(const Pivots& pivots, const std::vector<int>& column
 /// How many products the elimination takes.
 std::int64_t count_products(const LuPattern& pattern);
 
-/// The cheapest of what KLU proposes with several orderings and pivot thresholds for a matrix with these values; nothing if it is singular.
+/// The cheapest of what KLU proposes with several orderings for a matrix with these values; nothing if it is singular.
 std::optional<LuPattern> choose_pivots(const std::vector<int>& column_start, const std::vector<int>& row_index, const double* values);
 
 }  // namespace codesign

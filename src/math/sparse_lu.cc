@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mechanism_codesign/math/sparse_lu.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -13,27 +14,34 @@ namespace {
 constexpr double kLargestMultiplier = 1e6;
 // Ratio of pivots below which the matrix is singular to working precision.
 constexpr double kSingular = 1e-17;
+constexpr std::size_t kMostSchedules = 4;
 
 }  // namespace
 
 struct SparseLu::Implementation {
   std::vector<int> starts, rows;
-  std::optional<LuSchedule> schedule;
+  std::vector<LuSchedule> schedules;  ///< the one in use last
   std::int64_t full_factorizations = 0;
 
+  LuSchedule& schedule() { return schedules.back(); }
+
+  // A mechanism that moves to and fro comes back to pivots that once served.
   bool refactor(const double* values) {
-    if (!schedule) return false;
-    const LuSchedule::Quality quality = schedule->refactor(values);
-    return quality.growth <= kLargestMultiplier && quality.pivot_ratio > kSingular;
+    for (std::size_t tried = 0; tried < schedules.size(); ++tried) {
+      const LuSchedule::Quality quality = schedule().refactor(values);
+      if (quality.growth <= kLargestMultiplier && quality.pivot_ratio > kSingular) return true;
+      std::rotate(schedules.begin(), schedules.end() - 1, schedules.end());
+    }
+    return false;
   }
 
   bool factor(const double* values) {
     ++full_factorizations;
-    schedule.reset();
     const std::optional<LuPattern> pattern = choose_pivots(starts, rows, values);
     if (!pattern) return false;
-    schedule.emplace(*pattern, starts, rows);
-    const double ratio = schedule->refactor(values).pivot_ratio;
+    if (schedules.size() == kMostSchedules) schedules.erase(schedules.begin());
+    schedules.emplace_back(*pattern, starts, rows);
+    const double ratio = schedule().refactor(values).pivot_ratio;
     return std::isfinite(ratio) && ratio > kSingular;
   }
 };
@@ -52,12 +60,12 @@ bool SparseLu::factor(const double* values) { return implementation_->refactor(v
 
 template <int N>
 void SparseLu::solve_rows(double* x) const {
-  implementation_->schedule->solve<N>(x);
+  implementation_->schedule().solve<N>(x);
 }
 
 template <int N>
 void SparseLu::solve_transposed_rows(double* x) const {
-  implementation_->schedule->solve_transposed<N>(x);
+  implementation_->schedule().solve_transposed<N>(x);
 }
 
 std::int64_t SparseLu::full_factorizations() const { return implementation_->full_factorizations; }

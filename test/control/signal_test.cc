@@ -16,7 +16,15 @@ struct Fixture {
       joint_with("pitch", "continuous", "fork", "arm", "<axis xyz='0 1 0'/>") +
       joint_with("mount", "fixed", "arm", "camera", "<origin xyz='0 0 1'/>") + joint_with("grip", "continuous", "arm", "finger")));
   Topology topology = derive_topology(robot);
-  std::vector<ControllerDescription> controllers = {{"hold", "pid", {}, 0.0, "pitch", 1.0, 0.0, 0.0, {}}};
+  std::vector<ControllerDescription> controllers = {hold()};
+
+  static ControllerDescription hold() {
+    ControllerDescription controller;
+    controller.name = "hold";
+    controller.output = "pitch";
+    controller.p = 1.0;
+    return controller;
+  }
 
   Signal resolve(const std::string& text) const {
     return resolve_signal(parse_signal(text, {"s.yaml", 4}, "signal"), robot, topology, controllers);

@@ -62,11 +62,11 @@ TEST(Gonthier, DirectionMeetsItsParabola) {
 
 TEST(Gonthier, SaturationIsContinuous) {
   const Eigen::Vector3d x(0.3, -0.4, 0.0);
-  EXPECT_EQ(saturate<double>(x, 0.5).value, x);
-  EXPECT_NEAR((saturate<double>(x, 0.5 * (1.0 - 1e-13)).value - x).norm(), 0.0, 1e-12);
-  EXPECT_NEAR((saturate<double>(x, 0.25).value - 0.5 * x).norm(), 0.0, 1e-16);
-  EXPECT_EQ(saturate<double>(Eigen::Vector3d::Zero(), 0.0).value.norm(), 0.0);
-  EXPECT_EQ(saturate<double>(x, 0.0).value.norm(), 0.0);
+  EXPECT_EQ(cut_off<double>(x, 0.5).value, x);
+  EXPECT_NEAR((cut_off<double>(x, 0.5 * (1.0 - 1e-13)).value - x).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((cut_off<double>(x, 0.25).value - 0.5 * x).norm(), 0.0, 1e-16);
+  EXPECT_EQ(cut_off<double>(Eigen::Vector3d::Zero(), 0.0).value.norm(), 0.0);
+  EXPECT_EQ(cut_off<double>(x, 0.0).value.norm(), 0.0);
 }
 
 TEST(Gonthier, DoesNotDependOnTheDirection) {

@@ -43,6 +43,13 @@ TEST(SparseLu, FallsBackWhenOldPivotsVanish) {
   lu.solve(x.data());
   EXPECT_LT((m * x - b).norm(), 1e-12);
   EXPECT_EQ(lu.full_factorizations(), 2);
+
+  // Both sets of pivots are known now.
+  for (double corner : {1e8, 4.0}) {
+    ASSERT_TRUE(lu.factor(matrix(corner).data()));
+    ASSERT_TRUE(lu.factor(m.data()));
+  }
+  EXPECT_EQ(lu.full_factorizations(), 2);
 }
 
 TEST(SparseLu, ReportsSingularMatrices) {

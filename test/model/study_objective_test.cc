@@ -19,11 +19,11 @@ TEST(StudyObjective, ReadsTerms) {
   ASSERT_EQ(study.integral.size(), 1U);
   EXPECT_EQ(study.integral[0].signal.terms.at(0).object, "speed");
   EXPECT_EQ(study.integral[0].weight.nominal(), 0.01);
-  EXPECT_EQ(study.integral[0].reference.nominal(), 0.0);
+  EXPECT_EQ(study.integral[0].reference.constant.nominal(), 0.0);
   ASSERT_EQ(study.terminal.size(), 1U);
   EXPECT_EQ(study.terminal[0].weight.nominal(), 1.0);
-  EXPECT_EQ(study.terminal[0].reference.nominal(), 0.3);
-  EXPECT_FALSE(study.terminal[0].reference.is_constant());
+  EXPECT_EQ(study.terminal[0].reference.constant.nominal(), 0.3);
+  EXPECT_FALSE(study.terminal[0].reference.constant.is_constant());
   EXPECT_EQ(study.terminal[0].where.line, 3);
 }
 

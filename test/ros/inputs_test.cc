@@ -94,9 +94,11 @@ TEST(RequireEveryParameter, TheShippedStudiesTuneTheSameAsATree) {
     const Inputs tree = as_tree(urdf.text, study.text);
     const Problem problem = load(tree);
     EXPECT_NO_THROW(require_every_parameter(tree, problem.robot)) << entry.path();
-    std::vector<std::string> from_file = load_problem(urdf, {}, study).tuned_names();
+    // XML-RPC sorts by name.
+    std::vector<std::string> from_file = load_problem(urdf, {}, study).tuned_names(), from_tree = problem.tuned_names();
     std::sort(from_file.begin(), from_file.end());
-    EXPECT_EQ(problem.tuned_names(), from_file) << entry.path() << ": XML-RPC sorts by name";
+    std::sort(from_tree.begin(), from_tree.end());
+    EXPECT_EQ(from_tree, from_file) << entry.path();
     ++studies;
   }
   EXPECT_GE(studies, 2);

@@ -65,6 +65,8 @@ inline std::vector<GradientCase> gradient_cases() {
   return {shipped_case("slider_crank_haug", 0.3),
           shipped_case("inverted_pendulum", 0.2),
           shipped_case("governor", 0.05),
+          shipped_case("two_link_arm", 0.3),
+          shipped_case("gantry", 0.5),
           from_texts("servo", double_pendulum(pin_friction()), servo_study("{}")),
           four_bar_case(),
           chain_case};

@@ -11,7 +11,8 @@ namespace codesign {
 /// LU factorization of square sparse matrices that share one pattern: ordered and pivoted once, refactored numerically afterwards.
 ///
 /// KLU proposes orders and pivots, of which the cheapest is taken. A refactorization follows a list of its operations, without any search;
-/// when a multiplier grows beyond 1e6 or a pivot vanishes, the old pivots are distrusted and they are chosen anew. Not thread-safe.
+/// when a multiplier grows beyond 1e6 or a pivot vanishes, pivots that served earlier are tried, and then they are chosen anew. Not
+/// thread-safe.
 class SparseLu {
  public:
   /// @param column_start, row_index compressed-column pattern of an n x n matrix.
