@@ -9,7 +9,7 @@ namespace codesign {
 
 /// Direct sensitivities of so many parameters.
 inline double direct_cost(int parameters) {
-  constexpr double kSimulation = 1.0, kEight = 7.5, kFour = 4.2;
+  constexpr double kSimulation = 1.0, kEight = 2.4, kFour = 1.7;
   double cost = kSimulation;
   for (; parameters > 4; parameters -= 8) cost += kEight;
   return parameters > 0 ? cost + kFour : cost;
@@ -17,7 +17,7 @@ inline double direct_cost(int parameters) {
 
 /// The adjoint, whose parameters share so many lanes; one lane of each group watches the others.
 inline double adjoint_cost(int lanes) {
-  constexpr double kThereAndBack = 5.0, kEight = 4.8, kFour = 4.0;
+  constexpr double kThereAndBack = 4.2, kEight = 2.6, kFour = 1.5;
   double cost = kThereAndBack;
   for (; lanes > 3; lanes -= 7) cost += kEight;
   return lanes > 0 ? cost + kFour : cost;
