@@ -16,8 +16,8 @@ struct LuPattern {
 
 /// The refactorization and the triangular solves for one LuPattern, as flat lists of what to do.
 ///
-/// All factors lie in one array, row after row: the entries of L, the inverse pivot, the entries of U. Rows, because a triangular solve then
-/// reads the array from end to end and keeps its sums in registers.
+/// All factors lie in one array, row after row: the entries of L, the inverse pivot, the entries of U. Rows, because a triangular solve
+/// then reads the array from end to end and keeps its sums in registers.
 class LuSchedule {
  public:
   /// @param column_start, row_index pattern of A.
