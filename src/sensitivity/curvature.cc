@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sensitivity/lane_state.h"
+
 namespace codesign {
 
 template <int N>
@@ -36,21 +38,6 @@ void Curvature<N>::set(int k, const VectorX<double>& u, const VectorX<double>& m
 }
 
 template <int N>
-void Curvature<N>::load(const State<double>& at, const Directions<N>& directions) {
-  const auto load = [&directions](const VectorX<double>& value, int first, VectorX<Lanes<N>>* lanes) {
-    for (Eigen::Index k = 0; k < value.size(); ++k) {
-      (*lanes)[k].a = value[k];
-      (*lanes)[k].directions() = directions.col(first + k);
-    }
-  };
-  state_.t = at.t;
-  load(at.q, at_.x(), &state_.q);
-  load(at.s, at_.s(), &state_.s);
-  load(at.v, at_.v(), &state_.v);
-  load(at.z, at_.z(), &state_.z);
-}
-
-template <int N>
 void Curvature<N>::add_transposed(const Sparsity& pattern, const std::vector<Lanes<N>>& values, int first_column) {
   for (int row = 0; row < pattern.rows; ++row)
     for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
@@ -60,7 +47,7 @@ void Curvature<N>::add_transposed(const Sparsity& pattern, const std::vector<Lan
 template <int N>
 void Curvature<N>::add_state_gradient(const State<double>& at, const Equations<double>& equations, VectorX<double>* adjoint) {
   equations_.turn_references() = equations.turn_references();
-  load(at, u_);
+  load_lanes(at_, at, u_, &state_);
   equations_.linearize(state_, &derivatives_);
   products_.setZero();
   const ByVariable<Sparsity>& patterns = system_.patterns();
@@ -76,7 +63,7 @@ void Curvature<N>::add_time_gradient(const State<double>& at, const VectorX<doub
     const int count = std::min(N, at_.psi() - first);
     units_.setZero();
     for (int k = 0; k < count; ++k) units_(k, first + k) = 1.0;
-    load(at, units_);
+    load_lanes(at_, at, units_, &state_);
     equations_.linearize(state_, &derivatives_);
     for (Eigen::Index row = 0; row < weights.size(); ++row)
       adjoint->segment(first, count) += weights[row] * derivatives_.time[row].directions().head(count);

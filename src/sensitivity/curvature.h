@@ -34,7 +34,6 @@ class Curvature {
   void add_weights(ByVariable<std::vector<double>>* weights) const;
 
  private:
-  void load(const State<double>& at, const Directions<N>& directions);
   void add_transposed(const Sparsity& pattern, const std::vector<Lanes<N>>& values, int first_column);
   void add_weights(const Sparsity& pattern, int first_column, std::vector<double>* weights) const;
 

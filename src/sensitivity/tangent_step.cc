@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mechanism_codesign/dynamics/row_product.h"
+#include "sensitivity/lane_state.h"
 
 namespace codesign {
 
@@ -27,17 +28,7 @@ TangentStep<N>::TangentStep(const System& system, const RosenbrockTableau& table
 
 template <int N>
 void TangentStep<N>::load_lanes(const State<double>& values, const Directions<N>& directions) {
-  const auto load = [&directions](const VectorX<double>& value, int first, VectorX<Lanes<N>>* lanes) {
-    for (Eigen::Index k = 0; k < value.size(); ++k) {
-      (*lanes)[k].a = value[k];
-      (*lanes)[k].directions() = directions.col(first + k);
-    }
-  };
-  state_.t = values.t;
-  load(values.q, at_.x(), &state_.q);
-  load(values.s, at_.s(), &state_.s);
-  load(values.v, at_.v(), &state_.v);
-  load(values.z, at_.z(), &state_.z);
+  codesign::load_lanes(at_, values, directions, &state_);
 }
 
 template <int N>

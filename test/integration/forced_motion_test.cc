@@ -2,8 +2,8 @@
 // Equations that depend on time through setpoints and references: order, both integrators, gradients.
 #include <gtest/gtest.h>
 
+#include "integration/equal_steps.h"
 #include "integration/servo.h"
-#include "mechanism_codesign/dynamics/assembly.h"
 #include "mechanism_codesign/integration/rosenbrock_step.h"
 #include "mechanism_codesign/sensitivity/evaluation.h"
 
@@ -44,15 +44,7 @@ std::shared_ptr<const System> smoothly_forced() {
 class ForcedStep : public ::testing::TestWithParam<const char*> {
  protected:
   Eigen::VectorXd run(double span, int count) {
-    Assembly assembly(*system);
-    State<double> initial;
-    step.equations().set_design(system->parameters());
-    EXPECT_TRUE(assembly.solve(system->parameters(), &step.equations(), &initial).ok());
-    step.start(initial);
-    for (int k = 0; k < count; ++k) {
-      EXPECT_TRUE(step.attempt(span / count));
-      EXPECT_TRUE(step.accept());
-    }
+    take_equal_steps(*system, span, count, &step);
     Eigen::VectorXd end(2 * system->layout().n + 2);
     end << step.state().q, step.state().v, step.state().s, step.psi();
     return end;

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "integration/equal_steps.h"
 #include "integration/servo.h"
-#include "mechanism_codesign/dynamics/assembly.h"
 
 namespace codesign {
 namespace {
@@ -16,15 +16,7 @@ class RosenbrockStepTest : public ::testing::TestWithParam<const char*> {
 
   /// The state after a span in `count` equal steps.
   State<double> run(double span, int count) {
-    Assembly assembly(*system);
-    State<double> initial;
-    step.equations().set_design(system->parameters());
-    EXPECT_TRUE(assembly.solve(system->parameters(), &step.equations(), &initial).ok());
-    step.start(initial);
-    for (int k = 0; k < count; ++k) {
-      EXPECT_TRUE(step.attempt(span / count));
-      EXPECT_TRUE(step.accept());
-    }
+    take_equal_steps(*system, span, count, &step);
     return step.state();
   }
 };

@@ -1,0 +1,27 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SRC_SENSITIVITY_LANE_STATE_H_
+#define MECHANISM_CODESIGN_SRC_SENSITIVITY_LANE_STATE_H_
+
+#include "mechanism_codesign/sensitivity/tangent_step.h"
+
+namespace codesign {
+
+/// Values and directions side by side: state = values + sum over the lanes of directions.row(lane), laid out as IncrementLayout says.
+template <int N>
+void load_lanes(const IncrementLayout& at, const State<double>& values, const Directions<N>& directions, State<Lanes<N>>* state) {
+  const auto load = [&directions](const VectorX<double>& value, int first, VectorX<Lanes<N>>* lanes) {
+    for (Eigen::Index k = 0; k < value.size(); ++k) {
+      (*lanes)[k].a = value[k];
+      (*lanes)[k].directions() = directions.col(first + k);
+    }
+  };
+  state->t = values.t;
+  load(values.q, at.x(), &state->q);
+  load(values.s, at.s(), &state->s);
+  load(values.v, at.v(), &state->v);
+  load(values.z, at.z(), &state->z);
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SRC_SENSITIVITY_LANE_STATE_H_

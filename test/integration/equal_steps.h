@@ -1,0 +1,27 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_INTEGRATION_EQUAL_STEPS_H_
+#define MECHANISM_CODESIGN_TEST_INTEGRATION_EQUAL_STEPS_H_
+
+#include <gtest/gtest.h>
+
+#include "mechanism_codesign/dynamics/assembly.h"
+#include "mechanism_codesign/integration/rosenbrock_step.h"
+
+namespace codesign {
+
+/// Assembles a system and takes a span in `count` equal steps.
+inline void take_equal_steps(const System& system, double span, int count, RosenbrockStep<double>* step) {
+  Assembly assembly(system);
+  State<double> initial;
+  step->equations().set_design(system.parameters());
+  EXPECT_TRUE(assembly.solve(system.parameters(), &step->equations(), &initial).ok());
+  step->start(initial);
+  for (int k = 0; k < count; ++k) {
+    EXPECT_TRUE(step->attempt(span / count));
+    EXPECT_TRUE(step->accept());
+  }
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_TEST_INTEGRATION_EQUAL_STEPS_H_
