@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-const std::vector<double> kTolerances = {1e-4, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 1e-9};
+const std::vector<double> kTolerances = {1e-4, 6e-5, 3e-5, 2e-5, 1e-5, 6e-6, 3e-6, 2e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 1e-9};
 constexpr std::size_t kDefaultTolerance = 3;  // a study's default, 1e-6
 
 Contestant sundials(const Problem& problem, const std::string& name, SundialsMatrix matrix, const Reference& reference) {

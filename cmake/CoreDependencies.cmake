@@ -30,3 +30,12 @@ endfunction()
 
 codesign_import(muparserx mpParser.h muparserx muparserx)
 codesign_import(klu klu.h suitesparse klu amd colamd btf suitesparseconfig)
+
+# Sparse factorizations are compiled to machine code with it; without it, and on other processors, loops do their work.
+find_path(XBYAK_INCLUDE_DIR xbyak/xbyak.h)
+mark_as_advanced(XBYAK_INCLUDE_DIR)
+add_library(codesign_xbyak INTERFACE IMPORTED)
+if(CODESIGN_MACHINE_CODE AND XBYAK_INCLUDE_DIR AND CMAKE_SYSTEM_PROCESSOR STREQUAL x86_64)
+  target_include_directories(codesign_xbyak SYSTEM INTERFACE ${XBYAK_INCLUDE_DIR})
+  target_compile_definitions(codesign_xbyak INTERFACE CODESIGN_MACHINE_CODE)
+endif()

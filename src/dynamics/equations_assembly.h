@@ -39,14 +39,14 @@ namespace internal {
 /// Coincident points: Phi = (r_j + A_j s_j) - (r_i + A_i s_i), theory (5); one side's share.
 template <class T, class Sink>
 void assemble_coincidence(const BodyKinematics<T>& body, const Vector3<T>& s, double sign, int body_column, int row, Sink* sink) {
-  const VectorJacobian<T> J = vector_jacobian<T>(body, T(sign) * s);
+  const VectorJacobian<T> J = vector_jacobian<T>(body, sign * s);
   for (int l = 0; l < 3; ++l) {
     sink->rate(row + l, body_column + l, T(sign));
     sink->rate(body_column + l, row + l, T(sign));
     for (int c = 0; c < 4; ++c) {
       const int p = body_column + 3 + c;
       sink->position(row + l, p, J.Bdd(l, c));
-      sink->velocity(row + l, p, T(T(2.0) * J.Bd(l, c)));
+      sink->velocity(row + l, p, T(2.0 * J.Bd(l, c)));
       sink->rate(row + l, p, J.B(l, c));
       sink->rate(p, row + l, J.B(l, c));
     }
@@ -117,7 +117,8 @@ void Equations<T>::assemble_product(int index, const ProductRow<T>& product, con
   const VectorMotion<T>&x = shared.of(product.X), &y = shared.of(product.Y);
   ProductGradient<T> g;
   internal::row_gradient(product, shared, x, y, fixed, &g);
-  const T scale(product.scale), twice(2.0 * product.scale), lambda = scale * state_->z[row];
+  const double scale = product.scale, twice = 2.0 * product.scale;
+  const T lambda = scale * state_->z[row];
   add_product_load(product.X, product.Y, x, y, lambda, load_on(pair.body_i), load_on(pair.body_j));
   for (int local = 0; local < kLocalSize; ++local) {
     const Side side = local < kBodySize ? Side::kI : Side::kJ;
@@ -134,7 +135,7 @@ void Equations<T>::assemble_product(int index, const ProductRow<T>& product, con
     for (int l = 0; l < product.Y.terms; ++l) {
       const VectorTerm<T>&a = product.X.term[k], &b = product.Y.term[l];
       if (fixed[static_cast<int>(a.side)] || fixed[static_cast<int>(b.side)]) continue;
-      term_hessian<T>(a, shared.jacobian_of(a).B, b, shared.jacobian_of(b).B, lambda * T(a.sign * b.sign), add);
+      term_hessian<T>(a, shared.jacobian_of(a).B, b, shared.jacobian_of(b).B, lambda * (a.sign * b.sign), add);
     }
 }
 
@@ -154,7 +155,7 @@ void Equations<T>::assemble_body(std::size_t b, Sink* sink) {
       sink->rate(p + row, p + c, inertia.by_pdd(row, c));
     }
     sink->position(norm, p + row, k.pdd[row]);
-    sink->velocity(norm, p + row, T(T(2.0) * k.pd[row]));
+    sink->velocity(norm, p + row, T(2.0 * k.pd[row]));
     sink->rate(norm, p + row, k.p[row]);
     sink->rate(p + row, norm, k.p[row]);
   }

@@ -49,8 +49,7 @@ void Equations<T>::contact_residual(int pair, VectorX<T>* G) {
 template <class T>
 template <class Sink>
 void Equations<T>::assemble_contact(int pair, Sink* sink) {
-  const Pair& p = system_.topology().pairs[static_cast<std::size_t>(pair)];
-  const PairConstants<T>& constants = constants_.pairs[static_cast<std::size_t>(pair)];
+  const auto& slip = constants_.pairs[static_cast<std::size_t>(pair)].slip.coordinates;
   const ContactFriction<T> c = contact(pair);
   for (std::size_t k = 0; k < c.size; ++k) {
     gradient_.clear();
@@ -59,11 +58,7 @@ void Equations<T>::assemble_contact(int pair, Sink* sink) {
       const int row = column(pair, local);
       if (row >= 0 && (local % kBodySize >= 3 || slip_moves_r(pair, k))) add_row(row, c.motion[k].J[local], gradient_, sink);
     }
-    coordinate_load_gradient(constants, constants.slip.coordinates[k], body(p.body_i), body(p.body_j), c.load[static_cast<Eigen::Index>(k)],
-                             [&](int r, int local_column, const T& entry) {
-                               const int row = column(pair, r), global_column = column(pair, local_column);
-                               if (row >= 0 && global_column >= 0) sink->position(row, global_column, entry);
-                             });
+    assemble_load_curvature(pair, slip[k], c.load[static_cast<Eigen::Index>(k)], sink);
   }
 }
 

@@ -58,7 +58,7 @@ void Equations<T>::assemble_coupling(std::size_t k, Sink* sink) {
       sink->rate(row, c, T(coefficient * motion.J[local]));
       sink->rate(c, row, T(coefficient * motion.J[local]));
     }
-    assemble_load_curvature(term.pair, term.element, coefficient * state_->z[row], sink);
+    assemble_load_curvature(term.pair, coordinate_constants(term.pair, term.element), coefficient * state_->z[row], sink);
   }
 }
 

@@ -90,7 +90,7 @@ void Equations<T>::append_normal_gradient(int pair, const Vector3<T>& F, const V
     for (int k = 0; k < 3; ++k) add(row + k, in_ground[k]);
     if (body_i >= 0) {
       const Vector3<T> lambda = state_->z.template segment<3>(row);
-      const Vector4<T> by_p = rotation_hessian<T>(lambda * in_body.transpose()) * body(body_i).p;
+      const Vector4<T> by_p = rotation_hessian_product<T>(lambda * in_body.transpose(), body(body_i).p);
       for (int e = 0; e < 4; ++e) gradient->position.push_back({kBodySize * body_i + 3 + e, T(factor * by_p[e])});
     }
     next = 3;
@@ -210,15 +210,14 @@ void Equations<T>::assemble_load(const JointLoad& load, Sink* sink) {
     const int row = column(load.pair, local);
     if (row >= 0 && (local % kBodySize >= 3 || with_r)) add_row(row, motion.J[local], gradient_, sink);
   }
-  assemble_load_curvature(load.pair, load.element, value, sink);
+  assemble_load_curvature(load.pair, coordinate_constants(load.pair, load.element), value, sink);
 }
 
 template <class T>
 template <class Sink>
-void Equations<T>::assemble_load_curvature(int index, int element, const T& load, Sink* sink) {
+void Equations<T>::assemble_load_curvature(int index, const CoordinateConstants<T>& coordinate, const T& load, Sink* sink) {
   const Pair& pair = system_.topology().pairs[static_cast<std::size_t>(index)];
-  const PairConstants<T>& c = constants_.pairs[static_cast<std::size_t>(index)];
-  coordinate_load_gradient(c, c.coordinates[static_cast<std::size_t>(element)], body(pair.body_i), body(pair.body_j), load,
+  coordinate_load_gradient(constants_.pairs[static_cast<std::size_t>(index)], coordinate, body(pair.body_i), body(pair.body_j), load,
                            [&](int r, int local_column, const T& entry) {
                              const int row = column(index, r), global_column = column(index, local_column);
                              if (row >= 0 && global_column >= 0) sink->position(row, global_column, entry);

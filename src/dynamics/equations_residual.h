@@ -117,7 +117,7 @@ void Equations<T>::pair_residual(std::size_t k, VectorX<T>* G) {
   shared.update(rows, i, j, false);
   for (const ProductRow<T>& product : rows.products) {
     const VectorMotion<T>&x = shared.of(product.X), &y = shared.of(product.Y);
-    const T scale(product.scale);
+    const double scale = product.scale;
     (*G)[row] = scale * product_motion(x, y).phidd;
     add_product_load(product.X, product.Y, x, y, T(scale * state_->z[row]), load_i, load_j);
     ++row;
@@ -135,7 +135,7 @@ void Equations<T>::body_residual(std::size_t b, VectorX<T>* G) {
   Vector4<T> on_p;
   inertia_force(constants_.bodies[b], k, &on_r, &on_p);
   G->template segment<3>(c) += on_r - constants_.bodies[b].mass * gravity_ + loads_[b].force;
-  G->template segment<4>(c + 3) += on_p + rotation_hessian(loads_[b].W) * k.p + state_->z[norm] * k.p;
+  G->template segment<4>(c + 3) += on_p + rotation_hessian_product(loads_[b].W, k.p) + state_->z[norm] * k.p;
   T sum(0.0);
   for (int e = 0; e < 4; ++e) sum += k.p[e] * k.pdd[e] + k.pd[e] * k.pd[e];
   (*G)[norm] = sum;
@@ -160,8 +160,8 @@ void Equations<T>::constraint_errors(const VectorX<T>& q, const VectorX<T>& v, V
     }
     for (const ProductRow<T>& product : rows_[k].products) {
       const ProductMotion<T> phi = product_motion(motion_of(product.X, i, j), motion_of(product.Y, i, j));
-      (*Phi)[row] = T(product.scale) * (phi.phi - product.offset);
-      (*Phi_rate)[row] = T(product.scale) * phi.phid;
+      (*Phi)[row] = product.scale * (phi.phi - product.offset);
+      (*Phi_rate)[row] = product.scale * phi.phid;
       ++row;
     }
   }
@@ -172,7 +172,7 @@ void Equations<T>::constraint_errors(const VectorX<T>& q, const VectorX<T>& v, V
       square += body(b).p[e] * body(b).p[e];
       rate += body(b).p[e] * body(b).pd[e];
     }
-    (*Phi)[layout_.norm_row(b)] = T(0.5) * (square - T(1.0));
+    (*Phi)[layout_.norm_row(b)] = 0.5 * (square - 1.0);
     (*Phi_rate)[layout_.norm_row(b)] = rate;
   }
   state_ = nullptr;

@@ -44,7 +44,7 @@ T Equations<T>::link_term(const SignalReference& term, const T& factor, SparseGr
     typename SparseGradient<T>::Entries* const variables[3] = {&gradient->position, &gradient->velocity, &gradient->rate};
     if (!turning) variables[order]->push_back({c + term.axis, factor});
     // The value is linear in the highest derivative of p, with B0; each lower one has the binomial coefficient.
-    const Matrix34<T> B0 = turning ? Matrix34<T>(T(2.0) * ground_rate_matrix(k.p)) : rotated_vector_jacobian(k.p, s);
+    const Matrix34<T> B0 = turning ? Matrix34<T>(2.0 * ground_rate_matrix(k.p)) : rotated_vector_jacobian(k.p, s);
     const Matrix34<T> B1 = turning ? Matrix34<T>(T(-2.0) * ground_rate_matrix(k.pd)) : rotated_vector_jacobian(k.pd, s);
     const Matrix34<T> B2 = rotated_vector_jacobian(k.pdd, s);
     for (int e = 0; e < 4; ++e) {
@@ -54,7 +54,7 @@ T Equations<T>::link_term(const SignalReference& term, const T& factor, SparseGr
       if (order == 2) variables[0]->push_back({column, T(factor * B2(term.axis, e))});
     }
   }
-  if (turning) return factor * T(2.0) * (ground_rate_matrix(k.p) * k.pd)[term.axis];
+  if (turning) return factor * 2.0 * (ground_rate_matrix(k.p) * k.pd)[term.axis];
   const Vector3<T> x = order == 0 ? k.r + k.A * s : order == 1 ? k.rd + k.Ad * s : k.rdd + k.Add * s;
   return factor * x[term.axis];
 }
@@ -149,7 +149,7 @@ T Equations<T>::objective_terms(const std::vector<ResolvedTerm>& terms, const st
     const T error = signal_value(terms[k].signal, T(1.0), gradient) - reference.value;
     if (gradient) gradient->time -= reference.rate;
     sum += weights[k] * error * error;
-    if (gradient) gradient->scale_from(before, T(T(2.0) * weights[k] * error));
+    if (gradient) gradient->scale_from(before, T(2.0 * weights[k] * error));
   }
   return sum;
 }

@@ -208,7 +208,7 @@ void InverseDynamics<T>::append_body(std::size_t k, const T& factor, SparseGradi
   const BodyKinematics<T>& b = body(k);
   const Adjoint& x = adjoints_[k];
   const int c = kBodySize * node(k).body;
-  Vector4<T> on_p = rotation_hessian(x.W) * b.p;
+  Vector4<T> on_p = rotation_hessian_product(x.W, b.p);
   if (moving_) on_p -= T(2.0) * (ground_rate_matrix(b.pd).transpose() * x.omega);
   for (int l = 0; l < 3; ++l) gradient->position.push_back({c + l, T(factor * x.r[l])});
   for (int e = 0; e < 4; ++e) gradient->position.push_back({c + 3 + e, T(factor * on_p[e])});

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "math/straight_line.h"
+
 namespace codesign {
 namespace {
 
@@ -24,7 +26,7 @@ void collect(const Sparsity& pattern, int matrix, const Shift& shift, std::vecto
 IterationMatrix::Pattern::Pattern(const System& system) {
   const Layout& layout = system.layout();
   const auto same = [](int column) { return column; };
-  const auto position = [&layout](int column) { return column < layout.n ? column : layout.state_column(column - layout.n); };
+  const auto position = [&layout](int column) { return layout.rate_column(column); };
   std::vector<Entry> entries;
   collect(system.patterns().position, 0, position, &entries);
   collect(system.patterns().velocity, 1, same, &entries);
@@ -43,10 +45,49 @@ IterationMatrix::Pattern::Pattern(const System& system) {
   for (std::size_t k = 1; k < column_start.size(); ++k) column_start[k] += column_start[k - 1];
 }
 
-IterationMatrix::IterationMatrix(const System& system)
-    : pattern_(system), values_(pattern_.row_index.size()), lu_(pattern_.column_start, pattern_.row_index) {}
+namespace {
+
+// The arrays of the compiled code, and the places of the coefficients, which it subtracts multiples by.
+constexpr int kValues = 0, kPosition = 1, kVelocity = 2, kRate = 3, kCoefficients = 4;
+constexpr int kMinusCv = 0, kMinusCq = 1, kMinusCs = 2;
+
+std::vector<Sum> sums(const IterationMatrix::Pattern& pattern) {
+  std::vector<Sum> sums(pattern.row_index.size());
+  for (std::size_t slot = 0; slot < sums.size(); ++slot) sums[slot].target = {kValues, static_cast<int>(slot)};
+  for (const auto& source : pattern.z) sums[static_cast<std::size_t>(source.slot)].start = {kRate, source.entry};
+  const auto add = [&sums](const std::vector<IterationMatrix::Pattern::Source>& sources, int coefficient, int matrix) {
+    for (const auto& source : sources)
+      sums[static_cast<std::size_t>(source.slot)].products.push_back({{kCoefficients, coefficient}, {matrix, source.entry}});
+  };
+  add(pattern.v, kMinusCv, kVelocity);
+  add(pattern.q, kMinusCq, kPosition);
+  add(pattern.s, kMinusCs, kPosition);
+  return sums;
+}
+
+}  // namespace
+
+IterationMatrix::IterationMatrix(const System& system, bool machine_code)
+    : pattern_(system),
+      values_(pattern_.row_index.size()),
+      code_(std::make_unique<LazyStraightLine>(machine_code)),
+      lu_(pattern_.column_start, pattern_.row_index) {}
+
+IterationMatrix::~IterationMatrix() = default;
+IterationMatrix::IterationMatrix(IterationMatrix&&) noexcept = default;
+IterationMatrix& IterationMatrix::operator=(IterationMatrix&&) noexcept = default;
 
 bool IterationMatrix::factor(const Linearization<double>& d, double c_v, double c_q, double c_s) {
+  if (const StraightLine* const code = code_->get([this] { return sums(pattern_); }, 1)) {
+    const double coefficients[] = {-c_v, -c_q, -c_s};
+    code->run({values_.data(), d.position.data(), d.velocity.data(), d.rate.data(), coefficients});
+  } else {
+    add_up(d, c_v, c_q, c_s);
+  }
+  return lu_.factor(values_.data());
+}
+
+void IterationMatrix::add_up(const Linearization<double>& d, double c_v, double c_q, double c_s) {
   std::fill(values_.begin(), values_.end(), 0.0);
   const auto add = [this](const std::vector<Pattern::Source>& sources, double c, const std::vector<double>& from) {
     for (const Pattern::Source& source : sources)
@@ -56,7 +97,6 @@ bool IterationMatrix::factor(const Linearization<double>& d, double c_v, double 
   if (c_v != 0.0) add(pattern_.v, c_v, d.velocity);
   if (c_q != 0.0) add(pattern_.q, c_q, d.position);
   if (c_s != 0.0) add(pattern_.s, c_s, d.position);
-  return lu_.factor(values_.data());
 }
 
 }  // namespace codesign

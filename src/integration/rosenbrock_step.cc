@@ -29,6 +29,7 @@ RosenbrockStep<T>::RosenbrockStep(const System& system, const RosenbrockTableau&
       equations_(system),
       stage_matrix_(system),
       projection_matrix_(system),
+      product_(system),
       increments_(static_cast<std::size_t>(tableau.stages), VectorX<T>::Zero(at_.size())),
       stages_(static_cast<std::size_t>(tableau.stages)) {
   derivatives_.resize(system.patterns());
@@ -76,9 +77,14 @@ bool RosenbrockStep<T>::solve_stage(std::size_t i) {
   stage_start(i);
   const ByVariable<Sparsity>& patterns = system_.patterns();
   const T *const x = u.data(), *const v = x + at_.v();
-  for (int row = 0; row < at_.z_size; ++row)
-    z_[row] = -(residual_[row] + time_shift * derivatives_.time[row] + row_product(patterns.position, derivatives_.position, row, x) +
-                row_product(patterns.velocity, derivatives_.velocity, row, v));
+  z_ = -residual_ - time_shift * derivatives_.time.head(at_.z_size);
+  if constexpr (std::is_same_v<T, double>) {
+    product_.subtract<1>(derivatives_, x, z_.data());
+  } else {
+    for (int row = 0; row < at_.z_size; ++row)
+      z_[row] -=
+          row_product(patterns.position, derivatives_.position, row, x) + row_product(patterns.velocity, derivatives_.velocity, row, v);
+  }
   stage_matrix_.solve(&z_);
   u.segment(at_.z(), at_.z_size) = z_;
   u.segment(at_.v(), at_.n) += hg * z_.head(at_.n);
@@ -107,18 +113,17 @@ bool RosenbrockStep<T>::attempt(double h) {
 template <class T>
 double RosenbrockStep<T>::error(double relative_tolerance, double absolute_tolerance) const {
   const VectorX<T>& estimate = increments_.back();
-  double sum = 0.0;
+  double largest = 0.0;
   const auto add = [&](int first, const VectorX<T>& from, const VectorX<T>& to) {
     for (Eigen::Index k = 0; k < from.size(); ++k) {
       const double scale = absolute_tolerance + relative_tolerance * std::max(std::abs(value_of(from[k])), std::abs(value_of(to[k])));
-      const double x = value_of(estimate[first + k]) / scale;
-      sum += x * x;
+      largest = std::max(largest, std::abs(value_of(estimate[first + k])) / scale);
     }
   };
   add(at_.x(), state_.q, end_.q);
   add(at_.v(), state_.v, end_.v);
   add(at_.s(), state_.s, end_.s);
-  return std::sqrt(sum / (2.0 * layout_.n + layout_.states));
+  return largest;
 }
 
 template <class T>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "mechanism_codesign/math/lanes.h"
 
@@ -16,8 +17,13 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 }  // namespace
 
-LuSchedule::LuSchedule(const LuPattern& pattern, const std::vector<int>& column_start, const std::vector<int>& row_index)
-    : n_(pattern.row_of.size()), row_of_(pattern.row_of), column_of_(pattern.column_of), work_(n_ * kWidest) {
+LuSchedule::LuSchedule(const LuPattern& pattern, const std::vector<int>& column_start, const std::vector<int>& row_index, bool machine_code)
+    : n_(pattern.row_of.size()),
+      row_of_(pattern.row_of),
+      column_of_(pattern.column_of),
+      work_(n_ * kWidest),
+      elimination_(machine_code),
+      solution_{LazyStraightLine(machine_code), LazyStraightLine(machine_code), LazyStraightLine(machine_code)} {
   for (double scale : pattern.row_scale) inverse_scale_.push_back(1.0 / scale);
   lay_out(pattern);
   place_sources(column_start, row_index);
@@ -33,7 +39,10 @@ void LuSchedule::lay_out(const LuPattern& pattern) {
   }
   start_.push_back(0);
   for (std::size_t k = 0; k < n_; ++k) {
-    column_.insert(column_.end(), lower[k].begin(), lower[k].end());
+    for (int column : lower[k]) {
+      multiplier_.push_back(static_cast<int>(column_.size()));
+      column_.push_back(column);
+    }
     diagonal_.push_back(static_cast<int>(column_.size()));
     column_.push_back(static_cast<int>(k));
     column_.insert(column_.end(), upper[k].begin(), upper[k].end());
@@ -69,12 +78,63 @@ void LuSchedule::list_targets() {
   }
 }
 
+namespace {
+
+// The arrays of the compiled code.
+constexpr int kValues = 0, kRightHandSides = 0, kFactors = 1, kScales = 2, kWork = 3;
+
+}  // namespace
+
+// Every entry of row k of L and U is an entry of A less the products of what stands left of it in the row with what stands above it.
+std::vector<Sum> LuSchedule::elimination_sums() const {
+  std::vector<Sum> sums(factors_.size());
+  for (std::size_t e = 0; e < source_slot_.size(); ++e) sums[at(source_slot_[e])].start = {kValues, static_cast<int>(e)};
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < n_; ++k) {
+    const Place row_scale{kScales, static_cast<int>(k)};
+    for (int e = start_[k]; e < start_[k + 1]; ++e) {
+      sums[at(e)].target = {kFactors, e};
+      if (sums[at(e)].start.array >= 0) sums[at(e)].start_scale = row_scale;
+      if (e < diagonal_[k]) sums[at(e)].scale = {kFactors, diagonal_[at(column_[at(e)])]};
+    }
+    for (int l = start_[k]; l < diagonal_[k]; ++l) {
+      const std::size_t j = at(column_[at(l)]);
+      for (int u = diagonal_[j] + 1; u < start_[j + 1]; ++u) sums[at(target_[next++])].products.push_back({{kFactors, l}, {kFactors, u}});
+    }
+    sums[at(diagonal_[k])].reciprocal = true;
+  }
+  return sums;
+}
+
+std::vector<Sum> LuSchedule::solution_sums() const {
+  std::vector<Sum> sums;
+  for (std::size_t k = 0; k < n_; ++k) {
+    Sum sum{{kWork, static_cast<int>(k)}, {kRightHandSides, row_of_[k]}, {kScales, static_cast<int>(k)}, {}, false, {}};
+    for (int e = start_[k]; e < diagonal_[k]; ++e) sum.products.push_back({{kWork, column_[at(e)]}, {kFactors, e}});
+    sums.push_back(std::move(sum));
+  }
+  for (std::size_t k = n_; k-- > 0;) {
+    Sum sum{{kRightHandSides, column_of_[k]}, {kWork, static_cast<int>(k)}, {}, {kFactors, diagonal_[k]}, false, {}};
+    // The nearest was computed last: it comes last.
+    for (int e = start_[k + 1]; e-- > diagonal_[k] + 1;)
+      sum.products.push_back({{kRightHandSides, column_of_[at(column_[at(e)])]}, {kFactors, e}});
+    sums.push_back(std::move(sum));
+  }
+  return sums;
+}
+
 LuSchedule::Quality LuSchedule::refactor(const double* values) {
-  std::fill(factors_.begin(), factors_.end(), 0.0);
-  for (std::size_t e = 0; e < source_slot_.size(); ++e) factors_[at(source_slot_[e])] = source_scale_[e] * values[e];
+  if (const StraightLine* const code = elimination_.get([this] { return elimination_sums(); }, 1))
+    code->run({values, factors_.data(), inverse_scale_.data(), nullptr, nullptr});
+  else
+    eliminate(values);
+  return quality();
+}
+
+LuSchedule::Quality LuSchedule::quality() const {
   Quality quality;
-  quality.growth = eliminate();
   double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
+  for (int place : multiplier_) quality.growth = std::max(quality.growth, std::abs(factors_[at(place)]));
   for (int diagonal : diagonal_) {
     const double inverse = std::abs(factors_[at(diagonal)]);
     // A vanished pivot has an infinite inverse; a product with NaN stays NaN.
@@ -86,22 +146,21 @@ LuSchedule::Quality LuSchedule::refactor(const double* values) {
   return quality;
 }
 
-// Row by row: each earlier row that stands to the left is subtracted with its multiplier. Returns the largest multiplier.
-double LuSchedule::eliminate() {
+// Row by row: each earlier row that stands to the left is subtracted with its multiplier.
+void LuSchedule::eliminate(const double* values) {
+  std::fill(factors_.begin(), factors_.end(), 0.0);
+  for (std::size_t e = 0; e < source_slot_.size(); ++e) factors_[at(source_slot_[e])] = source_scale_[e] * values[e];
   double* const w = factors_.data();
   const int *target = target_.data(), *const column = column_.data(), *const diagonal = diagonal_.data(), *const start = start_.data();
-  double growth = 0.0;
   for (std::size_t k = 0; k < n_; ++k) {
     for (int l = start[k]; l < diagonal[k]; ++l) {
       const int j = column[l], pivot = diagonal[j], end = start[j + 1];
       const double factor = w[l] * w[pivot];
       w[l] = factor;
-      growth = std::max(growth, std::abs(factor));
       for (int u = pivot + 1; u < end; ++u) w[*target++] -= factor * w[u];
     }
     w[diagonal[k]] = 1.0 / w[diagonal[k]];
   }
-  return growth;
 }
 
 namespace {
@@ -171,6 +230,14 @@ void spread_products(const double* factors, const int* column, int first, int la
 
 template <int N>
 void LuSchedule::solve(double* x) const {
+  if (const StraightLine* const code = solution_[N / 4].get([this] { return solution_sums(); }, N))
+    code->run({x, factors_.data(), inverse_scale_.data(), work_.data(), nullptr});
+  else
+    solve_by_lists<N>(x);
+}
+
+template <int N>
+void LuSchedule::solve_by_lists(double* x) const {
   double* const y = work_.data();
   const double* const f = factors_.data();
   const int *const column = column_.data(), *const start = start_.data(), *const diagonal = diagonal_.data();

@@ -2,8 +2,11 @@
 #ifndef MECHANISM_CODESIGN_SRC_MATH_LU_SCHEDULE_H_
 #define MECHANISM_CODESIGN_SRC_MATH_LU_SCHEDULE_H_
 
+#include <array>
 #include <cstddef>
 #include <vector>
+
+#include "math/straight_line.h"
 
 namespace codesign {
 
@@ -17,11 +20,13 @@ struct LuPattern {
 /// The refactorization and the triangular solves for one LuPattern, as flat lists of what to do.
 ///
 /// All factors lie in one array, row after row: the entries of L, the inverse pivot, the entries of U. Rows, because a triangular solve
-/// then reads the array from end to end and keeps its sums in registers.
+/// then reads the array from end to end and keeps its sums in registers. Where it can, the lists are compiled to machine code; otherwise,
+/// and for transposes, loops follow them.
 class LuSchedule {
  public:
   /// @param column_start, row_index pattern of A.
-  LuSchedule(const LuPattern& pattern, const std::vector<int>& column_start, const std::vector<int>& row_index);
+  /// @param machine_code whether to compile the lists where that is possible.
+  LuSchedule(const LuPattern& pattern, const std::vector<int>& column_start, const std::vector<int>& row_index, bool machine_code = true);
 
   /// Largest multiplier, and smallest over largest pivot; not finite if a pivot vanished.
   struct Quality {
@@ -38,7 +43,12 @@ class LuSchedule {
   void lay_out(const LuPattern& pattern);
   void place_sources(const std::vector<int>& column_start, const std::vector<int>& row_index);
   void list_targets();
-  double eliminate();
+  std::vector<Sum> elimination_sums() const;
+  std::vector<Sum> solution_sums() const;
+  void eliminate(const double* values);
+  Quality quality() const;
+  template <int N>
+  void solve_by_lists(double* x) const;
 
   std::size_t n_;
   std::vector<int> row_of_, column_of_;
@@ -48,8 +58,13 @@ class LuSchedule {
   std::vector<int> source_slot_;       ///< where each entry of A goes
   std::vector<double> source_scale_;
   std::vector<int> target_;      ///< where each product of the elimination is subtracted, in order
+  std::vector<int> multiplier_;  ///< places of the entries of L
   std::vector<double> factors_;  ///< of L and U, with inverse pivots
   mutable std::vector<double> work_;
+
+  // Few schedules are solved with one, four and eight right-hand sides.
+  LazyStraightLine elimination_;
+  mutable std::array<LazyStraightLine, 3> solution_;  ///< for 1, 4 and 8 right-hand sides
 };
 
 }  // namespace codesign

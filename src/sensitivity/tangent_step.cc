@@ -52,12 +52,10 @@ void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assemb
 }
 
 template <int N>
-void TangentStep<N>::combine(const Directions<N>& from, const double* factors, std::size_t count, int first, int size, Directions<N>* to) {
-  for (int k = 0; k < size; ++k) {
-    Vector sum = vector_at(from, first + k);
-    for (std::size_t j = 0; j < count; ++j) sum += factors[j] * vector_at(stages_[j], first + k);
-    vector_at(to, first + k) = sum;
-  }
+void TangentStep<N>::combine(const double* from, const double* factors, std::size_t count, int first, int size, double* to) const {
+  const double* parts[RosenbrockTableau::kMaximumStages];
+  for (std::size_t j = 0; j < count; ++j) parts[j] = stages_[j].data() + std::ptrdiff_t{N} * first;
+  codesign::combine(from, factors, parts, count, N * size, to);
 }
 
 // The stage's u' as far as it is known before the solve; as RosenbrockStep::stage_start().
@@ -67,20 +65,21 @@ void TangentStep<N>::stage_start(std::size_t i, double h) {
   Directions<N>& u = stages_[i];
   double factors[RosenbrockTableau::kMaximumStages];
   for (std::size_t j = 0; j < i; ++j) factors[j] = tableau_.c[i][j] / h;
-  const auto add = [&](int rate, int k) {
-    Vector sum = vector_at(stage_y_, rate);
-    for (std::size_t j = 0; j < i; ++j) sum += factors[j] * vector_at(stages_[j], k);
-    return hg * sum;
+  const auto add = [&](int rate, int first, int size) {
+    combine(stage_y_.data() + std::ptrdiff_t{N} * rate, factors, i, first, size, u.data() + std::ptrdiff_t{N} * first);
   };
+  add(at_.z(), at_.v(), at_.n);
+  add(at_.v(), at_.x(), at_.n);
+  add(at_.sigma(), at_.s(), at_.states);
+  vector_at(&u, at_.psi()) = Vector{};
+  double* const psi = u.data() + std::ptrdiff_t{N} * at_.psi();
+  combine(psi, factors, i, at_.psi(), 1, psi);
   for (int k = 0; k < at_.n; ++k) {
-    const Vector u_v = add(at_.z() + k, at_.v() + k);
+    const Vector u_v = hg * vector_at(u, at_.v() + k);
     vector_at(&u, at_.v() + k) = u_v;
-    vector_at(&u, at_.x() + k) = add(at_.v() + k, at_.x() + k) + hg * u_v;
+    vector_at(&u, at_.x() + k) = hg * (vector_at(u, at_.x() + k) + u_v);
   }
-  for (int k = 0; k < at_.states; ++k) vector_at(&u, at_.s() + k) = add(at_.sigma() + k, at_.s() + k);
-  Vector sum{};
-  for (std::size_t j = 0; j < i; ++j) sum += factors[j] * vector_at(stages_[j], at_.psi());
-  vector_at(&u, at_.psi()) = sum;
+  for (int k = 0; k < at_.states; ++k) vector_at(&u, at_.s() + k) = hg * vector_at(u, at_.s() + k);
 }
 
 // (dG_q) u_q + (dG_s) u_s + (dG_v) u_v + (dG_z) u_z and the integrand's, for all stages: the u are the step's own, known beforehand, and dG
@@ -109,18 +108,14 @@ void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& 
   const double hg = step.step_size() * tableau_.gamma;
   const ByVariable<Sparsity>& patterns = system_.patterns();
   const Linearization<double>& matrices = step.derivatives();
-  combine(y_, tableau_.a[i].data(), i, 0, at_.psi(), &stage_y_);
+  combine(y_.data(), tableau_.a[i].data(), i, 0, at_.psi(), stage_y_.data());
   load_lanes(step.stages()[i], stage_y_);
   equations_.residual(state_, &residual_, &g_);
   stage_start(i, step.step_size());
   Directions<N>& u = stages_[i];
   const double *const x = u.data() + N * at_.x(), *const v = u.data() + N * at_.v();
-  for (int row = 0; row < at_.z_size; ++row) {
-    Vector sum = residual_[row].v + vector_at(matrix_changes_[i], row);
-    add_row_product<N>(patterns.position, matrices.position, row, x, &sum);
-    add_row_product<N>(patterns.velocity, matrices.velocity, row, v, &sum);
-    vector_at(&rows_, row) = -sum;
-  }
+  for (int row = 0; row < at_.z_size; ++row) vector_at(&rows_, row) = -(residual_[row].v + vector_at(matrix_changes_[i], row));
+  step.product().template subtract<N>(matrices, x, rows_.data());
   step.stage_matrix().lu().template solve_rows<N>(rows_.data());
   u.middleCols(at_.z(), at_.z_size) = rows_.leftCols(at_.z_size);
   for (int k = 0; k < at_.n; ++k) {
@@ -178,7 +173,7 @@ void TangentStep<N>::project(const VectorX<double>& correction, const VectorX<La
 
 template <int N>
 void TangentStep<N>::accept(const RosenbrockStep<double>& step) {
-  combine(y_, tableau_.weights.data(), stages_.size(), 0, at_.size(), &y_);
+  combine(y_.data(), tableau_.weights.data(), stages_.size(), 0, at_.size(), y_.data());
   const SparseLu& lu = step.projection_matrix().lu();
   load_lanes(step.unprojected(), y_);
   equations_.linearize(state_, &derivatives_);

@@ -10,7 +10,10 @@
 namespace codesign {
 namespace {
 
-TEST(IterationMatrix, SolvesItsCombinationOfTheThreeMatrices) {
+/// By machine code, where there is any, and by loops.
+class IterationMatrixTest : public ::testing::TestWithParam<bool> {};
+
+TEST_P(IterationMatrixTest, SolvesItsCombinationOfTheThreeMatrices) {
   const auto system = servo("{integrator: rosenbrock}");
   const Layout& layout = system->layout();
   ASSERT_EQ(layout.states, 1);
@@ -23,7 +26,7 @@ TEST(IterationMatrix, SolvesItsCombinationOfTheThreeMatrices) {
   d.resize(system->patterns());
   equations.linearize(state, &d);
 
-  IterationMatrix matrix(*system);
+  IterationMatrix matrix(*system, GetParam());
   const double c_v = 0.1, c_q = 0.02, c_s = 0.3;
   ASSERT_TRUE(matrix.factor(d, c_v, c_q, c_s));
   const VectorX<double> b = VectorX<double>::LinSpaced(layout.columns(), -1.0, 1.0);
@@ -39,6 +42,8 @@ TEST(IterationMatrix, SolvesItsCombinationOfTheThreeMatrices) {
     EXPECT_NEAR(product, b[row], 1e-9) << row;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(MachineCodeAndLoops, IterationMatrixTest, ::testing::Bool());
 
 }  // namespace
 }  // namespace codesign

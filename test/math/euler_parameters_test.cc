@@ -29,6 +29,7 @@ TEST(EulerParameters, JacobianOfARotatedVector) {
 TEST(EulerParameters, HessianIsConstantInP) {
   const Matrix3<double> W = kB * kS.transpose();
   EXPECT_NEAR((rotated_vector_jacobian(kP, kS).transpose() * kB - rotation_hessian(W) * kP).norm(), 0.0, 1e-14);
+  EXPECT_NEAR((rotation_hessian_product(W, kP) - rotation_hessian(W) * kP).norm(), 0.0, 1e-14);
 }
 
 TEST(EulerParameters, RatesAreAngularVelocities) {
@@ -40,6 +41,8 @@ TEST(EulerParameters, RatesAreAngularVelocities) {
   EXPECT_NEAR((2.0 * ground_rate_matrix(p) * pd - omega).norm(), 0.0, 1e-14);
   EXPECT_NEAR((2.0 * body_rate_matrix(p) * pd - rotation(p).transpose() * omega).norm(), 0.0, 1e-14);
   EXPECT_NEAR((body_rate_matrix(kP).transpose() * kB - body_rate_hessian(kB) * kP).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((body_rate(kP, kR) - body_rate_matrix(kP) * kR).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((body_rate_transposed(kP, kB) - body_rate_matrix(kP).transpose() * kB).norm(), 0.0, 1e-15);
   EXPECT_NEAR((body_rate_matrix(kP) * kR + body_rate_matrix(kR) * kP).norm(), 0.0, 1e-15);
 }
 

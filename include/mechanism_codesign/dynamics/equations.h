@@ -103,7 +103,7 @@ class Equations {
   void assemble_load(const JointLoad& load, Sink* sink);
   /// Adds (J^T load)_q of a load along a coordinate.
   template <class Sink>
-  void assemble_load_curvature(int pair, int element, const T& load, Sink* sink);
+  void assemble_load_curvature(int pair, const CoordinateConstants<T>& coordinate, const T& load, Sink* sink);
   template <class Sink>
   void assemble_contact(int pair, Sink* sink);
   template <class Sink>
@@ -174,6 +174,9 @@ class Equations {
 
   /// Global column of a local coordinate of a pair, or -1 on the ground.
   int column(int pair, int local) const { return columns_[static_cast<std::size_t>(pair)][static_cast<std::size_t>(local)]; }
+  const CoordinateConstants<T>& coordinate_constants(int pair, int element) const {
+    return constants_.pairs[static_cast<std::size_t>(pair)].coordinates[static_cast<std::size_t>(element)];
+  }
   bool coordinate_moves_r(int pair, int element) const;
   /// What to add to a position so that it continues its reference.
   double whole_turns(int pair, int element, const T& position) const;

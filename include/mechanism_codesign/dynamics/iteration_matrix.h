@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_DYNAMICS_ITERATION_MATRIX_H_
 #define MECHANISM_CODESIGN_DYNAMICS_ITERATION_MATRIX_H_
 
+#include <memory>
 #include <vector>
 
 #include "mechanism_codesign/dynamics/sparsity.h"
@@ -10,12 +11,18 @@
 
 namespace codesign {
 
+class LazyStraightLine;
+
 /// The matrix G_z + c_v G_v + c_q G_q (G_sigma + c_s G_s for extra states) that every implicit solve needs, on one fixed pattern.
 ///
 /// With c = 0 it gives accelerations and multipliers; with c_v = c_s = h gamma, c_q = (h gamma)^2 it is a Rosenbrock stage's; theory (16).
 class IterationMatrix {
  public:
-  explicit IterationMatrix(const System& system);
+  /// @param machine_code whether to compile the sums where that is possible; loops form them otherwise.
+  explicit IterationMatrix(const System& system, bool machine_code = true);
+  ~IterationMatrix();
+  IterationMatrix(IterationMatrix&&) noexcept;
+  IterationMatrix& operator=(IterationMatrix&&) noexcept;
 
   /// Forms and factors it. False if singular.
   bool factor(const Linearization<double>& derivatives, double c_v, double c_q, double c_s);
@@ -34,8 +41,11 @@ class IterationMatrix {
   };
 
  private:
+  void add_up(const Linearization<double>& derivatives, double c_v, double c_q, double c_s);
+
   Pattern pattern_;
   std::vector<double> values_;
+  std::unique_ptr<LazyStraightLine> code_;  ///< that forms it
   SparseLu lu_;
 };
 

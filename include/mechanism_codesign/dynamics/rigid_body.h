@@ -13,10 +13,9 @@ namespace codesign {
 /// Inertia forces [m r'', 4 G^T J G p'' + 8 G'^T J G p'].
 template <class T>
 void inertia_force(const BodyConstants<T>& body, const BodyKinematics<T>& k, Vector3<T>* on_r, Vector4<T>* on_p) {
-  const Matrix34<T> G = body_rate_matrix(k.p), Gd = body_rate_matrix(k.pd);
-  const Vector3<T> y = T(4.0) * (body.J * (G * k.pdd)), w = T(8.0) * (body.J * (G * k.pd));
+  const Vector3<T> y = 4.0 * (body.J * body_rate(k.p, k.pdd)), w = 8.0 * (body.J * body_rate(k.p, k.pd));
   *on_r = body.mass * k.rdd;
-  *on_p = G.transpose() * y + Gd.transpose() * w;
+  *on_p = body_rate_transposed(k.p, y) + body_rate_transposed(k.pd, w);
 }
 
 /// Derivatives of the rows of p by p, p' and p''.
@@ -28,11 +27,11 @@ struct InertiaGradient {
 template <class T>
 InertiaGradient<T> inertia_gradient(const BodyConstants<T>& body, const BodyKinematics<T>& k) {
   const Matrix34<T> G = body_rate_matrix(k.p), Gd = body_rate_matrix(k.pd), Gdd = body_rate_matrix(k.pdd);
-  const Matrix34<T> JG = T(4.0) * (body.J * G), JGd = T(8.0) * (body.J * Gd);
-  const Vector3<T> y = JG * k.pdd, w = T(2.0) * (JG * k.pd);
+  const Matrix34<T> JG = 4.0 * (body.J * G), JGd = 8.0 * (body.J * Gd);
+  const Vector3<T> y = JG * k.pdd, w = 2.0 * (JG * k.pd);
   InertiaGradient<T> d;
   d.by_pdd = G.transpose() * JG;
-  d.by_pd = body_rate_hessian(w) + T(2.0) * (Gd.transpose() * JG);
+  d.by_pd = body_rate_hessian(w) + 2.0 * (Gd.transpose() * JG);
   d.by_p = body_rate_hessian(y) - JG.transpose() * Gdd - Gd.transpose() * JGd;
   return d;
 }

@@ -26,6 +26,8 @@ struct Layout {
   int lambda_column(int row) const { return n + row; }
   int state_column(int k) const { return n + m + k; }  ///< of sigma_k, and its row
   int position_column(int k) const { return n + k; }   ///< of s_k
+  /// Of the rate that a position is eliminated by: a_k for q_k, sigma_k for s_k.
+  int rate_column(int position) const { return position < n ? position : state_column(position - n); }
   int norm_row(int body) const { return m - bodies + body; }
   int coupling_row(int k) const { return m - bodies - couplings + k; }
   /// One behind the last row of a pair.

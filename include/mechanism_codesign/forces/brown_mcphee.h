@@ -22,10 +22,10 @@ template <class T>
 FrictionCoefficient<T> brown_mcphee(const T& v, const T& mu_static, const T& mu_dynamic, const T& v_t) {
   using std::tanh;
   const T u = v / v_t;
-  const T h = tanh(T(4.0) * u);
-  const T d = T(0.25) * u * u + T(0.75);
+  const T h = tanh(4.0 * u);
+  const T d = 0.25 * u * u + 0.75;
   const T bump = (mu_static - mu_dynamic) / (d * d);
-  return {mu_dynamic * h + bump * u, (T(4.0) * mu_dynamic * (T(1.0) - h * h) + bump * (T(1.0) - u * u / d)) / v_t};
+  return {mu_dynamic * h + bump * u, (4.0 * mu_dynamic * (1.0 - h * h) + bump * (1.0 - u * u / d)) / v_t};
 }
 
 }  // namespace codesign

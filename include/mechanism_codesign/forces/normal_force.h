@@ -23,17 +23,17 @@ struct NormalForce {
 /// Translational joint, theory (12): N = cabs f1x + cabs f1y + cabs f2x + cabs f2y + 2 cabs f3x.
 template <class T>
 NormalForce<T> translational_normal_force(const Vector3<T>& F, const Vector3<T>& torque, const FrictionConstants<T>& c) {
-  const T ia = T(1.0) / c.joint_length, ib = T(0.5) / c.joint_width;
+  const T ia = 1.0 / c.joint_length, ib = 0.5 / c.joint_width;
   const T f1x = -F[0] + ia * torque[1], f1y = -F[1] - ia * torque[0], f2x = -ia * torque[1], f2y = ia * torque[0], f3x = ib * torque[2];
   const T n1x = smooth_abs(f1x, c.smoothing), n1y = smooth_abs(f1y, c.smoothing), n2x = smooth_abs(f2x, c.smoothing),
           n2y = smooth_abs(f2y, c.smoothing), n3x = smooth_abs(f3x, c.smoothing);
   NormalForce<T> N;
-  N.value = n1x + n1y + n2x + n2y + T(2.0) * n3x + c.preload;
+  N.value = n1x + n1y + n2x + n2y + 2.0 * n3x + c.preload;
   N.F[0] = -f1x / n1x;
   N.F[1] = -f1y / n1y;
   N.torque[0] = ia * (f2y / n2y - f1y / n1y);
   N.torque[1] = ia * (f1x / n1x - f2x / n2x);
-  N.torque[2] = T(2.0) * ib * f3x / n3x;
+  N.torque[2] = 2.0 * ib * f3x / n3x;
   return N;
 }
 
@@ -43,12 +43,12 @@ template <class T>
 NormalForce<T> pin_normal_force(const Vector3<T>& F, const Vector3<T>& torque, const FrictionConstants<T>& c) {
   using std::sqrt;
   constexpr double kParabolic = 31.00627668029982 / 24.0;  // pi^3 / 24
-  const T ia = T(1.0) / c.joint_length, e2 = c.smoothing * c.smoothing;
+  const T ia = 1.0 / c.joint_length, e2 = c.smoothing * c.smoothing;
   const T f1x = -F[0] + ia * torque[1], f1y = -F[1] - ia * torque[0], f2x = -ia * torque[1], f2y = ia * torque[0];
   const T f1 = sqrt(f1x * f1x + f1y * f1y + e2), f2 = sqrt(f2x * f2x + f2y * f2y + e2);
   const T k1 = T(kParabolic) / f1, k2 = T(kParabolic) / f2;
   NormalForce<T> N;
-  N.value = T(kParabolic) * (f1 + f2) + c.preload;
+  N.value = kParabolic * (f1 + f2) + c.preload;
   N.F[0] = -k1 * f1x;
   N.F[1] = -k1 * f1y;
   N.torque[0] = ia * (k2 * f2y - k1 * f1y);

@@ -2,9 +2,12 @@
 #ifndef MECHANISM_CODESIGN_INTEGRATION_INCREMENT_H_
 #define MECHANISM_CODESIGN_INTEGRATION_INCREMENT_H_
 
+#include <type_traits>
 #include <vector>
 
 #include "mechanism_codesign/dynamics/state.h"
+#include "mechanism_codesign/integration/tableau.h"
+#include "mechanism_codesign/math/lanes.h"
 
 namespace codesign {
 
@@ -24,25 +27,47 @@ struct IncrementLayout {
   int size() const { return psi() + 1; }
 };
 
-/// to = from + sum over j < count of factors[j] u_j, of the entries [first, first + size) of each u_j. In one pass: sums stay in registers.
-template <class T>
-void combine(const T* from, const double* factors, const std::vector<VectorX<T>>& u, std::size_t count, int first, int size, T* to) {
-  constexpr int kBlock = 4;
+namespace internal {
+
+template <std::size_t count, class T>
+void combine_parts(const T* from, const double* factors, const T* const* parts, int length, T* to) {
   int k = 0;
-  for (; k + kBlock <= size; k += kBlock) {
-    T sum[kBlock];
-    for (int b = 0; b < kBlock; ++b) sum[b] = from[k + b];
-    for (std::size_t j = 0; j < count; ++j) {
-      const T* const other = u[j].data() + first + k;
-      for (int b = 0; b < kBlock; ++b) sum[b] += factors[j] * other[b];
+  if constexpr (std::is_same_v<T, double>) {
+    using Four = Lanes<4>::Four;
+    for (; k + 4 <= length; k += 4) {
+      Four sum = *reinterpret_cast<const Four*>(from + k);
+      for (std::size_t j = 0; j < count; ++j) sum += factors[j] * *reinterpret_cast<const Four*>(parts[j] + k);
+      *reinterpret_cast<Four*>(to + k) = sum;
     }
-    for (int b = 0; b < kBlock; ++b) to[k + b] = sum[b];
   }
-  for (; k < size; ++k) {
+  for (; k < length; ++k) {
     T sum = from[k];
-    for (std::size_t j = 0; j < count; ++j) sum += factors[j] * u[j][first + k];
+    for (std::size_t j = 0; j < count; ++j) sum += factors[j] * parts[j][k];
     to[k] = sum;
   }
+}
+
+template <std::size_t most, class T>
+void combine_up_to(std::size_t count, const T* from, const double* factors, const T* const* parts, int length, T* to) {
+  if (count == most) return combine_parts<most>(from, factors, parts, length, to);
+  if constexpr (most > 0) combine_up_to<most - 1>(count, from, factors, parts, length, to);
+}
+
+}  // namespace internal
+
+/// to = from + sum over j < count of factors[j] parts[j], of `length` numbers, in one pass. The number of parts becomes a constant, so that
+/// the loop over them is unrolled.
+template <class T>
+void combine(const T* from, const double* factors, const T* const* parts, std::size_t count, int length, T* to) {
+  internal::combine_up_to<RosenbrockTableau::kMaximumStages>(count, from, factors, parts, length, to);
+}
+
+/// to = from + sum over j < count of factors[j] u_j, of the entries [first, first + size) of each u_j.
+template <class T>
+void combine(const T* from, const double* factors, const std::vector<VectorX<T>>& u, std::size_t count, int first, int size, T* to) {
+  const T* parts[RosenbrockTableau::kMaximumStages];
+  for (std::size_t j = 0; j < count; ++j) parts[j] = u[j].data() + first;
+  combine(from, factors, parts, count, size, to);
 }
 
 /// to = from + sum over j < count of factors[j] u_j, in all parts of the state.

@@ -7,6 +7,7 @@
 #include "mechanism_codesign/dynamics/equations.h"
 #include "mechanism_codesign/integration/increment.h"
 #include "mechanism_codesign/integration/stage_matrix.h"
+#include "mechanism_codesign/integration/stage_product.h"
 #include "mechanism_codesign/integration/tableau.h"
 
 namespace codesign {
@@ -31,7 +32,8 @@ class RosenbrockStep {
 
   /// Computes the step of size h [s] from the present state. False if the matrix is singular or a value is not finite.
   bool attempt(double h);
-  /// Scaled error of the last attempt over (q, v, s): root mean square of u_last / (absolute + relative max(|y|, |y_1|)).
+  /// Scaled error of the last attempt: the largest of u_last / (absolute + relative max(|y|, |y_1|)) over (q, v, s), whatever else is at
+  /// rest.
   double error(double relative_tolerance, double absolute_tolerance) const;
   /// Takes the last attempt: projects and linearizes. False if the augmented matrix is singular there.
   bool accept();
@@ -52,6 +54,7 @@ class RosenbrockStep {
   const VectorX<T>& position_correction() const { return position_correction_; }  ///< of the last projection: [delta q, multipliers]
   const VectorX<T>& velocity_correction() const { return velocity_correction_; }  ///< [delta v, multipliers]
   const StageMatrix<T>& stage_matrix() const { return stage_matrix_; }
+  const StageProduct& product() const { return product_; }
   const StageMatrix<T>& projection_matrix() const { return projection_matrix_; }
 
   /// State at `previous().t + theta h` by the method's dense output; psi too.
@@ -68,6 +71,7 @@ class RosenbrockStep {
   const RosenbrockTableau& tableau_;
   Equations<T> equations_;
   StageMatrix<T> stage_matrix_, projection_matrix_;
+  StageProduct product_;
   Linearization<T> derivatives_;
   State<T> state_, previous_, end_;
   T psi_{0.0}, previous_psi_{0.0};

@@ -45,7 +45,7 @@ class StageMatrix<std::complex<double>> {
         system_.patterns().velocity, d.velocity, [c_v](int) { return c_v; }, same);
     add(
         system_.patterns().position, d.position, [&](int column) { return column < layout.n ? c_q : c_s; },
-        [&](int column) { return column < layout.n ? column : layout.state_column(column - layout.n); });
+        [&](int column) { return layout.rate_column(column); });
     lu_.compute(matrix);
     return matrix.allFinite();
   }

@@ -19,7 +19,7 @@ struct BodyKinematics {
   void update_rotation() {
     A = rotation(p);
     Ad = rotation_derivative(p, pd);
-    Add = rotation_derivative(p, pdd) + T(2.0) * rotation(pd);
+    Add = rotation_derivative(p, pdd) + 2.0 * rotation(pd);
   }
 };
 

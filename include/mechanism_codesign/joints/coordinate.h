@@ -39,15 +39,15 @@ void angle_motion(const ProductMotion<T>& N, const ProductGradient<T>& Ng, const
   m->position_q = m->J;
   const T ratio = (N.phid * N.phi + D.phid * D.phi) / square;  // half the relative growth rate of N^2 + D^2
   m->rate = c * N.phid - s * D.phid;
-  const LocalRow<T> square_q = T(2.0) * (N.phi * Ng.phi_q + D.phi * Dg.phi_q) / square;
+  const LocalRow<T> square_q = 2.0 * (N.phi * Ng.phi_q + D.phi * Dg.phi_q) / square;
   const LocalRow<T> cross_q = (Dg.phi_q * N.phid - Ng.phi_q * D.phid) / square;
   m->rate_q = c * Ng.phid_q - s * Dg.phid_q + cross_q - m->rate * square_q;
-  m->acceleration = c * N.phidd - s * D.phidd - T(2.0) * m->rate * ratio;
+  m->acceleration = c * N.phidd - s * D.phidd - 2.0 * m->rate * ratio;
   const LocalRow<T> ratio_q = (Ng.phi_q * N.phid + Dg.phi_q * D.phid + Ng.phid_q * N.phi + Dg.phid_q * D.phi) / square - ratio * square_q;
   const LocalRow<T> outer_q = (Dg.phi_q * N.phidd - Ng.phi_q * D.phidd) / square - (c * N.phidd - s * D.phidd) * square_q;
-  m->acceleration_q = c * Ng.phidd_q - s * Dg.phidd_q + outer_q - T(2.0) * (m->rate_q * ratio + m->rate * ratio_q);
+  m->acceleration_q = c * Ng.phidd_q - s * Dg.phidd_q + outer_q - 2.0 * (m->rate_q * ratio + m->rate * ratio_q);
   const LocalRow<T> ratio_v = (Ng.phi_q * N.phi + Dg.phi_q * D.phi) / square;
-  m->acceleration_v = T(2.0) * (c * Ng.phid_q - s * Dg.phid_q) - T(2.0) * (m->J * ratio + m->rate * ratio_v);
+  m->acceleration_v = 2.0 * (c * Ng.phid_q - s * Dg.phid_q) - 2.0 * (m->J * ratio + m->rate * ratio_v);
 }
 
 template <class T>
@@ -97,31 +97,30 @@ template <class T>
 void turn_rate(const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateDetail detail,
                CoordinateMotion<T>* m) {
   angular_rate<T>([](const Vector4<T>& p) { return body_rate_matrix(p); }, Vector3<T>(T(-2.0) * pair.C_i.col(2)),
-                  Vector3<T>(T(2.0) * pair.C_j.col(2)), i, j, detail, m);
+                  Vector3<T>(2.0 * pair.C_j.col(2)), i, j, detail, m);
 }
 
 /// About a ground axis, 2 a . (E(p_j) p_j' - E(p_i) p_i').
 template <class T>
 void spin_rate(const Vector3<T>& a, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateDetail detail,
                CoordinateMotion<T>* m) {
-  angular_rate<T>([](const Vector4<T>& p) { return ground_rate_matrix(p); }, Vector3<T>(T(-2.0) * a), Vector3<T>(T(2.0) * a), i, j, detail,
-                  m);
+  angular_rate<T>([](const Vector4<T>& p) { return ground_rate_matrix(p); }, Vector3<T>(T(-2.0) * a), Vector3<T>(2.0 * a), i, j, detail, m);
 }
 
 template <class T>
 void sine_motion(const Product<T>& s, CoordinateMotion<T>* m) {
   using std::sqrt;
   const ProductMotion<T>& f = s.motion;
-  const T square = T(1.0) - f.phi * f.phi, k = T(1.0) / sqrt(square), k3 = k / square;
+  const T square = 1.0 - f.phi * f.phi, k = 1.0 / sqrt(square), k3 = k / square;
   m->J = m->position_q = k * s.gradient.phi_q;
   m->rate = k * f.phid;
   m->rate_q = k * s.gradient.phid_q + (k3 * f.phi * f.phid) * s.gradient.phi_q;
   const T curvature = k3 * f.phi;
   m->acceleration = k * f.phidd + curvature * f.phid * f.phid;
-  const T curvature_slope = k3 + T(3.0) * k3 * f.phi * f.phi / square;
+  const T curvature_slope = k3 + 3.0 * k3 * f.phi * f.phi / square;
   m->acceleration_q = k * s.gradient.phidd_q + (curvature * f.phidd + curvature_slope * f.phid * f.phid) * s.gradient.phi_q +
-                      (T(2.0) * curvature * f.phid) * s.gradient.phid_q;
-  m->acceleration_v = T(2.0) * (k * s.gradient.phid_q + (curvature * f.phid) * s.gradient.phi_q);
+                      (2.0 * curvature * f.phid) * s.gradient.phid_q;
+  m->acceleration_v = 2.0 * (k * s.gradient.phid_q + (curvature * f.phid) * s.gradient.phi_q);
 }
 
 template <class T>
@@ -181,7 +180,7 @@ void slide_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c,
   m->position_q = s.gradient.phi_q;
   m->rate_q = s.gradient.phid_q;
   m->acceleration_q = s.gradient.phidd_q;
-  m->acceleration_v = T(2.0) * s.gradient.phid_q;
+  m->acceleration_v = 2.0 * s.gradient.phid_q;
 }
 
 template <class T>

@@ -31,7 +31,7 @@ void add_product_curvature(const PairVector<T>& X, const PairVector<T>& Y, const
 /// Calls add(row, column, value) with weight (a b^T + b a^T)/2 over the pair's Euler parameters.
 template <class T, class Add>
 void add_outer_product(const LocalRow<T>& a, const LocalRow<T>& b, const T& weight, const Add& add) {
-  const T half = T(0.5) * weight;
+  const T half = 0.5 * weight;
   for (int row = 0; row < kLocalSize; ++row)
     for (int column = 0; column < kLocalSize; ++column)
       if (row % kBodySize >= 3 && column % kBodySize >= 3) add(row, column, T(half * (a[row] * b[column] + b[row] * a[column])));
@@ -46,7 +46,7 @@ void add_angle_curvature(const CoordinateConstants<T>& c, const BodyKinematics<T
   const Product<T> N = product(a, b, i, j);
   const T n = N.motion.phi;
   if (c.kind == CoordinateConstants<T>::Kind::kSine) {
-    const T square = T(1.0) - n * n, slope = T(1.0) / sqrt(square);
+    const T square = 1.0 - n * n, slope = 1.0 / sqrt(square);
     add_product_curvature(a, b, T(load * slope), i, j, add);
     add_outer_product(N.gradient.phi_q, N.gradient.phi_q, T(load * slope * n / square), add);
     return;
@@ -57,8 +57,8 @@ void add_angle_curvature(const CoordinateConstants<T>& c, const BodyKinematics<T
   add_product_curvature(a, b, T(weight * d), i, j, add);
   add_product_curvature(e, f, T(-weight * n), i, j, add);
   add_outer_product(N.gradient.phi_q, N.gradient.phi_q, T(T(-2.0) * curvature * n * d), add);
-  add_outer_product(D.gradient.phi_q, D.gradient.phi_q, T(T(2.0) * curvature * n * d), add);
-  add_outer_product(N.gradient.phi_q, D.gradient.phi_q, T(T(2.0) * curvature * (n * n - d * d)), add);
+  add_outer_product(D.gradient.phi_q, D.gradient.phi_q, T(2.0 * curvature * n * d), add);
+  add_outer_product(N.gradient.phi_q, D.gradient.phi_q, T(2.0 * curvature * (n * n - d * d)), add);
 }
 
 }  // namespace internal
@@ -73,7 +73,7 @@ void coordinate_load_gradient(const PairConstants<T>& pair, const CoordinateCons
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 4; ++column) add(p_offset(side) + row, p_offset(side) + column, block(row, column));
   };
-  const T twice = T(2.0) * signed_load;
+  const T twice = 2.0 * signed_load;
   switch (c.kind) {
     case Kind::kTurn:
       add_block(Side::kJ, body_rate_hessian<T>(twice * pair.C_j.col(2)));

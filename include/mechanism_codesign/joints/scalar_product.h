@@ -25,7 +25,7 @@ struct ProductMotion {
 
 template <class T>
 ProductMotion<T> product_motion(const VectorMotion<T>& x, const VectorMotion<T>& y) {
-  return {dot(x.x, y.x), dot(x.xd, y.x) + dot(x.x, y.xd), dot(x.xdd, y.x) + T(2.0) * dot(x.xd, y.xd) + dot(x.x, y.xdd)};
+  return {dot(x.x, y.x), dot(x.xd, y.x) + dot(x.x, y.xd), dot(x.xdd, y.x) + 2.0 * dot(x.xd, y.xd) + dot(x.x, y.xdd)};
 }
 
 /// Gradients over the pair's coordinates: phi_q (= phid_v = phidd_a), phid_q (= phidd_v / 2) and phidd_q.
@@ -56,7 +56,7 @@ VectorJacobian<T> vector_jacobian(const BodyKinematics<T>& body, const Vector3<T
 /// Adds to the gradient of X . Y the part that comes from one of X's terms; `J` is that term's Jacobian, `y` the motion of its partner.
 template <class T>
 void add_term_gradient(const VectorTerm<T>& term, const VectorJacobian<T>& J, const VectorMotion<T>& y, ProductGradient<T>* gradient) {
-  const T sign(term.sign), twice(2.0 * term.sign);
+  const double sign = term.sign, twice = 2.0 * term.sign;
   if (term.point) {
     const int r = r_offset(term.side);
     for (int c = 0; c < 3; ++c) {
@@ -76,7 +76,7 @@ void add_term_gradient(const VectorTerm<T>& term, const VectorJacobian<T>& J, co
 /// As above, of phi_q alone.
 template <class T>
 void add_term_slope(const VectorTerm<T>& term, const Matrix34<T>& B, const Vector3<T>& y, LocalRow<T>* phi_q) {
-  const T sign(term.sign);
+  const double sign = term.sign;
   if (term.point)
     for (int c = 0; c < 3; ++c) (*phi_q)[r_offset(term.side) + c] += sign * y[c];
   for (int c = 0; c < 4; ++c) (*phi_q)[p_offset(term.side) + c] += sign * dot<T>(B.col(c), y);
@@ -116,7 +116,7 @@ void add_vector_load(const PairVector<T>& x, const Vector3<T>& b, BodyLoad<T>* i
     const VectorTerm<T>& term = x.term[k];
     BodyLoad<T>* load = term.side == Side::kI ? i : j;
     if (!load) continue;
-    const Vector3<T> signed_b = T(term.sign) * b;
+    const Vector3<T> signed_b = term.sign * b;
     if (term.point) load->force += signed_b;
     load->W += signed_b * term.s.transpose();
   }
@@ -159,7 +159,7 @@ void product_hessian(const PairVector<T>& X, const PairVector<T>& Y, const T& la
   for (int k = 0; k < X.terms; ++k)
     for (int l = 0; l < Y.terms; ++l) {
       const VectorTerm<T>&a = X.term[k], &b = Y.term[l];
-      term_hessian<T>(a, B(a), b, B(b), lambda * T(a.sign * b.sign), add);
+      term_hessian<T>(a, B(a), b, B(b), lambda * (a.sign * b.sign), add);
     }
 }
 

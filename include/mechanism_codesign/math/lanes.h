@@ -96,6 +96,14 @@ struct Lanes {
     const double inverse = 1.0 / y.a, quotient = x.a * inverse;
     return {quotient, (x.v - quotient * y.v) * inverse};
   }
+  // Constants have no derivatives to multiply by.
+  CODESIGN_INLINE friend Lanes operator+(const Lanes& x, double y) { return {x.a + y, x.v}; }
+  CODESIGN_INLINE friend Lanes operator+(double x, const Lanes& y) { return {x + y.a, y.v}; }
+  CODESIGN_INLINE friend Lanes operator-(const Lanes& x, double y) { return {x.a - y, x.v}; }
+  CODESIGN_INLINE friend Lanes operator-(double x, const Lanes& y) { return {x - y.a, -y.v}; }
+  CODESIGN_INLINE friend Lanes operator*(const Lanes& x, double y) { return {x.a * y, x.v * y}; }
+  CODESIGN_INLINE friend Lanes operator*(double x, const Lanes& y) { return {x * y.a, x * y.v}; }
+  CODESIGN_INLINE friend Lanes operator/(const Lanes& x, double y) { return x * (1.0 / y); }
   CODESIGN_INLINE friend bool operator<(const Lanes& x, const Lanes& y) { return x.a < y.a; }
   CODESIGN_INLINE friend bool operator>(const Lanes& x, const Lanes& y) { return x.a > y.a; }
   CODESIGN_INLINE friend bool operator<=(const Lanes& x, const Lanes& y) { return x.a <= y.a; }

@@ -34,7 +34,7 @@ ValueAndSlope<T> tanh_ratio(const T& x) {
                                 18888466084.0 / 194896477400625.0};
   if (value_of(x) >= kSeriesBelow) {
     const T root = sqrt(x), h = tanh(root), value = h / root;
-    return {value, (T(1.0) - h * h - value) / (T(2.0) * x)};
+    return {value, (1.0 - h * h - value) / (2.0 * x)};
   }
   ValueAndSlope<T> sum;
   for (int k = 10; k >= 0; --k) {

@@ -49,8 +49,8 @@ class TangentStep {
 
   /// Values and derivatives side by side.
   void load_lanes(const State<double>& values, const Directions<N>& directions);
-  /// to = from + sum over j < count of factors[j] u'_j, of `size` components.
-  void combine(const Directions<N>& from, const double* factors, std::size_t count, int first, int size, Directions<N>* to);
+  /// to = from + sum over j < count of factors[j] u'_j, of `size` components from the `first` of u' on.
+  void combine(const double* from, const double* factors, std::size_t count, int first, int size, double* to) const;
   void change_matrices(const RosenbrockStep<double>& step);
   void stage_start(std::size_t i, double h);
   void stage_tangent(std::size_t i, const RosenbrockStep<double>& step);

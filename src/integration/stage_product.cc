@@ -1,0 +1,65 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/integration/stage_product.h"
+
+#include "math/straight_line.h"
+#include "mechanism_codesign/dynamics/row_product.h"
+
+namespace codesign {
+namespace {
+
+// The arrays of the compiled code.
+constexpr int kProduct = 0, kPosition = 1, kVelocity = 2, kVectors = 3;
+
+void append(const Sparsity& pattern, int row, int matrix, int shift, Sum* sum) {
+  for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
+    sum->products.push_back({{kVectors, shift + pattern.column(e)}, {matrix, e}});
+}
+
+std::vector<Sum> sums(const ByVariable<Sparsity>& patterns, int rows) {
+  std::vector<Sum> sums;
+  for (int row = 0; row < rows; ++row) {
+    Sum sum;
+    sum.target = sum.start = {kProduct, row};
+    append(patterns.position, row, kPosition, 0, &sum);
+    append(patterns.velocity, row, kVelocity, patterns.position.columns, &sum);
+    sums.push_back(std::move(sum));
+  }
+  return sums;
+}
+
+}  // namespace
+
+StageProduct::StageProduct(const System& system, bool machine_code)
+    : patterns_(&system.patterns()), rows_(system.layout().columns()), code_(std::make_unique<LazyStraightLine[]>(3)) {
+  for (std::size_t k = 0; k < 3; ++k) code_[k] = LazyStraightLine(machine_code);
+}
+
+StageProduct::~StageProduct() = default;
+StageProduct::StageProduct(StageProduct&&) noexcept = default;
+StageProduct& StageProduct::operator=(StageProduct&&) noexcept = default;
+
+template <int N>
+void StageProduct::subtract(const Linearization<double>& derivatives, const double* xv, double* y) const {
+  if (const StraightLine* const code = code_[N / 4].get([this] { return sums(*patterns_, rows_); }, N)) {
+    code->run({y, derivatives.position.data(), derivatives.velocity.data(), xv, nullptr});
+    return;
+  }
+  const double* const v = xv + std::ptrdiff_t{N} * patterns_->position.columns;
+  for (int row = 0; row < rows_; ++row) {
+    if constexpr (N == 1) {
+      y[row] -=
+          row_product(patterns_->position, derivatives.position, row, xv) + row_product(patterns_->velocity, derivatives.velocity, row, v);
+    } else {
+      typename Lanes<N>::Vector sum{};
+      add_row_product<N>(patterns_->position, derivatives.position, row, xv, &sum);
+      add_row_product<N>(patterns_->velocity, derivatives.velocity, row, v, &sum);
+      *reinterpret_cast<typename Lanes<N>::Vector*>(y + std::ptrdiff_t{N} * row) -= sum;
+    }
+  }
+}
+
+template void StageProduct::subtract<1>(const Linearization<double>&, const double*, double*) const;
+template void StageProduct::subtract<4>(const Linearization<double>&, const double*, double*) const;
+template void StageProduct::subtract<8>(const Linearization<double>&, const double*, double*) const;
+
+}  // namespace codesign

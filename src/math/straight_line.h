@@ -1,0 +1,65 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SRC_MATH_STRAIGHT_LINE_H_
+#define MECHANISM_CODESIGN_SRC_MATH_STRAIGHT_LINE_H_
+
+#include <memory>
+#include <vector>
+
+namespace codesign {
+
+/// A number in one of the arrays that a StraightLine works on; none if array < 0.
+struct Place {
+  int array = -1, index = 0;
+};
+
+/// target = (start * start_scale - sum of rows[i] * factors[i]) * scale, or one over that.
+///
+/// `target`, `start` and `row` are rows of so many numbers side by side as the StraightLine is wide, the rest are single numbers. No target
+/// is among the rows of its own sum.
+struct Sum {
+  struct Product {
+    Place row, factor;
+  };
+  Place target, start, start_scale, scale;
+  bool reciprocal = false;
+  std::vector<Product> products;
+};
+
+/// Sums of products at fixed places, compiled into machine code without loops or branches: what a sparse factorization does with numbers
+/// does not change from one refactorization to the next. Rows that were computed or read last are kept in registers.
+class StraightLine {
+ public:
+  static constexpr int kArrays = 5;
+
+  virtual ~StraightLine() = default;
+
+  /// @param width of rows: 1, 4 or 8. Null where that cannot be: other processors than x86-64 with AVX2 and FMA, a system that lets no
+  /// program write code, or more than a few hundred kilobytes of it, which loops would beat.
+  static std::unique_ptr<StraightLine> compile(const std::vector<Sum>& sums, int width);
+
+  /// @param arrays their first numbers; those that targets lie in are written to.
+  virtual void run(const double* const (&arrays)[kArrays]) const = 0;
+};
+
+/// A StraightLine that is compiled when it is first asked for.
+class LazyStraightLine {
+ public:
+  /// @param allowed false to have none, so that loops do the work.
+  explicit LazyStraightLine(bool allowed = true) : tried_(!allowed) {}
+
+  /// @param sums () -> std::vector<Sum>
+  template <class Sums>
+  const StraightLine* get(const Sums& sums, int width) {
+    if (!tried_) code_ = StraightLine::compile(sums(), width);
+    tried_ = true;
+    return code_.get();
+  }
+
+ private:
+  bool tried_;
+  std::unique_ptr<StraightLine> code_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SRC_MATH_STRAIGHT_LINE_H_
