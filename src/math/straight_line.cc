@@ -34,8 +34,7 @@ class Registers {
   }
   /// A register for a row that will be read or computed.
   int take(const Place& row) {
-    for (std::size_t r = 0; r < count_; ++r)
-      if (held_[r] == row) return touch(r);
+    if (const int r = find(row); r >= 0) return r;
     std::size_t oldest = 0;
     for (std::size_t r = 1; r < count_; ++r)
       if (asked_[r] < asked_[oldest]) oldest = r;
