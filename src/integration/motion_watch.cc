@@ -73,7 +73,8 @@ void MotionWatch::start(const Equations<double>& equations, const State<double>&
   mark_time_ = initial.t;
   mark_work_ = 0;
   linear_bound_ = angular_bound_ = system_.study().solver.maximum_speed;
-  if (linear_bound_ > 0.0) return;
+  // What nothing drives has no more energy than it began with.
+  if (linear_bound_ > 0.0 || system_.study().controllers.empty()) return;
   double size = 0.0;
   for (int b = 0; b < system_.layout().bodies; ++b) size = std::max(size, initial.q.segment<3>(kBodySize * b).norm());
   const double g = Eigen::Vector3d(system_.study().gravity.data()).norm(), aim = target(equations);

@@ -8,9 +8,11 @@
 namespace codesign {
 namespace {
 
+const char* const kHold = "{hold: {type: pid, input: hinge/position, setpoint: 0, output: hinge, gains: {p: 1}}}";
+
 /// A pendulum of one second, turning at `rate` [rad/s] at some time.
 struct Watched {
-  explicit Watched(const std::string& solver, const std::string& controllers = "{}")
+  explicit Watched(const std::string& solver, const std::string& controllers = kHold)
       : system(compile(pendulum(), "duration: 1\ncontrollers: " + controllers +
                                        "\nparameters: {}\nobjective: {integral: [{signal: hinge/position}]}\nsolver: " + solver + "\n")),
         equations(*system),
@@ -59,6 +61,11 @@ TEST(MotionWatch, SpeedsAskedForAreWithinReason) {
   const char* const spindle = "{motor: {type: pid, input: hinge/velocity, setpoint: 50, output: hinge, gains: {p: 1}}}";
   EXPECT_TRUE(Watched("{}", spindle).check(5e-4, 490.0, 600).ok());
   EXPECT_FALSE(Watched("{}", spindle).check(5e-4, 510.0, 600).ok());
+}
+
+TEST(MotionWatch, WhatNothingDrivesCannotRunAway) {
+  EXPECT_TRUE(Watched("{}", "{}").check(5e-4, 1e5, 600).ok());
+  EXPECT_FALSE(Watched("{maximum_speed: 20}", "{}").check(5e-4, 1e5, 600).ok());
 }
 
 TEST(MotionWatch, MoreStepsMayBeAllowed) { EXPECT_TRUE(Watched("{maximum_steps: 100000000}").check(5e-4, 70.0, 600).ok()); }

@@ -11,10 +11,10 @@ namespace codesign {
 
 /// Ends a motion that runs away, as under a controller of the wrong sign: it could be integrated, but in ever more steps and to no use.
 ///
-/// With `solver.maximum_speed` that is any body beyond it. Without, a body must be ten times as fast as the mechanism has reason to be (its
-/// start, a fall through its own size, the velocities that setpoints and references ask for, or that theirs of positions imply), and at the
-/// pace of the last 500 steps the study must take more than a tenth of `maximum_steps` (at least 5000). Speeds are |r'| [m/s] and |omega|
-/// [rad/s].
+/// With `solver.maximum_speed` that is any body beyond it. Without, there must be a controller, a body must be ten times as fast as the
+/// mechanism has reason to be (its start, a fall through its own size, the velocities that setpoints and references ask for, or that theirs
+/// of positions imply), and at the pace of the last 500 steps the study must take more than a tenth of `maximum_steps` (at least 5000).
+/// Speeds are |r'| [m/s] and |omega| [rad/s].
 class MotionWatch {
  public:
   explicit MotionWatch(const System& system) : system_(system) {}
