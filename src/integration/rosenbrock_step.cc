@@ -78,13 +78,7 @@ bool RosenbrockStep<T>::solve_stage(std::size_t i) {
   const ByVariable<Sparsity>& patterns = system_.patterns();
   const T *const x = u.data(), *const v = x + at_.v();
   z_ = -residual_ - time_shift * derivatives_.time.head(at_.z_size);
-  if constexpr (std::is_same_v<T, double>) {
-    product_.subtract<1>(derivatives_, x, z_.data());
-  } else {
-    for (int row = 0; row < at_.z_size; ++row)
-      z_[row] -=
-          row_product(patterns.position, derivatives_.position, row, x) + row_product(patterns.velocity, derivatives_.velocity, row, v);
-  }
+  product_.subtract(derivatives_, x, z_.data());
   stage_matrix_.solve(&z_);
   u.segment(at_.z(), at_.z_size) = z_;
   u.segment(at_.v(), at_.n) += hg * z_.head(at_.n);

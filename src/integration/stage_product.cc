@@ -30,26 +30,34 @@ std::vector<Sum> sums(const ByVariable<Sparsity>& patterns, int rows) {
 }  // namespace
 
 StageProduct::StageProduct(const System& system, bool machine_code)
-    : patterns_(&system.patterns()), rows_(system.layout().columns()), code_(std::make_unique<LazyStraightLine[]>(3)) {
-  for (std::size_t k = 0; k < 3; ++k) code_[k] = LazyStraightLine(machine_code);
-}
+    : patterns_(&system.patterns()), rows_(system.layout().columns()), code_(std::make_unique<LazyStraightLine>(machine_code)) {}
 
 StageProduct::~StageProduct() = default;
 StageProduct::StageProduct(StageProduct&&) noexcept = default;
 StageProduct& StageProduct::operator=(StageProduct&&) noexcept = default;
 
+template <class T>
+void StageProduct::subtract_rows(const Linearization<T>& derivatives, const T* xv, T* y) const {
+  const T* const v = xv + patterns_->position.columns;
+  for (int row = 0; row < rows_; ++row)
+    y[row] -=
+        row_product(patterns_->position, derivatives.position, row, xv) + row_product(patterns_->velocity, derivatives.velocity, row, v);
+}
+
+void StageProduct::subtract(const Linearization<std::complex<double>>& derivatives, const std::complex<double>* xv,
+                            std::complex<double>* y) const {
+  subtract_rows(derivatives, xv, y);
+}
+
 template <int N>
 void StageProduct::subtract(const Linearization<double>& derivatives, const double* xv, double* y) const {
-  if (const StraightLine* const code = code_[N / 4].get([this] { return sums(*patterns_, rows_); }, N)) {
+  if (const StraightLine* const code = code_->get([this] { return sums(*patterns_, rows_); }, N)) {
     code->run({y, derivatives.position.data(), derivatives.velocity.data(), xv, nullptr});
-    return;
-  }
-  const double* const v = xv + std::ptrdiff_t{N} * patterns_->position.columns;
-  for (int row = 0; row < rows_; ++row) {
-    if constexpr (N == 1) {
-      y[row] -=
-          row_product(patterns_->position, derivatives.position, row, xv) + row_product(patterns_->velocity, derivatives.velocity, row, v);
-    } else {
+  } else if constexpr (N == 1) {
+    subtract_rows(derivatives, xv, y);
+  } else {
+    const double* const v = xv + std::ptrdiff_t{N} * patterns_->position.columns;
+    for (int row = 0; row < rows_; ++row) {
       typename Lanes<N>::Vector sum{};
       add_row_product<N>(patterns_->position, derivatives.position, row, xv, &sum);
       add_row_product<N>(patterns_->velocity, derivatives.velocity, row, v, &sum);

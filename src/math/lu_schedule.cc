@@ -23,7 +23,7 @@ LuSchedule::LuSchedule(const LuPattern& pattern, const std::vector<int>& column_
       column_of_(pattern.column_of),
       work_(n_ * kWidest),
       elimination_(machine_code),
-      solution_{LazyStraightLine(machine_code), LazyStraightLine(machine_code), LazyStraightLine(machine_code)} {
+      solution_(machine_code) {
   for (double scale : pattern.row_scale) inverse_scale_.push_back(1.0 / scale);
   lay_out(pattern);
   place_sources(column_start, row_index);
@@ -230,7 +230,7 @@ void spread_products(const double* factors, const int* column, int first, int la
 
 template <int N>
 void LuSchedule::solve(double* x) const {
-  if (const StraightLine* const code = solution_[N / 4].get([this] { return solution_sums(); }, N))
+  if (const StraightLine* const code = solution_.get([this] { return solution_sums(); }, N))
     code->run({x, factors_.data(), inverse_scale_.data(), work_.data(), nullptr});
   else
     solve_by_lists<N>(x);

@@ -2,7 +2,6 @@
 #ifndef MECHANISM_CODESIGN_SRC_MATH_LU_SCHEDULE_H_
 #define MECHANISM_CODESIGN_SRC_MATH_LU_SCHEDULE_H_
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -62,9 +61,8 @@ class LuSchedule {
   std::vector<double> factors_;  ///< of L and U, with inverse pivots
   mutable std::vector<double> work_;
 
-  // Few schedules are solved with one, four and eight right-hand sides.
   LazyStraightLine elimination_;
-  mutable std::array<LazyStraightLine, 3> solution_;  ///< for 1, 4 and 8 right-hand sides
+  mutable LazyStraightLine solution_;
 };
 
 }  // namespace codesign

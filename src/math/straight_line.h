@@ -2,6 +2,8 @@
 #ifndef MECHANISM_CODESIGN_SRC_MATH_STRAIGHT_LINE_H_
 #define MECHANISM_CODESIGN_SRC_MATH_STRAIGHT_LINE_H_
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -41,23 +43,28 @@ class StraightLine {
   virtual void run(const double* const (&arrays)[kArrays]) const = 0;
 };
 
-/// A StraightLine that is compiled when it is first asked for.
+/// The same sums for rows of every width, each compiled when it is first asked for.
 class LazyStraightLine {
  public:
   /// @param allowed false to have none, so that loops do the work.
-  explicit LazyStraightLine(bool allowed = true) : tried_(!allowed) {}
+  explicit LazyStraightLine(bool allowed = true) : allowed_(allowed) {}
 
-  /// @param sums () -> std::vector<Sum>
+  /// @param sums () -> std::vector<Sum>, the same at every call.
   template <class Sums>
   const StraightLine* get(const Sums& sums, int width) {
-    if (!tried_) code_ = StraightLine::compile(sums(), width);
-    tried_ = true;
-    return code_.get();
+    Compiled& compiled = compiled_[static_cast<std::size_t>(width / 4)];
+    if (allowed_ && !compiled.tried) compiled = {true, StraightLine::compile(sums(), width)};
+    return compiled.code.get();
   }
 
  private:
-  bool tried_;
-  std::unique_ptr<StraightLine> code_;
+  struct Compiled {
+    bool tried = false;
+    std::unique_ptr<StraightLine> code;
+  };
+
+  bool allowed_;
+  std::array<Compiled, 3> compiled_;  ///< of widths 1, 4 and 8
 };
 
 }  // namespace codesign

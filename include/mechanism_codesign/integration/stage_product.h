@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_INTEGRATION_STAGE_PRODUCT_H_
 #define MECHANISM_CODESIGN_INTEGRATION_STAGE_PRODUCT_H_
 
+#include <complex>
 #include <memory>
 
 #include "mechanism_codesign/dynamics/sparsity.h"
@@ -24,10 +25,17 @@ class StageProduct {
   template <int N>
   void subtract(const Linearization<double>& derivatives, const double* xv, double* y) const;
 
+  /// The same for one complex vector, which only checks of derivatives use.
+  void subtract(const Linearization<std::complex<double>>& derivatives, const std::complex<double>* xv, std::complex<double>* y) const;
+  void subtract(const Linearization<double>& derivatives, const double* xv, double* y) const { subtract<1>(derivatives, xv, y); }
+
  private:
+  template <class T>
+  void subtract_rows(const Linearization<T>& derivatives, const T* xv, T* y) const;
+
   const ByVariable<Sparsity>* patterns_;
   int rows_;
-  std::unique_ptr<LazyStraightLine[]> code_;  ///< for 1, 4 and 8 vectors
+  std::unique_ptr<LazyStraightLine> code_;
 };
 
 }  // namespace codesign
