@@ -147,6 +147,16 @@ ReferenceMotion<T> Reference<T>::at(double t) const {
   return motion;
 }
 
+Reference<Traced>::Reference(const ReferenceDescription& description, const std::vector<Traced>& parameters) {
+  if (description.kind == ReferenceDescription::Kind::kConstant) {
+    motion_.value = description.constant.at(parameters);
+    return;
+  }
+  Recording* const recording = parameters.front().recording();
+  const auto order = [&](int k) { return Traced(recording, recording->timed(&description, k)); };
+  motion_ = {order(0), order(1), order(2), order(3)};
+}
+
 template class Reference<double>;
 template class Reference<std::complex<double>>;
 template class Reference<Lanes<4>>;

@@ -11,6 +11,7 @@ namespace codesign {
 
 template <class T>
 void Equations<T>::linearize(const State<T>& state, Linearization<T>* derivatives) {
+  if (compiled_.linearize(state, turn_references_, derivatives)) return;
   load(state);
   AssemblySink<T> sink(system_.slots(), derivatives);
   assemble(&sink);

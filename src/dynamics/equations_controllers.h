@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_SRC_DYNAMICS_EQUATIONS_CONTROLLERS_H_
 #define MECHANISM_CODESIGN_SRC_DYNAMICS_EQUATIONS_CONTROLLERS_H_
 
+#include "mechanism_codesign/control/shaped_input.h"
 #include "mechanism_codesign/dynamics/equations.h"
 
 namespace codesign {
@@ -107,14 +108,17 @@ T Equations<T>::state_feedback(int controller, SparseGradient<T>* gradient) {
 template <class T>
 T Equations<T>::shaped_input(int controller, SparseGradient<T>* gradient) {
   const auto c = static_cast<std::size_t>(controller);
-  const BasisWeights weights = basis_weights(system_.study().controllers[c].basis, state_->t);
-  T output(0.0);
-  for (int k = 0; k < weights.count; ++k) {
-    const T& coefficient = controllers_[c].coefficients[static_cast<std::size_t>(weights.first + k)];
-    output += T(weights.value[static_cast<std::size_t>(k)]) * coefficient;
-    if (gradient) gradient->time += T(weights.rate[static_cast<std::size_t>(k)]) * coefficient;
+  const BasisDescription& basis = system_.study().controllers[c].basis;
+  ReferenceMotion<T> input;
+  if constexpr (std::is_same_v<T, Traced>) {
+    Recording* const recording = parameters_.front().recording();
+    input.value = Traced(recording, recording->timed(&basis, 0));
+    input.rate = Traced(recording, recording->timed(&basis, 1));
+  } else {
+    input = codesign::shaped_input(basis, controllers_[c].coefficients, state_->t);
   }
-  return output;
+  if (gradient) gradient->time += input.rate;
+  return input.value;
 }
 
 }  // namespace codesign

@@ -33,10 +33,10 @@ T Equations<T>::coordinate_value(int pair, int element) const {
 }
 
 template <class T>
-double Equations<T>::whole_turns(int pair, int element, const T& position) const {
+T Equations<T>::whole_turns(int pair, int element, const T& position) const {
   const auto p = static_cast<std::size_t>(pair), e = static_cast<std::size_t>(element);
-  if (constants_.pairs[p].coordinates[e].kind == CoordinateConstants<T>::Kind::kSlide) return 0.0;
-  return 2.0 * M_PI * std::round((turn_references_[p][e] - value_of(position)) / (2.0 * M_PI));
+  if (constants_.pairs[p].coordinates[e].kind == CoordinateConstants<T>::Kind::kSlide) return T(0.0);
+  return nearest_turns(turn_references_[p][e], position);
 }
 
 template <class T>

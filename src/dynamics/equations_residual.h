@@ -8,7 +8,7 @@
 namespace codesign {
 
 template <class T>
-Equations<T>::Equations(const System& system) : system_(system), layout_(system.layout()) {
+Equations<T>::Equations(const System& system) : system_(system), layout_(system.layout()), compiled_(system) {
   for (int k = 0; k < 3; ++k) gravity_[k] = T(system.study().gravity[static_cast<std::size_t>(k)]);
   kinematics_.resize(static_cast<std::size_t>(layout_.bodies) + 1);
   kinematics_.back().at_rest = true;
@@ -34,6 +34,7 @@ template <class T>
 void Equations<T>::set_design(const std::vector<T>& parameters) {
   ++version_;
   parameters_ = parameters;
+  compiled_.set_design(parameters);
   constants_ = evaluate_constants(system_.robot(), system_.topology(), parameters);
   rows_.clear();
   for (std::size_t k = 0; k < constants_.pairs.size(); ++k)
@@ -77,6 +78,7 @@ void Equations<T>::load(const State<T>& state) {
 
 template <class T>
 void Equations<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
+  if (compiled_.residual(state, turn_references_, G, g)) return;
   load(state);
   G->setZero(layout_.columns());
   for (BodyLoad<T>& load : loads_) {
@@ -143,6 +145,7 @@ void Equations<T>::body_residual(std::size_t b, VectorX<T>* G) {
 
 template <class T>
 void Equations<T>::constraint_errors(const VectorX<T>& q, const VectorX<T>& v, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
+  if (compiled_.constraint_errors(q, v, turn_references_, Phi, Phi_rate)) return;
   constraint_state_.q = q;
   constraint_state_.v = v;
   load(constraint_state_);

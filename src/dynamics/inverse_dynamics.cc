@@ -222,5 +222,6 @@ template class InverseDynamics<double>;
 template class InverseDynamics<std::complex<double>>;
 template class InverseDynamics<Lanes<4>>;
 template class InverseDynamics<Lanes<8>>;
+template class InverseDynamics<Traced>;
 
 }  // namespace codesign

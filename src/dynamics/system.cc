@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "dynamics/equation_code.h"
 #include "mechanism_codesign/dynamics/equations.h"
 
 namespace codesign {
@@ -36,7 +37,7 @@ bool zero(const Quantity& q) { return q.is_constant() && q.nominal() == 0.0; }
 }  // namespace
 
 System::System(const RobotDescription& robot, const Study& study, double compliance)
-    : robot_(robot), study_(study), topology_(derive_topology(robot_)), compliance_(compliance) {
+    : robot_(robot), study_(study), topology_(derive_topology(robot_)), compliance_(compliance), code_(std::make_shared<LazyEquationCode>()) {
   refuse_unsupported();
   lay_out();
   find_coordinates();
@@ -192,6 +193,8 @@ void System::check_readable(const Signal& signal, const SignalDescription& descr
                       description.text, "in a ball joint of three hinges, hinges at right angles to each other"});
   }
 }
+
+const EquationCode* System::equation_code() const { return code_->get(*this); }
 
 void System::record_pattern() {
   Equations<double> equations(*this);

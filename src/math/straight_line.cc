@@ -2,11 +2,7 @@
 #include "math/straight_line.h"
 
 #ifdef CODESIGN_MACHINE_CODE
-#include <xbyak/xbyak.h>
-#include <xbyak/xbyak_util.h>
-
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #endif
 
@@ -18,8 +14,6 @@ namespace {
 constexpr std::size_t kMostBytes = 512 * 1024;
 constexpr std::size_t kBytesPerOperation = 16;  // an instruction has fewer
 constexpr int kOne = 15;                        // the register that holds 1
-
-bool operator==(const Place& x, const Place& y) { return x.array == y.array && x.index == y.index; }
 
 /// Which registers hold which rows; the one that was not asked for longest is given away first.
 class Registers {
@@ -54,33 +48,30 @@ class Registers {
   int clock_ = 0;
 };
 
-class MachineCode final : public StraightLine, private Xbyak::CodeGenerator {
+class SumsCode final : public StraightLine, private MachineCode {
  public:
-  MachineCode(const std::vector<Sum>& sums, int width, std::size_t bytes)
-      : Xbyak::CodeGenerator(bytes, Xbyak::DontSetProtectRWE), width_(width) {
-    for (int k = 0; k < kArrays; ++k) mov(base(k), ptr[rdi + 8 * k]);
+  SumsCode(const std::vector<Sum>& sums, int width, const RowLayouts& layouts, std::size_t bytes)
+      : MachineCode(bytes), width_(width), layouts_(layouts) {
+    enter();
     if (width_ == 1) {
-      mov(rax, std::uint64_t{0x3ff0000000000000});  // the number 1
-      vmovq(Xbyak::Xmm(kOne), rax);
+      mov(rbx, std::uint64_t{0x3ff0000000000000});  // the number 1
+      vmovq(Xbyak::Xmm(kOne), rbx);
       for (const Sum& sum : sums) emit_one(sum);
     } else {
       for (const Sum& sum : sums) emit_many(sum);
       vzeroupper();
     }
-    ret();
-    setProtectModeRE();
-    run_ = getCode<void (*)(const double* const*)>();
+    leave();
+    finish();
   }
 
-  void run(const double* const (&arrays)[kArrays]) const override { run_(arrays); }
+  void run(const Arrays& arrays) const override { call(arrays.data()); }
 
  private:
-  Xbyak::Reg64 base(int array) const {
-    const Xbyak::Reg64 bases[kArrays] = {rsi, rdx, rcx, r8, r9};
-    return bases[array];
+  Xbyak::Address row(const Place& place, int block) {
+    const RowLayout& layout = layouts_[static_cast<std::size_t>(place.array)];
+    return yword[base(place.array) + 8 * (layout.stride * place.index + layout.offset) + 32 * block];
   }
-  Xbyak::Address number(const Place& place) { return qword[base(place.array) + 8 * place.index]; }
-  Xbyak::Address row(const Place& place, int block) { return yword[base(place.array) + 8 * width_ * place.index + 32 * block]; }
 
   // Long sums in two parts, since every addition waits for the one before it.
   void emit_one(const Sum& sum) {
@@ -113,22 +104,37 @@ class MachineCode final : public StraightLine, private Xbyak::CodeGenerator {
     vmovsd(number(sum.target), result);
   }
 
+  void start_many(const Sum& sum, Xbyak::Ymm factor) {
+    if (sum.start_scale.array >= 0) vbroadcastsd(factor, number(sum.start_scale));
+    for (int block = 0; block < width_ / 4; ++block) {
+      const Xbyak::Ymm result(block);
+      if (sum.start.array < 0)
+        vxorpd(result, result, result);
+      else if (sum.start_scale.array < 0)
+        vmovupd(result, row(sum.start, block));
+      else
+        vmulpd(result, factor, row(sum.start, block));
+    }
+  }
+
+  void add_product(const Sum::Product& product, Xbyak::Ymm factor) {
+    if (product.factor.array >= 0) vbroadcastsd(factor, number(product.factor));
+    for (int block = 0; block < width_ / 4; ++block) {
+      const Xbyak::Ymm result(block);
+      const Xbyak::Address x = row(product.row, block);
+      if (product.factor.array < 0)
+        product.added ? vaddpd(result, result, x) : vsubpd(result, result, x);
+      else
+        product.added ? vfmadd231pd(result, factor, x) : vfnmadd231pd(result, factor, x);
+    }
+  }
+
   void emit_many(const Sum& sum) {
     const int blocks = width_ / 4;
     const Xbyak::Ymm factor(15);
     const auto result = [](int block) { return Xbyak::Ymm(block); };
-    if (sum.start_scale.array >= 0) vbroadcastsd(factor, number(sum.start_scale));
-    for (int block = 0; block < blocks; ++block)
-      if (sum.start.array < 0)
-        vxorpd(result(block), result(block), result(block));
-      else if (sum.start_scale.array < 0)
-        vmovupd(result(block), row(sum.start, block));
-      else
-        vmulpd(result(block), factor, row(sum.start, block));
-    for (const Sum::Product& product : sum.products) {
-      vbroadcastsd(factor, number(product.factor));
-      for (int block = 0; block < blocks; ++block) vfnmadd231pd(result(block), factor, row(product.row, block));
-    }
+    start_many(sum, factor);
+    for (const Sum::Product& product : sum.products) add_product(product, factor);
     if (sum.scale.array >= 0) {
       vbroadcastsd(factor, number(sum.scale));
       for (int block = 0; block < blocks; ++block) vmulpd(result(block), result(block), factor);
@@ -137,33 +143,31 @@ class MachineCode final : public StraightLine, private Xbyak::CodeGenerator {
   }
 
   int width_;
+  RowLayouts layouts_;
   Registers registers_{14};
-  void (*run_)(const double* const*) = nullptr;
 };
-
-bool can_run() {
-  static const bool can = [] {
-    const Xbyak::util::Cpu cpu;
-    return cpu.has(Xbyak::util::Cpu::tAVX2) && cpu.has(Xbyak::util::Cpu::tFMA);
-  }();
-  return can;
-}
 
 }  // namespace
 
-std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>& sums, int width) {
-  std::size_t operations = 32;
+std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>& sums, int width, const RowLayouts& layouts) {
+  std::size_t operations = 64;
   for (const Sum& sum : sums) operations += 8 + (1 + static_cast<std::size_t>(width + 3) / 4) * sum.products.size();
   const std::size_t bytes = kBytesPerOperation * operations;
-  if (bytes > kMostBytes || !can_run()) return nullptr;
+  if (bytes > kMostBytes || !MachineCode::can_run()) return nullptr;
   try {
-    return std::make_unique<MachineCode>(sums, width, (bytes + 4095) / 4096 * 4096);
+    return std::make_unique<SumsCode>(sums, width, layouts, bytes);
   } catch (const Xbyak::Error&) {
     return nullptr;
   }
 }
 #else
-std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>&, int) { return nullptr; }
+std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>&, int, const RowLayouts&) { return nullptr; }
 #endif
+
+std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>& sums, int width) {
+  RowLayouts behind;
+  behind.fill({width, 0});
+  return compile(sums, width, behind);
+}
 
 }  // namespace codesign

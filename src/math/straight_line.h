@@ -7,12 +7,9 @@
 #include <memory>
 #include <vector>
 
-namespace codesign {
+#include "math/machine_code.h"
 
-/// A number in one of the arrays that a StraightLine works on; none if array < 0.
-struct Place {
-  int array = -1, index = 0;
-};
+namespace codesign {
 
 /// target = (start * start_scale - sum of rows[i] * factors[i]) * scale, or one over that.
 ///
@@ -20,7 +17,8 @@ struct Place {
 /// is among the rows of its own sum.
 struct Sum {
   struct Product {
-    Place row, factor;
+    Place row, factor;  ///< a row without a factor counts as it is, if the StraightLine is wide
+    bool added = false;  ///< rather than subtracted; only if it is wide
   };
   Place target, start, start_scale, scale;
   bool reciprocal = false;
@@ -31,16 +29,22 @@ struct Sum {
 /// does not change from one refactorization to the next. Rows that were computed or read last are kept in registers.
 class StraightLine {
  public:
-  static constexpr int kArrays = 5;
+  /// Row k of an array begins at its number stride * k + offset.
+  struct RowLayout {
+    int stride, offset;
+  };
+  using RowLayouts = std::array<RowLayout, kCodeArrays>;
+  using Arrays = std::array<const double*, kCodeArrays>;
 
   virtual ~StraightLine() = default;
 
-  /// @param width of rows: 1, 4 or 8. Null where that cannot be: other processors than x86-64 with AVX2 and FMA, a system that lets no
+  /// @param width of rows: 1, 4 or 8. @param layouts where rows lie; one behind the other if not given. Null where that cannot be: other processors than x86-64 with AVX2 and FMA, a system that lets no
   /// program write code, or more than a few hundred kilobytes of it, which loops would beat.
   static std::unique_ptr<StraightLine> compile(const std::vector<Sum>& sums, int width);
+  static std::unique_ptr<StraightLine> compile(const std::vector<Sum>& sums, int width, const RowLayouts& layouts);
 
   /// @param arrays their first numbers; those that targets lie in are written to.
-  virtual void run(const double* const (&arrays)[kArrays]) const = 0;
+  virtual void run(const Arrays& arrays) const = 0;
 };
 
 /// The same sums for rows of every width, each compiled when it is first asked for.

@@ -2,7 +2,9 @@
 #ifndef MECHANISM_CODESIGN_SRC_SENSITIVITY_LANE_STATE_H_
 #define MECHANISM_CODESIGN_SRC_SENSITIVITY_LANE_STATE_H_
 
-#include "mechanism_codesign/sensitivity/tangent_step.h"
+#include "mechanism_codesign/dynamics/state.h"
+#include "mechanism_codesign/integration/increment.h"
+#include "mechanism_codesign/sensitivity/directions.h"
 
 namespace codesign {
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "mechanism_codesign/dynamics/row_product.h"
-#include "sensitivity/lane_state.h"
 
 namespace codesign {
 
@@ -21,31 +20,26 @@ TangentStep<N>::TangentStep(const System& system, const RosenbrockTableau& table
       rows_(Directions<N>::Zero(N, layout_.columns() + 1)),
       stages_(static_cast<std::size_t>(tableau.stages), y_),
       matrix_changes_(stages_.size(), rows_) {
-  derivatives_.resize(system.patterns());
-  state_.resize(layout_);
   projected_.resize(layout_);
-}
-
-template <int N>
-void TangentStep<N>::load_lanes(const State<double>& values, const Directions<N>& directions) {
-  codesign::load_lanes(at_, values, directions, &state_);
 }
 
 template <int N>
 void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly, const State<double>& initial,
                            const RosenbrockStep<double>& step) {
-  equations_.set_design(parameters);
-  equations_.turn_references() = step.equations().turn_references();
-  assembly.extend(parameters, initial, &equations_, &state_);
+  equations_.equations().set_design(parameters);
+  equations_.equations().turn_references() = step.equations().turn_references();
+  State<Lanes<N>> start;
+  start.resize(layout_);
+  assembly.extend(parameters, initial, &equations_.equations(), &start);
   const auto take = [this](const VectorX<Lanes<N>>& lanes, int first) {
     for (Eigen::Index k = 0; k < lanes.size(); ++k) y_.col(first + k) = lanes[k].directions();
   };
   y_.setZero();
-  take(state_.q, at_.x());
-  take(state_.s, at_.s());
-  take(state_.v, at_.v());
-  take(state_.z, at_.z());
-  equations_.linearize(state_, &derivatives_);
+  take(start.q, at_.x());
+  take(start.s, at_.s());
+  take(start.v, at_.v());
+  take(start.z, at_.z());
+  equations_.linearize(initial, y_);
   largest_x_.setZero();
   largest_v_.setZero();
   measure();
@@ -94,11 +88,12 @@ void TangentStep<N>::change_matrices(const RosenbrockStep<double>& step) {
     for (std::size_t k = 0; k < kTogether; ++k) u[k] = step.increments()[first + std::min(k, count - 1)].data();
     for (int row = 0; row <= at_.z_size; ++row) {
       Vector sums[kTogether] = {};
-      add_row_tangents<N, kTogether>(patterns.position, derivatives_.position, row, u, at_.x(), sums);
-      add_row_tangents<N, kTogether>(patterns.velocity, derivatives_.velocity, row, u, at_.v(), sums);
-      add_row_tangents<N, kTogether>(patterns.rate, derivatives_.rate, row, u, at_.z(), sums);
+      add_row_tangents<N, kTogether>(patterns.position, equations_.changes().position, row, u, at_.x(), sums);
+      add_row_tangents<N, kTogether>(patterns.velocity, equations_.changes().velocity, row, u, at_.v(), sums);
+      add_row_tangents<N, kTogether>(patterns.rate, equations_.changes().rate, row, u, at_.z(), sums);
       for (std::size_t k = 0; k < count; ++k)
-        vector_at(&matrix_changes_[first + k], row) = sums[k] + (step.step_size() * tableau_.gamma_i[first + k]) * derivatives_.time[row].v;
+        vector_at(&matrix_changes_[first + k], row) =
+            sums[k] + (step.step_size() * tableau_.gamma_i[first + k]) * vector_at(equations_.time_changes(), row);
     }
   }
 }
@@ -109,12 +104,11 @@ void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& 
   const ByVariable<Sparsity>& patterns = system_.patterns();
   const Linearization<double>& matrices = step.derivatives();
   combine(y_.data(), tableau_.a[i].data(), i, 0, at_.psi(), stage_y_.data());
-  load_lanes(step.stages()[i], stage_y_);
-  equations_.residual(state_, &residual_, &g_);
+  equations_.residual(step.stages()[i], stage_y_, &residual_);
   stage_start(i, step.step_size());
   Directions<N>& u = stages_[i];
   const double *const x = u.data() + N * at_.x(), *const v = u.data() + N * at_.v();
-  for (int row = 0; row < at_.z_size; ++row) vector_at(&rows_, row) = -(residual_[row].v + vector_at(matrix_changes_[i], row));
+  for (int row = 0; row < at_.z_size; ++row) vector_at(&rows_, row) = -(vector_at(residual_, row) + vector_at(matrix_changes_[i], row));
   step.product().template subtract<N>(matrices, x, rows_.data());
   step.stage_matrix().lu().template solve_rows<N>(rows_.data());
   u.middleCols(at_.z(), at_.z_size) = rows_.leftCols(at_.z_size);
@@ -124,7 +118,7 @@ void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& 
     vector_at(&u, at_.x() + k) += hg * change;
   }
   for (int k = 0; k < at_.states; ++k) vector_at(&u, at_.s() + k) += hg * vector_at(u, at_.sigma() + k);
-  Vector psi = g_.v + vector_at(matrix_changes_[i], at_.z_size) + vector_at(u, at_.psi());
+  Vector psi = vector_at(residual_, at_.z_size) + vector_at(matrix_changes_[i], at_.z_size) + vector_at(u, at_.psi());
   add_row_product<N>(patterns.position, matrices.position, at_.z_size, x, &psi);
   add_row_product<N>(patterns.velocity, matrices.velocity, at_.z_size, v, &psi);
   add_row_product<N>(patterns.rate, matrices.rate, at_.z_size, u.data() + N * at_.z(), &psi);
@@ -133,7 +127,7 @@ void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& 
 
 template <int N>
 void TangentStep<N>::attempt(const RosenbrockStep<double>& step) {
-  equations_.turn_references() = step.equations().turn_references();
+  equations_.equations().turn_references() = step.equations().turn_references();
   change_matrices(step);
   for (std::size_t i = 0; i < stages_.size(); ++i) stage_tangent(i, step);
 }
@@ -158,13 +152,13 @@ void TangentStep<N>::measure() {
 
 // Differentiates [G_a G_lambda; Phi_q 0] [delta; mu] = [0; -error].
 template <int N>
-void TangentStep<N>::project(const VectorX<double>& correction, const VectorX<Lanes<N>>& errors, const SparseLu& lu, double* target) {
+void TangentStep<N>::project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu, double* target) {
   for (int row = 0; row < at_.z_size; ++row) {
     Vector sum[1] = {};
     const double* const x[1] = {correction.data()};
-    add_row_tangents<N, 1>(system_.patterns().rate, derivatives_.rate, row, x, 0, sum);
+    add_row_tangents<N, 1>(system_.patterns().rate, equations_.changes().rate, row, x, 0, sum);
     const int constraint = row - layout_.n;
-    if (constraint >= 0 && constraint < layout_.m) sum[0] += errors[constraint].v;
+    if (constraint >= 0 && constraint < layout_.m) sum[0] += vector_at(errors, constraint);
     vector_at(&rows_, row) = -sum[0];
   }
   lu.template solve_rows<N>(rows_.data());
@@ -175,22 +169,19 @@ template <int N>
 void TangentStep<N>::accept(const RosenbrockStep<double>& step) {
   combine(y_.data(), tableau_.weights.data(), stages_.size(), 0, at_.size(), y_.data());
   const SparseLu& lu = step.projection_matrix().lu();
-  load_lanes(step.unprojected(), y_);
-  equations_.linearize(state_, &derivatives_);
-  equations_.constraint_errors(state_.q, state_.v, &errors_, &rates_);
+  equations_.linearize(step.unprojected(), y_);
+  equations_.constraint_errors(step.unprojected(), y_, &errors_, &rates_);
   project(step.position_correction(), errors_, lu, y_.data() + N * at_.x());
   projected_ = step.unprojected();
   projected_.q = step.state().q;
-  load_lanes(projected_, y_);
-  equations_.constraint_errors(state_.q, state_.v, &errors_, &rates_);
+  equations_.constraint_errors(projected_, y_, &errors_, &rates_);
   project(step.velocity_correction(), rates_, lu, y_.data() + N * at_.v());
   measure();
 }
 
 template <int N>
 Eigen::Matrix<double, N, 1> TangentStep<N>::terminal(const State<double>& state) {
-  load_lanes(state, y_);
-  return equations_.terminal(state_, nullptr).directions();
+  return equations_.equations().terminal(equations_.lanes(state, y_), nullptr).directions();
 }
 
 template class TangentStep<4>;

@@ -40,6 +40,19 @@ class Reference {
   std::vector<Piece> pieces_;  ///< the first from minus infinity, the last to infinity
 };
 
+/// While equations are recorded: a constant, or numbers that come with each instant.
+template <>
+class Reference<Traced> {
+ public:
+  Reference() = default;
+  Reference(const ReferenceDescription& description, const std::vector<Traced>& parameters);
+
+  ReferenceMotion<Traced> at(double) const { return motion_; }
+
+ private:
+  ReferenceMotion<Traced> motion_;
+};
+
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_CONTROL_REFERENCE_H_

@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "mechanism_codesign/control/controller_constants.h"
 #include "mechanism_codesign/dynamics/bristle_law.h"
+#include "mechanism_codesign/dynamics/compiled_equations.h"
 #include "mechanism_codesign/dynamics/contact_friction.h"
 #include "mechanism_codesign/dynamics/inverse_dynamics.h"
 #include "mechanism_codesign/dynamics/sparsity.h"
@@ -29,11 +31,16 @@ struct FrictionState {
   T load{0.0};      ///< that the joint exerts against the motion, S(v) N [N or N m]; the child feels -load
 };
 
+/// Whole turns are counted with values alone; while equations are recorded, these come with each evaluation.
+template <class T>
+using TurnReference = std::conditional_t<std::is_same_v<T, Traced>, Traced, double>;
+
 /// The equations of motion of one design, with the scratch memory to evaluate them; doc/theory.md (14):
 ///   rows 0..n:      M a + Phi_q^T lambda - Q - Q_Af = 0
 ///   rows n..n+m:    Phi_q a + (Phi_q v)_q v = 0
 ///   rows n+m..:     sigma - s' = 0, integrals of controllers, then states of friction laws
-/// T: double, std::complex<double> or Lanes<N>; the same code gives values and every derivative. No allocation once warm; not thread-safe.
+/// T: double, std::complex<double> or Lanes<N>; the same code gives values and every derivative, and with Traced what is compiled for one
+/// mechanism and runs in its place wherever it can. No allocation once warm; not thread-safe.
 template <class T>
 class Equations {
  public:
@@ -53,6 +60,9 @@ class Equations {
   /// Derivatives of G and g, on System::patterns().
   void linearize(const State<T>& state, Linearization<T>* derivatives);
 
+  /// Directional derivatives of these functions, where they were compiled.
+  CompiledEquationsOf<T>& compiled() { return compiled_; }
+
   /// Terminal objective terms w at a state, with their gradient if asked for.
   T terminal(const State<T>& state, SparseGradient<T>* gradient);
 
@@ -63,11 +73,11 @@ class Equations {
   void constraint_errors(const VectorX<T>& q, const VectorX<T>& v, VectorX<T>* Phi, VectorX<T>* Phi_rate);
 
   /// Counts whole turns: positions of turning joints are continued from the value nearest to these. One per pair and chain element.
-  std::vector<std::vector<double>>& turn_references() {
+  std::vector<std::vector<TurnReference<T>>>& turn_references() {
     ++version_;
     return turn_references_;
   }
-  const std::vector<std::vector<double>>& turn_references() const { return turn_references_; }
+  const std::vector<std::vector<TurnReference<T>>>& turn_references() const { return turn_references_; }
   /// Makes the present positions the references.
   void track_turns(const State<T>& state);
 
@@ -179,7 +189,7 @@ class Equations {
   }
   bool coordinate_moves_r(int pair, int element) const;
   /// What to add to a position so that it continues its reference.
-  double whole_turns(int pair, int element, const T& position) const;
+  T whole_turns(int pair, int element, const T& position) const;
   BodyLoad<T>* load_on(int body) { return body < 0 ? nullptr : &loads_[static_cast<std::size_t>(body)]; }
   T coordinate_value(int pair, int element) const;
 
@@ -208,8 +218,9 @@ class Equations {
   };
   mutable std::vector<std::vector<KnownCoordinate>> coordinates_;  ///< per pair and chain element
   std::uint64_t version_ = 0;                                      ///< of what coordinates depend on
-  std::vector<std::vector<double>> turn_references_;
+  std::vector<std::vector<TurnReference<T>>> turn_references_;
   SparseGradient<T> gradient_, objective_gradient_;
+  CompiledEquationsOf<T> compiled_;
 };
 
 }  // namespace codesign

@@ -36,6 +36,9 @@ struct JointLoad {
   bool needs_position() const { return spring || stop; }
 };
 
+class EquationCode;
+class LazyEquationCode;
+
 /// A mechanism and a study compiled into equations of motion; immutable, shared by all workspaces.
 class System {
  public:
@@ -43,6 +46,8 @@ class System {
   /// (23).
   /// @throws InputError for what cannot be compiled.
   System(const RobotDescription& robot, const Study& study, double compliance = 0.0);
+  System(const System&) = delete;
+  System& operator=(const System&) = delete;
 
   const RobotDescription& robot() const { return robot_; }
   const Study& study() const { return study_; }
@@ -66,6 +71,9 @@ class System {
   const ByVariable<std::vector<int>>& slots() const { return slots_; }
 
   double compliance() const { return compliance_; }
+
+  /// The equations compiled for this mechanism, when they are first asked for; null where that cannot be. Thread-safe.
+  const EquationCode* equation_code() const;
 
   /// @throws InputError if a signal reads a coordinate that has no closed form (of a joint in a folded chain), or an integral that nobody
   /// computes.
@@ -103,6 +111,7 @@ class System {
   std::vector<ResolvedTerm> integral_, terminal_;
   ByVariable<Sparsity> patterns_;
   ByVariable<std::vector<int>> slots_;
+  std::shared_ptr<LazyEquationCode> code_;
 };
 
 }  // namespace codesign

@@ -17,7 +17,7 @@ namespace codesign {
 template <class T>
 ValueAndSlope<T> direction_per_speed(const T& square, const T& v_e) {
   using std::sqrt;
-  if (value_of(square) < value_of(v_e) * value_of(v_e)) {
+  if (is_less(square, T(v_e * v_e), false)) {
     const T cubed = T(0.5) / (v_e * v_e * v_e);
     return {T(1.5) / v_e - square * cubed, -cubed};
   }
@@ -39,7 +39,7 @@ CutVector<T> cut_off(const Vector3<T>& x, const T& limit) {
   const T square = dot(x, x);
   CutVector<T> cut;
   cut.value = x;
-  if (value_of(square) <= value_of(limit) * value_of(limit)) return cut;
+  if (!is_less(T(limit * limit), square, false)) return cut;
   const T inverse = T(1.0) / sqrt(square);
   cut.by_limit = inverse * x;
   cut.value = limit * cut.by_limit;
@@ -81,7 +81,7 @@ Bristle<T> gonthier(const Vector3<T>& u, const BristleState<T>& state, const Fri
   b.mu_zeta = s * cut.by_x;
   b.mu_dwell = rise * cut.by_limit;
 
-  const T pace = value_of(s) >= value_of(state.dwell) ? T(T(1.0) / c.dwell_time) : bristle_rate;
+  const T pace = is_less(s, state.dwell, true) ? bristle_rate : T(T(1.0) / c.dwell_time);
   b.dwell_rate = pace * (s - state.dwell);
   b.dwell_u = pace * s_u;
   b.dwell_dwell = -pace;

@@ -55,7 +55,7 @@ T length_of(const Eigen::Matrix<T, D, 1>& u) {
   using std::sqrt;
   T square(0.0);
   for (int k = 0; k < D; ++k) square += u[k] * u[k];
-  return value_of(square) > 0.0 ? T(sqrt(square)) : T(0.0);
+  return is_less(T(0.0), square, true) ? T(sqrt(square)) : T(0.0);
 }
 
 }  // namespace codesign

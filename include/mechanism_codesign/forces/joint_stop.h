@@ -25,9 +25,9 @@ struct StopForce {
 template <class T>
 StopForce<T> joint_stop(const T& excess, const T& rate, double stiffness, double dissipation, double width) {
   using std::sqrt;
-  if (value_of(excess) <= 0.0) return {};
+  if (!is_less(T(0.0), excess, false)) return {};
   T depth, slope(1.0);
-  if (value_of(excess) >= width) {
+  if (!is_less(excess, T(width), true)) {
     depth = excess - T(0.5 * width);
   } else {
     const T s = excess / T(width), s3 = s * s * s;
@@ -36,7 +36,7 @@ StopForce<T> joint_stop(const T& excess, const T& rate, double stiffness, double
   }
   const T y = T(dissipation) * rate, root = sqrt(T(1.0) + y * y);
   // The other form loses no digits where the joint leaves fast.
-  const T growth = value_of(y) < 0.0 ? T(1.0) / (root - y) : y + root;
+  const T growth = is_less(y, T(0.0), false) ? T(1.0) / (root - y) : y + root;
   const T k(stiffness);
   return {k * depth * growth, k * slope * growth, k * depth * growth * T(dissipation) / root};
 }

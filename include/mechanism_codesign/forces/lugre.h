@@ -19,7 +19,7 @@ Bristle<T> lugre(const Vector3<T>& u, const BristleState<T>& state, const Fricti
   using std::exp;
   using std::sqrt;
   const T square = dot(u, u), v2 = T(1.0) / (c.transition_velocity * c.transition_velocity);
-  const bool moving = value_of(square) > 0.0;
+  const bool moving = is_less(T(0.0), square, true);
   const T speed = moving ? T(sqrt(square)) : T(0.0);
   const T rise = (c.mu_static - c.mu_dynamic) * exp(-square * v2), g = c.mu_dynamic + rise;
   const T turnover = speed / g;  // |u|/g: how fast bristles are replaced, per sigma_0 [m/s]

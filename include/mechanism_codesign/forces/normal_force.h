@@ -61,7 +61,7 @@ template <class T>
 NormalForce<T> revolute_normal_force(const Vector3<T>& F, const Vector3<T>& torque, const FrictionConstants<T>& c) {
   NormalForce<T> N = pin_normal_force(F, torque, c);
   const T thrust = smooth_abs(F[2], c.smoothing);
-  const T arm = value_of(c.pin_radius) > 0.0 ? T(c.friction_arm / c.pin_radius) : T(1.0);
+  const T arm = is_less(T(0.0), c.pin_radius, true) ? T(c.friction_arm / c.pin_radius) : T(1.0);
   N.value += arm * thrust;
   N.F[2] = arm * F[2] / thrust;
   return N;

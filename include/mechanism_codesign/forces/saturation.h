@@ -24,11 +24,11 @@ SaturatedEffort<T> saturate(const T& u, const T& u_max) {
   const auto eighth_root = [](const T& x) { return sqrt(sqrt(sqrt(x))); };
   const T x = u / u_max;
   // Beyond the limit in powers of 1/x, which cannot overflow.
-  const bool beyond = std::abs(value_of(x)) > 1.0;
+  const bool beyond = is_less(T(1.0), T(x * x), false);
   const T r = beyond ? T(1.0) / x : x, r2 = r * r, r4 = r2 * r2, r8 = r4 * r4;
   const T root = eighth_root(T(1.0) + r8), root9 = (T(1.0) + r8) * root;
   if (!beyond) return {u / root, T(1.0) / root9};
-  const T sign(value_of(x) < 0.0 ? -1.0 : 1.0);
+  const T sign(is_less(x, T(0.0), false) ? -1.0 : 1.0);
   return {sign * u_max / root, sign * r8 * r / root9};
 }
 

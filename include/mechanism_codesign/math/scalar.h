@@ -6,6 +6,7 @@
 #include <complex>
 
 #include "mechanism_codesign/math/lanes.h"
+#include "mechanism_codesign/math/traced.h"
 
 namespace codesign {
 
@@ -28,6 +29,14 @@ inline double value_of(const std::complex<double>& x) { return x.real(); }
 template <int N>
 double value_of(const Lanes<N>& x) {
   return x.a;
+}
+
+/// Whether the value of x is below that of y. Formulas decide with this, so that they can be recorded.
+/// @param likely the outcome for which a recording is made; the others are left to the formula itself.
+template <class T>
+bool is_less(const T& x, const T& y, bool likely) {
+  static_cast<void>(likely);
+  return value_of(x) < value_of(y);
 }
 
 }  // namespace codesign

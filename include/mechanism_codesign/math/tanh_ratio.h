@@ -32,7 +32,7 @@ ValueAndSlope<T> tanh_ratio(const T& x) {
                                 6404582.0 / 10854718875.0,
                                 -443861162.0 / 1856156927625.0,
                                 18888466084.0 / 194896477400625.0};
-  if (value_of(x) >= kSeriesBelow) {
+  if (!is_less(x, T(kSeriesBelow), false)) {
     const T root = sqrt(x), h = tanh(root), value = h / root;
     return {value, (1.0 - h * h - value) / (2.0 * x)};
   }

@@ -13,6 +13,27 @@
 
 namespace codesign {
 
+/// The value of an expression at `parameters`.
+inline double value_at(const Expression& expression, const std::vector<double>& parameters) { return expression.value(parameters); }
+inline std::complex<double> value_at(const Expression& expression, const std::vector<std::complex<double>>& parameters) {
+  return expression.value(parameters);
+}
+/// With the chain rule carried into every lane.
+template <int N>
+Lanes<N> value_at(const Expression& expression, const std::vector<Lanes<N>>& parameters) {
+  std::vector<double> values;
+  values.reserve(parameters.size());
+  for (const Lanes<N>& parameter : parameters) values.push_back(parameter.a);
+  Lanes<N> result(expression.value(values));
+  for (int index : expression.dependencies()) result.v += expression.derivative(index, values) * parameters[static_cast<std::size_t>(index)].v;
+  return result;
+}
+/// While equations are recorded an expression comes with each design. `parameters` are of the recording, and not empty.
+inline Traced value_at(const Expression& expression, const std::vector<Traced>& parameters) {
+  Recording* const recording = parameters.front().recording();
+  return {recording, recording->supplied(&expression)};
+}
+
 /// A number of the model: a constant, or an expression of the parameters.
 class Quantity {
  public:
@@ -25,21 +46,9 @@ class Quantity {
   const Expression* expression() const { return expression_.get(); }
 
   /// The value at `parameters` (all named parameters, in the order of the model, then of the study).
-  double at(const std::vector<double>& parameters) const { return expression_ ? expression_->value(parameters) : nominal_; }
-  std::complex<double> at(const std::vector<std::complex<double>>& parameters) const {
-    return expression_ ? expression_->value(parameters) : std::complex<double>(nominal_);
-  }
-  /// With the chain rule carried into every lane.
-  template <int N>
-  Lanes<N> at(const std::vector<Lanes<N>>& parameters) const {
-    if (!expression_) return Lanes<N>(nominal_);
-    std::vector<double> values;
-    values.reserve(parameters.size());
-    for (const Lanes<N>& parameter : parameters) values.push_back(parameter.a);
-    Lanes<N> result(expression_->value(values));
-    for (int index : expression_->dependencies())
-      result.v += expression_->derivative(index, values) * parameters[static_cast<std::size_t>(index)].v;
-    return result;
+  template <class T>
+  T at(const std::vector<T>& parameters) const {
+    return expression_ ? value_at(*expression_, parameters) : T(nominal_);
   }
 
  private:

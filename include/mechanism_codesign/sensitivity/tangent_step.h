@@ -6,12 +6,9 @@
 
 #include "mechanism_codesign/dynamics/assembly.h"
 #include "mechanism_codesign/integration/rosenbrock_step.h"
+#include "mechanism_codesign/sensitivity/tangent_equations.h"
 
 namespace codesign {
-
-/// N directional derivatives of a vector, one column per component.
-template <int N>
-using Directions = Eigen::Matrix<double, N, Eigen::Dynamic>;
 
 /// The exact tangent of RosenbrockStep for N parameters at once, the step sizes held fixed; doc/theory.md (18).
 ///
@@ -44,32 +41,23 @@ class TangentStep {
 
  private:
   using Vector = typename Lanes<N>::Vector;
-  static Vector& vector_at(Directions<N>* x, int column) { return *reinterpret_cast<Vector*>(x->data() + N * column); }
-  static const Vector& vector_at(const Directions<N>& x, int column) { return *reinterpret_cast<const Vector*>(x.data() + N * column); }
-
-  /// Values and derivatives side by side.
-  void load_lanes(const State<double>& values, const Directions<N>& directions);
   /// to = from + sum over j < count of factors[j] u'_j, of `size` components from the `first` of u' on.
   void combine(const double* from, const double* factors, std::size_t count, int first, int size, double* to) const;
   void change_matrices(const RosenbrockStep<double>& step);
   void stage_start(std::size_t i, double h);
   void stage_tangent(std::size_t i, const RosenbrockStep<double>& step);
   void measure();
-  void project(const VectorX<double>& correction, const VectorX<Lanes<N>>& errors, const SparseLu& lu, double* target);
+  void project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu, double* target);
 
   const System& system_;
   const Layout& layout_;
   const IncrementLayout at_;
   const RosenbrockTableau& tableau_;
-  Equations<Lanes<N>> equations_;
-  Linearization<Lanes<N>> derivatives_;
-  State<Lanes<N>> state_;
+  TangentEquations<N> equations_;
   State<double> projected_;
-  Directions<N> y_, stage_y_, rows_;
+  Directions<N> y_, stage_y_, residual_, rows_, errors_, rates_;
   std::vector<Directions<N>> stages_;          ///< u' of each stage
   std::vector<Directions<N>> matrix_changes_;  ///< dG u of each stage, row by row
-  VectorX<Lanes<N>> residual_, errors_, rates_;
-  Lanes<N> g_;
   Eigen::Array<double, N, 1> largest_x_, largest_v_;  ///< squared norms
 };
 

@@ -1,0 +1,8 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "equations_scalar.h"
+
+namespace codesign {
+
+CODESIGN_INSTANTIATE_EQUATIONS(Traced)
+
+}  // namespace codesign

@@ -1,0 +1,111 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/math/traced.h"
+
+#include <cmath>
+
+namespace codesign {
+namespace {
+
+Traced record(Operation operation, const Traced& x) {
+  return {x.recording(), x.recording()->operate(operation, x.node())};
+}
+
+Traced record(Operation operation, const Traced& x, const Traced& y) {
+  Recording* const recording = x.is_literal() ? y.recording() : x.recording();
+  const int a = x.is_literal() ? recording->literal(x.literal()) : x.node(), b = y.is_literal() ? recording->literal(y.literal()) : y.node();
+  return {recording, recording->operate(operation, a, b)};
+}
+
+bool is_negated(const Traced& x) { return !x.is_literal() && x.recording()->node(x.node()).operation == Operation::kNegate; }
+
+Traced without_sign(const Traced& x) { return {x.recording(), x.recording()->node(x.node()).a}; }
+
+/// A function of one number.
+template <class Function>
+Traced apply(Operation operation, const Traced& x, const Function& function) {
+  return x.is_literal() ? Traced(function(x.literal())) : record(operation, x);
+}
+
+}  // namespace
+
+Traced operator-(const Traced& x) {
+  if (x.is_literal()) return {-x.literal_};
+  return is_negated(x) ? without_sign(x) : record(Operation::kNegate, x);
+}
+
+Traced operator+(const Traced& x, const Traced& y) {
+  if (x.is_literal() && y.is_literal()) return {x.literal_ + y.literal_};
+  if (x.is(0.0)) return y;
+  if (y.is(0.0)) return x;
+  if (is_negated(y)) return x - without_sign(y);
+  if (is_negated(x)) return y - without_sign(x);
+  return record(Operation::kAdd, x, y);
+}
+
+Traced operator-(const Traced& x, const Traced& y) {
+  if (x.is_literal() && y.is_literal()) return {x.literal_ - y.literal_};
+  if (x.is(0.0)) return -y;
+  if (y.is(0.0)) return x;
+  if (!x.is_literal() && !y.is_literal() && x.node_ == y.node_) return {0.0};
+  if (is_negated(y)) return x + without_sign(y);
+  return record(Operation::kSubtract, x, y);
+}
+
+Traced operator*(const Traced& x, const Traced& y) {
+  if (x.is_literal() && y.is_literal()) return {x.literal_ * y.literal_};
+  if (y.is_literal()) return y * x;
+  if (x.is(0.0)) return {0.0};
+  if (x.is(1.0)) return y;
+  if (x.is_literal() && x.literal_ < 0.0) return -(Traced(-x.literal_) * y);
+  if (is_negated(x)) return -(without_sign(x) * y);
+  if (is_negated(y)) return -(x * without_sign(y));
+  return record(Operation::kMultiply, x, y);
+}
+
+Traced operator/(const Traced& x, const Traced& y) {
+  if (x.is_literal() && y.is_literal()) return {x.literal_ / y.literal_};
+  if (x.is(0.0)) return {0.0};
+  if (y.is_literal()) return Traced(1.0 / y.literal_) * x;
+  return record(Operation::kDivide, x, y);
+}
+
+Traced sqrt(const Traced& x) {
+  return apply(Operation::kSquareRoot, x, [](double a) { return std::sqrt(a); });
+}
+Traced sin(const Traced& x) {
+  return apply(Operation::kSin, x, [](double a) { return std::sin(a); });
+}
+Traced cos(const Traced& x) {
+  return apply(Operation::kCos, x, [](double a) { return std::cos(a); });
+}
+Traced asin(const Traced& x) {
+  return apply(Operation::kArcSine, x, [](double a) { return std::asin(a); });
+}
+Traced tanh(const Traced& x) {
+  return apply(Operation::kTanh, x, [](double a) { return std::tanh(a); });
+}
+Traced exp(const Traced& x) {
+  return apply(Operation::kExp, x, [](double a) { return std::exp(a); });
+}
+Traced round(const Traced& x) {
+  return apply(Operation::kRound, x, [](double a) { return std::nearbyint(a); });
+}
+Traced atan2(const Traced& y, const Traced& x) {
+  if (x.is_literal() && y.is_literal()) return {std::atan2(y.literal(), x.literal())};
+  return record(Operation::kArcTangent, y, x);
+}
+
+double value_of(const Traced& x) {
+  if (x.is_literal()) return x.literal();
+  x.recording()->refuse();
+  return 0.0;
+}
+
+bool is_less(const Traced& x, const Traced& y, bool likely) {
+  if (x.is_literal() && y.is_literal()) return x.literal() < y.literal();
+  Recording* const recording = x.is_literal() ? y.recording() : x.recording();
+  recording->guard(x.node_in(recording), y.node_in(recording), likely);
+  return likely;
+}
+
+}  // namespace codesign

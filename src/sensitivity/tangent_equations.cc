@@ -1,0 +1,85 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/sensitivity/tangent_equations.h"
+
+#include "sensitivity/lane_state.h"
+
+namespace codesign {
+namespace {
+
+template <int N>
+void take_directions(const VectorX<Lanes<N>>& from, Directions<N>* to) {
+  for (int k = 0; k < from.size(); ++k) vector_at(to, k) = from[k].v;
+}
+
+template <int N>
+void take_directions(const std::vector<Lanes<N>>& from, std::vector<double>* to) {
+  for (std::size_t k = 0; k < from.size(); ++k) *reinterpret_cast<typename Lanes<N>::Vector*>(to->data() + N * k) = from[k].v;
+}
+
+}  // namespace
+
+template <int N>
+TangentEquations<N>::TangentEquations(const System& system) : layout_(system.layout()), at_(layout_), equations_(system) {
+  const ByVariable<Sparsity>& patterns = system.patterns();
+  changes_.position.resize(N * patterns.position.column_index.size());
+  changes_.velocity.resize(N * patterns.velocity.column_index.size());
+  changes_.rate.resize(N * patterns.rate.column_index.size());
+  time_changes_.setZero(N, layout_.columns() + 1);
+  state_.resize(layout_);
+  derivatives_.resize(patterns);
+}
+
+template <int N>
+bool TangentEquations<N>::run_compiled(EquationFunction function, const State<double>& state, const Directions<N>& y,
+                                       double* const (&results)[4]) {
+  const auto direction = [&y](int component) { return y.data() + std::ptrdiff_t{N} * component; };
+  return equations_.compiled().tangents(function, state.t, std::as_const(equations_).turn_references(),
+                                        {state.q.data(), state.v.data(), state.s.data(), state.z.data()},
+                                        {direction(at_.x()), direction(at_.v()), direction(at_.s()), direction(at_.z())}, results);
+}
+
+template <int N>
+const State<Lanes<N>>& TangentEquations<N>::lanes(const State<double>& state, const Directions<N>& y) {
+  load_lanes(at_, state, y, &state_);
+  return state_;
+}
+
+template <int N>
+void TangentEquations<N>::residual(const State<double>& state, const Directions<N>& y, Directions<N>* result) {
+  const int last = layout_.columns();
+  result->resize(N, last + 1);
+  if (run_compiled(EquationFunction::kResidual, state, y, {result->data(), result->data() + std::ptrdiff_t{N} * last, nullptr, nullptr}))
+    return;
+  Lanes<N> g;
+  equations_.residual(lanes(state, y), &residual_, &g);
+  take_directions<N>(residual_, result);
+  vector_at(result, last) = g.v;
+}
+
+template <int N>
+void TangentEquations<N>::linearize(const State<double>& state, const Directions<N>& y) {
+  if (run_compiled(EquationFunction::kLinearization, state, y,
+                   {changes_.position.data(), changes_.velocity.data(), changes_.rate.data(), time_changes_.data()}))
+    return;
+  equations_.linearize(lanes(state, y), &derivatives_);
+  take_directions<N>(derivatives_.position, &changes_.position);
+  take_directions<N>(derivatives_.velocity, &changes_.velocity);
+  take_directions<N>(derivatives_.rate, &changes_.rate);
+  take_directions<N>(derivatives_.time, &time_changes_);
+}
+
+template <int N>
+void TangentEquations<N>::constraint_errors(const State<double>& state, const Directions<N>& y, Directions<N>* Phi, Directions<N>* Phi_rate) {
+  Phi->resize(N, layout_.m);
+  Phi_rate->resize(N, layout_.m);
+  if (run_compiled(EquationFunction::kConstraintErrors, state, y, {Phi->data(), Phi_rate->data(), nullptr, nullptr})) return;
+  const State<Lanes<N>>& both = lanes(state, y);
+  equations_.constraint_errors(both.q, both.v, &errors_, &rates_);
+  take_directions<N>(errors_, Phi);
+  take_directions<N>(rates_, Phi_rate);
+}
+
+template class TangentEquations<4>;
+template class TangentEquations<8>;
+
+}  // namespace codesign
