@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "dynamics/equation_code.h"
 #include "mechanism_codesign/control/shaped_input.h"
@@ -76,6 +75,7 @@ void CompiledEquations<T>::set_design(const std::vector<T>& parameters) {
 
 template <class T>
 bool CompiledEquations<T>::prepare() {
+  if (!allowed_) return false;
   if (known_) return code_ != nullptr;
   known_ = true;
   code_ = system_.equation_code();
@@ -131,25 +131,18 @@ void CompiledEquations<T>::set_instant(double t, const TurnReferences& turns) {
   for (const auto& [pair, element, entry] : instant.turns) numbers_[at(entry)] = T(turns[at(pair)][at(element)]);
 }
 
-/// Rows that begin with a cache line are read and written faster.
-template <class T>
-double* CompiledEquations<T>::aligned_rows(std::size_t size) {
-  constexpr std::size_t kLine = 8;
-  if (rows_.size() < size + kLine) rows_.resize(size + kLine);
-  return rows_.data() + (kLine - reinterpret_cast<std::uintptr_t>(rows_.data()) / sizeof(double) % kLine) % kLine;
-}
-
 template <class T>
 bool CompiledEquations<T>::run(EquationFunction function, const T* const (&state)[4], T* const (&results)[4]) {
   const CompiledFunction* const code = code_->function(function, {LaneCount<T>::value, false});
   if (!code) return false;
   if (slots_.size() < code->slots) slots_.resize(code->slots);
+  if (rows_.size() < code->rows) rows_.resize(code->rows);
   ValueCode::Arrays arrays{};
   const auto set = [&arrays](int array, const T* first) { arrays[at(array)] = reinterpret_cast<const double*>(first); };
   for (int k = 0; k < 4; ++k) set(k, state[k]), set(Arrays::kResults + k, results[k]);
   set(Arrays::kNumbers, numbers_.data());
   arrays[at(Arrays::kSlots)] = slots_.data();
-  arrays[at(Arrays::kRows)] = aligned_rows(code->rows);
+  arrays[at(Arrays::kRows)] = rows_.data();
   if (!code->values->run(arrays)) return false;
   if (code->tangents) code->tangents->run(arrays);
   return true;
@@ -163,6 +156,7 @@ bool CompiledEquations<T>::tangents(EquationFunction function, double t, const T
   if (!code) return false;
   set_instant(t, turns);
   if (slots_.size() < code->slots) slots_.resize(code->slots);
+  if (rows_.size() < code->rows) rows_.resize(code->rows);
   ValueCode::Arrays arrays{};
   std::copy(std::begin(values), std::end(values), arrays.begin());
   arrays[at(Arrays::kNumbers)] = reinterpret_cast<const double*>(numbers_.data());
@@ -170,7 +164,7 @@ bool CompiledEquations<T>::tangents(EquationFunction function, double t, const T
   if (!code->values->run(arrays)) return false;
   std::copy(std::begin(directions), std::end(directions), arrays.begin());
   std::copy(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults);
-  arrays[at(Arrays::kRows)] = aligned_rows(code->rows);
+  arrays[at(Arrays::kRows)] = rows_.data();
   code->tangents->run(arrays);
   return true;
 }

@@ -10,6 +10,8 @@ namespace {
 
 using Arrays = EquationArrays;
 
+constexpr int kMostColumns = 4000;  // beyond, code is longer than caches, and takes seconds to make
+
 constexpr int kTurns = 102;  // array of the leaves that count turns, beside those of Recording
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
@@ -27,7 +29,7 @@ Place spread(const Place& place, int lanes) {
 }  // namespace
 
 EquationCode::EquationCode(const System& system) {
-  if (!ValueCode::is_available()) {
+  if (!ValueCode::is_available() || system.layout().columns() > kMostColumns) {
     recording_.refuse();
     return;
   }
@@ -40,8 +42,11 @@ EquationCode::EquationCode(const System& system) {
 void EquationCode::record(const System& system) {
   Equations<Traced> equations(system);
   // One more than there are, so that a model without parameters finds the recording too.
-  const Traced parameter(&recording_, recording_.leaf(Recording::kSupplied, -1, false));
-  equations.set_design(std::vector<Traced>(system.parameters().size() + 1, parameter));
+  const int parameter = recording_.leaf(Recording::kSupplied, -1, false);
+  std::vector<Traced> parameters;
+  for (double value : system.parameters()) parameters.emplace_back(&recording_, parameter, value);
+  parameters.emplace_back(&recording_, parameter, 0.0);
+  equations.set_design(parameters);
   int turn = 0;
   for (std::vector<Traced>& pair : equations.turn_references())
     for (Traced& reference : pair) reference = Traced(&recording_, recording_.leaf(kTurns, turn++, true));

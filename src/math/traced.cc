@@ -6,67 +6,68 @@
 namespace codesign {
 namespace {
 
-Traced record(Operation operation, const Traced& x) {
-  return {x.recording(), x.recording()->operate(operation, x.node())};
+Traced record(Operation operation, const Traced& x, double value) {
+  return {x.recording(), x.recording()->operate(operation, x.node()), value};
 }
 
-Traced record(Operation operation, const Traced& x, const Traced& y) {
+Traced record(Operation operation, const Traced& x, const Traced& y, double value) {
   Recording* const recording = x.is_literal() ? y.recording() : x.recording();
-  const int a = x.is_literal() ? recording->literal(x.literal()) : x.node(), b = y.is_literal() ? recording->literal(y.literal()) : y.node();
-  return {recording, recording->operate(operation, a, b)};
+  const int a = x.is_literal() ? recording->literal(x.value()) : x.node(), b = y.is_literal() ? recording->literal(y.value()) : y.node();
+  return {recording, recording->operate(operation, a, b), value};
 }
 
 bool is_negated(const Traced& x) { return !x.is_literal() && x.recording()->node(x.node()).operation == Operation::kNegate; }
 
-Traced without_sign(const Traced& x) { return {x.recording(), x.recording()->node(x.node()).a}; }
+Traced without_sign(const Traced& x) { return {x.recording(), x.recording()->node(x.node()).a, -x.value()}; }
 
 /// A function of one number.
 template <class Function>
 Traced apply(Operation operation, const Traced& x, const Function& function) {
-  return x.is_literal() ? Traced(function(x.literal())) : record(operation, x);
+  const double value = function(x.value());
+  return x.is_literal() ? Traced(value) : record(operation, x, value);
 }
 
 }  // namespace
 
 Traced operator-(const Traced& x) {
-  if (x.is_literal()) return {-x.literal_};
-  return is_negated(x) ? without_sign(x) : record(Operation::kNegate, x);
+  if (x.is_literal()) return {-x.value_};
+  return is_negated(x) ? without_sign(x) : record(Operation::kNegate, x, -x.value_);
 }
 
 Traced operator+(const Traced& x, const Traced& y) {
-  if (x.is_literal() && y.is_literal()) return {x.literal_ + y.literal_};
+  if (x.is_literal() && y.is_literal()) return {x.value_ + y.value_};
   if (x.is(0.0)) return y;
   if (y.is(0.0)) return x;
   if (is_negated(y)) return x - without_sign(y);
   if (is_negated(x)) return y - without_sign(x);
-  return record(Operation::kAdd, x, y);
+  return record(Operation::kAdd, x, y, x.value_ + y.value_);
 }
 
 Traced operator-(const Traced& x, const Traced& y) {
-  if (x.is_literal() && y.is_literal()) return {x.literal_ - y.literal_};
+  if (x.is_literal() && y.is_literal()) return {x.value_ - y.value_};
   if (x.is(0.0)) return -y;
   if (y.is(0.0)) return x;
   if (!x.is_literal() && !y.is_literal() && x.node_ == y.node_) return {0.0};
   if (is_negated(y)) return x + without_sign(y);
-  return record(Operation::kSubtract, x, y);
+  return record(Operation::kSubtract, x, y, x.value_ - y.value_);
 }
 
 Traced operator*(const Traced& x, const Traced& y) {
-  if (x.is_literal() && y.is_literal()) return {x.literal_ * y.literal_};
+  if (x.is_literal() && y.is_literal()) return {x.value_ * y.value_};
   if (y.is_literal()) return y * x;
   if (x.is(0.0)) return {0.0};
   if (x.is(1.0)) return y;
-  if (x.is_literal() && x.literal_ < 0.0) return -(Traced(-x.literal_) * y);
+  if (x.is_literal() && x.value_ < 0.0) return -(Traced(-x.value_) * y);
   if (is_negated(x)) return -(without_sign(x) * y);
   if (is_negated(y)) return -(x * without_sign(y));
-  return record(Operation::kMultiply, x, y);
+  return record(Operation::kMultiply, x, y, x.value_ * y.value_);
 }
 
 Traced operator/(const Traced& x, const Traced& y) {
-  if (x.is_literal() && y.is_literal()) return {x.literal_ / y.literal_};
+  if (x.is_literal() && y.is_literal()) return {x.value_ / y.value_};
   if (x.is(0.0)) return {0.0};
-  if (y.is_literal()) return Traced(1.0 / y.literal_) * x;
-  return record(Operation::kDivide, x, y);
+  if (y.is_literal()) return Traced(1.0 / y.value_) * x;
+  return record(Operation::kDivide, x, y, x.value_ / y.value_);
 }
 
 Traced sqrt(const Traced& x) {
@@ -91,21 +92,23 @@ Traced round(const Traced& x) {
   return apply(Operation::kRound, x, [](double a) { return std::nearbyint(a); });
 }
 Traced atan2(const Traced& y, const Traced& x) {
-  if (x.is_literal() && y.is_literal()) return {std::atan2(y.literal(), x.literal())};
-  return record(Operation::kArcTangent, y, x);
+  if (x.is_literal() && y.is_literal()) return {std::atan2(y.value(), x.value())};
+  return record(Operation::kArcTangent, y, x, std::atan2(y.value(), x.value()));
 }
 
 double value_of(const Traced& x) {
-  if (x.is_literal()) return x.literal();
+  if (x.is_literal()) return x.value();
   x.recording()->refuse();
   return 0.0;
 }
 
 bool is_less(const Traced& x, const Traced& y, bool likely) {
-  if (x.is_literal() && y.is_literal()) return x.literal() < y.literal();
+  if (x.is_literal() && y.is_literal()) return x.value() < y.value();
   Recording* const recording = x.is_literal() ? y.recording() : x.recording();
-  recording->guard(x.node_in(recording), y.node_in(recording), likely);
-  return likely;
+  const int a = x.node_in(recording), b = y.node_in(recording);
+  const bool varies = recording->node(a).varies || recording->node(b).varies, outcome = varies ? likely : x.value() < y.value();
+  recording->guard(a, b, outcome);
+  return outcome;
 }
 
 }  // namespace codesign

@@ -12,7 +12,7 @@ namespace codesign {
 #ifdef CODESIGN_MACHINE_CODE
 namespace {
 
-constexpr std::size_t kMostBytes = 4 * 1024 * 1024;
+constexpr std::size_t kMostBytes = 16 * 1024 * 1024;  // of which a quarter is used
 constexpr std::size_t kBytesPerInstruction = 64;  // with its loads, spills and stores
 constexpr std::size_t kBytesPerCall = 256;
 constexpr int kRegisters = 16;

@@ -180,8 +180,11 @@ class PairBuilder {
   }
 
   bool right_angled() const {
-    const auto cosine = [this](std::size_t a, std::size_t b) { return std::abs(value_of(dot(axis(turns_[a]), axis(turns_[b])))); };
-    return cosine(0, 1) < 1e-9 && cosine(1, 2) < 1e-9 && cosine(0, 2) < 1e-9;
+    const auto normal = [this](std::size_t a, std::size_t b) {
+      const T cosine = dot(axis(turns_[a]), axis(turns_[b]));
+      return is_less(T(cosine * cosine), T(1e-18), true);
+    };
+    return normal(0, 1) && normal(1, 2) && normal(0, 2);
   }
 
   // R_ij = R(z1) R(z2) R(z3) about mutually normal axes: z1 and z3 by arc tangents, z2 by an arc sine.
@@ -189,7 +192,7 @@ class PairBuilder {
     const Vector3<T>&z1 = axis(turns_[0]), &z2 = axis(turns_[1]), &z3 = axis(turns_[2]);
     if (k == turns_[1]) {
       c->kind = Coordinate::Kind::kSine;
-      c->sign = value_of(dot(z1, cross(z2, z3))) > 0.0 ? 1.0 : -1.0;
+      c->sign = is_less(T(0.0), dot(z1, cross(z2, z3)), true) ? 1.0 : -1.0;
       c->a = z1;
       c->b = R_ji * z3;
       return;

@@ -12,8 +12,8 @@ Curvature<N>::Curvature(const System& system)
     : system_(system),
       at_(system.layout()),
       equations_(system),
-      u_(Directions<N>::Zero(N, at_.size())),
-      mu_(Directions<N>::Zero(N, at_.z_size + 1)),
+      u_(at_.size()),
+      mu_(at_.z_size + 1),
       products_(u_),
       units_(u_) {
   derivatives_.resize(system.patterns());

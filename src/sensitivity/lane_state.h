@@ -4,7 +4,7 @@
 
 #include "mechanism_codesign/dynamics/state.h"
 #include "mechanism_codesign/integration/increment.h"
-#include "mechanism_codesign/sensitivity/directions.h"
+#include "mechanism_codesign/sensitivity/lane_directions.h"
 
 namespace codesign {
 

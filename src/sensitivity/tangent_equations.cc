@@ -8,11 +8,11 @@ namespace {
 
 template <int N>
 void take_directions(const VectorX<Lanes<N>>& from, Directions<N>* to) {
-  for (int k = 0; k < from.size(); ++k) vector_at(to, k) = from[k].v;
+  for (int k = 0; k < from.size(); ++k) to->vector(k) = from[k].v;
 }
 
 template <int N>
-void take_directions(const std::vector<Lanes<N>>& from, std::vector<double>* to) {
+void take_directions(const std::vector<Lanes<N>>& from, LineVector* to) {
   for (std::size_t k = 0; k < from.size(); ++k) *reinterpret_cast<typename Lanes<N>::Vector*>(to->data() + N * k) = from[k].v;
 }
 
@@ -24,7 +24,7 @@ TangentEquations<N>::TangentEquations(const System& system) : layout_(system.lay
   changes_.position.resize(N * patterns.position.column_index.size());
   changes_.velocity.resize(N * patterns.velocity.column_index.size());
   changes_.rate.resize(N * patterns.rate.column_index.size());
-  time_changes_.setZero(N, layout_.columns() + 1);
+  time_changes_.resize(layout_.columns() + 1);
   state_.resize(layout_);
   derivatives_.resize(patterns);
 }
@@ -47,13 +47,13 @@ const State<Lanes<N>>& TangentEquations<N>::lanes(const State<double>& state, co
 template <int N>
 void TangentEquations<N>::residual(const State<double>& state, const Directions<N>& y, Directions<N>* result) {
   const int last = layout_.columns();
-  result->resize(N, last + 1);
+  result->resize(last + 1);
   if (run_compiled(EquationFunction::kResidual, state, y, {result->data(), result->data() + std::ptrdiff_t{N} * last, nullptr, nullptr}))
     return;
   Lanes<N> g;
   equations_.residual(lanes(state, y), &residual_, &g);
   take_directions<N>(residual_, result);
-  vector_at(result, last) = g.v;
+  result->vector(last) = g.v;
 }
 
 template <int N>
@@ -70,8 +70,8 @@ void TangentEquations<N>::linearize(const State<double>& state, const Directions
 
 template <int N>
 void TangentEquations<N>::constraint_errors(const State<double>& state, const Directions<N>& y, Directions<N>* Phi, Directions<N>* Phi_rate) {
-  Phi->resize(N, layout_.m);
-  Phi_rate->resize(N, layout_.m);
+  Phi->resize(layout_.m);
+  Phi_rate->resize(layout_.m);
   if (run_compiled(EquationFunction::kConstraintErrors, state, y, {Phi->data(), Phi_rate->data(), nullptr, nullptr})) return;
   const State<Lanes<N>>& both = lanes(state, y);
   equations_.constraint_errors(both.q, both.v, &errors_, &rates_);

@@ -15,9 +15,9 @@ TangentStep<N>::TangentStep(const System& system, const RosenbrockTableau& table
       at_(layout_),
       tableau_(tableau),
       equations_(system),
-      y_(Directions<N>::Zero(N, at_.size())),
+      y_(at_.size()),
       stage_y_(y_),
-      rows_(Directions<N>::Zero(N, layout_.columns() + 1)),
+      rows_(layout_.columns() + 1),
       stages_(static_cast<std::size_t>(tableau.stages), y_),
       matrix_changes_(stages_.size(), rows_) {
   projected_.resize(layout_);
@@ -65,15 +65,15 @@ void TangentStep<N>::stage_start(std::size_t i, double h) {
   add(at_.z(), at_.v(), at_.n);
   add(at_.v(), at_.x(), at_.n);
   add(at_.sigma(), at_.s(), at_.states);
-  vector_at(&u, at_.psi()) = Vector{};
+  u.vector(at_.psi()) = Vector{};
   double* const psi = u.data() + std::ptrdiff_t{N} * at_.psi();
   combine(psi, factors, i, at_.psi(), 1, psi);
   for (int k = 0; k < at_.n; ++k) {
-    const Vector u_v = hg * vector_at(u, at_.v() + k);
-    vector_at(&u, at_.v() + k) = u_v;
-    vector_at(&u, at_.x() + k) = hg * (vector_at(u, at_.x() + k) + u_v);
+    const Vector u_v = hg * u.vector(at_.v() + k);
+    u.vector(at_.v() + k) = u_v;
+    u.vector(at_.x() + k) = hg * (u.vector(at_.x() + k) + u_v);
   }
-  for (int k = 0; k < at_.states; ++k) vector_at(&u, at_.s() + k) = hg * vector_at(u, at_.s() + k);
+  for (int k = 0; k < at_.states; ++k) u.vector(at_.s() + k) = hg * u.vector(at_.s() + k);
 }
 
 // (dG_q) u_q + (dG_s) u_s + (dG_v) u_v + (dG_z) u_z and the integrand's, for all stages: the u are the step's own, known beforehand, and dG
@@ -88,12 +88,12 @@ void TangentStep<N>::change_matrices(const RosenbrockStep<double>& step) {
     for (std::size_t k = 0; k < kTogether; ++k) u[k] = step.increments()[first + std::min(k, count - 1)].data();
     for (int row = 0; row <= at_.z_size; ++row) {
       Vector sums[kTogether] = {};
-      add_row_tangents<N, kTogether>(patterns.position, equations_.changes().position, row, u, at_.x(), sums);
-      add_row_tangents<N, kTogether>(patterns.velocity, equations_.changes().velocity, row, u, at_.v(), sums);
-      add_row_tangents<N, kTogether>(patterns.rate, equations_.changes().rate, row, u, at_.z(), sums);
+      add_row_tangents<N, kTogether>(patterns.position, equations_.changes().position.data(), row, u, at_.x(), sums);
+      add_row_tangents<N, kTogether>(patterns.velocity, equations_.changes().velocity.data(), row, u, at_.v(), sums);
+      add_row_tangents<N, kTogether>(patterns.rate, equations_.changes().rate.data(), row, u, at_.z(), sums);
       for (std::size_t k = 0; k < count; ++k)
-        vector_at(&matrix_changes_[first + k], row) =
-            sums[k] + (step.step_size() * tableau_.gamma_i[first + k]) * vector_at(equations_.time_changes(), row);
+        matrix_changes_[first + k].vector(row) =
+            sums[k] + (step.step_size() * tableau_.gamma_i[first + k]) * equations_.time_changes().vector(row);
     }
   }
 }
@@ -108,21 +108,21 @@ void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& 
   stage_start(i, step.step_size());
   Directions<N>& u = stages_[i];
   const double *const x = u.data() + N * at_.x(), *const v = u.data() + N * at_.v();
-  for (int row = 0; row < at_.z_size; ++row) vector_at(&rows_, row) = -(vector_at(residual_, row) + vector_at(matrix_changes_[i], row));
+  for (int row = 0; row < at_.z_size; ++row) rows_.vector(row) = -(residual_.vector(row) + matrix_changes_[i].vector(row));
   step.product().template subtract<N>(matrices, x, rows_.data());
   step.stage_matrix().lu().template solve_rows<N>(rows_.data());
   u.middleCols(at_.z(), at_.z_size) = rows_.leftCols(at_.z_size);
   for (int k = 0; k < at_.n; ++k) {
-    const Vector change = hg * vector_at(rows_, k);
-    vector_at(&u, at_.v() + k) += change;
-    vector_at(&u, at_.x() + k) += hg * change;
+    const Vector change = hg * rows_.vector(k);
+    u.vector(at_.v() + k) += change;
+    u.vector(at_.x() + k) += hg * change;
   }
-  for (int k = 0; k < at_.states; ++k) vector_at(&u, at_.s() + k) += hg * vector_at(u, at_.sigma() + k);
-  Vector psi = vector_at(residual_, at_.z_size) + vector_at(matrix_changes_[i], at_.z_size) + vector_at(u, at_.psi());
+  for (int k = 0; k < at_.states; ++k) u.vector(at_.s() + k) += hg * u.vector(at_.sigma() + k);
+  Vector psi = residual_.vector(at_.z_size) + matrix_changes_[i].vector(at_.z_size) + u.vector(at_.psi());
   add_row_product<N>(patterns.position, matrices.position, at_.z_size, x, &psi);
   add_row_product<N>(patterns.velocity, matrices.velocity, at_.z_size, v, &psi);
   add_row_product<N>(patterns.rate, matrices.rate, at_.z_size, u.data() + N * at_.z(), &psi);
-  vector_at(&u, at_.psi()) = hg * psi;
+  u.vector(at_.psi()) = hg * psi;
 }
 
 template <int N>
@@ -156,10 +156,10 @@ void TangentStep<N>::project(const VectorX<double>& correction, const Directions
   for (int row = 0; row < at_.z_size; ++row) {
     Vector sum[1] = {};
     const double* const x[1] = {correction.data()};
-    add_row_tangents<N, 1>(system_.patterns().rate, equations_.changes().rate, row, x, 0, sum);
+    add_row_tangents<N, 1>(system_.patterns().rate, equations_.changes().rate.data(), row, x, 0, sum);
     const int constraint = row - layout_.n;
-    if (constraint >= 0 && constraint < layout_.m) sum[0] += vector_at(errors, constraint);
-    vector_at(&rows_, row) = -sum[0];
+    if (constraint >= 0 && constraint < layout_.m) sum[0] += errors.vector(constraint);
+    rows_.vector(row) = -sum[0];
   }
   lu.template solve_rows<N>(rows_.data());
   for (int k = 0; k < N * layout_.n; ++k) target[k] += rows_.data()[k];

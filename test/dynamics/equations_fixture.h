@@ -80,12 +80,22 @@ class EquationsFixture {
     return matrix;
   }
 
-  /// All derivatives at `state` against the complex step.
+  /// All derivatives at `state` against the complex step, as compiled and without.
   void expect_exact_derivatives(double tolerance) {
+    for (bool compiled : {true, false}) {
+      SCOPED_TRACE(compiled ? "compiled" : "not compiled");
+      real.compiled().allow(compiled);
+      expect_exact_derivatives_of_real(tolerance);
+    }
+    real.compiled().allow(true);
+  }
+
+  void expect_exact_derivatives_of_real(double tolerance) {
     using S = State<std::complex<double>>;
     Linearization<double> d;
     d.resize(system.patterns());
     real.linearize(state, &d);
+    expect_exact_residual();
     const Layout& layout = system.layout();
     const Eigen::MatrixXd by_position = dense(system.patterns().position, d.position);
     EXPECT_LT(compare_jacobians(by_position.leftCols(layout.n), reference(&S::q, state.q)).largest, tolerance);
@@ -95,6 +105,21 @@ class EquationsFixture {
     EXPECT_LT(compare_jacobians(dense(system.patterns().velocity, d.velocity), reference(&S::v, state.v)).largest, tolerance);
     EXPECT_LT(compare_jacobians(dense(system.patterns().rate, d.rate), reference(&S::z, state.z)).largest, tolerance);
     EXPECT_LT(compare_jacobians(d.time, time_reference()).largest, 1e-8);
+  }
+
+  /// [G; g] as the complex twin has it, which is never compiled.
+  void expect_exact_residual() {
+    State<std::complex<double>> point;
+    point.t = state.t;
+    point.q = state.q, point.v = state.v, point.s = state.s, point.z = state.z;
+    VectorX<std::complex<double>> expected;
+    std::complex<double> expected_g;
+    complex.residual(point, &expected, &expected_g);
+    VectorX<double> G;
+    double g = 0.0;
+    real.residual(state, &G, &g);
+    EXPECT_LT((G - expected.real()).lpNorm<Eigen::Infinity>(), 1e-12 * (1.0 + expected.real().lpNorm<Eigen::Infinity>()));
+    EXPECT_NEAR(g, expected_g.real(), 1e-12 * (1.0 + std::abs(expected_g)));
   }
 
   RobotDescription robot;

@@ -19,7 +19,7 @@ TEST(LaneState, EachPartTakesItsValuesAndDirections) {
   values.s.setConstant(2.0);
   values.v.setConstant(3.0);
   values.z.setConstant(4.0);
-  Directions<4> directions(4, at.size());
+  Directions<4> directions(at.size());
   for (int k = 0; k < at.size(); ++k) directions.col(k) << k, 10.0 * k, 100.0 * k, -k;
   State<Lanes<4>> state;
   state.resize(layout);

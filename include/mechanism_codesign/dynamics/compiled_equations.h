@@ -10,6 +10,7 @@
 #include "mechanism_codesign/dynamics/sparsity.h"
 #include "mechanism_codesign/dynamics/state.h"
 #include "mechanism_codesign/dynamics/system.h"
+#include "mechanism_codesign/math/line_vector.h"
 #include "mechanism_codesign/model/basis.h"
 
 namespace codesign {
@@ -41,6 +42,8 @@ class CompiledEquations {
   explicit CompiledEquations(const System& system) : system_(system) {}
 
   void set_design(const std::vector<T>& parameters);
+  /// False: leaves everything to Equations.
+  void allow(bool allowed) { allowed_ = allowed; }
 
   // As the functions of Equations. False where there is no code, or the state asks for a branch that was not recorded: then nothing is
   // said about the results.
@@ -59,15 +62,15 @@ class CompiledEquations {
   bool fill_numbers();
   void set_instant(double t, const TurnReferences& turns);
   bool run(EquationFunction function, const T* const (&state)[4], T* const (&results)[4]);
-  double* aligned_rows(std::size_t size);
 
   const System& system_;
   std::vector<T> parameters_;
+  bool allowed_ = true;
   bool known_ = false;  ///< whether code_ and numbers_ are those of parameters_
   const EquationCode* code_ = nullptr;
   std::vector<T> numbers_;
   std::vector<TimeFunction<T>> functions_;
-  std::vector<double> slots_, rows_;
+  LineVector slots_, rows_;
 };
 
 /// For scalars that are only computed with to check others, or to record.

@@ -30,13 +30,13 @@ void add_row_product(const Sparsity& pattern, const std::vector<double>& values,
 /// One row of the directional derivatives of a sparse matrix times M real vectors, each from its entry `offset` on:
 /// sums[m]_k += sum over the row of dvalues_k x[m][offset + column], with the derivatives of each entry side by side.
 template <int N, std::size_t M>
-void add_row_tangents(const Sparsity& pattern, const std::vector<double>& derivatives, int row, const double* const (&x)[M], int offset,
+void add_row_tangents(const Sparsity& pattern, const double* derivatives, int row, const double* const (&x)[M], int offset,
                       typename Lanes<N>::Vector (&sums)[M]) {
   const int* const column = pattern.column_index.data();
   typename Lanes<N>::Vector total[M];
   for (std::size_t m = 0; m < M; ++m) total[m] = sums[m];
   for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) {
-    const auto& change = *reinterpret_cast<const typename Lanes<N>::Vector*>(derivatives.data() + std::ptrdiff_t{N} * e);
+    const auto& change = *reinterpret_cast<const typename Lanes<N>::Vector*>(derivatives + std::ptrdiff_t{N} * e);
     const int k = offset + column[e];
     for (std::size_t m = 0; m < M; ++m) total[m] += x[m][k] * change;
   }

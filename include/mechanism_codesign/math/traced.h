@@ -8,22 +8,24 @@
 
 namespace codesign {
 
-/// A scalar that has no value but records what is done to it, so that a formula written once for every scalar can be compiled for one
-/// mechanism. Numbers that are known while recording are computed with at once: products by zero and one, sums with zero and operations
+/// A scalar that records what is done to it, so that a formula written once for every scalar can be compiled for one mechanism. It has a
+/// value only where that does not vary: at the design for which the recording is made. Numbers that are known while recording are computed with at once: products by zero and one, sums with zero and operations
 /// that were recorded before leave nothing behind.
 class Traced {
  public:
   Traced() = default;
-  Traced(double literal) : literal_(literal) {}  // NOLINT(google-explicit-constructor): numbers mix with traces in every formula
-  Traced(Recording* recording, int node) : recording_(recording), node_(node) {}
+  Traced(double literal) : value_(literal) {}  // NOLINT(google-explicit-constructor): numbers mix with traces in every formula
+  /// @param value at the present design, of nodes that do not vary.
+  Traced(Recording* recording, int node, double value = 0.0) : recording_(recording), node_(node), value_(value) {}
 
   bool is_literal() const { return recording_ == nullptr; }
-  double literal() const { return literal_; }
+  /// Of a literal, and of what does not vary.
+  double value() const { return value_; }
   Recording* recording() const { return recording_; }
   /// Its node; -1 for a literal.
   int node() const { return node_; }
   /// Its node in a recording; of a literal, one that is made for it.
-  int node_in(Recording* recording) const { return is_literal() ? recording->literal(literal_) : node_; }
+  int node_in(Recording* recording) const { return is_literal() ? recording->literal(value_) : node_; }
 
   Traced& operator+=(const Traced& y) { return *this = *this + y; }
   Traced& operator-=(const Traced& y) { return *this = *this - y; }
@@ -38,11 +40,11 @@ class Traced {
   friend Traced operator/(const Traced& x, const Traced& y);
 
  private:
-  bool is(double x) const { return is_literal() && literal_ == x; }
+  bool is(double x) const { return is_literal() && value_ == x; }
 
   Recording* recording_ = nullptr;
   int node_ = -1;
-  double literal_ = 0.0;
+  double value_ = 0.0;
 };
 
 Traced sqrt(const Traced& x);
@@ -57,7 +59,8 @@ Traced round(const Traced& x);
 /// Traces have no value: whatever is decided with it, the recording refuses to be compiled. Decisions that may be recorded are is_less().
 double value_of(const Traced& x);
 
-/// x < y, as far as it is known; else the outcome that is `likely`, with a guard that asks for it.
+/// x < y where it is known; else as it is at the present design, and where it varies the outcome that is `likely`, with a guard that asks
+/// for it.
 bool is_less(const Traced& x, const Traced& y, bool likely);
 
 }  // namespace codesign

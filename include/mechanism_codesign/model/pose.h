@@ -69,7 +69,7 @@ Vector3<T> transverse_axis(const Vector3<T>& z, const std::optional<std::array<d
   } else {
     int largest = 0;
     for (int k = 1; k < 3; ++k)
-      if (std::abs(value_of(z[k])) > std::abs(value_of(z[largest])) + 1e-9) largest = k;
+      if (is_less(T(z[largest] * z[largest] + 1e-9), T(z[k] * z[k]), false)) largest = k;
     x[(largest + 1) % 3] = T(1.0);
   }
   x -= dot(x, z) * z;

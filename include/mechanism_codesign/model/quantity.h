@@ -31,7 +31,9 @@ Lanes<N> value_at(const Expression& expression, const std::vector<Lanes<N>>& par
 /// While equations are recorded an expression comes with each design. `parameters` are of the recording, and not empty.
 inline Traced value_at(const Expression& expression, const std::vector<Traced>& parameters) {
   Recording* const recording = parameters.front().recording();
-  return {recording, recording->supplied(&expression)};
+  std::vector<double> values;
+  for (const Traced& parameter : parameters) values.push_back(parameter.value());
+  return {recording, recording->supplied(&expression), expression.value(values)};
 }
 
 /// A number of the model: a constant, or an expression of the parameters.

@@ -2,11 +2,9 @@
 #ifndef MECHANISM_CODESIGN_SENSITIVITY_TANGENT_EQUATIONS_H_
 #define MECHANISM_CODESIGN_SENSITIVITY_TANGENT_EQUATIONS_H_
 
-#include <vector>
-
 #include "mechanism_codesign/dynamics/equations.h"
 #include "mechanism_codesign/integration/increment.h"
-#include "mechanism_codesign/sensitivity/directions.h"
+#include "mechanism_codesign/sensitivity/lane_directions.h"
 
 namespace codesign {
 
@@ -24,7 +22,7 @@ class TangentEquations {
 
   /// dG_q, dG_v and dG_z with the integrand's row, on System::patterns(), N numbers per entry; dG_t likewise.
   void linearize(const State<double>& state, const Directions<N>& y);
-  const ByVariable<std::vector<double>>& changes() const { return changes_; }
+  const ByVariable<LineVector>& changes() const { return changes_; }
   const Directions<N>& time_changes() const { return time_changes_; }
 
   /// Phi' and (Phi_q v)'.
@@ -39,7 +37,7 @@ class TangentEquations {
   const Layout& layout_;
   const IncrementLayout at_;
   Equations<Lanes<N>> equations_;
-  ByVariable<std::vector<double>> changes_;
+  ByVariable<LineVector> changes_;
   Directions<N> time_changes_;
 
   // Where there is no code.

@@ -1,0 +1,47 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/control/shaped_input.h"
+
+#include <gtest/gtest.h>
+
+#include "mechanism_codesign/math/ridders.h"
+
+namespace codesign {
+namespace {
+
+const std::vector<double> kCoefficients{1.0, -2.0, 0.5, 3.0, 4.0};
+
+BasisDescription basis(BasisShape shape) {
+  BasisDescription b;
+  b.shape = shape;
+  b.duration = 2.0;
+  b.coefficients.assign(kCoefficients.begin(), kCoefficients.end());
+  return b;
+}
+
+TEST(ShapedInput, LinearRunsThroughItsCoefficientsAndHoldsTheLast) {
+  const BasisDescription b = basis(BasisShape::kLinear);
+  for (int k = 0; k < 5; ++k) EXPECT_NEAR(shaped_input(b, kCoefficients, 0.5 * k).value, kCoefficients[static_cast<std::size_t>(k)], 1e-15);
+  EXPECT_NEAR(shaped_input(b, kCoefficients, 0.25).rate, -6.0, 1e-14);
+  EXPECT_EQ(shaped_input(b, kCoefficients, 7.0).value, 4.0);
+  EXPECT_EQ(shaped_input(b, kCoefficients, 7.0).rate, 0.0);
+}
+
+TEST(ShapedInput, CubicHasTheRateOfItsValues) {
+  const BasisDescription b = basis(BasisShape::kCubic);
+  EXPECT_NEAR(shaped_input(b, kCoefficients, 0.0).value, 1.0, 1e-15);
+  for (double t : {0.3, 0.9, 1.7}) {
+    const double rate = ridders_derivative([&](double s) { return shaped_input(b, kCoefficients, s).value; }, t, 0.05).value;
+    EXPECT_NEAR(shaped_input(b, kCoefficients, t).rate, rate, 1e-9);
+  }
+}
+
+TEST(ShapedInput, DerivativesByCoefficientsAreTheWeights) {
+  const BasisDescription b = basis(BasisShape::kCubic);
+  std::vector<Lanes<4>> lanes(kCoefficients.begin(), kCoefficients.end());
+  lanes[2].v[1] = 1.0;
+  const BasisWeights weights = basis_weights(b, 0.9);
+  EXPECT_NEAR(shaped_input(b, lanes, 0.9).value.v[1], weights.value[static_cast<std::size_t>(2 - weights.first)], 1e-15);
+}
+
+}  // namespace
+}  // namespace codesign
