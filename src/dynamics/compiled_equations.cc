@@ -71,6 +71,24 @@ template <class T>
 void CompiledEquations<T>::set_design(const std::vector<T>& parameters) {
   parameters_ = parameters;
   known_ = false;
+  misses_ = {};
+}
+
+template <class T>
+bool CompiledEquations<T>::is_worth_trying(EquationFunction function) {
+  Misses& misses = misses_[static_cast<std::size_t>(function)];
+  if (misses.pause == 0) return true;
+  --misses.pause;
+  return false;
+}
+
+template <class T>
+bool CompiledEquations<T>::note(EquationFunction function, bool recorded) {
+  constexpr int kMost = 4, kPause = 60;
+  Misses& misses = misses_[static_cast<std::size_t>(function)];
+  misses.in_a_row = recorded ? 0 : misses.in_a_row + 1;
+  if (misses.in_a_row >= kMost) misses.pause = kPause;
+  return recorded;
 }
 
 template <class T>
@@ -143,7 +161,7 @@ bool CompiledEquations<T>::run(EquationFunction function, const T* const (&state
   set(Arrays::kNumbers, numbers_.data());
   arrays[at(Arrays::kSlots)] = slots_.data();
   arrays[at(Arrays::kRows)] = rows_.data();
-  if (!code->values->run(arrays)) return false;
+  if (!note(function, code->values->run(arrays))) return false;
   if (code->tangents) code->tangents->run(arrays);
   return true;
 }
@@ -151,7 +169,7 @@ bool CompiledEquations<T>::run(EquationFunction function, const T* const (&state
 template <class T>
 bool CompiledEquations<T>::tangents(EquationFunction function, double t, const TurnReferences& turns, const double* const (&values)[4],
                                     const double* const (&directions)[4], double* const (&results)[4]) {
-  if (LaneCount<T>::value == 0 || !prepare()) return false;
+  if (LaneCount<T>::value == 0 || !is_worth_trying(function) || !prepare()) return false;
   const CompiledFunction* const code = code_->function(function, {LaneCount<T>::value, true});
   if (!code) return false;
   set_instant(t, turns);
@@ -161,7 +179,7 @@ bool CompiledEquations<T>::tangents(EquationFunction function, double t, const T
   std::copy(std::begin(values), std::end(values), arrays.begin());
   arrays[at(Arrays::kNumbers)] = reinterpret_cast<const double*>(numbers_.data());
   arrays[at(Arrays::kSlots)] = slots_.data();
-  if (!code->values->run(arrays)) return false;
+  if (!note(function, code->values->run(arrays))) return false;
   std::copy(std::begin(directions), std::end(directions), arrays.begin());
   std::copy(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults);
   arrays[at(Arrays::kRows)] = rows_.data();
@@ -171,7 +189,7 @@ bool CompiledEquations<T>::tangents(EquationFunction function, double t, const T
 
 template <class T>
 bool CompiledEquations<T>::residual(const State<T>& state, const TurnReferences& turns, VectorX<T>* G, T* g) {
-  if (!prepare()) return false;
+  if (!is_worth_trying(EquationFunction::kResidual) || !prepare()) return false;
   set_instant(state.t, turns);
   G->resize(system_.layout().columns());
   return run(EquationFunction::kResidual, {state.q.data(), state.v.data(), state.s.data(), state.z.data()}, {G->data(), g, nullptr, nullptr});
@@ -179,7 +197,7 @@ bool CompiledEquations<T>::residual(const State<T>& state, const TurnReferences&
 
 template <class T>
 bool CompiledEquations<T>::linearize(const State<T>& state, const TurnReferences& turns, Linearization<T>* derivatives) {
-  if (!prepare()) return false;
+  if (!is_worth_trying(EquationFunction::kLinearization) || !prepare()) return false;
   set_instant(state.t, turns);
   return run(EquationFunction::kLinearization, {state.q.data(), state.v.data(), state.s.data(), state.z.data()},
              {derivatives->position.data(), derivatives->velocity.data(), derivatives->rate.data(), derivatives->time.data()});
@@ -188,7 +206,7 @@ bool CompiledEquations<T>::linearize(const State<T>& state, const TurnReferences
 template <class T>
 bool CompiledEquations<T>::constraint_errors(const VectorX<T>& q, const VectorX<T>& v, const TurnReferences& turns, VectorX<T>* Phi,
                                              VectorX<T>* Phi_rate) {
-  if (!prepare()) return false;
+  if (!is_worth_trying(EquationFunction::kConstraintErrors) || !prepare()) return false;
   set_instant(0.0, turns);
   Phi->resize(system_.layout().m);
   Phi_rate->resize(system_.layout().m);

@@ -2,6 +2,7 @@
 #include "dynamics/equation_code.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "mechanism_codesign/dynamics/equations.h"
 
@@ -10,7 +11,9 @@ namespace {
 
 using Arrays = EquationArrays;
 
-constexpr int kMostColumns = 4000;  // beyond, code is longer than caches, and takes seconds to make
+// Beyond these, code is longer than caches, and takes seconds to make.
+constexpr int kMostColumns = 4000;
+constexpr std::size_t kMostBytes = 16 * 1024 * 1024;
 
 constexpr int kTurns = 102;  // array of the leaves that count turns, beside those of Recording
 
@@ -36,7 +39,7 @@ EquationCode::EquationCode(const System& system) {
   record(system);
   if (recording_.refused()) return;
   differentiate();
-  number_nodes(system);
+  number_nodes();
 }
 
 void EquationCode::record(const System& system) {
@@ -47,11 +50,15 @@ void EquationCode::record(const System& system) {
   for (double value : system.parameters()) parameters.emplace_back(&recording_, parameter, value);
   parameters.emplace_back(&recording_, parameter, 0.0);
   equations.set_design(parameters);
-  int turn = 0;
-  for (std::vector<Traced>& pair : equations.turn_references())
-    for (Traced& reference : pair) reference = Traced(&recording_, recording_.leaf(kTurns, turn++, true));
+  std::vector<std::vector<Traced>>& turns = equations.turn_references();
+  for (std::size_t pair = 0; pair < turns.size(); ++pair)
+    for (std::size_t element = 0; element < turns[pair].size(); ++element) {
+      turns[pair][element] = Traced(&recording_, recording_.leaf(kTurns, static_cast<int>(turn_owners_.size()), true));
+      turn_owners_.push_back({static_cast<int>(pair), static_cast<int>(element)});
+    }
   State<Traced> state;
   state.resize(system.layout());
+  state.t = std::numeric_limits<double>::quiet_NaN();  // only functions of time may depend on it
   leaves(Arrays::kQ, &recording_, &state.q), leaves(Arrays::kV, &recording_, &state.v);
   leaves(Arrays::kS, &recording_, &state.s), leaves(Arrays::kZ, &recording_, &state.z);
 
@@ -110,10 +117,7 @@ bool EquationCode::is_number(int n) const {
   return !node.varies || (node.operation == Operation::kLeaf && node.a >= Recording::kSupplied);
 }
 
-void EquationCode::number_nodes(const System& system) {
-  std::vector<std::pair<int, int>> turns;
-  for (std::size_t p = 0; p < system.topology().pairs.size(); ++p)
-    for (std::size_t e = 0; e < system.topology().pairs[p].chain.size(); ++e) turns.emplace_back(static_cast<int>(p), static_cast<int>(e));
+void EquationCode::number_nodes() {
   instant_.functions.resize(recording_.timed_origins().size());
   for (auto& orders : instant_.functions) orders.fill(-1);
   homes_.resize(at(recording_.size()));
@@ -136,7 +140,7 @@ void EquationCode::number_nodes(const System& system) {
     if (node.operation != Operation::kLeaf) continue;
     if (node.a == Recording::kTimed)
       instant_.functions[at(node.b / Recording::kFunctionOrders)][at(node.b % Recording::kFunctionOrders)] = entry;
-    if (node.a == kTurns && used[at(n)]) instant_.turns.push_back({turns[at(node.b)].first, turns[at(node.b)].second, entry});
+    if (node.a == kTurns && used[at(n)]) instant_.turns.push_back({turn_owners_[at(node.b)][0], turn_owners_[at(node.b)][1], entry});
   }
 }
 
@@ -200,7 +204,7 @@ std::unique_ptr<CompiledFunction> EquationCode::compile(const Recorded& recorded
   layouts[at(Arrays::kNumbers)] = {scalar.lanes + 1, 1};
   layouts[at(Arrays::kRows)] = {scalar.lanes, 0};
   function->rows = at(tangent.rows * scalar.lanes);
-  function->tangents = StraightLine::compile(sums, scalar.lanes, layouts);
+  function->tangents = StraightLine::compile(sums, scalar.lanes, layouts, kMostBytes);
   return function->tangents ? std::move(function) : nullptr;
 }
 

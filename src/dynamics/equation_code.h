@@ -72,7 +72,7 @@ class EquationCode {
   /// Notes what a function gave, and the guards from the first that is not noted yet on.
   void take(EquationFunction function, const std::vector<const VectorX<Traced>*>& results, std::size_t* guards);
   void differentiate();
-  void number_nodes(const System& system);
+  void number_nodes();
   bool is_number(int node) const;
   std::unique_ptr<CompiledFunction> compile(const Recorded& recorded, const Scalar& scalar) const;
   ValueTask value_task(const Recorded& recorded, const Scalar& scalar, std::vector<Place>* value_places) const;
@@ -81,6 +81,7 @@ class EquationCode {
   std::array<Recorded, kFunctions> functions_;
   std::vector<Recording::Guard> design_guards_;
   std::vector<int> numbers_;
+  std::vector<std::array<int, 2>> turn_owners_;  ///< pair and element of each leaf that counts turns
   std::vector<Place> homes_;  ///< per node
   Instant instant_;
 

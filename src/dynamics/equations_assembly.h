@@ -11,7 +11,11 @@ namespace codesign {
 
 template <class T>
 void Equations<T>::linearize(const State<T>& state, Linearization<T>* derivatives) {
-  if (compiled_.linearize(state, turn_references_, derivatives)) return;
+  if (!compiled_.linearize(state, turn_references_, derivatives)) linearize_by_formulas(state, derivatives);
+}
+
+template <class T>
+void Equations<T>::linearize_by_formulas(const State<T>& state, Linearization<T>* derivatives) {
   load(state);
   AssemblySink<T> sink(system_.slots(), derivatives);
   assemble(&sink);

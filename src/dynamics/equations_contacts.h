@@ -67,9 +67,9 @@ T Equations<T>::contact_term(const SignalReference& term, const T& factor, Spars
   const ContactFriction<T> c = contact(term.pair);
   const bool friction = term.kind == SignalKind::kContactFriction;
   const T length = friction ? c.magnitude() : c.speed();
-  // At rest the length has no derivative; zero is taken for it, as length_of() does.
-  const T scale = is_less(T(0.0), length, true) ? T((friction ? -factor : factor) / length) : T(0.0);
   if (gradient) {
+    // At rest the length has no derivative; zero is taken for it, as length_of() does.
+    const T scale = is_less(T(0.0), length, true) ? T((friction ? -factor : factor) / length) : T(0.0);
     for (std::size_t k = 0; k < c.reported; ++k) {
       const T load = c.load[static_cast<Eigen::Index>(k)];
       if (friction) append_contact_load(term.pair, c, k, T(scale * load), gradient);

@@ -78,7 +78,11 @@ void Equations<T>::load(const State<T>& state) {
 
 template <class T>
 void Equations<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
-  if (compiled_.residual(state, turn_references_, G, g)) return;
+  if (!compiled_.residual(state, turn_references_, G, g)) residual_by_formulas(state, G, g);
+}
+
+template <class T>
+void Equations<T>::residual_by_formulas(const State<T>& state, VectorX<T>* G, T* g) {
   load(state);
   G->setZero(layout_.columns());
   for (BodyLoad<T>& load : loads_) {
@@ -145,7 +149,11 @@ void Equations<T>::body_residual(std::size_t b, VectorX<T>* G) {
 
 template <class T>
 void Equations<T>::constraint_errors(const VectorX<T>& q, const VectorX<T>& v, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
-  if (compiled_.constraint_errors(q, v, turn_references_, Phi, Phi_rate)) return;
+  if (!compiled_.constraint_errors(q, v, turn_references_, Phi, Phi_rate)) constraint_errors_by_formulas(q, v, Phi, Phi_rate);
+}
+
+template <class T>
+void Equations<T>::constraint_errors_by_formulas(const VectorX<T>& q, const VectorX<T>& v, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
   constraint_state_.q = q;
   constraint_state_.v = v;
   load(constraint_state_);

@@ -27,6 +27,7 @@ namespace {
 /// Rank and start of a system at its start values. A design that cannot start is bad input; later ones are trial points.
 bool has_redundant_constraints(const System& system) {
   Equations<double> equations(system);
+  equations.compiled().allow(false);  // once is not worth the compiling
   equations.set_design(system.parameters());
   Assembly assembly(system);
   State<double> state;
@@ -67,6 +68,7 @@ Counts count_equations(const std::shared_ptr<const System>& system, const std::v
   counts.constraints = layout.m;
   counts.parameters = static_cast<int>(system->study().tuned.size());
   Equations<double> equations(*system);
+  equations.compiled().allow(false);
   equations.set_design(parameters);
   Assembly assembly(*system);
   State<double> state;

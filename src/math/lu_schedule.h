@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "math/straight_line.h"
+#include "mechanism_codesign/math/line_vector.h"
 
 namespace codesign {
 
@@ -59,7 +60,7 @@ class LuSchedule {
   std::vector<int> target_;      ///< where each product of the elimination is subtracted, in order
   std::vector<int> multiplier_;  ///< places of the entries of L
   std::vector<double> factors_;  ///< of L and U, with inverse pivots
-  mutable std::vector<double> work_;
+  mutable LineVector work_;
 
   LazyStraightLine elimination_;
   mutable LazyStraightLine solution_;

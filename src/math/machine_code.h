@@ -45,7 +45,7 @@ class MachineCode : protected Xbyak::CodeGenerator {
 
   /// Saves registers and loads the arrays' addresses; the stack is then aligned for calls.
   void enter() {
-    push(rbx), push(rbp), push(r12);
+    push(rbx), push(rbp), push(r13);
     mov(rbx, rdi);
     load_bases();
   }
@@ -55,7 +55,7 @@ class MachineCode : protected Xbyak::CodeGenerator {
   }
   /// Returns what eax holds.
   void leave() {
-    pop(r12), pop(rbp), pop(rbx);
+    pop(r13), pop(rbp), pop(rbx);
     ret();
   }
   void finish() {
@@ -64,7 +64,7 @@ class MachineCode : protected Xbyak::CodeGenerator {
   }
 
   Xbyak::Reg64 base(int array) const {
-    const Xbyak::Reg64 bases[kCodeArrays] = {rsi, rdx, rcx, r8, r9, r10, r11, rax, rbp, r12, rdi};
+    const Xbyak::Reg64 bases[kCodeArrays] = {rsi, rdx, rcx, r8, r9, r10, r11, rax, rbp, r13, rdi};
     return bases[array];
   }
   Xbyak::Address number(const Place& place) { return qword[base(place.array) + 8 * place.index]; }

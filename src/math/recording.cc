@@ -2,6 +2,7 @@
 #include "mechanism_codesign/math/recording.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace codesign {
@@ -27,6 +28,7 @@ int Recording::leaf(int array, int index, bool varies) {
 }
 
 int Recording::literal(double x) {
+  if (std::isnan(x)) refuse();
   std::uint64_t bits = 0;
   std::memcpy(&bits, &x, sizeof bits);
   const auto [known, is_new] = literals_.try_emplace(bits, size());

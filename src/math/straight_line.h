@@ -21,7 +21,7 @@ struct Sum {
     bool added = false;  ///< rather than subtracted; only if it is wide
   };
   Place target, start, start_scale, scale;
-  bool reciprocal = false;
+  bool reciprocal = false;  ///< only of width 1  ///< only of width 1
   std::vector<Product> products;
 };
 
@@ -38,10 +38,11 @@ class StraightLine {
 
   virtual ~StraightLine() = default;
 
-  /// @param width of rows: 1, 4 or 8. @param layouts where rows lie; one behind the other if not given. Null where that cannot be: other processors than x86-64 with AVX2 and FMA, a system that lets no
-  /// program write code, or more than a few hundred kilobytes of it, which loops would beat.
+  /// @param width of rows: 1, 4 or 8; they lie one behind the other. Null where that cannot be: other processors than x86-64 with AVX2 and
+  /// FMA, a system that lets no program write code, or more than half a megabyte of it, which loops would beat.
   static std::unique_ptr<StraightLine> compile(const std::vector<Sum>& sums, int width);
-  static std::unique_ptr<StraightLine> compile(const std::vector<Sum>& sums, int width, const RowLayouts& layouts);
+  /// @param layouts where rows lie. @param most_bytes of code, by a generous estimate.
+  static std::unique_ptr<StraightLine> compile(const std::vector<Sum>& sums, int width, const RowLayouts& layouts, std::size_t most_bytes);
 
   /// @param arrays their first numbers; those that targets lie in are written to.
   virtual void run(const Arrays& arrays) const = 0;

@@ -12,7 +12,7 @@ namespace codesign {
 #ifdef CODESIGN_MACHINE_CODE
 namespace {
 
-constexpr std::size_t kMostBytes = 16 * 1024 * 1024;  // of which a quarter is used
+constexpr std::size_t kMostBytes = 16 * 1024 * 1024;  // by the estimate below, about four times what is used
 constexpr std::size_t kBytesPerInstruction = 64;  // with its loads, spills and stores
 constexpr std::size_t kBytesPerCall = 256;
 constexpr int kRegisters = 16;
@@ -25,6 +25,7 @@ using Kind = ValueProgram::Kind;
 /// When each node is read, in the order of instructions.
 class Uses {
  public:
+  Uses() = default;
   Uses(const ValueProgram& program, int nodes) : positions_(at(nodes)), next_(at(nodes), 0) {
     for (std::size_t k = 0; k < program.instructions.size(); ++k)
       for (int n : {program.instructions[k].a, program.instructions[k].b, program.instructions[k].c})
@@ -48,9 +49,9 @@ class Code final : public ValueCode, private MachineCode {
  public:
   Code(const Recording& recording, const ValueTask& task, const ValueProgram& program, int slot_array, std::size_t bytes)
       : MachineCode(bytes),
-        recording_(recording),
-        task_(task),
-        program_(program),
+        recording_(&recording),
+        task_(&task),
+        program_(&program),
         slot_array_(slot_array),
         uses_(program, recording.size()),
         register_of_(at(recording.size()), -1),
@@ -66,6 +67,7 @@ class Code final : public ValueCode, private MachineCode {
     xor_(eax, eax);
     leave();
     finish();
+    forget();
   }
 
   bool run(const Arrays& arrays) const override { return call(arrays.data()) != 0; }
@@ -77,10 +79,10 @@ class Code final : public ValueCode, private MachineCode {
   // Where values are.
 
   Place memory_of(int node) const {
-    const Place& home = task_.homes[at(node)];
-    return home.array >= 0 ? home : Place{slot_array_, program_.slot[at(node)]};
+    const Place& home = task_->homes[at(node)];
+    return home.array >= 0 ? home : Place{slot_array_, program_->slot[at(node)]};
   }
-  bool in_memory(int node) const { return task_.homes[at(node)].array >= 0 || stored_[at(node)]; }
+  bool in_memory(int node) const { return task_->homes[at(node)].array >= 0 || stored_[at(node)]; }
   bool in_register(int node) const { return register_of_[at(node)] >= 0; }
   Xmm register_of(int node) const { return Xmm(register_of_[at(node)]); }
 
@@ -185,13 +187,13 @@ class Code final : public ValueCode, private MachineCode {
 
   void emit_guard(const Instruction& i) {
     const Xmm b = in_some_register(i.b);
-    vcomisd(b, operand(i.a));
+    vucomisd(b, operand(i.a));
     i.kind == Kind::kGuardLess ? jbe(failed_, T_NEAR) : ja(failed_, T_NEAR);
     drop(i.a), drop(i.b);
   }
 
   void emit_operation(const Instruction& i) {
-    const Operation operation = recording_.node(i.node).operation;
+    const Operation operation = recording_->node(i.node).operation;
     switch (operation) {
       case Operation::kAdd:
       case Operation::kMultiply:
@@ -240,8 +242,9 @@ class Code final : public ValueCode, private MachineCode {
     if (operation != Operation::kNegate) drop(i.a);
     const Xmm result = operation == Operation::kNegate ? Xmm(free_register()) : result_register();
     if (operation == Operation::kNegate) {
-      vxorpd(result, result, result);
-      vsubsd(result, result, x);
+      vpcmpeqd(result, result, result);
+      vpsllq(result, result, 63);  // the sign alone
+      vxorpd(result, result, x);
       drop(i.a);
     } else if (operation == Operation::kSquareRoot) {
       vsqrtsd(result, x, x);
@@ -313,9 +316,16 @@ class Code final : public ValueCode, private MachineCode {
     hold(i.node, 0);
   }
 
-  const Recording& recording_;
-  const ValueTask& task_;
-  const ValueProgram& program_;
+  /// What only making the code needs.
+  void forget() {
+    recording_ = nullptr, task_ = nullptr, program_ = nullptr;
+    uses_ = Uses();
+    register_of_ = {}, stored_ = {}, kept_ = {};
+  }
+
+  const Recording* recording_;
+  const ValueTask* task_;
+  const ValueProgram* program_;
   int slot_array_;
   Uses uses_;
   std::vector<int> register_of_;         ///< per node, -1 if in none

@@ -21,7 +21,7 @@ class ValueCode {
   static bool is_available();
 
   /// @param slot_array where intermediate values may be left, ValueProgram::slots of them, the kept ones at their slots.
-  /// Null where code cannot be run (StraightLine::compile()), or would be longer than some megabytes.
+  /// Null where code cannot be run (StraightLine::compile()), or would be longer than some megabytes by a generous estimate.
   static std::unique_ptr<ValueCode> compile(const Recording& recording, const ValueTask& task, const ValueProgram& program, int slot_array);
 
   /// False where a guard does not hold; outputs are then worth nothing.

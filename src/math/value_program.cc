@@ -2,6 +2,7 @@
 #include "math/value_program.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace codesign {
@@ -12,7 +13,9 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 class Compiler {
  public:
   Compiler(const Recording& recording, const ValueTask& task)
-      : recording_(recording), task_(task), uses_(at(recording.size()), 0), fixed_(at(recording.size()), false), stores_(uses_.size()) {}
+      : recording_(recording), task_(task), uses_(at(recording.size()), 0), fixed_(at(recording.size()), false), stores_(uses_.size()) {
+    for (const Recording::Guard& guard : task.guards) guards_.emplace(std::max(guard.a, guard.b), guard);
+  }
 
   void run(ValueProgram* program) {
     count_uses();
@@ -100,10 +103,11 @@ class Compiler {
   }
 
   void append_guards(int n, ValueProgram* program) const {
-    for (const Recording::Guard& guard : task_.guards)
-      if (n == std::max(guard.a, guard.b))
-        append({guard.outcome ? ValueProgram::Kind::kGuardLess : ValueProgram::Kind::kGuardGreaterEqual, -1, guard.a, guard.b, -1}, {},
-               program);
+    const auto [first, last] = guards_.equal_range(n);
+    for (auto guard = first; guard != last; ++guard)
+      append({guard->second.outcome ? ValueProgram::Kind::kGuardLess : ValueProgram::Kind::kGuardGreaterEqual, -1, guard->second.a,
+              guard->second.b, -1},
+             {}, program);
   }
 
   static void append(const Instruction& instruction, std::vector<Place> stores, ValueProgram* program) {
@@ -116,6 +120,7 @@ class Compiler {
   std::vector<int> uses_, user_;
   std::vector<bool> fixed_;  ///< must be computed on its own
   std::vector<std::vector<Place>> stores_;
+  std::multimap<int, Recording::Guard> guards_;  ///< behind the node that each can be checked after
 };
 
 }  // namespace

@@ -7,6 +7,17 @@
 #include "mechanism_codesign/dynamics/row_product.h"
 
 namespace codesign {
+namespace {
+
+/// Of each direction's components from the `first` on.
+template <int N>
+Eigen::Array<double, N, 1> squared_norms(const Directions<N>& x, int first, int size) {
+  Eigen::Array<double, N, 1> sum = Eigen::Array<double, N, 1>::Zero();
+  for (int k = first; k < first + size; ++k) sum += x.col(k).array().square();
+  return sum;
+}
+
+}  // namespace
 
 template <int N>
 TangentStep<N>::TangentStep(const System& system, const RosenbrockTableau& tableau)
@@ -77,21 +88,20 @@ void TangentStep<N>::stage_start(std::size_t i, double h) {
 }
 
 // (dG_q) u_q + (dG_s) u_s + (dG_v) u_v + (dG_z) u_z and the integrand's, for all stages: the u are the step's own, known beforehand, and dG
-// is by far the largest array, to be read once.
+// is by far the largest array, to be read seldom.
 template <int N>
+template <std::size_t together>
 void TangentStep<N>::change_matrices(const RosenbrockStep<double>& step) {
   const ByVariable<Sparsity>& patterns = system_.patterns();
-  constexpr std::size_t kTogether = 4;
-  for (std::size_t first = 0; first < stages_.size(); first += kTogether) {
-    const std::size_t count = std::min(kTogether, stages_.size() - first);
-    const double* u[kTogether];
-    for (std::size_t k = 0; k < kTogether; ++k) u[k] = step.increments()[first + std::min(k, count - 1)].data();
+  for (std::size_t first = 0; first < stages_.size(); first += together) {
+    const double* u[together];
+    for (std::size_t k = 0; k < together; ++k) u[k] = step.increments()[first + k].data();
     for (int row = 0; row <= at_.z_size; ++row) {
-      Vector sums[kTogether] = {};
-      add_row_tangents<N, kTogether>(patterns.position, equations_.changes().position.data(), row, u, at_.x(), sums);
-      add_row_tangents<N, kTogether>(patterns.velocity, equations_.changes().velocity.data(), row, u, at_.v(), sums);
-      add_row_tangents<N, kTogether>(patterns.rate, equations_.changes().rate.data(), row, u, at_.z(), sums);
-      for (std::size_t k = 0; k < count; ++k)
+      Vector sums[together] = {};
+      add_row_tangents<N, together>(patterns.position, equations_.changes().position.data(), row, u, at_.x(), sums);
+      add_row_tangents<N, together>(patterns.velocity, equations_.changes().velocity.data(), row, u, at_.v(), sums);
+      add_row_tangents<N, together>(patterns.rate, equations_.changes().rate.data(), row, u, at_.z(), sums);
+      for (std::size_t k = 0; k < together; ++k)
         matrix_changes_[first + k].vector(row) =
             sums[k] + (step.step_size() * tableau_.gamma_i[first + k]) * equations_.time_changes().vector(row);
     }
@@ -108,12 +118,12 @@ void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& 
   stage_start(i, step.step_size());
   Directions<N>& u = stages_[i];
   const double *const x = u.data() + N * at_.x(), *const v = u.data() + N * at_.v();
-  for (int row = 0; row < at_.z_size; ++row) rows_.vector(row) = -(residual_.vector(row) + matrix_changes_[i].vector(row));
-  step.product().template subtract<N>(matrices, x, rows_.data());
-  step.stage_matrix().lu().template solve_rows<N>(rows_.data());
-  u.middleCols(at_.z(), at_.z_size) = rows_.leftCols(at_.z_size);
+  double* const z = u.data() + N * at_.z();
+  for (int row = 0; row < at_.z_size; ++row) u.vector(at_.z() + row) = -(residual_.vector(row) + matrix_changes_[i].vector(row));
+  step.product().template subtract<N>(matrices, x, z);
+  step.stage_matrix().lu().template solve_rows<N>(z);
   for (int k = 0; k < at_.n; ++k) {
-    const Vector change = hg * rows_.vector(k);
+    const Vector change = hg * u.vector(at_.z() + k);
     u.vector(at_.v() + k) += change;
     u.vector(at_.x() + k) += hg * change;
   }
@@ -121,33 +131,37 @@ void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& 
   Vector psi = residual_.vector(at_.z_size) + matrix_changes_[i].vector(at_.z_size) + u.vector(at_.psi());
   add_row_product<N>(patterns.position, matrices.position, at_.z_size, x, &psi);
   add_row_product<N>(patterns.velocity, matrices.velocity, at_.z_size, v, &psi);
-  add_row_product<N>(patterns.rate, matrices.rate, at_.z_size, u.data() + N * at_.z(), &psi);
+  add_row_product<N>(patterns.rate, matrices.rate, at_.z_size, z, &psi);
   u.vector(at_.psi()) = hg * psi;
 }
 
 template <int N>
 void TangentStep<N>::attempt(const RosenbrockStep<double>& step) {
   equations_.equations().turn_references() = step.equations().turn_references();
-  change_matrices(step);
+  if (stages_.size() % 4 == 0)
+    change_matrices<4>(step);
+  else if (stages_.size() % 3 == 0)
+    change_matrices<3>(step);
+  else
+    change_matrices<1>(step);
   for (std::size_t i = 0; i < stages_.size(); ++i) stage_tangent(i, step);
 }
 
 template <int N>
 double TangentStep<N>::error(double relative_tolerance) const {
   const Directions<N>& u = stages_.back();
-  const auto ratio = [](const auto& change, const Eigen::Array<double, N, 1>& size) {
-    const Eigen::Array<double, N, 1> squares = change.rowwise().squaredNorm().array();
+  const auto ratio = [](const Eigen::Array<double, N, 1>& squares, const Eigen::Array<double, N, 1>& size) {
     // A parameter that moves nothing has no error.
     return (size > 0.0).select(squares / size, 0.0).maxCoeff();
   };
-  const double largest = std::max(ratio(u.leftCols(at_.x_size), largest_x_), ratio(u.middleCols(at_.v(), at_.n), largest_v_));
+  const double largest = std::max(ratio(squared_norms(u, at_.x(), at_.x_size), largest_x_), ratio(squared_norms(u, at_.v(), at_.n), largest_v_));
   return std::sqrt(largest) / relative_tolerance;
 }
 
 template <int N>
 void TangentStep<N>::measure() {
-  largest_x_ = largest_x_.max(y_.leftCols(at_.x_size).rowwise().squaredNorm().array());
-  largest_v_ = largest_v_.max(y_.middleCols(at_.v(), at_.n).rowwise().squaredNorm().array());
+  largest_x_ = largest_x_.max(squared_norms(y_, at_.x(), at_.x_size));
+  largest_v_ = largest_v_.max(squared_norms(y_, at_.v(), at_.n));
 }
 
 // Differentiates [G_a G_lambda; Phi_q 0] [delta; mu] = [0; -error].

@@ -52,7 +52,7 @@ struct Twins {
     EXPECT_TRUE(with.compiled().residual(state, with.turn_references(), &G, &g));
     without.residual(state, &expected, &expected_g);
     EXPECT_LT(largest_difference(G, expected), 1e-12);
-    EXPECT_LT(largest_difference(VectorX<T>::Constant(1, g), VectorX<T>::Constant(1, expected_g)), 1e-12);
+    EXPECT_LT(largest_difference(VectorX<T>(VectorX<T>::Constant(1, g)), VectorX<T>(VectorX<T>::Constant(1, expected_g))), 1e-12);
     Linearization<T> d, expected_d;
     d.resize(system.patterns()), expected_d.resize(system.patterns());
     EXPECT_TRUE(with.compiled().linearize(state, with.turn_references(), &d));
@@ -131,10 +131,73 @@ const char* const kDriven =
     "objective: {integral: [{signal: a/output + b/output, reference: {type: waypoints, times: [0.1, 0.5, 0.9], positions: [0.2, -0.5, "
     "1.0]}}]}\n";
 
+template <class T>
+void expect_same_at_all_times(const System& system) {
+  SKIP_WITHOUT_CODE();
+  Twins<T> twins(system);
+  twins.set_design(some_design<T>(system));
+  State<T> state = some_state<T>(system.layout());
+  for (double t : {0.37, 0.05, 0.95}) {
+    state.t = t;
+    twins.expect_same(state);
+  }
+}
+
 TEST(CompiledEquations, FollowFunctionsOfTimeAndTheirParameters) {
   const std::shared_ptr<const System> system = compile(double_pendulum(pin_friction()), kDriven);
-  expect_same<double>(*system);
-  expect_same<Lanes<8>>(*system);
+  expect_same_at_all_times<double>(*system);
+  expect_same_at_all_times<Lanes<8>>(*system);
+}
+
+TEST(CompiledEquations, GoBackToTheFormulasForADesignThatDecidesOtherwise) {
+  SKIP_WITHOUT_CODE();
+  const std::string friction =
+      "<codesign:friction mu_static='0.6' mu_dynamic='0.4' transition_velocity='0.1' joint_length='0.2' friction_arm='0.02' pin_radius='0.05' "
+      "codesign:pin_radius='${radius}'/>";
+  const std::shared_ptr<const System> system =
+      compile(robot("<codesign:parameter name='radius' value='0.05'/>" + bar("arm") + hinge("shoulder", "ground", "arm", "0 0 0", friction)),
+              motion_study(1.0, "{}", "shoulder/velocity", "{}"));
+  Twins<double> twins(*system);
+  const State<double> state = some_state<double>(system->layout());
+  VectorX<double> G, expected;
+  double g = 0.0;
+  for (double radius : {0.05, 0.0, 0.03}) {
+    twins.set_design({radius});
+    EXPECT_EQ(twins.with.compiled().residual(state, twins.with.turn_references(), &G, &g), radius > 0.0);
+    twins.with.residual(state, &G, &g);
+    twins.without.residual(state, &expected, &g);
+    EXPECT_LT(largest_difference(G, expected), 1e-13) << radius;
+  }
+}
+
+/// A cylindrical joint has two coordinates whatever its chain.
+TEST(CompiledEquations, CountTheTurnsOfEveryCoordinate) {
+  SKIP_WITHOUT_CODE();
+  const std::string loop = joint_cases::free("tip") + joint_cases::loop("codesign:cylindrical", "base");
+  const std::shared_ptr<const System> system =
+      compile(joint_cases::model({"", loop + bar("arm") + joint_cases::tree("swing", "continuous", "base", "arm", "1 0 0.5")}),
+              "duration: 1.0\nobjective: {integral: [{signal: swing/position}]}\n");
+  Twins<double> twins(*system);
+  twins.set_design(system->parameters());
+  double turns = 1.0;
+  for (std::size_t pair = 0; pair < twins.with.turn_references().size(); ++pair)
+    for (std::size_t element = 0; element < twins.with.turn_references()[pair].size(); ++element, turns += 1.0)
+      for (Equations<double>* equations : {&twins.with, &twins.without}) equations->turn_references()[pair][element] = 2.0 * M_PI * turns;
+  twins.expect_same(some_state<double>(system->layout()));
+}
+
+/// Half a turn from its reference an angle is continued the same way.
+TEST(CompiledEquations, RoundHalfATurnAsTheFormulasDo) {
+  SKIP_WITHOUT_CODE();
+  const std::shared_ptr<const System> system = compile(pendulum(), motion_study(1.0, "{}", "hinge/position", "{}"));
+  for (double sign : {1.0, -1.0}) {
+    Twins<double> twins(*system);
+    twins.set_design(system->parameters());
+    State<double> state;
+    state.resize(system->layout());
+    state.q[5] = sign;  // turned by pi about y
+    twins.expect_same(state);
+  }
 }
 
 TEST(CompiledEquations, FollowTheDesign) {
@@ -179,6 +242,10 @@ TEST(CompiledEquations, LeaveABranchThatWasNotRecordedToTheFormulas) {
   twins.with.residual(state, &G, &g);
   twins.without.residual(state, &expected, &g);
   EXPECT_EQ(G, expected);
+  for (int k = 0; k < 10; ++k) EXPECT_FALSE(twins.with.compiled().residual(state, twins.with.turn_references(), &G, &g));
+  twins.set_design(system->parameters());
+  state.q[3] = 1.0, state.q[5] = 0.0;
+  EXPECT_TRUE(twins.with.compiled().residual(state, twins.with.turn_references(), &G, &g)) << "a new design begins anew";
 }
 
 TEST(CompiledEquations, GiveDerivativesAloneFromArraysOfTheirOwn) {

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "math/value_code.h"
 #include "mechanism_codesign/dynamics/equations.h"
 #include "mechanism_codesign/math/derivative_check.h"
 #include "mechanism_codesign/math/ridders.h"
@@ -80,8 +81,11 @@ class EquationsFixture {
     return matrix;
   }
 
-  /// All derivatives at `state` against the complex step, as compiled and without.
-  void expect_exact_derivatives(double tolerance) {
+  /// All derivatives at `state` against the complex step, as compiled and without; those of lanes one against the other.
+  /// @param recorded whether the state's branches are those that are recorded.
+  void expect_exact_derivatives(double tolerance, bool recorded = true) {
+    expect_code(recorded);
+    expect_same_lanes();
     for (bool compiled : {true, false}) {
       SCOPED_TRACE(compiled ? "compiled" : "not compiled");
       real.compiled().allow(compiled);
@@ -105,6 +109,55 @@ class EquationsFixture {
     EXPECT_LT(compare_jacobians(dense(system.patterns().velocity, d.velocity), reference(&S::v, state.v)).largest, tolerance);
     EXPECT_LT(compare_jacobians(dense(system.patterns().rate, d.rate), reference(&S::z, state.z)).largest, tolerance);
     EXPECT_LT(compare_jacobians(d.time, time_reference()).largest, 1e-8);
+  }
+
+  /// That there is code, and that it is used at `state`.
+  void expect_code(bool recorded) {
+    if (!ValueCode::is_available()) return;
+    ASSERT_NE(system.equation_code(), nullptr) << "the equations decide something without is_less()";
+    VectorX<double> G;
+    double g = 0.0;
+    EXPECT_EQ(real.compiled().residual(state, real.turn_references(), &G, &g), recorded);
+  }
+
+  /// Derivatives along some directions of state and design, from code and from the formulas.
+  void expect_same_lanes() {
+    using L = Lanes<4>;
+    Equations<L> compiled(system), formulas(system);
+    formulas.compiled().allow(false);
+    std::vector<L> parameters;
+    for (double value : system.parameters()) {
+      parameters.emplace_back(value);
+      parameters.back().v[static_cast<int>(parameters.size()) % 4] = 1.0;
+    }
+    State<L> point;
+    point.t = state.t;
+    const auto direct = [](const VectorX<double>& x, VectorX<L>* lanes) {
+      *lanes = x.cast<L>();
+      for (Eigen::Index k = 0; k < x.size(); ++k)
+        for (int lane = 0; lane < 4; ++lane) (*lanes)[k].v[lane] = std::sin(0.9 * static_cast<double>(k) + lane);
+    };
+    direct(state.q, &point.q), direct(state.v, &point.v), direct(state.s, &point.s), direct(state.z, &point.z);
+    VectorX<L> G[2];
+    L g[2];
+    Linearization<L> d[2];
+    for (int k = 0; k < 2; ++k) {
+      Equations<L>& equations = k == 0 ? compiled : formulas;
+      equations.set_design(parameters);
+      equations.residual(point, &G[k], &g[k]);
+      d[k].resize(system.patterns());
+      equations.linearize(point, &d[k]);
+    }
+    const auto compare = [](const L& x, const L& y) {
+      const double size = 1.0 + std::abs(y.a) + y.directions().norm();
+      EXPECT_LT(std::max(std::abs(x.a - y.a), (x.directions() - y.directions()).norm()), 1e-11 * size);
+    };
+    compare(g[0], g[1]);
+    for (Eigen::Index k = 0; k < G[0].size(); ++k) compare(G[0][k], G[1][k]);
+    for (std::size_t k = 0; k < d[0].position.size(); ++k) compare(d[0].position[k], d[1].position[k]);
+    for (std::size_t k = 0; k < d[0].velocity.size(); ++k) compare(d[0].velocity[k], d[1].velocity[k]);
+    for (std::size_t k = 0; k < d[0].rate.size(); ++k) compare(d[0].rate[k], d[1].rate[k]);
+    for (Eigen::Index k = 0; k < d[0].time.size(); ++k) compare(d[0].time[k], d[1].time[k]);
   }
 
   /// [G; g] as the complex twin has it, which is never compiled.

@@ -94,6 +94,53 @@ struct SomeRecording {
   std::vector<double> literals;
 };
 
+/// The values of all nodes, one after the other.
+inline std::vector<double> node_values(const Recording& recording, const std::vector<double>& leaves) {
+  std::vector<double> values;
+  for (int n = 0; n < recording.size(); ++n) {
+    const Recording::Node& node = recording.node(n);
+    const double a = node.operation != Operation::kLeaf && node.a >= 0 ? values[static_cast<std::size_t>(node.a)] : 0.0;
+    const double b = node.operation != Operation::kLeaf && node.b >= 0 ? values[static_cast<std::size_t>(node.b)] : 0.0;
+    const auto value = [&]() -> double {
+      switch (node.operation) {
+        case Operation::kLeaf:
+          return leaves[static_cast<std::size_t>(node.b)];
+        case Operation::kLiteral:
+          return node.literal;
+        case Operation::kAdd:
+          return a + b;
+        case Operation::kSubtract:
+          return a - b;
+        case Operation::kMultiply:
+          return a * b;
+        case Operation::kDivide:
+          return a / b;
+        case Operation::kNegate:
+          return -a;
+        case Operation::kSquareRoot:
+          return std::sqrt(a);
+        case Operation::kRound:
+          return std::nearbyint(a);
+        case Operation::kTanh:
+          return std::tanh(a);
+        case Operation::kExp:
+          return std::exp(a);
+        case Operation::kSin:
+          return std::sin(a);
+        case Operation::kCos:
+          return std::cos(a);
+        case Operation::kArcSine:
+          return std::asin(a);
+        case Operation::kArcTangent:
+          return std::atan2(a, b);
+      }
+      return 0.0;
+    };
+    values.push_back(value());
+  }
+  return values;
+}
+
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_TEST_MATH_SOME_RECORDING_H_

@@ -21,14 +21,18 @@ void interpret(const std::vector<Sum>& sums, int width, std::vector<double> (&ar
     for (int k = 0; k < width; ++k) {
       double result = sum.start.array < 0 ? 0.0 : row(sum.start, k);
       if (sum.start_scale.array >= 0) result *= number(sum.start_scale);
-      for (const Sum::Product& product : sum.products) result -= row(product.row, k) * number(product.factor);
+      for (const Sum::Product& product : sum.products) {
+        const double x = row(product.row, k) * (product.factor.array < 0 ? 1.0 : number(product.factor));
+        result += product.added ? x : -x;
+      }
       if (sum.scale.array >= 0) result *= number(sum.scale);
       row(sum.target, k) = sum.reciprocal ? 1.0 / result : result;
     }
 }
 
 /// Sums of 0 to 20 products of rows that were computed before, in array 0, and of given ones, in array 1, with numbers of array 2.
-std::vector<Sum> some_sums(bool reciprocals) {
+/// Rows that are added, and such without a factor, if `wide`.
+std::vector<Sum> some_sums(bool wide) {
   std::mt19937 random(7);
   const auto below = [&random](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   std::vector<Sum> sums;
@@ -40,7 +44,11 @@ std::vector<Sum> some_sums(bool reciprocals) {
     if (below(3) == 0) sum.scale = {3, below(kRows)};
     for (int k = below(21); k > 0; --k)
       sum.products.push_back({below(2) > 0 ? Place{0, below(target)} : Place{1, below(kRows)}, {2, below(kRows)}});
-    sum.reciprocal = reciprocals && sum.start.array >= 0 && below(5) == 0;
+    for (Sum::Product& product : sum.products) {
+      product.added = wide && below(2) > 0;
+      if (wide && below(4) == 0) product.factor = {};
+    }
+    sum.reciprocal = !wide && sum.start.array >= 0 && below(5) == 0;
     sums.push_back(sum);
   }
   return sums;
@@ -50,7 +58,7 @@ class StraightLineTest : public ::testing::TestWithParam<int> {};
 
 TEST_P(StraightLineTest, ComputesWhatTheLoopsDo) {
   const int width = GetParam();
-  const std::vector<Sum> sums = some_sums(width == 1);
+  const std::vector<Sum> sums = some_sums(width > 1);
   const std::unique_ptr<StraightLine> code = StraightLine::compile(sums, width);
   if (!code) GTEST_SKIP() << "no machine code on this processor";
   std::vector<double> expected[kArrays], actual[kArrays];
@@ -69,6 +77,23 @@ TEST_P(StraightLineTest, ComputesWhatTheLoopsDo) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Widths, StraightLineTest, ::testing::Values(1, 4, 8));
+
+TEST(StraightLine, FindsRowsThatLieApart) {
+  Sum sum;
+  sum.target = {0, 1};
+  sum.products = {{{1, 2}, {}, false}, {{1, 1}, {2, 0}, true}};
+  StraightLine::RowLayouts layouts;
+  layouts.fill({4, 0});
+  layouts[1] = {5, 1};
+  EXPECT_EQ(StraightLine::compile({sum}, 4, layouts, 100), nullptr) << "too long";
+  const std::unique_ptr<StraightLine> code = StraightLine::compile({sum}, 4, layouts, 4096);
+  if (!code) GTEST_SKIP() << "no machine code on this processor";
+  std::vector<double> to(8, -1.0), from;
+  for (int k = 0; k < 15; ++k) from.push_back(k);
+  const double factor = 10.0;
+  code->run({to.data(), from.data(), &factor});
+  EXPECT_EQ(to, (std::vector<double>{-1, -1, -1, -1, 60 - 11, 70 - 12, 80 - 13, 90 - 14}));
+}
 
 TEST(StraightLine, MoreCodeThanLoopsWouldNeedIsNotCompiled) {
   Sum sum;

@@ -77,6 +77,27 @@ TEST_P(TangentEquationsTest, OfTheConstraintsAreOnePerRow) {
   expect_equal(Phi_rate, expected_rate);
 }
 
+/// In its stop a joint has a branch that is not recorded.
+TEST(TangentEquations, ComeFromTheFormulasWhereNothingWasRecorded) {
+  const std::string narrow = "<limit lower='-0.05' upper='0.04' effort='2' velocity='1'/>";
+  const std::shared_ptr<const System> system =
+      compile(robot(bar("arm") + "<joint name='hinge' type='revolute'><parent link='ground'/><child link='arm'/><axis xyz='0 1 0'/>" + narrow +
+                    "</joint>"),
+              motion_study(1.0, "{}", "hinge/velocity", "{}") + "limits: {position: true, stiffness: 20.0, width: 0.01}\n");
+  TangentEquations<4> tangents(*system);
+  tangents.equations().set_design({});
+  State<double> state;
+  state.resize(system->layout());
+  state.q[3] = std::cos(0.05), state.q[5] = std::sin(0.05);
+  Directions<4> y(IncrementLayout(system->layout()).size()), actual;
+  for (Eigen::Index k = 0; k < y.size(); ++k) y.data()[k] = std::sin(0.7 * static_cast<double>(k));
+  tangents.residual(state, y, &actual);
+  VectorX<Lanes<4>> G;
+  Lanes<4> g;
+  tangents.equations().residual_by_formulas(tangents.lanes(state, y), &G, &g);
+  for (Eigen::Index k = 0; k < G.size(); ++k) EXPECT_EQ((actual.col(k) - G[k].directions()).norm(), 0.0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Code, TangentEquationsTest, ::testing::Values(true, false), [](const auto& info) {
   return info.param ? std::string("compiled") : std::string("formulas");
 });

@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_DYNAMICS_COMPILED_EQUATIONS_H_
 #define MECHANISM_CODESIGN_DYNAMICS_COMPILED_EQUATIONS_H_
 
+#include <array>
 #include <complex>
 #include <type_traits>
 #include <vector>
@@ -61,6 +62,13 @@ class CompiledEquations {
   /// Evaluates what depends on the design alone; false if a branch was not recorded for it.
   bool fill_numbers();
   void set_instant(double t, const TurnReferences& turns);
+
+  /// Evaluations of a function whose branch was not recorded. After some in a row the code is not tried for a while.
+  struct Misses {
+    int in_a_row = 0, pause = 0;
+  };
+  bool is_worth_trying(EquationFunction function);
+  bool note(EquationFunction function, bool recorded);
   bool run(EquationFunction function, const T* const (&state)[4], T* const (&results)[4]);
 
   const System& system_;
@@ -70,6 +78,7 @@ class CompiledEquations {
   const EquationCode* code_ = nullptr;
   std::vector<T> numbers_;
   std::vector<TimeFunction<T>> functions_;
+  std::array<Misses, 3> misses_;
   LineVector slots_, rows_;
 };
 

@@ -60,8 +60,11 @@ class Equations {
   /// Derivatives of G and g, on System::patterns().
   void linearize(const State<T>& state, Linearization<T>* derivatives);
 
-  /// Directional derivatives of these functions, where they were compiled.
+  /// What runs in place of these functions where it can.
   CompiledEquationsOf<T>& compiled() { return compiled_; }
+  void residual_by_formulas(const State<T>& state, VectorX<T>* G, T* g);
+  void linearize_by_formulas(const State<T>& state, Linearization<T>* derivatives);
+  void constraint_errors_by_formulas(const VectorX<T>& q, const VectorX<T>& v, VectorX<T>* Phi, VectorX<T>* Phi_rate);
 
   /// Terminal objective terms w at a state, with their gradient if asked for.
   T terminal(const State<T>& state, SparseGradient<T>* gradient);

@@ -48,6 +48,7 @@ class Recording {
 
   /// Entry `index` of an array that is put in. @param varies between evaluations of one design.
   int leaf(int array, int index, bool varies);
+  /// A number that is none refuses the recording: it stands for what must not be known while recording.
   int literal(double x);
   /// A leaf of array kSupplied that does not vary: what `origin` computes from the parameters of a design.
   int supplied(const void* origin);

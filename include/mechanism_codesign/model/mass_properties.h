@@ -98,7 +98,7 @@ MassProperties<T> from_shapes(const InertialDescription& inertial, const std::ve
     total.centre += part.mass * part.centre;
     parts.push_back(part);
   }
-  if (!is_less(T(0.0), total.mass, true)) return total;
+  if (!is_less(T(0.0), T(total.mass * total.mass), true)) return total;
   total.centre /= total.mass;
   for (const MassProperties<T>& part : parts) {
     const Vector3<T> d = part.centre - total.centre;

@@ -43,6 +43,8 @@ class TangentStep {
   using Vector = typename Lanes<N>::Vector;
   /// to = from + sum over j < count of factors[j] u'_j, of `size` components from the `first` of u' on.
   void combine(const double* from, const double* factors, std::size_t count, int first, int size, double* to) const;
+  /// For as many stages at a time as divide their number.
+  template <std::size_t together>
   void change_matrices(const RosenbrockStep<double>& step);
   void stage_start(std::size_t i, double h);
   void stage_tangent(std::size_t i, const RosenbrockStep<double>& step);
