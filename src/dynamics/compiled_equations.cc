@@ -192,7 +192,8 @@ bool CompiledEquations<T>::residual(const State<T>& state, const TurnReferences&
   if (!is_worth_trying(EquationFunction::kResidual) || !prepare()) return false;
   set_instant(state.t, turns);
   G->resize(system_.layout().columns());
-  return run(EquationFunction::kResidual, {state.q.data(), state.v.data(), state.s.data(), state.z.data()}, {G->data(), g, nullptr, nullptr});
+  return run(EquationFunction::kResidual, {state.q.data(), state.v.data(), state.s.data(), state.z.data()},
+             {G->data(), g, nullptr, nullptr});
 }
 
 template <class T>
@@ -210,7 +211,8 @@ bool CompiledEquations<T>::constraint_errors(const VectorX<T>& q, const VectorX<
   set_instant(0.0, turns);
   Phi->resize(system_.layout().m);
   Phi_rate->resize(system_.layout().m);
-  return run(EquationFunction::kConstraintErrors, {q.data(), v.data(), nullptr, nullptr}, {Phi->data(), Phi_rate->data(), nullptr, nullptr});
+  return run(EquationFunction::kConstraintErrors, {q.data(), v.data(), nullptr, nullptr},
+             {Phi->data(), Phi_rate->data(), nullptr, nullptr});
 }
 
 template struct TimeFunction<double>;

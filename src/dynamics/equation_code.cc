@@ -75,7 +75,8 @@ void EquationCode::record(const System& system) {
   const auto vector = [](const std::vector<Traced>& x) -> VectorX<Traced> {
     return Eigen::Map<const VectorX<Traced>>(x.data(), static_cast<Eigen::Index>(x.size()));
   };
-  const VectorX<Traced> by_position = vector(derivatives.position), by_velocity = vector(derivatives.velocity), by_rate = vector(derivatives.rate);
+  const VectorX<Traced> by_position = vector(derivatives.position), by_velocity = vector(derivatives.velocity),
+                        by_rate = vector(derivatives.rate);
   take(EquationFunction::kLinearization, {&by_position, &by_velocity, &by_rate, &derivatives.time}, &guards);
   equations.constraint_errors(state.q, state.v, &Phi, &Phi_rate);
   take(EquationFunction::kConstraintErrors, {&Phi, &Phi_rate}, &guards);
@@ -87,8 +88,7 @@ void EquationCode::take(EquationFunction function, const std::vector<const Vecto
   *guards = recording_.guards().size();
   for (std::size_t k = 0; k < results.size(); ++k)
     for (Eigen::Index i = 0; i < results[k]->size(); ++i)
-      recorded.outputs.push_back(
-          {(*results[k])[i].node_in(&recording_), {Arrays::kResults + static_cast<int>(k), static_cast<int>(i)}});
+      recorded.outputs.push_back({(*results[k])[i].node_in(&recording_), {Arrays::kResults + static_cast<int>(k), static_cast<int>(i)}});
 }
 
 void EquationCode::take_guards(std::size_t first, Recorded* function) {

@@ -82,7 +82,7 @@ class EquationCode {
   std::vector<Recording::Guard> design_guards_;
   std::vector<int> numbers_;
   std::vector<std::array<int, 2>> turn_owners_;  ///< pair and element of each leaf that counts turns
-  std::vector<Place> homes_;  ///< per node
+  std::vector<Place> homes_;                     ///< per node
   Instant instant_;
 
   struct Known {

@@ -37,7 +37,11 @@ bool zero(const Quantity& q) { return q.is_constant() && q.nominal() == 0.0; }
 }  // namespace
 
 System::System(const RobotDescription& robot, const Study& study, double compliance)
-    : robot_(robot), study_(study), topology_(derive_topology(robot_)), compliance_(compliance), code_(std::make_shared<LazyEquationCode>()) {
+    : robot_(robot),
+      study_(study),
+      topology_(derive_topology(robot_)),
+      compliance_(compliance),
+      code_(std::make_shared<LazyEquationCode>()) {
   refuse_unsupported();
   lay_out();
   find_coordinates();

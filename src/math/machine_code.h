@@ -24,8 +24,8 @@ constexpr int kCodeArrays = 11;
 
 namespace codesign {
 
-/// Code without loops over numbers in arrays; a function int(double* const*) of the arrays' first numbers, which it finds in rbx. Its memory
-/// is writable only until finish(). System V calling convention.
+/// Code without loops over numbers in arrays; a function int(double* const*) of the arrays' first numbers, which it finds in rbx. Its
+/// memory is writable only until finish(). System V calling convention.
 class MachineCode : protected Xbyak::CodeGenerator {
  public:
   MachineCode(const MachineCode&) = delete;

@@ -280,9 +280,7 @@ std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>& sums
   }
 }
 #else
-std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>&, int, const RowLayouts&, std::size_t) {
-  return nullptr;
-}
+std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>&, int, const RowLayouts&, std::size_t) { return nullptr; }
 #endif
 
 std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>& sums, int width) {

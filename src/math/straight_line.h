@@ -17,7 +17,7 @@ namespace codesign {
 /// is among the rows of its own sum.
 struct Sum {
   struct Product {
-    Place row, factor;  ///< a row without a factor counts as it is, if the StraightLine is wide
+    Place row, factor;   ///< a row without a factor counts as it is, if the StraightLine is wide
     bool added = false;  ///< rather than subtracted; only if it is wide
   };
   Place target, start, start_scale, scale;

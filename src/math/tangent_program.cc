@@ -69,7 +69,12 @@ Traced folded(Recording* recording, const Traced& x) {
 class Accumulation {
  public:
   Accumulation(Recording* recording, const std::vector<ValueTask::Output>& outputs, const std::vector<bool>& is_leaf)
-      : recording_(recording), outputs_(outputs), is_leaf_(is_leaf), size_(recording->size()), parts_(is_leaf.size()), uses_(is_leaf.size(), 0),
+      : recording_(recording),
+        outputs_(outputs),
+        is_leaf_(is_leaf),
+        size_(recording->size()),
+        parts_(is_leaf.size()),
+        uses_(is_leaf.size(), 0),
         only_added_(is_leaf.size(), true) {}
 
   void run(TangentProgram* program) {
@@ -89,7 +94,8 @@ class Accumulation {
     active_ = is_leaf_;
     for (int n = 0; n < size_; ++n) {
       const Recording::Node& node = recording_->node(n);
-      if (active_[at(n)] || node.operation == Operation::kLeaf || node.operation == Operation::kLiteral || node.operation == Operation::kRound)
+      if (active_[at(n)] || node.operation == Operation::kLeaf || node.operation == Operation::kLiteral ||
+          node.operation == Operation::kRound)
         continue;
       active_[at(n)] = active_[at(node.a)] || (node.b >= 0 && active_[at(node.b)]);
     }
@@ -144,8 +150,8 @@ class Accumulation {
     for (const Part& part : parts) {
       if (part.factor.is_literal() && part.factor.value() == 0.0) continue;
       Traced factor = part.factor;
-      const bool negative = factor.is_literal() ? factor.value() < 0.0
-                                                : recording_->node(factor.node_in(recording_)).operation == Operation::kNegate;
+      const bool negative =
+          factor.is_literal() ? factor.value() < 0.0 : recording_->node(factor.node_in(recording_)).operation == Operation::kNegate;
       if (negative) factor = -factor;
       const bool one = factor.is_literal() && factor.value() == 1.0;
       const int factor_node = one ? -1 : factor.node_in(recording_);

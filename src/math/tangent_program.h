@@ -10,8 +10,8 @@
 namespace codesign {
 
 /// Directional derivatives of a recording as sums of products: of directions of leaves and of other sums (rows) with numbers that are nodes
-/// themselves (factors). Forward accumulation on the linearized graph (Griewank and Walther 2008, section 10.2): what is proportional to one
-/// other derivative, or is only added to another, has no sum of its own.
+/// themselves (factors). Forward accumulation on the linearized graph (Griewank and Walther 2008, section 10.2): what is proportional to
+/// one other derivative, or is only added to another, has no sum of its own.
 struct TangentProgram {
   struct Term {
     int row;     ///< the node whose derivative it is: a leaf, or one that has a sum
@@ -28,9 +28,9 @@ struct TangentProgram {
   /// derivative is given; nodes that do not vary and are not among them have none.
   TangentProgram(Recording* recording, const std::vector<ValueTask::Output>& outputs, const std::vector<bool>& is_leaf);
 
-  std::vector<Sum> sums;      ///< in order
-  std::vector<int> row;       ///< per node: its place among the sums' own rows, -1 if it has none
-  std::vector<int> factors;   ///< nodes whose values are needed, each once
+  std::vector<Sum> sums;     ///< in order
+  std::vector<int> row;      ///< per node: its place among the sums' own rows, -1 if it has none
+  std::vector<int> factors;  ///< nodes whose values are needed, each once
   int rows = 0;
 };
 

@@ -13,7 +13,7 @@ namespace codesign {
 namespace {
 
 constexpr std::size_t kMostBytes = 16 * 1024 * 1024;  // by the estimate below, about four times what is used
-constexpr std::size_t kBytesPerInstruction = 64;  // with its loads, spills and stores
+constexpr std::size_t kBytesPerInstruction = 64;      // with its loads, spills and stores
 constexpr std::size_t kBytesPerCall = 256;
 constexpr int kRegisters = 16;
 

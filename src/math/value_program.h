@@ -25,13 +25,13 @@ struct ValueTask {
 /// A task as a list of instructions in order: what no output needs is left out, and products that only one sum uses are part of it.
 struct ValueProgram {
   enum class Kind {
-    kOperation,        ///< the node's own
-    kProductPlus,      ///< a b + c
-    kProductMinus,     ///< a b - c
-    kMinusProduct,     ///< c - a b
-    kCopy,             ///< an output that is not computed here: a
-    kGuardLess,        ///< leaves unless a < b
-    kGuardGreaterEqual ///< leaves if a < b
+    kOperation,         ///< the node's own
+    kProductPlus,       ///< a b + c
+    kProductMinus,      ///< a b - c
+    kMinusProduct,      ///< c - a b
+    kCopy,              ///< an output that is not computed here: a
+    kGuardLess,         ///< leaves unless a < b
+    kGuardGreaterEqual  ///< leaves if a < b
   };
   struct Instruction {
     Kind kind;

@@ -69,7 +69,8 @@ void TangentEquations<N>::linearize(const State<double>& state, const Directions
 }
 
 template <int N>
-void TangentEquations<N>::constraint_errors(const State<double>& state, const Directions<N>& y, Directions<N>* Phi, Directions<N>* Phi_rate) {
+void TangentEquations<N>::constraint_errors(const State<double>& state, const Directions<N>& y, Directions<N>* Phi,
+                                            Directions<N>* Phi_rate) {
   Phi->resize(layout_.m);
   Phi_rate->resize(layout_.m);
   if (run_compiled(EquationFunction::kConstraintErrors, state, y, {Phi->data(), Phi_rate->data(), nullptr, nullptr})) return;

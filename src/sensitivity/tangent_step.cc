@@ -154,7 +154,8 @@ double TangentStep<N>::error(double relative_tolerance) const {
     // A parameter that moves nothing has no error.
     return (size > 0.0).select(squares / size, 0.0).maxCoeff();
   };
-  const double largest = std::max(ratio(squared_norms(u, at_.x(), at_.x_size), largest_x_), ratio(squared_norms(u, at_.v(), at_.n), largest_v_));
+  const double largest =
+      std::max(ratio(squared_norms(u, at_.x(), at_.x_size), largest_x_), ratio(squared_norms(u, at_.v(), at_.n), largest_v_));
   return std::sqrt(largest) / relative_tolerance;
 }
 

@@ -83,7 +83,8 @@ State<T> some_state(const Layout& layout) {
     for (Eigen::Index k = 0; k < x->size(); ++k) {
       (*x)[k] = T(values[k]);
       if constexpr (!std::is_same_v<T, double>)
-        for (int lane = 0; lane < (*x)[k].directions().size(); ++lane) (*x)[k].v[lane] = std::sin(phase + 0.3 * lane + static_cast<double>(k));
+        for (int lane = 0; lane < (*x)[k].directions().size(); ++lane)
+          (*x)[k].v[lane] = std::sin(phase + 0.3 * lane + static_cast<double>(k));
     }
   };
   fill(&state.q, 0.3), fill(&state.v, 1.1), fill(&state.s, 2.0), fill(&state.z, 0.7);
@@ -152,11 +153,12 @@ TEST(CompiledEquations, FollowFunctionsOfTimeAndTheirParameters) {
 TEST(CompiledEquations, GoBackToTheFormulasForADesignThatDecidesOtherwise) {
   SKIP_WITHOUT_CODE();
   const std::string friction =
-      "<codesign:friction mu_static='0.6' mu_dynamic='0.4' transition_velocity='0.1' joint_length='0.2' friction_arm='0.02' pin_radius='0.05' "
+      "<codesign:friction mu_static='0.6' mu_dynamic='0.4' transition_velocity='0.1' joint_length='0.2' friction_arm='0.02' "
+      "pin_radius='0.05' "
       "codesign:pin_radius='${radius}'/>";
-  const std::shared_ptr<const System> system =
-      compile(robot("<codesign:parameter name='radius' value='0.05'/>" + bar("arm") + hinge("shoulder", "ground", "arm", "0 0 0", friction)),
-              motion_study(1.0, "{}", "shoulder/velocity", "{}"));
+  const std::shared_ptr<const System> system = compile(
+      robot("<codesign:parameter name='radius' value='0.05'/>" + bar("arm") + hinge("shoulder", "ground", "arm", "0 0 0", friction)),
+      motion_study(1.0, "{}", "shoulder/velocity", "{}"));
   Twins<double> twins(*system);
   const State<double> state = some_state<double>(system->layout());
   VectorX<double> G, expected;
@@ -226,8 +228,8 @@ TEST(CompiledEquations, LeaveABranchThatWasNotRecordedToTheFormulas) {
   SKIP_WITHOUT_CODE();
   const std::string narrow = "<limit lower='-0.05' upper='0.04' effort='2' velocity='1'/>";
   const std::shared_ptr<const System> system =
-      compile(robot(bar("arm") + "<joint name='hinge' type='revolute'><parent link='ground'/><child link='arm'/><axis xyz='0 1 0'/>" + narrow +
-                    "</joint>"),
+      compile(robot(bar("arm") + "<joint name='hinge' type='revolute'><parent link='ground'/><child link='arm'/><axis xyz='0 1 0'/>" +
+                    narrow + "</joint>"),
               motion_study(1.0, "{}", "hinge/velocity", "{}") + "limits: {position: true, stiffness: 20.0, width: 0.01}\n");
   Twins<double> twins(*system);
   twins.set_design(system->parameters());
@@ -263,9 +265,10 @@ TEST(CompiledEquations, GiveDerivativesAloneFromArraysOfTheirOwn) {
     }
   Eigen::Matrix<double, 4, Eigen::Dynamic> result(4, system->layout().columns());
   Eigen::Vector4d g_result;
-  ASSERT_TRUE(twins.with.compiled().tangents(
-      EquationFunction::kResidual, state.t, twins.with.turn_references(), {values[0].data(), values[1].data(), values[2].data(), values[3].data()},
-      {directions[0].data(), directions[1].data(), directions[2].data(), directions[3].data()}, {result.data(), g_result.data(), nullptr, nullptr}));
+  ASSERT_TRUE(twins.with.compiled().tangents(EquationFunction::kResidual, state.t, twins.with.turn_references(),
+                                             {values[0].data(), values[1].data(), values[2].data(), values[3].data()},
+                                             {directions[0].data(), directions[1].data(), directions[2].data(), directions[3].data()},
+                                             {result.data(), g_result.data(), nullptr, nullptr}));
   VectorX<Lanes<4>> expected;
   Lanes<4> g;
   twins.without.residual(state, &expected, &g);

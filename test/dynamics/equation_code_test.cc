@@ -56,8 +56,9 @@ TEST(EquationCode, KeepsTurnsAndFunctionsOfTimeThatAreUsed) {
   EXPECT_TRUE(still->equation_code()->instant().functions.empty()) << "constants are no functions of time";
   EXPECT_EQ(servo("{}")->equation_code()->instant().turns.size(), 1U) << "the shoulder's position";
   const std::shared_ptr<const System> moved =
-      compile(double_pendulum(), "duration: 1.0\nobjective: {integral: [{signal: elbow/velocity, reference: {type: sine, amplitude: 1.0, "
-                                 "period: 2.0}}]}\n");
+      compile(double_pendulum(),
+              "duration: 1.0\nobjective: {integral: [{signal: elbow/velocity, reference: {type: sine, amplitude: 1.0, "
+              "period: 2.0}}]}\n");
   ASSERT_EQ(moved->equation_code()->instant().functions.size(), 1U);
   const auto& orders = moved->equation_code()->instant().functions[0];
   EXPECT_GE(orders[0], 0);
@@ -69,16 +70,16 @@ TEST(EquationCode, DecisionsByTheDesignAloneAreApart) {
   const std::string friction =
       "<codesign:friction mu_static='0.6' mu_dynamic='0.4' transition_velocity='0.1' joint_length='0.2' pin_radius='0.05' "
       "codesign:pin_radius='${radius}'/>";
-  const std::shared_ptr<const System> system =
-      compile(robot("<codesign:parameter name='radius' value='0.05'/>" + bar("arm") + hinge("shoulder", "ground", "arm", "0 0 0", friction)),
-              motion_study(1.0, "{}", "shoulder/velocity", "{}"));
+  const std::shared_ptr<const System> system = compile(
+      robot("<codesign:parameter name='radius' value='0.05'/>" + bar("arm") + hinge("shoulder", "ground", "arm", "0 0 0", friction)),
+      motion_study(1.0, "{}", "shoulder/velocity", "{}"));
   EXPECT_EQ(system->equation_code()->design_guards().size(), 1U) << "whether the pin has a radius";
 }
 
 TEST(EquationCode, EveryShippedCaseIsCompiled) {
   SKIP_WITHOUT_CODE();
-  for (const char* name : {"slider_crank", "slider_crank_haug", "inverted_pendulum", "inverted_pendulum_frictionless", "governor", "two_link_arm",
-                           "gantry"}) {
+  for (const char* name :
+       {"slider_crank", "slider_crank_haug", "inverted_pendulum", "inverted_pendulum_frictionless", "governor", "two_link_arm", "gantry"}) {
     const Shipped shipped(name);
     const EquationCode* const code = make_system(shipped.robot, shipped.study)->equation_code();
     ASSERT_NE(code, nullptr) << name;

@@ -19,7 +19,8 @@ std::vector<double> run(const Recording& recording, const TangentProgram& progra
   for (const TangentProgram::Sum& sum : program.sums) {
     double total = 0.0;
     for (const TangentProgram::Term& term : sum.terms) {
-      const double product = rows[static_cast<std::size_t>(term.row)] * (term.factor < 0 ? 1.0 : values[static_cast<std::size_t>(term.factor)]);
+      const double product =
+          rows[static_cast<std::size_t>(term.row)] * (term.factor < 0 ? 1.0 : values[static_cast<std::size_t>(term.factor)]);
       total += term.added ? product : -product;
     }
     (sum.node < 0 ? result[static_cast<std::size_t>(sum.output.place.index)] : rows[static_cast<std::size_t>(sum.node)]) = total;
@@ -53,11 +54,10 @@ TEST(TangentProgram, IsTheDerivativeThatLanesGive) {
 class SmallTangents : public ::testing::Test {
  protected:
   Recording recording;
-  const Traced x{&recording, recording.leaf(0, 0, true)}, y{&recording, recording.leaf(0, 1, true)}, z{&recording, recording.leaf(0, 2, true)};
+  const Traced x{&recording, recording.leaf(0, 0, true)}, y{&recording, recording.leaf(0, 1, true)},
+      z{&recording, recording.leaf(0, 2, true)};
 
-  TangentProgram differentiate(const Traced& result) {
-    return {&recording, {{result.node_in(&recording), {0, 0}}}, leaves_of(recording)};
-  }
+  TangentProgram differentiate(const Traced& result) { return {&recording, {{result.node_in(&recording), {0, 0}}}, leaves_of(recording)}; }
 };
 
 TEST_F(SmallTangents, OfSumsOfProductsAreOneSum) {

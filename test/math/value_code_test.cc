@@ -30,7 +30,8 @@ TEST(ValueCode, ComputesWhatTheFormulasDo) {
 
   const std::vector<double> values = node_values(some.recording, leaves);
   for (int n : task.kept) {
-    const double kept = slots[static_cast<std::size_t>(program.slot[static_cast<std::size_t>(n)])], value = values[static_cast<std::size_t>(n)];
+    const double kept = slots[static_cast<std::size_t>(program.slot[static_cast<std::size_t>(n)])],
+                 value = values[static_cast<std::size_t>(n)];
     EXPECT_NEAR(kept, value, 1e-13 * (1.0 + std::abs(value))) << "node " << n;
   }
 }
@@ -38,7 +39,8 @@ TEST(ValueCode, ComputesWhatTheFormulasDo) {
 class OneOperation : public ::testing::Test {
  protected:
   Recording recording;
-  const Traced x{&recording, recording.leaf(0, 0, true)}, y{&recording, recording.leaf(0, 1, true)}, z{&recording, recording.leaf(0, 2, true)};
+  const Traced x{&recording, recording.leaf(0, 0, true)}, y{&recording, recording.leaf(0, 1, true)},
+      z{&recording, recording.leaf(0, 2, true)};
 
   /// The value of a formula of 0.3, -0.7 and 1.9; NaN if a guard does not hold.
   double run(const Traced& formula) {

@@ -81,8 +81,8 @@ TEST_P(TangentEquationsTest, OfTheConstraintsAreOnePerRow) {
 TEST(TangentEquations, ComeFromTheFormulasWhereNothingWasRecorded) {
   const std::string narrow = "<limit lower='-0.05' upper='0.04' effort='2' velocity='1'/>";
   const std::shared_ptr<const System> system =
-      compile(robot(bar("arm") + "<joint name='hinge' type='revolute'><parent link='ground'/><child link='arm'/><axis xyz='0 1 0'/>" + narrow +
-                    "</joint>"),
+      compile(robot(bar("arm") + "<joint name='hinge' type='revolute'><parent link='ground'/><child link='arm'/><axis xyz='0 1 0'/>" +
+                    narrow + "</joint>"),
               motion_study(1.0, "{}", "hinge/velocity", "{}") + "limits: {position: true, stiffness: 20.0, width: 0.01}\n");
   TangentEquations<4> tangents(*system);
   tangents.equations().set_design({});
@@ -98,9 +98,8 @@ TEST(TangentEquations, ComeFromTheFormulasWhereNothingWasRecorded) {
   for (Eigen::Index k = 0; k < G.size(); ++k) EXPECT_EQ((actual.col(k) - G[k].directions()).norm(), 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Code, TangentEquationsTest, ::testing::Values(true, false), [](const auto& info) {
-  return info.param ? std::string("compiled") : std::string("formulas");
-});
+INSTANTIATE_TEST_SUITE_P(Code, TangentEquationsTest, ::testing::Values(true, false),
+                         [](const auto& info) { return info.param ? std::string("compiled") : std::string("formulas"); });
 
 }  // namespace
 }  // namespace codesign

@@ -103,8 +103,8 @@ class NoCompiledEquations {
 };
 
 template <class T>
-using CompiledEquationsOf = std::conditional_t<std::is_same_v<T, std::complex<double>> || std::is_same_v<T, Traced>, NoCompiledEquations<T>,
-                                               CompiledEquations<T>>;
+using CompiledEquationsOf =
+    std::conditional_t<std::is_same_v<T, std::complex<double>> || std::is_same_v<T, Traced>, NoCompiledEquations<T>, CompiledEquations<T>>;
 
 }  // namespace codesign
 

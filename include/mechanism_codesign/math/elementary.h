@@ -33,9 +33,7 @@ template <class T>
 T nearest_turns(double reference, const T& angle) {
   return T(2.0 * M_PI * std::nearbyint((reference - value_of(angle)) / (2.0 * M_PI)));
 }
-inline Traced nearest_turns(const Traced& reference, const Traced& angle) {
-  return 2.0 * M_PI * round((reference - angle) / (2.0 * M_PI));
-}
+inline Traced nearest_turns(const Traced& reference, const Traced& angle) { return 2.0 * M_PI * round((reference - angle) / (2.0 * M_PI)); }
 
 }  // namespace codesign
 

@@ -9,8 +9,8 @@
 namespace codesign {
 
 /// A scalar that records what is done to it, so that a formula written once for every scalar can be compiled for one mechanism. It has a
-/// value only where that does not vary: at the design for which the recording is made. Numbers that are known while recording are computed with at once: products by zero and one, sums with zero and operations
-/// that were recorded before leave nothing behind.
+/// value only where that does not vary: at the design for which the recording is made. Numbers that are known while recording are computed
+/// with at once: products by zero and one, sums with zero and operations that were recorded before leave nothing behind.
 class Traced {
  public:
   Traced() = default;

@@ -25,7 +25,8 @@ Lanes<N> value_at(const Expression& expression, const std::vector<Lanes<N>>& par
   values.reserve(parameters.size());
   for (const Lanes<N>& parameter : parameters) values.push_back(parameter.a);
   Lanes<N> result(expression.value(values));
-  for (int index : expression.dependencies()) result.v += expression.derivative(index, values) * parameters[static_cast<std::size_t>(index)].v;
+  for (int index : expression.dependencies())
+    result.v += expression.derivative(index, values) * parameters[static_cast<std::size_t>(index)].v;
   return result;
 }
 /// While equations are recorded an expression comes with each design. `parameters` are of the recording, and not empty.

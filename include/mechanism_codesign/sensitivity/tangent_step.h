@@ -58,8 +58,8 @@ class TangentStep {
   TangentEquations<N> equations_;
   State<double> projected_;
   Directions<N> y_, stage_y_, residual_, rows_, errors_, rates_;
-  std::vector<Directions<N>> stages_;          ///< u' of each stage
-  std::vector<Directions<N>> matrix_changes_;  ///< dG u of each stage, row by row
+  std::vector<Directions<N>> stages_;                 ///< u' of each stage
+  std::vector<Directions<N>> matrix_changes_;         ///< dG u of each stage, row by row
   Eigen::Array<double, N, 1> largest_x_, largest_v_;  ///< squared norms
 };
 
