@@ -31,8 +31,11 @@ T Equations<T>::controller_output(int controller, SparseGradient<T>* gradient) {
   switch (system_.controllers()[static_cast<std::size_t>(controller)].kind) {
     case ControllerKind::kPid:
       return pid(controller, gradient);
-    case ControllerKind::kPdGravity:
-      return pid(controller, gradient) + inverse_dynamics(controller, nullptr, gradient);
+    case ControllerKind::kPdGravity: {
+      // In this order for every scalar, as the gradient's entries are found again by it.
+      const T feedback = pid(controller, gradient);
+      return feedback + inverse_dynamics(controller, nullptr, gradient);
+    }
     case ControllerKind::kComputedTorque:
       return computed_torque(controller, gradient);
     case ControllerKind::kStateFeedback:

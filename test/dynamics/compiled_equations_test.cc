@@ -39,7 +39,7 @@ VectorX<T> as_vector(const std::vector<T>& x) {
 /// The same equations twice, one of them without code.
 template <class T>
 struct Twins {
-  explicit Twins(const System& system) : system(system), with(system), without(system) { without.compiled().allow(false); }
+  explicit Twins(const System& mechanism) : system(mechanism), with(system), without(system) { without.compiled().allow(false); }
 
   void set_design(const std::vector<T>& parameters) {
     with.set_design(parameters);
@@ -118,8 +118,7 @@ TEST_P(CompiledJoints, GiveTheSameValues) { expect_same<double>(*system); }
 TEST_P(CompiledJoints, GiveTheSameFourDerivatives) { expect_same<Lanes<4>>(*system); }
 TEST_P(CompiledJoints, GiveTheSameEightDerivatives) { expect_same<Lanes<8>>(*system); }
 
-INSTANTIATE_TEST_SUITE_P(AllJoints, CompiledJoints, ::testing::ValuesIn(joint_cases::all()),
-                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(AllJoints, CompiledJoints, ::testing::ValuesIn(joint_cases::all()), [](const auto& c) { return c.param.name; });
 
 /// Setpoints in motion, a shaped input with parameters, positions that turn, springs.
 const char* const kDriven =

@@ -46,7 +46,7 @@ TEST(EquationCode, OnlyWhatDependsOnTheDesignComesWithIt) {
     EXPECT_TRUE(!node.varies || (node.operation == Operation::kLeaf && node.a >= Recording::kTimed)) << "node " << n;
     if (node.operation == Operation::kLeaf && node.a == Recording::kSupplied && node.b >= 0) ++expressions;
   }
-  EXPECT_EQ(expressions, 4U) << "Kp, Ki, Kd and the weight; the start and the terminal terms are not in the equations";
+  EXPECT_EQ(expressions, 5U) << "Kp, Ki, Kd, the weight, and the start as a terminal reference";
 }
 
 TEST(EquationCode, KeepsTurnsAndFunctionsOfTimeThatAreUsed) {
@@ -73,7 +73,7 @@ TEST(EquationCode, DecisionsByTheDesignAloneAreApart) {
   const std::shared_ptr<const System> system = compile(
       robot("<codesign:parameter name='radius' value='0.05'/>" + bar("arm") + hinge("shoulder", "ground", "arm", "0 0 0", friction)),
       motion_study(1.0, "{}", "shoulder/velocity", "{}"));
-  EXPECT_EQ(system->equation_code()->design_guards().size(), 1U) << "whether the pin has a radius";
+  EXPECT_EQ(system->equation_code()->design_guards().size(), 2U) << "whether the pin has a radius, for G and for its matrices";
 }
 
 TEST(EquationCode, EveryShippedCaseIsCompiled) {
@@ -81,7 +81,8 @@ TEST(EquationCode, EveryShippedCaseIsCompiled) {
   for (const char* name :
        {"slider_crank", "slider_crank_haug", "inverted_pendulum", "inverted_pendulum_frictionless", "governor", "two_link_arm", "gantry"}) {
     const Shipped shipped(name);
-    const EquationCode* const code = make_system(shipped.robot, shipped.study)->equation_code();
+    const std::shared_ptr<const System> system = make_system(shipped.robot, shipped.study);
+    const EquationCode* const code = system->equation_code();
     ASSERT_NE(code, nullptr) << name;
     for (EquationFunction function : {EquationFunction::kResidual, EquationFunction::kLinearization, EquationFunction::kConstraintErrors})
       for (const EquationCode::Scalar& scalar : {EquationCode::Scalar{0, false}, {4, false}, {8, false}, {4, true}, {8, true}})

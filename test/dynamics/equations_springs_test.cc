@@ -45,6 +45,7 @@ TEST_F(EquationsSpringsTest, PullsAreEqualAndOpposite) {
   real.residual(state, &G, &g);
   const double mass = real.constants().bodies[0].mass + real.constants().bodies[1].mass;
   const Eigen::Vector3d sum = G.segment<3>(0) + G.segment<3>(kBodySize) - Eigen::Vector3d(0.0, 0.0, 9.81 * mass);
+  real.load(state);
   const SpringForce<double> hook = real.spring(1);
   EXPECT_LT((sum - hook.pull).norm(), 1e-13);
   EXPECT_NEAR(hook.tension, 10.0 * (hook.length - 0.1), 1e-13);

@@ -99,7 +99,7 @@ TEST(TangentEquations, ComeFromTheFormulasWhereNothingWasRecorded) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Code, TangentEquationsTest, ::testing::Values(true, false),
-                         [](const auto& info) { return info.param ? std::string("compiled") : std::string("formulas"); });
+                         [](const auto& code) { return code.param ? std::string("compiled") : std::string("formulas"); });
 
 }  // namespace
 }  // namespace codesign
