@@ -31,7 +31,7 @@ endfunction()
 codesign_import(muparserx mpParser.h muparserx muparserx)
 codesign_import(klu klu.h suitesparse klu amd colamd btf suitesparseconfig)
 
-# Sparse factorizations are compiled to machine code with it; without it, and on other processors, loops do their work.
+# Equations and sparse factorizations are compiled to machine code with it; without it, and on other processors, formulas and loops do their work.
 find_path(XBYAK_INCLUDE_DIR xbyak/xbyak.h)
 mark_as_advanced(XBYAK_INCLUDE_DIR)
 add_library(codesign_xbyak INTERFACE IMPORTED)
