@@ -5,6 +5,11 @@
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
+# Absolute paths reach the tests through one object alone: all others are the same in every checkout, for a compiler cache.
+add_library(codesign_test_paths OBJECT EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/test/paths.cc)
+target_compile_definitions(codesign_test_paths PRIVATE CODESIGN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" CODESIGN_EXECUTABLE="$<TARGET_FILE:codesign>")
+codesign_warnings(codesign_test_paths)
+
 foreach(folder math model joints forces control dynamics integration sensitivity optimization cli ros benchmark system allocation)
   file(GLOB test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${folder}/*.cc)
   if(NOT test_sources)
@@ -13,14 +18,12 @@ foreach(folder math model joints forces control dynamics integration sensitivity
   set(target test_${folder})
   add_executable(${target} EXCLUDE_FROM_ALL ${test_sources})
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/test)
-  target_compile_definitions(${target} PRIVATE CODESIGN_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  target_link_libraries(${target} PRIVATE codesign_core GTest::gtest GTest::gtest_main
+  target_link_libraries(${target} PRIVATE codesign_core codesign_test_paths GTest::gtest GTest::gtest_main
     SUNDIALS::idas NLopt::nlopt codesign_klu tinyxml2::tinyxml2 console_bridge::console_bridge yaml-cpp nlohmann_json::nlohmann_json)
   if(folder STREQUAL ros)
     target_link_libraries(${target} PRIVATE codesign_ros)
   elseif(folder STREQUAL cli AND TARGET codesign)
     target_link_libraries(${target} PRIVATE codesign_cli)
-    target_compile_definitions(${target} PRIVATE CODESIGN_EXECUTABLE="$<TARGET_FILE:codesign>")
     add_dependencies(${target} codesign)
   endif()
   if(folder MATCHES "^(sensitivity|allocation)$")

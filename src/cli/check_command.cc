@@ -68,6 +68,7 @@ int check(const Arguments& arguments, const Console& console) {
   object["parameters"] = parameters_json(problem, parameters);
   if (status.ok()) object["counts"] = to_json(counts);
   object["limits_exceeded"] = to_json(crossings);
+  add_warnings(arguments, problem, {}, &object, console);
   return finish(arguments, status, std::move(object), console);
 }
 

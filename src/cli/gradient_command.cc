@@ -59,7 +59,9 @@ int gradient(const Arguments& arguments, const Console& console) {
   const GradientCheck result = compute(arguments, problem, console);
   const bool known = result.evaluation.status.ok() && result.evaluation.gradient.size() > 0;
   if (!arguments.json && known) print_table(problem, result, console.out);
-  return finish(arguments, result.status, result_json(arguments, problem, result), console);
+  Json object = result_json(arguments, problem, result);
+  add_warnings(arguments, problem, result.evaluation.warnings, &object, console);
+  return finish(arguments, result.status, std::move(object), console);
 }
 
 }  // namespace codesign::cli

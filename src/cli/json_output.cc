@@ -44,6 +44,13 @@ Json to_json(const std::vector<LimitCrossing>& crossings) {
 
 Json to_json(const Status& status) { return {{"code", name_of(status.code)}, {"message", status.cause}, {"time", status.time}}; }
 
+Json to_json(const Warnings& warnings) {
+  Json array = Json::array();
+  for (const Warning& warning : warnings)
+    array.push_back({{"code", warning.code}, {"message", warning.message}, {"file", warning.where.file}, {"line", warning.where.line}});
+  return array;
+}
+
 Json by_name(const std::vector<std::string>& names, const std::vector<double>& values) {
   Json object = Json::object();
   for (std::size_t i = 0; i < names.size() && i < values.size(); ++i) object[names[i]] = values[i];
@@ -64,6 +71,8 @@ void add_statistics(const Statistics& statistics, Json* object) {
   (*object)["steps"] = statistics.steps;
   (*object)["rejected_steps"] = statistics.rejected_steps;
   (*object)["cpu_seconds"] = statistics.cpu_seconds;
+  (*object)["constraint_drift"] = statistics.constraint_drift;
+  (*object)["energy_error"] = statistics.energy_error;
 }
 
 void add_counts(const Problem& problem, const std::vector<double>& parameters, Json* object) {

@@ -27,12 +27,14 @@ Json to_json(const InputError& error);
 Json to_json(const std::vector<LimitCrossing>& crossings);
 /// `{code, message, time}`
 Json to_json(const Status& status);
+/// `[{code, message, file, line}]`
+Json to_json(const Warnings& warnings);
 /// Values by name.
 Json by_name(const std::vector<std::string>& names, const std::vector<double>& values);
 Json by_name(const std::vector<std::string>& names, const Eigen::VectorXd& values);
 /// All named parameters.
 Json parameters_json(const Problem& problem, const std::vector<double>& values);
-/// Sets `steps`, `rejected_steps` and `cpu_seconds`.
+/// Sets `steps`, `rejected_steps`, `cpu_seconds`, `constraint_drift` and `energy_error`.
 void add_statistics(const Statistics& statistics, Json* object);
 /// Sets `counts`, at `parameters`, unless that design cannot be assembled.
 void add_counts(const Problem& problem, const std::vector<double>& parameters, Json* object);

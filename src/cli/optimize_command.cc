@@ -95,7 +95,8 @@ int optimize(const Arguments& arguments, const Console& console) {
   const OptimizationResult result = codesign::optimize(problem.system, problem.study, observer, &console.cancel);
   const bool designed = has_design(problem, result);
   if (!arguments.json && designed) print_result(problem, result, console.out);
-  const Json object = result_json(problem, result);
+  Json object = result_json(problem, result);
+  add_warnings(arguments, problem, result.warnings, &object, console);
   const int code = finish(arguments, result.status, object, console);
   if (!folder || !designed) return code;
   return write_files(&*folder, object, result.rho, console) ? code : kFailed;

@@ -12,6 +12,10 @@ namespace codesign::cli {
 /// `assembly_failed at t = 0 s: cause`
 std::string describe(const Status& status);
 
+/// Tells what is doubtful: each warning as a line on the error stream, and all as `warnings` of `object`, which also gets `setup_seconds`.
+/// @param of_run what the run added to the warnings of the files.
+void add_warnings(const Arguments& arguments, const Problem& problem, const Warnings& of_run, Json* object, const Console& console);
+
 /// Ends a command: prints `object` if JSON was asked for, with an `error` if the status is one, and names a failure on the error stream.
 /// Returns the exit code.
 int finish(const Arguments& arguments, const Status& status, Json object, const Console& console);

@@ -18,6 +18,7 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
   RunSummary summary;
   summary.status = codesign::simulate(&simulation, problem.study.duration, samples, observer);
   summary.statistics = simulation.statistics();
+  summary.warnings = simulation.warnings();
   summary.crossings = watch.crossings();
   return summary;
 }

@@ -17,6 +17,7 @@ struct RunSummary {
   Status status;
   Statistics statistics;
   std::vector<LimitCrossing> crossings;  ///< seen at the sampled instants
+  Warnings warnings;                     ///< Simulation::warnings()
 };
 
 /// Called with `time, signal, ...` at each instant.

@@ -64,6 +64,7 @@ int simulate(const Arguments& arguments, const Console& console) {
   if (run.status.ok()) summarize(run, problem.study.duration, console.err);
   Json object;
   if (arguments.json) object = run_json(problem, run, series_json(names, rows), console);
+  add_warnings(arguments, problem, run.warnings, &object, console);
   return finish(arguments, run.status, std::move(object), console);
 }
 

@@ -15,7 +15,7 @@ using Arrays = EquationArrays;
 constexpr int kMostColumns = 4000;
 constexpr std::size_t kMostBytes = 16 * 1024 * 1024;
 
-constexpr int kTurns = 102;  // array of the leaves that count turns, beside those of Recording
+constexpr int kTurns = Recording::kTimed + 1;  // array of the leaves that count turns
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
@@ -29,43 +29,52 @@ Place spread(const Place& place, int lanes) {
   return {place.array, place.index * (lanes + 1)};
 }
 
+/// Comes with the design or the instant.
+bool is_number(const Recording::Node& node) {
+  return !node.varies || (node.operation == Operation::kLeaf && node.a >= Recording::kSupplied);
+}
+
+/// Whether a derivative is given. What does not vary is a leaf to the tangents: its derivative is found with the design.
+bool is_tangent_leaf(const Recording::Node& node) {
+  return node.operation == Operation::kLeaf ? node.a != kTurns : !node.varies && node.operation != Operation::kLiteral;
+}
+
 }  // namespace
 
 EquationCode::EquationCode(const System& system) {
   if (!ValueCode::is_available() || system.layout().columns() > kMostColumns) {
-    recording_.refuse();
+    values_.recording.refuse();
     return;
   }
   record(system);
-  if (recording_.refused()) return;
-  differentiate();
-  number_nodes();
+  if (usable()) values_.number_nodes(turn_owners_);
 }
 
 void EquationCode::record(const System& system) {
+  Recording* const recording = &values_.recording;
   Equations<Traced> equations(system);
   // One more than there are, so that a model without parameters finds the recording too.
-  const int parameter = recording_.leaf(Recording::kSupplied, -1, false);
+  const int parameter = recording->leaf(Recording::kSupplied, -1, false);
   std::vector<Traced> parameters;
-  for (double value : system.parameters()) parameters.emplace_back(&recording_, parameter, value);
-  parameters.emplace_back(&recording_, parameter, 0.0);
+  for (double value : system.parameters()) parameters.emplace_back(recording, parameter, value);
+  parameters.emplace_back(recording, parameter, 0.0);
   equations.set_design(parameters);
   std::vector<std::vector<Traced>>& turns = equations.turn_references();
   for (std::size_t pair = 0; pair < turns.size(); ++pair)
     for (std::size_t element = 0; element < turns[pair].size(); ++element) {
-      turns[pair][element] = Traced(&recording_, recording_.leaf(kTurns, static_cast<int>(turn_owners_.size()), true));
+      turns[pair][element] = Traced(recording, recording->leaf(kTurns, static_cast<int>(turn_owners_.size()), true));
       turn_owners_.push_back({static_cast<int>(pair), static_cast<int>(element)});
     }
   State<Traced> state;
   state.resize(system.layout());
   state.t = std::numeric_limits<double>::quiet_NaN();  // only functions of time may depend on it
-  leaves(Arrays::kQ, &recording_, &state.q), leaves(Arrays::kV, &recording_, &state.v);
-  leaves(Arrays::kS, &recording_, &state.s), leaves(Arrays::kZ, &recording_, &state.z);
+  leaves(Arrays::kQ, recording, &state.q), leaves(Arrays::kV, recording, &state.v);
+  leaves(Arrays::kS, recording, &state.s), leaves(Arrays::kZ, recording, &state.z);
 
   Recorded design;
   take_guards(0, &design);
 
-  std::size_t guards = recording_.guards().size();
+  std::size_t guards = recording->guards().size();
   VectorX<Traced> G, Phi, Phi_rate, g(1);
   equations.residual(state, &G, g.data());
   take(EquationFunction::kResidual, {&G, &g}, &guards);
@@ -83,64 +92,64 @@ void EquationCode::record(const System& system) {
 }
 
 void EquationCode::take(EquationFunction function, const std::vector<const VectorX<Traced>*>& results, std::size_t* guards) {
+  Recording* const recording = &values_.recording;
   Recorded& recorded = functions_[static_cast<std::size_t>(function)];
   take_guards(*guards, &recorded);
-  *guards = recording_.guards().size();
+  *guards = recording->guards().size();
   for (std::size_t k = 0; k < results.size(); ++k)
     for (Eigen::Index i = 0; i < results[k]->size(); ++i)
-      recorded.outputs.push_back({(*results[k])[i].node_in(&recording_), {Arrays::kResults + static_cast<int>(k), static_cast<int>(i)}});
+      recorded.outputs.push_back({(*results[k])[i].node_in(recording), {Arrays::kResults + static_cast<int>(k), static_cast<int>(i)}});
 }
 
 void EquationCode::take_guards(std::size_t first, Recorded* function) {
-  for (std::size_t k = first; k < recording_.guards().size(); ++k) {
-    const Recording::Guard& guard = recording_.guards()[k];
-    const bool varies = recording_.node(guard.a).varies || recording_.node(guard.b).varies;
+  const Recording& recording = values_.recording;
+  for (std::size_t k = first; k < recording.guards().size(); ++k) {
+    const Recording::Guard& guard = recording.guards()[k];
+    const bool varies = recording.node(guard.a).varies || recording.node(guard.b).varies;
     (varies ? function->guards : design_guards_).push_back(guard);
   }
 }
 
-// What does not vary is a leaf to the tangents: its derivative is found with the design.
-void EquationCode::differentiate() {
-  for (Recorded& function : functions_) {
-    std::vector<bool> is_leaf(at(recording_.size()));
-    for (int n = 0; n < recording_.size(); ++n) {
-      const Recording::Node& node = recording_.node(n);
-      const bool given = node.operation == Operation::kLeaf && node.a != kTurns;
-      is_leaf[at(n)] = given || (!node.varies && node.operation != Operation::kLiteral);
-    }
-    function.tangent = std::make_unique<TangentProgram>(&recording_, function.outputs, is_leaf);
+void EquationCode::differentiate() const {
+  Recording& recording = derivatives_.recording;
+  recording = values_.recording;
+  for (std::size_t f = 0; f < kFunctions; ++f) {
+    std::vector<bool> is_leaf(at(recording.size()));
+    for (int n = 0; n < recording.size(); ++n) is_leaf[at(n)] = is_tangent_leaf(recording.node(n));
+    derivatives_.tangents[f] = std::make_unique<TangentProgram>(&recording, functions_[f].outputs, is_leaf);
   }
+  derivatives_.number_nodes(turn_owners_);
 }
 
-bool EquationCode::is_number(int n) const {
-  const Recording::Node& node = recording_.node(n);
-  return !node.varies || (node.operation == Operation::kLeaf && node.a >= Recording::kSupplied);
+const NumberedRecording& EquationCode::numbered(bool with_derivatives) const {
+  if (!with_derivatives) return values_;
+  std::call_once(differentiated_, [this] { differentiate(); });
+  return derivatives_;
 }
 
-void EquationCode::number_nodes() {
-  instant_.functions.resize(recording_.timed_origins().size());
-  for (auto& orders : instant_.functions) orders.fill(-1);
-  homes_.resize(at(recording_.size()));
-  std::vector<bool> used(homes_.size());
-  for (int n = 0; n < recording_.size(); ++n) {
-    const Recording::Node& node = recording_.node(n);
+void NumberedRecording::number_nodes(const std::vector<std::array<int, 2>>& turn_owners) {
+  functions.resize(recording.timed_origins().size());
+  for (auto& orders : functions) orders.fill(-1);
+  homes.resize(at(recording.size()));
+  std::vector<bool> used(homes.size());
+  for (int n = 0; n < recording.size(); ++n) {
+    const Recording::Node& node = recording.node(n);
     if (node.operation == Operation::kLeaf) continue;
     for (int operand : {node.a, node.b})
       if (operand >= 0) used[at(operand)] = true;
   }
-  for (int n = 0; n < recording_.size(); ++n) {
-    const Recording::Node& node = recording_.node(n);
-    if (!is_number(n)) {
-      if (node.operation == Operation::kLeaf) homes_[at(n)] = {node.a, node.b};
+  for (int n = 0; n < recording.size(); ++n) {
+    const Recording::Node& node = recording.node(n);
+    if (!is_number(node)) {
+      if (node.operation == Operation::kLeaf) homes[at(n)] = {node.a, node.b};
       continue;
     }
-    const auto entry = static_cast<int>(numbers_.size());
-    homes_[at(n)] = {Arrays::kNumbers, entry};
-    numbers_.push_back(n);
+    const auto entry = static_cast<int>(numbers.size());
+    homes[at(n)] = {Arrays::kNumbers, entry};
+    numbers.push_back(n);
     if (node.operation != Operation::kLeaf) continue;
-    if (node.a == Recording::kTimed)
-      instant_.functions[at(node.b / Recording::kFunctionOrders)][at(node.b % Recording::kFunctionOrders)] = entry;
-    if (node.a == kTurns && used[at(n)]) instant_.turns.push_back({turn_owners_[at(node.b)][0], turn_owners_[at(node.b)][1], entry});
+    if (node.a == Recording::kTimed) functions[at(node.b / Recording::kFunctionOrders)][at(node.b % Recording::kFunctionOrders)] = entry;
+    if (node.a == kTurns && used[at(n)]) turns.push_back({turn_owners[at(node.b)][0], turn_owners[at(node.b)][1], entry});
   }
 }
 
@@ -149,23 +158,25 @@ const CompiledFunction* EquationCode::function(EquationFunction function, const 
   Known& known = known_[f][at(scalar.lanes / 4 + (scalar.split ? 2 : 0))];
   if (!known.tried.load(std::memory_order_acquire)) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!known.tried.load(std::memory_order_relaxed)) known.code = compile(functions_[f], scalar);
+    if (!known.tried.load(std::memory_order_relaxed)) known.code = compile(f, scalar);
     known.tried.store(true, std::memory_order_release);
   }
   return known.code.get();
 }
 
 // Factors that are read off the state are copied where the sums find them too.
-ValueTask EquationCode::value_task(const Recorded& recorded, const Scalar& scalar, std::vector<Place>* value_places) const {
+ValueTask EquationCode::value_task(std::size_t function, const Scalar& scalar, std::vector<Place>* value_places) const {
+  const NumberedRecording& from = numbered(scalar.lanes > 0);
   ValueTask task;
   const int state_lanes = scalar.split ? 0 : scalar.lanes;
-  for (const Place& home : homes_) task.homes.push_back(spread(home, home.array == Arrays::kNumbers ? scalar.lanes : state_lanes));
-  task.guards = recorded.guards;
+  for (const Place& home : from.homes) task.homes.push_back(spread(home, home.array == Arrays::kNumbers ? scalar.lanes : state_lanes));
+  task.guards = functions_[function].guards;
   if (!scalar.split)
-    for (const ValueTask::Output& output : recorded.outputs) task.outputs.push_back({output.node, spread(output.place, scalar.lanes)});
+    for (const ValueTask::Output& output : functions_[function].outputs)
+      task.outputs.push_back({output.node, spread(output.place, scalar.lanes)});
   *value_places = task.homes;
   if (scalar.lanes == 0) return task;
-  for (int n : recorded.tangent->factors) {
+  for (int n : from.tangents[function]->factors) {
     Place& place = (*value_places)[at(n)];
     if (place.array < 0) {
       task.kept.push_back(n);
@@ -177,20 +188,11 @@ ValueTask EquationCode::value_task(const Recorded& recorded, const Scalar& scala
   return task;
 }
 
-std::unique_ptr<CompiledFunction> EquationCode::compile(const Recorded& recorded, const Scalar& scalar) const {
-  std::vector<Place> value_places;
-  const ValueTask task = value_task(recorded, scalar, &value_places);
-  const ValueProgram program(recording_, task);
-  auto function = std::make_unique<CompiledFunction>();
-  function->slots = at(program.slots);
-  function->values = ValueCode::compile(recording_, task, program, Arrays::kSlots);
-  if (!function->values) return nullptr;
-  if (scalar.lanes == 0) return function;
-  for (int n : task.kept) value_places[at(n)] = {Arrays::kSlots, program.slot[at(n)]};
-  const TangentProgram& tangent = *recorded.tangent;
+std::vector<Sum> EquationCode::tangent_sums(std::size_t function, const std::vector<Place>& value_places) const {
+  const TangentProgram& tangent = *derivatives_.tangents[function];
   const auto row_place = [&](int n) {
     const bool has_sum = at(n) < tangent.row.size() && tangent.row[at(n)] >= 0;
-    return has_sum ? Place{Arrays::kRows, tangent.row[at(n)]} : homes_[at(n)];
+    return has_sum ? Place{Arrays::kRows, tangent.row[at(n)]} : derivatives_.homes[at(n)];
   };
   std::vector<Sum> sums;
   for (const TangentProgram::Sum& from : tangent.sums) {
@@ -199,13 +201,27 @@ std::unique_ptr<CompiledFunction> EquationCode::compile(const Recorded& recorded
     for (const TangentProgram::Term& term : from.terms)
       sum.products.push_back({row_place(term.row), term.factor < 0 ? Place{} : value_places[at(term.factor)], term.added});
   }
+  return sums;
+}
+
+std::unique_ptr<CompiledFunction> EquationCode::compile(std::size_t function, const Scalar& scalar) const {
+  const NumberedRecording& from = numbered(scalar.lanes > 0);
+  std::vector<Place> value_places;
+  const ValueTask task = value_task(function, scalar, &value_places);
+  const ValueProgram program(from.recording, task);
+  auto compiled = std::make_unique<CompiledFunction>();
+  compiled->slots = at(program.slots);
+  compiled->values = ValueCode::compile(from.recording, task, program, Arrays::kSlots);
+  if (!compiled->values) return nullptr;
+  if (scalar.lanes == 0) return compiled;
+  for (int n : task.kept) value_places[at(n)] = {Arrays::kSlots, program.slot[at(n)]};
   StraightLine::RowLayouts layouts;
   layouts.fill(scalar.split ? StraightLine::RowLayout{scalar.lanes, 0} : StraightLine::RowLayout{scalar.lanes + 1, 1});
   layouts[at(Arrays::kNumbers)] = {scalar.lanes + 1, 1};
   layouts[at(Arrays::kRows)] = {scalar.lanes, 0};
-  function->rows = at(tangent.rows * scalar.lanes);
-  function->tangents = StraightLine::compile(sums, scalar.lanes, layouts, kMostBytes);
-  return function->tangents ? std::move(function) : nullptr;
+  compiled->rows = at(from.tangents[function]->rows * scalar.lanes);
+  compiled->tangents = StraightLine::compile(tangent_sums(function, value_places), scalar.lanes, layouts, kMostBytes);
+  return compiled->tangents ? std::move(compiled) : nullptr;
 }
 
 }  // namespace codesign

@@ -29,12 +29,25 @@ struct CompiledFunction {
   std::size_t slots = 0, rows = 0;  ///< numbers needed beside the results
 };
 
-/// The equations of one mechanism and study, recorded once and compiled for each scalar when that is first asked for. Immutable beside
-/// that, thread-safe, shared by all designs.
+/// A recording with a place for the number of each node that is not computed by the code itself.
+struct NumberedRecording {
+  Recording recording;
+  std::array<std::unique_ptr<TangentProgram>, 3> tangents;  ///< of each EquationFunction, where derivatives were asked for
+  std::vector<int> numbers;                                 ///< the nodes that array kNumbers holds, in its order
+  std::vector<Place> homes;                                 ///< per node
+
+  /// First entry of kNumbers of each function of time (-1 if its derivative of that order is not used), and of each position's turns.
+  std::vector<std::array<int, Recording::kFunctionOrders>> functions;
+  std::vector<std::array<int, 3>> turns;  ///< pair, element, entry
+
+  /// @param turn_owners pair and element of each leaf that counts turns.
+  void number_nodes(const std::vector<std::array<int, 2>>& turn_owners);
+};
+
+/// The equations of one mechanism and study, recorded once; their derivatives, and code for each scalar, are made when they are first asked
+/// for. Immutable beside that, thread-safe, shared by all designs.
 class EquationCode {
  public:
-  static constexpr std::size_t kFunctions = 3;
-
   /// For which scalar code is compiled.
   struct Scalar {
     int lanes;   ///< 0 for double
@@ -45,46 +58,38 @@ class EquationCode {
   explicit EquationCode(const System& system);
 
   /// Whether they could be recorded.
-  bool usable() const { return !recording_.refused(); }
+  bool usable() const { return !values_.recording.refused(); }
   /// Null if there is no code. Of split scalars, kQ to kZ are values to the one part and directions to the other.
   const CompiledFunction* function(EquationFunction function, const Scalar& scalar) const;
 
-  const Recording& recording() const { return recording_; }
-  /// The nodes that array kNumbers holds, in its order.
-  const std::vector<int>& numbers() const { return numbers_; }
+  /// What the code of values, or of values and derivatives, was made from.
+  const NumberedRecording& numbered(bool with_derivatives) const;
   /// Decisions that depend on the design alone.
   const std::vector<Recording::Guard>& design_guards() const { return design_guards_; }
-  /// First entry of kNumbers of each function of time (-1 if its derivative of that order is not used), and of each position's turns.
-  struct Instant {
-    std::vector<std::array<int, Recording::kFunctionOrders>> functions;
-    std::vector<std::array<int, 3>> turns;  ///< pair, element, entry
-  };
-  const Instant& instant() const { return instant_; }
 
  private:
+  static constexpr std::size_t kFunctions = 3;
+
   struct Recorded {
     std::vector<ValueTask::Output> outputs;
     std::vector<Recording::Guard> guards;
-    std::unique_ptr<TangentProgram> tangent;
   };
   void record(const System& system);
   void take_guards(std::size_t first, Recorded* function);
   /// Notes what a function gave, and the guards from the first that is not noted yet on.
   void take(EquationFunction function, const std::vector<const VectorX<Traced>*>& results, std::size_t* guards);
-  void differentiate();
-  void number_nodes();
-  bool is_number(int node) const;
-  std::unique_ptr<CompiledFunction> compile(const Recorded& recorded, const Scalar& scalar) const;
-  ValueTask value_task(const Recorded& recorded, const Scalar& scalar, std::vector<Place>* value_places) const;
+  void differentiate() const;
+  std::unique_ptr<CompiledFunction> compile(std::size_t function, const Scalar& scalar) const;
+  ValueTask value_task(std::size_t function, const Scalar& scalar, std::vector<Place>* value_places) const;
+  std::vector<Sum> tangent_sums(std::size_t function, const std::vector<Place>& value_places) const;
 
-  Recording recording_;
+  NumberedRecording values_;
   std::array<Recorded, kFunctions> functions_;
   std::vector<Recording::Guard> design_guards_;
-  std::vector<int> numbers_;
   std::vector<std::array<int, 2>> turn_owners_;  ///< pair and element of each leaf that counts turns
-  std::vector<Place> homes_;                     ///< per node
-  Instant instant_;
 
+  mutable std::once_flag differentiated_;
+  mutable NumberedRecording derivatives_;  ///< values_ and what derivatives take besides
   struct Known {
     std::atomic<bool> tried{false};
     std::unique_ptr<CompiledFunction> code;

@@ -2,7 +2,6 @@
 #ifndef MECHANISM_CODESIGN_SRC_DYNAMICS_EQUATIONS_CONTROLLERS_H_
 #define MECHANISM_CODESIGN_SRC_DYNAMICS_EQUATIONS_CONTROLLERS_H_
 
-#include "mechanism_codesign/control/shaped_input.h"
 #include "mechanism_codesign/dynamics/equations.h"
 
 namespace codesign {
@@ -110,16 +109,7 @@ T Equations<T>::state_feedback(int controller, SparseGradient<T>* gradient) {
 
 template <class T>
 T Equations<T>::shaped_input(int controller, SparseGradient<T>* gradient) {
-  const auto c = static_cast<std::size_t>(controller);
-  const BasisDescription& basis = system_.study().controllers[c].basis;
-  ReferenceMotion<T> input;
-  if constexpr (std::is_same_v<T, Traced>) {
-    Recording* const recording = parameters_.front().recording();
-    input.value = Traced(recording, recording->timed(&basis, 0));
-    input.rate = Traced(recording, recording->timed(&basis, 1));
-  } else {
-    input = codesign::shaped_input(basis, controllers_[c].coefficients, state_->t);
-  }
+  const ReferenceMotion<T> input = controllers_[static_cast<std::size_t>(controller)].shape.at(state_->t);
   if (gradient) gradient->time += input.rate;
   return input.value;
 }

@@ -27,6 +27,18 @@ const char* name_of(StatusCode code) {
       return "non_finite";
     case StatusCode::kInvalidDesign:
       return "invalid_design";
+    case StatusCode::kSingularConfiguration:
+      return "singular_configuration";
+    case StatusCode::kConstraintDrift:
+      return "constraint_drift";
+    case StatusCode::kEnergyError:
+      return "energy_error";
+    case StatusCode::kInfeasible:
+      return "infeasible";
+    case StatusCode::kAlgorithmFailed:
+      return "algorithm_failed";
+    case StatusCode::kNonFiniteGradient:
+      return "non_finite_gradient";
   }
   return "unknown";
 }

@@ -51,6 +51,7 @@ class Simulation::Implementation {
 
   const FrameNames& names() const { return observer_.names(); }
   const Statistics& statistics() const { return statistics_; }
+  const Warnings& warnings() const { return warnings_; }
 
  private:
   std::shared_ptr<const System> system_;
@@ -59,6 +60,7 @@ class Simulation::Implementation {
   std::unique_ptr<Integrator> integrator_;
   State<double> sample_;
   Statistics statistics_;
+  Warnings warnings_;
 };
 
 Simulation::Simulation(std::shared_ptr<const System> system, const std::vector<double>& parameters,
@@ -73,6 +75,7 @@ Status Simulation::advance(double time) { return implementation_->advance(time);
 void Simulation::sample(double time, Frame* frame) { implementation_->sample(time, frame); }
 const FrameNames& Simulation::names() const { return implementation_->names(); }
 const Statistics& Simulation::statistics() const { return implementation_->statistics(); }
+const Warnings& Simulation::warnings() const { return implementation_->warnings(); }
 
 Status simulate(Simulation* simulation, double duration, int count, const FrameObserver& observer) {
   Frame frame;

@@ -16,40 +16,9 @@ namespace {
 
 constexpr std::size_t kBytesPerOperation = 16;  // an instruction has fewer
 constexpr int kOne = 15;                        // the register that holds 1
+constexpr int kSecond = 14;                     // that holds the second part of a sum
 constexpr int kFactor = 15;                     // that holds a factor in all its parts
-
-/// Which registers hold which rows; the one that was not asked for longest is given away first.
-class Registers {
- public:
-  explicit Registers(int count) : count_(static_cast<std::size_t>(count)) {}
-
-  /// The register that holds a row, or -1.
-  int find(const Place& row) {
-    for (std::size_t r = 0; r < count_; ++r)
-      if (held_[r] == row) return touch(r);
-    return -1;
-  }
-  /// A register for a row that will be read or computed.
-  int take(const Place& row) {
-    if (const int r = find(row); r >= 0) return r;
-    std::size_t oldest = 0;
-    for (std::size_t r = 1; r < count_; ++r)
-      if (asked_[r] < asked_[oldest]) oldest = r;
-    held_[oldest] = row;
-    return touch(oldest);
-  }
-
- private:
-  int touch(std::size_t r) {
-    asked_[r] = ++clock_;
-    return static_cast<int>(r);
-  }
-
-  std::size_t count_;
-  std::array<Place, 16> held_{};
-  std::array<int, 16> asked_{};
-  int clock_ = 0;
-};
+constexpr int kNone = -1;
 
 /// When each row is read, in the order of the sums; and which registers hold which rows, of which the one that is read again last is given
 /// away first (Belady's rule).
@@ -69,7 +38,7 @@ class RowRegisters {
   int find(const Place& row) const {
     for (std::size_t r = 0; r < held_.size(); ++r)
       if (held_[r] == row) return static_cast<int>(r);
-    return -1;
+    return kNone;
   }
 
   /// Whether a row that is read now had better be loaded: it is read twice again soon, and before what it would drive out.
@@ -162,24 +131,28 @@ class SumsCode final : public StraightLine, private MachineCode {
   void emit_all_ones(const std::vector<Sum>& sums) {
     mov(rbx, std::uint64_t{0x3ff0000000000000});  // the number 1
     vmovq(Xbyak::Xmm(kOne), rbx);
-    for (const Sum& sum : sums) emit_one(sum);
+    RowRegisters registers(sums, kSecond);
+    for (const Sum& sum : sums) emit_one(sum, &registers);
   }
 
   // Long sums in two parts, since every addition waits for the one before it.
-  void emit_one(const Sum& sum) {
-    const Xbyak::Xmm result(registers_.take(sum.target)), second(14);
+  void emit_one(const Sum& sum, RowRegisters* registers) {
+    const int target = registers->take(kNone);
+    const Xbyak::Xmm result(target), second(kSecond);
     if (sum.start.array < 0)
       vxorpd(result, result, result);
     else if (sum.start_scale.array < 0)
       vmovsd(result, number(sum.start));
     else
       vmovsd(result, number(sum.start)), vmulsd(result, result, number(sum.start_scale));
+    if (sum.start.array >= 0) registers->pass();
     const std::size_t in_second = sum.products.size() < 4 ? 0 : sum.products.size() / 2;
     for (std::size_t k = 0; k < sum.products.size(); ++k) {
       const Sum::Product& product = sum.products[k];
-      int held = registers_.find(product.row);
+      int held = registers->find(product.row);
       if (held < 0) {
-        held = registers_.take(product.row);
+        held = registers->take(target);
+        registers->hold(product.row, held);
         vmovsd(Xbyak::Xmm(held), number(product.row));
       }
       if (k >= in_second)
@@ -188,12 +161,13 @@ class SumsCode final : public StraightLine, private MachineCode {
         vmulsd(second, Xbyak::Xmm(held), number(product.factor));
       else
         vfmadd231sd(second, Xbyak::Xmm(held), number(product.factor));
-      registers_.find(sum.target);
+      registers->pass();
     }
     if (in_second > 0) vsubsd(result, result, second);
     if (sum.scale.array >= 0) vmulsd(result, result, number(sum.scale));
     if (sum.reciprocal) vdivsd(result, Xbyak::Xmm(kOne), result);
     vmovsd(number(sum.target), result);
+    registers->hold(sum.target, target);
   }
 
   void emit_all_many(const std::vector<Sum>& sums) {
@@ -207,7 +181,7 @@ class SumsCode final : public StraightLine, private MachineCode {
 
   void emit_start(const Sum& sum, int result, const RowRegisters& registers) {
     const Xbyak::Ymm factor(kFactor);
-    const int held = sum.start.array < 0 ? -1 : registers.find(sum.start);
+    const int held = sum.start.array < 0 ? kNone : registers.find(sum.start);
     if (sum.start_scale.array >= 0) vbroadcastsd(factor, number(sum.start_scale));
     for (int block = 0; block < blocks_; ++block) {
       const Xbyak::Ymm to = part(result, block);
@@ -246,7 +220,7 @@ class SumsCode final : public StraightLine, private MachineCode {
   }
 
   void emit_many(const Sum& sum, RowRegisters* registers) {
-    const int held = sum.start.array < 0 ? -1 : registers->find(sum.start);
+    const int held = sum.start.array < 0 ? kNone : registers->find(sum.start);
     const int result = registers->take(held);
     emit_start(sum, result, *registers);
     if (sum.start.array >= 0) registers->pass();
@@ -262,7 +236,6 @@ class SumsCode final : public StraightLine, private MachineCode {
 
   int blocks_;
   RowLayouts layouts_;
-  Registers registers_{14};
 };
 
 }  // namespace

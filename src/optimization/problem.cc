@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mechanism_codesign/dynamics/system.h"
+#include "mechanism_codesign/math/cpu_timer.h"
 #include "mechanism_codesign/math/decimal.h"
 #include "mechanism_codesign/model/study_reader.h"
 #include "mechanism_codesign/model/unknown_name.h"
@@ -55,25 +56,34 @@ std::vector<std::string> Problem::tuned_names() const {
 
 Problem compile(Problem problem, const ParameterSettings& settings) {
   apply_settings(settings, &problem.study);
+  const CpuTimer timer;
   problem.system = make_system(problem.robot, problem.study);
+  problem.setup_seconds += timer.seconds();
   return problem;
 }
 
 Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
                      const ParameterSettings& settings, const TrajectoryLoader& loader) {
+  const CpuTimer timer;
   Problem problem;
   problem.urdf = urdf;
   problem.overlays = overlays;
   problem.robot = read_urdf(urdf, overlays);
   problem.study = read_study(study, problem.robot, loader);
+  append(problem.robot.warnings, &problem.warnings);
+  append(problem.study.warnings, &problem.warnings);
+  problem.setup_seconds = timer.seconds();
   return compile(std::move(problem), settings);
 }
 
 Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& overlays, const ParameterSettings& settings) {
+  const CpuTimer timer;
   Problem problem;
   problem.urdf = urdf;
   problem.overlays = overlays;
   problem.robot = read_urdf(urdf, overlays);
+  append(problem.robot.warnings, &problem.warnings);
+  problem.setup_seconds = timer.seconds();
   problem.study.parameters = problem.robot.parameters;
   problem.study.file = urdf.name;
   return compile(std::move(problem), settings);

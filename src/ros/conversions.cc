@@ -120,4 +120,16 @@ mechanism_codesign::OptimizationProgress optimization_progress(const Trial& tria
 
 std::vector<double> to_array(const Eigen::VectorXd& values) { return {values.data(), values.data() + values.size()}; }
 
+std::vector<mechanism_codesign::Warning> warning_messages(const Warnings& of_files, const Warnings& of_job) {
+  Warnings warnings = of_files;
+  append(of_job, &warnings);
+  std::vector<mechanism_codesign::Warning> messages;
+  for (const Warning& warning : warnings) {
+    messages.emplace_back();
+    messages.back().code = warning.code;
+    messages.back().message = warning.message;
+  }
+  return messages;
+}
+
 }  // namespace codesign

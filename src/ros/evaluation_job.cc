@@ -38,6 +38,7 @@ void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& 
   reply->steps = static_cast<std::uint64_t>(check.evaluation.statistics.steps);
   reply->rejected_steps = static_cast<std::uint64_t>(check.evaluation.statistics.rejected_steps);
   reply->cpu_seconds = check.evaluation.statistics.cpu_seconds;
+  reply->warnings = warning_messages(problem.warnings, check.evaluation.warnings);
 }
 
 }  // namespace

@@ -50,6 +50,8 @@ void compute(const Problem& problem, const JobOptions& options, const ProgressOb
   };
   const OptimizationResult result = optimize(problem.system, problem.study, observe, &cancel);
   outcome->result = to_message(result, parameters);
+  outcome->result.warnings = warning_messages(problem.warnings, result.warnings);
+  outcome->result.setup_seconds = problem.setup_seconds;
   if (result.gradient.size() == 0) return;  // not even the start has a value
   record->initial = run_side(problem, problem.parameters(result.initial_rho), options.rate);
   record->tuned = run_side(problem, problem.parameters(result.rho), options.rate);

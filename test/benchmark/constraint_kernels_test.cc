@@ -8,6 +8,7 @@
 #include "benchmark/mechanisms.h"
 #include "mechanism_codesign/dynamics/equations.h"
 #include "mechanism_codesign/optimization/problem.h"
+#include "paths.h"
 
 namespace codesign {
 namespace {
@@ -32,7 +33,7 @@ class ConstraintKernelsTest : public testing::TestWithParam<std::string> {
   static Problem load() {
     if (GetParam() == "chain") return load(open_chain(3));
     if (GetParam() == "ladder") return load(ladder(2));
-    const std::string source = CODESIGN_SOURCE_DIR;
+    const std::string source = source_dir();
     return load({read_source(source + "/urdf/" + GetParam() + ".urdf"), read_source(source + "/config/" + GetParam() + ".yaml")});
   }
   static Problem load(const GeneratedCase& generated) { return load_problem(generated.urdf, {}, generated.study); }

@@ -62,5 +62,14 @@ TEST(JsonOutput, StatisticsKeepTheirKeys) {
   EXPECT_EQ(object.dump(), R"({"steps":12,"rejected_steps":3,"cpu_seconds":0.5})");
 }
 
+TEST(JsonOutput, WarningsSayCodeSentenceAndPlace) {
+  const Json array = to_json(Warnings{warn("limit_order", {{"arm.urdf", 7}, "<limit>", "lower is above upper", "", ""})});
+  ASSERT_EQ(array.size(), 1U);
+  EXPECT_EQ(array[0]["code"], "limit_order");
+  EXPECT_EQ(array[0]["message"], "arm.urdf:7: <limit>: lower is above upper");
+  EXPECT_EQ(array[0]["file"], "arm.urdf");
+  EXPECT_EQ(array[0]["line"], 7);
+}
+
 }  // namespace
 }  // namespace codesign::cli

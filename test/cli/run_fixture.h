@@ -13,6 +13,7 @@
 
 #include "cli/commands.h"
 #include "cli/json_output.h"
+#include "paths.h"
 
 namespace codesign::cli {
 
@@ -38,7 +39,7 @@ inline Json json_of(const Outcome& outcome) {
   return object;
 }
 
-inline std::string shipped(const std::string& path) { return std::string(CODESIGN_SOURCE_DIR) + "/" + path; }
+inline std::string shipped(const std::string& path) { return source_dir() + "/" + path; }
 
 inline std::string read_text_file(const std::string& path) {
   std::ifstream file(path);

@@ -28,7 +28,7 @@ TEST(ControllerConstants, EveryNumberOfALawIsEvaluatedAtTheDesign) {
   EXPECT_EQ(hold.feedforward.at(0.0).value, 5.0);
   EXPECT_EQ(hold.gains, std::vector<double>{25.0});
   EXPECT_EQ(hold.references.at(0).at(1.0).value, 0.1);
-  EXPECT_EQ(controller_constants(study.controllers.at(2), parameters).coefficients, (std::vector<double>{1.0, 5.3}));
+  EXPECT_EQ(controller_constants(study.controllers.at(2), parameters).shape.coefficients(), (std::vector<double>{1.0, 5.3}));
 }
 
 }  // namespace

@@ -20,27 +20,31 @@ BasisDescription basis(BasisShape shape) {
 
 TEST(ShapedInput, LinearRunsThroughItsCoefficientsAndHoldsTheLast) {
   const BasisDescription b = basis(BasisShape::kLinear);
-  for (int k = 0; k < 5; ++k) EXPECT_NEAR(shaped_input(b, kCoefficients, 0.5 * k).value, kCoefficients[static_cast<std::size_t>(k)], 1e-15);
-  EXPECT_NEAR(shaped_input(b, kCoefficients, 0.25).rate, -6.0, 1e-14);
-  EXPECT_EQ(shaped_input(b, kCoefficients, 7.0).value, 4.0);
-  EXPECT_EQ(shaped_input(b, kCoefficients, 7.0).rate, 0.0);
+  const ShapedInput<double> input(b, {});
+  for (int k = 0; k < 5; ++k) EXPECT_NEAR(input.at(0.5 * k).value, kCoefficients[static_cast<std::size_t>(k)], 1e-15);
+  EXPECT_NEAR(input.at(0.25).rate, -6.0, 1e-14);
+  EXPECT_EQ(input.at(7.0).value, 4.0);
+  EXPECT_EQ(input.at(7.0).rate, 0.0);
 }
 
 TEST(ShapedInput, CubicHasTheRateOfItsValues) {
   const BasisDescription b = basis(BasisShape::kCubic);
-  EXPECT_NEAR(shaped_input(b, kCoefficients, 0.0).value, 1.0, 1e-15);
+  const ShapedInput<double> input(b, {});
+  EXPECT_NEAR(input.at(0.0).value, 1.0, 1e-15);
   for (double t : {0.3, 0.9, 1.7}) {
-    const double rate = ridders_derivative([&](double s) { return shaped_input(b, kCoefficients, s).value; }, t, 0.05).value;
-    EXPECT_NEAR(shaped_input(b, kCoefficients, t).rate, rate, 1e-9);
+    const double rate = ridders_derivative([&](double s) { return input.at(s).value; }, t, 0.05).value;
+    EXPECT_NEAR(input.at(t).rate, rate, 1e-9);
   }
 }
 
 TEST(ShapedInput, DerivativesByCoefficientsAreTheWeights) {
-  const BasisDescription b = basis(BasisShape::kCubic);
-  std::vector<Lanes<4>> lanes(kCoefficients.begin(), kCoefficients.end());
-  lanes[2].v[1] = 1.0;
+  BasisDescription b = basis(BasisShape::kCubic);
+  b.coefficients[2] = Quantity(kCoefficients[2], std::make_shared<Expression>("c", std::vector<std::string>{"c"}));
+  Lanes<4> c(kCoefficients[2]);
+  c.v[1] = 1.0;
+  const ShapedInput<Lanes<4>> input(b, {c});
   const BasisWeights weights = basis_weights(b, 0.9);
-  EXPECT_NEAR(shaped_input(b, lanes, 0.9).value.v[1], weights.value[static_cast<std::size_t>(2 - weights.first)], 1e-15);
+  EXPECT_NEAR(input.at(0.9).value.v[1], weights.value[static_cast<std::size_t>(2 - weights.first)], 1e-15);
 }
 
 }  // namespace

@@ -41,8 +41,8 @@ TEST(EquationCode, OnlyWhatDependsOnTheDesignComesWithIt) {
   const std::shared_ptr<const System> system = servo("{}");
   const EquationCode& code = *system->equation_code();
   std::size_t expressions = 0;
-  for (int n : code.numbers()) {
-    const Recording::Node& node = code.recording().node(n);
+  for (int n : code.numbered(true).numbers) {
+    const Recording::Node& node = code.numbered(true).recording.node(n);
     EXPECT_TRUE(!node.varies || (node.operation == Operation::kLeaf && node.a >= Recording::kTimed)) << "node " << n;
     if (node.operation == Operation::kLeaf && node.a == Recording::kSupplied && node.b >= 0) ++expressions;
   }
@@ -52,15 +52,15 @@ TEST(EquationCode, OnlyWhatDependsOnTheDesignComesWithIt) {
 TEST(EquationCode, KeepsTurnsAndFunctionsOfTimeThatAreUsed) {
   SKIP_WITHOUT_CODE();
   const std::shared_ptr<const System> still = compile(double_pendulum(), motion_study(1.0, "{}", "elbow/velocity", "{}"));
-  EXPECT_TRUE(still->equation_code()->instant().turns.empty()) << "no position is read";
-  EXPECT_TRUE(still->equation_code()->instant().functions.empty()) << "constants are no functions of time";
-  EXPECT_EQ(servo("{}")->equation_code()->instant().turns.size(), 1U) << "the shoulder's position";
+  EXPECT_TRUE(still->equation_code()->numbered(false).turns.empty()) << "no position is read";
+  EXPECT_TRUE(still->equation_code()->numbered(false).functions.empty()) << "constants are no functions of time";
+  EXPECT_EQ(servo("{}")->equation_code()->numbered(false).turns.size(), 1U) << "the shoulder's position";
   const std::shared_ptr<const System> moved =
       compile(double_pendulum(),
               "duration: 1.0\nobjective: {integral: [{signal: elbow/velocity, reference: {type: sine, amplitude: 1.0, "
               "period: 2.0}}]}\n");
-  ASSERT_EQ(moved->equation_code()->instant().functions.size(), 1U);
-  const auto& orders = moved->equation_code()->instant().functions[0];
+  ASSERT_EQ(moved->equation_code()->numbered(false).functions.size(), 1U);
+  const auto& orders = moved->equation_code()->numbered(false).functions[0];
   EXPECT_GE(orders[0], 0);
   EXPECT_GE(orders[1], 0) << "G_t has the reference's rate";
 }

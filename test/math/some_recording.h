@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "math/value_program.h"
-#include "mechanism_codesign/math/elementary.h"
+#include "mechanism_codesign/math/operate.h"
 #include "mechanism_codesign/math/traced.h"
 
 namespace codesign {
@@ -101,42 +101,9 @@ inline std::vector<double> node_values(const Recording& recording, const std::ve
     const Recording::Node& node = recording.node(n);
     const double a = node.operation != Operation::kLeaf && node.a >= 0 ? values[static_cast<std::size_t>(node.a)] : 0.0;
     const double b = node.operation != Operation::kLeaf && node.b >= 0 ? values[static_cast<std::size_t>(node.b)] : 0.0;
-    const auto value = [&]() -> double {
-      switch (node.operation) {
-        case Operation::kLeaf:
-          return leaves[static_cast<std::size_t>(node.b)];
-        case Operation::kLiteral:
-          return node.literal;
-        case Operation::kAdd:
-          return a + b;
-        case Operation::kSubtract:
-          return a - b;
-        case Operation::kMultiply:
-          return a * b;
-        case Operation::kDivide:
-          return a / b;
-        case Operation::kNegate:
-          return -a;
-        case Operation::kSquareRoot:
-          return std::sqrt(a);
-        case Operation::kRound:
-          return std::nearbyint(a);
-        case Operation::kTanh:
-          return std::tanh(a);
-        case Operation::kExp:
-          return std::exp(a);
-        case Operation::kSin:
-          return std::sin(a);
-        case Operation::kCos:
-          return std::cos(a);
-        case Operation::kArcSine:
-          return std::asin(a);
-        case Operation::kArcTangent:
-          return std::atan2(a, b);
-      }
-      return 0.0;
-    };
-    values.push_back(value());
+    values.push_back(node.operation == Operation::kLeaf      ? leaves[static_cast<std::size_t>(node.b)]
+                     : node.operation == Operation::kLiteral ? node.literal
+                                                             : operate(node.operation, a, b));
   }
   return values;
 }

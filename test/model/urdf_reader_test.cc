@@ -5,12 +5,13 @@
 
 #include "mechanism_codesign/model/mass_properties.h"
 #include "urdf_fixture.h"
+#include "paths.h"
 
 namespace codesign {
 namespace {
 
 RobotDescription shipped(const std::string& name) {
-  return read_urdf(read_source(std::string(CODESIGN_SOURCE_DIR) + "/urdf/" + name + ".urdf"));
+  return read_urdf(read_source(source_dir() + "/urdf/" + name + ".urdf"));
 }
 
 /// Pose of a link in the root's frame with all joints at zero.

@@ -3,11 +3,12 @@
 
 #include "mechanism_codesign/model/mass_properties.h"
 #include "urdf_fixture.h"
+#include "paths.h"
 
 namespace codesign {
 namespace {
 
-SourceText slider_crank() { return read_source(std::string(CODESIGN_SOURCE_DIR) + "/urdf/slider_crank.urdf"); }
+SourceText slider_crank() { return read_source(source_dir() + "/urdf/slider_crank.urdf"); }
 
 SourceText tuned(const SourceText& urdf, const std::vector<double>& at, const std::vector<SourceText>& overlays = {}) {
   return {"tuned.urdf", write_tuned_urdf(urdf, overlays, at)};

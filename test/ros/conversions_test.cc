@@ -91,5 +91,12 @@ TEST(Conversions, ProgressOfAFailedTrialSaysWhy) {
   EXPECT_EQ(message.best_objective, 1.5);
 }
 
+TEST(Conversions, WarningsOfFilesComeFirstAndOnce) {
+  const std::vector<mechanism_codesign::Warning> messages = warning_messages({{"a", "one", {}}}, {{"b", "two", {}}, {"a", "one", {}}});
+  ASSERT_EQ(messages.size(), 2U);
+  EXPECT_EQ(messages[0].code, "a");
+  EXPECT_EQ(messages[1].message, "two");
+}
+
 }  // namespace
 }  // namespace codesign

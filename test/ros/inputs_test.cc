@@ -9,6 +9,7 @@
 
 #include "mechanism_codesign/model/error.h"
 #include "ros/pendulum.h"
+#include "paths.h"
 
 namespace codesign {
 namespace {
@@ -88,9 +89,9 @@ TEST(RequireEveryParameter, AFileMayLeaveParametersOut) {
 
 TEST(RequireEveryParameter, TheShippedStudiesTuneTheSameAsATree) {
   int studies = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(CODESIGN_SOURCE_DIR "/config")) {
+  for (const auto& entry : std::filesystem::directory_iterator(source_dir() + "/config")) {
     const SourceText study = read_source(entry.path().string());
-    const SourceText urdf = read_source(CODESIGN_SOURCE_DIR "/urdf/" + entry.path().stem().string() + ".urdf");
+    const SourceText urdf = read_source(source_dir() + "/urdf/" + entry.path().stem().string() + ".urdf");
     const Inputs tree = as_tree(urdf.text, study.text);
     const Problem problem = load(tree);
     EXPECT_NO_THROW(require_every_parameter(tree, problem.robot)) << entry.path();

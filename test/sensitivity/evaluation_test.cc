@@ -5,6 +5,7 @@
 
 #include "mechanism_codesign/model/study_reader.h"
 #include "mechanism_codesign/model/urdf_reader.h"
+#include "paths.h"
 
 namespace codesign {
 namespace {
@@ -16,7 +17,7 @@ struct Case {
 };
 
 Case shipped(const std::string& name) {
-  const std::string root = CODESIGN_SOURCE_DIR;
+  const std::string root = source_dir();
   Case c;
   c.robot = read_urdf(read_source(root + "/urdf/" + name + ".urdf"));
   c.study = read_study(read_source(root + "/config/" + name + ".yaml"), c.robot);

@@ -6,11 +6,12 @@
 #include "mechanism_codesign/model/study_reader.h"
 #include "mechanism_codesign/model/urdf_reader.h"
 #include "mechanism_codesign/sensitivity/evaluation.h"
+#include "paths.h"
 
 namespace codesign {
 namespace {
 
-std::string text_of(const std::string& path) { return read_source(std::string(CODESIGN_SOURCE_DIR) + "/" + path).text; }
+std::string text_of(const std::string& path) { return read_source(source_dir() + "/" + path).text; }
 
 std::string replaced(const std::string& text, const std::string& pattern, const std::string& by) {
   const std::string result = std::regex_replace(text, std::regex(pattern), by);

@@ -12,6 +12,7 @@
 #include "mechanism_codesign/model/study_reader.h"
 #include "mechanism_codesign/model/urdf_reader.h"
 #include "mechanism_codesign/sensitivity/evaluation.h"
+#include "paths.h"
 
 namespace codesign {
 
@@ -19,7 +20,7 @@ namespace codesign {
 struct Shipped {
   /// @param overlay a name in urdf/overlays, or nothing.
   explicit Shipped(const std::string& name, const std::string& overlay = "") {
-    const std::string root = CODESIGN_SOURCE_DIR;
+    const std::string root = source_dir();
     std::vector<SourceText> overlays;
     if (!overlay.empty()) overlays.push_back(read_source(root + "/urdf/overlays/" + overlay + ".urdf"));
     robot = read_urdf(read_source(root + "/urdf/" + name + ".urdf"), overlays);

@@ -5,13 +5,14 @@
 
 #include "mechanism_codesign/model/signal_catalog.h"
 #include "system/shipped.h"
+#include "paths.h"
 
 namespace codesign {
 namespace {
 
 std::vector<std::string> shipped_names() {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(CODESIGN_SOURCE_DIR) + "/config"))
+  for (const auto& entry : std::filesystem::directory_iterator(source_dir() + "/config"))
     if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;

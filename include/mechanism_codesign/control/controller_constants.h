@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mechanism_codesign/control/reference.h"
+#include "mechanism_codesign/control/shaped_input.h"
 #include "mechanism_codesign/model/study.h"
 
 namespace codesign {
@@ -16,10 +17,10 @@ struct ControllerConstants {
   T p{0.0}, i{0.0}, d{0.0};
   std::vector<T> gains;                  ///< state feedback, one per term
   std::vector<Reference<T>> references;  ///< as `gains`
-  std::vector<T> coefficients;           ///< basis
+  ShapedInput<T> shape;                  ///< basis
 };
 
-/// Evaluates a description at `parameters` (all named parameters).
+/// Evaluates a description, which must outlive the result, at `parameters` (all named parameters).
 template <class T>
 ControllerConstants<T> controller_constants(const ControllerDescription& description, const std::vector<T>& parameters) {
   ControllerConstants<T> c;
@@ -32,7 +33,7 @@ ControllerConstants<T> controller_constants(const ControllerDescription& descrip
     c.gains.push_back(term.gain.at(parameters));
     c.references.emplace_back(term.reference, parameters);
   }
-  for (const Quantity& coefficient : description.basis.coefficients) c.coefficients.push_back(coefficient.at(parameters));
+  if (description.kind == ControllerKind::kBasis) c.shape = ShapedInput<T>(description.basis, parameters);
   return c;
 }
 

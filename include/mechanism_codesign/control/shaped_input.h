@@ -9,19 +9,36 @@
 
 namespace codesign {
 
-/// A shaped input u(t) = sum_k c_k B_k(t) and its rate, theory (C8). Higher derivatives are left at zero.
-/// @param coefficients the c_k of the design.
+/// A shaped input u(t) = sum_k c_k B_k(t) at one design; theory (C8). T as of Reference.
 template <class T>
-ReferenceMotion<T> shaped_input(const BasisDescription& basis, const std::vector<T>& coefficients, double t) {
-  const BasisWeights weights = basis_weights(basis, t);
-  ReferenceMotion<T> motion;
-  for (int k = 0; k < weights.count; ++k) {
-    const T& coefficient = coefficients[static_cast<std::size_t>(weights.first + k)];
-    motion.value += T(weights.value[static_cast<std::size_t>(k)]) * coefficient;
-    motion.rate += T(weights.rate[static_cast<std::size_t>(k)]) * coefficient;
-  }
-  return motion;
-}
+class ShapedInput {
+ public:
+  ShapedInput() = default;
+  /// @param basis must outlive this.
+  ShapedInput(const BasisDescription& basis, const std::vector<T>& parameters);
+
+  const std::vector<T>& coefficients() const { return coefficients_; }
+
+  /// Value and rate; higher derivatives are left at zero.
+  ReferenceMotion<T> at(double t) const;
+
+ private:
+  const BasisDescription* basis_ = nullptr;
+  std::vector<T> coefficients_;
+};
+
+/// While equations are recorded: numbers that come with each instant.
+template <>
+class ShapedInput<Traced> {
+ public:
+  ShapedInput() = default;
+  ShapedInput(const BasisDescription& basis, const std::vector<Traced>& parameters);
+
+  ReferenceMotion<Traced> at(double) const { return motion_; }
+
+ private:
+  ReferenceMotion<Traced> motion_;
+};
 
 }  // namespace codesign
 

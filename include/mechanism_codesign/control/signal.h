@@ -26,6 +26,14 @@ enum class SignalKind {
   kLinkVelocity,
   kLinkAcceleration,
   kLinkAngularVelocity,
+  kLinkOrientation,  ///< component w, x, y or z of the quaternion in the root link's frame; axis 0 is w
+  kReactionForce,    ///< on the child of a joint, at and in the joint frame
+  kReactionTorque,
+  kKineticEnergy,
+  kPotentialEnergy,
+  kTotalEnergy,
+  kFrictionPower,  ///< of a joint, or of all; what friction does to the mechanism is negative
+  kActuatorPower,
   kControllerError,
   kControllerErrorRate,
   kControllerIntegral,

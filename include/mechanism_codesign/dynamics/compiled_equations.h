@@ -5,14 +5,15 @@
 #include <array>
 #include <complex>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "mechanism_codesign/control/reference.h"
+#include "mechanism_codesign/control/shaped_input.h"
 #include "mechanism_codesign/dynamics/sparsity.h"
 #include "mechanism_codesign/dynamics/state.h"
 #include "mechanism_codesign/dynamics/system.h"
 #include "mechanism_codesign/math/line_vector.h"
-#include "mechanism_codesign/model/basis.h"
 
 namespace codesign {
 
@@ -23,15 +24,8 @@ enum class EquationFunction {
   kConstraintErrors  ///< Phi, Phi_q v
 };
 
-/// A function of time that the equations contain: a reference, or a shaped input.
-template <class T>
-struct TimeFunction {
-  Reference<T> reference;
-  const BasisDescription* basis = nullptr;  ///< of a shaped input
-  std::vector<T> coefficients;
-
-  ReferenceMotion<T> at(double t) const;
-};
+struct CompiledFunction;
+struct NumberedRecording;
 
 /// The equations of one design run as code that was compiled for their mechanism; the same numbers as Equations gives, but for rounding.
 /// T: double or Lanes<N>. No allocation once warm; not thread-safe.
@@ -69,15 +63,19 @@ class CompiledEquations {
   };
   bool is_worth_trying(EquationFunction function);
   bool note(EquationFunction function, bool recorded);
-  bool run(EquationFunction function, const T* const (&state)[4], T* const (&results)[4]);
+
+  /// The code of a function, made ready for an instant; null if there is none, or it had better not be tried.
+  const CompiledFunction* begin(EquationFunction function, bool split, double t, const TurnReferences& turns);
+  bool run(EquationFunction function, double t, const TurnReferences& turns, const T* const (&state)[4], T* const (&results)[4]);
 
   const System& system_;
   std::vector<T> parameters_;
   bool allowed_ = true;
   bool known_ = false;  ///< whether code_ and numbers_ are those of parameters_
   const EquationCode* code_ = nullptr;
+  const NumberedRecording* numbered_ = nullptr;
   std::vector<T> numbers_;
-  std::vector<TimeFunction<T>> functions_;
+  std::vector<std::variant<Reference<T>, ShapedInput<T>>> functions_;  ///< of time
   std::array<Misses, 3> misses_;
   LineVector slots_, rows_;
 };

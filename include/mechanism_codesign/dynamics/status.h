@@ -16,9 +16,15 @@ enum class StatusCode {
   kSingularMatrix,          ///< the augmented matrix lost its rank (a dead point, a lock-up)
   kStepSizeTooSmall,
   kTooManySteps,
-  kUnstableMotion,  ///< a body became faster than it has reason to be
-  kNonFinite,       ///< a value overflowed or became NaN
-  kInvalidDesign,   ///< the parameters give a mass, inertia or dimension that cannot be
+  kUnstableMotion,         ///< a body became faster than it has reason to be
+  kNonFinite,              ///< a value overflowed or became NaN
+  kInvalidDesign,          ///< the parameters give a mass, inertia or dimension that cannot be
+  kSingularConfiguration,  ///< the start is a position where the mechanism may move in several ways at once, and none was chosen
+  kConstraintDrift,        ///< the constraints are violated by more than the tolerances explain
+  kEnergyError,            ///< the energy balance is violated by more than the tolerances explain
+  kInfeasible,             ///< an optimization ended outside its constraints
+  kAlgorithmFailed,        ///< the optimization algorithm gave up
+  kNonFiniteGradient,      ///< the objective is finite, its gradient is not
 };
 
 /// Snake-case name, as sent over ROS and printed in JSON: "assembly_failed".

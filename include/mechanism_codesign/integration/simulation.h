@@ -26,7 +26,9 @@ std::shared_ptr<const System> make_system(const RobotDescription& robot, const S
 /// What an integration cost.
 struct Statistics {
   std::int64_t steps = 0, rejected_steps = 0;
-  double cpu_seconds = 0.0;
+  double cpu_seconds = 0.0;       ///< of the run
+  double constraint_drift = 0.0;  ///< largest violation of Phi and of Phi_q v after a step, in the scale of the error test [-]
+  double energy_error = 0.0;      ///< largest |E - E(0) - work done| over the run, relative to the largest energy that took part [-]
 };
 
 /// One design of one mechanism, stepped forward in time. Not thread-safe; several may share one System.
@@ -51,6 +53,8 @@ class Simulation {
 
   const FrameNames& names() const;
   const Statistics& statistics() const;
+  /// What became doubtful during the run: a singular position passed, a reaction that nothing determines.
+  const Warnings& warnings() const;
 
  private:
   class Implementation;

@@ -10,6 +10,7 @@
 #include "mechanism_codesign/model/error.h"
 #include "mechanism_codesign/model/parameter.h"
 #include "mechanism_codesign/model/quantity.h"
+#include "mechanism_codesign/model/warning.h"
 
 namespace codesign {
 
@@ -93,6 +94,14 @@ struct TorsionSpringDescription {
   Quantity stiffness, damping, free_position;  ///< [N m/rad or N/m], [.. s], [rad or m]
 };
 
+/// `<codesign:actuator>`: a motor whose rotor turns `gear_ratio` times as fast as the joint. The rotor is mounted on the parent link and
+/// turns about the joint's axis.
+struct ActuatorDescription {
+  Quantity gear_ratio{1.0};  ///< n, rotor rate per joint rate [-, or rad/m on a prismatic joint]
+  Quantity rotor_inertia;    ///< J_r about the rotor's axis [kg m^2]; the joint feels n^2 J_r
+  SourceLocation where;
+};
+
 /// A joint of the tree, or a loop. The joint frame is carried by the child (of a loop: the successor).
 struct JointDescription {
   std::string name;
@@ -109,6 +118,7 @@ struct JointDescription {
   std::optional<LimitDescription> limit;
   std::optional<MimicDescription> mimic;
   std::optional<TorsionSpringDescription> spring;
+  std::optional<ActuatorDescription> actuator;
   SourceLocation where;
 };
 
@@ -142,7 +152,8 @@ struct RobotDescription {
   std::vector<JointDescription> joints;  ///< tree joints in file order, then loops in file order
   std::vector<CouplingDescription> couplings;
   std::vector<SpringDamperDescription> spring_dampers;
-  std::string file;  ///< where it came from, for messages
+  std::string file;   ///< where it came from, for messages
+  Warnings warnings;  ///< what is doubtful in the files, in the order of the files
 };
 
 }  // namespace codesign

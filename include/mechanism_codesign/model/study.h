@@ -13,6 +13,7 @@
 #include "mechanism_codesign/model/parameter.h"
 #include "mechanism_codesign/model/quantity.h"
 #include "mechanism_codesign/model/reference.h"
+#include "mechanism_codesign/model/warning.h"
 
 namespace codesign {
 
@@ -41,6 +42,11 @@ struct InitialJointState {
   std::optional<Quantity> position;  ///< an independent coordinate's value [rad or m]
   std::optional<Quantity> velocity;  ///< [rad/s or m/s]
   std::optional<double> guess;       ///< start of the assembly for a dependent joint; chooses between its branches
+  // Of planar and floating joints; all in the joint frame, a planar joint's components out of its plane being zero.
+  std::optional<QuantityVector> translation;       ///< of the child's frame [m]
+  std::optional<QuantityVector> rotation;          ///< fixed-axis roll, pitch, yaw, as URDF's rpy [rad]
+  std::optional<QuantityVector> linear_velocity;   ///< of the child's frame [m/s]
+  std::optional<QuantityVector> angular_velocity;  ///< of the child [rad/s]
   SourceLocation where;
 };
 
@@ -73,6 +79,16 @@ struct ControllerDescription {
   ReferenceDescription feedforward;    ///< kStateFeedback
   std::vector<FeedbackTerm> feedback;  ///< kStateFeedback
   BasisDescription basis;              ///< kBasis
+  SourceLocation where;
+};
+
+/// A constant load: an effort on a joint, or a wrench on a link.
+struct LoadDescription {
+  std::string joint;  ///< one of joint and link is empty
+  std::string link;
+  Quantity effort;               ///< of a joint, along its coordinate [N m or N]
+  QuantityVector force, torque;  ///< of a link, components in the root link's frame [N], [N m]
+  QuantityVector point;          ///< where the force acts, in the link's frame [m]
   SourceLocation where;
 };
 
@@ -110,7 +126,8 @@ struct SolverOptions {
   double initial_step = 0.0;           ///< [s]; 0: chosen
   double maximum_step = 0.0;           ///< [s]; 0: none
   int maximum_steps = 200000;
-  double maximum_speed = 0.0;  ///< of any body [m/s] and [rad/s]; 0: chosen, see MotionWatch
+  double maximum_speed = 0.0;       ///< of any body [m/s] and [rad/s]; 0: chosen, see MotionWatch
+  double closure_tolerance = 1e-3;  ///< by how much a loop may miss at the start and still count as closed [m and rad]
 };
 
 struct OptimizerOptions {
@@ -126,6 +143,7 @@ struct Study {
   std::array<double, 3> gravity{0.0, 0.0, -9.81};  ///< [m/s^2], in the root link's frame
   std::vector<InitialJointState> initial_state;
   std::vector<ControllerDescription> controllers;
+  std::vector<LoadDescription> loads;
   /// All named parameters: the model's in their order, then the study's own. `parameters[tuned[k]]` is rho_k.
   std::vector<Parameter> parameters;
   std::vector<int> tuned;
@@ -136,6 +154,7 @@ struct Study {
   SolverOptions solver;
   OptimizerOptions optimizer;
   std::string file;
+  Warnings warnings;
 };
 
 }  // namespace codesign

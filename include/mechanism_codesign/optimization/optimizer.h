@@ -37,7 +37,9 @@ struct OptimizationResult {
   int iterations = 0;
   int evaluations = 0;
   int failed_evaluations = 0;
-  Statistics statistics;  ///< summed over the evaluations
+  Eigen::VectorXd margins;  ///< of the study's constraints at `rho`; negative: not met
+  Statistics statistics;    ///< summed over the evaluations; drift and energy error: those of the worst evaluation
+  Warnings warnings;        ///< of the best point, and of the search: a parameter without influence, or on its bound
   std::vector<Trial> history;
 };
 

@@ -25,6 +25,8 @@ struct Problem {
   RobotDescription robot;
   Study study;
   std::shared_ptr<const System> system;
+  double setup_seconds = 0.0;  ///< of processor time, from the texts to `system`
+  Warnings warnings;           ///< of the files and of the mechanism they make
 
   /// All named parameters (Study::parameters order) at their defaults, the tuned ones at their start.
   std::vector<double> parameters() const;

@@ -6,6 +6,7 @@
 #include <mechanism_codesign/JointFriction.h>
 #include <mechanism_codesign/LoopErrors.h>
 #include <mechanism_codesign/OptimizationProgress.h>
+#include <mechanism_codesign/Warning.h>
 #include <ros/time.h>
 #include <sensor_msgs/JointState.h>
 #include <tf2_msgs/TFMessage.h>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "mechanism_codesign/dynamics/frame.h"
+#include "mechanism_codesign/model/warning.h"
 #include "mechanism_codesign/optimization/optimizer.h"
 
 // From what the core computes to ROS messages. Nothing here needs a master.
@@ -47,6 +49,9 @@ mechanism_codesign::OptimizationProgress optimization_progress(const Trial& tria
 
 /// The values of an Eigen vector as ROS holds them.
 std::vector<double> to_array(const Eigen::VectorXd& values);
+
+/// The warnings of the files, then those of a job.
+std::vector<mechanism_codesign::Warning> warning_messages(const Warnings& of_files, const Warnings& of_job);
 
 }  // namespace codesign
 

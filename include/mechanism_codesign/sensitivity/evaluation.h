@@ -17,6 +17,7 @@ struct Evaluation {
   double objective = 0.0;
   Eigen::VectorXd gradient;  ///< in the order of Study::tuned; empty if not asked for
   Statistics statistics;
+  Warnings warnings;  ///< of this evaluation, as Simulation::warnings()
 };
 
 /// Evaluates psi(rho) and its gradient by direct sensitivities. Holds a workspace that is reused from call to call: one per thread.

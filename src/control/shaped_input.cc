@@ -1,0 +1,34 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/control/shaped_input.h"
+
+namespace codesign {
+
+template <class T>
+ShapedInput<T>::ShapedInput(const BasisDescription& basis, const std::vector<T>& parameters) : basis_(&basis) {
+  for (const Quantity& coefficient : basis.coefficients) coefficients_.push_back(coefficient.at(parameters));
+}
+
+template <class T>
+ReferenceMotion<T> ShapedInput<T>::at(double t) const {
+  const BasisWeights weights = basis_weights(*basis_, t);
+  ReferenceMotion<T> motion;
+  for (int k = 0; k < weights.count; ++k) {
+    const T& coefficient = coefficients_[static_cast<std::size_t>(weights.first + k)];
+    motion.value += T(weights.value[static_cast<std::size_t>(k)]) * coefficient;
+    motion.rate += T(weights.rate[static_cast<std::size_t>(k)]) * coefficient;
+  }
+  return motion;
+}
+
+ShapedInput<Traced>::ShapedInput(const BasisDescription& basis, const std::vector<Traced>& parameters) {
+  Recording* const recording = parameters.front().recording();
+  motion_.value = Traced(recording, recording->timed(&basis, 0));
+  motion_.rate = Traced(recording, recording->timed(&basis, 1));
+}
+
+template class ShapedInput<double>;
+template class ShapedInput<std::complex<double>>;
+template class ShapedInput<Lanes<4>>;
+template class ShapedInput<Lanes<8>>;
+
+}  // namespace codesign

@@ -1,0 +1,17 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_PATHS_H_
+#define MECHANISM_CODESIGN_TEST_PATHS_H_
+
+#include <string>
+
+namespace codesign {
+
+/// The root of the source tree. One translation unit alone knows the path, so that a compiler cache serves every checkout.
+std::string source_dir();
+
+/// The command line program of this build.
+std::string codesign_executable();
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_TEST_PATHS_H_
