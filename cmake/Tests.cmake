@@ -10,7 +10,7 @@ add_library(codesign_test_paths OBJECT EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/te
 target_compile_definitions(codesign_test_paths PRIVATE CODESIGN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" CODESIGN_EXECUTABLE="$<TARGET_FILE:codesign>")
 codesign_warnings(codesign_test_paths)
 
-foreach(folder math model joints forces control dynamics integration sensitivity optimization cli ros benchmark system allocation)
+foreach(folder math model joints forces control dynamics integration sensitivity optimization jobs cli ros benchmark system allocation)
   file(GLOB test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${folder}/*.cc)
   if(NOT test_sources)
     continue()

@@ -1,6 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/csv_writer.h"
 
+#include <cerrno>
+#include <utility>
+
+#include "mechanism_codesign/jobs/output_error.h"
 #include "mechanism_codesign/math/decimal.h"
 
 namespace codesign::cli {
@@ -15,11 +19,15 @@ std::string quoted(const std::string& cell) {
 
 }  // namespace
 
-CsvWriter::CsvWriter(std::ostream& out, const std::vector<std::string>& names) : out_(out) { write(names); }
+CsvWriter::CsvWriter(std::ostream& out, const std::vector<std::string>& names, std::string where) : out_(out), where_(std::move(where)) {
+  write(names);
+}
 
 void CsvWriter::write(const std::vector<std::string>& cells) {
+  errno = 0;
   for (std::size_t i = 0; i < cells.size(); ++i) out_ << (i == 0 ? "" : ",") << quoted(cells[i]);
   out_ << std::endl;
+  if (!out_) throw OutputError::of_system(where_, errno);
 }
 
 void CsvWriter::write(const std::vector<double>& values) {

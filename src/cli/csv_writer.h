@@ -11,15 +11,16 @@ namespace codesign::cli {
 /// Comma-separated values (RFC 4180 quoting, Unix line ends). Numbers read back as the same doubles.
 class CsvWriter {
  public:
-  /// Writes the header.
-  CsvWriter(std::ostream& out, const std::vector<std::string>& names);
+  /// Writes the header. @param where what the stream is, for messages. @throws OutputError
+  CsvWriter(std::ostream& out, const std::vector<std::string>& names, std::string where = "standard output");
 
-  /// Writes a row and flushes it, so that what is known survives whatever comes.
+  /// Writes a row and flushes it, so that what is known survives whatever comes. @throws OutputError if the stream does not take it.
   void write(const std::vector<std::string>& cells);
   void write(const std::vector<double>& values);
 
  private:
   std::ostream& out_;
+  std::string where_;
 };
 
 }  // namespace codesign::cli

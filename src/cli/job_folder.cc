@@ -1,11 +1,17 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/job_folder.h"
 
+#include <unistd.h>
+
+#include <cstdio>
 #include <filesystem>
+#include <sstream>
 
 #include "cli/inputs.h"
 #include "cli/output_file.h"
+#include "cli/report.h"
 #include "cli/run_recorder.h"
+#include "mechanism_codesign/jobs/whole_file.h"
 #include "mechanism_codesign/math/decimal.h"
 
 namespace codesign::cli {
@@ -13,42 +19,74 @@ namespace {
 
 constexpr int kSamples = 101;
 
-std::string in_folder(const std::string& folder, const std::string& name) { return (std::filesystem::path(folder) / name).string(); }
-
 }  // namespace
 
-JobFolder::JobFolder(const std::string& path, const Problem& problem) : path_(path), problem_(problem) {
+JobFolder::JobFolder(const std::string& path, const Problem& problem) : path_(path), problem_(problem), best_(in_folder(""), problem) {
   make_folder(path, "--output");
-  open_output(in_folder(path, "convergence.csv"), "--output", &convergence_file_);
+  lock_ = LockFile::take(in_folder(".codesign_optimize.lock"));
+  if (!lock_)
+    throw InputError({{path, 0}, "--output", "another optimization is writing into this folder", path, "a folder of its own for each"});
+  make_room();
+  open_output(in_folder("convergence.csv"), "--output", &convergence_file_);
   std::vector<std::string> names = {"evaluation", "iteration", "status", "objective", "best_objective", "gradient_norm"};
   for (const std::string& name : problem.tuned_names()) names.push_back(name);
-  convergence_.emplace(convergence_file_, names);
+  try_to([&] { convergence_.emplace(convergence_file_, names, in_folder("convergence.csv")); });
+}
+
+std::string JobFolder::in_folder(const std::string& name) const { return (std::filesystem::path(path_) / name).string(); }
+
+void JobFolder::make_room() {
+  for (const char* name : {"result.json", "tuned.urdf", "initial.csv", "tuned.csv"}) {
+    unlink(in_folder(name).c_str());
+    unlink((in_folder(name) + kPartSuffix).c_str());
+  }
+  for (const std::string name : {"best.urdf", "best.json"}) {
+    unlink((in_folder(name) + kPartSuffix).c_str());
+    if (std::rename(in_folder(name).c_str(), in_folder("killed_" + name).c_str()) == 0)
+      notes_.push_back("an optimization in this folder was killed; its best point is now in " + in_folder("killed_" + name));
+  }
+}
+
+void JobFolder::try_to(const std::function<void()>& write) {
+  try {
+    write();
+  } catch (const std::exception& error) {
+    failures_.emplace_back(error.what());
+  }
 }
 
 void JobFolder::add(const Trial& trial) {
+  best_.note(trial);
+  if (!convergence_) return;
   // A point that failed has no objective; an empty cell says so to every reader of CSV.
   const auto known = [&trial](double value) { return trial.status.ok() ? to_decimal(value) : std::string(); };
   std::vector<std::string> cells = {std::to_string(trial.evaluation), std::to_string(trial.iteration),  name_of(trial.status.code),
                                     known(trial.objective),           to_decimal(trial.best_objective), known(trial.gradient_norm)};
   for (const double value : trial.rho) cells.push_back(to_decimal(value));
-  convergence_->write(cells);
+  const std::size_t before = failures_.size();
+  try_to([&] { convergence_->write(cells); });
+  if (failures_.size() > before) convergence_.reset();
 }
 
-Status JobFolder::write_run(const std::string& name, const std::vector<double>& parameters) const {
+void JobFolder::write_run(const std::string& name, const std::vector<double>& parameters) {
   const std::vector<SignalDescription> signals = select_signals({}, problem_);
-  std::ofstream file;
-  open_output(in_folder(path_, name), "--output", &file);
-  CsvWriter csv(file, column_names(signals));
-  return record_run(problem_, parameters, signals, kSamples, [&csv](const std::vector<double>& row) { csv.write(row); }).status;
+  std::ostringstream text;
+  CsvWriter csv(text, column_names(signals));
+  const auto sink = [&csv](const std::vector<double>& row) { csv.write(row); };
+  const Status status = record_run(problem_, parameters, signals, kSamples, sink).status;
+  if (!status.ok()) failures_.push_back(in_folder(name) + " ends early: " + describe(status));
+  write_whole_file(in_folder(name), text.str());
 }
 
-Status JobFolder::finish(const Json& result, const Eigen::VectorXd& rho) {
+std::vector<std::string> JobFolder::finish(const Json& result, const Eigen::VectorXd& rho) {
   const std::vector<double> tuned = problem_.parameters(rho);
-  write_file(in_folder(path_, "result.json"), result.dump(2) + "\n");
-  write_file(in_folder(path_, "tuned.urdf"), write_tuned_urdf(problem_.urdf, problem_.overlays, tuned));
-  const Status initial_run = write_run("initial.csv", problem_.parameters());
-  const Status tuned_run = write_run("tuned.csv", tuned);
-  return initial_run.ok() ? tuned_run : initial_run;
+  const std::size_t before = failures_.size();
+  try_to([&] { write_whole_file(in_folder("result.json"), to_text(result)); });
+  try_to([&] { write_whole_file(in_folder("tuned.urdf"), write_tuned_urdf(problem_.urdf, problem_.overlays, tuned)); });
+  if (failures_.size() == before) best_.remove();
+  try_to([&] { write_run("initial.csv", problem_.parameters()); });
+  try_to([&] { write_run("tuned.csv", tuned); });
+  return failures_;
 }
 
 }  // namespace codesign::cli

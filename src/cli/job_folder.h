@@ -3,35 +3,51 @@
 #define MECHANISM_CODESIGN_CLI_JOB_FOLDER_H_
 
 #include <fstream>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/csv_writer.h"
 #include "cli/json_output.h"
+#include "mechanism_codesign/jobs/best_record.h"
+#include "mechanism_codesign/jobs/lock_file.h"
 #include "mechanism_codesign/optimization/optimizer.h"
 #include "mechanism_codesign/optimization/problem.h"
 
 namespace codesign::cli {
 
-/// The files of one optimization: convergence.csv as it goes, then result.json, tuned.urdf, initial.csv and tuned.csv.
+/// The files of one optimization: convergence.csv, best.urdf and best.json as it goes, then result.json, tuned.urdf, initial.csv and
+/// tuned.csv, each of them whole. The folder belongs to one optimization at a time, and holds nothing of an earlier one but its best point
+/// if it was killed.
 class JobFolder {
  public:
-  /// Makes the folder and opens convergence.csv. @throws InputError if that cannot be.
+  /// Makes the folder and opens convergence.csv. @throws InputError if that cannot be, or if another program is writing there.
   JobFolder(const std::string& path, const Problem& problem);
 
+  /// What was found in the folder and is worth a sentence.
+  const std::vector<std::string>& notes() const { return notes_; }
+
+  /// A file that cannot be written does not end the optimization: finish() tells.
   void add(const Trial& trial);
 
-  /// Writes the other files; the status tells if one of the two runs failed, whose file then ends early.
-  /// @throws std::runtime_error if a file cannot be written.
-  Status finish(const Json& result, const Eigen::VectorXd& rho);
+  /// Writes the other files, each of them even if another one fails.
+  /// Returns a sentence for each that is missing or, since its run failed, ends early; none: all is well.
+  std::vector<std::string> finish(const Json& result, const Eigen::VectorXd& rho);
 
  private:
-  Status write_run(const std::string& name, const std::vector<double>& parameters) const;
+  std::string in_folder(const std::string& name) const;
+  void make_room();
+  void write_run(const std::string& name, const std::vector<double>& parameters);
+  void try_to(const std::function<void()>& write);
 
   std::string path_;
   const Problem& problem_;
+  std::optional<LockFile> lock_;
+  std::vector<std::string> notes_, failures_;
   std::ofstream convergence_file_;
-  std::optional<CsvWriter> convergence_;
+  std::optional<CsvWriter> convergence_;  // empty once it cannot be written
+  BestRecord best_;
 };
 
 }  // namespace codesign::cli

@@ -81,6 +81,8 @@ void add_counts(const Problem& problem, const std::vector<double>& parameters, J
   if (status.ok()) (*object)["counts"] = to_json(counts);
 }
 
-void print(const Json& object, std::ostream& out) { out << object.dump(2, ' ', false, Json::error_handler_t::replace) << std::endl; }
+std::string to_text(const Json& object) { return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+void print(const Json& object, std::ostream& out) { out << to_text(object) << std::flush; }
 
 }  // namespace codesign::cli

@@ -41,6 +41,8 @@ void add_counts(const Problem& problem, const std::vector<double>& parameters, J
 
 /// One object and a line end. Doubles read back as the same doubles; what is not finite becomes null.
 void print(const Json& object, std::ostream& out);
+/// The same text. Bytes that are no UTF-8, as a robot's name may hold, become the replacement character.
+std::string to_text(const Json& object);
 
 }  // namespace codesign::cli
 

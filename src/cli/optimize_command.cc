@@ -20,6 +20,18 @@ void print_trial(const Trial& trial, std::ostream& err) {
   err << ", best " << readable(trial.best_objective) << std::endl;
 }
 
+/// Whether the best point has been evaluated, which one that was cancelled before the first evaluation, or whose start failed, has not.
+bool is_evaluated(const Problem& problem, const OptimizationResult& result) {
+  return result.gradient.size() == static_cast<Eigen::Index>(problem.study.tuned.size());
+}
+
+/// Whether there is a best point to show: a cancelled optimization has one too, at least its start.
+bool has_design(const Problem& problem, const OptimizationResult& result) {
+  const auto size = static_cast<Eigen::Index>(problem.study.tuned.size());
+  const bool is_complete = result.rho.size() == size && result.initial_rho.size() == size;
+  return is_complete && (is_evaluated(problem, result) || result.status.code == StatusCode::kCancelled);
+}
+
 void print_design(const Problem& problem, const OptimizationResult& result, std::ostream& out) {
   const std::vector<std::string> names = problem.tuned_names();
   Table table;
@@ -28,7 +40,7 @@ void print_design(const Problem& problem, const OptimizationResult& result, std:
     const Parameter& parameter = problem.study.parameters[static_cast<std::size_t>(problem.study.tuned[k])];
     const auto i = static_cast<Eigen::Index>(k);
     table.add({names[k], readable(result.initial_rho[i]), readable(result.rho[i]), readable(parameter.lower), readable(parameter.upper),
-               readable(result.gradient[i])});
+               is_evaluated(problem, result) ? readable(result.gradient[i]) : "not evaluated"});
   }
   table.print(out);
   for (const ParameterConstraint& constraint : problem.study.constraints)
@@ -37,24 +49,21 @@ void print_design(const Problem& problem, const OptimizationResult& result, std:
 
 void print_result(const Problem& problem, const OptimizationResult& result, std::ostream& out) {
   print_design(problem, result, out);
-  out << "objective " << readable(result.initial_objective) << " -> " << readable(result.objective) << '\n'
-      << result.termination << " after " << result.iterations << " iterations, " << result.evaluations << " evaluations ("
+  if (is_evaluated(problem, result))
+    out << "objective " << readable(result.initial_objective) << " -> " << readable(result.objective) << '\n';
+  out << result.termination << " after " << result.iterations << " iterations, " << result.evaluations << " evaluations ("
       << result.failed_evaluations << " failed), " << result.statistics.steps << " steps, " << readable(result.statistics.cpu_seconds)
       << " s of processor time\n";
-}
-
-/// Whether there is a best point to show, which a cancelled or failed optimization may still have.
-bool has_design(const Problem& problem, const OptimizationResult& result) {
-  const auto size = static_cast<Eigen::Index>(problem.study.tuned.size());
-  return result.rho.size() == size && result.initial_rho.size() == size && result.gradient.size() == size;
 }
 
 Json result_json(const Problem& problem, const OptimizationResult& result) {
   const std::vector<std::string> names = problem.tuned_names();
   Json object;
-  if (has_design(problem, result)) {
+  if (is_evaluated(problem, result)) {
     object["objective"] = result.objective;
     object["initial_objective"] = result.initial_objective;
+  }
+  if (has_design(problem, result)) {
     object["parameters"] = parameters_json(problem, problem.parameters(result.rho));
     object["initial_parameters"] = parameters_json(problem, problem.parameters(result.initial_rho));
     object["gradient"] = by_name(names, result.gradient);
@@ -69,16 +78,8 @@ Json result_json(const Problem& problem, const OptimizationResult& result) {
   return object;
 }
 
-/// The result is out by now, so that a failure here only adds a message.
-bool write_files(JobFolder* folder, const Json& object, const Eigen::VectorXd& rho, const Console& console) {
-  try {
-    const Status status = folder->finish(object, rho);
-    if (!status.ok()) console.err << "codesign optimize: initial.csv or tuned.csv ends early: " << describe(status) << std::endl;
-    return status.ok();
-  } catch (const std::exception& error) {
-    console.err << "codesign optimize: " << error.what() << std::endl;
-    return false;
-  }
+void tell(const std::vector<std::string>& sentences, const Console& console) {
+  for (const std::string& sentence : sentences) console.err << "codesign optimize: " << sentence << std::endl;
 }
 
 }  // namespace
@@ -86,7 +87,10 @@ bool write_files(JobFolder* folder, const Json& object, const Eigen::VectorXd& r
 int optimize(const Arguments& arguments, const Console& console) {
   const Problem problem = load_tunable(arguments);
   std::optional<JobFolder> folder;
-  if (!arguments.output.empty()) folder.emplace(arguments.output, problem);
+  if (!arguments.output.empty()) {
+    folder.emplace(arguments.output, problem);
+    tell(folder->notes(), console);
+  }
   const auto observer = [&](const Trial& trial) {
     print_trial(trial, console.err);
     if (folder) folder->add(trial);
@@ -99,7 +103,10 @@ int optimize(const Arguments& arguments, const Console& console) {
   add_warnings(arguments, problem, result.warnings, &object, console);
   const int code = finish(arguments, result.status, object, console);
   if (!folder || !designed) return code;
-  return write_files(&*folder, object, result.rho, console) ? code : kFailed;
+  // The result is out by now, so that a failure here only adds messages.
+  const std::vector<std::string> failures = folder->finish(object, result.rho);
+  tell(failures, console);
+  return failures.empty() ? code : kFailed;
 }
 
 }  // namespace codesign::cli

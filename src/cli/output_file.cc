@@ -2,7 +2,6 @@
 #include "cli/output_file.h"
 
 #include <filesystem>
-#include <stdexcept>
 #include <system_error>
 
 #include "mechanism_codesign/model/error.h"
@@ -20,13 +19,6 @@ void make_folder(const std::string& path, const std::string& option) {
   std::filesystem::create_directories(path, error);
   if (error || !std::filesystem::is_directory(path))
     throw InputError({{path, 0}, option, "the folder cannot be made", path, "a folder that exists or can be made"});
-}
-
-void write_file(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error(path + ": cannot be written");
 }
 
 }  // namespace codesign::cli

@@ -13,9 +13,6 @@ void open_output(const std::string& path, const std::string& option, std::ofstre
 /// Makes a folder and those above it. @throws InputError if that cannot be.
 void make_folder(const std::string& path, const std::string& option);
 
-/// Writes a whole file. @throws std::runtime_error if it cannot be written.
-void write_file(const std::string& path, const std::string& text);
-
 }  // namespace codesign::cli
 
 #endif  // MECHANISM_CODESIGN_CLI_OUTPUT_FILE_H_

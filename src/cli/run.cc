@@ -1,9 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+
 #include <algorithm>
+#include <cerrno>
+#include <string>
 
 #include "cli/commands.h"
 #include "cli/json_output.h"
 #include "cli/usage.h"
+#include "mechanism_codesign/jobs/output_error.h"
 #include "mechanism_codesign/model/error.h"
 
 namespace codesign::cli {
@@ -24,9 +28,7 @@ int report(bool json, const Json& error, const Console& console, int code) {
   return code;
 }
 
-}  // namespace
-
-int run(const std::vector<std::string>& words, const Console& console) {
+int run_command(const std::vector<std::string>& words, const Console& console) {
   const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
   try {
     return dispatch(parse_arguments(words), console);
@@ -35,9 +37,22 @@ int run(const std::vector<std::string>& words, const Console& console) {
     return report(json, {{"code", "bad_usage"}, {"message", error.what()}}, console, kBadInput);
   } catch (const InputError& error) {
     return report(json, to_json(error), console, kBadInput);
+  } catch (const OutputError& error) {
+    return report(json, {{"code", "output_failed"}, {"message", error.what()}}, console, kFailed);
   } catch (const std::exception& error) {
     return report(json, {{"code", "failed"}, {"message", error.what()}}, console, kFailed);
   }
+}
+
+}  // namespace
+
+int run(const std::vector<std::string>& words, const Console& console) {
+  const int code = run_command(words, console);
+  errno = 0;
+  console.out.flush();
+  if (console.out) return code;
+  console.err << "codesign: " << OutputError::of_system("standard output", errno).what() << std::endl;
+  return code == kDone ? kFailed : code;
 }
 
 }  // namespace codesign::cli

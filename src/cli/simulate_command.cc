@@ -54,7 +54,7 @@ int simulate(const Arguments& arguments, const Console& console) {
   if (!arguments.csv.empty()) open_output(arguments.csv, "--csv", &file);
   const bool to_console = arguments.csv.empty() && !arguments.json;
   std::optional<CsvWriter> csv;
-  if (file.is_open() || to_console) csv.emplace(to_console ? console.out : file, names);
+  if (file.is_open() || to_console) csv.emplace(to_console ? console.out : file, names, to_console ? "standard output" : arguments.csv);
   std::vector<std::vector<double>> rows;
   const auto sink = [&](const std::vector<double>& row) {
     if (csv) csv->write(row);

@@ -17,7 +17,8 @@ commands
   gradient MODEL STUDY     the objective and its gradient by direct sensitivities
     --verify[=METHOD]      beside complex_step (the default) or ridders (always with idas)
   optimize MODEL STUDY     tune the study's parameters; Ctrl-C ends with the best point so far
-    --output DIR           write tuned.urdf, result.json, convergence.csv, initial.csv and tuned.csv
+    --output DIR           write tuned.urdf, result.json, convergence.csv, initial.csv and tuned.csv,
+                           and best.urdf and best.json as it goes
   help                     this text
 
 options of every command
@@ -25,7 +26,7 @@ options of every command
   --set PARAMETER=VALUE    replace a parameter's value, of a tuned one its start; may be repeated
   --json                   one JSON object on standard output
 
-exit code: 0 done, 1 failed while running, 2 bad input
+exit code: 0 done, 1 failed while running or output lost, 2 bad input
 )";
 }
 

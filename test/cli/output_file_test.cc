@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <sstream>
 
+#include "mechanism_codesign/jobs/output_error.h"
+#include "mechanism_codesign/jobs/whole_file.h"
 #include "mechanism_codesign/model/error.h"
 
 namespace codesign::cli {
@@ -18,7 +20,7 @@ TEST(OutputFile, WritesWholeFilesIntoNewFolders) {
   std::filesystem::remove_all(folder);
   make_folder(folder + "/deeper", "--output");
   make_folder(folder + "/deeper", "--output");
-  write_file(folder + "/deeper/text", "two\nlines\n");
+  write_whole_file(folder + "/deeper/text", "two\nlines\n");
   std::ifstream file(folder + "/deeper/text");
   std::ostringstream text;
   text << file.rdbuf();
@@ -40,10 +42,10 @@ TEST(OutputFile, NamesTheOptionAndThePath) {
 
 TEST(OutputFile, RefusesAFolderThatIsAFile) {
   const std::string path = scratch("file");
-  write_file(path, "x");
+  write_whole_file(path, "x");
   EXPECT_THROW(make_folder(path, "--output"), InputError);
   EXPECT_THROW(make_folder(path + "/below", "--output"), InputError);
-  EXPECT_THROW(write_file(path + "/below", "x"), std::runtime_error);
+  EXPECT_THROW(write_whole_file(path + "/below", "x"), OutputError);
   std::filesystem::remove(path);
 }
 

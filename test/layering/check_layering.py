@@ -18,6 +18,7 @@ ROWS = [
     ["integration"],
     ["sensitivity"],
     ["optimization"],
+    ["jobs"],
     ["cli", "ros"],
 ]
 ROW_OF = {folder: row for row, folders in enumerate(ROWS) for folder in folders}

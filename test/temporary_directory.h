@@ -1,6 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_ROS_TEMPORARY_DIRECTORY_H_
-#define MECHANISM_CODESIGN_TEST_ROS_TEMPORARY_DIRECTORY_H_
+#ifndef MECHANISM_CODESIGN_TEST_TEMPORARY_DIRECTORY_H_
+#define MECHANISM_CODESIGN_TEST_TEMPORARY_DIRECTORY_H_
 
 #include <cstdlib>
 #include <filesystem>
@@ -27,4 +27,4 @@ class TemporaryDirectory {
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_TEST_ROS_TEMPORARY_DIRECTORY_H_
+#endif  // MECHANISM_CODESIGN_TEST_TEMPORARY_DIRECTORY_H_

@@ -1,0 +1,95 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/jobs/job_files.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <ctime>
+#include <filesystem>
+#include <system_error>
+
+#include "mechanism_codesign/jobs/output_error.h"
+#include "mechanism_codesign/jobs/whole_file.h"
+
+namespace codesign {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kLock = ".job";
+const std::array<std::string, 2> kBest = {".best.urdf", ".best.json"};
+/// Room for the date, a number and the longest suffix.
+constexpr std::size_t kBehindTheName = 48;
+
+std::string file_name_of(std::string robot, const std::string& directory) {
+  const long longest = pathconf(directory.c_str(), _PC_NAME_MAX);
+  const std::size_t room = longest > 0 ? static_cast<std::size_t>(longest) : 255;
+  robot.resize(std::min(robot.size(), std::max(room, kBehindTheName + 1) - kBehindTheName));
+  for (char& c : robot)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
+  return robot.empty() ? "robot" : robot;
+}
+
+std::string time_stamp() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  std::array<char, 32> stamp{};
+  std::strftime(stamp.data(), stamp.size(), "%Y-%m-%d-%H-%M-%S", &local);
+  return stamp.data();
+}
+
+bool exists(const std::string& path) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(path, error));
+}
+
+bool has_files(const std::string& stem) {
+  return exists(stem + ".bag") || exists(stem + ".bag.active") || exists(stem + kBest[0]) || exists(stem + kBest[1]);
+}
+
+/// Removes what a killed job has not finished and names what it has.
+std::string clean(const std::string& stem) {
+  std::string removed, kept;
+  for (const std::string& suffix : {std::string(".bag.active"), kBest[0] + kPartSuffix, kBest[1] + kPartSuffix}) {
+    std::error_code error;
+    if (fs::remove(stem + suffix, error)) removed += (removed.empty() ? "" : ", ") + stem + suffix;
+  }
+  for (const std::string& suffix : kBest)
+    if (exists(stem + suffix)) kept += (kept.empty() ? "" : " and ") + stem + suffix;
+  return "a job was killed: " + (removed.empty() ? stem + " had no unfinished bag" : "removed " + removed) +
+         (kept.empty() ? "; it had no point yet" : "; its best point is in " + kept);
+}
+
+}  // namespace
+
+JobFiles::JobFiles(const std::string& directory, const std::string& robot) : JobFiles(reserve(directory, robot)) {}
+
+JobFiles JobFiles::reserve(const std::string& directory, const std::string& robot) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error) throw OutputError(directory, error.message());
+  const std::string first = (fs::path(directory) / (file_name_of(robot, directory) + "_" + time_stamp())).string();
+  std::string stem = first;
+  for (int number = 2;; ++number) {
+    // Who holds the lock owns the name; only then is it safe to look whether files of an earlier job have it.
+    std::optional<LockFile> lock = LockFile::create(stem + kLock);
+    if (lock && !has_files(stem)) return JobFiles(stem, std::move(*lock));
+    stem = first + "-" + std::to_string(number);
+  }
+}
+
+std::vector<std::string> remove_leftovers(const std::string& directory) {
+  std::vector<std::string> sentences;
+  std::error_code error;
+  for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
+    if (entry->path().extension() != kLock) continue;
+    const std::optional<LockFile> lock = LockFile::take_abandoned(entry->path().string());
+    if (lock) sentences.push_back(clean(entry->path().parent_path() / entry->path().stem()));
+  }
+  return sentences;
+}
+
+}  // namespace codesign

@@ -1,0 +1,103 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/jobs/job_files.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <regex>
+#include <set>
+
+#include "mechanism_codesign/jobs/output_error.h"
+#include "temporary_directory.h"
+
+namespace codesign {
+namespace {
+
+class Names : public testing::Test {
+ protected:
+  std::string folder() const { return directory_.path().string(); }
+  bool is_there(const std::string& path) const { return std::filesystem::exists(path); }
+
+  /// The stem of a job that was killed with `suffixes` behind it.
+  std::string killed_job(const std::vector<std::string>& suffixes) const {
+    const pid_t child = fork();
+    if (child == 0) {
+      const JobFiles job(folder(), "killed");
+      for (const std::string& suffix : suffixes) std::ofstream(job.stem() + suffix) << "x";
+      raise(SIGKILL);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    for (const auto& entry : std::filesystem::directory_iterator(folder()))
+      if (entry.path().extension() == ".job") return (entry.path().parent_path() / entry.path().stem()).string();
+    return "";
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(Names, TellTheRobotAndTheTimeInAFolderTheyMake) {
+  const JobFiles job(folder() + "/a/b", "slider_crank");
+  EXPECT_TRUE(std::regex_match(job.bag(), std::regex(folder() + R"(/a/b/slider_crank_\d{4}-\d\d-\d\d-\d\d-\d\d-\d\d\.bag)"))) << job.bag();
+}
+
+TEST_F(Names, CannotLeadOutOfTheFolder) {
+  EXPECT_EQ(std::filesystem::path(JobFiles(folder(), "../../etc/evil robot").bag()).parent_path(), directory_.path());
+  EXPECT_EQ(std::filesystem::path(JobFiles(folder(), "").bag()).filename().string().substr(0, 6), "robot_");
+}
+
+TEST_F(Names, OfAnyLengthAreShortEnoughForEveryFileOfTheJob) {
+  for (const std::size_t length : {200U, 230U, 255U, 100000U}) {
+    const JobFiles job(folder(), std::string(length, 'r'));
+    std::ofstream longest(job.stem() + "-99999.best.json.part");
+    EXPECT_TRUE(longest.good()) << length;
+  }
+}
+
+TEST_F(Names, OfManyJobsInOneSecondDiffer) {
+  std::set<std::string> bags;
+  std::vector<JobFiles> running;
+  for (int k = 0; k < 50; ++k) {
+    running.emplace_back(folder(), "r");
+    bags.insert(running.back().bag());
+  }
+  EXPECT_EQ(bags.size(), 50U);
+}
+
+TEST_F(Names, OfJobsThatFollowEachOtherDoNotMeetWhatIsThere) {
+  std::set<std::string> stems;
+  for (const std::string suffix : {".bag", ".bag.active", ".best.json", ".best.urdf"}) {
+    const JobFiles job(folder(), "r");
+    EXPECT_TRUE(stems.insert(job.stem()).second) << suffix;
+    std::ofstream(job.stem() + suffix) << "x";
+  }
+}
+
+TEST_F(Names, AFolderThatCannotBeMadeIsAnOutputError) { EXPECT_THROW(JobFiles("/dev/null/bags", "r"), OutputError); }
+
+TEST_F(Names, LeftoversOfKilledJobsGoAndAreSaid) {
+  const std::string stem = killed_job({".bag.active", ".best.json", ".best.urdf", ".best.json.part"});
+  const std::vector<std::string> said = remove_leftovers(folder());
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_NE(said[0].find("removed " + stem + ".bag.active"), std::string::npos) << said[0];
+  EXPECT_NE(said[0].find(stem + ".best.json"), std::string::npos) << said[0];
+  for (const char* gone : {".bag.active", ".best.json.part", ".job"}) EXPECT_FALSE(is_there(stem + gone)) << gone;
+  for (const char* kept : {".best.json", ".best.urdf"}) EXPECT_TRUE(is_there(stem + kept)) << kept;
+  EXPECT_TRUE(remove_leftovers(folder()).empty());
+}
+
+TEST_F(Names, FilesOfLivingJobsAndOfOtherProgramsStay) {
+  const JobFiles living(folder(), "living");
+  std::ofstream(living.stem() + ".bag.active") << "x";
+  std::ofstream(folder() + "/recorded_2026-11-22-06-00-00.bag.active") << "rosbag record is writing this";
+  EXPECT_TRUE(remove_leftovers(folder()).empty());
+  EXPECT_TRUE(is_there(living.stem() + ".bag.active"));
+  EXPECT_TRUE(is_there(folder() + "/recorded_2026-11-22-06-00-00.bag.active"));
+  EXPECT_TRUE(remove_leftovers("/nonexistent").empty());
+}
+
+}  // namespace
+}  // namespace codesign
