@@ -17,8 +17,8 @@ commands
   gradient MODEL STUDY     the objective and its gradient by direct sensitivities
     --verify[=METHOD]      beside complex_step (the default) or ridders (always with idas)
   optimize MODEL STUDY     tune the study's parameters; Ctrl-C ends with the best point so far
-    --output DIR           write tuned.urdf, result.json, convergence.csv, initial.csv and tuned.csv,
-                           and best.urdf and best.json as it goes
+    --output DIR           write tuned.urdf, result.json, convergence.csv, initial.csv, tuned.csv;
+                           best.urdf and best.json as it goes
   help                     this text
 
 options of every command
