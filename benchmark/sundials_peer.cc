@@ -3,7 +3,6 @@
 
 #include <idas/idas.h>
 #include <nvector/nvector_serial.h>
-#include <sundials/sundials_context.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunlinsol/sunlinsol_klu.h>
 #include <sunmatrix/sunmatrix_dense.h>
@@ -15,6 +14,7 @@
 
 #include "benchmark/core_access.h"
 #include "mechanism_codesign/dynamics/assembly.h"
+#include "src/integration/sundials_compatibility.h"
 
 namespace codesign {
 namespace {
@@ -47,7 +47,7 @@ class SundialsPeer::Implementation {
         wide_(*system_),
         assembly_(*system_),
         derivatives_(*system_) {
-    SUNContext_Create(nullptr, &context_);
+    create_context(&context_);
     state_.resize(system_->layout());
     wide_state_.resize(system_->layout());
     equations_.set_design(system_->parameters());
@@ -139,7 +139,7 @@ class SundialsPeer::Implementation {
     for (int k = 0; k < at_.states; ++k) F[at_.s + k] = yp[at_.s + k] - y[at_.psi - at_.states + k];
   }
 
-  static int residual(realtype, N_Vector y, N_Vector yp, N_Vector F, void* user) {
+  static int residual(sunrealtype, N_Vector y, N_Vector yp, N_Vector F, void* user) {
     auto& self = *static_cast<Implementation*>(user);
     self.load(NV_DATA_S(y), &self.state_);
     double g = 0.0;
@@ -151,8 +151,8 @@ class SundialsPeer::Implementation {
     return std::isfinite(g) ? 0 : 1;
   }
 
-  static int sensitivity_residual(int count, realtype, N_Vector y, N_Vector, N_Vector, N_Vector* S, N_Vector* Sp, N_Vector* out, void* user,
-                                  N_Vector, N_Vector, N_Vector) {
+  static int sensitivity_residual(int count, sunrealtype, N_Vector y, N_Vector, N_Vector, N_Vector* S, N_Vector* Sp, N_Vector* out,
+                                  void* user, N_Vector, N_Vector, N_Vector) {
     auto& self = *static_cast<Implementation*>(user);
     self.load_wide(NV_DATA_S(y), count, S);
     Wide g(0.0);
@@ -221,7 +221,7 @@ class SundialsPeer::Implementation {
     });
   }
 
-  static int jacobian(realtype, realtype cj, N_Vector y, N_Vector, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector, N_Vector) {
+  static int jacobian(sunrealtype, sunrealtype cj, N_Vector y, N_Vector, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector, N_Vector) {
     auto& self = *static_cast<Implementation*>(user);
     self.load(NV_DATA_S(y), &self.state_);
     self.derivatives_.evaluate(&self.equations_, self.state_);

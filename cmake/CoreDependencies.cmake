@@ -1,7 +1,7 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 # What the core is built on; none of it is ROS.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(SUNDIALS 6 REQUIRED CONFIG)
+include(cmake/Sundials.cmake)
 find_package(NLopt REQUIRED)
 find_package(urdfdom_headers REQUIRED)
 find_package(urdfdom REQUIRED)

@@ -114,24 +114,24 @@ void IdasEquations::derivative(int k, const double* y_rho, const double* y_dot_r
   sensitivities_->derivative(k, direction_, &dG_);
 }
 
-int IdasEquations::residual(realtype t, N_Vector y, N_Vector y_dot, N_Vector F, void* self) {
+int IdasEquations::residual(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector F, void* self) {
   auto* equations = static_cast<IdasEquations*>(self);
   return guarded(&equations->failure_, [&] { return equations->residual(t, read(y), read(y_dot), N_VGetArrayPointer(F)); });
 }
 
-int IdasEquations::jacobian(realtype t, realtype c_j, N_Vector y, N_Vector y_dot, N_Vector, SUNMatrix, void* self, N_Vector, N_Vector,
+int IdasEquations::jacobian(sunrealtype t, sunrealtype c_j, N_Vector y, N_Vector y_dot, N_Vector, SUNMatrix, void* self, N_Vector, N_Vector,
                             N_Vector) {
   auto* equations = static_cast<IdasEquations*>(self);
   return guarded(&equations->failure_, [&] { return equations->jacobian(t, c_j, read(y), read(y_dot)); });
 }
 
-int IdasEquations::integrand(realtype t, N_Vector y, N_Vector y_dot, N_Vector g, void* self) {
+int IdasEquations::integrand(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector g, void* self) {
   auto* equations = static_cast<IdasEquations*>(self);
   return guarded(&equations->failure_, [&] { return equations->integrand(t, read(y), read(y_dot), N_VGetArrayPointer(g)); });
 }
 
-int IdasEquations::sensitivity_residual(int count, realtype t, N_Vector y, N_Vector y_dot, N_Vector, N_Vector* y_rho, N_Vector* y_dot_rho,
-                                        N_Vector* F_rho, void* self, N_Vector, N_Vector, N_Vector) {
+int IdasEquations::sensitivity_residual(int count, sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector, N_Vector* y_rho,
+                                        N_Vector* y_dot_rho, N_Vector* F_rho, void* self, N_Vector, N_Vector, N_Vector) {
   auto* equations = static_cast<IdasEquations*>(self);
   return guarded(&equations->failure_, [&] {
     const Layout& layout = equations->layout_;
@@ -148,8 +148,8 @@ int IdasEquations::sensitivity_residual(int count, realtype t, N_Vector y, N_Vec
   });
 }
 
-int IdasEquations::sensitivity_integrand(int count, realtype t, N_Vector y, N_Vector y_dot, N_Vector* y_rho, N_Vector* y_dot_rho, N_Vector,
-                                         N_Vector* g_rho, void* self, N_Vector, N_Vector, N_Vector) {
+int IdasEquations::sensitivity_integrand(int count, sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector* y_rho, N_Vector* y_dot_rho,
+                                         N_Vector, N_Vector* g_rho, void* self, N_Vector, N_Vector, N_Vector) {
   auto* equations = static_cast<IdasEquations*>(self);
   return guarded(&equations->failure_, [&] {
     equations->visit(t, read(y), read(y_dot));

@@ -32,13 +32,13 @@ class IdasEquations {
   /// What went wrong inside a callback, if anything.
   const std::string& failure() const { return failure_; }
 
-  static int residual(realtype t, N_Vector y, N_Vector y_dot, N_Vector F, void* self);
-  static int jacobian(realtype t, realtype c_j, N_Vector y, N_Vector y_dot, N_Vector F, SUNMatrix J, void* self, N_Vector, N_Vector,
+  static int residual(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector F, void* self);
+  static int jacobian(sunrealtype t, sunrealtype c_j, N_Vector y, N_Vector y_dot, N_Vector F, SUNMatrix J, void* self, N_Vector, N_Vector,
                       N_Vector);
-  static int integrand(realtype t, N_Vector y, N_Vector y_dot, N_Vector g, void* self);
-  static int sensitivity_residual(int count, realtype t, N_Vector y, N_Vector y_dot, N_Vector F, N_Vector* y_rho, N_Vector* y_dot_rho,
+  static int integrand(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector g, void* self);
+  static int sensitivity_residual(int count, sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector F, N_Vector* y_rho, N_Vector* y_dot_rho,
                                   N_Vector* F_rho, void* self, N_Vector, N_Vector, N_Vector);
-  static int sensitivity_integrand(int count, realtype t, N_Vector y, N_Vector y_dot, N_Vector* y_rho, N_Vector* y_dot_rho, N_Vector g,
+  static int sensitivity_integrand(int count, sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector* y_rho, N_Vector* y_dot_rho, N_Vector g,
                                    N_Vector* g_rho, void* self, N_Vector, N_Vector, N_Vector);
 
  private:

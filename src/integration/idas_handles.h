@@ -2,7 +2,6 @@
 #ifndef MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_HANDLES_H_
 #define MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_HANDLES_H_
 
-#include <idas/idas.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
@@ -12,6 +11,8 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+
+#include "integration/sundials_compatibility.h"
 
 namespace codesign {
 
@@ -53,7 +54,7 @@ class VectorArray {
 
 inline ContextHandle make_context() {
   SUNContext context = nullptr;
-  if (SUNContext_Create(nullptr, &context) != 0) throw std::bad_alloc();
+  if (create_context(&context) != kSundialsSuccess) throw std::bad_alloc();
   return ContextHandle(context);
 }
 

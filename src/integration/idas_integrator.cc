@@ -59,9 +59,6 @@ class IdasIntegrator::Implementation {
   void start_sensitivities(const std::vector<double>& parameters);
   void take_over(double time);
   void count_steps();
-  static void note_error(int, const char*, const char*, char* message, void* self) {
-    static_cast<Implementation*>(self)->message_ = message;
-  }
 
   const System& system_;
   const SolverOptions& options_;
@@ -90,7 +87,7 @@ void IdasIntegrator::Implementation::set_up() {
   const VectorHandle differential = make_vector(equations_.size(), context_.get());
   N_VConst(1.0, differential.get());
   std::fill_n(N_VGetArrayPointer(differential.get()) + equations_.size() - system_.layout().m, system_.layout().m, 0.0);
-  require(IDASetErrHandlerFn(ida, note_error, this), "IDASetErrHandlerFn");
+  require(keep_last_message(ida, context_.get(), &message_), "keep_last_message");
   require(IDAInit(ida, IdasEquations::residual, 0.0, y_.get(), y_dot_.get()), "IDAInit");
   require(IDASetUserData(ida, &equations_), "IDASetUserData");
   require(IDASStolerances(ida, options_.relative_tolerance, options_.absolute_tolerance), "IDASStolerances");

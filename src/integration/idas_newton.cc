@@ -9,7 +9,7 @@ namespace {
 // SUNDIALS frees content itself or leaves it alone; ours belongs to IdasNewton.
 int free_shell(SUNLinearSolver solver) {
   SUNLinSolFreeEmpty(solver);
-  return SUNLS_SUCCESS;
+  return kSundialsSuccess;
 }
 
 }  // namespace
@@ -21,7 +21,7 @@ IdasNewton::IdasNewton(const System& system, SUNContext context)
   u_.setZero(system.layout().columns());
   // The matrix is only there because a direct solver must have one; its numbers are the derivatives.
   matrix_->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
-  matrix_->ops->zero = [](SUNMatrix) { return SUNMAT_SUCCESS; };
+  matrix_->ops->zero = [](SUNMatrix) { return kSundialsSuccess; };
   matrix_->ops->destroy = SUNMatFreeEmpty;
   solver_->content = this;
   solver_->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
@@ -36,12 +36,12 @@ int IdasNewton::setup(SUNLinearSolver solver, SUNMatrix) {
   const double h = 1.0 / self->c_j_;
   self->singular_ = !self->reduced_.factor(self->derivatives_, h, h * h, h);
   // Positive: IDAS tries a smaller step.
-  return self->singular_ ? SUNLS_LUFACT_FAIL : SUNLS_SUCCESS;
+  return self->singular_ ? SUNLS_LUFACT_FAIL : kSundialsSuccess;
 }
 
-int IdasNewton::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+int IdasNewton::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, sunrealtype) {
   static_cast<IdasNewton*>(solver->content)->solve(N_VGetArrayPointer(b), N_VGetArrayPointer(x));
-  return SUNLS_SUCCESS;
+  return kSundialsSuccess;
 }
 
 void IdasNewton::solve(const double* b, double* x) {

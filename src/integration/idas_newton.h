@@ -33,7 +33,7 @@ class IdasNewton {
 
  private:
   static int setup(SUNLinearSolver solver, SUNMatrix matrix);
-  static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b, realtype tolerance);
+  static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b, sunrealtype tolerance);
   void solve(const double* b, double* x);
 
   const System& system_;
