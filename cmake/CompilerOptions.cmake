@@ -12,6 +12,12 @@ endfunction()
 find_program(CODESIGN_CCACHE ccache)
 if(CODESIGN_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CODESIGN_CCACHE})
+  # ccache fails, and the compiler with it, where its folder cannot be written: a home that is read-only, say.
+  execute_process(COMMAND sh -c "folder=$(\"$0\" --get-config cache_dir) && mkdir -p \"$folder\" && test -w \"$folder\"" ${CODESIGN_CCACHE}
+    RESULT_VARIABLE codesign_ccache_unwritable ERROR_QUIET)
+  if(codesign_ccache_unwritable)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_DIR=${PROJECT_BINARY_DIR}/ccache CCACHE_TEMPDIR=${PROJECT_BINARY_DIR}/ccache/tmp ${CODESIGN_CCACHE})
+  endif()
 endif()
 
 # Numerical code. Neither errno nor floating-point traps are used, and both keep loops from being vectorized; IEEE results stay as they are.

@@ -1,5 +1,5 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-# Messages, the library behind the nodes, and the nodes.
+# Messages, the library behind the nodes, and the nodes; what is installed for them alone.
 
 set(message_dependencies actionlib_msgs std_msgs)
 set(ros_dependencies
@@ -44,3 +44,6 @@ foreach(node_main IN LISTS node_mains)
   codesign_warnings(${node})
   list(APPEND codesign_nodes ${node})
 endforeach()
+
+install(PROGRAMS scripts/bag_text scripts/case_figures scripts/model_mismatch scripts/trajectory_from_bag DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts)
+install(DIRECTORY launch rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -1,6 +1,6 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 # One gtest executable per folder of test/, rostests, and the test of the layering.
-# `tests` (catkin's target) builds them; `ctest` runs them.
+# `tests` (catkin's target) builds them; `ctest` runs them. Without ROS only the tests of the core and of tools are there.
 
 find_package(GTest REQUIRED)
 include(GoogleTest)
@@ -12,7 +12,7 @@ codesign_warnings(codesign_test_paths)
 
 foreach(folder math model joints forces control dynamics integration sensitivity optimization jobs cli ros benchmark system allocation)
   file(GLOB test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${folder}/*.cc)
-  if(NOT test_sources)
+  if(NOT test_sources OR (folder STREQUAL ros AND NOT TARGET codesign_ros))
     continue()
   endif()
   set(target test_${folder})
@@ -44,10 +44,17 @@ endforeach()
 add_test(NAME layering COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_layering.py ${PROJECT_SOURCE_DIR})
 add_test(NAME layering_self_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_layering_test.py)
 
-add_test(NAME launch_files COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/ros/launch_files_test.py ${PROJECT_SOURCE_DIR})
-add_test(NAME trajectory_from_bag COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/trajectory_from_bag_test.py)
 add_test(NAME update_tables COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/benchmark/update_tables_test.py)
 
+foreach(tool fresh packages ci)
+  add_test(NAME tools_${tool} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/tools/${tool}_test.py)
+endforeach()
+
+if(NOT TARGET codesign_ros)
+  return()
+endif()
+add_test(NAME launch_files COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/ros/launch_files_test.py ${PROJECT_SOURCE_DIR})
+add_test(NAME trajectory_from_bag COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/trajectory_from_bag_test.py)
 add_test(NAME figures COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/figures_test.py)
 
 find_package(rostest REQUIRED)

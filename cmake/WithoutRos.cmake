@@ -1,0 +1,24 @@
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+# Stands in for catkin where there is none. doc/decisions/0029
+
+message(STATUS "No catkin: messages, nodes, launch files and their tests are left out; the library codesign_core, the program codesign and the core's tests are built")
+
+set(codesign_nodes)
+include(GNUInstallDirs)
+set(CATKIN_PACKAGE_BIN_DESTINATION ${CMAKE_INSTALL_BINDIR})
+set(CATKIN_PACKAGE_LIB_DESTINATION ${CMAKE_INSTALL_LIBDIR})
+set(CATKIN_GLOBAL_BIN_DESTINATION ${CMAKE_INSTALL_BINDIR})
+set(CATKIN_PACKAGE_INCLUDE_DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${PROJECT_NAME})
+set(CATKIN_PACKAGE_SHARE_DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME})
+
+option(CATKIN_ENABLE_TESTING "Build the tests" ON)
+if(CATKIN_ENABLE_TESTING)
+  find_package(GTest QUIET)
+  if(GTest_FOUND)
+    enable_testing()
+    add_custom_target(tests)
+  else()
+    message(STATUS "No GoogleTest: the tests are left out")
+    set(CATKIN_ENABLE_TESTING OFF)
+  endif()
+endif()

@@ -1,0 +1,82 @@
+#!/usr/bin/python3
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""tools/setup (Debian's packages) and package.xml (rosdep's keys) name the same dependencies. Usage: packages_test.py [-v]"""
+import os
+import re
+import subprocess
+import unittest
+import xml.etree.ElementTree
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+# Keys of rosdep that are spelled otherwise than Debian's packages.
+ODD_KEYS = {"eigen": "libeigen3-dev", "nlohmann-json-dev": "nlohmann-json3-dev"}
+# What builds and takes pictures, and what rosdep has no key for on every distribution.
+NOT_IN_PACKAGE_XML = {
+    "g++", "make", "ninja-build", "ccache", "cmake", "python3", "xvfb", "imagemagick", "libbenchmark-dev", "libsimbody-dev",
+    "libsundials-dev", "libnlopt-dev", "libnlopt-cxx-dev", "libmuparserx-dev", "libxbyak-dev"}
+
+
+def listed(*options):
+    output = subprocess.run([os.path.join(ROOT, "tools", "setup"), "--list", *options], check=True, stdout=subprocess.PIPE, text=True).stdout
+    return set(output.split())
+
+
+def keys():
+    root = xml.etree.ElementTree.parse(os.path.join(ROOT, "package.xml")).getroot()
+    return {element.text.strip() for element in root if element.tag.endswith("depend")}
+
+
+def debian_names(key):
+    """The packages that may stand for a key of rosdep."""
+    name = key.replace("_", "-")
+    return {ODD_KEYS.get(key, name), f"lib{name}-dev", f"libros-{name}-dev", f"ros-{name}", f"python3-{name}"}
+
+
+def unserved(keys_, packages):
+    return {key for key in keys_ if not debian_names(key) & packages}
+
+
+def undeclared(packages, keys_):
+    return packages - NOT_IN_PACKAGE_XML - {name for key in keys_ for name in debian_names(key)}
+
+
+class PackagesTest(unittest.TestCase):
+    def test_every_key_has_a_package(self):
+        self.assertEqual(unserved(keys(), listed()), set())
+
+    def test_every_package_has_a_key(self):
+        self.assertEqual(undeclared(listed("--benchmark"), keys()), set())
+
+    def test_what_is_missing_is_found(self):
+        self.assertEqual(unserved({"tf2_ros", "roscpp"}, {"libroscpp-dev"}), {"tf2_ros"})
+        self.assertEqual(undeclared({"g++", "python3-tf2-ros", "python3-rosbag"}, {"tf2_ros"}), {"python3-rosbag"})
+
+    def test_python_modules_of_tests_and_scripts_are_installed_by_name(self):
+        """A ROS module that a script imports comes from python3-MODULE, which a machine may have by accident."""
+        ros = {key for key in keys() if f"python3-{key.replace('_', '-')}" in listed("--headless")}
+        known = ros | {"rospy", "genpy", "std_msgs", "rosgraph_msgs", "mechanism_codesign"}  # below everything else
+        modules = set()
+        for folder in ("test", "scripts"):
+            for path, _, files in os.walk(os.path.join(ROOT, folder)):
+                for file in files:
+                    with open(os.path.join(path, file), errors="replace") as text:
+                        if text.readline().startswith("#!/usr/bin/python3"):
+                            modules |= set(re.findall(r"^\s*(?:from|import) ([a-z0-9_]+)", text.read(), re.MULTILINE))
+        self.assertIn("tf2_ros", modules)
+        self.assertEqual({m for m in modules & self.ros_modules(modules) if m not in known}, set())
+
+    @staticmethod
+    def ros_modules(modules):
+        return {m for m in modules if re.match(r"ros|tf|actionlib|genpy|.*_msgs$", m)}
+
+    def test_the_core_needs_no_ros(self):
+        core = listed("--core")
+        self.assertIn("libsundials-dev", core)
+        self.assertEqual({p for p in core if re.match(r"ros-|catkin|rosbash|libros|librviz|python3-", p)}, set())
+        self.assertLess(core, listed("--headless"))
+        self.assertLess(listed("--headless"), listed())
+
+
+if __name__ == "__main__":
+    unittest.main()
