@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <fstream>
+#include <locale>
 #include <optional>
+#include <sstream>
 
 #include "cli/commands.h"
 #include "cli/csv_writer.h"
@@ -23,9 +25,20 @@ Json series_json(const std::vector<std::string>& names, const std::vector<std::v
   return series;
 }
 
+/// Three significant digits of a figure of merit.
+std::string brief(double value) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(3);
+  text << value;
+  return text.str();
+}
+
 void summarize(const RunSummary& run, double duration, std::ostream& err) {
   err << "simulated " << readable(duration) << " s in " << run.statistics.steps << " steps (" << run.statistics.rejected_steps
       << " rejected), " << readable(run.statistics.cpu_seconds) << " s of processor time" << std::endl;
+  err << "energy balance to " << brief(run.statistics.energy_error) << " of the largest energy; constraint drift at most "
+      << brief(run.statistics.constraint_drift) << " times the error tolerance" << std::endl;
   for (const LimitCrossing& crossing : run.crossings) err << describe(crossing) << std::endl;
 }
 

@@ -96,6 +96,10 @@ int IdasEquations::jacobian(double t, double c_j, const double* y, const double*
 int IdasEquations::integrand(double t, const double* y, const double* y_dot, double* g) {
   unpack(t, y, y_dot, &state_);
   equations_.residual(state_, &G_, g);
+  equations_.constraint_errors(state_.q, state_.v, &Phi_, &Phi_rate_);
+  // v^T Q - weight . v, also where the constraints are violated, so that what they then do counts as an error.
+  g[1] = motion_->power(state_.q, state_.v, state_.z.data()) + state_.z.segment(layout_.n, layout_.m).dot(Phi_rate_) -
+         state_.v.dot(G_.head(layout_.n));
   return std::isfinite(*g) ? kDone : kRetry;
 }
 
@@ -155,7 +159,8 @@ int IdasEquations::sensitivity_integrand(int count, sunrealtype t, N_Vector y, N
     equations->visit(t, read(y), read(y_dot));
     for (int k = 0; k < count; ++k) {
       equations->derivative(k, read(y_rho[k]), read(y_dot_rho[k]));
-      *N_VGetArrayPointer(g_rho[k]) = equations->dG_[equations->layout_.columns()];
+      N_VGetArrayPointer(g_rho[k])[0] = equations->dG_[equations->layout_.columns()];
+      N_VGetArrayPointer(g_rho[k])[1] = 0.0;
     }
     return kDone;
   });

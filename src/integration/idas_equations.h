@@ -7,6 +7,7 @@
 
 #include "integration/idas_newton.h"
 #include "mechanism_codesign/dynamics/equations.h"
+#include "mechanism_codesign/integration/applied_work.h"
 #include "mechanism_codesign/integration/idas_integrator.h"
 
 namespace codesign {
@@ -22,6 +23,8 @@ class IdasEquations {
   int size() const { return 2 * layout_.n + layout_.states + layout_.m; }
   Equations<double>& equations() { return equations_; }
   void set_sensitivities(IdasSensitivities* sensitivities) { sensitivities_ = sensitivities; }
+  /// What tells the power of everything but gravity; must outlive the integration.
+  void set_motion(const BodyMotion* motion) { motion_ = motion; }
   /// Forgets the last solution and failure.
   void start();
 
@@ -53,6 +56,7 @@ class IdasEquations {
   IdasNewton& newton_;
   Equations<double> equations_;
   IdasSensitivities* sensitivities_ = nullptr;
+  const BodyMotion* motion_ = nullptr;
   State<double> state_, direction_;
   VectorX<double> G_, dG_, Phi_, Phi_rate_;
   double kappa_;                 ///< [1/s]

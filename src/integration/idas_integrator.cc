@@ -4,35 +4,51 @@
 #include <idas/idas_ls.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "integration/idas_equations.h"
 #include "integration/idas_status.h"
+#include "integration/projection.h"
 #include "mechanism_codesign/integration/break_times.h"
 #include "mechanism_codesign/integration/motion_watch.h"
+#include "mechanism_codesign/integration/run_watch.h"
 
 namespace codesign {
+namespace {
+
+constexpr double kAnyMultiplier = 1e10;  // absolute tolerance of what is not to be tested
+
+/// Drift, in the scale of the error test, that a run is not to go on with. Right next to a singular position steps drift by more than
+/// elsewhere, whatever is done, and the more so in units of a small tolerance.
+double restart_drift(double relative_tolerance) { return std::max(100.0, 0.03 / std::sqrt(relative_tolerance)); }
+
+}  // namespace
 
 class IdasIntegrator::Implementation {
  public:
   Implementation(const System& system, Integrator* owner)
       : system_(system),
         options_(system.study().solver),
+        restart_drift_(restart_drift(options_.relative_tolerance)),
         breaks_(system.study()),
         owner_(owner),
         assembly_(system),
         watch_(system),
+        run_watch_(system),
         context_(make_context()),
         newton_(system, context_.get()),
         equations_(system, &newton_),
+        projection_(system),
         y_(make_vector(equations_.size(), context_.get())),
         y_dot_(make_vector(equations_.size(), context_.get())),
         dense_(make_vector(equations_.size(), context_.get())),
         dense_dot_(make_vector(equations_.size(), context_.get())),
-        psi_(make_vector(1, context_.get())),
+        psi_(make_vector(2, context_.get())),
         ida_(IDACreate(context_.get())) {
     if (!ida_) throw std::bad_alloc();
     state_.resize(system.layout());
+    equations_.set_motion(&run_watch_.motion());
     set_up();
   }
 
@@ -53,31 +69,42 @@ class IdasIntegrator::Implementation {
   Equations<double>& equations() { return equations_.equations(); }
   Assembly& assembly() { return assembly_; }
   const Statistics& statistics() const { return statistics_; }
+  Warnings warnings() const { return run_watch_.warnings(statistics_); }
 
  private:
   void set_up();
+  void set_tolerances();
   void start_sensitivities(const std::vector<double>& parameters);
+  void restart_solver();
+  Status project();
+  bool with_sensitivities() const { return carried_ && carried_->count() > 0; }
   void take_over(double time);
+  Status check_run();
   void count_steps();
 
   const System& system_;
   const SolverOptions& options_;
+  const double restart_drift_;
   const BreakTimes breaks_;
   Integrator* owner_;
   Assembly assembly_;
   MotionWatch watch_;
+  RunWatch run_watch_;
   ContextHandle context_;
   IdasNewton newton_;
   IdasEquations equations_;
+  Projection projection_;
   VectorHandle y_, y_dot_, dense_, dense_dot_, psi_;
   std::unique_ptr<VectorArray> y_rho_, y_dot_rho_, psi_rho_;
   IdaHandle ida_;
   IdasSensitivities* carried_ = nullptr;
   State<double> initial_, state_;
-  std::vector<State<double>> initial_rho_;
+  std::vector<State<double>> directions_;
   std::vector<double> scales_;
-  VectorX<double> drift_, drift_rate_;
-  double largest_drift_ = 0.0;
+  VectorX<double> drift_, drift_rate_, position_correction_, velocity_correction_;
+  double work_ = 0.0;  ///< [J] of everything but gravity so far
+  double largest_drift_ = 0.0, drift_size_ = 0.0;
+  Statistics before_restart_;
   std::string message_;
   Statistics statistics_;
 };
@@ -90,7 +117,7 @@ void IdasIntegrator::Implementation::set_up() {
   require(keep_last_message(ida, context_.get(), &message_), "keep_last_message");
   require(IDAInit(ida, IdasEquations::residual, 0.0, y_.get(), y_dot_.get()), "IDAInit");
   require(IDASetUserData(ida, &equations_), "IDASetUserData");
-  require(IDASStolerances(ida, options_.relative_tolerance, options_.absolute_tolerance), "IDASStolerances");
+  set_tolerances();
   require(IDASetId(ida, differential.get()), "IDASetId");
   require(IDASetSuppressAlg(ida, SUNTRUE), "IDASetSuppressAlg");
   require(IDASetInitStep(ida, options_.initial_step), "IDASetInitStep");
@@ -102,26 +129,36 @@ void IdasIntegrator::Implementation::set_up() {
   require(IDAQuadInit(ida, IdasEquations::integrand, psi_.get()), "IDAQuadInit");
 }
 
+// Multipliers that nothing determines follow rounding, divided by the compliance: the corrector must not wait for them to settle.
+void IdasIntegrator::Implementation::set_tolerances() {
+  const VectorHandle absolute = make_vector(equations_.size(), context_.get());
+  N_VConst(options_.absolute_tolerance, absolute.get());
+  const int m = system_.layout().m;
+  if (system_.compliance() > 0.0) std::fill_n(N_VGetArrayPointer(absolute.get()) + equations_.size() - m, m, kAnyMultiplier);
+  require(IDASVtolerances(ida_.get(), options_.relative_tolerance, absolute.get()), "IDASVtolerances");
+}
+
 Status IdasIntegrator::Implementation::start(const std::vector<double>& parameters) {
   statistics_ = {};
-  largest_drift_ = 0.0;
+  before_restart_ = {};
+  largest_drift_ = drift_size_ = 0.0;
   message_.clear();
   equations_.start();
   if (Status status = assemble_start(system_, parameters, &assembly_, &equations(), &initial_); !status.ok()) return status;
   equations_.pack(initial_, N_VGetArrayPointer(y_.get()), N_VGetArrayPointer(y_dot_.get()));
   N_VConst(0.0, psi_.get());
-  require(IDAReInit(ida_.get(), 0.0, y_.get(), y_dot_.get()), "IDAReInit");
-  require(IDAQuadReInit(ida_.get(), psi_.get()), "IDAQuadReInit");
-  start_sensitivities(parameters);
   state_ = initial_;
+  start_sensitivities(parameters);
+  restart_solver();
   watch_.start(equations(), initial_);
+  run_watch_.start(equations().constants(), initial_);
+  work_ = 0.0;
   return {};
 }
 
 void IdasIntegrator::Implementation::start_sensitivities(const std::vector<double>& parameters) {
-  void* ida = ida_.get();
-  if (!carried_ || carried_->count() == 0) {
-    if (y_rho_) require(IDASensToggleOff(ida), "IDASensToggleOff");
+  if (!with_sensitivities()) {
+    if (y_rho_) require(IDASensToggleOff(ida_.get()), "IDASensToggleOff");
     return;
   }
   const int count = carried_->count();
@@ -130,31 +167,61 @@ void IdasIntegrator::Implementation::start_sensitivities(const std::vector<doubl
     y_rho_ = std::make_unique<VectorArray>(count, y_.get());
     y_dot_rho_ = std::make_unique<VectorArray>(count, y_.get());
     psi_rho_ = std::make_unique<VectorArray>(count, psi_.get());
-    initial_rho_.resize(static_cast<std::size_t>(count), initial_);
+    directions_.resize(static_cast<std::size_t>(count), initial_);
     scales_.resize(static_cast<std::size_t>(count));
   }
-  carried_->start(parameters, initial_, owner_, &initial_rho_, &scales_);
+  carried_->start(parameters, initial_, owner_, &directions_, &scales_);
   for (int k = 0; k < count; ++k) {
-    equations_.pack(initial_rho_[static_cast<std::size_t>(k)], y_rho_->data(k), y_dot_rho_->data(k));
+    equations_.pack(directions_[static_cast<std::size_t>(k)], y_rho_->data(k), y_dot_rho_->data(k));
     *psi_rho_->data(k) = 0.0;
   }
+  if (!first) return;
   // Only the staggered corrector gets past the first steps; without the error test the tangent grows wrong at the higher orders.
-  if (first) {
-    require(IDASensInit(ida, count, IDA_STAGGERED, IdasEquations::sensitivity_residual, y_rho_->get(), y_dot_rho_->get()), "IDASensInit");
-    require(IDAQuadSensInit(ida, IdasEquations::sensitivity_integrand, psi_rho_->get()), "IDAQuadSensInit");
-    require(IDASensEEtolerances(ida), "IDASensEEtolerances");
-  } else {
-    require(IDASensReInit(ida, IDA_STAGGERED, y_rho_->get(), y_dot_rho_->get()), "IDASensReInit");
-    require(IDAQuadSensReInit(ida, psi_rho_->get()), "IDAQuadSensReInit");
-  }
+  require(IDASensInit(ida_.get(), count, IDA_STAGGERED, IdasEquations::sensitivity_residual, y_rho_->get(), y_dot_rho_->get()),
+          "IDASensInit");
+  require(IDAQuadSensInit(ida_.get(), IdasEquations::sensitivity_integrand, psi_rho_->get()), "IDAQuadSensInit");
+  require(IDASensEEtolerances(ida_.get()), "IDASensEEtolerances");
+}
+
+/// Begins at state_, and its sensitivities, at order one.
+void IdasIntegrator::Implementation::restart_solver() {
+  void* ida = ida_.get();
+  require(IDAReInit(ida, state_.t, y_.get(), y_dot_.get()), "IDAReInit");
+  require(IDAQuadReInit(ida, psi_.get()), "IDAQuadReInit");
+  if (!with_sensitivities()) return;
+  require(IDASensReInit(ida, IDA_STAGGERED, y_rho_->get(), y_dot_rho_->get()), "IDASensReInit");
+  require(IDAQuadSensReInit(ida, psi_rho_->get()), "IDAQuadSensReInit");
   // A solution without sensitivities in between switches it off.
   require(IDASetSensErrCon(ida, SUNTRUE), "IDASetSensErrCon");
   require(IDASetSensParams(ida, nullptr, scales_.data(), nullptr), "IDASetSensParams");
 }
 
+// A multistep method remembers the points before, so that it begins anew. Near a singular position that saves the branch: whatever drift
+// there is moves the mechanism the farther off the smaller the constraints' singular value becomes.
+Status IdasIntegrator::Implementation::project() {
+  if (!projection_.apply(&equations(), &state_))
+    return {StatusCode::kSingularMatrix, state_.t, "the augmented matrix of the equations of motion is singular"};
+  if (Status status = assembly_.solve_rates(&equations(), &state_); !status.ok()) return status;
+  equations_.pack(state_, N_VGetArrayPointer(y_.get()), N_VGetArrayPointer(y_dot_.get()));
+  if (with_sensitivities()) {
+    for (int k = 0; k < carried_->count(); ++k) sensitivity(k, &directions_[static_cast<std::size_t>(k)]);
+    if (!carried_->project(state_, &equations(), &directions_))
+      return {StatusCode::kSingularMatrix, state_.t, "the augmented matrix of the equations of motion is singular"};
+    for (int k = 0; k < carried_->count(); ++k)
+      equations_.pack(directions_[static_cast<std::size_t>(k)], y_rho_->data(k), y_dot_rho_->data(k));
+  }
+  before_restart_ = statistics_;
+  restart_solver();
+  drift_size_ = 0.0;
+  return {};
+}
+
 Status IdasIntegrator::Implementation::advance(double limit) {
   if (statistics_.steps + statistics_.rejected_steps >= options_.maximum_steps)
     return {StatusCode::kTooManySteps, state_.t, "more than " + std::to_string(options_.maximum_steps) + " steps"};
+  // Not sooner: dense output needs the points before.
+  if (drift_size_ > restart_drift_)
+    if (Status status = project(); !status.ok()) return status;
   void* ida = ida_.get();
   double time = state_.t;
   const double stop = breaks_.next(state_.t, limit);
@@ -163,6 +230,7 @@ Status IdasIntegrator::Implementation::advance(double limit) {
   count_steps();
   if (flag < 0) return idas_status(flag, state_.t, newton_.singular(), equations_.failure().empty() ? message_ : equations_.failure());
   take_over(time);
+  if (Status status = check_run(); !status.ok()) return status;
   return watch_.check(state_, statistics_.steps + statistics_.rejected_steps);
 }
 
@@ -170,7 +238,7 @@ void IdasIntegrator::Implementation::take_over(double time) {
   equations_.unpack(time, N_VGetArrayPointer(y_.get()), N_VGetArrayPointer(y_dot_.get()), &state_);
   double reached = time;
   require(IDAGetQuad(ida_.get(), &reached, psi_.get()), "IDAGetQuad");
-  if (carried_ && carried_->count() > 0) {
+  if (with_sensitivities()) {
     require(IDAGetSensDky(ida_.get(), time, 0, y_rho_->get()), "IDAGetSensDky");
     require(IDAGetSensDky(ida_.get(), time, 1, y_dot_rho_->get()), "IDAGetSensDky");
     require(IDAGetQuadSens(ida_.get(), &reached, psi_rho_->get()), "IDAGetQuadSens");
@@ -180,17 +248,28 @@ void IdasIntegrator::Implementation::take_over(double time) {
   largest_drift_ = std::max(largest_drift_, drift_.cwiseAbs().maxCoeff());
 }
 
+// Newton's matrix is that of a projection but for terms of the order of the step.
+Status IdasIntegrator::Implementation::check_run() {
+  const double before = work_;
+  work_ = N_VGetArrayPointer(psi_.get())[1];
+  newton_.correct(drift_, &position_correction_);
+  newton_.correct(drift_rate_, &velocity_correction_);
+  drift_size_ = run_watch_.drift(state_, position_correction_, velocity_correction_);
+  return run_watch_.check(state_, drift_size_, work_ - before, &statistics_);
+}
+
 void IdasIntegrator::Implementation::count_steps() {
   long steps = 0, test_failures = 0, solve_failures = 0, sensitivity_failures = 0, sensitivity_solve_failures = 0;
   IDAGetNumSteps(ida_.get(), &steps);
   IDAGetNumErrTestFails(ida_.get(), &test_failures);
   IDAGetNumStepSolveFails(ida_.get(), &solve_failures);
-  if (carried_ && carried_->count() > 0) {
+  if (with_sensitivities()) {
     IDAGetSensNumErrTestFails(ida_.get(), &sensitivity_failures);
     IDAGetNumStepSensSolveFails(ida_.get(), &sensitivity_solve_failures);
   }
-  statistics_.steps = steps;
-  statistics_.rejected_steps = test_failures + solve_failures + sensitivity_failures + sensitivity_solve_failures;
+  statistics_.steps = before_restart_.steps + steps;
+  statistics_.rejected_steps =
+      before_restart_.rejected_steps + test_failures + solve_failures + sensitivity_failures + sensitivity_solve_failures;
 }
 
 void IdasIntegrator::Implementation::interpolate(double time, State<double>* state, double* psi) {
@@ -205,6 +284,7 @@ void IdasIntegrator::Implementation::interpolate(double time, State<double>* sta
   std::swap(*psi, at_end);
   *psi = *N_VGetArrayPointer(psi_.get());
   *N_VGetArrayPointer(psi_.get()) = at_end;
+  N_VGetArrayPointer(psi_.get())[1] = work_;
 }
 
 IdasIntegrator::IdasIntegrator(const System& system) : implementation_(std::make_unique<Implementation>(system, this)) {}
@@ -219,6 +299,7 @@ void IdasIntegrator::interpolate(double time, State<double>* state, double* psi)
 Equations<double>& IdasIntegrator::equations() { return implementation_->equations(); }
 Assembly& IdasIntegrator::assembly() { return implementation_->assembly(); }
 const Statistics& IdasIntegrator::statistics() const { return implementation_->statistics(); }
+Warnings IdasIntegrator::warnings() const { return implementation_->warnings(); }
 void IdasIntegrator::sensitivity(int k, State<double>* direction) const { implementation_->sensitivity(k, direction); }
 double IdasIntegrator::psi_sensitivity(int k) const { return implementation_->psi_sensitivity(k); }
 double IdasIntegrator::largest_drift() const { return implementation_->largest_drift(); }

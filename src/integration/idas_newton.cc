@@ -59,4 +59,11 @@ void IdasNewton::solve(const double* b, double* x) {
   x_lambda = u_.segment(layout.n, layout.m);
 }
 
+void IdasNewton::correct(const VectorX<double>& error, VectorX<double>* correction) const {
+  const Layout& layout = system_.layout();
+  correction->setZero(layout.columns());
+  correction->segment(layout.n, layout.m) = -error;
+  reduced_.lu().solve(correction->data());
+}
+
 }  // namespace codesign

@@ -26,6 +26,10 @@ class IdasNewton {
     kappa_ = kappa;
   }
 
+  /// The change [delta; multipliers; 0] of least kinetic energy, with the matrix of the last setup, that takes an error of the constraints
+  /// away.
+  void correct(const VectorX<double>& error, VectorX<double>* correction) const;
+
   SUNMatrix matrix() { return matrix_.get(); }
   SUNLinearSolver solver() { return solver_.get(); }
   /// Whether the last matrix was singular.

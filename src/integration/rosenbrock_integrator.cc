@@ -14,7 +14,9 @@ RosenbrockIntegrator::RosenbrockIntegrator(const System& system)
       step_(system, *rosenbrock_tableau(options_.method)),
       assembly_(system),
       controller_(step_.tableau().order),
-      watch_(system) {}
+      watch_(system),
+      run_watch_(system),
+      work_(system, step_.tableau()) {}
 
 Status RosenbrockIntegrator::start(const std::vector<double>& parameters) {
   statistics_ = {};
@@ -22,6 +24,8 @@ Status RosenbrockIntegrator::start(const std::vector<double>& parameters) {
   if (Status status = assemble_start(system_, parameters, &assembly_, &step_.equations(), &initial_); !status.ok()) return status;
   step_.start(initial_);
   watch_.start(step_.equations(), initial_);
+  run_watch_.start(step_.equations().constants(), initial_);
+  work_.start(initial_, run_watch_.motion());
   proposal_ = options_.initial_step > 0.0 ? options_.initial_step : first_step();
   return {};
 }
@@ -81,6 +85,9 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     ++statistics_.steps;
     if (!step_.accept()) return {StatusCode::kSingularMatrix, t + h, "the augmented matrix of the equations of motion is singular"};
     step_.equations().track_turns(step_.state());
+    const double drift = run_watch_.drift(step_.state(), step_.position_correction(), step_.velocity_correction());
+    if (Status status = run_watch_.check(step_.state(), drift, work_.over(step_, run_watch_.motion()), &statistics_); !status.ok())
+      return status;
     return watch_.check(step_.state(), statistics_.steps + statistics_.rejected_steps);
   }
 }

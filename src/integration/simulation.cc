@@ -51,7 +51,7 @@ class Simulation::Implementation {
 
   const FrameNames& names() const { return observer_.names(); }
   const Statistics& statistics() const { return statistics_; }
-  const Warnings& warnings() const { return warnings_; }
+  const Warnings& warnings() const { return warnings_ = integrator_->warnings(); }
 
  private:
   std::shared_ptr<const System> system_;
@@ -60,7 +60,7 @@ class Simulation::Implementation {
   std::unique_ptr<Integrator> integrator_;
   State<double> sample_;
   Statistics statistics_;
-  Warnings warnings_;
+  mutable Warnings warnings_;
 };
 
 Simulation::Simulation(std::shared_ptr<const System> system, const std::vector<double>& parameters,

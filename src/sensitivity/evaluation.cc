@@ -24,6 +24,7 @@ class Evaluator::Implementation {
       if (with_gradient) engine_->gradient(&evaluation.gradient);
     }
     evaluation.statistics = engine_->statistics();
+    evaluation.warnings = engine_->warnings();
     evaluation.statistics.cpu_seconds = timer.seconds();
     return evaluation;
   }

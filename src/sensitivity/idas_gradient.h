@@ -21,6 +21,7 @@ class IdasGradient final : public GradientEngine {
   double objective() override;
   void gradient(Eigen::VectorXd* gradient) override;
   const Statistics& statistics() const override { return integrator_.statistics(); }
+  Warnings warnings() const override { return integrator_.warnings(); }
 
  private:
   /// The present state with rates that satisfy the equations at it.

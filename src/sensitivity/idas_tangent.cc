@@ -94,14 +94,12 @@ void IdasTangent::derivative(int k, const State<double>& direction, VectorX<doub
   *result += partial_.col(k);
 }
 
-void IdasTangent::terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
-                           Eigen::VectorXd* gradient) {
-  gradient->setZero(count());
+bool IdasTangent::factor(const State<double>& state, Equations<double>* equations) {
   linearize(state, 0.0, equations);
-  if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) {
-    gradient->setConstant(std::numeric_limits<double>::quiet_NaN());
-    return;
-  }
+  return matrix_.factor(derivatives_, 0.0, 0.0, 0.0);
+}
+
+void IdasTangent::solve_rates(std::vector<State<double>>* directions) {
   for (int k = 0; k < count(); ++k) {
     State<double>& direction = (*directions)[static_cast<std::size_t>(k)];
     direction.z.setZero();
@@ -109,6 +107,40 @@ void IdasTangent::terminal(const State<double>& state, Equations<double>* equati
     matrix_.lu().solve(dG_.data());
     direction.z = -dG_.head(direction.z.size());
   }
+}
+
+// The derivatives of Phi and Phi_q v along (q, v, s)_rho and the parameter come out of one evaluation in lanes.
+void IdasTangent::correct(const State<double>& state, VectorX<double> State<double>::*part, std::vector<State<double>>* directions) {
+  const Layout& layout = system_.layout();
+  const bool positions = part == &State<double>::q;
+  groups_.for_each([&](auto* group) {
+    group->load(state, directions);
+    group->equations.constraint_errors(group->state.q, group->state.v, &group->Phi, &group->Phi_rate);
+    for (int k = 0; k < group->range.count; ++k) {
+      dG_.setZero(layout.columns() + 1);
+      for (int row = 0; row < layout.m; ++row) dG_[layout.n + row] = -(positions ? group->Phi : group->Phi_rate)[row].v[k];
+      matrix_.lu().solve(dG_.data());
+      (*directions)[static_cast<std::size_t>(group->range.first + k)].*part += dG_.head(layout.n);
+    }
+  });
+}
+
+bool IdasTangent::project(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions) {
+  if (!factor(state, equations)) return false;
+  correct(state, &State<double>::q, directions);
+  correct(state, &State<double>::v, directions);
+  solve_rates(directions);
+  return true;
+}
+
+void IdasTangent::terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
+                           Eigen::VectorXd* gradient) {
+  gradient->setZero(count());
+  if (!factor(state, equations)) {
+    gradient->setConstant(std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
+  solve_rates(directions);
   groups_.for_each([&](auto* group) {
     group->load(state, directions);
     const auto w = group->equations.terminal(group->state, nullptr);

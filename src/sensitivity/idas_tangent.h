@@ -22,6 +22,7 @@ class IdasTangent final : public IdasSensitivities {
              std::vector<State<double>>* sensitivities, std::vector<double>* scales) override;
   void linearize(const State<double>& state, double kappa, Equations<double>* equations) override;
   void derivative(int k, const State<double>& direction, VectorX<double>* result) override;
+  bool project(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions) override;
 
   /// w_rho of the terminal terms at a consistent state; not a number where G_z is singular. @param directions (q, v, s)_rho per parameter;
   /// their z is solved for.
@@ -41,6 +42,13 @@ class IdasTangent final : public IdasSensitivities {
     State<Scalar> state;
     VectorX<Scalar> G, Phi, Phi_rate;
   };
+
+  /// Makes the derivatives at a state present, without stabilization, and factors G_z. False if it is singular.
+  bool factor(const State<double>& state, Equations<double>* equations);
+  /// Solves for z_rho of directions whose (q, v, s)_rho are given.
+  void solve_rates(std::vector<State<double>>* directions);
+  /// Adds the least change that satisfies the constraints' derivatives to q_rho, or to v_rho.
+  void correct(const State<double>& state, VectorX<double> State<double>::*part, std::vector<State<double>>* directions);
 
   const System& system_;
   LaneGroups<Group> groups_;

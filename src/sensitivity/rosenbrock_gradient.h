@@ -24,6 +24,7 @@ class RosenbrockGradient final : public GradientEngine {
   double objective() override;
   void gradient(Eigen::VectorXd* gradient) override;
   const Statistics& statistics() const override { return integrator_.statistics(); }
+  Warnings warnings() const override { return integrator_.warnings(); }
 
  private:
   template <int N>

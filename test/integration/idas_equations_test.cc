@@ -16,6 +16,7 @@ struct Faulty : IdasSensitivities {
   void start(const std::vector<double>&, const State<double>&, Integrator*, std::vector<State<double>>*, std::vector<double>*) override {}
   void linearize(const State<double>&, double, Equations<double>*) override { throw std::runtime_error("no derivatives today"); }
   void derivative(int, const State<double>&, VectorX<double>*) override {}
+  bool project(const State<double>&, Equations<double>*, std::vector<State<double>>*) override { return false; }
 };
 
 struct IdasEquationsTest : ::testing::Test {

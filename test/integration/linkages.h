@@ -41,6 +41,35 @@ inline double four_bar_row_acceleration(int count, double theta) {
   return -9.81 * std::sin(theta) * (0.5 * bars + couplers) / (bars * 0.3334 + couplers);
 }
 
+/// IFToMM's benchmark A02: `count` parallelograms of uniform bars of 1 m and 1 kg side by side, upright at zero. It passes its flat
+/// position, in which every bar could turn by itself.
+inline std::string upright_row(int count) {
+  const auto rod = [](const std::string& name, bool upright) {
+    return "<link name='" + name + "'><inertial><origin xyz='" + (upright ? "0 0 0.5" : "0.5 0 0") + "'/><mass value='1'/><inertia ixx='" +
+           (upright ? "0.08333333333333333" : "1e-05") + "' ixy='0' ixz='0' iyy='0.08333333333333333' iyz='0' izz='" +
+           (upright ? "1e-05" : "0.08333333333333333") + "'/></inertial></link>";
+  };
+  std::string content;
+  for (int k = 0; k <= count; ++k) {
+    const std::string bar = "bar" + std::to_string(k);
+    content += rod(bar, true) + hinge("hinge" + std::to_string(k), "ground", bar, std::to_string(k) + " 0 0");
+  }
+  for (int k = 0; k < count; ++k) {
+    const std::string number = std::to_string(k), coupler = "coupler" + number;
+    content += rod(coupler, false) + hinge("pin" + number, "bar" + number, coupler, "0 0 1") + "<loop name='close" + number +
+               "' type='continuous'><predecessor link='bar" + std::to_string(k + 1) +
+               "'><origin xyz='0 0 1'/></predecessor><successor link='" + coupler +
+               "'><origin xyz='1 0 0'/></successor><axis xyz='0 1 0'/></loop>";
+  }
+  return robot(content);
+}
+
+/// ((bars) / 3 + couplers) theta'' = g sin theta (bars / 2 + couplers)
+inline double upright_row_acceleration(int count, double theta) {
+  const double bars = count + 1.0, couplers = count;
+  return 9.81 * std::sin(theta) * (0.5 * bars + couplers) / (bars / 3.0 + couplers);
+}
+
 /// Bricard's threefold symmetric ring: six hinges, each at right angles to the next, all bars 1 m. It moves though counting says it does
 /// not: the turns alternate between theta and phi with cos theta + cos phi + cos theta cos phi = 0 (Chen, You, Tarnai, Int. J. Solids
 /// Struct. 42 (2005), at twist pi/2).

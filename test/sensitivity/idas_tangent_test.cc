@@ -98,5 +98,31 @@ TEST_F(IdasTangentTest, TerminalTermsUseConsistentRates) {
   }
 }
 
+TEST_F(IdasTangentTest, ProjectedDirectionsAreTangentToTheConstraints) {
+  state = integrator.state();
+  std::vector<State<double>> exact = starts, directions = starts;
+  for (State<double>& moved : directions) {
+    for (Eigen::Index k = 0; k < moved.q.size(); ++k) moved.q[k] += 1e-3 * std::sin(5.0 * static_cast<double>(k));
+    for (Eigen::Index k = 0; k < moved.v.size(); ++k) moved.v[k] += 1e-3 * std::cos(5.0 * static_cast<double>(k));
+  }
+  const std::vector<State<double>> drifted = directions;
+  ASSERT_TRUE(tangent.project(state, &integrator.equations(), &directions));
+  VectorX<double> before, after;
+  for (int k = 0; k < 5; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    // With kappa, the rows of constraints hold the derivatives of Phi and Phi_q v too.
+    tangent.linearize(state, 3.0, &integrator.equations());
+    tangent.derivative(k, drifted[at], &before);
+    tangent.derivative(k, directions[at], &after);
+    EXPECT_GT(before.segment(layout.n, layout.m).norm(), 1e-3) << k;
+    EXPECT_LT(after.segment(layout.n, layout.m).norm(), 1e-9) << k;
+    EXPECT_LT((directions[at].q - exact[at].q).norm(), 2.0 * (drifted[at].q - exact[at].q).norm()) << k;
+  }
+  // What is tangent already stays.
+  directions = exact;
+  ASSERT_TRUE(tangent.project(state, &integrator.equations(), &directions));
+  for (std::size_t k = 0; k < 5; ++k) EXPECT_LT((directions[k].v - exact[k].v).cwiseAbs().maxCoeff(), 1e-11);
+}
+
 }  // namespace
 }  // namespace codesign

@@ -25,12 +25,16 @@ class IdasSensitivities {
   virtual void linearize(const State<double>& state, double kappa, Equations<double>* equations) = 0;
   /// d(G, g)/d(rho_k), stabilized, along a direction (q, v, s, z)_rho at the present point: columns() + 1 entries.
   virtual void derivative(int k, const State<double>& direction, VectorX<double>* result) = 0;
+  /// Takes the drift of directions (q, v)_rho off the tangent of the constraints at a state, and solves for their z. False if the augmented
+  /// matrix is singular.
+  virtual bool project(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions) = 0;
 };
 
 /// Variable-order BDF by SUNDIALS IDAS on q' = v, 0 = G(q, v, s; v', lambda, s'), psi' = g; doc/theory.md (25)-(27).
 ///
 /// The unknowns are (q, v, s, lambda); a and sigma are derivatives, not unknowns. Newton's systems are reduced to the size of (a, lambda,
-/// sigma). lambda stays out of the error test. A multistep method has no place for a projection, so the constraints' rows are stabilized.
+/// sigma). lambda stays out of the error test. A multistep method has no place for a projection, so the constraints' rows are stabilized; where
+/// that is not enough, (q, v) and the sensitivities are projected and the method starts again.
 /// Failures of IDAS come back as a Status with time and cause.
 class IdasIntegrator final : public Integrator {
  public:
@@ -48,6 +52,7 @@ class IdasIntegrator final : public Integrator {
   Equations<double>& equations() override;
   Assembly& assembly() override;
   const Statistics& statistics() const override;
+  Warnings warnings() const override;
 
   /// (q, v, s, z)_rho of parameter k at the end of the last step.
   void sensitivity(int k, State<double>* direction) const;

@@ -30,6 +30,8 @@ class Integrator {
   virtual Equations<double>& equations() = 0;
   virtual Assembly& assembly() = 0;
   virtual const Statistics& statistics() const = 0;
+  /// What the run since start() gives reason to doubt.
+  virtual Warnings warnings() const = 0;
 };
 
 /// The integrator that the study asks for.

@@ -9,6 +9,7 @@
 #include "mechanism_codesign/integration/integrator.h"
 #include "mechanism_codesign/integration/motion_watch.h"
 #include "mechanism_codesign/integration/rosenbrock_step.h"
+#include "mechanism_codesign/integration/run_watch.h"
 #include "mechanism_codesign/integration/step_controller.h"
 
 namespace codesign {
@@ -26,6 +27,7 @@ class RosenbrockIntegrator final : public Integrator {
   Equations<double>& equations() override { return step_.equations(); }
   Assembly& assembly() override { return assembly_; }
   const Statistics& statistics() const override { return statistics_; }
+  Warnings warnings() const override { return run_watch_.warnings(statistics_); }
 
   /// Called when a step's error has been accepted, before it is taken: the tangent of its stages is due.
   using BeforeAccept = std::function<double(const RosenbrockStep<double>&)>;
@@ -47,6 +49,8 @@ class RosenbrockIntegrator final : public Integrator {
   State<double> initial_;
   StepController controller_;
   MotionWatch watch_;
+  RunWatch run_watch_;
+  StepWork work_;
   double proposal_ = 0.0;
   Statistics statistics_;
 };

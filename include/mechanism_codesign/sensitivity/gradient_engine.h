@@ -27,6 +27,8 @@ class GradientEngine {
   /// d psi / d rho at the same point, in the order of Study::tuned.
   virtual void gradient(Eigen::VectorXd* gradient) = 0;
   virtual const Statistics& statistics() const = 0;
+  /// What the run gives reason to doubt.
+  virtual Warnings warnings() const = 0;
 };
 
 /// Whether the study's gradient is made backwards: where it asks for the adjoint, or leaves the choice and the adjoint is expected to be

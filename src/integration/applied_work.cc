@@ -1,0 +1,78 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/integration/applied_work.h"
+
+namespace codesign {
+namespace {
+
+using Vector3d = Eigen::Vector3d;
+
+/// 2 G(p) r: the angular velocity for r = p', the angular acceleration for r = p''; both in body axes.
+Vector3d spin(const double* p, const double* r) {
+  return {2.0 * (-p[1] * r[0] + p[0] * r[1] + p[3] * r[2] - p[2] * r[3]), 2.0 * (-p[2] * r[0] - p[3] * r[1] + p[0] * r[2] + p[1] * r[3]),
+          2.0 * (-p[3] * r[0] + p[2] * r[1] - p[1] * r[2] + p[0] * r[3])};
+}
+
+Vector3d vector(const double* x) { return {x[0], x[1], x[2]}; }
+
+}  // namespace
+
+BodyMotion::BodyMotion(const System& system)
+    : gravity_(system.study().gravity.data()), bodies_(static_cast<std::size_t>(system.layout().bodies)) {}
+
+void BodyMotion::set_design(const Constants<double>& constants) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b] = {constants.bodies[b].mass, constants.bodies[b].J};
+}
+
+BodyEnergy BodyMotion::energy(const VectorX<double>& q, const VectorX<double>& v) const {
+  BodyEnergy energy;
+  const double *r = q.data(), *rate = v.data();
+  for (const Body& body : bodies_) {
+    const Vector3d omega = spin(r + 3, rate + 3);
+    energy.kinetic += 0.5 * (body.mass * vector(rate).squaredNorm() + omega.dot(body.J * omega));
+    energy.potential -= body.mass * gravity_.dot(vector(r));
+    r += kBodySize;
+    rate += kBodySize;
+  }
+  return energy;
+}
+
+// The term of M a's partner 8 G'^T J G p' has no power: G' p' = 0.
+double BodyMotion::power(const VectorX<double>& q, const VectorX<double>& v, const double* a) const {
+  double power = 0.0;
+  const double *r = q.data(), *rate = v.data();
+  for (const Body& body : bodies_) {
+    power += body.mass * vector(rate).dot(vector(a) - gravity_) + spin(r + 3, rate + 3).dot(body.J * spin(r + 3, a + 3));
+    r += kBodySize;
+    rate += kBodySize;
+    a += kBodySize;
+  }
+  return power;
+}
+
+// y(1/2) = (y_0 + y_1)/2 + (d_0 + d_1/2 + d_2/4)/4, all of it sums of the same u.
+StepWork::StepWork(const System& system, const RosenbrockTableau& tableau) {
+  for (std::size_t j = 0; j < static_cast<std::size_t>(tableau.stages); ++j) {
+    double dense = 0.0;
+    for (int k = tableau.dense_terms - 1; k >= 0; --k) dense = 0.5 * dense + tableau.dense[static_cast<std::size_t>(k)][j];
+    middle_[j] = 0.5 * tableau.weights[j] + 0.25 * dense;
+  }
+  for (VectorX<double>* part : {&q_, &v_, &a_}) part->setZero(system.layout().n);
+}
+
+void StepWork::start(const State<double>& state, const BodyMotion& motion) { power_ = motion.power(state.q, state.v, state.z.data()); }
+
+double StepWork::over(const RosenbrockStep<double>& step, const BodyMotion& motion) {
+  const IncrementLayout& at = step.increment_layout();
+  const State<double>&from = step.previous(), &to = step.state();
+  const auto middle = [&](const VectorX<double>& y, int first, VectorX<double>* part) {
+    combine(y.data(), middle_.data(), step.increments(), step.stages().size(), first, at.n, part->data());
+  };
+  middle(from.q, at.x(), &q_);
+  middle(from.v, at.v(), &v_);
+  middle(from.z, at.z(), &a_);
+  const double begun = power_;
+  power_ = motion.power(to.q, to.v, to.z.data());
+  return step.step_size() / 6.0 * (begun + 4.0 * motion.power(q_, v_, a_.data()) + power_);
+}
+
+}  // namespace codesign

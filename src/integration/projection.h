@@ -1,0 +1,29 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SRC_INTEGRATION_PROJECTION_H_
+#define MECHANISM_CODESIGN_SRC_INTEGRATION_PROJECTION_H_
+
+#include "mechanism_codesign/dynamics/equations.h"
+#include "mechanism_codesign/dynamics/iteration_matrix.h"
+
+namespace codesign {
+
+/// Takes a state's drift off the constraints away; doc/theory.md (17), in two rounds, since the drift may be more than that of one step.
+class Projection {
+ public:
+  explicit Projection(const System& system);
+
+  /// Changes q and v so that Phi = 0 and Phi_q v = 0. False if the augmented matrix is singular.
+  bool apply(Equations<double>* equations, State<double>* state);
+
+ private:
+  void correct(const VectorX<double>& error, VectorX<double>* target);
+
+  const Layout& layout_;
+  IterationMatrix matrix_;
+  Linearization<double> derivatives_;
+  VectorX<double> Phi_, Phi_rate_, correction_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SRC_INTEGRATION_PROJECTION_H_

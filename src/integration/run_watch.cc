@@ -1,0 +1,128 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/integration/run_watch.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "mechanism_codesign/math/decimal.h"
+
+namespace codesign {
+namespace {
+
+// A run from rest begins with energies near zero, where low-order steps may be wrong by as much as there is.
+constexpr int kPatience = 20;
+
+// What sums of this size lose to rounding, with room to spare.
+constexpr double kRounding = 1e-9;
+
+/// Three digits for a sentence.
+std::string rounded(double value) {
+  std::array<char, 32> text;
+  const auto result = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3);
+  return std::string(text.data(), result.ptr);
+}
+
+std::string advice(const SolverOptions& options) {
+  const std::string other = options.integrator == "idas" ? "rosenbrock" : "idas";
+  return "Lower solver.relative_tolerance (" + to_decimal(options.relative_tolerance) + "), or compare with solver.integrator: " + other;
+}
+
+std::string drift_sentence(double drift, double time) {
+  return "the step that ends at t = " + rounded(time) + " s leaves the constraints by " + rounded(drift) + " times the error tolerance";
+}
+
+std::string energy_sentence(double error, double time) {
+  return "kinetic and potential energy and the work done by all other forces are out of balance by " + rounded(error) +
+         " of the largest energy in the run, at t = " + rounded(time) + " s";
+}
+
+}  // namespace
+
+RunLimit drift_limit(double relative_tolerance) {
+  const double limit = 10.0 / std::sqrt(relative_tolerance);
+  return {limit, 3.0 * limit};
+}
+
+RunLimit energy_limit(double relative_tolerance) {
+  return {std::max(std::clamp(1e3 * relative_tolerance, 1e-5, 1e-2), 10.0 * relative_tolerance),
+          std::max(std::clamp(1e4 * relative_tolerance, 1e-3, 2e-2), 50.0 * relative_tolerance)};
+}
+
+RunWatch::RunWatch(const System& system)
+    : system_(system),
+      options_(system.study().solver),
+      drift_limit_(drift_limit(options_.relative_tolerance)),
+      energy_limit_(energy_limit(options_.relative_tolerance)),
+      motion_(system) {}
+
+// Energies that the tolerances or the rounding of large sums do not resolve are nothing to measure errors by.
+double RunWatch::smallest_scale(const Constants<double>& constants, const State<double>& initial) const {
+  const double g = Eigen::Vector3d(system_.study().gravity.data()).norm(), atol = options_.absolute_tolerance;
+  double scale = 0.0;
+  for (std::size_t b = 0; b < constants.bodies.size(); ++b) {
+    const double distance = initial.q.segment<3>(kBodySize * static_cast<Eigen::Index>(b)).norm();
+    scale += constants.bodies[b].mass * (g * (atol + kRounding * distance) + atol * atol);
+  }
+  return scale;
+}
+
+void RunWatch::start(const Constants<double>& constants, const State<double>& initial) {
+  motion_.set_design(constants);
+  const BodyEnergy energy = motion_.energy(initial.q, initial.v);
+  start_potential_ = energy.potential;
+  start_energy_ = energy.total();
+  work_ = turnover_ = worst_error_ = 0.0;
+  worst_drift_time_ = worst_error_time_ = initial.t;
+  unbalanced_steps_ = 0;
+  scale_ = std::max(energy.kinetic, smallest_scale(constants, initial));
+}
+
+double RunWatch::drift(const State<double>& state, const VectorX<double>& position_correction,
+                       const VectorX<double>& velocity_correction) const {
+  double drift = 0.0;
+  const auto add = [&](const VectorX<double>& correction, const VectorX<double>& y) {
+    for (Eigen::Index k = 0; k < y.size(); ++k) {
+      const double size = std::abs(correction[k]), scale = options_.absolute_tolerance + options_.relative_tolerance * std::abs(y[k]);
+      if (size > drift * scale) drift = size / scale;  // rarely divided
+    }
+  };
+  add(position_correction, state.q);
+  add(velocity_correction, state.v);
+  return drift;
+}
+
+Status RunWatch::check(const State<double>& state, double drift, double work, Statistics* statistics) {
+  if (drift > statistics->constraint_drift) {
+    statistics->constraint_drift = drift;
+    worst_drift_time_ = state.t;
+  }
+  const BodyEnergy energy = motion_.energy(state.q, state.v);
+  work_ += work;
+  turnover_ += std::abs(work);
+  scale_ = std::max(scale_, energy.kinetic + std::abs(energy.potential - start_potential_) + turnover_);
+  const double error = std::abs(energy.total() - start_energy_ - work_);
+  if (error > worst_error_) {
+    worst_error_ = error;
+    worst_error_time_ = state.t;
+  }
+  statistics->energy_error = scale_ > 0.0 ? worst_error_ / scale_ : 0.0;
+  if (drift > drift_limit_.failure)
+    return {StatusCode::kConstraintDrift, state.t, drift_sentence(drift, state.t) + ". " + advice(options_)};
+  unbalanced_steps_ = error > energy_limit_.failure * scale_ ? unbalanced_steps_ + 1 : 0;
+  if (unbalanced_steps_ > kPatience || (unbalanced_steps_ > 0 && state.t >= system_.study().duration))
+    return {StatusCode::kEnergyError, state.t, energy_sentence(error / scale_, state.t) + ". " + advice(options_)};
+  return {};
+}
+
+Warnings RunWatch::warnings(const Statistics& statistics) const {
+  Warnings warnings;
+  if (statistics.constraint_drift > drift_limit_.warning)
+    warnings.push_back({"constraint_drift", drift_sentence(statistics.constraint_drift, worst_drift_time_) + ". " + advice(options_), {}});
+  if (statistics.energy_error > energy_limit_.warning)
+    warnings.push_back({"energy_error", energy_sentence(statistics.energy_error, worst_error_time_) + ". " + advice(options_), {}});
+  return warnings;
+}
+
+}  // namespace codesign

@@ -1,0 +1,70 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/integration/applied_work.h"
+
+#include <gtest/gtest.h>
+
+#include "integration/energy_balance.h"
+#include "integration/servo.h"
+
+namespace codesign {
+namespace {
+
+std::shared_ptr<const System> swinging(const std::string& urdf, const std::string& initial, const std::string& signal,
+                                       const std::string& solver) {
+  return compile(urdf, motion_study(1.0, initial, signal, solver));
+}
+
+TEST(BodyMotion, EnergyIsThatOfTheState) {
+  const auto system =
+      swinging(double_pendulum(), "{shoulder: {position: 0.7, velocity: 2.0}, elbow: {velocity: -1.0}}", "elbow/velocity", kTight);
+  RosenbrockIntegrator integrator(*system);
+  ASSERT_TRUE(integrator.start({}).ok());
+  BodyMotion motion(*system);
+  motion.set_design(integrator.equations().constants());
+  const BodyEnergy energy = motion.energy(integrator.state().q, integrator.state().v);
+  const Energy expected = mechanical_energy(*system, integrator.equations().constants(), integrator.state());
+  EXPECT_NEAR(energy.kinetic, expected.kinetic, 1e-13);
+  EXPECT_NEAR(energy.potential, expected.potential, 1e-13);
+}
+
+// Without springs and friction nothing but gravity has power; a damper of 0.5 N m s at 3 rad/s takes 4.5 W.
+TEST(BodyMotion, PowerIsThatOfEverythingButGravity) {
+  for (double damping : {0.0, 0.5}) {
+    const auto system = swinging(pendulum("<dynamics damping='" + std::to_string(damping) + "'/>"),
+                                 "{hinge: {position: 0.7, velocity: 3.0}}", "hinge/velocity", kTight);
+    RosenbrockIntegrator integrator(*system);
+    ASSERT_TRUE(integrator.start({}).ok());
+    BodyMotion motion(*system);
+    motion.set_design(integrator.equations().constants());
+    const State<double>& state = integrator.state();
+    EXPECT_NEAR(motion.power(state.q, state.v, state.z.data()), -damping * 9.0, 1e-11);
+  }
+}
+
+// What a friction law says that it took, by Gauss quadrature of its own power.
+TEST(StepWork, OfFrictionIsWhatTheLawTakes) {
+  for (const char* method : {"rodas4", "rodas4p2", "rodas5p"}) {
+    const std::string solver =
+        std::string("{integrator: rosenbrock, method: ") + method + ", relative_tolerance: 1.0e-8, absolute_tolerance: 1.0e-9}";
+    const std::string urdf = double_pendulum(pin_friction()),
+                      study = motion_study(1.0, "{shoulder: {position: 1.5}}", "elbow/velocity", solver);
+    const Balance expected = balance(urdf, study);
+    const auto system = compile(urdf, study);
+    RosenbrockIntegrator integrator(*system);
+    ASSERT_TRUE(integrator.start({}).ok());
+    BodyMotion motion(*system);
+    motion.set_design(integrator.equations().constants());
+    StepWork steps(*system, integrator.step().tableau());
+    steps.start(integrator.state(), motion);
+    double work = 0.0;
+    while (integrator.state().t < 1.0) {
+      ASSERT_TRUE(integrator.advance(1.0).ok());
+      work += steps.over(integrator.step(), motion);
+    }
+    EXPECT_GT(expected.friction_work, 0.1);
+    EXPECT_NEAR(-work, expected.friction_work, 1e-5 * expected.friction_work) << method;
+  }
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,167 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/integration/run_watch.h"
+
+#include <gtest/gtest.h>
+
+#include "integration/linkages.h"
+#include "integration/servo.h"
+#include "mechanism_codesign/dynamics/system.h"
+#include "mechanism_codesign/integration/rosenbrock_integrator.h"
+
+namespace codesign {
+namespace {
+
+std::string solver(const std::string& integrator, double tolerance) {
+  const std::string relative = std::to_string(tolerance * 1e10) + "e-10", absolute = std::to_string(tolerance * 1e10) + "e-11";
+  return "{integrator: " + integrator + ", relative_tolerance: " + relative + ", absolute_tolerance: " + absolute + "}";
+}
+
+/// A pendulum at its start, and a watch over it.
+class WatchedPendulum : public ::testing::Test {
+ protected:
+  WatchedPendulum()
+      : system_(compile(pendulum(),
+                        motion_study(1.0, "{hinge: {position: 1.0, velocity: 2.0}}", "hinge/velocity", solver("rosenbrock", 1e-6)))),
+        integrator_(*system_),
+        watch_(*system_) {
+    EXPECT_TRUE(integrator_.start({}).ok());
+    watch_.start(integrator_.equations().constants(), integrator_.state());
+    state_ = integrator_.state();
+  }
+
+  std::shared_ptr<const System> system_;
+  RosenbrockIntegrator integrator_;
+  RunWatch watch_;
+  State<double> state_;
+  Statistics statistics_;
+};
+
+TEST(RunLimits, WarnBeforeTheyFailAndNeverForbidWhatATolleranceAllows) {
+  for (double tolerance = 1e-12; tolerance < 0.02; tolerance *= 10.0) {
+    EXPECT_LT(drift_limit(tolerance).warning, drift_limit(tolerance).failure);
+    EXPECT_LT(energy_limit(tolerance).warning, energy_limit(tolerance).failure);
+    EXPECT_GE(energy_limit(tolerance).warning, 10.0 * tolerance);
+  }
+  EXPECT_DOUBLE_EQ(energy_limit(1e-6).warning, 1e-3);
+  EXPECT_DOUBLE_EQ(energy_limit(1e-6).failure, 1e-2);
+  EXPECT_DOUBLE_EQ(drift_limit(1e-6).warning, 1e4);
+}
+
+TEST_F(WatchedPendulum, DriftIsTheLargestCorrectionInUnitsOfItsTolerance) {
+  VectorX<double> positions = VectorX<double>::Zero(7), velocities = positions;
+  EXPECT_EQ(watch_.drift(state_, positions, velocities), 0.0);
+  positions[1] = 3e-7;  // y stays zero: the absolute tolerance, 1e-7
+  EXPECT_NEAR(watch_.drift(state_, positions, velocities), 3.0, 1e-9);
+  velocities[0] = -1e-4;
+  EXPECT_NEAR(watch_.drift(state_, positions, velocities), 1e-4 / (1e-7 + 1e-6 * std::abs(state_.v[0])), 1e-6);
+}
+
+TEST_F(WatchedPendulum, DriftWarnsAndThenFails) {
+  EXPECT_TRUE(watch_.check(state_, 5.0, 0.0, &statistics_).ok());
+  EXPECT_TRUE(watch_.warnings(statistics_).empty());
+  state_.t = 0.25;
+  EXPECT_TRUE(watch_.check(state_, 2e4, 0.0, &statistics_).ok());
+  EXPECT_EQ(statistics_.constraint_drift, 2e4);
+  ASSERT_EQ(watch_.warnings(statistics_).size(), 1u);
+  EXPECT_EQ(watch_.warnings(statistics_)[0].code, "constraint_drift");
+  EXPECT_NE(watch_.warnings(statistics_)[0].message.find("t = 0.25 s"), std::string::npos);
+  const Status status = watch_.check(state_, 2e5, 0.0, &statistics_);
+  EXPECT_EQ(status.code, StatusCode::kConstraintDrift);
+  EXPECT_EQ(status.time, 0.25);
+}
+
+TEST_F(WatchedPendulum, WorkDoneBalancesTheEnergy) {
+  const double kinetic = watch_.motion().energy(state_.q, state_.v).kinetic;
+  state_.v *= std::sqrt(2.0);
+  EXPECT_TRUE(watch_.check(state_, 0.0, kinetic, &statistics_).ok());
+  EXPECT_NEAR(statistics_.energy_error, 0.0, 1e-15);
+}
+
+TEST_F(WatchedPendulum, EnergyFromNowhereWarnsAndFailsIfItStays) {
+  state_.v *= std::sqrt(1.004);
+  for (int k = 0; k < 100; ++k) EXPECT_TRUE(watch_.check(state_, 0.0, 0.0, &statistics_).ok());
+  EXPECT_NEAR(statistics_.energy_error, 0.004, 1e-4);
+  ASSERT_EQ(watch_.warnings(statistics_).size(), 1u);
+  EXPECT_EQ(watch_.warnings(statistics_)[0].code, "energy_error");
+  state_.v *= std::sqrt(1.5);
+  Status status;
+  int steps = 0;
+  for (; status.ok() && steps < 100; ++steps) status = watch_.check(state_, 0.0, 0.0, &statistics_);
+  EXPECT_EQ(status.code, StatusCode::kEnergyError) << status.cause;
+  EXPECT_GT(steps, 1) << "the first steps from rest may be wrong by all there is";
+}
+
+TEST_F(WatchedPendulum, EnergyFromNowhereAtTheEndFailsAtOnce) {
+  state_.v *= 1.5;
+  state_.t = 1.0;
+  EXPECT_EQ(watch_.check(state_, 0.0, 0.0, &statistics_).code, StatusCode::kEnergyError);
+}
+
+// Rounding is all the motion there is.
+TEST(RunWatch, WhatHangsAtRestIsNotMeasuredByItsRounding) {
+  const auto system = compile(pendulum(), motion_study(2.0, "{hinge: {position: 0.0}}", "hinge/velocity", solver("rosenbrock", 1e-10)));
+  RosenbrockIntegrator integrator(*system);
+  ASSERT_TRUE(integrator.start({}).ok());
+  while (integrator.state().t < 2.0) ASSERT_TRUE(integrator.advance(2.0).ok());
+  EXPECT_LT(integrator.statistics().energy_error, 1e-6);
+  EXPECT_TRUE(integrator.warnings().empty());
+}
+
+double angle(const State<double>& state) { return 2.0 * std::atan2(state.q[5], state.q[3]); }
+
+/// theta of upright_row() by Runge and Kutta's fourth-order method in many small steps.
+double upright_angle(int count, double rate, double t) {
+  constexpr int kSteps = 40000;
+  double theta = 0.0;
+  const double h = t / kSteps;
+  const auto f = [count](double x) { return upright_row_acceleration(count, x); };
+  for (int k = 0; k < kSteps; ++k) {
+    const double a1 = f(theta), a2 = f(theta + 0.5 * h * rate), a3 = f(theta + 0.5 * h * rate + 0.25 * h * h * a1),
+                 a4 = f(theta + h * rate + 0.5 * h * h * a2);
+    theta += h * rate + h * h / 6.0 * (a1 + a2 + a3);
+    rate += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+  }
+  return theta;
+}
+
+// IFToMM A02: ten seconds take it past its flat position a dozen times. `idas` used to leave the branch, with half as much energy again.
+TEST(RunWatch, ADoubleParallelogramKeepsToItsBranchOrSaysThatItDoesNot) {
+  const double end = upright_angle(2, 1.0, 10.0);
+  for (const char* integrator : {"rosenbrock", "idas"}) {
+    for (double tolerance : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
+      const auto system = compile(
+          upright_row(2), motion_study(10.0, "{hinge0: {position: 0.0, velocity: 1.0}}", "hinge0/velocity", solver(integrator, tolerance)));
+      const auto run = make_integrator(*system);
+      Status status = run->start({});
+      while (status.ok() && run->state().t < 10.0) status = run->advance(10.0);
+      ASSERT_TRUE(status.ok() || tolerance > 1e-5) << integrator << " at " << tolerance << ": " << status.cause;
+      if (!status.ok()) {
+        EXPECT_TRUE(status.code == StatusCode::kEnergyError || status.code == StatusCode::kConstraintDrift) << status.cause;
+        continue;
+      }
+      EXPECT_NEAR(std::sin(0.5 * (angle(run->state()) - end)), 0.0, 3e3 * tolerance) << integrator << " at " << tolerance;
+      EXPECT_TRUE(run->warnings().empty()) << run->warnings()[0].message;
+      EXPECT_GT(run->statistics().constraint_drift, 0.0);
+      EXPECT_GT(run->statistics().energy_error, 0.0);
+    }
+  }
+}
+
+// IFToMM A04, at the tolerances at which `idas` used to stop at the first step, or never.
+TEST(RunWatch, ABricardRingIsRightByBothIntegratorsOrSaysThatItIsNot) {
+  State<double> reference;
+  for (const char* integrator : {"rosenbrock", "idas"}) {
+    for (double tolerance : {1e-9, 1e-8, 1e-7, 1e-6}) {
+      const auto system = compile(bricard(), motion_study(2.0, bricard_start(1.2, 0.7), "turn1/velocity", solver(integrator, tolerance)));
+      const auto run = make_integrator(*system);
+      Status status = run->start({});
+      while (status.ok() && run->state().t < 2.0) status = run->advance(2.0);
+      ASSERT_TRUE(status.ok()) << integrator << " at " << tolerance << ": " << status.cause;
+      if (reference.q.size() == 0) reference = run->state();
+      EXPECT_LT((run->state().q - reference.q).cwiseAbs().maxCoeff(), 1e4 * tolerance) << integrator << " at " << tolerance;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace codesign
