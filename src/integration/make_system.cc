@@ -1,4 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/determined_motion.h"
 #include "mechanism_codesign/dynamics/assembly.h"
 #include "mechanism_codesign/dynamics/redundancy.h"
 #include "mechanism_codesign/dynamics/system.h"
@@ -32,9 +33,10 @@ bool has_redundant_constraints(const System& system) {
   Assembly assembly(system);
   State<double> state;
   const Status status = assembly.solve(system.parameters(), &equations, &state);
-  if (status.code != StatusCode::kAssemblyFailed && status.code != StatusCode::kInitialVelocityFailed)
-    return !analyse_redundancy(system, equations, constraint_jacobian(system, &equations, state)).rows.empty();
-  refuse_start(system, assembly, status);
+  if (status.code == StatusCode::kAssemblyFailed || status.code == StatusCode::kInitialVelocityFailed)
+    refuse_start(system, assembly, status);
+  require_determined_motion(system, system.parameters(), assembly, &equations);
+  return !analyse_redundancy(system, equations, constraint_jacobian(system, &equations, state)).rows.empty();
 }
 
 /// A billionth of what a body yields to a force: far above rounding, far below what a motion shows; theory (23).
@@ -43,6 +45,7 @@ double compliance_of(const System& system) {
   equations.set_design(system.parameters());
   double mass = 0.0;
   for (const BodyConstants<double>& body : equations.constants().bodies) mass += body.mass;
+  if (!(mass > 0.0)) mass = 1.0;  // rotors alone
   return 1e-9 * static_cast<double>(equations.constants().bodies.size()) / mass;
 }
 

@@ -1,10 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "annotated_urdf.h"
 
+#include <algorithm>
 #include <tuple>
 
 #include "annotation_rules.h"
 #include "annotation_schema.h"
+#include "body_check.h"
+#include "foreign_loops.h"
 #include "inertial_reader.h"
 #include "joint_reader.h"
 #include "overlay.h"
@@ -12,6 +15,7 @@
 #include "quantity_reader.h"
 #include "tree_check.h"
 #include "urdfdom_check.h"
+#include "vocabulary_check.h"
 
 namespace codesign {
 namespace {
@@ -61,17 +65,44 @@ SpringDamperDescription read_spring_damper(const XmlElement& element, const Read
   return spring;
 }
 
+/// In an overlay everything is meant for us: what stands beside its <robot> is lost by mistake.
+XmlDocument load_overlay(SourceText source) {
+  Warnings beside = cut_trailing_text(&source);
+  XmlDocument overlay(source);
+  check_namespace(overlay);
+  check_prefixes(overlay);
+  append(check_surroundings(overlay), &beside);
+  if (!beside.empty()) throw InputError({beside.front().where, "", "something stands after </robot>", "", "one <robot> element"});
+  return overlay;
+}
+
+/// In the order of the lines; the model's file before overlays.
+void sort_by_place(const std::string& file, Warnings* warnings) {
+  std::stable_sort(warnings->begin(), warnings->end(), [&file](const Warning& a, const Warning& b) {
+    const bool a_first = a.where.file == file, b_first = b.where.file == file;
+    if (a_first != b_first) return a_first;
+    return a.where.file == b.where.file && a.where.line < b.where.line;
+  });
+}
+
 }  // namespace
 
 XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays) {
-  XmlDocument document(urdf);
+  SourceText text = urdf;
+  const Warnings trailing = cut_trailing_text(&text);
+  XmlDocument document(text);
+  document.note(trailing);
   check_namespace(document);
-  for (const SourceText& text : overlays) {
-    const XmlDocument overlay(text);
-    check_namespace(overlay);
+  check_prefixes(document);
+  document.note(check_surroundings(document));
+  for (const SourceText& source : overlays) {
+    const XmlDocument overlay = load_overlay(source);
     merge_overlay(overlay, &document);
   }
   check_annotations(document);
+  Warnings warnings;
+  check_vocabulary(document, &warnings);
+  document.note(warnings);
   return document;
 }
 
@@ -79,23 +110,28 @@ RobotDescription read_robot(const XmlDocument& document) {
   const XmlElement element(document.robot(), &document);
   RobotDescription robot;
   robot.file = document.file();
+  robot.warnings = document.warnings();
   robot.name = element.text("name");
   robot.parameters = read_parameters(element);
-  ReadContext context{{}, ParameterTable(robot.parameters)};
+  ReadContext context{{}, ParameterTable(robot.parameters), &robot.warnings};
   for (const XmlElement& link : element.children("link")) robot.links.push_back(read_link(link, context.table));
   if (robot.links.empty()) element.fail("the robot has no links");
   for (const LinkDescription& link : robot.links) context.links.push_back(link.name);
   for (const XmlElement& joint : element.children("joint")) robot.joints.push_back(read_joint(joint, context));
   for (const XmlElement& loop : element.children("loop")) robot.joints.push_back(read_loop(loop, context));
   for (const XmlElement& coupling : element.children("coupling")) robot.couplings.push_back(read_coupling(coupling, context));
+  read_constraints(element, context, &robot);
   for (const XmlElement& spring : element.children("codesign:spring_damper"))
     robot.spring_dampers.push_back(read_spring_damper(spring, context));
   check_twins(element, "robot", context.table);
   check_names(robot);
   robot.root = find_root(robot);
-  check_mimics(robot);
+  warn_of_foreign_loops(element, robot, &robot.warnings);
+  check_mimics(&robot);
+  check_bodies(robot, &robot.warnings);
   check_friction(robot);
   check_with_urdfdom(document.file(), document.text());
+  sort_by_place(robot.file, &robot.warnings);
   return robot;
 }
 

@@ -1,41 +1,24 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mechanism_codesign/model/constants.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "body_check.h"
 #include "mechanism_codesign/model/mass_properties.h"
 #include "mechanism_codesign/model/pose.h"
 #include "pair_geometry.h"
+#include "rigid_groups.h"
 
 namespace codesign {
 namespace {
 
 std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
-/// Sums the links of a rigid group about their common centre of mass.
 template <class T>
 BodyConstants<T> body_constants(const RobotDescription& robot, const Topology& topology, const Body& body,
                                 const std::vector<T>& parameters) {
-  BodyConstants<T> result;
-  std::vector<MassProperties<T>> parts;
-  for (int link : body.links) {
-    const auto& inertial = robot.links[index(link)].inertial;
-    if (!inertial) continue;
-    const Pose<T> X = link_in_base(robot, topology.link_base, topology.link_parent_joint, link, parameters);
-    MassProperties<T> part = mass_properties<T>(*inertial, parameters);
-    part.centre = X * part.centre;
-    part.inertia = X.R * part.inertia * X.R.transpose();
-    result.mass += part.mass;
-    result.centre += part.mass * part.centre;
-    parts.push_back(part);
-  }
-  result.centre /= result.mass;
-  for (const MassProperties<T>& part : parts) {
-    const Vector3<T> offset = part.centre - result.centre;
-    result.J += part.inertia + part.mass * (dot(offset, offset) * Matrix3<T>::Identity() - offset * offset.transpose());
-  }
-  return result;
+  const MassProperties<T> m = merged_mass(robot, topology.link_base, topology.link_parent_joint, body.links, parameters);
+  return {m.mass, m.inertia, m.centre};
 }
 
 template <class T>
@@ -70,13 +53,21 @@ CouplingConstants<T> coupling_constants(const Coupling& coupling, const std::vec
   return result;
 }
 
-std::string body_fault(const Body& body, const BodyConstants<double>& constants) {
-  if (!(constants.mass > 0.0) || !std::isfinite(constants.mass))
-    return "mass of body '" + body.name + "' is " + std::to_string(constants.mass);
-  const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(constants.J, Eigen::EigenvaluesOnly).eigenvalues();
-  if (!moments.allFinite() || !(moments[0] > 0.0)) return "inertia of body '" + body.name + "' is not positive definite";
-  if (moments[2] > (moments[0] + moments[1]) * (1.0 + 1e-9)) return "inertia of body '" + body.name + "' breaks the triangle inequality";
-  return "";
+MassFault body_fault(const BodyConstants<double>& body) {
+  if (!std::isfinite(body.mass) || !body.centre.allFinite() || !body.J.allFinite())
+    return {"not_finite", "mass or inertia is not finite", ""};
+  return find_mass_fault({body.mass, body.centre, body.J});
+}
+
+/// What the file itself says is told as a warning when it is read; only what a design adds is impossible.
+std::string body_fault(const RobotDescription& robot, const Topology& topology, std::size_t k, const Constants<double>& constants) {
+  const MassFault fault = body_fault(constants.bodies[k]);
+  if (fault.code.empty()) return "";
+  std::vector<double> defaults;
+  for (const Parameter& parameter : robot.parameters) defaults.push_back(parameter.value);
+  const MassFault known = body_fault(body_constants(robot, topology, topology.bodies[k], defaults));
+  if (known.code == fault.code) return "";
+  return "body '" + topology.bodies[k].name + "': " + fault.message + (fault.value.empty() ? "" : " (" + fault.value + ")");
 }
 
 std::string friction_fault(const Pair& pair, const FrictionConstants<double>& f) {
@@ -118,7 +109,7 @@ Constants<T> evaluate_constants(const RobotDescription& robot, const Topology& t
 
 std::string find_impossible(const RobotDescription& robot, const Topology& topology, const Constants<double>& constants) {
   for (std::size_t k = 0; k < topology.bodies.size(); ++k)
-    if (std::string fault = body_fault(topology.bodies[k], constants.bodies[k]); !fault.empty()) return fault;
+    if (std::string fault = body_fault(robot, topology, k, constants); !fault.empty()) return fault;
   for (std::size_t k = 0; k < topology.pairs.size(); ++k) {
     const PairConstants<double>& pair = constants.pairs[k];
     if (std::string fault = limit_fault(robot, topology.pairs[k], pair); !fault.empty()) return fault;

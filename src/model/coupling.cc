@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "joints_between.h"
 #include "mechanism_codesign/model/topology.h"
 
 namespace codesign {
@@ -36,17 +37,12 @@ Coupling mimic_coupling(const RobotDescription& robot, const Topology& topology,
   coupling.where = joint.mimic->where;
   coupling.offset = joint.mimic->offset;
   coupling.terms.push_back(term_of(robot, topology, follower, coupling));
-  coupling.terms.push_back(term_of(robot, topology, joint_named(robot, joint.mimic->joint), coupling));
+  const int leader = joint_named(robot, joint.mimic->joint);
+  if (robot.joints[index(leader)].type == JointType::kFixed) return coupling;  // it stands at zero
+  coupling.terms.push_back(term_of(robot, topology, leader, coupling));
   coupling.terms.back().sign = -1.0;
   coupling.terms.back().factor = joint.mimic->multiplier;
   return coupling;
-}
-
-/// Links from one up to the root, itself first.
-std::vector<int> way_up(const RobotDescription& robot, const Topology& topology, int link) {
-  std::vector<int> links = {link};
-  for (int joint; (joint = topology.link_parent_joint[index(links.back())]) >= 0;) links.push_back(robot.joints[index(joint)].parent);
-  return links;
 }
 
 bool has_one_coordinate(JointType type) {
@@ -73,8 +69,8 @@ Coupling plus_coupling(const RobotDescription& robot, const Topology& topology, 
   Coupling coupling;
   coupling.name = description.name;
   coupling.where = description.where;
-  const std::vector<int> above = way_up(robot, topology, description.predecessor);
-  const std::vector<int> below = way_up(robot, topology, description.successor);
+  const std::vector<int> above = links_above(robot, topology.link_parent_joint, description.predecessor);
+  const std::vector<int> below = links_above(robot, topology.link_parent_joint, description.successor);
   const int ancestor = *std::find_first_of(below.begin(), below.end(), above.begin(), above.end());
   const std::vector<int> driven = moving_joints(robot, topology, description.successor, ancestor, coupling);
   if (driven.empty())

@@ -1,10 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "fold_chain.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "joints_between.h"
 #include "mechanism_codesign/model/chain_geometry.h"
+#include "pair_geometry.h"
 
 namespace codesign {
 namespace {
@@ -95,31 +98,66 @@ std::optional<PairKind> kind_of_single(JointType type) {
        "revolute normal to them; or give the links an <inertial>"});
 }
 
+bool is_turn(JointType type) { return type == JointType::kRevolute || type == JointType::kContinuous; }
+
+std::vector<double> defaults_of(const RobotDescription& robot) {
+  std::vector<double> defaults;
+  for (const Parameter& parameter : robot.parameters) defaults.push_back(parameter.value);
+  return defaults;
+}
+
+std::optional<PairKind> kind_of_chain(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain) {
+  const ChainGeometry<double> geometry = chain_geometry(robot, topology, chain, defaults_of(robot));
+  Axes axes;
+  for (std::size_t k = 0; k < chain.size(); ++k) {
+    const JointType type = robot.joints[static_cast<std::size_t>(chain[k].joint)].type;
+    if (is_turn(type)) {
+      axes.turn.push_back(geometry.axes[k]);
+      axes.turn_point.push_back(geometry.frames[k].t);
+    } else if (type == JointType::kPrismatic) {
+      axes.slide.push_back(geometry.axes[k]);
+    } else {
+      return std::nullopt;
+    }
+  }
+  return fold_axes(axes);
+}
+
+bool zero(const Quantity& q) { return q.is_constant() && q.nominal() == 0.0; }
+
+bool needs_coordinate(const RobotDescription& robot, const Topology& topology, int k) {
+  const JointDescription& joint = robot.joints[static_cast<std::size_t>(k)];
+  if (!zero(joint.damping) || !zero(joint.dry_friction) || joint.spring || joint.actuator || joint.mimic) return true;
+  for (const JointDescription& other : robot.joints)
+    if (other.mimic && other.mimic->joint == joint.name) return true;
+  for (const CouplingDescription& coupling : robot.couplings) {
+    const std::vector<int> coupled = joints_between(robot, topology.link_parent_joint, coupling.predecessor, coupling.successor);
+    if (std::find(coupled.begin(), coupled.end(), k) != coupled.end()) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 PairKind fold_chain(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain) {
-  if (chain.size() == 1) return kind_of_single(robot.joints[static_cast<std::size_t>(chain[0].joint)].type).value();
-  std::vector<double> defaults;
-  for (const Parameter& parameter : robot.parameters) defaults.push_back(parameter.value);
-  const ChainGeometry<double> geometry = chain_geometry(robot, topology, chain, defaults);
-  Axes axes;
-  for (std::size_t k = 0; k < chain.size(); ++k) {
-    switch (robot.joints[static_cast<std::size_t>(chain[k].joint)].type) {
-      case JointType::kRevolute:
-      case JointType::kContinuous:
-        axes.turn.push_back(geometry.axes[k]);
-        axes.turn_point.push_back(geometry.frames[k].t);
-        break;
-      case JointType::kPrismatic:
-        axes.slide.push_back(geometry.axes[k]);
-        break;
-      default:
-        refuse(robot, chain);
-    }
-  }
-  const auto kind = fold_axes(axes);
+  const auto kind = chain.size() == 1 ? kind_of_single(robot.joints[static_cast<std::size_t>(chain[0].joint)].type)
+                                      : kind_of_chain(robot, topology, chain);
   if (!kind) refuse(robot, chain);
   return *kind;
+}
+
+bool folds(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain) {
+  const std::optional<PairKind> kind = kind_of_chain(robot, topology, chain);
+  if (!kind) return false;
+  Pair pair;
+  pair.kind = *kind;
+  pair.chain = chain;
+  const Vector none = Vector::Zero();
+  const PairConstants<double> constants = pair_constants(robot, topology, pair, none, none, defaults_of(robot));
+  for (std::size_t k = 0; k < chain.size(); ++k)
+    if (constants.coordinates[k].kind == CoordinateConstants<double>::Kind::kNone && needs_coordinate(robot, topology, chain[k].joint))
+      return false;
+  return true;
 }
 
 }  // namespace codesign

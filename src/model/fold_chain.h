@@ -12,6 +12,10 @@ namespace codesign {
 /// @throws InputError if there is none in the family of PairKind.
 PairKind fold_chain(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain);
 
+/// Whether a chain of several joints amounts to one joint at the default parameters, in which every joint that carries a load of its own
+/// (damping, a spring, a rotor, a coupling) still has a coordinate in closed form.
+bool folds(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain);
+
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_SRC_MODEL_FOLD_CHAIN_H_

@@ -1,7 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "inertial_check.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "mechanism_codesign/math/decimal.h"
@@ -21,20 +20,6 @@ std::string as_xml(const MassProperties<double>& m) {
 }
 
 }  // namespace
-
-void check_physical(const XmlElement& element, const InertialDescription& inertial, const ParameterTable& table) {
-  const MassProperties<double> properties = mass_properties(inertial, table.values);
-  const std::string mass = to_decimal(properties.mass);
-  if (properties.mass <= 0.0) element.fail("the mass is not positive though the inertia is given", mass, "> 0");
-  const Eigen::SelfAdjointEigenSolver<Matrix3<double>> solver(properties.inertia, Eigen::EigenvaluesOnly);
-  const Vector3<double>& moments = solver.eigenvalues();
-  const std::string text = "principal moments " + format_numbers({moments[0], moments[1], moments[2]});
-  constexpr double kRounding = 1e-14, kTriangle = 1e-9;
-  if (!(moments[0] > kRounding * std::abs(moments[2]))) element.fail("the inertia is not positive definite", text, "all > 0");
-  if (moments[2] > (moments[0] + moments[1]) * (1.0 + kTriangle))
-    element.fail("the inertia breaks the triangle inequality", text,
-                 "largest <= sum of the other two, " + to_decimal(moments[0] + moments[1]));
-}
 
 void check_agreement(const XmlElement& element, const InertialDescription& written, const InertialDescription& from_shapes,
                      const ParameterTable& table) {

@@ -9,9 +9,6 @@
 
 namespace codesign {
 
-/// Mass > 0, inertia positive definite, no principal moment above the sum of the others (relative 1e-9), at the default parameters.
-void check_physical(const XmlElement& element, const InertialDescription& inertial, const ParameterTable& table);
-
 /// The values written must be those of the shapes, to relative 1e-6.
 void check_agreement(const XmlElement& element, const InertialDescription& written, const InertialDescription& from_shapes,
                      const ParameterTable& table);

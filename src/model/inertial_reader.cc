@@ -16,7 +16,8 @@ InertialDescription read_numbers(const XmlElement& inertial, const ParameterTabl
   InertialDescription result;
   result.where = inertial.where();
   result.origin = read_origin(inertial, table);
-  result.mass = read_quantity(inertial.only("mass"), "value", Range::kNonNegative, table);
+  const XmlElement mass = inertial.only("mass");
+  result.mass = read_quantity(mass, "value", mass.in_overlay("value") ? Range::kNonNegative : Range::kAny, table);
   const XmlElement inertia = inertial.only("inertia");
   for (std::size_t k = 0; k < kInertia.size(); ++k) result.inertia[k] = read_quantity(inertia, kInertia[k], Range::kAny, table);
   return result;
@@ -47,14 +48,12 @@ std::optional<InertialDescription> read_inertial(const XmlElement& link, const P
     if (inertial->has("codesign:from")) inertial->fail_at("codesign:from", "shapes without codesign:density have no mass");
     InertialDescription result = read_numbers(*inertial, table);
     if (is_massless(result)) return std::nullopt;
-    check_physical(*inertial, result, table);
     return result;
   }
   InertialDescription result = read_from_shapes(link, *inertial, table);
   if (!inertial->child("mass") || !inertial->child("inertia"))
     fail_with_computed(*inertial, result, table, "readers of plain URDF need the values");
   check_agreement(*inertial, read_numbers(*inertial, table), result, table);
-  check_physical(*inertial, result, table);
   return result;
 }
 

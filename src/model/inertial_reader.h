@@ -10,7 +10,8 @@
 namespace codesign {
 
 /// A link's `<inertial>`; nothing if there is none, or if mass and inertia are all zero, as some exporters write massless links.
-/// @throws InputError for numbers no body can have, or plain values that disagree with the shapes.
+/// Numbers are judged later, when it is known which links make a body (check_bodies()).
+/// @throws InputError for plain values that disagree with the shapes.
 std::optional<InertialDescription> read_inertial(const XmlElement& link, const ParameterTable& table);
 
 }  // namespace codesign

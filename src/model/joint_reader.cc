@@ -28,15 +28,45 @@ bool has_one_coordinate(JointType type) {
   return type == JointType::kRevolute || type == JointType::kContinuous || type == JointType::kPrismatic;
 }
 
-LimitDescription read_limit(const XmlElement& element, const ParameterTable& table) {
+/// A figure that must not be negative: an overlay's is refused, a vendor's is taken as zero, which URDF's exporters write for "not known".
+Quantity read_magnitude(const XmlElement& element, const std::string& attribute, const ReadContext& context) {
+  const Quantity value =
+      read_quantity(element, attribute, element.in_overlay(attribute) ? Range::kNonNegative : Range::kAny, context.table);
+  if (value.nominal() >= 0.0) return value;
+  context.warnings->push_back(
+      element.warning_at("negative_value", attribute, attribute + " is negative and is taken as zero", "write 0 or a positive number"));
+  return 0.0;
+}
+
+Quantity read_magnitude_or_zero(const XmlElement& element, const std::string& attribute, const ReadContext& context) {
+  return element.has(attribute) ? read_magnitude(element, attribute, context) : Quantity(0.0);
+}
+
+void check_bounds(const XmlElement& element, JointType type, const ReadContext& context, LimitDescription* limit) {
+  if (!limit->bounds_position()) return;
+  if (type == JointType::kContinuous) {
+    context.warnings->push_back(element.warning("limit_ignored", "lower and upper are ignored, since a continuous joint turns without end",
+                                                element.find("lower").value_or("0") + " ... " + element.find("upper").value_or("0"),
+                                                "leave them out, or write type=\"revolute\""));
+    return;
+  }
+  if (limit->lower.nominal() <= limit->upper.nominal()) return;
+  const std::string attribute = element.has("lower") ? "lower" : "upper";
+  const std::string message = "the lower limit is above the upper limit";
+  if (element.in_overlay(attribute)) element.fail_at(attribute, message, "lower <= upper=" + to_decimal(limit->upper.nominal()));
+  context.warnings->push_back(element.warning_at("limits_reversed", attribute,
+                                                 message + " (" + to_decimal(limit->upper.nominal()) + "): the joint has no stops",
+                                                 "exchange the two, or leave them out"));
+  limit->lower = limit->upper = 0.0;
+}
+
+LimitDescription read_limit(const XmlElement& element, JointType type, const ReadContext& context) {
   LimitDescription limit;
-  limit.lower = read_quantity_or(0.0, element, "lower", Range::kAny, table);
-  limit.upper = read_quantity_or(0.0, element, "upper", Range::kAny, table);
-  limit.effort = read_quantity(element, "effort", Range::kNonNegative, table);
-  limit.velocity = read_quantity(element, "velocity", Range::kNonNegative, table);
-  if (limit.lower.nominal() > limit.upper.nominal())
-    element.fail_at(element.has("lower") ? "lower" : "upper", "the lower limit is above the upper limit",
-                    "lower <= upper=" + to_decimal(limit.upper.nominal()));
+  limit.lower = read_quantity_or(0.0, element, "lower", Range::kAny, context.table);
+  limit.upper = read_quantity_or(0.0, element, "upper", Range::kAny, context.table);
+  limit.effort = read_magnitude(element, "effort", context);
+  limit.velocity = read_magnitude(element, "velocity", context);
+  check_bounds(element, type, context, &limit);
   return limit;
 }
 
@@ -49,28 +79,47 @@ MimicDescription read_mimic(const XmlElement& element, const ParameterTable& tab
   return mimic;
 }
 
-void read_limit_and_mimic(const XmlElement& element, const ParameterTable& table, JointDescription* joint) {
-  const std::optional<XmlElement> limit = element.child("limit"), mimic = element.child("mimic");
+void read_limit_of_joint(const XmlElement& element, const ReadContext& context, JointDescription* joint) {
+  const std::optional<XmlElement> limit = element.child("limit");
   const bool bounded = joint->type == JointType::kRevolute || joint->type == JointType::kPrismatic;
   if (bounded && !limit) element.fail("a joint of this type needs a <limit>", element.text("type"));
-  if (limit) joint->limit = read_limit(*limit, table);
+  if (limit && has_one_coordinate(joint->type)) joint->limit = read_limit(*limit, joint->type, context);
+}
+
+void read_mimic_of_joint(const XmlElement& element, const ReadContext& context, JointDescription* joint) {
+  const std::optional<XmlElement> mimic = element.child("mimic");
   if (!mimic) return;
-  if (!has_one_coordinate(joint->type))
-    mimic->fail("a joint of this type cannot mimic", element.text("type"), "revolute, continuous or prismatic");
-  joint->mimic = read_mimic(*mimic, table);
+  if (has_one_coordinate(joint->type)) {
+    joint->mimic = read_mimic(*mimic, context.table);
+    return;
+  }
+  const std::string message = "a joint of this type cannot mimic";
+  if (mimic->in_overlay()) mimic->fail(message, element.text("type"), "revolute, continuous or prismatic");
+  context.warnings->push_back(
+      mimic->warning("mimic_ignored", message + ": the element is ignored", element.text("type"), "remove it, or write another type"));
+}
+
+/// Damping and dry friction of a joint. URDF gives them no meaning on planar and floating joints, where other readers pass over them.
+void read_dynamics(const XmlElement& dynamics, const ReadContext& context, JointDescription* joint) {
+  if (!dynamics.has("damping") && !dynamics.has("friction")) dynamics.fail("neither damping nor friction is given");
+  joint->damping = read_magnitude_or_zero(dynamics, "damping", context);
+  joint->dry_friction = read_magnitude_or_zero(dynamics, "friction", context);
+  const bool several = joint->type == JointType::kPlanar || joint->type == JointType::kFloating;
+  if (!several || joint->is_loop || dynamics.in_overlay()) return;
+  if (LimitDescription::given(joint->damping) || LimitDescription::given(joint->dry_friction))
+    context.warnings->push_back(dynamics.warning("dynamics_ignored", "a joint with several coordinates takes no damping: it moves freely",
+                                                 "", "remove the element"));
+  joint->damping = joint->dry_friction = 0.0;
 }
 
 }  // namespace
 
 void read_joint_parts(const XmlElement& element, const ReadContext& context, JointDescription* joint) {
   const ParameterTable& table = context.table;
+  const bool welded = joint->type == JointType::kFixed && !joint->is_loop;  // URDF's readers look no further
   const std::optional<XmlElement> axis = element.child("axis"), dynamics = element.child("dynamics");
-  if (axis) joint->axis = read_axis(*axis, table);
-  if (dynamics) {
-    if (!dynamics->has("damping") && !dynamics->has("friction")) dynamics->fail("neither damping nor friction is given");
-    joint->damping = read_quantity_or(0.0, *dynamics, "damping", Range::kNonNegative, table);
-    joint->dry_friction = read_quantity_or(0.0, *dynamics, "friction", Range::kNonNegative, table);
-  }
+  if (axis && !welded && (joint->type != JointType::kFloating || joint->is_loop)) joint->axis = read_axis(*axis, table);
+  if (dynamics && !welded) read_dynamics(*dynamics, context, joint);
   const std::optional<XmlElement> friction = element.child("codesign:friction"), spring = element.child("codesign:torsion_spring");
   if (friction) joint->friction = read_friction(*friction, joint->axis, table);
   if (!spring) return;
@@ -92,7 +141,8 @@ JointDescription read_joint(const XmlElement& element, const ReadContext& contex
   if (joint.parent == joint.child) child.fail_at("link", "parent and child are the same link", "two links");
   joint.origin = read_origin(element, context.table);
   read_joint_parts(element, context, &joint);
-  read_limit_and_mimic(element, context.table, &joint);
+  read_limit_of_joint(element, context, &joint);
+  read_mimic_of_joint(element, context, &joint);
   return joint;
 }
 

@@ -15,6 +15,7 @@ namespace codesign {
 struct ReadContext {
   std::vector<std::string> links;
   ParameterTable table;
+  Warnings* warnings = nullptr;  ///< where readers tell of what is doubtful; never null while a robot is read
 
   /// Index of the link that `attribute` names. @throws InputError naming the nearest link.
   int link(const XmlElement& element, const std::string& attribute) const;

@@ -5,7 +5,9 @@
 #include <map>
 
 #include "fold_chain.h"
+#include "joints_between.h"
 #include "mechanism_codesign/model/friction_geometry.h"
+#include "rigid_groups.h"
 
 namespace codesign {
 namespace {
@@ -14,6 +16,7 @@ namespace {
 struct Edge {
   int from = -1, to = -1;  // groups
   std::vector<ChainElement> chain;
+  std::vector<int> inside;  // groups without mass between the elements of the chain
 };
 
 bool has_mass(const LinkDescription& link) { return link.inertial.has_value(); }
@@ -47,47 +50,45 @@ class TopologyBuilder {
 
   Topology build() {
     find_groups();
-    find_bodies();
+    find_masses();
+    find_coupled();
     collect_edges();
     drop_massless_ends();
     contract_massless_chains();
+    unfold_chains();
+    number_bodies();
     make_pairs();
     return std::move(topology_);
   }
 
  private:
   static std::size_t index(int k) { return static_cast<std::size_t>(k); }
-  bool massless(int base) const { return topology_.link_body[index(base)] == Topology::kMassless; }
+  bool massless(int base) const { return !is_body_[index(base)]; }
 
   void find_groups() {
-    const std::size_t links = robot_.links.size();
-    topology_.link_parent_joint.assign(links, -1);
-    topology_.link_base.assign(links, -1);
+    RigidGroups groups(robot_);
+    topology_.link_parent_joint = std::move(groups.link_parent_joint);
+    topology_.link_base = std::move(groups.link_base);
     topology_.joint_pair.assign(robot_.joints.size(), -1);
-    for (std::size_t k = 0; k < robot_.joints.size(); ++k)
-      if (!robot_.joints[k].is_loop) topology_.link_parent_joint[index(robot_.joints[k].child)] = static_cast<int>(k);
-    for (std::size_t link = 0; link < links; ++link) topology_.link_base[link] = base_of(static_cast<int>(link));
   }
 
-  int base_of(int link) const {
-    for (;;) {
-      const int joint = topology_.link_parent_joint[index(link)];
-      if (joint < 0 || robot_.joints[index(joint)].type != JointType::kFixed) return link;
-      link = robot_.joints[index(joint)].parent;
-    }
+  void find_masses() {
+    is_body_.assign(robot_.links.size(), false);
+    is_body_[index(robot_.root)] = true;
+    for (std::size_t link = 0; link < robot_.links.size(); ++link)
+      if (has_mass(robot_.links[link])) is_body_[index(topology_.link_base[link])] = true;
   }
 
   // Bodies are numbered in the order of the file, so that q is laid out as its reader expects.
-  void find_bodies() {
+  void number_bodies() {
     std::map<int, std::vector<int>> groups;
     for (std::size_t link = 0; link < robot_.links.size(); ++link) groups[topology_.link_base[link]].push_back(static_cast<int>(link));
     topology_.link_body.assign(robot_.links.size(), Topology::kMassless);
     for (auto& [base, links] : groups) {
-      const bool heavy = std::any_of(links.begin(), links.end(), [this](int link) { return has_mass(robot_.links[index(link)]); });
       int body = Topology::kMassless;
       if (base == robot_.root) {
         body = Topology::kGround;
-      } else if (heavy) {
+      } else if (!massless(base)) {
         body = static_cast<int>(topology_.bodies.size());
         std::stable_partition(links.begin(), links.end(), [base = base](int link) { return link == base; });
         topology_.bodies.push_back({robot_.links[index(base)].name, base, links});
@@ -100,12 +101,16 @@ class TopologyBuilder {
     for (std::size_t k = 0; k < robot_.joints.size(); ++k) {
       const JointDescription& joint = robot_.joints[k];
       if (joint.type == JointType::kFixed && !joint.is_loop) continue;
-      const int from = topology_.link_base[index(joint.parent)], to = topology_.link_base[index(joint.child)];
-      if (from == to)
+      edges_.push_back(single_edge(static_cast<int>(k)));
+      if (edges_.back().from == edges_.back().to)
         throw InputError(
             {joint.where, joint_element(joint), "both ends lie on the same rigid body", robot_.links[index(joint.parent)].name, ""});
-      edges_.push_back({from, to, {{static_cast<int>(k), false}}});
     }
+  }
+
+  Edge single_edge(int joint) const {
+    const JointDescription& description = robot_.joints[index(joint)];
+    return {topology_.link_base[index(description.parent)], topology_.link_base[index(description.child)], {{joint, false}}, {}};
   }
 
   std::vector<std::size_t> edges_at(int group) const {
@@ -123,29 +128,66 @@ class TopologyBuilder {
         const int group = static_cast<int>(link);
         if (topology_.link_base[link] != group || !massless(group)) continue;
         const auto edges = edges_at(group);
-        if (edges.size() != 1) continue;
+        if (edges.size() != 1 || carries_load(edges_[edges[0]].chain[0].joint)) continue;
         edges_.erase(edges_.begin() + static_cast<std::ptrdiff_t>(edges[0]));
         changed = true;
       }
     }
   }
 
+  // The joint of a massless end feels a rotor, or others with mass that are coupled to it.
+  bool carries_load(int joint) const {
+    const JointDescription& description = robot_.joints[index(joint)];
+    if (description.actuator) return true;
+    for (const Edge& edge : edges_) {
+      const std::optional<MimicDescription>& mimic = robot_.joints[index(edge.chain[0].joint)].mimic;
+      if (mimic && mimic->joint == description.name) return true;
+    }
+    return in_coupling_[index(joint)];
+  }
+
+  void find_coupled() {
+    in_coupling_.assign(robot_.joints.size(), false);
+    for (const CouplingDescription& coupling : robot_.couplings)
+      for (int joint : joints_between(robot_, topology_.link_parent_joint, coupling.predecessor, coupling.successor))
+        in_coupling_[index(joint)] = true;
+  }
+
+  // What stands between three joints or more cannot be folded: it is a body, if one without mass.
   void contract_massless_chains() {
     for (std::size_t link = 0; link < robot_.links.size(); ++link) {
       const int group = static_cast<int>(link);
       if (topology_.link_base[link] != group || !massless(group)) continue;
       const auto edges = edges_at(group);
       if (edges.empty()) continue;
-      if (edges.size() != 2) refuse_branching(group, edges.size());
-      join(group, edges[0], edges[1]);
+      if (edges.size() == 2) {
+        join(group, edges[0], edges[1]);
+      } else {
+        is_body_[link] = true;
+      }
     }
   }
 
-  [[noreturn]] void refuse_branching(int group, std::size_t count) const {
-    const LinkDescription& link = robot_.links[index(group)];
-    throw InputError({link.where, "<link name=\"" + link.name + "\">",
-                      "a link without <inertial> between " + std::to_string(count) + " joints cannot be folded into one joint", "",
-                      "give it an <inertial>"});
+  // Links without mass of a chain that is no joint we know are bodies without mass. A chain that comes back to where it began
+  // moves nothing.
+  void unfold_chains() {
+    for (std::size_t k = 0; k < edges_.size();) {
+      const Edge edge = edges_[k];
+      if (edge.chain.size() == 1 || (edge.from != edge.to && folds(robot_, topology_, edge.chain))) {
+        ++k;
+        continue;
+      }
+      edges_.erase(edges_.begin() + static_cast<std::ptrdiff_t>(k));
+      if (edge.from == edge.to) continue;
+      for (int group : edge.inside) is_body_[index(group)] = true;
+      for (const ChainElement& element : edge.chain) edges_.push_back(single_edge(element.joint));
+    }
+    std::stable_sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return first_joint(a) < first_joint(b); });
+  }
+
+  static int first_joint(const Edge& edge) {
+    const auto by_number = [](const ChainElement& a, const ChainElement& b) { return a.joint < b.joint; };
+    return std::min_element(edge.chain.begin(), edge.chain.end(), by_number)->joint;
   }
 
   // The joined edge runs from the end of the one that arrives to the end of the one that leaves.
@@ -154,7 +196,9 @@ class TopologyBuilder {
     if (a.to != group && b.to == group) std::swap(a, b);
     if (a.to != group) reverse(&a);
     if (b.from != group) reverse(&b);
-    Edge joined{a.from, b.to, a.chain};
+    Edge joined{a.from, b.to, a.chain, a.inside};
+    joined.inside.push_back(group);
+    joined.inside.insert(joined.inside.end(), b.inside.begin(), b.inside.end());
     joined.chain.insert(joined.chain.end(), b.chain.begin(), b.chain.end());
     edges_[std::min(first, second)] = joined;
     edges_.erase(edges_.begin() + static_cast<std::ptrdiff_t>(std::max(first, second)));
@@ -202,6 +246,8 @@ class TopologyBuilder {
 
   const RobotDescription& robot_;
   Topology topology_;
+  std::vector<bool> is_body_;      // per base link of a group: it has mass, is the ground, or cannot be folded away
+  std::vector<bool> in_coupling_;  // per joint: a `<coupling>` counts it
   std::vector<Edge> edges_;
 };
 

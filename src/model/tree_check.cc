@@ -2,6 +2,7 @@
 #include "tree_check.h"
 
 #include <map>
+#include <optional>
 #include <set>
 
 #include "mechanism_codesign/model/friction_geometry.h"
@@ -32,6 +33,19 @@ std::vector<const JointDescription*> joints_above(const RobotDescription& robot)
     slot = &joint;
   }
   return above;
+}
+
+/// What is wrong with the joint that a joint mimics, directly or by way of others.
+std::optional<InputError> mimic_fault(const JointDescription& joint, const std::map<std::string, const JointDescription*>& targets,
+                                      const std::vector<std::string>& names) {
+  std::size_t steps = 0;
+  for (const JointDescription* at = &joint; at->mimic; at = targets.at(at->mimic->joint)) {
+    const std::string element = label(*at) + " <mimic>";
+    if (targets.count(at->mimic->joint) == 0) return unknown_name(at->mimic->where, element, "joint to mimic", at->mimic->joint, names);
+    if (++steps > names.size())
+      return InputError({joint.mimic->where, label(joint) + " <mimic>", "the joints mimic each other in a ring", joint.mimic->joint, ""});
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -65,23 +79,23 @@ int find_root(const RobotDescription& robot) {
   return root;
 }
 
-void check_mimics(const RobotDescription& robot) {
+void check_mimics(RobotDescription* robot) {
   std::map<std::string, const JointDescription*> targets;
   std::vector<std::string> names;
-  for (const JointDescription& joint : robot.joints) {
-    const bool fits = joint.type == JointType::kRevolute || joint.type == JointType::kContinuous || joint.type == JointType::kPrismatic;
-    if (joint.is_loop || !fits) continue;
+  for (const JointDescription& joint : robot->joints) {
+    const bool several = joint.type == JointType::kPlanar || joint.type == JointType::kFloating;
+    if (joint.is_loop || several) continue;
     targets[joint.name] = &joint;
     names.push_back(joint.name);
   }
-  for (const JointDescription& joint : robot.joints) {
-    std::size_t steps = 0;
-    for (const JointDescription* at = &joint; at->mimic; at = targets[at->mimic->joint]) {
-      if (targets.count(at->mimic->joint) == 0)
-        throw unknown_name(at->where, label(*at) + " <mimic>", "joint to mimic", at->mimic->joint, names);
-      if (++steps > names.size())
-        throw InputError({joint.where, label(joint) + " <mimic>", "the joints mimic each other in a ring", joint.mimic->joint, ""});
-    }
+  for (JointDescription& joint : robot->joints) {
+    const std::optional<InputError> fault = mimic_fault(joint, targets, names);
+    if (!fault) continue;
+    if (joint.mimic->where.file != robot->file) throw *fault;
+    InputFault told = fault->fault();
+    told.message += "; the element is ignored and the joint moves freely. Name the joint that it follows, or remove the element";
+    robot->warnings.push_back(warn("mimic_ignored", told));
+    joint.mimic.reset();
   }
 }
 

@@ -12,8 +12,9 @@ void check_names(const RobotDescription& robot);
 /// The tree's root. @throws InputError if a link hangs on two joints, no link or several could be the root, or links hang in a ring.
 int find_root(const RobotDescription& robot);
 
-/// `<mimic>` must name another joint with one coordinate, and not come back to where it started.
-void check_mimics(const RobotDescription& robot);
+/// `<mimic>` must name another joint with one coordinate or none, and not come back to where it started. In a vendor's file what does not
+/// is dropped with a warning. @throws InputError for an overlay's
+void check_mimics(RobotDescription* robot);
 
 /// Friction dimensions of the joints that cannot become part of a compound joint: both links have inertia, or are the ground.
 void check_friction(const RobotDescription& robot);

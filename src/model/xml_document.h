@@ -25,6 +25,10 @@ class XmlDocument {
   const tinyxml2::XMLElement* robot() const { return dom_->RootElement(); }
   std::string text() const;
 
+  /// What was doubtful while the document was made of its files.
+  const Warnings& warnings() const { return warnings_; }
+  void note(const Warnings& warnings) { append(warnings, &warnings_); }
+
   SourceLocation location(const tinyxml2::XMLElement* element) const;
   SourceLocation location(const tinyxml2::XMLElement* element, const std::string& attribute) const;
 
@@ -35,6 +39,7 @@ class XmlDocument {
 
  private:
   std::string file_;
+  Warnings warnings_;
   std::unique_ptr<tinyxml2::XMLDocument> dom_;
   std::map<const tinyxml2::XMLElement*, SourceLocation> foreign_elements_;
   std::map<std::pair<const tinyxml2::XMLElement*, std::string>, SourceLocation> foreign_attributes_;

@@ -57,7 +57,6 @@ std::vector<XmlElement> XmlElement::children(const std::string& tag) const {
 
 std::optional<XmlElement> XmlElement::child(const std::string& tag) const {
   const std::vector<XmlElement> found = children(tag);
-  if (found.size() > 1) found[1].fail("a second <" + tag + ">", "", "one at most");
   if (found.empty()) return std::nullopt;
   return found.front();
 }
@@ -66,6 +65,16 @@ XmlElement XmlElement::only(const std::string& tag) const {
   const std::optional<XmlElement> found = child(tag);
   if (!found) fail("the element <" + tag + "> is missing");
   return *found;
+}
+
+Warning XmlElement::warning(const std::string& code, const std::string& message, const std::string& value,
+                            const std::string& remedy) const {
+  return warn(code, {where(), label(), message + "; to silence this: " + remedy, value, ""});
+}
+
+Warning XmlElement::warning_at(const std::string& code, const std::string& attribute, const std::string& message,
+                               const std::string& remedy) const {
+  return warn(code, {where(attribute), label(), message + "; to silence this: " + remedy, find(attribute).value_or(""), ""});
 }
 
 void XmlElement::fail(const std::string& message, const std::string& value, const std::string& allowed) const {

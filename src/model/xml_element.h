@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanism_codesign/model/warning.h"
 #include "xml_document.h"
 
 namespace codesign {
@@ -22,6 +23,10 @@ class XmlElement {
   SourceLocation where() const { return document_->location(node_); }
   SourceLocation where(const std::string& attribute) const { return document_->location(node_, attribute); }
 
+  /// Whether an overlay wrote the element, or the attribute: there everything is meant for us.
+  bool in_overlay() const { return where().file != document_->file(); }
+  bool in_overlay(const std::string& attribute) const { return where(attribute).file != document_->file(); }
+
   bool has(const std::string& attribute) const { return node_->FindAttribute(attribute.c_str()) != nullptr; }
   std::optional<std::string> find(const std::string& attribute) const;
   /// @throws InputError if it is missing or empty.
@@ -30,10 +35,15 @@ class XmlElement {
 
   std::vector<XmlElement> children() const;
   std::vector<XmlElement> children(const std::string& tag) const;
-  /// The only child of that tag, or none. @throws InputError if there are several.
+  /// The child of that tag, or none. Of several the first, as URDF's readers do; check_vocabulary() tells of the others.
   std::optional<XmlElement> child(const std::string& tag) const;
-  /// @throws InputError if there is none, or several.
+  /// @throws InputError if there is none.
   XmlElement only(const std::string& tag) const;
+
+  /// A warning about the element, or about one of its attributes.
+  /// @param message what is doubtful, and what was done. @param remedy what to write to silence the warning.
+  Warning warning(const std::string& code, const std::string& message, const std::string& value, const std::string& remedy) const;
+  Warning warning_at(const std::string& code, const std::string& attribute, const std::string& message, const std::string& remedy) const;
 
   [[noreturn]] void fail(const std::string& message, const std::string& value = "", const std::string& allowed = "") const;
   [[noreturn]] void fail_at(const std::string& attribute, const std::string& message, const std::string& allowed = "") const;

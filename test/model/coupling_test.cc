@@ -70,8 +70,36 @@ TEST(Coupling, WhatCannotBeCoupledIsNamedWithItsPlace) {
   const std::string floating = link_with("base") + joint_with("free", "floating", "ground", "base");
   EXPECT_NE(fault_of(robot_text(arm(coupling("upper", "base") + floating))).find("more than one coordinate (value: free"),
             std::string::npos);
+}
+
+TEST(Coupling, ALinkWithoutMassThatIsCoupledIsABody) {
   const std::string frame = link_with("frame", "") + joint_with("sensor", "continuous", "lower", "frame");
-  EXPECT_NE(fault_of(robot_text(arm(coupling("upper", "frame") + frame))).find("moves only a link without <inertial>"), std::string::npos);
+  const RobotDescription robot = read_urdf(robot_text(arm(coupling("upper", "frame") + frame)));
+  const Topology topology = derive_topology(robot);
+  EXPECT_EQ(topology.couplings.at(0).terms.size(), 2U);
+  EXPECT_EQ(topology.bodies.back().name, "frame");
+}
+
+TEST(Coupling, WhatFollowsAJointWithoutMassKeepsIt) {
+  // The finger that drives has no inertial, the one that follows has: the row says what both do.
+  const std::string fingers = link_with("driver", "") + joint_with("drive", "continuous", "lower", "driver") + link_with("follower") +
+                              joint_with("follow", "continuous", "lower", "follower", "<mimic joint=\"drive\" multiplier=\"-1\"/>");
+  const Topology topology = derive_topology(read_urdf(robot_text(arm(fingers))));
+  ASSERT_EQ(topology.couplings.size(), 1U);
+  EXPECT_EQ(topology.couplings[0].terms.size(), 2U);
+  const std::string light = link_with("driver", "") + joint_with("drive", "continuous", "lower", "driver") + link_with("follower", "") +
+                            joint_with("follow", "continuous", "lower", "follower", "<mimic joint=\"drive\"/>");
+  EXPECT_TRUE(derive_topology(read_urdf(robot_text(arm(light)))).couplings.empty()) << "nobody has mass";
+}
+
+TEST(Coupling, AMimicOfAFixedJointStandsAtItsOffset) {
+  const std::string more = link_with("plate") + joint_with("weld", "fixed", "lower", "plate") + link_with("tip") +
+                           joint_with("wrist", "continuous", "lower", "tip", "<mimic joint=\"weld\" offset=\"0.4\"/>");
+  const RobotDescription robot = read_urdf(robot_text(arm(more)));
+  const Topology topology = derive_topology(robot);
+  ASSERT_EQ(topology.couplings.size(), 1U);
+  EXPECT_EQ(topology.couplings[0].terms.size(), 1U);
+  EXPECT_EQ(evaluate_constants<double>(robot, topology, {0.2}).couplings.at(0).offset, 0.4);
 }
 
 TEST(Coupling, AMimicThatMovesNoMassNeedsNoRow) {

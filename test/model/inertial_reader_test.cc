@@ -46,7 +46,7 @@ TEST(InertialReader, NoMassIsNoInertial) {
 TEST(InertialReader, MissingParts) {
   expect_error(with_inertial("<inertial><mass value=\"1\"/></inertial>"), {"the element <inertia> is missing"});
   expect_error(with_inertial("<inertial><mass value=\"1\"/><inertia ixx=\"1\"/></inertial>"), {"the attribute ixy is missing"});
-  expect_error(with_inertial(std::string(kInertial) + "\n" + kInertial), {"test.urdf:4:", "a second <inertial>"});
+  expect_warning(with_inertial(std::string(kInertial) + "\n" + kInertial), "repeated_element", {"test.urdf:4:", "a second <inertial>"});
 }
 
 TEST(InertialReader, FromShapesFollowsTheParameters) {

@@ -12,6 +12,8 @@ SourceText typed(const std::string& type, const std::string& content = "") {
   return robot_text(kGround + link_with("arm") + "\n" + joint_with("j", type, "ground", "arm", content));
 }
 
+SourceText read_limits(const std::string& type, const std::string& numbers) { return typed(type, "<limit " + numbers + "/>"); }
+
 TEST(JointReader, DefaultsAreThoseOfUrdf) {
   const JointDescription joint = hinge("");
   EXPECT_EQ(joint.name, "hinge");
@@ -46,8 +48,9 @@ TEST(JointReader, AxisAndDynamicsMayHaveTwins) {
   expect_error(pendulum("<axis xyz=\"0 0 0\"/>"), {"<axis>: the axis has no direction"});
   expect_error(pendulum("<axis/>"), {"the attribute xyz is missing"});
   expect_error(pendulum("<dynamics/>"), {"neither damping nor friction"});
-  expect_error(pendulum("<dynamics damping=\"-1\"/>"), {"damping is negative (value: -1, allowed: >= 0)"});
-  expect_error(pendulum("<origin/><origin/>"), {"a second <origin>"});
+  expect_warning(pendulum("<dynamics damping=\"-1\"/>"), "negative_value", {"test.urdf:2:", "damping is negative and is taken as zero"});
+  EXPECT_EQ(hinge("<dynamics damping=\"-1\"/>").damping.nominal(), 0.0);
+  expect_warning(pendulum("<origin/><origin/>"), "repeated_element", {"a second <origin>"});
 }
 
 TEST(JointReader, Limits) {
@@ -57,9 +60,12 @@ TEST(JointReader, Limits) {
   EXPECT_EQ(joint.limit->effort.nominal(), 3.0);
   EXPECT_EQ(joint.limit->velocity.nominal(), 4.0);
   expect_error(typed("prismatic"), {"needs a <limit>"});
-  expect_error(pendulum(R"(<limit lower="2" upper="1" effort="1" velocity="1"/>)"), {"the lower limit is above the upper limit"});
+  const SourceText reversed = read_limits("revolute", R"(lower="2" upper="1" effort="1" velocity="1")");
+  expect_warning(reversed, "limits_reversed", {"test.urdf:", "the lower limit is above the upper limit (1): the joint has no stops"});
+  EXPECT_FALSE(has_stops(read_urdf(reversed).joints[0]));
+  expect_warning(pendulum(R"(<limit lower="-1" upper="1" effort="1" velocity="1"/>)"), "limit_ignored", {"turns without end", "-1 ... 1"});
   expect_error(pendulum(R"(<limit velocity="1"/>)"), {"the attribute effort is missing"});
-  expect_error(pendulum(R"(<limit effort="-1" velocity="1"/>)"), {"<limit>: effort is negative (value: -1, allowed: >= 0)"});
+  expect_warning(pendulum(R"(<limit effort="-1" velocity="1"/>)"), "negative_value", {"<limit>: effort is negative", "(value: -1)"});
 }
 
 TEST(JointReader, LimitsThatDependOnTheDesign) {
@@ -97,7 +103,28 @@ TEST(JointReader, Mimics) {
   EXPECT_EQ(mimic.joint, "hinge");
   EXPECT_EQ(mimic.multiplier.nominal(), -2.0);
   EXPECT_EQ(mimic.offset.nominal(), 1.0);
-  expect_error(typed("planar", "<mimic joint=\"x\"/>"), {"a joint of this type cannot mimic"});
+  expect_warning(typed("planar", "<mimic joint=\"x\"/>"), "mimic_ignored", {"a joint of this type cannot mimic", "planar"});
+}
+
+TEST(JointReader, WhatReadersOfURDFPassOverIsNotJudged) {
+  const std::string nonsense =
+      "<axis xyz=\"0 0 0\"/><limit lower=\"3\" upper=\"1\" effort=\"1\" velocity=\"1\"/><dynamics damping=\"-1\"/>";
+  expect_no_warning(typed("fixed", nonsense));
+  expect_no_warning(typed("floating", "<axis xyz=\"0 0 0\"/><limit effort=\"1\" velocity=\"1\"/>"));
+  expect_warning(typed("fixed", "<mimic joint=\"other\"/>"), "mimic_ignored", {"cannot mimic", "fixed"});
+  const SourceText damped = typed("planar", "<dynamics damping=\"0.1\"/>");
+  expect_warning(damped, "dynamics_ignored", {"it moves freely"});
+  EXPECT_EQ(read_urdf(damped).joints[0].damping.nominal(), 0.0);
+}
+
+TEST(JointReader, AnOverlayMeansWhatItSays) {
+  const auto refused = [](const std::string& joint, const char* fault) {
+    expect_error(pendulum("<limit lower=\"0\" upper=\"1\" effort=\"1\" velocity=\"1\"/>"), {"notes.urdf:2:", fault},
+                 {overlay_text("<joint name=\"hinge\" type=\"revolute\">" + joint + "</joint>")});
+  };
+  refused("<dynamics damping=\"-1\"/>", "damping is negative (value: -1, allowed: >= 0)");
+  refused("<limit lower=\"2\"/>", "the lower limit is above the upper limit");
+  refused("<mimic joint=\"hing\"/>", "unknown joint to mimic");
 }
 
 TEST(JointReader, Links) {

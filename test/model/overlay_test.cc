@@ -68,6 +68,41 @@ TEST(Overlay, NamesMustExist) {
   expect_error(vendor(), {"notes.urdf:3: <link name=\"arn\">", "did you mean \"arm\"?"}, {overlay("\n<link name=\"arn\"/>")});
 }
 
+TEST(Overlay, AddsLinksAndJoints) {
+  // A base that floats, between the ground and the vendor's root.
+  const RobotDescription floating =
+      read_urdf(vendor(), {overlay("<link name=\"world\"/>" + joint_with("free", "floating", "world", "ground") + "<link name=\"ground\">" +
+                                   kInertial + "</link>")});
+  EXPECT_EQ(floating.links[static_cast<std::size_t>(floating.root)].name, "world");
+  // A rotor between hinge and arm: the vendor's joint gets another child.
+  const RobotDescription elastic =
+      read_urdf(vendor(), {overlay("<joint name=\"hinge\"><child link=\"rotor\"/></joint>" + link_with("rotor") +
+                                   joint_with("flex", "continuous", "rotor", "arm", "<codesign:torsion_spring stiffness=\"50\"/>"))});
+  ASSERT_EQ(elastic.joints.size(), 2U);
+  EXPECT_EQ(elastic.links[static_cast<std::size_t>(elastic.joints[0].child)].name, "rotor");
+  EXPECT_EQ(elastic.joints[1].spring->stiffness.nominal(), 50.0);
+  expect_error(vendor(), {"notes.urdf:2: <link name=\"world\">: a second root"},
+               {overlay("<link name=\"world\"/><link name=\"other\"/>" + joint_with("j", "fixed", "world", "other"))});
+  expect_error(vendor(), {"notes.urdf:2:", "<child>: unknown link, did you mean \"arm\"?"},
+               {overlay(joint_with("j", "fixed", "ground", "armm"))});
+}
+
+TEST(Overlay, SaysNothingTwice) {
+  const std::string friction = "<codesign:friction mu_static=\"1\" mu_dynamic=\"1\" joint_length=\"1\" pin_radius=\"1\"/>";
+  const auto refused = [](const std::string& body, const std::string& fault) {
+    expect_error(vendor(), {"notes.urdf:3:", fault}, {overlay(body)});
+  };
+  refused("<joint name=\"hinge\">" + friction + "\n" + friction + "</joint>", "a second <codesign:friction>");
+  refused("<joint name=\"hinge\">" + friction + "</joint>\n<joint name=\"hinge\">" + friction + "</joint>", "a second <codesign:friction>");
+  refused(std::string(kParameter) + "\n" + kParameter, "a second <codesign:parameter> of this name");
+  refused("<joint name=\"hinge\"><dynamics damping=\"1\"/></joint>\n<joint name=\"hinge\"><dynamics damping=\"2\"/></joint>",
+          "sets damping a second time");
+  refused("<link name=\"tip\"/>" + joint_with("j", "fixed", "arm", "tip") + "\n<link name=\"tip\"/>", "a second <link> of this name");
+  EXPECT_NO_THROW(read_urdf(vendor(), {overlay("<joint name=\"hinge\">" + friction +
+                                               "</joint>\n<joint name=\"hinge\"><dynamics damping=\"2\"/>"
+                                               "</joint>")}));
+}
+
 TEST(Overlay, HoldsAnnotatedElementsOnly) {
   expect_error(vendor(), {"notes.urdf:2: <material name=\"x\">: an overlay cannot hold this element"}, {overlay("<material name=\"x\"/>")});
   expect_error(vendor(), {"notes.urdf:2:", "the attribute name is missing"}, {overlay("<joint/>")});

@@ -44,9 +44,14 @@ TEST(TreeCheck, Mimics) {
   const auto second = [](const std::string& joint) {
     return link_with("tip") + joint_with("wrist", "continuous", "arm", "tip", "<mimic joint=\"" + joint + "\"/>");
   };
-  expect_error(pendulum("", second("hing")), {"<joint name=\"wrist\"> <mimic>: unknown joint to mimic, did you mean \"hinge\"?"});
-  expect_error(pendulum("", second("wrist")), {"mimic each other in a ring"});
-  expect_error(pendulum("<mimic joint=\"wrist\"/>", second("hinge")), {"mimic each other in a ring"});
+  const SourceText unknown = pendulum("", second("hing"));
+  expect_warning(unknown, "mimic_ignored",
+                 {"<joint name=\"wrist\"> <mimic>: unknown joint to mimic, did you mean \"hinge\"?", "moves freely"});
+  EXPECT_FALSE(read_urdf(unknown).joints[1].mimic);
+  expect_warning(pendulum("", second("wrist")), "mimic_ignored", {"mimic each other in a ring"});
+  const RobotDescription ring = read_urdf(pendulum("<mimic joint=\"wrist\"/>", second("hinge")));
+  EXPECT_EQ(ring.warnings.size(), 1U);
+  EXPECT_TRUE(ring.joints[1].mimic) << "without the first the second makes sense";
 }
 
 TEST(TreeCheck, FrictionOfOrdinaryJointsNeedsItsDimensions) {

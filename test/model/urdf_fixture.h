@@ -53,6 +53,25 @@ inline void expect_error(const SourceText& urdf, const std::vector<std::string>&
   for (const std::string& part : parts) EXPECT_NE(message.find(part), std::string::npos) << "no '" << part << "' in:\n" << message;
 }
 
+/// The texts are read, with exactly one warning of this code, which holds every one of `parts`.
+inline void expect_warning(const SourceText& urdf, const std::string& code, const std::vector<std::string>& parts,
+                           const std::vector<SourceText>& overlays = {}) {
+  std::vector<std::string> messages;
+  for (const Warning& warning : read_urdf(urdf, overlays).warnings)
+    if (warning.code == code) messages.push_back(warning.message);
+  ASSERT_EQ(messages.size(), 1U) << code << " in\n" << urdf.text;
+  for (const std::string& part : parts) EXPECT_NE(messages[0].find(part), std::string::npos) << "no '" << part << "' in:\n" << messages[0];
+}
+
+inline void expect_no_warning(const SourceText& urdf, const std::vector<SourceText>& overlays = {}) {
+  for (const Warning& warning : read_urdf(urdf, overlays).warnings) ADD_FAILURE() << warning.code << ": " << warning.message;
+}
+
+/// An overlay of any vendor's file; `body` stands on line 2.
+inline SourceText overlay_text(const std::string& body) {
+  return {"notes.urdf", "<robot name=\"notes\" xmlns:codesign=\"urn:mechanism_codesign\">\n" + body + "\n</robot>"};
+}
+
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_TEST_MODEL_URDF_FIXTURE_H_
