@@ -89,6 +89,12 @@ tf2_msgs::TFMessage free_link_transforms(const FrameNames& names, const Frame& f
   return message;
 }
 
+tf2_msgs::TFMessage link_transforms(const FrameNames& names, const Frame& frame, const ros::Time& stamp, const std::string& prefix) {
+  tf2_msgs::TFMessage message = all_link_transforms(names, frame, stamp, prefix);
+  message.transforms.erase(message.transforms.begin());
+  return message;
+}
+
 tf2_msgs::TFMessage all_link_transforms(const FrameNames& names, const Frame& frame, const ros::Time& stamp, const std::string& prefix) {
   tf2_msgs::TFMessage message;
   for (std::size_t i = 0; i < names.links.size(); ++i) {

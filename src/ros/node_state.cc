@@ -4,7 +4,15 @@
 #include <ros/console.h>
 #include <ros/node_handle.h>
 
+#include <algorithm>
+
 namespace codesign {
+namespace {
+
+/// More are counted, not shown.
+constexpr std::size_t kMostShown = 50;
+
+}  // namespace
 
 NodeState::NodeState(const std::string& subject) {
   updater_.setHardwareID("none");
@@ -35,9 +43,25 @@ void NodeState::show(const std::string& key, const std::string& value) {
   values_[key] = value;
 }
 
+void NodeState::warn(const std::string& group, const Warnings& warnings) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  warnings_[group] = warnings;
+  for (std::size_t i = 0; i < std::min(warnings.size(), kMostShown); ++i) {
+    if (logged_.size() > 1000) logged_.clear();
+    if (logged_.insert(warnings[i].message).second) ROS_WARN_STREAM(warnings[i].message);
+  }
+}
+
 void NodeState::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  status.summary(static_cast<unsigned char>(level_), sentence_);
+  std::size_t count = 0;
+  for (const auto& [group, warnings] : warnings_) {
+    for (const Warning& warning : warnings)
+      if (++count <= kMostShown) status.add("warning " + std::to_string(count) + ": " + warning.code, warning.message);
+  }
+  const Level level = level_ == Level::kOk && count > 0 ? Level::kWarning : level_;
+  const std::string doubts = count == 0 ? "" : " (" + std::to_string(count) + (count == 1 ? " warning)" : " warnings)");
+  status.summary(static_cast<unsigned char>(level), sentence_ + doubts);
   for (const auto& [key, value] : values_) status.add(key, value);
 }
 

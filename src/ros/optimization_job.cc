@@ -1,14 +1,17 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <ros/init.h>
-#include <rosbag/exceptions.h>
 
 #include <cstdint>
-#include <filesystem>
+#include <limits>
 
+#include "mechanism_codesign/jobs/best_record.h"
+#include "mechanism_codesign/jobs/job_files.h"
+#include "mechanism_codesign/jobs/output_error.h"
 #include "mechanism_codesign/model/error.h"
 #include "mechanism_codesign/optimization/optimizer.h"
 #include "mechanism_codesign/ros/job.h"
 #include "mechanism_codesign/ros/job_bag.h"
+#include "mechanism_codesign/ros/progress_log.h"
 #include "mechanism_codesign/ros/request.h"
 
 namespace codesign {
@@ -34,33 +37,84 @@ mechanism_codesign::OptimizeResult to_message(const OptimizationResult& result, 
   return message;
 }
 
-/// A cancelled job keeps its best point and is recorded too; only a node that ends has no time for it.
-BagSide run_side(const Problem& problem, const std::vector<double>& parameters, double rate) {
-  return {write_tuned_urdf(problem.urdf, problem.overlays, parameters), record_run(problem, parameters, rate, ros::isShuttingDown)};
+/// Lets the runs of a job be recorded when its node is told to end, but not for longer than roslaunch would wait.
+class Patience {
+ public:
+  bool operator()() {
+    if (!ros::isShuttingDown()) return false;
+    const ros::WallTime now = ros::WallTime::now();
+    if (end_.isZero()) end_ = now + ros::WallDuration(8.0);
+    return now > end_;
+  }
+
+ private:
+  ros::WallTime end_;
+};
+
+BagSide run_side(const Problem& problem, const std::vector<double>& parameters, double rate, Patience* patience) {
+  return {write_tuned_urdf(problem.urdf, problem.overlays, parameters),
+          record_run(problem, parameters, rate, [patience] { return (*patience)(); })};
 }
 
-void compute(const Problem& problem, const JobOptions& options, const ProgressObserver& observer, const std::atomic<bool>& cancel,
-             JobRecord* record, OptimizationOutcome* outcome) {
-  const std::string path = new_bag_path(options.output_directory, problem.robot.name);
-  const std::vector<std::string> parameters = problem.tuned_names();
-  const auto observe = [&](const Trial& trial) {
-    record->progress.push_back(optimization_progress(trial, parameters, ros::Time::now()));
-    if (observer) observer(record->progress.back());
-    return true;
-  };
-  const OptimizationResult result = optimize(problem.system, problem.study, observe, &cancel);
-  outcome->result = to_message(result, parameters);
-  outcome->result.warnings = warning_messages(problem.warnings, result.warnings);
-  outcome->result.setup_seconds = problem.setup_seconds;
-  if (result.gradient.size() == 0) return;  // not even the start has a value
-  record->initial = run_side(problem, problem.parameters(result.initial_rho), options.rate);
-  record->tuned = run_side(problem, problem.parameters(result.rho), options.rate);
-  outcome->tuned_urdf = record->tuned.urdf;
-  record->result = outcome->result;
-  record->result.bag = path;
-  write_bag(path, *record);
-  outcome->result.bag = path;
-}
+/// One job from its request to its bag.
+class Job {
+ public:
+  Job(const Problem& problem, const JobOptions& options, JobRecord* record, OptimizationOutcome* outcome)
+      : problem_(problem),
+        options_(options),
+        files_(options.output_directory, problem.robot.name),
+        best_(files_.stem() + ".", problem),
+        record_(record),
+        outcome_(outcome) {}
+
+  void optimize(const ProgressObserver& observer, const std::atomic<bool>& cancel) {
+    const std::vector<std::string> parameters = problem_.tuned_names();
+    ProgressLog log;
+    const auto observe = [&](const Trial& trial) {
+      best_.note(trial);
+      log.add(optimization_progress(trial, parameters, ros::Time::now()));
+      if (observer) observer(log.last());
+      return true;
+    };
+    result_ = codesign::optimize(problem_.system, problem_.study, observe, &cancel);
+    record_->progress = log.take();
+    outcome_->result = to_message(result_, parameters);
+    outcome_->result.warnings = warning_messages(problem_.warnings, warnings());
+    outcome_->result.setup_seconds = problem_.setup_seconds;
+  }
+
+  /// A cancelled job is recorded too, with its start if it was cancelled before the first evaluation.
+  void record() {
+    const bool is_evaluated = result_.gradient.size() > 0;
+    if (!is_evaluated && result_.status.code != StatusCode::kCancelled) return;
+    if (!is_evaluated) outcome_->result.initial_objective = outcome_->result.objective = std::numeric_limits<double>::quiet_NaN();
+    Patience patience;
+    record_->initial = run_side(problem_, problem_.parameters(result_.initial_rho), options_.rate, &patience);
+    record_->tuned = run_side(problem_, problem_.parameters(result_.rho), options_.rate, &patience);
+    outcome_->tuned_urdf = record_->tuned.urdf;
+    record_->result = outcome_->result;
+    record_->result.bag = files_.bag();
+    write_bag(files_.bag(), *record_);
+    outcome_->result.bag = files_.bag();
+    best_.remove();
+  }
+
+ private:
+  Warnings warnings() const {
+    Warnings warnings = result_.warnings;
+    if (!best_.failure().empty())
+      warnings.push_back({"best_point_not_on_disk", "the best point so far was not on disk while the job ran: " + best_.failure(), {}});
+    return warnings;
+  }
+
+  const Problem& problem_;
+  const JobOptions& options_;
+  const JobFiles files_;
+  BestRecord best_;
+  JobRecord* record_;
+  OptimizationOutcome* outcome_;
+  OptimizationResult result_;
+};
 
 }  // namespace
 
@@ -71,12 +125,13 @@ OptimizationOutcome run_optimization(const Problem& problem, const std::string& 
   record.study = study;
   OptimizationOutcome outcome;
   try {
-    compute(apply_request(problem, request), options, observer, cancel, &record, &outcome);
+    const Problem changed = apply_request(problem, request);
+    Job job(changed, options, &record, &outcome);
+    job.optimize(observer, cancel);
+    job.record();
   } catch (const InputError& error) {
     refuse("bad_input", error.what(), &outcome.result);
-  } catch (const rosbag::BagException& error) {
-    refuse("output_failed", error.what(), &outcome.result);
-  } catch (const std::filesystem::filesystem_error& error) {
+  } catch (const OutputError& error) {
     refuse("output_failed", error.what(), &outcome.result);
   } catch (const std::exception& error) {
     refuse("internal_error", error.what(), &outcome.result);

@@ -8,8 +8,12 @@
 #include <sstream>
 #include <utility>
 
+#include "mechanism_codesign/jobs/job_files.h"
 #include "mechanism_codesign/model/error.h"
+#include "mechanism_codesign/ros/conversions.h"
 #include "mechanism_codesign/ros/inputs.h"
+#include "mechanism_codesign/ros/parameters.h"
+#include "mechanism_codesign/ros/recorded_run.h"
 #include "mechanism_codesign/ros/trajectory_bag.h"
 #include "mechanism_codesign/ros/wire.h"
 
@@ -19,10 +23,24 @@ namespace {
 /// Two callbacks may wait for their workers; the others answer `busy`.
 constexpr unsigned kDoorThreads = 4;
 
+std::vector<std::string> known_parameters() {
+  std::vector<std::string> names = input_parameters();
+  names.insert(names.end(), {"output_directory", "rate", "diagnostic_period"});
+  return names;
+}
+
 std::string default_output_directory() {
   const char* ros_home = std::getenv("ROS_HOME");
   const char* home = std::getenv("HOME");
   return (ros_home != nullptr ? std::string(ros_home) : std::string(home != nullptr ? home : ".") + "/.ros") + "/mechanism_codesign";
+}
+
+/// What a job added to the warnings of the files, which come first.
+Warnings added_warnings(const mechanism_codesign::OptimizeResult& result, std::size_t of_files) {
+  Warnings warnings;
+  for (std::size_t i = of_files; i < result.warnings.size(); ++i)
+    warnings.push_back({result.warnings[i].code, result.warnings[i].message, {}});
+  return warnings;
 }
 
 }  // namespace
@@ -36,6 +54,7 @@ OptimizationNode::OptimizationNode() : state_("optimization"), spinner_(kDoorThr
   evaluate_ = doors_.advertiseService("evaluate", &OptimizationNode::on_evaluate, this);
   action_ = std::make_unique<ActionServer>(
       doors_, "optimize", [this](const GoalHandle& goal) { on_goal(goal); }, [this](const GoalHandle& goal) { on_cancel(goal); }, false);
+  cancel_all_ = doors_.subscribe("optimize/cancel", 10, &OptimizationNode::on_cancel_all, this);
   spinner_.start();
   action_->start();
 }
@@ -48,14 +67,17 @@ OptimizationNode::~OptimizationNode() {
 
 void OptimizationNode::load() {
   try {
-    options_.output_directory = private_node_.param("output_directory", std::string());
-    if (options_.output_directory.empty()) options_.output_directory = default_output_directory();
+    state_.warn("parameters", unknown_parameters(private_node_, known_parameters()));
+    options_.output_directory = read_path(private_node_, "output_directory", default_output_directory());
     options_.rate = read_positive(private_node_, "rate", options_.rate);
     const Inputs inputs = read_inputs(node_, private_node_);
     study_ = inputs.study.text;
     Problem problem =
         load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings, bag_trajectory_loader(study_folder(inputs)));
     require_every_parameter(inputs, problem.robot);
+    check_recording(problem, options_.rate, private_node_.resolveName("rate"));
+    for (const std::string& sentence : remove_leftovers(options_.output_directory)) ROS_WARN_STREAM(sentence);
+    state_.warn("files", problem.warnings);
     problem_ = std::move(problem);
     state_.show("robot", problem_->robot.name);
     state_.show("output directory", options_.output_directory);
@@ -97,6 +119,7 @@ OptimizationNode::Result OptimizationNode::run(const mechanism_codesign::Optimiz
     description.data = outcome.tuned_urdf;
     tuned_.publish(description);
   }
+  state_.warn("last job", added_warnings(outcome.result, problem_->warnings.size()));
   tell_result(outcome.result);
   return outcome.result;
 }
@@ -153,6 +176,11 @@ void OptimizationNode::on_goal(GoalHandle goal) {
   };
   Result refusal;
   if (!start(*goal.getGoal(), client, &refusal)) goal.setRejected(refusal, refusal.message);
+}
+
+/// As for goals, an empty identifier without a stamp cancels whatever runs, and so a job of the service too.
+void OptimizationNode::on_cancel_all(const actionlib_msgs::GoalID& goal) {
+  if (goal.id.empty() && goal.stamp.isZero()) optimizer_.cancel();
 }
 
 void OptimizationNode::on_cancel(const GoalHandle& goal) {

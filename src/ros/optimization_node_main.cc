@@ -1,10 +1,28 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include <ros/init.h>
+#include <ros/ros.h>
 
+#include "mechanism_codesign/ros/node_arguments.h"
 #include "mechanism_codesign/ros/optimization_node.h"
 
+namespace {
+
+const char* const kHelp = R"(usage: rosrun mechanism_codesign optimization _study:=PATH [_PARAMETER:=VALUE ...]
+
+Tunes a mechanism on request: service and action `optimize`, service `evaluate`. doc/ros_api.md has more.
+
+parameters
+  ~model PATH              annotated URDF; without it the text in robot_description
+  ~study PATH              study file, or the study itself as a tree
+  ~overlays [PATH, ...]    annotations to merge into the model
+  ~set {NAME: VALUE}       parameter values that replace those of model and study
+  ~output_directory PATH   where bags go; by default $ROS_HOME/mechanism_codesign or ~/.ros/mechanism_codesign
+  ~rate NUMBER             samples per second of the runs in the bag, by default 50
+)";
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "optimization");
+  if (const std::optional<int> code = codesign::start_node(argc, argv, "optimization", kHelp)) return *code;
   const codesign::OptimizationNode node;
   ros::spin();
   return 0;

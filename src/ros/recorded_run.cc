@@ -4,6 +4,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+
+#include "mechanism_codesign/math/decimal.h"
+#include "mechanism_codesign/ros/advance.h"
+#include "mechanism_codesign/ros/run_clock.h"
 
 namespace codesign {
 namespace {
@@ -45,17 +50,49 @@ struct Extent {
   }
 };
 
+/// For the frames of both runs [bytes].
+constexpr double kMostMemory = 256e6;
+
+double bytes_of_a_frame(const RobotDescription& robot, std::size_t controllers) {
+  const std::size_t pairs = robot.joints.size();
+  return static_cast<double>(sizeof(Frame) + pairs * (sizeof(JointSample) + sizeof(FrictionSample) + sizeof(double)) +
+                             robot.links.size() * sizeof(LinkSample) + controllers * sizeof(ControllerSample));
+}
+
 }  // namespace
+
+void check_recording(const Problem& problem, double rate, const std::string& element) {
+  const double duration = problem.study.duration;
+  if (duration > kLongestRun)
+    throw InputError({{problem.study.file, 0},
+                      "duration",
+                      "the run is longer than ROS can count",
+                      to_decimal(duration),
+                      "at most " + to_decimal(kLongestRun) + " s"});
+  const double most = kMostMemory / (2.0 * bytes_of_a_frame(problem.robot, problem.study.controllers.size()));
+  if (!(duration * rate <= most))
+    throw InputError({{element, 0},
+                      "rate",
+                      "a run of " + to_decimal(duration) + " s has too many samples to keep in memory",
+                      to_decimal(rate),
+                      "at most " + to_decimal(std::floor(1e3 * most / duration) / 1e3) + " samples per second"});
+}
 
 RecordedRun record_run(const Problem& problem, const std::vector<double>& parameters, double rate, const std::function<bool()>& stop) {
   RecordedRun run;
   Simulation simulation(problem.system, parameters);
   run.names = simulation.names();
-  const int count = static_cast<int>(std::lround(problem.study.duration * rate)) + 1;
-  run.status = simulate(&simulation, problem.study.duration, std::max(count, 2), [&](const Frame& frame) {
-    run.frames.push_back(frame);
-    return !stop || !stop();
-  });
+  const double duration = problem.study.duration;
+  const auto count = std::max<std::int64_t>(std::llround(duration * rate), 1);
+  const auto stopped = [&stop] { return stop && stop(); };
+  run.status = simulation.start();
+  for (std::int64_t k = 0; run.status.ok() && k <= count; ++k) {
+    const auto instant = [&](std::int64_t index) { return duration * static_cast<double>(index) / static_cast<double>(count); };
+    if (k > 0) run.status = advance(&simulation, instant(k - 1), instant(k), stopped);
+    if (!run.status.ok()) break;
+    run.frames.emplace_back();
+    simulation.sample(instant(k), &run.frames.back());
+  }
   return run;
 }
 

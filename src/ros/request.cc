@@ -16,6 +16,21 @@ constexpr const char* kRequest = "request";
   throw InputError({{kRequest, 0}, field, message, value, allowed});
 }
 
+/// Refuses what no name can be, before anything looks for the nearest one.
+void check_length(const std::string& field, const std::string& text) {
+  constexpr std::size_t kLongestName = 1000;
+  if (text.size() > kLongestName)
+    fail(field, "too long for a name", text.substr(0, 20) + "...", "at most " + std::to_string(kLongestName) + " letters");
+}
+
+/// A request holds no more names than there are parameters, whatever they are.
+void check_names(const std::vector<std::string>& names, std::size_t known) {
+  if (names.size() > known)
+    fail("parameters", "more names than there are parameters", std::to_string(names.size()) + " names",
+         "at most " + std::to_string(known) + " names");
+  for (const std::string& name : names) check_length("parameters", name);
+}
+
 std::vector<std::string> names_of(const std::vector<Parameter>& parameters) {
   std::vector<std::string> names;
   names.reserve(parameters.size());
@@ -49,6 +64,7 @@ void choose_tuned(const std::vector<std::string>& names, Study* study) {
 }
 
 void choose_options(const mechanism_codesign::OptimizeGoal& request, OptimizerOptions* options) {
+  check_length("algorithm", request.algorithm);
   if (!request.algorithm.empty()) {
     options->algorithm = request.algorithm;
     options->where = {kRequest, 0};
@@ -66,6 +82,7 @@ void choose_options(const mechanism_codesign::OptimizeGoal& request, OptimizerOp
 Problem apply_request(const Problem& problem, const mechanism_codesign::OptimizeGoal& request) {
   Problem changed = problem;
   choose_options(request, &changed.study.optimizer);
+  check_names(request.parameters, changed.study.parameters.size());
   if (!request.parameters.empty()) {
     pair_up(request.parameters, std::vector<double>(request.parameters.size()), "parameters");
     choose_tuned(request.parameters, &changed.study);
@@ -78,6 +95,8 @@ Problem apply_request(const Problem& problem, const mechanism_codesign::Optimize
 
 Eigen::VectorXd design_of(const Problem& problem, const mechanism_codesign::EvaluateRequest& request) {
   const std::vector<std::string> tuned = problem.tuned_names();
+  check_length("check", request.check);
+  check_names(request.parameters, tuned.size());
   Eigen::VectorXd rho = problem.start();
   for (const auto& [name, value] : pair_up(request.parameters, request.values, "values")) {
     const std::size_t k = index_of(name, tuned);

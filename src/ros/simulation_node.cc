@@ -2,40 +2,37 @@
 #include "mechanism_codesign/ros/simulation_node.h"
 
 #include <rosgraph_msgs/Clock.h>
+#include <std_msgs/String.h>
 
-#include <cmath>
+#include <algorithm>
+#include <cstdint>
 
+#include "mechanism_codesign/jobs/output_error.h"
 #include "mechanism_codesign/model/error.h"
 #include "mechanism_codesign/model/unknown_name.h"
-#include "mechanism_codesign/ros/frame_messages.h"
+#include "mechanism_codesign/ros/advance.h"
+#include "mechanism_codesign/ros/description.h"
 #include "mechanism_codesign/ros/inputs.h"
+#include "mechanism_codesign/ros/parameters.h"
 #include "mechanism_codesign/ros/trajectory_bag.h"
 
 namespace codesign {
 namespace {
 
 constexpr std::uint32_t kQueueSize = 100;
+/// As fast as possible a whole second of frames may wait for a subscriber that is held up.
+constexpr std::uint32_t kLongQueueSize = 1000;
 
 std::string at_time(const Status& status) { return status.cause + " (at t = " + std::to_string(status.time) + " s)"; }
 
-}  // namespace
-
-SimulationOptions read_simulation_options(const ros::NodeHandle& private_node) {
-  SimulationOptions options;
-  options.rate = read_positive(private_node, "rate", options.rate);
-  options.time_scale = read_positive(private_node, "time_scale", options.time_scale);
-  options.world_frame = private_node.param("world_frame", options.world_frame);
-  options.loop = private_node.param("loop", options.loop);
-  options.style.metres_per_newton = read_positive(private_node, "force_scale", options.style.metres_per_newton);
-  options.style.metres_per_newton_metre = read_positive(private_node, "torque_scale", options.style.metres_per_newton_metre);
-  options.style.shaft_diameter = read_positive(private_node, "arrow_width", options.style.shaft_diameter);
-  const std::string mode = private_node.param("mode", std::string("real_time"));
-  if (mode == "as_fast_as_possible")
-    options.time_scale = 0.0;
-  else if (mode != "real_time")
-    throw unknown_name({private_node.resolveName("mode"), 0}, "mode", "mode", mode, {"real_time", "as_fast_as_possible"});
-  return options;
+std::vector<std::string> known_parameters() {
+  std::vector<std::string> names = simulation_parameters();
+  names.insert(names.end(), input_parameters().begin(), input_parameters().end());
+  names.emplace_back("diagnostic_period");
+  return names;
 }
+
+}  // namespace
 
 SimulationNode::SimulationNode() : state_("simulation") {
   try {
@@ -53,21 +50,39 @@ SimulationNode::~SimulationNode() {
 }
 
 void SimulationNode::load() {
+  state_.warn("parameters", unknown_parameters(private_node_, known_parameters()));
   options_ = read_simulation_options(private_node_);
   clock_ = RunClock(options_.time_scale);
+  pace_ = Pace(options_.publish_limit);
   const Inputs inputs = read_inputs(node_, private_node_);
   problem_ = load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings, bag_trajectory_loader(study_folder(inputs)));
+  check_duration(private_node_, options_, problem_.study.duration);
   state_.show("robot", problem_.robot.name);
-  publishers_["joint_states"] = node_.advertise<sensor_msgs::JointState>("joint_states", kQueueSize);
-  publishers_["joint_friction"] = node_.advertise<mechanism_codesign::JointFriction>("joint_friction", kQueueSize);
-  publishers_["controller_states"] = node_.advertise<mechanism_codesign::ControllerStates>("controller_states", kQueueSize);
-  publishers_["loop_errors"] = node_.advertise<mechanism_codesign::LoopErrors>("loop_errors", kQueueSize);
-  publishers_["friction_markers"] = node_.advertise<visualization_msgs::MarkerArray>("friction_markers", kQueueSize);
-  if (clock_.is_free_running()) clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", kQueueSize);
+  state_.warn("files", problem_.warnings);
+  advertise();
+  tell_description();
+}
+
+void SimulationNode::advertise() {
+  const std::uint32_t size = clock_.is_free_running() ? kLongQueueSize : kQueueSize;
+  publishers_["joint_states"] = node_.advertise<sensor_msgs::JointState>("joint_states", size);
+  publishers_["joint_friction"] = node_.advertise<mechanism_codesign::JointFriction>("joint_friction", size);
+  publishers_["controller_states"] = node_.advertise<mechanism_codesign::ControllerStates>("controller_states", size);
+  publishers_["loop_errors"] = node_.advertise<mechanism_codesign::LoopErrors>("loop_errors", size);
+  publishers_["friction_markers"] = node_.advertise<visualization_msgs::MarkerArray>("friction_markers", size);
+  if (clock_.is_free_running()) clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", size);
+  description_publisher_ = node_.advertise<std_msgs::String>("robot_description", 1, true);
+}
+
+void SimulationNode::tell_description() {
+  std_msgs::String message;
+  message.data = description_ = write_tuned_urdf(problem_.urdf, problem_.overlays, problem_.parameters());
+  description_publisher_.publish(message);
+  state_.warn("description", check_description(node_, problem_, description_));
 }
 
 void SimulationNode::place_root() {
-  const std::string& root = problem_.robot.links[static_cast<std::size_t>(problem_.robot.root)].name;
+  const std::string root = options_.frame_prefix + problem_.robot.links[static_cast<std::size_t>(problem_.robot.root)].name;
   if (options_.world_frame.empty() || options_.world_frame == root) return;
   geometry_msgs::TransformStamped transform;
   transform.header.stamp = clock_.stamp(0.0);
@@ -78,12 +93,25 @@ void SimulationNode::place_root() {
 }
 
 void SimulationNode::run() {
+  try {
+    run_all();
+  } catch (const std::exception& error) {
+    state_.set(NodeState::Level::kError, std::string("internal_error: ") + error.what());
+  }
+}
+
+void SimulationNode::run_all() {
   double previous_duration = 0.0;
+  wait_for_subscribers();
   state_.set(NodeState::Level::kOk, "running " + problem_.robot.name);
+  open_bag();
   do {
+    if (!clock_.has_room_for(previous_duration + problem_.study.duration))
+      return state_.set(NodeState::Level::kWarning, "finished: /clock has come to the end of what ROS can count");
     clock_.start_run(previous_duration);
     if (previous_duration == 0.0) place_root();
     const Status status = run_once();
+    close_bag();
     if (stopping()) return;
     if (!status.ok()) return state_.set(NodeState::Level::kError, std::string(name_of(status.code)) + ": " + at_time(status));
     previous_duration = problem_.study.duration + 1.0 / options_.rate;
@@ -95,31 +123,98 @@ Status SimulationNode::run_once() {
   Simulation simulation(problem_.system, problem_.parameters());
   Status status = simulation.start();
   const double duration = problem_.study.duration;
+  const auto instant = [&](std::int64_t k) { return std::min(static_cast<double>(k) / options_.rate, duration); };
   Frame frame;
-  for (long k = 0; status.ok(); ++k) {
-    const double time = std::min(static_cast<double>(k) / options_.rate, duration);
-    if (k > 0) status = simulation.advance(time);
+  factor_.start(ros::WallTime::now());
+  for (std::int64_t k = 0; status.ok(); ++k) {
+    const double time = instant(k);
+    if (k > 0) status = advance(&simulation, instant(k - 1), time, [this] { return stopping(); });
     if (!status.ok()) break;
     simulation.sample(time, &frame);
     if (!clock_.wait(time, [this] { return stopping(); })) break;
     publish(simulation.names(), frame);
+    record(simulation.names(), frame);
+    tell_progress(frame);
     if (time >= duration) break;
   }
+  state_.show("real-time factor of the run", std::to_string(factor_.mean(frame.time, ros::WallTime::now())));
+  state_.warn("run", simulation.warnings());
   return status;
 }
 
+void SimulationNode::tell_progress(const Frame& frame) {
+  if (!factor_.note(frame.time, ros::WallTime::now())) return;
+  state_.show("time of the run", std::to_string(frame.time));
+  state_.show("real-time factor", std::to_string(factor_.value()));
+}
+
+void SimulationNode::wait_for_subscribers() {
+  if (options_.wait_for_subscribers.empty()) return;
+  const auto is_missing = [this](const std::string& topic) { return publishers_.at(topic).getNumSubscribers() == 0; };
+  const std::vector<std::string>& topics = options_.wait_for_subscribers;
+  state_.set(NodeState::Level::kOk, "waiting for subscribers of " + list_names(topics));
+  while (!stopping() && std::any_of(topics.begin(), topics.end(), is_missing)) {
+    // Some programs, rosbag record among them, do not work before the clock tells a time.
+    if (clock_.is_free_running()) publish_clock(0.0);
+    ros::WallDuration(0.05).sleep();
+  }
+}
+
+bool SimulationNode::is_watched() const {
+  return std::any_of(publishers_.begin(), publishers_.end(), [](const auto& entry) { return entry.second.getNumSubscribers() > 0; });
+}
+
+void SimulationNode::publish_clock(double time) {
+  rosgraph_msgs::Clock message;
+  message.clock = clock_.stamp(time);
+  clock_publisher_.publish(message);
+}
+
 void SimulationNode::publish(const FrameNames& names, const Frame& frame) {
-  const MessageContext context{clock_.stamp(frame.time), names.links[0]};
+  const MessageContext context{clock_.stamp(frame.time), options_.frame_prefix + names.links[0]};
   if (clock_.is_free_running()) {
-    rosgraph_msgs::Clock message;
-    message.clock = context.stamp;
-    clock_publisher_.publish(message);
+    if (is_watched()) pace_.wait(ros::WallTime::now()).sleep();
+    publish_clock(frame.time);
   }
   FrameMessages(names, frame, context, options_.style).visit([this](const std::string& topic, const auto& message) {
     publishers_.at(topic).publish(message);
   });
-  const tf2_msgs::TFMessage poses = free_link_transforms(names, frame, context);
+  const tf2_msgs::TFMessage poses = options_.frame_prefix.empty() ? free_link_transforms(names, frame, context)
+                                                                  : link_transforms(names, frame, context.stamp, options_.frame_prefix);
   if (!poses.transforms.empty()) transforms_.sendTransform(poses.transforms);
+}
+
+void SimulationNode::open_bag() {
+  if (options_.bag.empty()) return;
+  try {
+    bag_ = std::make_unique<BagWriter>(options_.bag);
+    bag_->write_text("robot_description", description_);
+  } catch (const OutputError& error) {
+    bag_.reset();
+    state_.warn("bag", {{"output_failed", error.what(), {}}});
+  }
+}
+
+void SimulationNode::record(const FrameNames& names, const Frame& frame) {
+  if (!bag_) return;
+  try {
+    bag_->write_frame("", options_.frame_prefix + names.links[0], names, frame, options_.style);
+    bag_->write("tf", frame.time, link_transforms(names, frame, BagWriter::stamp(frame.time), options_.frame_prefix));
+  } catch (const OutputError& error) {
+    bag_.reset();
+    state_.warn("bag", {{"output_failed", error.what(), {}}});
+  }
+}
+
+void SimulationNode::close_bag() {
+  if (!bag_) return;
+  try {
+    bag_->finish();
+    state_.show("bag", options_.bag);
+  } catch (const OutputError& error) {
+    state_.warn("bag", {{"output_failed", error.what(), {}}});
+  }
+  bag_.reset();
 }
 
 }  // namespace codesign

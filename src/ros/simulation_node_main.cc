@@ -1,10 +1,37 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include <ros/init.h>
+#include <ros/ros.h>
 
+#include "mechanism_codesign/ros/node_arguments.h"
 #include "mechanism_codesign/ros/simulation_node.h"
 
+namespace {
+
+const char* const kHelp = R"(usage: rosrun mechanism_codesign simulation _study:=PATH [_PARAMETER:=VALUE ...]
+
+Runs a study and publishes it: joint_states, joint_friction, controller_states, loop_errors, friction_markers.
+doc/ros_api.md has more.
+
+parameters
+  ~model PATH              annotated URDF; without it the text in robot_description
+  ~study PATH              study file, or the study itself as a tree
+  ~overlays [PATH, ...]    annotations to merge into the model
+  ~set {NAME: VALUE}       parameter values that replace those of model and study
+  ~rate NUMBER             frames per second of the run, by default 50
+  ~mode MODE               real_time (the default) or as_fast_as_possible, with /clock
+  ~time_scale NUMBER       seconds of the run in one second, by default 1
+  ~loop true               start again when the duration is over
+  ~wait_for_subscribers [TOPIC, ...]   topics that must have a subscriber before the run begins
+  ~publish_limit NUMBER    frames per second, as fast as possible and while somebody listens, by default 500
+  ~bag PATH                a bag of the first run, every frame in it
+  ~world_frame NAME        a TF frame at the root link
+  ~frame_prefix TEXT       before the name of each TF frame
+  ~force_scale, ~torque_scale, ~arrow_width   how friction is drawn
+)";
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "simulation");
+  if (const std::optional<int> code = codesign::start_node(argc, argv, "simulation", kHelp)) return *code;
   const codesign::SimulationNode node;
   ros::spin();
   return 0;

@@ -8,8 +8,9 @@
 #include <filesystem>
 
 #include "mechanism_codesign/model/error.h"
-#include "ros/pendulum.h"
+#include "mechanism_codesign/ros/parameters.h"
 #include "paths.h"
+#include "ros/pendulum.h"
 
 namespace codesign {
 namespace {

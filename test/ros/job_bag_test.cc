@@ -7,10 +7,9 @@
 #include <sensor_msgs/JointState.h>
 #include <std_msgs/String.h>
 
-#include <fstream>
 #include <map>
-#include <regex>
 
+#include "mechanism_codesign/jobs/output_error.h"
 #include "mechanism_codesign/ros/conversions.h"
 #include "sample_frame.h"
 #include "temporary_directory.h"
@@ -98,31 +97,7 @@ TEST_F(JobBag, DescriptionsAndPlacesAreLatched) {
 
 TEST_F(JobBag, NothingUnfinishedIsLeft) { EXPECT_FALSE(std::filesystem::exists(path_ + ".active")); }
 
-TEST(NewBagPath, NamesTheRobotAndTheTimeInADirectoryItMakes) {
-  const TemporaryDirectory directory;
-  const std::string path = new_bag_path((directory.path() / "a/b").string(), "slider_crank");
-  EXPECT_TRUE(std::regex_match(path, std::regex(directory.path().string() + R"(/a/b/slider_crank_\d{4}-\d\d-\d\d-\d\d-\d\d-\d\d\.bag)")))
-      << path;
-  EXPECT_TRUE(std::filesystem::is_directory(directory.path() / "a/b"));
-}
-
-TEST(NewBagPath, ARobotsNameCannotLeadOutOfTheDirectory) {
-  const TemporaryDirectory directory;
-  const std::filesystem::path path = new_bag_path(directory.path().string(), "../../etc/evil robot");
-  EXPECT_EQ(path.parent_path(), directory.path());
-}
-
-TEST(NewBagPath, NeverNamesABagThatIsThere) {
-  const TemporaryDirectory directory;
-  const std::string first = new_bag_path(directory.path().string(), "r");
-  std::ofstream(first + ".active") << "unfinished";
-  const std::string second = new_bag_path(directory.path().string(), "r");
-  EXPECT_NE(first, second);
-}
-
-TEST(WriteBag, AFullOrMissingDirectoryIsAnError) {
-  EXPECT_THROW(write_bag("/nonexistent_directory/a.bag", sample_record()), rosbag::BagException);
-}
+TEST(WriteBag, AFullOrMissingDirectoryIsAnError) { EXPECT_THROW(write_bag("/nonexistent_directory/a.bag", sample_record()), OutputError); }
 
 }  // namespace
 }  // namespace codesign

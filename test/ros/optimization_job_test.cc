@@ -4,6 +4,13 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/JointState.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <set>
 
 #include "mechanism_codesign/ros/job.h"
 #include "pendulum.h"
@@ -70,6 +77,56 @@ TEST_F(OptimizationJob, ACancelledOneKeepsItsBestPointAndIsRecorded) {
   EXPECT_EQ(result.code, "cancelled");
   EXPECT_LE(result.objective, result.initial_objective);
   EXPECT_TRUE(std::filesystem::exists(result.bag));
+}
+
+TEST_F(OptimizationJob, CancelledBeforeTheFirstEvaluationItRecordsItsStart) {
+  cancel_ = true;
+  const OptimizationOutcome outcome = run();
+  EXPECT_EQ(outcome.result.code, "cancelled");
+  EXPECT_EQ(outcome.result.tuned, (std::vector<double>{0.5, 1.0}));
+  EXPECT_TRUE(std::isnan(outcome.result.objective));
+  rosbag::Bag bag(outcome.result.bag);
+  for (const std::string topic : {"initial/joint_states", "tuned/joint_states"})
+    EXPECT_EQ(rosbag::View(bag, rosbag::TopicQuery(topic)).size(), 11U);
+  EXPECT_EQ(rosbag::View(bag, rosbag::TopicQuery("optimization_progress")).size(), 0U);
+}
+
+TEST_F(OptimizationJob, TheBestPointIsOnDiskUntilTheBagIs) {
+  int seen = 0;
+  const auto result = run(OptimizeGoal(), [&](const mechanism_codesign::OptimizationProgress&) {
+                        for (const auto& entry : std::filesystem::directory_iterator(directory_.path()))
+                          if (entry.path().string().find(".best.json") != std::string::npos) ++seen;
+                      }).result;
+  EXPECT_EQ(seen, static_cast<int>(result.evaluations));
+  const auto entries = std::filesystem::directory_iterator(directory_.path());
+  EXPECT_EQ(std::distance(begin(entries), end(entries)), 1) << "the bag alone";
+}
+
+TEST_F(OptimizationJob, ManyInOneSecondLeaveABagEach) {
+  OptimizeGoal request;
+  request.max_evaluations = 1;
+  std::set<std::string> bags;
+  for (int k = 0; k < 20; ++k) bags.insert(run(request).result.bag);
+  EXPECT_EQ(bags.size(), 20U);
+  for (const std::string& bag : bags) EXPECT_TRUE(std::filesystem::exists(bag)) << bag;
+}
+
+TEST_F(OptimizationJob, ADiskThatIsFullAtTheEndKeepsWhatWasComputedInTheReply) {
+  const pid_t child = fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{20000, 20000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    const auto result = run().result;
+    const bool is_told = result.code == "output_failed" && result.message.find(": cannot be written: File too large") != std::string::npos;
+    _exit(is_told && !result.success && result.bag.empty() && result.tuned.size() == 2 && result.objective < result.initial_objective ? 0
+                                                                                                                                      : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  for (const auto& entry : std::filesystem::directory_iterator(directory_.path()))
+    EXPECT_NE(entry.path().string().find(".best."), std::string::npos) << entry.path();
 }
 
 TEST_F(OptimizationJob, ABadRequestIsAnAnswerAndLeavesNothing) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "mechanism_codesign/model/error.h"
+#include "pendulum.h"
 #include "sample_frame.h"
 
 namespace codesign {
@@ -36,6 +38,25 @@ TEST(LayOut, WithoutFramesItStaysFinite) {
   const SceneLayout layout = lay_out({}, {});
   EXPECT_GT(layout.style.shaft_diameter, 0.0);
   EXPECT_TRUE(std::isfinite(layout.style.metres_per_newton));
+}
+
+TEST(CheckRecording, RefusesWhatMemoryOrRosTimeCannotHold) {
+  Problem problem = pendulum();
+  const auto fault_of = [&problem](double duration, double rate) -> std::string {
+    problem.study.duration = duration;
+    try {
+      check_recording(problem, rate, "/optimization/rate");
+      return "";
+    } catch (const InputError& error) {
+      return error.fault().element;
+    }
+  };
+  EXPECT_EQ(fault_of(0.5, 50.0), "");
+  EXPECT_EQ(fault_of(3600.0, 50.0), "");
+  EXPECT_EQ(fault_of(1e9, 1e10), "rate");
+  EXPECT_EQ(fault_of(0.5, 1e300), "rate");
+  EXPECT_EQ(fault_of(1e5, 1e4), "rate");
+  EXPECT_EQ(fault_of(5e9, 1e-6), "duration");
 }
 
 }  // namespace

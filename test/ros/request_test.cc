@@ -113,5 +113,29 @@ TEST(EvaluateRequest, FaultsNameTheField) {
   EXPECT_NE(fault_of(request).find("[0, 5]"), std::string::npos);
 }
 
+TEST(ARequest, OfMoreNamesThanThereAreParametersIsRefusedAtOnce) {
+  OptimizeGoal goal;
+  EvaluateRequest evaluation;
+  for (int k = 0; k < 200000; ++k) goal.parameters.push_back("parameter_" + std::to_string(k));
+  evaluation.parameters = goal.parameters;
+  evaluation.values.resize(goal.parameters.size());
+  for (const std::string& fault : {fault_of(goal), fault_of(evaluation)}) {
+    EXPECT_NE(fault.find("more names than there are parameters"), std::string::npos) << fault;
+    EXPECT_NE(fault.find("200000 names"), std::string::npos) << fault;
+  }
+}
+
+TEST(ARequest, WithANameThatIsTooLongShowsItsBeginning) {
+  OptimizeGoal goal;
+  goal.parameters = {std::string(50000, 'a')};
+  EXPECT_LT(fault_of(goal).size(), 200U);
+  goal.parameters = {};
+  goal.algorithm = std::string(1000000, 'l');
+  EXPECT_LT(fault_of(goal).size(), 200U);
+  EvaluateRequest evaluation;
+  evaluation.check = std::string(1000000, 'c');
+  EXPECT_LT(fault_of(evaluation).size(), 200U);
+}
+
 }  // namespace
 }  // namespace codesign

@@ -40,6 +40,9 @@ mechanism_codesign::LoopErrors loop_errors(const FrameNames& names, const Frame&
 /// Poses of the links that robot_state_publisher cannot place, each relative to its parent link.
 tf2_msgs::TFMessage free_link_transforms(const FrameNames& names, const Frame& frame, const MessageContext& context);
 
+/// Poses of all links but the root, relative to the root link; `prefix` stands before every frame.
+tf2_msgs::TFMessage link_transforms(const FrameNames& names, const Frame& frame, const ros::Time& stamp, const std::string& prefix);
+
 /// Poses of all links relative to the root link, whose TF frame is `prefix` + its name; `prefix` stands before every frame.
 /// The root itself is placed at the origin of the frame called `prefix` without its trailing slash.
 tf2_msgs::TFMessage all_link_transforms(const FrameNames& names, const Frame& frame, const ros::Time& stamp, const std::string& prefix);

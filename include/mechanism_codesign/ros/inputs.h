@@ -3,7 +3,6 @@
 #define MECHANISM_CODESIGN_ROS_INPUTS_H_
 
 #include <ros/node_handle.h>
-#include <xmlrpcpp/XmlRpcValue.h>
 
 #include <string>
 #include <vector>
@@ -36,11 +35,8 @@ Inputs read_inputs(const ros::NodeHandle& node, const ros::NodeHandle& private_n
 /// @throws InputError for a parameter of the model that a tree does not name.
 void require_every_parameter(const Inputs& inputs, const RobotDescription& robot);
 
-/// A private parameter that must be a finite number above zero, or `fallback` if it is not set. @throws InputError if it is none.
-double read_positive(const ros::NodeHandle& private_node, const std::string& key, double fallback);
-
-/// A tree of ROS parameters as YAML text, for the one strict reader of studies. XML-RPC structs know no order: keys come out sorted.
-std::string to_yaml(const XmlRpc::XmlRpcValue& tree);
+/// The names of the parameters that read_inputs() knows.
+const std::vector<std::string>& input_parameters();
 
 }  // namespace codesign
 

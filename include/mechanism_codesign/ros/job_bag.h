@@ -28,16 +28,11 @@ struct JobRecord {
   std::string study;  ///< the text of the study
 };
 
-/// A path in `directory` that no bag has yet: `<robot>_%Y-%m-%d-%H-%M-%S.bag`, local time. Creates the directory.
-/// Characters of the robot's name that could lead out of the directory are replaced.
-/// @throws std::filesystem::filesystem_error if the directory cannot be made.
-std::string new_bag_path(const std::string& directory, const std::string& robot);
-
 /// Writes the bag as `path`.active and renames it when it is whole. Topics: doc/ros_api.md.
 ///
 /// Recorded time starts at 1 s, and header stamps agree with it. Frames are `initial/<link>` and `tuned/<link>`, both below `world`.
 /// The convergence is spread evenly over the duration of the runs, so that a plot shows it beside them.
-/// @throws rosbag::BagException or std::filesystem::filesystem_error if the disk does not take it.
+/// @throws OutputError if the disk does not take it; no unfinished bag is left then.
 void write_bag(const std::string& path, const JobRecord& record);
 
 }  // namespace codesign

@@ -7,7 +7,10 @@
 
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
+
+#include "mechanism_codesign/model/warning.h"
 
 namespace codesign {
 
@@ -25,6 +28,10 @@ class NodeState {
 
   void set(Level level, const std::string& sentence);
 
+  /// What is doubtful, which makes the state a warning as long as it stands: each warning once in the log, and as a value beside the
+  /// sentence. Those of one group replace those shown for it before.
+  void warn(const std::string& group, const Warnings& warnings);
+
   /// A value shown beside the sentence.
   void show(const std::string& key, const std::string& value);
 
@@ -35,6 +42,8 @@ class NodeState {
   Level level_ = Level::kOk;
   std::string sentence_ = "starting";
   std::map<std::string, std::string> values_;
+  std::map<std::string, Warnings> warnings_;  ///< by group
+  std::set<std::string> logged_;
   diagnostic_updater::Updater updater_;
   ros::WallTimer timer_;
 };

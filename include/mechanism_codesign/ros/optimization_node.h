@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_ROS_OPTIMIZATION_NODE_H_
 
 #include <actionlib/server/action_server.h>
+#include <actionlib_msgs/GoalID.h>
 #include <mechanism_codesign/Evaluate.h>
 #include <mechanism_codesign/Optimize.h>
 #include <mechanism_codesign/OptimizeAction.h>
@@ -40,6 +41,7 @@ class OptimizationNode {
   bool on_evaluate(mechanism_codesign::Evaluate::Request& request, mechanism_codesign::Evaluate::Response& response);
   void on_goal(GoalHandle goal);
   void on_cancel(const GoalHandle& goal);
+  void on_cancel_all(const actionlib_msgs::GoalID& goal);
 
   /// What whoever asked for a job is told, all of it in the worker's thread.
   struct Client {
@@ -67,6 +69,7 @@ class OptimizationNode {
   Worker optimizer_, evaluator_;
   ros::AsyncSpinner spinner_;
   ros::ServiceServer optimize_, evaluate_;
+  ros::Subscriber cancel_all_;
 };
 
 }  // namespace codesign

@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_ROS_RECORDED_RUN_H_
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "mechanism_codesign/optimization/problem.h"
@@ -17,7 +18,11 @@ struct RecordedRun {
   Status status;  ///< not ok: the frames end where the run did
 };
 
-/// @param rate samples per second.
+/// Makes sure that the runs of a job fit into memory and into ROS's time. @param rate samples per second. @throws InputError naming
+/// `element` if they do not.
+void check_recording(const Problem& problem, double rate, const std::string& element);
+
+/// @param rate samples per second, that check_recording() has let pass.
 /// @param stop if given, asked at each sample; true ends the run there.
 RecordedRun record_run(const Problem& problem, const std::vector<double>& parameters, double rate, const std::function<bool()>& stop = {});
 

@@ -8,6 +8,9 @@
 
 namespace codesign {
 
+/// What a run may last in ROS time, whose seconds are 32 bits [s].
+inline constexpr double kLongestRun = 2e9;
+
 /// When an instant of a run is due, and which stamp it carries.
 ///
 /// Paced: stamps are those of ROS time, `time_scale` seconds of the run pass in one second. Free-running: nothing waits, and stamps are the
@@ -21,6 +24,9 @@ class RunClock {
 
   /// Begins a run, `previous_duration` [s] after the start of the one before (0: there was none).
   void start_run(double previous_duration);
+
+  /// Whether the stamps of a run of `duration` [s] more can be told: ROS counts 2^32 seconds.
+  bool has_room_for(double duration) const { return !is_free_running() || offset_ + duration < 4.2e9; }
 
   /// Stamp of `time` [s] in this run.
   ros::Time stamp(double time) const;

@@ -8,26 +8,18 @@
 
 #include <atomic>
 #include <map>
+#include <memory>
 #include <string>
 #include <thread>
 
 #include "mechanism_codesign/optimization/problem.h"
-#include "mechanism_codesign/ros/friction_markers.h"
+#include "mechanism_codesign/ros/bag_writer.h"
 #include "mechanism_codesign/ros/node_state.h"
+#include "mechanism_codesign/ros/pace.h"
 #include "mechanism_codesign/ros/run_clock.h"
+#include "mechanism_codesign/ros/simulation_options.h"
 
 namespace codesign {
-
-struct SimulationOptions {
-  double rate = 50.0;       ///< frames per second of the run
-  double time_scale = 1.0;  ///< seconds of the run per second; 0: as fast as possible, with /clock
-  std::string world_frame;  ///< a TF frame at the root link, for viewers that do not know its name; empty: none
-  bool loop = false;        ///< start again when the study's duration is over
-  MarkerStyle style;
-};
-
-/// Reads `~rate`, `~mode`, `~time_scale`, `~loop`, `~world_frame`, `~force_scale`, `~torque_scale` and `~arrow_width`. @throws InputError
-SimulationOptions read_simulation_options(const ros::NodeHandle& private_node);
 
 /// The node `simulation`: runs the loaded study and publishes it. See doc/ros_api.md.
 ///
@@ -39,22 +31,36 @@ class SimulationNode {
 
  private:
   void load();
+  void advertise();
+  void tell_description();
   void run();
+  void run_all();
   /// One run from 0 to the study's duration; the status tells why it ended before.
   Status run_once();
   void place_root();
+  void wait_for_subscribers();
+  bool is_watched() const;
   void publish(const FrameNames& names, const Frame& frame);
+  void publish_clock(double time);
+  void open_bag();
+  void record(const FrameNames& names, const Frame& frame);
+  void close_bag();
+  void tell_progress(const Frame& frame);
   bool stopping() const { return stopping_ || !ros::ok(); }
 
   ros::NodeHandle node_, private_node_{"~"};
   NodeState state_;
   SimulationOptions options_;
   Problem problem_;
+  std::string description_;  ///< URDF of the mechanism that runs
   RunClock clock_{1.0};
+  Pace pace_;
+  RealTimeFactor factor_;
   std::map<std::string, ros::Publisher> publishers_;
-  ros::Publisher clock_publisher_;
+  ros::Publisher clock_publisher_, description_publisher_;
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
+  std::unique_ptr<BagWriter> bag_;  ///< while it is being written
   std::atomic<bool> stopping_{false};
   std::thread thread_;  // last: it uses all of the above
 };

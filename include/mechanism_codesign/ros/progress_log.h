@@ -1,0 +1,33 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_PROGRESS_LOG_H_
+#define MECHANISM_CODESIGN_ROS_PROGRESS_LOG_H_
+
+#include <mechanism_codesign/OptimizationProgress.h>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace codesign {
+
+/// The trial points of a job, in bounded memory: of more than `capacity`, every second, fourth, ... is kept, and always the last.
+class ProgressLog {
+ public:
+  /// @param capacity even, at least 2.
+  explicit ProgressLog(std::size_t capacity = 10000) : capacity_(capacity) {}
+
+  void add(mechanism_codesign::OptimizationProgress progress);
+  const mechanism_codesign::OptimizationProgress& last() const { return last_; }
+
+  /// All that is kept, in order; the log is used up.
+  std::vector<mechanism_codesign::OptimizationProgress> take();
+
+ private:
+  std::size_t capacity_, stride_ = 1, count_ = 0;
+  std::vector<mechanism_codesign::OptimizationProgress> kept_;
+  mechanism_codesign::OptimizationProgress last_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_PROGRESS_LOG_H_

@@ -1,0 +1,80 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/ros/bag_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "mechanism_codesign/jobs/output_error.h"
+#include "mechanism_codesign/jobs/whole_file.h"
+
+namespace codesign {
+
+BagFile::BagFile(const std::string& path) : path_(path), active_(path + ".active"), bag_(std::make_unique<rosbag::Bag>()) {
+  const int descriptor = open(active_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor < 0) throw OutputError::of_system(active_, errno);
+  struct stat file {};
+  fstat(descriptor, &file);
+  close(descriptor);
+  device_ = file.st_dev;
+  inode_ = file.st_ino;
+  guard([this] { bag_->open(active_, rosbag::bagmode::Write); });
+}
+
+BagFile::~BagFile() {
+  if (!bag_) return;
+  abandon();
+  unlink(active_.c_str());
+}
+
+void BagFile::finish() {
+  guard([this] { bag_->close(); });
+  bag_.reset();
+  try {
+    give_final_name(active_, path_);
+  } catch (const OutputError&) {
+    unlink(active_.c_str());
+    throw;
+  }
+}
+
+void BagFile::fail(int cause) {
+  abandon();
+  unlink(active_.c_str());
+  throw OutputError::of_system(path_, cause);
+}
+
+/// Ends the bag without a word to the disk: what its destructor still writes goes nowhere, and therefore cannot fail.
+void BagFile::abandon() noexcept {
+  if (divert()) {
+    try {
+      bag_->close();
+      bag_.reset();
+      return;
+    } catch (const std::exception&) {
+    }
+  }
+  // rosbag closed the file and failed doing so. Its destructor would close it again: it must never run.
+  static_cast<void>(bag_.release());
+}
+
+/// Points every descriptor of the file, rosbag's one, to /dev/null. Returns whether there was any.
+bool BagFile::divert() const noexcept {
+  const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
+  bool found = false;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry("/proc/self/fd", error), end; nowhere >= 0 && !error && entry != end;
+       entry.increment(error)) {
+    const int descriptor = std::atoi(entry->path().filename().c_str());
+    struct stat file {};
+    if (fstat(descriptor, &file) != 0 || file.st_dev != device_ || file.st_ino != inode_) continue;
+    found = dup2(nowhere, descriptor) >= 0 || found;
+  }
+  if (nowhere >= 0) close(nowhere);
+  return found;
+}
+
+}  // namespace codesign

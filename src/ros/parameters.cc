@@ -1,0 +1,169 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/ros/parameters.h"
+
+#include <ros/param.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <set>
+
+#include "mechanism_codesign/math/decimal.h"
+#include "mechanism_codesign/model/nearest_name.h"
+#include "mechanism_codesign/model/unknown_name.h"
+
+namespace codesign {
+
+using XmlRpc::XmlRpcValue;
+
+namespace {
+
+// XmlRpcValue offers its contents only to those who may change it.
+template <class T>
+T content(XmlRpcValue value) {
+  return static_cast<T&>(value);
+}
+
+void emit(XmlRpcValue value, YAML::Emitter* out) {
+  switch (value.getType()) {
+    case XmlRpcValue::TypeBoolean:
+      *out << content<bool>(value);
+      break;
+    case XmlRpcValue::TypeInt:
+      *out << content<int>(value);
+      break;
+    case XmlRpcValue::TypeDouble:
+      *out << to_decimal(content<double>(value));
+      break;
+    case XmlRpcValue::TypeString:
+      *out << YAML::DoubleQuoted << content<std::string>(value);
+      break;
+    case XmlRpcValue::TypeArray:
+      *out << YAML::BeginSeq;
+      for (int i = 0; i < value.size(); ++i) emit(value[i], out);
+      *out << YAML::EndSeq;
+      break;
+    case XmlRpcValue::TypeStruct:
+      *out << YAML::BeginMap;
+      for (auto& [key, child] : value) {
+        *out << YAML::Key << key << YAML::Value;
+        emit(child, out);
+      }
+      *out << YAML::EndMap;
+      break;
+    default:
+      *out << YAML::Null;
+  }
+}
+
+/// A value as a message shows it: on one line, and cut short.
+std::string shown(const XmlRpcValue& value) {
+  constexpr std::size_t kMost = 80;
+  YAML::Emitter out;
+  out.SetSeqFormat(YAML::Flow);
+  out.SetMapFormat(YAML::Flow);
+  emit(value, &out);
+  const std::string text = out.c_str();
+  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
+}
+
+}  // namespace
+
+void refuse_parameter(const ros::NodeHandle& node, const std::string& key, const std::string& message, const XmlRpcValue& value,
+                      const std::string& allowed) {
+  throw InputError({{node.resolveName(key), 0}, key, message, shown(value), allowed});
+}
+
+bool find_parameter(const ros::NodeHandle& node, const std::string& key, XmlRpcValue* value) {
+  return node.getParam(key, *value) && !(value->getType() == XmlRpcValue::TypeString && text_of(*value).empty());
+}
+
+bool is_number(const XmlRpcValue& value, double* number) {
+  if (value.getType() == XmlRpcValue::TypeInt)
+    *number = content<int>(value);
+  else if (value.getType() == XmlRpcValue::TypeDouble)
+    *number = content<double>(value);
+  else
+    return false;
+  return true;
+}
+
+std::string text_of(const XmlRpcValue& value) { return content<std::string>(value); }
+
+double read_positive(const ros::NodeHandle& private_node, const std::string& key, double fallback) {
+  return read_positive(private_node, key, fallback, std::numeric_limits<double>::max());
+}
+
+double read_positive(const ros::NodeHandle& private_node, const std::string& key, double fallback, double largest) {
+  XmlRpcValue value;
+  if (!private_node.getParam(key, value)) return fallback;
+  double number = 0.0;
+  if (!is_number(value, &number) || !std::isfinite(number) || number <= 0.0)
+    refuse_parameter(private_node, key, "not a number above zero", value, "a finite number above zero");
+  if (number > largest) refuse_parameter(private_node, key, "too large", value, "at most " + to_decimal(largest));
+  return number;
+}
+
+bool read_flag(const ros::NodeHandle& private_node, const std::string& key, bool fallback) {
+  XmlRpcValue value;
+  if (!private_node.getParam(key, value)) return fallback;
+  if (value.getType() != XmlRpcValue::TypeBoolean) refuse_parameter(private_node, key, "neither true nor false", value, "true, false");
+  return content<bool>(value);
+}
+
+std::string read_text(const ros::NodeHandle& private_node, const std::string& key, const std::string& fallback) {
+  XmlRpcValue value;
+  if (!find_parameter(private_node, key, &value)) return fallback;
+  if (value.getType() != XmlRpcValue::TypeString) refuse_parameter(private_node, key, "not a text", value, "a text");
+  return text_of(value);
+}
+
+std::string read_path(const ros::NodeHandle& private_node, const std::string& key, const std::string& fallback) {
+  return expand_home(read_text(private_node, key, fallback));
+}
+
+std::vector<std::string> read_texts(const ros::NodeHandle& private_node, const std::string& key) {
+  XmlRpcValue value;
+  if (!find_parameter(private_node, key, &value)) return {};
+  if (value.getType() == XmlRpcValue::TypeString) return {text_of(value)};
+  if (value.getType() != XmlRpcValue::TypeArray) refuse_parameter(private_node, key, "neither a text nor a list", value, "texts");
+  std::vector<std::string> texts;
+  for (int i = 0; i < value.size(); ++i) {
+    if (value[i].getType() != XmlRpcValue::TypeString) refuse_parameter(private_node, key, "an entry is no text", value[i], "texts");
+    texts.push_back(text_of(value[i]));
+  }
+  return texts;
+}
+
+Warnings unknown_parameters(const ros::NodeHandle& private_node, const std::vector<std::string>& known) {
+  std::vector<std::string> all;
+  ros::param::getParamNames(all);
+  const std::string space = private_node.getNamespace() + "/";
+  std::set<std::string> unknown;
+  for (const std::string& name : all)
+    if (name.compare(0, space.size(), space) == 0) unknown.insert(name.substr(space.size(), name.find('/', space.size()) - space.size()));
+  for (const std::string& name : known) unknown.erase(name);
+  Warnings warnings;
+  for (const std::string& name : unknown) {
+    const std::string near = nearest_name(name, known);
+    const std::string hint = near.empty() ? "" : ", did you mean \"" + near + "\"?";
+    warnings.push_back(
+        warn("unknown_parameter", {{space + name, 0}, name, "unknown private parameter, ignored" + hint, "", list_names(known)}));
+  }
+  return warnings;
+}
+
+std::string expand_home(const std::string& path) {
+  const char* home = std::getenv("HOME");
+  const bool is_below_home = path == "~" || path.compare(0, 2, "~/") == 0;
+  return is_below_home && home != nullptr ? home + path.substr(1) : path;
+}
+
+std::string to_yaml(const XmlRpcValue& tree) {
+  YAML::Emitter out;
+  emit(tree, &out);
+  return std::string(out.c_str()) + "\n";
+}
+
+}  // namespace codesign
