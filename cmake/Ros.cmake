@@ -45,5 +45,6 @@ foreach(node_main IN LISTS node_mains)
   list(APPEND codesign_nodes ${node})
 endforeach()
 
-install(PROGRAMS scripts/bag_text scripts/case_figures scripts/model_mismatch scripts/trajectory_from_bag DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts)
+install(PROGRAMS scripts/bag_text scripts/case_figures scripts/launch_input scripts/model_mismatch scripts/play_bag scripts/restore_parameters
+  scripts/trajectory_from_bag DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts)
 install(DIRECTORY launch rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -122,7 +122,7 @@ bool asks_for_help(const Names& words) {
 }  // namespace
 
 Arguments parse_arguments(const std::vector<std::string>& words) {
-  const Names commands = {"check", "simulate", "gradient", "optimize", "help"};
+  const Names commands = {"check", "urdf", "simulate", "gradient", "optimize", "help"};
   Arguments arguments;
   if (words.empty()) throw UsageError("no command given");
   arguments.command = asks_for_help(words) ? "help" : words[0];
@@ -136,7 +136,8 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
       take_positional(words[i], &arguments);
   }
   if (arguments.model.empty()) throw UsageError("\"" + arguments.command + "\" needs a MODEL");
-  if (arguments.study.empty() && arguments.command != "check") throw UsageError("\"" + arguments.command + "\" needs a STUDY");
+  if (arguments.study.empty() && arguments.command != "check" && arguments.command != "urdf")
+    throw UsageError("\"" + arguments.command + "\" needs a STUDY");
   return arguments;
 }
 

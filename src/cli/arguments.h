@@ -19,7 +19,7 @@ class UsageError : public std::runtime_error {
 
 /// `codesign COMMAND MODEL [STUDY] [OPTIONS]`, taken apart.
 struct Arguments {
-  std::string command;  ///< check, simulate, gradient, optimize or help
+  std::string command;  ///< check, urdf, simulate, gradient, optimize or help
   std::string model;
   std::string study;  ///< empty: none given
   std::vector<std::string> overlays;

@@ -13,6 +13,7 @@ namespace codesign::cli {
 /// Each returns kDone or kFailed, and throws InputError for bad input.
 int check(const Arguments& arguments, const Console& console);
 int simulate(const Arguments& arguments, const Console& console);
+int urdf(const Arguments& arguments, const Console& console);
 int gradient(const Arguments& arguments, const Console& console);
 int optimize(const Arguments& arguments, const Console& console);
 

@@ -10,6 +10,7 @@ MODEL is an annotated URDF (doc/annotations.md), STUDY a YAML file (doc/study.md
 
 commands
   check MODEL [STUDY]      the table of equations, redundant constraints
+  urdf MODEL [STUDY]       the URDF that is simulated: overlays merged, parameters at their values
   simulate MODEL STUDY     one run as CSV
     --signals A,B          which signals; by default those of every joint, friction and controller
     --csv FILE             where to; by default standard output

@@ -54,7 +54,8 @@ OptimizationNode::OptimizationNode() : state_("optimization"), spinner_(kDoorThr
   evaluate_ = doors_.advertiseService("evaluate", &OptimizationNode::on_evaluate, this);
   action_ = std::make_unique<ActionServer>(
       doors_, "optimize", [this](const GoalHandle& goal) { on_goal(goal); }, [this](const GoalHandle& goal) { on_cancel(goal); }, false);
-  cancel_all_ = doors_.subscribe("optimize/cancel", 10, &OptimizationNode::on_cancel_all, this);
+  // In the action's own namespace, so that it follows when that is remapped.
+  cancel_all_ = ros::NodeHandle(doors_, "optimize").subscribe("cancel", 10, &OptimizationNode::on_cancel_all, this);
   spinner_.start();
   action_->start();
 }

@@ -9,8 +9,8 @@ namespace codesign::cli {
 namespace {
 
 TEST(Usage, NamesEveryCommandAndOption) {
-  for (const char* word : {"check MODEL", "simulate MODEL STUDY", "gradient MODEL STUDY", "optimize MODEL STUDY", "--signals", "--csv",
-                           "--samples", "--verify", "--output", "--overlay", "--set", "--json"})
+  for (const char* word : {"check MODEL", "urdf MODEL", "simulate MODEL STUDY", "gradient MODEL STUDY", "optimize MODEL STUDY", "--signals",
+                           "--csv", "--samples", "--verify", "--output", "--overlay", "--set", "--json"})
     EXPECT_NE(usage().find(word), std::string::npos) << word;
 }
 

@@ -1,0 +1,191 @@
+#!/usr/bin/python3
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""What a job leaves, whatever ends it: two nodes in one second, Ctrl-C, cancel, kill -9, a full disk, requests beyond all bounds."""
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+import rosbag
+import rospy
+import rostest
+from actionlib_msgs.msg import GoalID
+from mechanism_codesign.srv import EvaluateRequest, OptimizeRequest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from node_process import SHARE, TIMEOUT, Node, files, wait_until  # noqa: E402
+
+LONG = OptimizeRequest(relative_tolerance=1e-15, max_evaluations=100000)
+SHORT = OptimizeRequest(max_evaluations=1)
+
+
+def long_study():
+    """A study of which one evaluation takes a while."""
+    with open(f"{SHARE}/config/slider_crank.yaml", encoding="utf-8") as file:
+        text = file.read().replace("duration: 2.0", "duration: 8.0")
+    path = tempfile.mktemp(suffix=".yaml")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+    return path
+
+
+class JobsTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.nodes = []
+
+    def tearDown(self):
+        for node in self.nodes:
+            if node.process.poll() is None:
+                node.end(signal.SIGKILL)
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def start(self, name, **parameters):
+        node = Node("optimization", name, output_directory=self.folder, **parameters)
+        self.nodes.append(node)
+        return node
+
+    def result_of(self, bag):
+        with rosbag.Bag(bag) as opened:
+            ((_, result, _),) = opened.read_messages(topics=["result"])
+            frames = opened.get_message_count(["tuned/joint_states"])
+        return result, frames
+
+    def in_background(self, node, request):
+        """Starts a job through the service and returns once a point of it is on disk."""
+        answers = []
+
+        def ask():
+            try:
+                answers.append(node.optimize(request))
+            except rospy.ServiceException as error:
+                answers.append(error)
+
+        thread = threading.Thread(target=ask)
+        thread.start()
+        wait_until(lambda: files(self.folder, ".best.json"), "no best point on disk")
+        return thread, answers
+
+    def test_two_nodes_that_finish_in_the_same_seconds(self):
+        nodes = [self.start(f"twin_{k}", set={"crank_length": value}) for k, value in enumerate((0.07, 0.09))]
+        replies = [[], []]
+
+        def ask(k):
+            for _ in range(15):
+                replies[k].append(nodes[k].optimize(SHORT))
+
+        threads = [threading.Thread(target=ask, args=(k,)) for k in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        bags = [reply.bag for reply in replies[0] + replies[1]]
+        self.assertEqual(len(set(bags)), 30, "each job has a bag of its own")
+        for reply in replies[0] + replies[1]:
+            self.assertTrue(reply.success, reply.message)
+            result, frames = self.result_of(reply.bag)
+            self.assertEqual(list(result.initial), list(reply.initial))
+            self.assertEqual(result.bag, reply.bag)
+            self.assertEqual(frames, 101)
+        self.assertEqual(sorted(os.listdir(self.folder)), sorted(os.path.basename(bag) for bag in bags), "nothing else is left")
+
+    def test_an_interrupted_node_leaves_the_bag_of_a_job_of_the_service(self):
+        for kind in (signal.SIGINT, signal.SIGTERM):
+            node = self.start("interrupted", study=long_study())
+            thread, _ = self.in_background(node, LONG)
+            self.assertLess(node.end(kind), 10.0)
+            thread.join()
+            (bag,) = files(self.folder, ".bag")
+            result, frames = self.result_of(bag)
+            self.assertEqual(result.code, "cancelled")
+            self.assertEqual(frames, 401)
+            self.assertEqual(os.listdir(self.folder), [os.path.basename(bag)])
+            os.remove(bag)
+
+    def test_a_job_of_the_service_can_be_cancelled(self):
+        node = self.start("cancelled", study=long_study())
+        cancel = rospy.Publisher("/cancelled/optimize/cancel", GoalID, queue_size=1)
+        wait_until(lambda: cancel.get_num_connections() > 0, "nobody listens to cancel")
+        thread, answers = self.in_background(node, LONG)
+        cancel.publish(GoalID())
+        thread.join()
+        self.assertEqual(answers[0].code, "cancelled")
+        self.assertLessEqual(answers[0].objective, answers[0].initial_objective)
+        self.assertEqual(self.result_of(answers[0].bag)[0].objective, answers[0].objective)
+
+    def test_a_killed_node_leaves_its_best_point_and_the_next_one_cleans_up(self):
+        node = self.start("killed", study=long_study())
+        thread, _ = self.in_background(node, LONG)
+        node.end(signal.SIGKILL)
+        thread.join()
+        self.assertEqual(files(self.folder, ".bag"), [])
+        (best,) = files(self.folder, ".best.json")
+        with open(best, encoding="utf-8") as file:
+            point = json.load(file)
+        self.assertGreater(point["objective"], 0.0)
+        model = best.replace(".json", ".urdf")
+        subprocess.run(["rosrun", "mechanism_codesign", "codesign", "check", model], check=True, stdout=subprocess.DEVNULL)
+        next_node = self.start("killed")
+        self.assertTrue(next_node.optimize(SHORT).success)
+        self.assertEqual(files(self.folder, ".active") + files(self.folder, ".job") + files(self.folder, ".part"), [])
+        self.assertEqual(files(self.folder, ".best.json"), [best], "the best point stays")
+        next_node.end()
+        self.assertIn("a job was killed", next_node.output())
+        self.assertIn(best, next_node.output())
+
+    def test_a_running_job_keeps_its_files_when_another_node_starts(self):
+        node = self.start("running", study=long_study())
+        thread, answers = self.in_background(node, LONG)
+        other = self.start("starting")
+        self.assertTrue(other.optimize(SHORT).success)
+        node.end(signal.SIGINT)
+        thread.join()
+        self.assertEqual(len(files(self.folder, ".bag")), 2)
+
+    def test_requests_beyond_all_bounds_are_answered_at_once(self):
+        node = self.start("asked")
+        names = [f"parameter_{k}" for k in range(1000000)]
+        start = rospy.get_time()
+        for reply in (node.optimize(OptimizeRequest(parameters=names)),
+                      node.evaluate(EvaluateRequest(parameters=names, values=[0.0] * len(names))),
+                      node.optimize(OptimizeRequest(parameters=["x" * 50000])),
+                      node.optimize(OptimizeRequest(algorithm="x" * 1000000))):
+            self.assertEqual(reply.code, "bad_input")
+            self.assertLess(len(reply.message), 1000)
+        self.assertLess(rospy.get_time() - start, 30.0, "most of it goes into sending the names")
+        self.assertLess(node.end(), 5.0)
+
+    @unittest.skipUnless(os.geteuid() == 0, "only root can make a disk of a few kilobytes")
+    def test_a_full_disk_costs_the_bag_and_nothing_else(self):
+        disk = tempfile.mkdtemp()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=200k", "tmpfs", disk], check=False).returncode != 0:
+            self.skipTest("no disk can be mounted here")
+        try:
+            node = Node("optimization", "full", output_directory=disk)
+            self.nodes.append(node)
+            for free in (0, 4, 16, 40, 64, 100, 140, 180):
+                with open(f"{disk}/filler", "wb") as file:
+                    file.write(b"x" * (200 - free) * 1024)
+                reply = node.optimize(SHORT)
+                self.assertEqual(reply.code, "output_failed", f"{free} kB free: {reply.message}")
+                if reply.tuned:
+                    self.assertIn("No space left on device", reply.message)
+                    self.assertGreater(reply.initial_objective, 0.0)
+                self.assertEqual(files(disk, ".active") + files(disk, ".bag") + files(disk, ".part"), [])
+                for name in os.listdir(disk):
+                    os.remove(f"{disk}/{name}")
+            self.assertIsNone(node.process.poll(), "the node is up")
+            self.assertEqual(self.start("beside").optimize(SHORT).code, "success")
+            node.end()
+        finally:
+            subprocess.run(["umount", "-l", disk], check=True)
+
+
+if __name__ == "__main__":
+    rospy.init_node("jobs_test")
+    rostest.rosrun("mechanism_codesign", "jobs", JobsTest)

@@ -1,0 +1,66 @@
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""Nodes as processes of a test, which ends them as users do."""
+import os
+import signal
+import subprocess
+import tempfile
+import time
+
+import roslib.packages
+import rospkg
+import rospy
+from mechanism_codesign.srv import Evaluate, Optimize
+
+TIMEOUT = 60.0
+SHARE = rospkg.RosPack().get_path("mechanism_codesign")
+
+
+class Node:
+    """One node under a name of its own; its parameters are those given."""
+
+    def __init__(self, program, name, model="slider_crank", **parameters):
+        self.name = name
+        for key, value in {"model": f"{SHARE}/urdf/{model}.urdf", "study": f"{SHARE}/config/{model}.yaml", **parameters}.items():
+            if value is not None:
+                rospy.set_param(f"/{name}/{key}", value)
+        self.log = tempfile.TemporaryFile("w+")
+        remappings = [f"{topic}:=/{name}/{topic}" for topic in ("optimize", "evaluate", "optimization_progress")]
+        path = roslib.packages.find_node("mechanism_codesign", program)[0]
+        self.process = subprocess.Popen([path, f"__name:={name}", *remappings], stdout=self.log, stderr=subprocess.STDOUT)
+
+    def optimize(self, request):
+        rospy.wait_for_service(f"/{self.name}/optimize", TIMEOUT)
+        return rospy.ServiceProxy(f"/{self.name}/optimize", Optimize)(request)
+
+    def evaluate(self, request):
+        rospy.wait_for_service(f"/{self.name}/evaluate", TIMEOUT)
+        return rospy.ServiceProxy(f"/{self.name}/evaluate", Evaluate)(request)
+
+    def end(self, kind=signal.SIGINT, timeout=20.0):
+        """Sends the signal and returns how many seconds the node took to end."""
+        start = time.monotonic()
+        if self.process.poll() is None:
+            self.process.send_signal(kind)
+        try:
+            self.process.wait(timeout)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            raise
+        if rospy.has_param(f"/{self.name}"):
+            rospy.delete_param(f"/{self.name}")
+        return time.monotonic() - start
+
+    def output(self):
+        self.log.seek(0)
+        return self.log.read()
+
+
+def wait_until(condition, what):
+    end = time.monotonic() + TIMEOUT
+    while not condition():
+        assert time.monotonic() < end, what
+        time.sleep(0.02)
+
+
+def files(folder, ending):
+    return sorted(os.path.join(folder, name) for name in os.listdir(folder) if name.endswith(ending))

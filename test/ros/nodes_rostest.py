@@ -1,0 +1,232 @@
+#!/usr/bin/python3
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""Nodes and launch files as they are started by hand: parameters, what they show of the mechanism, what they leave on the master."""
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import rosbag
+import rospy
+import rostest
+import tf2_ros
+from diagnostic_msgs.msg import DiagnosticArray
+from std_msgs.msg import String
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from node_process import SHARE, TIMEOUT, Node, wait_until  # noqa: E402
+
+
+def state_of(name, wanted):
+    """The first state of a node on /diagnostics whose sentence matches."""
+    found, done = [], threading.Event()
+
+    def receive(message):
+        for status in message.status:
+            if status.name.startswith(name + ":") and re.search(wanted, status.message):
+                found.append(status)
+                done.set()
+
+    subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, receive)
+    assert done.wait(TIMEOUT), f"{name} never says {wanted}"
+    subscriber.unregister()
+    return found[0]
+
+
+def values_of(status):
+    return {value.key: value.value for value in status.values}
+
+
+class Launch:
+    def __init__(self, file, *arguments, cwd=None):
+        self.log = tempfile.TemporaryFile("w+")
+        self.process = subprocess.Popen(["roslaunch", "mechanism_codesign", file, *arguments], cwd=cwd, stdout=self.log, stderr=subprocess.STDOUT)
+
+    def end(self):
+        self.process.send_signal(signal.SIGINT)
+        self.process.wait(60)
+
+    def output(self):
+        self.process.wait(60)
+        self.log.seek(0)
+        return self.log.read()
+
+
+class NodesTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.nodes = []
+
+    def tearDown(self):
+        for node in self.nodes:
+            if node.process.poll() is None:
+                node.end(signal.SIGKILL)
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def start(self, program, name, **parameters):
+        node = Node(program, name, **parameters)
+        self.nodes.append(node)
+        return node
+
+    def test_parameters_that_cannot_be_read_are_errors_that_show_the_value(self):
+        cases = {"rate": "fast", "time_scale": -2.0, "loop": "yes", "world_frame": 3, "mode": 7, "set": "crank_length", "overlays": 1.5, "bag": True,
+                 "wait_for_subscribers": "joint_state", "frame_prefix": "/left"}
+        for key, value in cases.items():
+            node = self.start("simulation", f"bad_{key}", **{key: value})
+            sentence = state_of(f"bad_{key}", "bad input").message
+            self.assertIn(f"/bad_{key}/{key}", sentence)
+            self.assertIn(str(value).lower() if isinstance(value, bool) else str(value).rstrip("0").rstrip("."), sentence)
+            node.end()
+        node = self.start("optimization", "bad_directory", output_directory=12)
+        self.assertIn("12", state_of("bad_directory", "bad input").message)
+
+    def test_runs_that_ros_cannot_count_are_bad_input(self):
+        study = os.path.join(self.folder, "long.yaml")
+        with open(f"{SHARE}/config/slider_crank.yaml", encoding="utf-8") as file:
+            text = file.read()
+        with open(study, "w", encoding="utf-8") as file:
+            file.write(text.replace("duration: 2.0", "duration: 5.0e+9"))
+        for name, parameters in {"scale": {"time_scale": 1e-12}, "duration": {"study": study},
+                                 "fast": {"study": study, "mode": "as_fast_as_possible"}}.items():
+            self.start("simulation", f"endless_{name}", **parameters)
+            self.assertIn("longer than ROS can count", state_of(f"endless_{name}", "bad input").message)
+        self.start("optimization", "too_many", output_directory=self.folder, rate=1e10)
+        self.assertIn("too many samples", state_of("too_many", "bad input").message)
+        for node in self.nodes:
+            self.assertIsNone(node.process.poll())
+            self.assertLess(node.end(), 5.0)
+
+    def test_a_node_at_a_high_rate_ends_when_it_is_told(self):
+        for program, parameters in (("simulation", {"rate": 1e6}), ("optimization", {"rate": 1e4, "output_directory": self.folder})):
+            node = self.start(program, "eager", **parameters)
+            state_of("eager", "running" if program == "simulation" else "ready")
+            self.assertLess(node.end(), 3.0)
+
+    def test_unknown_parameters_are_warnings_with_the_nearest_name(self):
+        self.start("simulation", "misspelt", rat=10.0)
+        status = state_of("misspelt", "running")
+        self.assertEqual(status.level, 1)
+        (warning,) = [value for key, value in values_of(status).items() if key.endswith("unknown_parameter")]
+        self.assertIn('/misspelt/rat', warning)
+        self.assertIn('did you mean "rate"?', warning)
+
+    def test_help_and_arguments(self):
+        for program in ("simulation", "optimization"):
+            path = self.start(program, "helped").process.args[0]
+            reply = subprocess.run([path, "--help"], stdout=subprocess.PIPE, text=True, check=True)
+            self.assertIn("~overlays", reply.stdout)
+            self.assertEqual(subprocess.run([path, "study.yaml"], stderr=subprocess.DEVNULL, check=False).returncode, 2)
+
+    def test_as_fast_as_possible_every_frame_reaches_rosbag_record_and_the_own_bag(self):
+        before = rospy.get_param("/use_sim_time", None)
+        rospy.set_param("/use_sim_time", True)
+        recorded, own = f"{self.folder}/recorded.bag", f"{self.folder}/own.bag"
+        node = self.start("simulation", "fast", mode="as_fast_as_possible", rate=500.0, wait_for_subscribers=["joint_states", "loop_errors"], bag=own)
+        record = subprocess.Popen(["rosbag", "record", "-O", recorded, "joint_states", "loop_errors", "controller_states", "/clock"])
+        try:
+            status = state_of("fast", "finished")
+            time.sleep(1.0)
+        finally:
+            record.send_signal(signal.SIGINT)
+            record.wait(20)
+            rospy.delete_param("/use_sim_time")
+            if before is not None:
+                rospy.set_param("/use_sim_time", before)
+        self.assertGreater(float(values_of(status)["real-time factor of the run"]), 0.0)
+        self.assertEqual(values_of(status)["bag"], own)
+        node.end()
+        for path, topics in ((recorded, ("joint_states", "loop_errors")), (own, ("joint_states", "joint_friction", "loop_errors", "tf"))):
+            with rosbag.Bag(path) as bag:
+                for topic in topics:
+                    names = [topic, "/" + topic]
+                    stamps = [(m.transforms[0] if topic == "tf" else m).header.stamp.to_sec() for _, m, _ in bag.read_messages(topics=names)]
+                    self.assertEqual(len(stamps), 1001, f"{path} {topic}")
+                    self.assertTrue(all(abs(b - a - 0.002) < 1e-6 for a, b in zip(stamps, stamps[1:])), topic)
+
+    def test_the_description_is_that_of_the_mechanism_and_the_rod_ends_in_the_slider(self):
+        launch = Launch("simulate.launch", "rviz:=false", "set:={crank_length: 0.1}", "time_scale:=0.2")
+        try:
+            text = rospy.wait_for_message("robot_description", String, TIMEOUT).data
+            self.assertEqual(rospy.get_param("robot_description").strip(), text.strip())
+            self.assertIn('name="crank_length" value="0.1"', text)
+            buffer = tf2_ros.Buffer()
+            listener = tf2_ros.TransformListener(buffer)
+            for _ in range(10):
+                pin = buffer.lookup_transform("slider", "rod", rospy.Time(0), rospy.Duration(TIMEOUT)).transform
+                r, p = pin.rotation, pin.translation
+                axis = (1 - 2 * (r.y**2 + r.z**2), 2 * (r.x * r.y + r.w * r.z), 2 * (r.x * r.z - r.w * r.y))
+                for end in (p.x + 0.3 * axis[0], p.y + 0.3 * axis[1], p.z + 0.3 * axis[2]):
+                    self.assertAlmostEqual(end, 0.0, delta=1e-6)
+                time.sleep(0.1)
+            listener.unregister()
+        finally:
+            launch.end()
+
+    def test_a_description_of_another_mechanism_is_a_warning(self):
+        with open(f"{SHARE}/urdf/slider_crank.urdf", encoding="utf-8") as file:
+            rospy.set_param("robot_description", file.read())
+        self.start("simulation", "alike", model="slider_crank", time_scale=0.5)
+        self.start("simulation", "unlike", set={"crank_length": 0.09})
+        self.assertEqual(state_of("alike", "running").level, 0)
+        self.assertTrue(any("description_differs" in key for key in values_of(state_of("unlike", "running"))))
+        rospy.delete_param("robot_description")
+
+    def test_two_robots_in_one_master(self):
+        for side in ("left", "right"):
+            self.start("simulation", side, frame_prefix=f"{side}/", world_frame="world", loop=True, set={"crank_length": 0.09 if side == "left" else 0.07})
+        buffer = tf2_ros.Buffer()
+        listener = tf2_ros.TransformListener(buffer)
+        for side, length in (("left", 0.09), ("right", 0.07)):
+            tip = buffer.lookup_transform(f"{side}/crank", f"{side}/rod", rospy.Time(0), rospy.Duration(TIMEOUT)).transform.translation
+            self.assertAlmostEqual((tip.x**2 + tip.y**2 + tip.z**2) ** 0.5, length, delta=1e-9)
+            buffer.lookup_transform("world", f"{side}/slider", rospy.Time(0), rospy.Duration(TIMEOUT))
+        listener.unregister()
+
+    def test_launch_files_leave_the_master_as_they_found_it(self):
+        rospy.set_param("/use_sim_time", False)
+        rospy.set_param("/robot_description", "what was here")
+        names = set(rospy.get_param_names())
+        for arguments in (("simulate.launch", "rviz:=false", "mode:=as_fast_as_possible"), ("optimize.launch", f"output_directory:={self.folder}")):
+            launch = Launch(*arguments)
+            node = arguments[0].split("e.")[0][:5]
+            wait_until(lambda: any(name.startswith("/" + node) for name in rospy.get_param_names()), "no node is up")
+            state_of("simulation" if "simulate.launch" in arguments else "optimization", "running|ready")
+            if "simulate.launch" in arguments:
+                self.assertTrue(rospy.get_param("/use_sim_time"))
+            launch.end()
+            left = {name for name in rospy.get_param_names() if not name.startswith("/roslaunch/")}
+            self.assertEqual(left - names, set())
+        self.assertFalse(rospy.get_param("/use_sim_time"))
+        self.assertEqual(rospy.get_param("/robot_description"), "what was here")
+        rospy.delete_param("/use_sim_time")
+        rospy.delete_param("/robot_description")
+
+    def test_launch_files_take_relative_paths_and_forget_the_parameters_of_the_last_start(self):
+        for name, shipped in (("my.urdf", "urdf/slider_crank.urdf"), ("my.yaml", "config/slider_crank.yaml")):
+            shutil.copy(f"{SHARE}/{shipped}", f"{self.folder}/{name}")
+        rospy.set_param("/optimization/set", {"crank_length": 0.07})
+        launch = Launch("optimize.launch", "model:=my.urdf", "study:=my.yaml", "output_directory:=bags", cwd=self.folder)
+        try:
+            state = state_of("optimization", "ready")
+            self.assertEqual(values_of(state)["output directory"], f"{self.folder}/bags")
+            self.assertEqual(rospy.get_param("/optimization/model"), f"{self.folder}/my.urdf")
+            self.assertEqual(rospy.get_param("/optimization/set", {}), {})
+        finally:
+            launch.end()
+
+    def test_a_launch_file_names_the_known_cases_on_a_typo(self):
+        for file in ("simulate.launch", "optimize.launch"):
+            output = Launch(file, "case:=slider_crnk").output()
+            self.assertIn('did you mean "slider_crank"?', output)
+            self.assertIn("inverted_pendulum", output)
+
+
+if __name__ == "__main__":
+    rospy.init_node("nodes_test")
+    rostest.rosrun("mechanism_codesign", "nodes", NodesTest)
