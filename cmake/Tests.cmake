@@ -46,7 +46,7 @@ add_test(NAME layering_self_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_D
 
 add_test(NAME update_tables COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/benchmark/update_tables_test.py)
 
-foreach(tool fresh packages ci)
+foreach(tool build ci fresh packages)
   add_test(NAME tools_${tool} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/tools/${tool}_test.py)
 endforeach()
 

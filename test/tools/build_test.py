@@ -1,0 +1,93 @@
+#!/usr/bin/python3
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""How tools/build calls CMake, with a stand-in for it, and where tools/environment puts ROS's logs. Usage: build_test.py [-v]"""
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+
+def program(folder, name, text):
+    with open(os.path.join(folder, name), "w") as file:
+        file.write("#!/bin/sh\n" + text)
+    os.chmod(file.name, 0o755)
+
+
+class Checkout:
+    """A folder with tools/, and a PATH with a cmake that writes its arguments down, with or without ninja."""
+
+    def __init__(self, ninja=True):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root, self.bin = os.path.join(self.folder.name, "checkout"), os.path.join(self.folder.name, "bin")
+        os.makedirs(os.path.join(self.root, "devel"))
+        os.mkdir(self.bin)
+        shutil.copytree(os.path.join(ROOT, "tools"), os.path.join(self.root, "tools"))
+        for name in ("bash", "sh", "dirname", "awk", "nproc", "mkdir", "cat", "grep"):
+            os.symlink(shutil.which(name), os.path.join(self.bin, name))
+        program(self.bin, "cmake", f'echo "$*" >>{self.folder.name}/calls\n')
+        if ninja:
+            program(self.bin, "ninja", "")
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.folder.cleanup()
+
+    def build(self, *targets, **environment):
+        subprocess.run([os.path.join(self.root, "tools", "build"), *targets], check=True, env={"PATH": self.bin, **environment})
+        with open(os.path.join(self.folder.name, "calls")) as calls:
+            return calls.read().splitlines()
+
+
+class BuildTest(unittest.TestCase):
+    def test_a_new_folder_is_built_with_ninja(self):
+        with Checkout() as checkout:
+            configure, build = checkout.build("all", "tests")
+        self.assertEqual(configure, "-S . -B build -G Ninja")
+        self.assertTrue(build.endswith("--target all tests"), build)
+
+    def test_make_does_where_there_is_no_ninja(self):
+        with Checkout(ninja=False) as checkout:
+            self.assertEqual(checkout.build()[0], "-S . -B build")
+
+    def test_a_configured_folder_and_a_wish_are_respected(self):
+        with Checkout() as checkout:
+            os.mkdir(os.path.join(checkout.root, "build"))
+            with open(os.path.join(checkout.root, "build", "CMakeCache.txt"), "w"):
+                pass
+            self.assertEqual(checkout.build()[0], "-S . -B build")
+        with Checkout() as checkout:
+            self.assertEqual(checkout.build(CMAKE_GENERATOR="Unix Makefiles")[0], "-S . -B build")
+
+
+class EnvironmentTest(unittest.TestCase):
+    @staticmethod
+    def ros_home(checkout, **environment):
+        with open(os.path.join(checkout.root, "devel", "setup.bash"), "w") as file:
+            file.write("")
+        script = '. tools/environment; echo "$ROS_HOME"'
+        return subprocess.run(["bash", "-ec", script], cwd=checkout.root, check=True, stdout=subprocess.PIPE, text=True,
+                              env={"PATH": os.environ["PATH"], **environment}).stdout.strip()
+
+    def test_the_home_folder_is_used_where_it_can_be_written(self):
+        with Checkout() as checkout, tempfile.TemporaryDirectory() as home:
+            self.assertEqual(self.ros_home(checkout, HOME=home), "")
+
+    def test_the_build_folder_is_used_otherwise(self):
+        with Checkout() as checkout:
+            # Nobody, not even root, can make a folder there.
+            home = self.ros_home(checkout, HOME="/proc/nobody")
+            self.assertEqual(home, os.path.join(checkout.root, "build", "ros_home"))
+            self.assertTrue(os.path.isdir(home))
+
+    def test_a_wish_is_respected(self):
+        with Checkout() as checkout:
+            self.assertEqual(self.ros_home(checkout, HOME="/proc/nobody", ROS_HOME="/elsewhere"), "/elsewhere")
+
+
+if __name__ == "__main__":
+    unittest.main()
