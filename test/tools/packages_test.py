@@ -4,6 +4,7 @@
 import os
 import re
 import subprocess
+import sys
 import unittest
 import xml.etree.ElementTree
 
@@ -41,6 +42,19 @@ def undeclared(packages, keys_):
     return packages - NOT_IN_PACKAGE_XML - {name for key in keys_ for name in debian_names(key)}
 
 
+def imported(*folders):
+    """The modules that the Python files of these folders import from elsewhere."""
+    modules, here = set(), set()
+    for folder in folders:
+        for path, _, files in os.walk(os.path.join(ROOT, folder)):
+            for file in files:
+                with open(os.path.join(path, file), errors="replace") as text:
+                    if text.readline().startswith("#!/usr/bin/python3") or file.endswith(".py"):
+                        here.add(file.split(".")[0])
+                        modules |= set(re.findall(r"^\s*(?:from|import) ([A-Za-z0-9_]+)", text.read(), re.MULTILINE))
+    return modules - here
+
+
 class PackagesTest(unittest.TestCase):
     def test_every_key_has_a_package(self):
         self.assertEqual(unserved(keys(), listed()), set())
@@ -52,23 +66,12 @@ class PackagesTest(unittest.TestCase):
         self.assertEqual(unserved({"tf2_ros", "roscpp"}, {"libroscpp-dev"}), {"tf2_ros"})
         self.assertEqual(undeclared({"g++", "python3-tf2-ros", "python3-rosbag"}, {"tf2_ros"}), {"python3-rosbag"})
 
-    def test_python_modules_of_tests_and_scripts_are_installed_by_name(self):
-        """A ROS module that a script imports comes from python3-MODULE, which a machine may have by accident."""
-        ros = {key for key in keys() if f"python3-{key.replace('_', '-')}" in listed("--headless")}
-        known = ros | {"rospy", "genpy", "std_msgs", "rosgraph_msgs", "mechanism_codesign"}  # below everything else
-        modules = set()
-        for folder in ("test", "scripts"):
-            for path, _, files in os.walk(os.path.join(ROOT, folder)):
-                for file in files:
-                    with open(os.path.join(path, file), errors="replace") as text:
-                        if text.readline().startswith("#!/usr/bin/python3"):
-                            modules |= set(re.findall(r"^\s*(?:from|import) ([a-z0-9_]+)", text.read(), re.MULTILINE))
+    def test_python_modules_are_installed_by_name(self):
+        """A module that a script imports comes from python3-MODULE, which a machine may have by accident."""
+        packages = listed("--headless")
+        modules = imported("scripts", "test", "benchmark") - set(sys.stdlib_module_names) - {"mechanism_codesign"}
         self.assertIn("tf2_ros", modules)
-        self.assertEqual({m for m in modules & self.ros_modules(modules) if m not in known}, set())
-
-    @staticmethod
-    def ros_modules(modules):
-        return {m for m in modules if re.match(r"ros|tf|actionlib|genpy|.*_msgs$", m)}
+        self.assertEqual({m for m in modules if "python3-" + m.replace("_", "-") not in packages}, set())
 
     def test_the_core_needs_no_ros(self):
         core = listed("--core")
