@@ -14,6 +14,7 @@
 namespace codesign {
 
 BagFile::BagFile(const std::string& path) : path_(path), active_(path + ".active"), bag_(std::make_unique<rosbag::Bag>()) {
+  if (access(path.c_str(), F_OK) == 0) throw OutputError::of_system(path, EEXIST);
   const int descriptor = open(active_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
   if (descriptor < 0) throw OutputError::of_system(active_, errno);
   struct stat file {};

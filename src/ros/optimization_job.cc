@@ -37,18 +37,26 @@ mechanism_codesign::OptimizeResult to_message(const OptimizationResult& result, 
   return message;
 }
 
-/// Lets the runs of a job be recorded when its node is told to end, but not for longer than roslaunch would wait.
+/// Lets the runs of a job be recorded after it was cancelled or its node was told to end, but not for ever: roslaunch kills a node after 15
+/// s.
 class Patience {
  public:
+  explicit Patience(const std::atomic<bool>& cancel) : cancel_(cancel) {}
+
   bool operator()() {
-    if (!ros::isShuttingDown()) return false;
     const ros::WallTime now = ros::WallTime::now();
-    if (end_.isZero()) end_ = now + ros::WallDuration(8.0);
-    return now > end_;
+    return is_over(ros::isShuttingDown(), 8.0, now, &shutdown_) || is_over(cancel_, 30.0, now, &cancelled_);
   }
 
  private:
-  ros::WallTime end_;
+  static bool is_over(bool told, double seconds, const ros::WallTime& now, ros::WallTime* since) {
+    if (!told) return false;
+    if (since->isZero()) *since = now;
+    return now - *since > ros::WallDuration(seconds);
+  }
+
+  const std::atomic<bool>& cancel_;
+  ros::WallTime shutdown_, cancelled_;  ///< when it was first seen
 };
 
 BagSide run_side(const Problem& problem, const std::vector<double>& parameters, double rate, Patience* patience) {
@@ -84,14 +92,15 @@ class Job {
   }
 
   /// A cancelled job is recorded too, with its start if it was cancelled before the first evaluation.
-  void record() {
+  void record(const std::atomic<bool>& cancel) {
     const bool is_evaluated = result_.gradient.size() > 0;
     if (!is_evaluated && result_.status.code != StatusCode::kCancelled) return;
     if (!is_evaluated) outcome_->result.initial_objective = outcome_->result.objective = std::numeric_limits<double>::quiet_NaN();
-    Patience patience;
+    Patience patience(cancel);
     record_->initial = run_side(problem_, problem_.parameters(result_.initial_rho), options_.rate, &patience);
     record_->tuned = run_side(problem_, problem_.parameters(result_.rho), options_.rate, &patience);
     outcome_->tuned_urdf = record_->tuned.urdf;
+    outcome_->result.warnings = warning_messages(problem_.warnings, warnings());
     record_->result = outcome_->result;
     record_->result.bag = files_.bag();
     write_bag(files_.bag(), *record_);
@@ -104,6 +113,12 @@ class Job {
     Warnings warnings = result_.warnings;
     if (!best_.failure().empty())
       warnings.push_back({"best_point_not_on_disk", "the best point so far was not on disk while the job ran: " + best_.failure(), {}});
+    for (const auto& [side, run] : {std::make_pair("initial", &record_->initial.run), std::make_pair("tuned", &record_->tuned.run)})
+      if (!run->status.ok())
+        warnings.push_back(
+            {"run_ends_early",
+             "the " + std::string(side) + " run in the bag ends at t = " + std::to_string(run->status.time) + " s: " + run->status.cause,
+             {}});
     return warnings;
   }
 
@@ -128,7 +143,7 @@ OptimizationOutcome run_optimization(const Problem& problem, const std::string& 
     const Problem changed = apply_request(problem, request);
     Job job(changed, options, &record, &outcome);
     job.optimize(observer, cancel);
-    job.record();
+    job.record(cancel);
   } catch (const InputError& error) {
     refuse("bad_input", error.what(), &outcome.result);
   } catch (const OutputError& error) {

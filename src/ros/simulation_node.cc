@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 
 #include "mechanism_codesign/jobs/output_error.h"
 #include "mechanism_codesign/model/error.h"
@@ -186,7 +187,14 @@ void SimulationNode::publish(const FrameNames& names, const Frame& frame) {
 
 void SimulationNode::open_bag() {
   if (options_.bag.empty()) return;
+  const std::string lock = options_.bag + ".job";
   try {
+    // What a killed node left unfinished is known by its lock.
+    if (LockFile::take_abandoned(lock)) {
+      ROS_WARN_STREAM("a node was killed: removed " << options_.bag << ".active");
+      std::filesystem::remove(options_.bag + ".active");
+    }
+    bag_lock_ = LockFile::create(lock);
     bag_ = std::make_unique<BagWriter>(options_.bag);
     bag_->write_text("robot_description", description_);
   } catch (const OutputError& error) {
@@ -215,6 +223,7 @@ void SimulationNode::close_bag() {
     state_.warn("bag", {{"output_failed", error.what(), {}}});
   }
   bag_.reset();
+  bag_lock_.reset();
 }
 
 }  // namespace codesign

@@ -17,7 +17,7 @@ namespace codesign {
 /// program. Here a failure is an OutputError, the unfinished file is removed, and the program goes on.
 class BagFile {
  public:
-  /// @throws OutputError if it cannot be made, or if `path`.active exists.
+  /// @throws OutputError if it cannot be made, or if `path` or `path`.active exists.
   explicit BagFile(const std::string& path);
 
   /// Removes a bag that is not finished.

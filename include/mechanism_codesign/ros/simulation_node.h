@@ -9,9 +9,11 @@
 #include <atomic>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
+#include "mechanism_codesign/jobs/lock_file.h"
 #include "mechanism_codesign/optimization/problem.h"
 #include "mechanism_codesign/ros/bag_writer.h"
 #include "mechanism_codesign/ros/node_state.h"
@@ -60,6 +62,7 @@ class SimulationNode {
   ros::Publisher clock_publisher_, description_publisher_;
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
+  std::optional<LockFile> bag_lock_;
   std::unique_ptr<BagWriter> bag_;  ///< while it is being written
   std::atomic<bool> stopping_{false};
   std::thread thread_;  // last: it uses all of the above
