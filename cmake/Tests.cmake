@@ -4,6 +4,7 @@
 
 find_package(GTest REQUIRED)
 include(GoogleTest)
+find_package(orocos_kdl QUIET)
 
 # Absolute paths reach the tests through one object alone: all others are the same in every checkout, for a compiler cache.
 add_library(codesign_test_paths OBJECT EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/test/paths.cc)
@@ -25,6 +26,12 @@ foreach(folder math model joints forces control dynamics integration sensitivity
   elseif(folder STREQUAL cli AND TARGET codesign)
     target_link_libraries(${target} PRIVATE codesign_cli)
     add_dependencies(${target} codesign)
+  endif()
+  # The reference for robots without loops; without it the comparison is skipped.
+  if(folder STREQUAL integration AND orocos_kdl_FOUND)
+    target_include_directories(${target} SYSTEM PRIVATE ${orocos_kdl_INCLUDE_DIRS})
+    target_link_libraries(${target} PRIVATE ${orocos_kdl_LIBRARIES} urdfdom::urdfdom_model)
+    target_compile_definitions(${target} PRIVATE CODESIGN_HAS_KDL)
   endif()
   if(folder MATCHES "^(sensitivity|allocation)$")
     target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/benchmark/mechanisms.cc)
