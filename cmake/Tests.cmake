@@ -52,6 +52,7 @@ add_test(NAME layering COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/l
 add_test(NAME layering_self_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_layering_test.py)
 
 add_test(NAME update_tables COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/benchmark/update_tables_test.py)
+add_test(NAME corpus_table COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/corpus_table_test.py $<TARGET_FILE:codesign>)
 
 foreach(tool build ci fresh packages)
   add_test(NAME tools_${tool} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/tools/${tool}_test.py)

@@ -1,5 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cctype>
+#include <set>
 
 #include "mechanism_codesign/model/study.h"
 
@@ -13,6 +15,14 @@ std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t\n");
   if (first == std::string::npos) return "";
   return text.substr(first, text.find_last_not_of(" \t\n") - first + 1);
+}
+
+bool is_quantity(const std::string& word) {
+  static const std::set<std::string> kQuantities{
+      "position",         "velocity",        "acceleration",   "effort",        "friction",         "normal_force",
+      "sliding_velocity", "error",           "integral",       "output",        "angular_velocity", "orientation",
+      "reaction_force",   "reaction_torque", "friction_power", "damping_power", "actuator_power",   "load_power"};
+  return kQuantities.count(word) != 0;
 }
 
 /// Reads left to right. An operator can only follow a quantity or a component, whose letters are a-z and _, so that
@@ -54,8 +64,37 @@ class SignalParser {
     return text_.substr(first, position_ - first);
   }
 
+  // Names may hold slashes, as `left/elbow`: then the name ends at a later one, behind which stands a quantity that closes the term.
+  std::size_t name_end() const {
+    const std::size_t first = text_.find('/', position_);
+    if (first == std::string::npos || closes(first, false) || std::isspace(static_cast<unsigned char>(behind_word(first))) != 0)
+      return first;
+    for (std::size_t slash = text_.find('/', first + 1); slash != std::string::npos; slash = text_.find('/', slash + 1))
+      if (closes(slash, true)) return slash;
+    return first;
+  }
+
+  std::size_t word_end(std::size_t at) const {
+    while (at < text_.size() && (std::islower(static_cast<unsigned char>(text_[at])) != 0 || text_[at] == '_')) ++at;
+    return at;
+  }
+
+  char behind_word(std::size_t slash) const {
+    const std::size_t end = word_end(slash + 1);
+    return end < text_.size() ? text_[end] : ' ';
+  }
+
+  /// Whether a quantity, with a component of one letter or none, and then an operator or nothing stand behind this slash.
+  bool closes(std::size_t slash, bool known_only) const {
+    std::size_t end = word_end(slash + 1);
+    if (end == slash + 1 || (known_only && !is_quantity(text_.substr(slash + 1, end - slash - 1)))) return false;
+    if (end + 1 < text_.size() && text_[end] == '/' && word_end(end + 1) == end + 2) end += 2;
+    end = std::min(text_.find_first_not_of(" \t\n", end), text_.size());
+    return end == text_.size() || text_[end] == '+' || text_[end] == '-';
+  }
+
   SignalTerm read_term(double factor) {
-    const std::size_t slash = text_.find('/', position_);
+    const std::size_t slash = name_end();
     if (slash == std::string::npos) fail("a signal needs a quantity after its name, such as crank_joint/velocity");
     SignalTerm term;
     term.factor = factor;

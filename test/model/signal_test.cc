@@ -40,6 +40,15 @@ TEST(Signal, NamesMayHoldSignsAndBlanks) {
   expect_term(terms[2], 1.0, "left arm", "position", "");
 }
 
+TEST(Signal, NamesMayHoldSlashes) {
+  const auto terms = parse("arm/1/position - left/elbow/velocity + base/tool/position/x-position/x/velocity/y").terms;
+  ASSERT_EQ(terms.size(), 4U);
+  expect_term(terms[0], 1.0, "arm/1", "position", "");
+  expect_term(terms[1], -1.0, "left/elbow", "velocity", "");
+  expect_term(terms[2], 1.0, "base/tool", "position", "x");
+  expect_term(terms[3], -1.0, "position/x", "velocity", "y");
+}
+
 TEST(Signal, RefusesWhatIsNoSignal) {
   for (const char* text : {"", "crank_joint", "crank_joint/", "/velocity", "a/velocity +", "a/velocity b/velocity", "a/velocity/",
                            "a/velocity/x/y", "a/velocity - - b/velocity", "a/velocity * 2", "2", "a/9"}) {
