@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/determined_motion.h"
+#include "dynamics/mobility.h"
 #include "mechanism_codesign/dynamics/assembly.h"
 #include "mechanism_codesign/dynamics/redundancy.h"
 #include "mechanism_codesign/dynamics/system.h"
@@ -83,6 +84,8 @@ Counts count_equations(const std::shared_ptr<const System>& system, const std::v
   counts.chosen_friction = redundancy.friction_chosen;
   counts.redundant_constraints = static_cast<int>(counts.redundant_rows.size());
   counts.degrees_of_freedom = layout.n - (layout.m - counts.redundant_constraints);
+  if (counts.redundant_constraints > 0)
+    counts.degrees_of_freedom -= motions_lost_to_curvature(*system, parameters, assembly, &equations);
   counts.dynamic_equations = counts.first_order_equations + counts.constraints;
   counts.sensitivities = counts.parameters * counts.dynamic_equations;
   counts.total_equations = counts.dynamic_equations + counts.sensitivities;

@@ -20,7 +20,7 @@ struct Counts {
   int coordinates = 0;            ///< n = 7 per body
   int first_order_equations = 0;  ///< 2 n
   int controller_states = 0;      ///< integrals and friction states beside the paper's count
-  int degrees_of_freedom = 0;     ///< n - rank(Phi_q) at the assembled start
+  int degrees_of_freedom = 0;     ///< n - rank(Phi_q) at the start, less (23a)
   int constraints = 0;            ///< m, rows of Phi
   int redundant_constraints = 0;  ///< m - rank(Phi_q)
   int dynamic_equations = 0;      ///< 2 n + m

@@ -1,0 +1,152 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mobility.h"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <random>
+
+namespace codesign {
+namespace {
+
+constexpr double kRank = 1e-9;
+constexpr double kNothing = 1e-7;  // of the largest form: what differences leave of zero
+constexpr double kStep = 1e-4;     // of central differences [rad or m]
+constexpr int kStarts = 16;        // of the search for branches; fewer below a branch
+
+using Forms = std::vector<Eigen::MatrixXd>;
+
+double size_of(const Forms& forms) {
+  double size = 0.0;
+  for (const Eigen::MatrixXd& form : forms) size = std::max(size, form.size() > 0 ? form.cwiseAbs().maxCoeff() : 0.0);
+  return size;
+}
+
+/// The rows 2 y^T H_k.
+Eigen::MatrixXd gradients(const Forms& forms, const Eigen::VectorXd& y) {
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(forms.size()), y.size());
+  for (std::size_t k = 0; k < forms.size(); ++k) rows.row(static_cast<Eigen::Index>(k)) = 2.0 * (forms[k] * y).transpose();
+  return rows;
+}
+
+/// A unit vector that solves all equations, by Gauss-Newton; empty if the start leads to none.
+Eigen::VectorXd root_from(const Forms& forms, Eigen::VectorXd y) {
+  y.normalize();
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    const Eigen::MatrixXd rows = gradients(forms, y);
+    const Eigen::VectorXd values = 0.5 * (rows * y);
+    if (values.cwiseAbs().maxCoeff() < 1e-14) return y;
+    y -= rows.completeOrthogonalDecomposition().solve(values);
+    if (!(y.norm() > 1e-3)) return {};
+    y.normalize();
+  }
+  return (0.5 * (gradients(forms, y) * y)).cwiseAbs().maxCoeff() < kNothing ? y : Eigen::VectorXd();
+}
+
+/// Orthonormal columns that span the null space of `rows`, as far as they are normal to `y`.
+Eigen::MatrixXd tangents_beside(const Eigen::MatrixXd& rows, const Eigen::VectorXd& y, double threshold) {
+  Eigen::MatrixXd stacked(rows.rows() + 1, rows.cols());
+  stacked << rows, y.transpose();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(stacked, Eigen::ComputeFullV);
+  const Eigen::Index rank = (svd.singularValues().array() > threshold).count();
+  return svd.matrixV().rightCols(rows.cols() - rank);
+}
+
+int dimension(const Forms& forms, Eigen::Index size, int starts);
+
+/// Along a root: its own direction, and the tangents on which the equations whose gradients vanish there hold too.
+int dimension_at(const Forms& forms, const Eigen::VectorXd& y, int starts) {
+  constexpr double kVanishes = 1e-5;  // a double root is found to the square root of rounding
+  const Eigen::MatrixXd rows = gradients(forms, y);
+  const Eigen::MatrixXd tangents = tangents_beside(rows, y, kVanishes);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullU);
+  const Eigen::Index rank = (svd.singularValues().array() > kVanishes).count();
+  Forms left;
+  for (Eigen::Index c = rank; c < rows.rows(); ++c) {
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(y.size(), y.size());
+    for (std::size_t k = 0; k < forms.size(); ++k) sum += svd.matrixU()(static_cast<Eigen::Index>(k), c) * forms[k];
+    left.emplace_back(tangents.transpose() * sum * tangents);
+  }
+  return 1 + dimension(left, tangents.cols(), std::max(4, starts / 4));
+}
+
+int dimension(const Forms& forms, Eigen::Index size, int starts) {
+  if (size == 0 || size_of(forms) < 1e-4) return static_cast<int>(size);
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  int largest = 0;
+  for (int start = 0; start < starts; ++start) {
+    const Eigen::VectorXd y = root_from(forms, Eigen::VectorXd::NullaryExpr(size, [&] { return normal(random); }));
+    if (y.size() > 0) largest = std::max(largest, dimension_at(forms, y, starts));
+  }
+  return largest;
+}
+
+/// Rows of loops and couplings over the tree's coordinates.
+class LoopJacobian {
+ public:
+  LoopJacobian(const System& system, const std::vector<double>& parameters, const TreeLayout& tree, Equations<double>* equations)
+      : system_(system), parameters_(parameters), tree_(tree), equations_(equations) {
+    const Layout& layout = system.layout();
+    const Topology& topology = system.topology();
+    for (std::size_t k = 0; k < topology.pairs.size(); ++k)
+      if (topology.pairs[k].is_loop)
+        for (int row = layout.pair_row[k]; row < layout.pair_end(static_cast<int>(k)); ++row) rows_.push_back(row);
+    for (std::size_t k = 0; k < topology.couplings.size(); ++k) rows_.push_back(layout.coupling_row(static_cast<int>(k)));
+  }
+
+  bool empty() const { return rows_.empty(); }
+
+  Eigen::MatrixXd at(const VectorX<double>& theta) const {
+    Eigen::MatrixXd jacobian(static_cast<Eigen::Index>(rows_.size()), tree_.size);
+    VectorX<double> q, v, errors, rates;
+    for (int c = 0; c < tree_.size; ++c) {
+      const VectorX<double> unit = VectorX<double>::Unit(tree_.size, c);
+      body_coordinates(system_, equations_->constants(), link_motions(system_.robot(), tree_, parameters_, theta, unit), &q, &v);
+      equations_->constraint_errors(q, v, &errors, &rates);
+      for (std::size_t k = 0; k < rows_.size(); ++k) jacobian(static_cast<Eigen::Index>(k), c) = rates[rows_[k]];
+    }
+    return jacobian;
+  }
+
+ private:
+  const System& system_;
+  const std::vector<double>& parameters_;
+  const TreeLayout& tree_;
+  Equations<double>* equations_;
+  std::vector<int> rows_;
+};
+
+}  // namespace
+
+int dimension_of_cone(const std::vector<Eigen::MatrixXd>& forms) {
+  if (forms.empty()) return 0;
+  const double size = size_of(forms);
+  Forms scaled;
+  for (const Eigen::MatrixXd& form : forms)
+    if (form.cwiseAbs().maxCoeff() > kNothing * std::max(1.0, size)) scaled.emplace_back(form / size);
+  return dimension(scaled, forms.front().rows(), kStarts);
+}
+
+int motions_lost_to_curvature(const System& system, const std::vector<double>& parameters, const Assembly& assembly,
+                              Equations<double>* equations) {
+  const LoopJacobian loops(system, parameters, assembly.tree(), equations);
+  if (loops.empty()) return 0;
+  const VectorX<double> theta = assembly.theta();
+  const Eigen::MatrixXd J = loops.at(theta);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(J, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::VectorXd& values = svd.singularValues();
+  const Eigen::Index rank = (values.array() > kRank * std::max(values[0], 1e-300)).count();
+  const Eigen::MatrixXd N = svd.matrixV().rightCols(J.cols() - rank), U = svd.matrixU().rightCols(J.rows() - rank);
+  if (N.cols() == 0 || U.cols() == 0) return 0;
+  Forms forms(static_cast<std::size_t>(U.cols()), Eigen::MatrixXd(N.cols(), N.cols()));
+  for (Eigen::Index a = 0; a < N.cols(); ++a) {
+    const VectorX<double> ahead = theta + kStep * N.col(a), behind = theta - kStep * N.col(a);
+    const Eigen::MatrixXd products = U.transpose() * (loops.at(ahead) - loops.at(behind)) * N / (2.0 * kStep);
+    for (Eigen::Index u = 0; u < U.cols(); ++u) forms[static_cast<std::size_t>(u)].row(a) = products.row(u);
+  }
+  for (Eigen::MatrixXd& form : forms) form = Eigen::MatrixXd(0.5 * (form + form.transpose()));
+  return static_cast<int>(N.cols()) - dimension_of_cone(forms);
+}
+
+}  // namespace codesign
