@@ -28,7 +28,6 @@ function(codesign_import name header header_suffixes)
   target_link_libraries(codesign_${name} INTERFACE ${libraries})
 endfunction()
 
-codesign_import(muparserx mpParser.h muparserx muparserx)
 codesign_import(klu klu.h suitesparse klu amd colamd btf suitesparseconfig)
 
 # Equations and sparse factorizations are compiled to machine code with it; without it, and on other processors, formulas and loops do their work.

@@ -48,6 +48,8 @@ foreach(folder math model joints forces control dynamics integration sensitivity
   gtest_discover_tests(${target} DISCOVERY_TIMEOUT 120 TEST_PREFIX ${folder}. PROPERTIES TIMEOUT 300)
 endforeach()
 
+include(${PROJECT_SOURCE_DIR}/cmake/Fuzz.cmake)
+
 add_test(NAME layering COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_layering.py ${PROJECT_SOURCE_DIR})
 add_test(NAME layering_self_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_layering_test.py)
 

@@ -54,7 +54,7 @@ std::vector<LimitCrossing> crossings_at_start(const Problem& problem, const std:
 }  // namespace
 
 int check(const Arguments& arguments, const Console& console) {
-  const Problem problem = load(arguments);
+  const Problem problem = load(arguments, &console);
   const std::vector<double> parameters = problem.parameters();
   Status status;
   const Counts counts = count_equations(problem.system, parameters, &status);

@@ -12,6 +12,7 @@ struct Console {
   std::ostream& out;                ///< results only
   std::ostream& err;                ///< progress and messages
   const std::atomic<bool>& cancel;  ///< set: end soon, keeping what there is
+  void (*loaded)() = nullptr;       ///< called once the input is read and set up, before anything is computed
 };
 
 /// The program's exit codes.

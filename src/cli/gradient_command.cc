@@ -55,7 +55,7 @@ Json result_json(const Arguments& arguments, const Problem& problem, const Gradi
 }  // namespace
 
 int gradient(const Arguments& arguments, const Console& console) {
-  const Problem problem = load_tunable(arguments);
+  const Problem problem = load_tunable(arguments, &console);
   const GradientCheck result = compute(arguments, problem, console);
   const bool known = result.evaluation.status.ok() && result.evaluation.gradient.size() > 0;
   if (!arguments.json && known) print_table(problem, result, console.out);

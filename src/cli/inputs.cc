@@ -5,18 +5,20 @@
 
 namespace codesign::cli {
 
-Problem load(const Arguments& arguments) {
+Problem load(const Arguments& arguments, const Console* console) {
   const SourceText urdf = read_source(arguments.model);
   std::vector<SourceText> overlays;
   for (const std::string& path : arguments.overlays) overlays.push_back(read_source(path));
-  if (arguments.study.empty()) return load_mechanism(urdf, overlays, arguments.settings);
-  return load_problem(urdf, overlays, read_source(arguments.study), arguments.settings);
+  Problem problem = arguments.study.empty() ? load_mechanism(urdf, overlays, arguments.settings)
+                                            : load_problem(urdf, overlays, read_source(arguments.study), arguments.settings);
+  if (console != nullptr && console->loaded != nullptr) console->loaded();
+  return problem;
 }
 
-Problem load_tunable(const Arguments& arguments) {
-  Problem problem = load(arguments);
+Problem load_tunable(const Arguments& arguments, const Console* console) {
+  Problem problem = load(arguments, console);
   if (problem.study.tuned.empty())
-    throw InputError({{problem.study.file, 0}, "parameters", "the study tunes no parameter", "", "at least one parameter to tune"});
+    throw InputError({{problem.study.file, 1}, "parameters", "the study tunes no parameter", "", "at least one parameter to tune"});
   return problem;
 }
 

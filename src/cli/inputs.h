@@ -5,15 +5,16 @@
 #include <vector>
 
 #include "cli/arguments.h"
+#include "cli/console.h"
 #include "mechanism_codesign/optimization/problem.h"
 
 namespace codesign::cli {
 
-/// Reads the files a command line names. @throws InputError
-Problem load(const Arguments& arguments);
+/// Reads the files a command line names, and tells the console if one is given. @throws InputError
+Problem load(const Arguments& arguments, const Console* console = nullptr);
 
 /// The same, for a command that differentiates. @throws InputError if the study tunes nothing.
-Problem load_tunable(const Arguments& arguments);
+Problem load_tunable(const Arguments& arguments, const Console* console = nullptr);
 
 /// The signals asked for, or the default ones. @throws InputError for one that does not exist.
 std::vector<SignalDescription> select_signals(const Arguments& arguments, const Problem& problem);

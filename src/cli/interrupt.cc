@@ -1,13 +1,24 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/interrupt.h"
 
+#include <unistd.h>
+
 #include <csignal>
+
+#include "cli/console.h"
 
 namespace codesign::cli {
 namespace {
 
 std::atomic<bool> interrupted_flag{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing that locks");
+
+// Reading and setting up have no loop that could look at a flag without knowing of it, and nothing that would be lost.
+extern "C" void leave(int) {
+  static const char kMessage[] = "codesign: interrupted before anything was computed\n";
+  const ssize_t written = write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
+  _exit(written < 0 ? kFailed : kFailed);
+}
 
 extern "C" void on_interrupt(int signal_number) {
   interrupted_flag = true;
@@ -17,6 +28,11 @@ extern "C" void on_interrupt(int signal_number) {
 }  // namespace
 
 void watch_interrupts() {
+  std::signal(SIGINT, leave);
+  std::signal(SIGTERM, leave);
+}
+
+void keep_results() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
 }

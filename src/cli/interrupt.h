@@ -6,8 +6,11 @@
 
 namespace codesign::cli {
 
-/// Makes the first SIGINT or SIGTERM set interrupted() and the second end the program.
+/// Until something is there to keep, SIGINT and SIGTERM end the program at once, with the exit code of a failure.
 void watch_interrupts();
+
+/// From now on the first of them sets interrupted(), and the second ends the program.
+void keep_results();
 
 const std::atomic<bool>& interrupted();
 

@@ -6,5 +6,5 @@
 
 int main(int argc, char** argv) {
   codesign::cli::watch_interrupts();
-  return codesign::cli::run({argv + 1, argv + argc}, {std::cout, std::cerr, codesign::cli::interrupted()});
+  return codesign::cli::run({argv + 1, argv + argc}, {std::cout, std::cerr, codesign::cli::interrupted(), codesign::cli::keep_results});
 }

@@ -43,8 +43,8 @@ void print_design(const Problem& problem, const OptimizationResult& result, std:
                is_evaluated(problem, result) ? readable(result.gradient[i]) : "not evaluated"});
   }
   table.print(out);
-  for (const ParameterConstraint& constraint : problem.study.constraints)
-    out << constraint.text << ": margin " << readable(constraint.margin->value(problem.parameters(result.rho))) << '\n';
+  for (std::size_t k = 0; k < problem.study.constraints.size(); ++k)
+    out << problem.study.constraints[k].text << ": margin " << readable(result.margins[static_cast<Eigen::Index>(k)]) << '\n';
 }
 
 void print_result(const Problem& problem, const OptimizationResult& result, std::ostream& out) {
@@ -54,6 +54,13 @@ void print_result(const Problem& problem, const OptimizationResult& result, std:
   out << result.termination << " after " << result.iterations << " iterations, " << result.evaluations << " evaluations ("
       << result.failed_evaluations << " failed), " << result.statistics.steps << " steps, " << readable(result.statistics.cpu_seconds)
       << " s of processor time\n";
+}
+
+/// By the constraint's text.
+Json margins_json(const Problem& problem, const OptimizationResult& result) {
+  std::vector<std::string> constraints;
+  for (const ParameterConstraint& constraint : problem.study.constraints) constraints.push_back(constraint.text);
+  return by_name(constraints, result.margins);
 }
 
 Json result_json(const Problem& problem, const OptimizationResult& result) {
@@ -68,6 +75,7 @@ Json result_json(const Problem& problem, const OptimizationResult& result) {
     object["initial_parameters"] = parameters_json(problem, problem.parameters(result.initial_rho));
     object["gradient"] = by_name(names, result.gradient);
     object["initial_gradient"] = by_name(names, result.initial_gradient);
+    object["margins"] = margins_json(problem, result);
   }
   object["iterations"] = result.iterations;
   object["evaluations"] = result.evaluations;
@@ -85,7 +93,7 @@ void tell(const std::vector<std::string>& sentences, const Console& console) {
 }  // namespace
 
 int optimize(const Arguments& arguments, const Console& console) {
-  const Problem problem = load_tunable(arguments);
+  const Problem problem = load_tunable(arguments, &console);
   std::optional<JobFolder> folder;
   if (!arguments.output.empty()) {
     folder.emplace(arguments.output, problem);

@@ -13,10 +13,10 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
     row.assign(1, frame.time);
     row.insert(row.end(), frame.signals.begin(), frame.signals.end());
     sink(row);
-    return cancel == nullptr || !*cancel;
+    return true;
   };
   RunSummary summary;
-  summary.status = codesign::simulate(&simulation, problem.study.duration, samples, observer);
+  summary.status = codesign::simulate(&simulation, problem.study.duration, samples, observer, cancel);
   summary.statistics = simulation.statistics();
   summary.warnings = simulation.warnings();
   summary.crossings = watch.crossings();

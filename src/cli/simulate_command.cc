@@ -60,7 +60,7 @@ Json run_json(const Problem& problem, const RunSummary& run, Json series, const 
 }  // namespace
 
 int simulate(const Arguments& arguments, const Console& console) {
-  const Problem problem = load(arguments);
+  const Problem problem = load(arguments, &console);
   const std::vector<SignalDescription> signals = select_signals(arguments, problem);
   const std::vector<std::string> names = column_names(signals);
   std::ofstream file;

@@ -216,11 +216,8 @@ void System::record_pattern() {
 
 void System::refuse_unsupported() const {
   if (topology_.bodies.empty())
-    throw InputError({{robot_.file, 0},
-                      "<robot name=\"" + robot_.name + "\">",
-                      "nothing moves: no link with an <inertial> hangs on a movable joint",
-                      "",
-                      ""});
+    throw InputError({robot_.links[static_cast<std::size_t>(robot_.root)].where, "<robot name=\"" + robot_.name + "\">",
+                      "nothing moves: no link with an <inertial> hangs on a movable joint", "", ""});
 }
 
 }  // namespace codesign

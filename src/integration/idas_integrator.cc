@@ -292,7 +292,10 @@ IdasIntegrator::~IdasIntegrator() = default;
 
 void IdasIntegrator::carry(IdasSensitivities* sensitivities) { implementation_->carry(sensitivities); }
 Status IdasIntegrator::start(const std::vector<double>& parameters) { return implementation_->start(parameters); }
-Status IdasIntegrator::advance(double limit) { return implementation_->advance(limit); }
+Status IdasIntegrator::advance(double limit) {
+  if (cancelled()) return {StatusCode::kCancelled, state().t, "cancelled"};
+  return implementation_->advance(limit);
+}
 const State<double>& IdasIntegrator::state() const { return implementation_->state(); }
 double IdasIntegrator::psi() const { return implementation_->psi(); }
 void IdasIntegrator::interpolate(double time, State<double>* state, double* psi) { implementation_->interpolate(time, state, psi); }

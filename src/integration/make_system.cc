@@ -23,7 +23,10 @@ namespace {
       if (const JointDescription& loop = system.robot().joints[static_cast<std::size_t>(element.joint)]; loop.is_loop)
         throw InputError({loop.where, "<loop name=\"" + loop.name + "\">", "the loop cannot be closed at the start values", miss, allowed});
   }
-  throw InputError({{system.study().file, 0}, "initial_state", status.cause, "", ""});
+  const std::vector<InitialJointState>& given = system.study().initial_state;
+  const int root = system.robot().root;
+  const SourceLocation where = given.empty() ? system.robot().links[static_cast<std::size_t>(root)].where : given.front().where;
+  throw InputError({where, "initial_state", status.cause, "", ""});
 }
 
 /// Rank and start of a system at its start values. A design that cannot start is bad input; later ones are trial points.

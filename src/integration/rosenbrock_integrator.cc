@@ -56,6 +56,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
   for (;;) {
     if (statistics_.steps + statistics_.rejected_steps >= options_.maximum_steps)
       return {StatusCode::kTooManySteps, t, "more than " + std::to_string(options_.maximum_steps) + " steps"};
+    if (cancelled()) return {StatusCode::kCancelled, t, "cancelled"};
     double h = proposal_;
     if (options_.maximum_step > 0.0) h = std::min(h, options_.maximum_step);
     // Stretched by up to a tenth, or halved, so that no sliver is left before the limit.
@@ -63,7 +64,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     const bool last = h >= rest / 1.1;
     if (last) h = rest;
     if (!last && h > 0.5 * rest) h = 0.5 * rest;
-    if (h < smallest)
+    if (!(h >= smallest))
       return singular ? Status{StatusCode::kSingularMatrix, t, "the equations of motion become singular: a dead point or lock-up"}
                       : Status{StatusCode::kStepSizeTooSmall, t,
                                "the step size fell below " + std::to_string(smallest * 1e12) + " ps: the motion is not resolvable"};

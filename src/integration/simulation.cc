@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "integration/finite_frame.h"
 #include "mechanism_codesign/dynamics/observer.h"
 #include "mechanism_codesign/dynamics/system.h"
 #include "mechanism_codesign/integration/integrator.h"
@@ -49,6 +50,7 @@ class Simulation::Implementation {
     observer_.observe(sample_, psi, integrator_->assembly().theta(), &integrator_->equations(), frame);
   }
 
+  void obey(const std::atomic<bool>* cancel) { integrator_->obey(cancel); }
   const FrameNames& names() const { return observer_.names(); }
   const Statistics& statistics() const { return statistics_; }
   const Warnings& warnings() const { return warnings_ = integrator_->warnings(); }
@@ -73,18 +75,22 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Status Simulation::start() { return implementation_->start(); }
 Status Simulation::advance(double time) { return implementation_->advance(time); }
 void Simulation::sample(double time, Frame* frame) { implementation_->sample(time, frame); }
+void Simulation::obey(const std::atomic<bool>* cancel) { implementation_->obey(cancel); }
 const FrameNames& Simulation::names() const { return implementation_->names(); }
 const Statistics& Simulation::statistics() const { return implementation_->statistics(); }
 const Warnings& Simulation::warnings() const { return implementation_->warnings(); }
 
-Status simulate(Simulation* simulation, double duration, int count, const FrameObserver& observer) {
+Status simulate(Simulation* simulation, double duration, int count, const FrameObserver& observer, const std::atomic<bool>* cancel) {
   Frame frame;
+  simulation->obey(cancel);
   Status status = simulation->start();
   for (int k = 0; status.ok() && k < count; ++k) {
     const double time = count > 1 ? duration * k / (count - 1) : 0.0;
+    if (cancel != nullptr && *cancel) return {StatusCode::kCancelled, time, "cancelled"};
     status = simulation->advance(time);
     if (!status.ok()) break;
     simulation->sample(time, &frame);
+    if (std::string fault = find_not_finite(simulation->names(), frame); !fault.empty()) return {StatusCode::kNonFinite, time, fault};
     if (!observer(frame)) return {StatusCode::kCancelled, time, "cancelled"};
   }
   return status;

@@ -6,6 +6,20 @@
 namespace codesign {
 namespace {
 
+/// A message is for people: what is longer shows its beginning.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kMost = 300;
+  if (text.size() <= kMost) return text;
+  std::size_t end = kMost;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a letter
+  return text.substr(0, end) + "...";
+}
+
+InputFault shortened(InputFault fault) {
+  for (std::string* part : {&fault.element, &fault.message, &fault.value, &fault.allowed}) *part = shortened(*part);
+  return fault;
+}
+
 std::string describe(const InputFault& fault) {
   std::string text = fault.where.file;
   if (fault.where.line > 0) text += ":" + std::to_string(fault.where.line);
@@ -22,6 +36,6 @@ std::string describe(const InputFault& fault) {
 
 }  // namespace
 
-InputError::InputError(InputFault fault) : std::runtime_error(describe(fault)), fault_(std::move(fault)) {}
+InputError::InputError(InputFault fault) : std::runtime_error(describe(shortened(fault))), fault_(shortened(std::move(fault))) {}
 
 }  // namespace codesign

@@ -1,77 +1,84 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mechanism_codesign/model/expression.h"
 
-#include <cmath>
+#include <algorithm>
 #include <limits>
-#include <mutex>
-#include <stdexcept>
 
-#include "expression_functions.h"
 #include "expression_syntax.h"
 
 namespace codesign {
 namespace {
 
-/// muParserX fills static tables when the first parser is made, without a lock of its own.
-std::mutex& library_mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
+using Complex = std::complex<double>;
+constexpr double kStep = 1e-30;
+
+double real_part(const Complex& value) { return value.imag() == 0.0 ? value.real() : std::numeric_limits<double>::quiet_NaN(); }
 
 }  // namespace
 
-struct Expression::Parser {
-  mup::ParserX parser{0};  // bare: the library's packages would reserve `i`, `e` and units as names
-  std::vector<mup::Value> variables;
-  std::mutex mutex;
+struct Expression::Program {
+  ExpressionSteps steps;
+  std::size_t stack = 0;
 
-  template <class T>
-  std::complex<double> evaluate(const std::vector<int>& dependencies, const std::vector<T>& parameters) {
-    const std::lock_guard<std::mutex> lock(mutex);
-    for (std::size_t k = 0; k < dependencies.size(); ++k)
-      variables[k] = mup::Value(mup::cmplx_type{parameters.at(static_cast<std::size_t>(dependencies[k]))});
-    try {
-      const mup::IValue& result = parser.Eval();
-      if (result.GetType() != 'b') return result.GetComplex();
-    } catch (const mup::ParserError&) {
-      // Only a branch of `?:` that construction did not reach can fail here.
+  Complex evaluate(const Complex* variables) const {
+    constexpr std::size_t kSmall = 32;
+    if (stack <= kSmall) {
+      Complex numbers[kSmall];
+      return run(steps, variables, numbers);
     }
-    return std::numeric_limits<double>::quiet_NaN();
+    std::vector<Complex> numbers(stack);
+    return run(steps, variables, numbers.data());
   }
 };
 
 Expression::Expression(const std::string& text, const std::vector<std::string>& names)
-    : text_(text), dependencies_(scan_expression(text, names)) {
-  const std::lock_guard<std::mutex> lock(library_mutex());
-  try {
-    parser_ = std::make_unique<Parser>();
-    install_expression_functions(&parser_->parser);
-    parser_->variables.assign(dependencies_.size(), mup::Value(1.0));
-    for (std::size_t k = 0; k < dependencies_.size(); ++k)
-      parser_->parser.DefineVar(names[static_cast<std::size_t>(dependencies_[k])], mup::Variable(&parser_->variables[k]));
-    parser_->parser.SetExpr(text);
-    if (parser_->parser.Eval().GetType() == 'b') throw std::invalid_argument("a comparison is not a number in '" + text + "'");
-  } catch (const mup::ParserError& error) {
-    throw std::invalid_argument(error.GetMsg() + " In '" + text + "'");
-  }
+    : Expression(text, ExpressionScope{[&names](const std::string& name) {
+                                         const auto found = std::find(names.begin(), names.end(), name);
+                                         return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+                                       },
+                                       [&names] { return names; }}) {}
+
+Expression::Expression(const std::string& text, const ExpressionScope& scope) : text_(text) {
+  ParsedExpression parsed = parse_expression(text, scope);
+  dependencies_ = std::move(parsed.dependencies);
+  const auto stack = static_cast<std::size_t>(stack_size(parsed.steps));
+  program_ = std::make_unique<const Program>(Program{std::move(parsed.steps), stack});
 }
 
 Expression::~Expression() = default;
 
 double Expression::value(const std::vector<double>& parameters) const {
-  const std::complex<double> result = parser_->evaluate(dependencies_, parameters);
-  return result.imag() == 0.0 ? result.real() : std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> values;
+  values.reserve(dependencies_.size());
+  for (int index : dependencies_) values.push_back(parameters.at(static_cast<std::size_t>(index)));
+  return value_of(values);
 }
 
 std::complex<double> Expression::value(const std::vector<std::complex<double>>& parameters) const {
-  return parser_->evaluate(dependencies_, parameters);
+  std::vector<Complex> values;
+  values.reserve(dependencies_.size());
+  for (int index : dependencies_) values.push_back(parameters.at(static_cast<std::size_t>(index)));
+  return program_->evaluate(values.data());
 }
 
 double Expression::derivative(int index, const std::vector<double>& parameters) const {
-  constexpr double kStep = 1e-30;
-  std::vector<std::complex<double>> stepped(parameters.begin(), parameters.end());
-  stepped.at(static_cast<std::size_t>(index)) += std::complex<double>(0.0, kStep);
-  return value(stepped).imag() / kStep;
+  const auto found = std::lower_bound(dependencies_.begin(), dependencies_.end(), index);
+  if (found == dependencies_.end() || *found != index) return 0.0;
+  std::vector<double> values;
+  values.reserve(dependencies_.size());
+  for (int used : dependencies_) values.push_back(parameters.at(static_cast<std::size_t>(used)));
+  return derivative_of(static_cast<std::size_t>(found - dependencies_.begin()), values);
+}
+
+double Expression::value_of(const std::vector<double>& values) const {
+  const std::vector<Complex> variables(values.begin(), values.end());
+  return real_part(program_->evaluate(variables.data()));
+}
+
+double Expression::derivative_of(std::size_t k, const std::vector<double>& values) const {
+  std::vector<Complex> variables(values.begin(), values.end());
+  variables.at(k) += Complex(0.0, kStep);
+  return program_->evaluate(variables.data()).imag() / kStep;
 }
 
 }  // namespace codesign

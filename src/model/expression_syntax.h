@@ -5,15 +5,21 @@
 #include <string>
 #include <vector>
 
+#include "expression_program.h"
+#include "mechanism_codesign/model/expression.h"
+
 namespace codesign {
 
-/// Names with a meaning of their own inside an expression.
-const std::vector<std::string>& expression_functions();
+/// An expression taken apart.
+struct ParsedExpression {
+  std::vector<int> dependencies;  ///< the parameters used, ascending
+  ExpressionSteps steps;          ///< variable k is parameter dependencies[k]
+};
 
-/// Checks what the parser library would accept but should not (unknown names, strings, assignments, `3k`), with better messages.
-/// @returns the indices in `names` of the parameters used, ascending.
-/// @throws std::invalid_argument with a sentence.
-std::vector<int> scan_expression(const std::string& text, const std::vector<std::string>& names);
+/// Grammar, from what binds least to what binds most; doc/decisions/0040-expressions-parsed-by-ourselves.md:
+/// `sum < sum ? conditional : conditional`, `+ -`, `* /`, signs, `** ^` (from the right), numbers, names, calls and parentheses.
+/// @throws std::invalid_argument with a sentence that ends with the position.
+ParsedExpression parse_expression(const std::string& text, const ExpressionScope& scope);
 
 }  // namespace codesign
 

@@ -32,13 +32,19 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known) {
+  // A message is no search engine: it may take milliseconds, whatever names a file or a request is full of.
+  constexpr std::size_t kLongest = 100, kMostLetterPairs = 20000000;
+  if (name.size() > kLongest) return "";
   const std::string wanted = lower_case(name);
   std::string nearest;
-  std::size_t fewest = 0;
+  std::size_t fewest = 0, letter_pairs = 0;
   for (const std::string& candidate : known) {
+    const std::size_t longer = std::max(name.size(), candidate.size()), allowed = std::max<std::size_t>(2, longer / 3);
+    if (longer > kLongest || longer - std::min(name.size(), candidate.size()) > allowed) continue;
+    letter_pairs += name.size() * candidate.size();
+    if (letter_pairs > kMostLetterPairs) break;
     const std::size_t distance = edit_distance(wanted, lower_case(candidate));
-    const std::size_t longer = std::max(name.size(), candidate.size());
-    const bool near = distance < longer && distance <= std::max<std::size_t>(2, longer / 3);
+    const bool near = distance < longer && distance <= allowed;
     if (near && (nearest.empty() || distance < fewest)) {
       nearest = candidate;
       fewest = distance;

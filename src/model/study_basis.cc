@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "study_basis.h"
 
-#include <algorithm>
+#include <unordered_set>
 
 #include "mechanism_codesign/model/expression.h"
 #include "parameter_constraint.h"
@@ -38,6 +38,8 @@ void declare(const std::string& controller, const YamlValue& coefficients, Study
   const std::size_t count = read_count(coefficients);
   const std::vector<double> starts = read_starts(coefficients, count);
   const auto tune = coefficients.find("tune");
+  std::unordered_set<std::string> taken;
+  for (const Parameter& parameter : study->parameters) taken.insert(parameter.name);
   for (std::size_t k = 0; k < count; ++k) {
     Parameter parameter;
     parameter.name = coefficient_name(controller, k);
@@ -45,9 +47,8 @@ void declare(const std::string& controller, const YamlValue& coefficients, Study
     parameter.where = coefficients.where();
     const std::string fault = identifier_fault(parameter.name);
     if (!fault.empty()) coefficients.fail("the controller's name makes no parameter name: " + fault, "a name that is an identifier");
-    const bool taken = std::any_of(study->parameters.begin(), study->parameters.end(),
-                                   [&parameter](const Parameter& other) { return other.name == parameter.name; });
-    if (taken) coefficients.fail("there is a parameter \"" + parameter.name + "\" already", "another name for the controller");
+    if (!taken.insert(parameter.name).second)
+      coefficients.fail("there is a parameter \"" + parameter.name + "\" already", "another name for the controller");
     read_bounds(coefficients, &parameter);
     if (!tune || tune->boolean()) study->tuned.push_back(static_cast<int>(study->parameters.size()));
     study->parameters.push_back(parameter);
@@ -78,11 +79,13 @@ BasisDescription read_basis(const std::string& controller, const YamlValue& valu
   if (duration && !(basis.duration > 0.0)) duration->fail("the duration must be positive", "more than 0 s");
   const YamlValue coefficients = value.at("coefficients");
   if (coefficients.is_map()) {
-    const std::vector<std::string> names = names_of(study.parameters);
+    // They stand one behind the other.
+    const ExpressionScope scope = scope_of(study.parameters);
+    const auto first = static_cast<std::size_t>(scope.find(coefficient_name(controller, 0)));
     for (std::size_t k = 0; k < read_count(coefficients); ++k) {
-      const std::string name = coefficient_name(controller, k);
-      const auto at = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-      basis.coefficients.emplace_back(study.parameters[at].value, std::make_shared<const Expression>(name, names));
+      const ExpressionScope this_one{[&](const std::string&) { return static_cast<int>(first + k); }, scope.names};
+      basis.coefficients.emplace_back(study.parameters[first + k].value,
+                                      std::make_shared<const Expression>(coefficient_name(controller, k), this_one));
     }
   } else {
     for (const YamlValue& item : coefficients.items()) basis.coefficients.push_back(read_quantity(item, study.parameters));

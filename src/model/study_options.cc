@@ -1,14 +1,20 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "study_options.h"
 
+#include "mechanism_codesign/math/decimal.h"
+
 namespace codesign {
 namespace {
 
-void read_tolerance(const YamlValue& parent, const std::string& key, double* tolerance) {
+// Below these a tolerance asks for more than double precision holds: a relative error test cannot see under some hundred roundings
+// of 1.1e-16, an absolute one not under a rounding of a position of 1 m, an objective not under a few roundings of its own.
+constexpr double kLeastRelative = 1e-13, kLeastAbsolute = 1e-16, kLeastOfObjective = 1e-15;
+
+void read_tolerance(const YamlValue& parent, const std::string& key, double least, double* tolerance) {
   const auto value = parent.find(key);
   if (!value) return;
   *tolerance = value->number();
-  if (*tolerance <= 0.0 || *tolerance >= 1.0) value->fail("tolerance out of range", "between 0 and 1, both excluded");
+  if (*tolerance < least || *tolerance >= 1.0) value->fail("tolerance out of range", "from " + to_decimal(least) + " to less than 1");
 }
 
 void read_positive_or_zero(const YamlValue& parent, const std::string& key, const char* allowed, double* number) {
@@ -66,9 +72,9 @@ SolverOptions read_solver_options(const YamlValue& solver) {
   SolverOptions options;
   if (const auto integrator = solver.find("integrator")) options.integrator = integrator->choice("integrator", {"rosenbrock", "idas"});
   if (const auto method = solver.find("method")) options.method = method->choice("method", {"rodas4", "rodas4p2", "rodas5p"});
-  read_tolerance(solver, "relative_tolerance", &options.relative_tolerance);
-  read_tolerance(solver, "absolute_tolerance", &options.absolute_tolerance);
-  read_tolerance(solver, "sensitivity_tolerance", &options.sensitivity_tolerance);
+  read_tolerance(solver, "relative_tolerance", kLeastRelative, &options.relative_tolerance);
+  read_tolerance(solver, "absolute_tolerance", kLeastAbsolute, &options.absolute_tolerance);
+  read_tolerance(solver, "sensitivity_tolerance", kLeastRelative, &options.sensitivity_tolerance);
   read_step(solver, "initial_step", &options.initial_step);
   read_step(solver, "maximum_step", &options.maximum_step);
   read_count(solver, "maximum_steps", &options.maximum_steps);
@@ -87,7 +93,7 @@ OptimizerOptions read_optimizer_options(const YamlValue& optimizer) {
         algorithm->choice("algorithm", {"lbfgs", "var1", "var2", "tnewton", "mma", "ccsaq", "slsqp", "cobyla", "bobyqa", "auglag_lbfgs"});
   }
   read_count(optimizer, "max_evaluations", &options.max_evaluations);
-  read_tolerance(optimizer, "relative_tolerance", &options.relative_tolerance);
+  read_tolerance(optimizer, "relative_tolerance", kLeastOfObjective, &options.relative_tolerance);
   return options;
 }
 

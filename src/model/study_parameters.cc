@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "study_parameters.h"
 
+#include <unordered_map>
+
 #include "mechanism_codesign/math/decimal.h"
 #include "mechanism_codesign/model/expression.h"
 #include "mechanism_codesign/model/nearest_name.h"
@@ -22,10 +24,10 @@ Parameter new_parameter(const std::string& name, const YamlValue& value, const s
   throw InputError({value.where(), value.path() + ".initial", "required key is missing: the model has no such parameter" + hint, "", ""});
 }
 
-int index_of(const std::string& name, const std::vector<Parameter>& parameters) {
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    if (parameters[i].name == name) return static_cast<int>(i);
-  return -1;
+std::unordered_map<std::string, int> indices_of(const std::vector<Parameter>& parameters) {
+  std::unordered_map<std::string, int> indices;
+  for (std::size_t i = 0; i < parameters.size(); ++i) indices.emplace(parameters[i].name, static_cast<int>(i));
+  return indices;
 }
 
 }  // namespace
@@ -47,13 +49,12 @@ void read_parameters(const YamlValue& study_value, const RobotDescription& robot
   study->parameters = robot.parameters;
   const auto parameters = study_value.find("parameters");
   if (!parameters) return;
+  std::unordered_map<std::string, int> indices = indices_of(study->parameters);
   for (const auto& [name, value] : parameters->entries()) {
     value.require_keys({}, {"tune", "initial", "lower", "upper"});
-    int index = index_of(name, study->parameters);
-    if (index < 0) {
-      index = static_cast<int>(study->parameters.size());
-      study->parameters.push_back(new_parameter(name, value, robot.parameters));
-    }
+    const auto [found, is_new] = indices.emplace(name, static_cast<int>(study->parameters.size()));
+    const int index = found->second;
+    if (is_new) study->parameters.push_back(new_parameter(name, value, robot.parameters));
     Parameter& parameter = study->parameters[static_cast<std::size_t>(index)];
     if (const auto initial = value.find("initial")) parameter.value = initial->number();
     read_bounds(value, &parameter);
@@ -65,8 +66,9 @@ void read_parameters(const YamlValue& study_value, const RobotDescription& robot
 void read_constraints(const YamlValue& study_value, Study* study) {
   const auto constraints = study_value.find("constraints");
   if (!constraints) return;
+  const std::vector<std::string> names = names_of(study->parameters);
   for (const YamlValue& item : constraints->items())
-    study->constraints.push_back(parse_constraint(item.text(), names_of(study->parameters), item.where(), item.path()));
+    study->constraints.push_back(parse_constraint(item.text(), names, item.where(), item.path()));
 }
 
 }  // namespace codesign

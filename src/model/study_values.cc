@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "study_values.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -16,6 +17,15 @@ std::vector<std::string> names_of(const std::vector<Parameter>& parameters) {
   return names;
 }
 
+ExpressionScope scope_of(const std::vector<Parameter>& parameters) {
+  return {[&parameters](const std::string& name) {
+            const auto found =
+                std::find_if(parameters.begin(), parameters.end(), [&name](const Parameter& parameter) { return parameter.name == name; });
+            return found == parameters.end() ? -1 : static_cast<int>(found - parameters.begin());
+          },
+          [&parameters] { return names_of(parameters); }};
+}
+
 Quantity read_quantity(const YamlValue& value, const std::vector<Parameter>& parameters) {
   constexpr const char* kAllowed = "a finite number or \"${expression}\" of the parameters";
   const std::string text = value.text();
@@ -24,16 +34,14 @@ Quantity read_quantity(const YamlValue& value, const std::vector<Parameter>& par
     return *number;
   }
   if (text.size() < 4 || text.compare(0, 2, "${") != 0 || text.back() != '}') value.fail("not a number", kAllowed);
-  std::vector<double> start;
-  start.reserve(parameters.size());
-  for (const Parameter& parameter : parameters) start.push_back(parameter.value);
   std::shared_ptr<const Expression> expression;
   try {
-    expression = std::make_shared<const Expression>(text.substr(2, text.size() - 3), names_of(parameters));
+    expression = std::make_shared<const Expression>(text.substr(2, text.size() - 3), scope_of(parameters));
   } catch (const std::invalid_argument& error) {
     value.fail(error.what(), kAllowed);
   }
-  const double nominal = expression->value(start);
+  const double nominal =
+      expression->value_of(values_used(*expression, parameters, [](const Parameter& parameter) { return parameter.value; }));
   if (!std::isfinite(nominal)) value.fail("not finite at the parameters' start", kAllowed);
   return Quantity(nominal, std::move(expression));
 }

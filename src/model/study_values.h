@@ -13,6 +13,9 @@ namespace codesign {
 
 std::vector<std::string> names_of(const std::vector<Parameter>& parameters);
 
+/// For expressions; it must not outlive `parameters`.
+ExpressionScope scope_of(const std::vector<Parameter>& parameters);
+
 /// A number, or `${expression}` of all named parameters, finite at their start.
 Quantity read_quantity(const YamlValue& value, const std::vector<Parameter>& parameters);
 

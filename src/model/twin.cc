@@ -31,21 +31,23 @@ std::vector<std::string> split_values(const XmlElement& element, const std::stri
   return values;
 }
 
-/// The text of a `${...}` with at most a sign before it, as an expression; empty if `word` is of another form.
-std::string expression_text(const std::string& word) {
+/// The inside of a `${...}` with at most a sign before it; empty if `word` is of another form.
+std::string expression_inside(const std::string& word) {
   const std::size_t begin = word.find("${");
   const bool signed_only = begin == 0 || (begin == 1 && (word[0] == '-' || word[0] == '+'));
   if (!signed_only || word.find('}') != word.size() - 1) return "";
-  const std::string inner = word.substr(begin + 2, word.size() - begin - 3);
-  return word[0] == '-' ? "-(" + inner + ")" : inner;
+  return word.substr(begin + 2, word.size() - begin - 3);
 }
 
 Quantity parse_expression(const XmlElement& element, const std::string& attribute, const std::string& word, const ParameterTable& table) {
-  const std::string text = expression_text(word);
-  if (text.empty()) element.fail_at(attribute, "'" + word + "' is no expression", "a number, ${expression} or -${expression}");
+  const std::string inner = expression_inside(word);
+  if (inner.empty()) element.fail_at(attribute, "'" + word + "' is no expression", "a number, ${expression} or -${expression}");
+  const ExpressionScope scope = table.scope();
   std::shared_ptr<const Expression> expression;
   try {
-    expression = std::make_shared<const Expression>(text, table.names);
+    // The inside alone first: with a sign and brackets around it, unbalanced ones could still make sense.
+    expression = std::make_shared<const Expression>(inner, scope);
+    if (word[0] == '-') expression = std::make_shared<const Expression>("-(" + inner + ")", scope);
   } catch (const std::invalid_argument& error) {
     element.fail_at(attribute, std::string(error.what()), "an expression of the model's parameters");
   }
@@ -76,9 +78,18 @@ std::string nominal_text(const std::vector<Quantity>& quantities) {
 
 ParameterTable::ParameterTable(const std::vector<Parameter>& parameters) {
   for (const Parameter& parameter : parameters) {
+    index.emplace(parameter.name, static_cast<int>(names.size()));
     names.push_back(parameter.name);
     values.push_back(parameter.value);
   }
+}
+
+ExpressionScope ParameterTable::scope() const {
+  return {[this](const std::string& name) {
+            const auto found = index.find(name);
+            return found == index.end() ? -1 : found->second;
+          },
+          [this] { return names; }};
 }
 
 std::vector<Quantity> parse_quantities(const XmlElement& element, const std::string& attribute, std::size_t count,

@@ -4,8 +4,10 @@
 
 #include <cstddef>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
+#include "mechanism_codesign/model/expression.h"
 #include "mechanism_codesign/model/parameter.h"
 #include "mechanism_codesign/model/quantity.h"
 #include "xml_element.h"
@@ -16,8 +18,12 @@ namespace codesign {
 struct ParameterTable {
   ParameterTable() = default;
   explicit ParameterTable(const std::vector<Parameter>& parameters);
+  /// For expressions; it must not outlive the table.
+  ExpressionScope scope() const;
+
   std::vector<std::string> names;
   std::vector<double> values;
+  std::unordered_map<std::string, int> index;  ///< of each name
 };
 
 inline const char kPrefix[] = "codesign:";

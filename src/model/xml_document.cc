@@ -1,12 +1,45 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "xml_document.h"
 
+#include <algorithm>
+
 namespace codesign {
+namespace {
+
+/// tinyxml2's names are for programmers.
+std::string parse_fault(tinyxml2::XMLError error) {
+  switch (error) {
+    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
+      return "there is nothing in it";
+    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+      return "an element that begins here does not end, or another one ends in its place";
+    case tinyxml2::XML_ERROR_PARSING_ELEMENT:
+      return "a tag that begins here is broken off or malformed";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "a tag has an attribute that is malformed, without quotation marks, or given twice";
+    case tinyxml2::XML_ERROR_PARSING_TEXT:
+      return "the text between two tags, or the file, ends too early";
+    case tinyxml2::XML_ERROR_PARSING_COMMENT:
+      return "a comment does not end";
+    case tinyxml2::XML_ERROR_PARSING_CDATA:
+      return "a CDATA section does not end";
+    case tinyxml2::XML_ERROR_PARSING_DECLARATION:
+      return "the XML declaration is malformed or not at the beginning";
+    case tinyxml2::XML_ERROR_PARSING_UNKNOWN:
+      return "what begins with <! does not end, or stands where it may not";
+    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
+      return "elements are nested too deeply";
+    default:
+      return tinyxml2::XMLDocument::ErrorIDToName(error);
+  }
+}
+
+}  // namespace
 
 XmlDocument::XmlDocument(const SourceText& source) : file_(source.name), dom_(std::make_unique<tinyxml2::XMLDocument>()) {
   if (dom_->Parse(source.text.c_str(), source.text.size()) != tinyxml2::XML_SUCCESS)
-    throw InputError({{file_, dom_->ErrorLineNum()}, "", std::string("the text is not XML: ") + dom_->ErrorStr(), "", ""});
-  if (robot() == nullptr) throw InputError({{file_, 0}, "", "the text holds no XML element", "", "<robot>"});
+    throw InputError({{file_, std::max(1, dom_->ErrorLineNum())}, "", "the text is not XML: " + parse_fault(dom_->ErrorID()), "", ""});
+  if (robot() == nullptr) throw InputError({{file_, 1}, "", "the text holds no XML element", "", "<robot>"});
   if (std::string(robot()->Name()) != "robot")
     throw InputError({location(robot()), "", "the root element is not a robot", std::string("<") + robot()->Name() + ">", "<robot>"});
 }

@@ -3,6 +3,8 @@
 
 #include <map>
 
+#include "mechanism_codesign/math/decimal.h"
+
 namespace codesign {
 namespace {
 
@@ -32,11 +34,16 @@ std::string names(bool constrained) {
 
 nlopt::opt make_optimizer(const Study& study, unsigned dimension) {
   const auto found = algorithms().find(study.optimizer.algorithm);
-  const SourceLocation where = study.optimizer.where.file.empty() ? SourceLocation{study.file, 0} : study.optimizer.where;
+  const SourceLocation where = study.optimizer.where.file.empty() ? SourceLocation{study.file, 1} : study.optimizer.where;
   const InputFault fault{where, "optimizer.algorithm", "", study.optimizer.algorithm, ""};
   if (found == algorithms().end()) throw InputError({fault.where, fault.element, "no such algorithm", fault.value, names(false)});
   if (!study.constraints.empty() && !found->second.takes_constraints)
     throw InputError({fault.where, fault.element, "this algorithm takes no constraints among parameters", fault.value, names(true)});
+  // Requests bring tolerances too; below this rounding decides.
+  constexpr double kLeast = 1e-15;
+  if (!(study.optimizer.relative_tolerance >= kLeast && study.optimizer.relative_tolerance < 1.0))
+    throw InputError({where, "optimizer.relative_tolerance", "tolerance out of range", to_decimal(study.optimizer.relative_tolerance),
+                      "from 1e-15 to less than 1"});
   nlopt::opt optimizer(found->second.id, dimension);
   if (found->second.id == nlopt::LD_AUGLAG) {
     nlopt::opt local(nlopt::LD_LBFGS, dimension);

@@ -5,14 +5,16 @@
 #include <limits>
 
 #include "algorithm.h"
+#include "margins.h"
 #include "mechanism_codesign/dynamics/system.h"
 #include "mechanism_codesign/math/cpu_timer.h"
 #include "scaling.h"
+#include "search_warnings.h"
 
 namespace codesign {
 namespace {
 
-constexpr double kFeasible = 1e-7;  // a constraint of scaled variables may be missed by this much
+constexpr double kSlopeLeft = 1e-2;  // of the first gradient, at most, where a line search that finds nothing better has converged
 
 /// One optimization: what NLopt's callbacks share.
 class Minimization {
@@ -25,9 +27,10 @@ class Minimization {
     nlopt::opt optimizer = make_optimizer(study_, static_cast<unsigned>(study_.tuned.size()));
     configure(&optimizer);
     result_.initial_rho = result_.rho = scaling_.start();
+    require_numbers_at_start(study_, scaling_.all_parameters(result_.initial_rho));
     std::vector<double> x = scaling_.to_scaled(result_.initial_rho);
     minimize(&optimizer, &x);
-    if (result_.status.ok()) result_.status.time = study_.duration;
+    conclude();
     return std::move(result_);
   }
 
@@ -57,18 +60,43 @@ class Minimization {
     } catch (const nlopt::forced_stop&) {
     } catch (const nlopt::roundoff_limited&) {
       result_.termination = "roundoff_limited";
-    } catch (const std::runtime_error& error) {
+    } catch (const std::exception& error) {
       result_.termination = "algorithm_failed";
       failure_ = error.what();
     }
-    // A line search that finds nothing better any more has converged as far as it can; only a start without a value is a failure.
+    if (result_.termination == "algorithm_failed" && have_best_ && has_converged()) result_.termination = "roundoff_limited";
+  }
+
+  /// Why the search ended, with margins and warnings of the best point.
+  void conclude() {
+    result_.margins = constraint_margins(study_, scaling_.all_parameters(result_.rho));
+    if (have_best_) append(search_warnings(study_, result_), &result_.warnings);
+    result_.status = {StatusCode::kSuccess, study_.duration, ""};
     if (cancelled_) {
       result_.termination = "cancelled";
       result_.status = {StatusCode::kCancelled, 0.0, "cancelled; the best point so far is kept"};
     } else if (!have_best_) {
       result_.status = first_failure_;
       result_.termination = "start_failed";
+    } else if (result_.termination == "algorithm_failed") {
+      result_.status = {StatusCode::kAlgorithmFailed, study_.duration,
+                        "the algorithm \"" + study_.optimizer.algorithm + "\" gave up (" + failure_ +
+                            "); the best point so far is kept; try another algorithm or another start"};
+    } else if (!all_met(result_.margins)) {
+      result_.status = {StatusCode::kInfeasible, study_.duration, describe_unmet(study_, result_.margins)};
     }
+  }
+
+  /// A line search that gives up between points that are equal within the tolerance asked for, on a slope that is nearly gone (or taken up
+  /// by a constraint), has converged as far as it can.
+  bool has_converged() const {
+    const Trial& last = result_.history.back();
+    const double difference = std::abs(last.objective - result_.objective);
+    if (!last.status.ok() || difference > study_.optimizer.relative_tolerance * std::abs(result_.objective)) return false;
+    const Eigen::VectorXd margins = constraint_margins(study_, scaling_.all_parameters(result_.rho));
+    if ((margins.array() < 1e-6).any()) return all_met(margins);
+    const double start = scaling_.gradient_norm(result_.initial_gradient);
+    return scaling_.free_gradient_norm(result_.rho, result_.gradient) <= kSlopeLeft * start;
   }
 
   static double objective_callback(const std::vector<double>& x, std::vector<double>& gradient, void* self) {
@@ -81,9 +109,23 @@ class Minimization {
     const Scaling& scaling = constraint.owner->scaling_;
     const std::vector<double> parameters = scaling.all_parameters(scaling.from_scaled(x));
     const Expression& margin = *constraint.constraint->margin;
+    const double value = margin.value(parameters);
+    if (!std::isfinite(value)) return constraint.owner->step_back_from_constraint(x, &gradient);
     for (std::size_t k = 0; k < gradient.size(); ++k)
       gradient[k] = -margin.derivative(constraint.owner->study_.tuned[k], parameters) * scaling.range(k);
-    return -margin.value(parameters);
+    return -value;
+  }
+
+  // Where a constraint is no number it counts as violated, and the more so the farther from the best point.
+  double step_back_from_constraint(const std::vector<double>& x, std::vector<double>* gradient) const {
+    const std::vector<double> best = scaling_.to_scaled(result_.rho);
+    double violation = 1.0;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const double d = x[k] - best[k];
+      violation += d * d;
+      if (!gradient->empty()) (*gradient)[k] = 2.0 * d;
+    }
+    return violation;
   }
 
   double objective(const std::vector<double>& x, std::vector<double>* gradient) {
@@ -133,13 +175,6 @@ class Minimization {
     return (worst_ + weight * (1.0 + distance)) / unit_;
   }
 
-  bool feasible(const Eigen::VectorXd& rho) const {
-    const std::vector<double> parameters = scaling_.all_parameters(rho);
-    for (const ParameterConstraint& constraint : study_.constraints)
-      if (constraint.margin->value(parameters) < -kFeasible) return false;
-    return true;
-  }
-
   Trial note(const Evaluation& evaluation, const Eigen::VectorXd& rho) {
     Trial trial;
     trial.evaluation = ++result_.evaluations;
@@ -148,6 +183,8 @@ class Minimization {
     result_.statistics.steps += evaluation.statistics.steps;
     result_.statistics.rejected_steps += evaluation.statistics.rejected_steps;
     result_.statistics.cpu_seconds += evaluation.statistics.cpu_seconds;
+    result_.statistics.constraint_drift = std::max(result_.statistics.constraint_drift, evaluation.statistics.constraint_drift);
+    result_.statistics.energy_error = std::max(result_.statistics.energy_error, evaluation.statistics.energy_error);
     if (evaluation.status.ok()) {
       trial.objective = evaluation.objective;
       trial.gradient = evaluation.gradient;
@@ -165,7 +202,7 @@ class Minimization {
 
   // A start outside the constraints is kept only until a point inside is seen.
   void take_best(const Evaluation& evaluation, const Eigen::VectorXd& rho) {
-    const bool inside = feasible(rho), first = !have_best_;
+    const bool inside = all_met(constraint_margins(study_, scaling_.all_parameters(rho))), first = !have_best_;
     if (first) {
       result_.initial_objective = evaluation.objective;
       result_.initial_gradient = evaluation.gradient;
@@ -177,6 +214,7 @@ class Minimization {
     best_feasible_ = inside;
     result_.objective = evaluation.objective;
     result_.gradient = evaluation.gradient;
+    result_.warnings = evaluation.warnings;
     result_.rho = rho;
   }
 
@@ -199,7 +237,7 @@ class Minimization {
 
 OptimizationResult optimize(const std::shared_ptr<const System>& system, const Study& study, const TrialObserver& observer,
                             const std::atomic<bool>* cancel) {
-  if (study.tuned.empty()) throw InputError({{study.file, 0}, "parameters", "nothing to tune", "", "at least one parameter"});
+  if (study.tuned.empty()) throw InputError({{study.file, 1}, "parameters", "nothing to tune", "", "at least one parameter"});
   return Minimization(system, study, observer, cancel).run();
 }
 

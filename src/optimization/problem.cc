@@ -3,11 +3,13 @@
 
 #include <cmath>
 
+#include "margins.h"
 #include "mechanism_codesign/dynamics/system.h"
 #include "mechanism_codesign/math/cpu_timer.h"
 #include "mechanism_codesign/math/decimal.h"
 #include "mechanism_codesign/model/study_reader.h"
 #include "mechanism_codesign/model/unknown_name.h"
+#include "unused_parameters.h"
 
 namespace codesign {
 namespace {
@@ -17,11 +19,10 @@ constexpr const char* kSettings = "parameter settings";
 std::string range_of(const Parameter& parameter) { return "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"; }
 
 Parameter& find_parameter(Study* study, const std::string& name) {
-  std::vector<std::string> known;
-  for (Parameter& parameter : study->parameters) {
+  for (Parameter& parameter : study->parameters)
     if (parameter.name == name) return parameter;
-    known.push_back(parameter.name);
-  }
+  std::vector<std::string> known;
+  for (const Parameter& parameter : study->parameters) known.push_back(parameter.name);
   throw unknown_name({kSettings, 0}, name, "parameter", name, known);
 }
 
@@ -32,6 +33,13 @@ void apply_settings(const ParameterSettings& settings, Study* study) {
       throw InputError({{kSettings, 0}, name, "value outside the parameter's bounds", to_decimal(value), range_of(parameter)});
     parameter.value = value;
   }
+}
+
+std::vector<double> parameter_values(const Study& study) {
+  std::vector<double> values;
+  values.reserve(study.parameters.size());
+  for (const Parameter& parameter : study.parameters) values.push_back(parameter.value);
+  return values;
 }
 
 }  // namespace
@@ -57,6 +65,8 @@ std::vector<std::string> Problem::tuned_names() const {
 Problem compile(Problem problem, const ParameterSettings& settings) {
   apply_settings(settings, &problem.study);
   const CpuTimer timer;
+  require_numbers_at_start(problem.study, parameter_values(problem.study));
+  append(unused_parameters(problem), &problem.warnings);
   problem.system = make_system(problem.robot, problem.study);
   problem.setup_seconds += timer.seconds();
   return problem;
@@ -68,6 +78,7 @@ Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& over
   Problem problem;
   problem.urdf = urdf;
   problem.overlays = overlays;
+  problem.study_text = study;
   problem.robot = read_urdf(urdf, overlays);
   problem.study = read_study(study, problem.robot, loader);
   append(problem.robot.warnings, &problem.warnings);

@@ -45,6 +45,17 @@ double Scaling::gradient_norm(const Eigen::VectorXd& gradient) const {
   return std::sqrt(sum);
 }
 
+double Scaling::free_gradient_norm(const Eigen::VectorXd& rho, const Eigen::VectorXd& gradient) const {
+  constexpr double kOnBound = 1e-9;
+  const std::vector<double> x = to_scaled(rho);
+  Eigen::VectorXd free = gradient;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    double& component = free[static_cast<Eigen::Index>(k)];
+    if ((x[k] - lower_[k] <= kOnBound && component > 0.0) || (upper_[k] - x[k] <= kOnBound && component < 0.0)) component = 0.0;
+  }
+  return gradient_norm(free);
+}
+
 std::vector<double> Scaling::all_parameters(const Eigen::VectorXd& rho) const {
   std::vector<double> parameters;
   for (const Parameter& p : study_.parameters) parameters.push_back(p.value);

@@ -26,6 +26,8 @@ class Scaling {
   Eigen::VectorXd from_scaled(const std::vector<double>& x) const;
   std::vector<double> scale_gradient(const Eigen::VectorXd& gradient) const;
   double gradient_norm(const Eigen::VectorXd& gradient) const;
+  /// The same without the components that a bound, on which `rho` stands, keeps from falling further.
+  double free_gradient_norm(const Eigen::VectorXd& rho, const Eigen::VectorXd& gradient) const;
   /// All named parameters, those tuned set to rho.
   std::vector<double> all_parameters(const Eigen::VectorXd& rho) const;
 

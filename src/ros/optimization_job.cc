@@ -17,10 +17,12 @@
 namespace codesign {
 namespace {
 
-mechanism_codesign::OptimizeResult to_message(const OptimizationResult& result, const std::vector<std::string>& parameters) {
+mechanism_codesign::OptimizeResult to_message(const OptimizationResult& result, const Problem& problem) {
   mechanism_codesign::OptimizeResult message;
   set_status(result.status, &message);
-  message.parameters = parameters;
+  message.parameters = problem.tuned_names();
+  for (const ParameterConstraint& constraint : problem.study.constraints) message.constraints.push_back(constraint.text);
+  message.margins = to_array(result.margins);
   message.initial = to_array(result.initial_rho);
   message.tuned = to_array(result.rho);
   message.initial_objective = result.initial_objective;
@@ -86,7 +88,7 @@ class Job {
     };
     result_ = codesign::optimize(problem_.system, problem_.study, observe, &cancel);
     record_->progress = log.take();
-    outcome_->result = to_message(result_, parameters);
+    outcome_->result = to_message(result_, problem_);
     outcome_->result.warnings = warning_messages(problem_.warnings, warnings());
     outcome_->result.setup_seconds = problem_.setup_seconds;
   }

@@ -131,8 +131,10 @@ bool AdjointGradient::plan_holds() {
 
 bool AdjointGradient::go_back() {
   prepare();
-  for (int k = back_->path.size(); k-- > 0;)
+  for (int k = back_->path.size(); k-- > 0;) {
+    if (cancel_ != nullptr && *cancel_) return false;
     if (!step_back(k)) return false;
+  }
   return true;
 }
 

@@ -25,6 +25,10 @@ class AdjointGradient final : public GradientEngine {
   void gradient(Eigen::VectorXd* gradient) override;
   const Statistics& statistics() const override { return integrator_.statistics(); }
   Warnings warnings() const override { return integrator_.warnings(); }
+  void obey(const std::atomic<bool>* cancel) override {
+    integrator_.obey(cancel);
+    cancel_ = cancel;
+  }
 
  private:
   /// What only a gradient needs.
@@ -56,6 +60,7 @@ class AdjointGradient final : public GradientEngine {
   RosenbrockIntegrator integrator_;
   std::optional<Backward> back_;
   bool with_gradient_ = false;
+  const std::atomic<bool>* cancel_ = nullptr;
 };
 
 }  // namespace codesign

@@ -9,6 +9,15 @@
 
 namespace codesign {
 
+namespace {
+
+const std::string& tuned_name(const System& system, Eigen::Index k) {
+  const Study& study = system.study();
+  return study.parameters[static_cast<std::size_t>(study.tuned[static_cast<std::size_t>(k)])].name;
+}
+
+}  // namespace
+
 class Evaluator::Implementation {
  public:
   explicit Implementation(std::shared_ptr<const System> system) : system_(std::move(system)), engine_(make_gradient_engine(*system_)) {}
@@ -16,13 +25,9 @@ class Evaluator::Implementation {
   Evaluation evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel) {
     const CpuTimer timer;
     Evaluation evaluation;
+    engine_->obey(cancel);
     evaluation.status = run(system_->parameters(rho), with_gradient, cancel);
-    if (evaluation.status.ok()) {
-      evaluation.objective = engine_->objective();
-      if (!std::isfinite(evaluation.objective))
-        evaluation.status = {StatusCode::kNonFinite, engine_->time(), "the objective is not finite"};
-      if (with_gradient) engine_->gradient(&evaluation.gradient);
-    }
+    if (evaluation.status.ok()) collect(with_gradient, cancel, &evaluation);
     evaluation.statistics = engine_->statistics();
     evaluation.warnings = engine_->warnings();
     evaluation.statistics.cpu_seconds = timer.seconds();
@@ -30,6 +35,27 @@ class Evaluator::Implementation {
   }
 
  private:
+  void collect(bool with_gradient, const std::atomic<bool>* cancel, Evaluation* evaluation) {
+    const double time = engine_->time();
+    evaluation->objective = engine_->objective();
+    if (!std::isfinite(evaluation->objective)) {
+      evaluation->status = {StatusCode::kNonFinite, time, "the objective is not finite"};
+      return;
+    }
+    if (!with_gradient) return;
+    engine_->gradient(&evaluation->gradient);
+    if (cancel && *cancel) {
+      evaluation->status = {StatusCode::kCancelled, time, "cancelled"};
+      return;
+    }
+    for (Eigen::Index k = 0; k < evaluation->gradient.size(); ++k)
+      if (!std::isfinite(evaluation->gradient[k])) {
+        evaluation->status = {StatusCode::kNonFiniteGradient, time,
+                              "the gradient by \"" + tuned_name(*system_, k) + "\" is not finite, though the objective is"};
+        return;
+      }
+  }
+
   Status run(const std::vector<double>& parameters, bool with_gradient, const std::atomic<bool>* cancel) {
     Status status = engine_->start(parameters, with_gradient);
     const double duration = system_->study().duration;

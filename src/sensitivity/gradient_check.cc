@@ -15,8 +15,10 @@ using Complex = std::complex<double>;
 constexpr double kComplexStep = 1e-30;
 
 /// The sizes of the steps that an integration with sensitivities takes.
-Status record_steps(const System& system, const std::vector<double>& parameters, std::vector<double>* steps) {
+Status record_steps(const System& system, const std::vector<double>& parameters, const std::atomic<bool>* cancel,
+                    std::vector<double>* steps) {
   RosenbrockGradient run(system);
+  run.obey(cancel);
   Status status = run.start(parameters, true);
   while (status.ok() && run.time() < system.study().duration) {
     status = run.advance(system.study().duration);
@@ -27,7 +29,7 @@ Status record_steps(const System& system, const std::vector<double>& parameters,
 
 /// psi after the same steps in complex arithmetic.
 Complex replay(const System& system, const std::vector<Complex>& parameters, const std::vector<double>& steps,
-               RosenbrockIntegrator* integrator, const std::vector<double>& real_parameters) {
+               RosenbrockIntegrator* integrator, const std::vector<double>& real_parameters, const std::atomic<bool>* cancel) {
   RosenbrockStep<Complex> step(system, integrator->step().tableau());
   step.equations().set_design(parameters);
   integrator->start(real_parameters);
@@ -36,6 +38,7 @@ Complex replay(const System& system, const std::vector<Complex>& parameters, con
   integrator->assembly().extend(parameters, integrator->initial_state(), &step.equations(), &state);
   step.start(state);
   for (double h : steps) {
+    if (cancel && *cancel) break;
     step.attempt(h);
     step.accept();
     step.equations().track_turns(step.state());
@@ -53,21 +56,29 @@ void compare(GradientCheck* check) {
   }
 }
 
+/// A reference that is no number checks nothing.
+void refuse_non_finite(const System& system, GradientCheck* check) {
+  for (Eigen::Index k = 0; k < check->reference.size(); ++k) {
+    if (std::isfinite(check->reference[k]) && std::isfinite(check->reference_error[k])) continue;
+    const Study& study = system.study();
+    const std::string& name = study.parameters[static_cast<std::size_t>(study.tuned[static_cast<std::size_t>(k)])].name;
+    check->status = {StatusCode::kNonFiniteGradient, study.duration, "the reference for the gradient by \"" + name + "\" is not finite"};
+    return;
+  }
+}
+
 void check_by_complex_step(const System& system, const Eigen::VectorXd& rho, const std::atomic<bool>* cancel, GradientCheck* check) {
   RosenbrockIntegrator integrator(system);
   std::vector<double> steps;
   const std::vector<double> parameters = system.parameters(rho);
-  check->status = record_steps(system, parameters, &steps);
+  check->status = record_steps(system, parameters, cancel, &steps);
   for (Eigen::Index k = 0; check->status.ok() && k < rho.size(); ++k) {
-    if (cancel && *cancel) {
-      check->status = {StatusCode::kCancelled, 0.0, "cancelled"};
-      return;
-    }
     std::vector<Complex> perturbed(parameters.begin(), parameters.end());
     const auto index = static_cast<std::size_t>(system.study().tuned[static_cast<std::size_t>(k)]);
     const double h = kComplexStep * std::max(1.0, std::abs(parameters[index]));
     perturbed[index] += Complex(0.0, h);
-    check->reference[k] = replay(system, perturbed, steps, &integrator, parameters).imag() / h;
+    check->reference[k] = replay(system, perturbed, steps, &integrator, parameters, cancel).imag() / h;
+    if (cancel && *cancel) check->status = {StatusCode::kCancelled, 0.0, "cancelled"};
   }
 }
 
@@ -110,6 +121,7 @@ GradientCheck check_gradient(const std::shared_ptr<const System>& system, const 
   } else {
     check_by_differences(*system, rho, cancel, &check);
   }
+  if (check.status.ok()) refuse_non_finite(*system, &check);
   if (check.status.ok()) compare(&check);
   return check;
 }

@@ -22,6 +22,7 @@ class IdasGradient final : public GradientEngine {
   void gradient(Eigen::VectorXd* gradient) override;
   const Statistics& statistics() const override { return integrator_.statistics(); }
   Warnings warnings() const override { return integrator_.warnings(); }
+  void obey(const std::atomic<bool>* cancel) override { integrator_.obey(cancel); }
 
  private:
   /// The present state with rates that satisfy the equations at it.

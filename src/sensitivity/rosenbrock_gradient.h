@@ -25,6 +25,7 @@ class RosenbrockGradient final : public GradientEngine {
   void gradient(Eigen::VectorXd* gradient) override;
   const Statistics& statistics() const override { return integrator_.statistics(); }
   Warnings warnings() const override { return integrator_.warnings(); }
+  void obey(const std::atomic<bool>* cancel) override { integrator_.obey(cancel); }
 
  private:
   template <int N>

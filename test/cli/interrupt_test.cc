@@ -8,9 +8,19 @@
 namespace codesign::cli {
 namespace {
 
+TEST(Interrupt, EndsTheProgramAtOnceAsLongAsThereIsNothingToKeep) {
+  EXPECT_EXIT(
+      {
+        watch_interrupts();
+        std::raise(SIGINT);
+      },
+      testing::ExitedWithCode(1), "interrupted before anything was computed");
+}
+
 TEST(Interrupt, TheFirstSetsTheFlagAndTheSecondEndsTheProgram) {
   EXPECT_FALSE(interrupted());
   watch_interrupts();
+  keep_results();
   std::raise(SIGINT);
   EXPECT_TRUE(interrupted());
   EXPECT_EXIT(std::raise(SIGINT), testing::KilledBySignal(SIGINT), "");

@@ -53,8 +53,11 @@ TEST(ExpressionSyntax, RefusesWhatIsNoArithmetic) {
   expect_complaint("0x10", "malformed number");
   expect_complaint("(x", "parenthesis");
   expect_complaint("x)", "parenthesis");
-  expect_complaint("x y", "Unexpected");
-  expect_complaint("x*", "Unexpected");
+  expect_complaint("x y", "an operator is missing before 'y' at position 3");
+  expect_complaint("x*", "a number is missing at position 3");
+  expect_complaint("2(x)", "an operator is missing before '(' at position 2");
+  expect_complaint("x*/y", "a number is missing before '/' at position 3");
+  expect_complaint("1e999", "too large or too small");
   expect_complaint("1, 2", "comma");
   expect_complaint("x < 1", "a comparison is not a number");
   expect_complaint("(x < 1) + 2", "");
@@ -62,6 +65,39 @@ TEST(ExpressionSyntax, RefusesWhatIsNoArithmetic) {
   expect_complaint("x ? 1 : 2", "");
   expect_complaint("sqrt()", "");
   expect_complaint("atan2(x)", "");
+}
+
+// Each of these was once read as something that nobody wrote.
+TEST(ExpressionSyntax, RefusesWhatLooksLikeSomethingElse) {
+  expect_complaint("99\n3", "an operator is missing before '3' at position 4");
+  expect_complaint("1\r\n+ 2\n3", "an operator is missing before '3'");
+  expect_complaint("(1>0 ? 2) : 3", "expected a ':' that belongs to its '?', found ')' at position 9");
+  expect_complaint("min(1>0 ? 2, 3 : 4)", "expected a ':' that belongs to its '?', found ',' at position 12");
+  expect_complaint("1 : 2", "a ':' without its '?'");
+  expect_complaint("1>0 ? 2", "expected a ':'");
+  expect_complaint("1<2<3", "a comparison stands where a number is needed at position 4");
+  expect_complaint("x ? 1 : 2", "a number stands before '?'");
+  expect_complaint("min(1, 2", "expected a comma or a closing parenthesis, found the end at position 9");
+  expect_complaint("atan2(x)", "takes 2 arguments, not 1");
+  expect_complaint("sqrt(x, y)", "takes 1 argument, not 2");
+  EXPECT_DOUBLE_EQ(Expression("x\n+\ny", kNames).value(kAt), 0.7 - 1.3) << "a line break is white space like any other";
+}
+
+TEST(ExpressionSyntax, EndsWhateverItsSize) {
+  expect_complaint(std::string(500000, '(') + "1", "nested too deeply");
+  expect_complaint("1" + std::string(500000, '^'), "a number is missing");
+  std::string powers = "1", conditions;
+  for (int k = 0; k < 100000; ++k) {
+    powers += "^1";
+    conditions += "1<2?1:";
+  }
+  expect_complaint(powers, "nested too deeply");
+  expect_complaint(conditions + "1", "nested too deeply");
+  EXPECT_LT(complaint(std::string(1000000, 'q')).size(), 400U) << "a message is for people";
+  std::string sum = "0";
+  for (int k = 0; k < 250000; ++k) sum += "+1";
+  EXPECT_DOUBLE_EQ(Expression(sum, kNames).value(kAt), 250000.0);
+  EXPECT_DOUBLE_EQ(Expression(std::string(1000001, '-') + "1", kNames).value(kAt), -1.0);
 }
 
 TEST(ExpressionSyntax, SaysWhichNamesParametersCannotHave) {

@@ -27,6 +27,22 @@ TEST(Expression, HasNoValueWhereThereIsNoRealOne) {
   for (const char* text : {"sqrt(y)", "log(y)", "asin(i)", "y**0.5", "0/(x - 0.7)"}) EXPECT_TRUE(std::isnan(value_of_text(text))) << text;
 }
 
+TEST(Expression, IsTheSameFromTheValuesThatItUsesAlone) {
+  const Expression expression("e*y**2 + 3*i", kNames);
+  ASSERT_EQ(expression.dependencies(), (std::vector<int>{1, 2, 3}));
+  const std::vector<double> used = {kAt[1], kAt[2], kAt[3]};
+  EXPECT_EQ(expression.value_of(used), expression.value(kAt));
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_EQ(expression.derivative_of(k, used), expression.derivative(static_cast<int>(k) + 1, kAt)) << k;
+  EXPECT_EQ(expression.derivative(0, kAt), 0.0);
+}
+
+TEST(Expression, BranchesThatAreNotTakenHaveNoSay) {
+  EXPECT_DOUBLE_EQ(value_of_text("x > 0 ? 2 : sqrt(y)"), 2.0);
+  EXPECT_DOUBLE_EQ(value_of_text("1 + (x < 0 ? 1/0 : 5)*2"), 11.0);
+  EXPECT_DOUBLE_EQ(value_of_text("max(x > 1 ? 7 : x > 0.5 ? 8 : 9, 3)"), 8.0);
+}
+
 TEST(Expression, MayBeSharedByThreads) {
   const Expression shared("x**2 + sin(y)", kNames);
   std::vector<int> wrong(4, 0);

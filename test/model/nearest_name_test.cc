@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ctime>
+
 namespace codesign {
 namespace {
 
@@ -24,6 +26,17 @@ TEST(NearestName, GivesNothingWhenNothingIsNear) {
   EXPECT_EQ(nearest_name("banana", {"duration", "objective"}), "");
   EXPECT_EQ(nearest_name("x", {"y", "z"}), "");
   EXPECT_EQ(nearest_name("anything", {}), "");
+}
+
+TEST(NearestName, TakesMillisecondsWhateverItIsAskedFor) {
+  std::vector<std::string> many;
+  for (int k = 0; k < 300000; ++k) many.push_back("coefficient_" + std::to_string(k));
+  const std::string huge(1000000, 'a');
+  const std::clock_t begin = std::clock();
+  EXPECT_EQ(nearest_name("coeficient_7", many), "coefficient_7");
+  EXPECT_EQ(nearest_name(huge, {huge + "b"}), "");
+  EXPECT_EQ(nearest_name("short", {huge}), "");
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 2.0);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace codesign {
 namespace {
 
 TEST(XmlDocument, WhatIsNoRobotIsRefusedWithItsLine) {
-  expect_error({"a.urdf", "<robot name=\"x\">\n<link>\n</robot>"}, {"a.urdf:2: the text is not XML", "XML_ERROR_MISMATCHED_ELEMENT"});
+  expect_error({"a.urdf", "<robot name=\"x\">\n<link>\n</robot>"}, {"a.urdf:2: the text is not XML", "does not end"});
   expect_error({"a.urdf", "<robot name=\"x\"\n name=\"y\"/>"}, {"a.urdf:2: the text is not XML"});
   expect_error({"a.urdf", "plain words"}, {"a.urdf"});
   expect_error({"a.urdf", ""}, {"a.urdf"});

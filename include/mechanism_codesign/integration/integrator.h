@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_INTEGRATION_INTEGRATOR_H_
 #define MECHANISM_CODESIGN_INTEGRATION_INTEGRATOR_H_
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -32,6 +33,16 @@ class Integrator {
   virtual const Statistics& statistics() const = 0;
   /// What the run since start() gives reason to doubt.
   virtual Warnings warnings() const = 0;
+
+  /// From now on advance() ends with kCancelled soon after `cancel` is set (from any thread), also while a step is tried again and again.
+  /// Null: never.
+  void obey(const std::atomic<bool>* cancel) { cancel_ = cancel; }
+
+ protected:
+  bool cancelled() const { return cancel_ != nullptr && *cancel_; }
+
+ private:
+  const std::atomic<bool>* cancel_ = nullptr;
 };
 
 /// The integrator that the study asks for.

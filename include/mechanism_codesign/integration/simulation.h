@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_INTEGRATION_SIMULATION_H_
 #define MECHANISM_CODESIGN_INTEGRATION_SIMULATION_H_
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -51,6 +52,9 @@ class Simulation {
   /// Samples everything at `time`, which must lie inside the last step taken (or be 0 after start()).
   void sample(double time, Frame* frame);
 
+  /// From now on advance() ends with kCancelled soon after `cancel` is set, from any thread. Null: never.
+  void obey(const std::atomic<bool>* cancel);
+
   const FrameNames& names() const;
   const Statistics& statistics() const;
   /// What became doubtful during the run: a singular position passed, a reaction that nothing determines.
@@ -65,7 +69,10 @@ class Simulation {
 using FrameObserver = std::function<bool(const Frame&)>;
 
 /// Runs a whole study at `parameters`, sampling at `count` equally spaced instants from 0 to its duration.
-Status simulate(Simulation* simulation, double duration, int count, const FrameObserver& observer);
+/// @param cancel if given and set, the run ends with kCancelled, between samples too.
+/// @returns kNonFinite at the first sample that is not finite throughout, which the observer does not get to see.
+Status simulate(Simulation* simulation, double duration, int count, const FrameObserver& observer,
+                const std::atomic<bool>* cancel = nullptr);
 
 /// The equations' table at the assembled start; `status` tells if the start could not be assembled.
 Counts count_equations(const std::shared_ptr<const System>& system, const std::vector<double>& parameters, Status* status);

@@ -3,11 +3,18 @@
 #define MECHANISM_CODESIGN_MODEL_EXPRESSION_H_
 
 #include <complex>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace codesign {
+
+/// The names that an expression may use, without a copy of them for each expression.
+struct ExpressionScope {
+  std::function<int(const std::string&)> find;      ///< index of a parameter, -1 if there is none
+  std::function<std::vector<std::string>()> names;  ///< all of them, for messages
+};
 
 /// An arithmetic expression of named parameters, as xacro writes them inside `${...}`.
 ///
@@ -20,6 +27,7 @@ class Expression {
   /// @param names the parameters that may appear; their order is the order of the vectors below.
   /// @throws std::invalid_argument with a sentence that names the position, or the unknown name and the nearest known one.
   Expression(const std::string& text, const std::vector<std::string>& names);
+  Expression(const std::string& text, const ExpressionScope& scope);
   ~Expression();
   Expression(const Expression&) = delete;
   Expression& operator=(const Expression&) = delete;
@@ -37,11 +45,16 @@ class Expression {
   /// Partial derivative with respect to parameter `index`, by a complex step (exact to rounding).
   double derivative(int index, const std::vector<double>& parameters) const;
 
+  /// The same from the parameters that appear alone: `values[k]` is that of parameter dependencies()[k]. What a design costs then does not
+  /// grow with the number of parameters that an expression does not use.
+  double value_of(const std::vector<double>& values) const;
+  double derivative_of(std::size_t k, const std::vector<double>& values) const;
+
  private:
-  struct Parser;
+  struct Program;
   std::string text_;
   std::vector<int> dependencies_;
-  std::unique_ptr<Parser> parser_;
+  std::unique_ptr<const Program> program_;
 };
 
 /// Why `name` cannot name a parameter (no identifier, or a function's name), as a sentence; empty if it can.

@@ -8,6 +8,7 @@
 namespace codesign {
 
 /// The known name a misspelt one most likely meant: the fewest letters inserted, dropped, replaced or swapped, whatever their case.
+/// Names over 100 letters, and names behind the first tens of thousands, are not compared, so that the search takes milliseconds.
 /// Returns "" if none is near (more than a third of the longer name differs, at least two letters allowed).
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
 

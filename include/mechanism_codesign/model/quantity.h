@@ -18,23 +18,28 @@ inline double value_at(const Expression& expression, const std::vector<double>& 
 inline std::complex<double> value_at(const Expression& expression, const std::vector<std::complex<double>>& parameters) {
   return expression.value(parameters);
 }
+/// Values of the parameters that an expression uses, in the order of its dependencies().
+template <class T, class Number>
+std::vector<double> values_used(const Expression& expression, const std::vector<T>& parameters, const Number& number) {
+  std::vector<double> values;
+  values.reserve(expression.dependencies().size());
+  for (int index : expression.dependencies()) values.push_back(number(parameters[static_cast<std::size_t>(index)]));
+  return values;
+}
 /// With the chain rule carried into every lane.
 template <int N>
 Lanes<N> value_at(const Expression& expression, const std::vector<Lanes<N>>& parameters) {
-  std::vector<double> values;
-  values.reserve(parameters.size());
-  for (const Lanes<N>& parameter : parameters) values.push_back(parameter.a);
-  Lanes<N> result(expression.value(values));
-  for (int index : expression.dependencies())
-    result.v += expression.derivative(index, values) * parameters[static_cast<std::size_t>(index)].v;
+  const std::vector<double> values = values_used(expression, parameters, [](const Lanes<N>& parameter) { return parameter.a; });
+  Lanes<N> result(expression.value_of(values));
+  for (std::size_t k = 0; k < values.size(); ++k)
+    result.v += expression.derivative_of(k, values) * parameters[static_cast<std::size_t>(expression.dependencies()[k])].v;
   return result;
 }
 /// While equations are recorded an expression comes with each design. `parameters` are of the recording, and not empty.
 inline Traced value_at(const Expression& expression, const std::vector<Traced>& parameters) {
   Recording* const recording = parameters.front().recording();
-  std::vector<double> values;
-  for (const Traced& parameter : parameters) values.push_back(parameter.value());
-  return {recording, recording->supplied(&expression), expression.value(values)};
+  const std::vector<double> values = values_used(expression, parameters, [](const Traced& parameter) { return parameter.value(); });
+  return {recording, recording->supplied(&expression), expression.value_of(values)};
 }
 
 /// A number of the model: a constant, or an expression of the parameters.

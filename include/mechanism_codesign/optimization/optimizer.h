@@ -26,7 +26,9 @@ struct Trial {
 using TrialObserver = std::function<bool(const Trial&)>;
 
 struct OptimizationResult {
-  Status status;            ///< ok, or cancelled, or why not even the start could be evaluated
+  /// Ok; cancelled; why not even the start could be evaluated; kAlgorithmFailed; or kInfeasible, where no point within the constraints was
+  /// found. In all cases but the third the best point is below.
+  Status status;
   std::string termination;  ///< snake case: "objective_tolerance_reached", "max_evaluations_reached", "cancelled", ...
   double initial_objective = 0.0;
   double objective = 0.0;  ///< at `rho`, the best feasible point seen

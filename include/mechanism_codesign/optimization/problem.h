@@ -22,6 +22,7 @@ using ParameterSettings = std::vector<std::pair<std::string, double>>;
 struct Problem {
   SourceText urdf;
   std::vector<SourceText> overlays;
+  SourceText study_text;  ///< empty where there is none
   RobotDescription robot;
   Study study;
   std::shared_ptr<const System> system;

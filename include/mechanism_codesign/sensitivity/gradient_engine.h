@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_SENSITIVITY_GRADIENT_ENGINE_H_
 
 #include <Eigen/Core>
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -29,6 +30,8 @@ class GradientEngine {
   virtual const Statistics& statistics() const = 0;
   /// What the run gives reason to doubt.
   virtual Warnings warnings() const = 0;
+  /// From now on advance() and gradient() end soon after `cancel` is set, advance() with kCancelled. Null: never.
+  virtual void obey(const std::atomic<bool>* cancel) = 0;
 };
 
 /// Whether the study's gradient is made backwards: where it asks for the adjoint, or leaves the choice and the adjoint is expected to be

@@ -1,0 +1,16 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SRC_INTEGRATION_FINITE_FRAME_H_
+#define MECHANISM_CODESIGN_SRC_INTEGRATION_FINITE_FRAME_H_
+
+#include <string>
+
+#include "mechanism_codesign/dynamics/frame.h"
+
+namespace codesign {
+
+/// Says which number of a frame is not finite, as a sentence; empty if all are.
+std::string find_not_finite(const FrameNames& names, const Frame& frame);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SRC_INTEGRATION_FINITE_FRAME_H_

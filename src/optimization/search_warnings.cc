@@ -1,0 +1,69 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "search_warnings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanism_codesign/math/decimal.h"
+
+namespace codesign {
+namespace {
+
+/// A parameter is on its bound within this part of its range.
+constexpr double kOnBound = 1e-6;
+
+void add_evaluations_warning(const Study& study, const OptimizationResult& result, Warnings* warnings) {
+  if (result.termination != "max_evaluations_reached") return;
+  const SourceLocation where = study.optimizer.where.file.empty() ? SourceLocation{study.file, 1} : study.optimizer.where;
+  warnings->push_back(
+      warn("max_evaluations_reached",
+           {where, "optimizer.max_evaluations",
+            "the search ended at its last evaluation, not at an optimum; the best point so far is given; more evaluations, or a "
+            "larger optimizer.relative_tolerance, let it end by itself",
+            std::to_string(study.optimizer.max_evaluations), ""}));
+}
+
+bool is_on(double value, double bound, const Parameter& parameter) {
+  if (!std::isfinite(bound)) return false;
+  const double range = parameter.upper - parameter.lower, scale = std::isfinite(range) ? range : std::max(std::abs(bound), 1.0);
+  return std::abs(value - bound) <= kOnBound * scale;
+}
+
+// Downhill is beyond the bound, so that the bound decides and not the objective.
+void add_bound_warning(const Parameter& parameter, double value, double slope, Warnings* warnings) {
+  const bool at_lower = is_on(value, parameter.lower, parameter) && slope > 0.0;
+  const bool at_upper = is_on(value, parameter.upper, parameter) && slope < 0.0;
+  if (!at_lower && !at_upper) return;
+  warnings->push_back(
+      warn("parameter_on_bound", {parameter.where, parameter.name,
+                                  std::string("the best value lies on its ") + (at_lower ? "lower" : "upper") +
+                                      " bound, and the objective falls beyond it; widen the bound if it was a guess",
+                                  to_decimal(value), "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"}));
+}
+
+bool has_influence(const OptimizationResult& result, Eigen::Index k) {
+  return std::any_of(result.history.begin(), result.history.end(),
+                     [k](const Trial& trial) { return trial.status.ok() && trial.gradient[k] != 0.0; });
+}
+
+}  // namespace
+
+Warnings search_warnings(const Study& study, const OptimizationResult& result) {
+  Warnings warnings;
+  add_evaluations_warning(study, result, &warnings);
+  for (std::size_t k = 0; k < study.tuned.size(); ++k) {
+    const Parameter& parameter = study.parameters[static_cast<std::size_t>(study.tuned[k])];
+    const auto i = static_cast<Eigen::Index>(k);
+    add_bound_warning(parameter, result.rho[i], result.gradient[i], &warnings);
+    if (!has_influence(result, i))
+      warnings.push_back(
+          warn("parameter_without_influence",
+               {parameter.where, parameter.name,
+                "the objective did not change with this parameter at any point that was tried; its value is not tuned; take it "
+                "out of the study's parameters, or give {tune: false}",
+                to_decimal(result.rho[i]), ""}));
+  }
+  return warnings;
+}
+
+}  // namespace codesign

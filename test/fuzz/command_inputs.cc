@@ -1,0 +1,159 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "fuzz/command_inputs.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "fuzz/mutation.h"
+#include "paths.h"
+
+namespace codesign::fuzz {
+namespace {
+
+std::string read(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// Runs are to be short: what matters here happens before and at their ends.
+std::string cut_short(std::string study) {
+  study = std::regex_replace(study, std::regex("(^|\n)duration: *[0-9.e-]+"), "$1duration: 0.02");
+  return std::regex_replace(study, std::regex("max_evaluations: *[0-9]+"), "max_evaluations: 3");
+}
+
+const char* const kOverlay = R"(<robot name="overlay" xmlns:codesign="http://ros.org/wiki/mechanism_codesign">
+  <joint name="NAME">
+    <dynamics damping="0.01" friction="0.02"/>
+  </joint>
+</robot>
+)";
+
+/// An overlay that damps the first joint of a model.
+std::string overlay_for(const std::string& urdf) {
+  std::smatch joint;
+  if (!std::regex_search(urdf, joint, std::regex("<joint name=\"([^\"]*)\" type=\"(revolute|continuous|prismatic)\""))) return "";
+  return std::regex_replace(std::string(kOverlay), std::regex("NAME"), joint[1].str());
+}
+
+const std::vector<std::string>& odd_words() {
+  static const std::vector<std::string> kWords = {"check",
+                                                  "simulate",
+                                                  "gradient",
+                                                  "optimize",
+                                                  "help",
+                                                  "--json",
+                                                  "--verify",
+                                                  "--verify=ridders",
+                                                  "--samples",
+                                                  "2",
+                                                  "7",
+                                                  "0",
+                                                  "-1",
+                                                  "1e9",
+                                                  "2147483648",
+                                                  "--set",
+                                                  "a=1",
+                                                  "crank_length=0.07",
+                                                  "crank_length=nan",
+                                                  "=",
+                                                  "--csv",
+                                                  "/dev/full",
+                                                  "/dev/null",
+                                                  ".",
+                                                  "",
+                                                  "--output",
+                                                  "out",
+                                                  "model.urdf",
+                                                  "study.yaml",
+                                                  "--signals",
+                                                  "a/b,,c",
+                                                  "--overlay",
+                                                  "overlay.urdf",
+                                                  "--nosuch",
+                                                  "-h",
+                                                  "--set=Kp=3",
+                                                  "--json=1",
+                                                  "\xff",
+                                                  "nosuch.urdf",
+                                                  "--"};
+  return kWords;
+}
+
+std::vector<std::string> random_command(Dice* dice, bool with_overlay) {
+  static const std::vector<std::vector<std::string>> kCommands = {
+      {"check"}, {"simulate", "--samples", "5"}, {"gradient"}, {"gradient", "--verify"}, {"optimize"}, {"optimize", "--output", "out"}};
+  std::vector<std::string> words = dice->pick(kCommands);
+  words.insert(words.end(), {"model.urdf", "study.yaml", "--json"});
+  if (with_overlay) words.insert(words.end(), {"--overlay", "overlay.urdf"});
+  if (dice->one_in(8)) words.insert(words.end(), {"--csv", "run.csv"});
+  return words;
+}
+
+void change_words(std::vector<std::string>* words, Dice* dice) {
+  const std::size_t at = dice->below(words->size() + 1);
+  switch (dice->below(3)) {
+    case 0:
+      words->insert(words->begin() + static_cast<std::ptrdiff_t>(at), dice->pick(odd_words()));
+      break;
+    case 1:
+      if (at < words->size()) words->erase(words->begin() + static_cast<std::ptrdiff_t>(at));
+      break;
+    default:
+      if (at < words->size()) (*words)[at] = dice->pick(odd_words());
+  }
+  if (words->empty()) words->emplace_back("check");
+}
+
+/// Puts a random expression in the place of one that is there.
+std::string change_expression(const std::string& text, Dice* dice) {
+  std::vector<std::size_t> places;
+  for (std::size_t at = text.find("${"); at != std::string::npos; at = text.find("${", at + 2)) places.push_back(at + 2);
+  if (places.empty()) return text;
+  const std::size_t at = dice->pick(places), end = std::min(text.find('}', at), text.size());
+  const std::string present = text.substr(at, end - at);
+  return text.substr(0, at) + random_expression({"(" + present + ")", "crank_length", "Kp"}, 4, dice) + text.substr(end);
+}
+
+}  // namespace
+
+std::vector<Seed> shipped_seeds() {
+  std::vector<Seed> seeds;
+  for (const auto& entry : std::filesystem::directory_iterator(source_dir() + "/urdf")) {
+    const std::string name = entry.path().stem().string();
+    const std::filesystem::path study = source_dir() + "/config/" + name + ".yaml";
+    if (entry.path().extension() != ".urdf" || !std::filesystem::exists(study)) continue;
+    Seed seed{name, read(entry.path()), cut_short(read(study)), ""};
+    seed.overlay = overlay_for(seed.urdf);
+    seeds.push_back(std::move(seed));
+  }
+  std::sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) { return a.name < b.name; });
+  return seeds;
+}
+
+Input random_input(const std::vector<Seed>& seeds, Dice* dice) {
+  const Seed& seed = dice->pick(seeds);
+  const bool with_overlay = !seed.overlay.empty() && dice->one_in(4);
+  Input input;
+  input.arguments = random_command(dice, with_overlay);
+  input.files = {{"model.urdf", seed.urdf}, {"study.yaml", seed.study}};
+  if (with_overlay) input.files["overlay.urdf"] = seed.overlay;
+  for (std::size_t changes = 1 + dice->below(3); changes > 0; --changes) {
+    const std::string name = with_overlay && dice->one_in(2) ? "overlay.urdf" : dice->one_in(2) ? "model.urdf" : "study.yaml";
+    std::string& text = input.files[name];
+    const std::size_t kind = dice->below(10);
+    if (kind == 0)
+      change_words(&input.arguments, dice);
+    else if (kind == 1)
+      text = change_expression(text, dice);
+    else
+      text = name != "study.yaml" && kind < 6 ? mutate_xml(text, dice) : mutate_text(text, dice);
+  }
+  if (dice->one_in(25)) input.disk = static_cast<long>(dice->below(20000));
+  return input;
+}
+
+}  // namespace codesign::fuzz

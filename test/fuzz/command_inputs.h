@@ -1,0 +1,27 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_FUZZ_COMMAND_INPUTS_H_
+#define MECHANISM_CODESIGN_TEST_FUZZ_COMMAND_INPUTS_H_
+
+#include <string>
+#include <vector>
+
+#include "fuzz/dice.h"
+#include "fuzz/input.h"
+
+namespace codesign::fuzz {
+
+/// A case that works: what inputs are made from.
+struct Seed {
+  std::string name, urdf, study, overlay;
+};
+
+/// The shipped cases, their studies cut short so that a run takes milliseconds, and an overlay for one that has none of its own.
+std::vector<Seed> shipped_seeds();
+
+/// A command line made from a seed: the files, the expressions in them or the words of the command are changed, once or a few times; some
+/// may write only so many bytes.
+Input random_input(const std::vector<Seed>& seeds, Dice* dice);
+
+}  // namespace codesign::fuzz
+
+#endif  // MECHANISM_CODESIGN_TEST_FUZZ_COMMAND_INPUTS_H_

@@ -1,0 +1,17 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_FUZZ_EXPRESSION_FUZZ_H_
+#define MECHANISM_CODESIGN_TEST_FUZZ_EXPRESSION_FUZZ_H_
+
+#include <string>
+
+#include "fuzz/dice.h"
+
+namespace codesign::fuzz {
+
+/// Reads so many random expressions. One that is refused must be refused by a sentence with a position; one that was made to be right must
+/// have the value that plain C++ gives. Returns the first that does not, empty if there is none.
+std::string try_expressions(int count, Dice* dice);
+
+}  // namespace codesign::fuzz
+
+#endif  // MECHANISM_CODESIGN_TEST_FUZZ_EXPRESSION_FUZZ_H_

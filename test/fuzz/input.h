@@ -1,0 +1,32 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_FUZZ_INPUT_H_
+#define MECHANISM_CODESIGN_TEST_FUZZ_INPUT_H_
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace codesign::fuzz {
+
+/// One command line with its files, as one small YAML file keeps it:
+///
+///     arguments: [simulate, SHIPPED/urdf/governor.urdf, study.yaml]   # SHIPPED: the package
+///     files: {study.yaml: "duration: 1\n"}        # or [part, {repeat: part, times: 1000}, ...]; !!binary for what is no UTF-8
+///     disk: 1000                                  # bytes that may be written to a file; unlimited by default
+///     exit: 2                                     # optional; so is
+///     says: "study.yaml:1: "                      # a part of what is printed
+struct Input {
+  std::vector<std::string> arguments;
+  std::map<std::string, std::string> files;
+  std::optional<long> disk;
+  std::optional<int> exit;
+  std::string says;
+};
+
+Input load_input(const std::string& path);
+void save_input(const std::string& path, const Input& input);
+
+}  // namespace codesign::fuzz
+
+#endif  // MECHANISM_CODESIGN_TEST_FUZZ_INPUT_H_

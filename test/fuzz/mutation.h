@@ -1,0 +1,22 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_FUZZ_MUTATION_H_
+#define MECHANISM_CODESIGN_TEST_FUZZ_MUTATION_H_
+
+#include <string>
+
+#include "fuzz/dice.h"
+
+namespace codesign::fuzz {
+
+/// A text like `text` with something changed: a value, a name, a line, a few bytes, or where it ends.
+std::string mutate_text(const std::string& text, Dice* dice);
+
+/// An XML text with an element or attribute taken away, doubled, moved or renamed; unchanged if it is no XML.
+std::string mutate_xml(const std::string& text, Dice* dice);
+
+/// An expression of `names` that is well formed or nearly so.
+std::string random_expression(const std::vector<std::string>& names, int depth, Dice* dice);
+
+}  // namespace codesign::fuzz
+
+#endif  // MECHANISM_CODESIGN_TEST_FUZZ_MUTATION_H_

@@ -1,0 +1,18 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_FUZZ_REQUEST_FUZZ_H_
+#define MECHANISM_CODESIGN_TEST_FUZZ_REQUEST_FUZZ_H_
+
+#include <string>
+
+#include "fuzz/command_inputs.h"
+#include "fuzz/isolation.h"
+
+namespace codesign::fuzz {
+
+/// Sends a random request for an optimization or an evaluation through the job layer of the nodes, without a master, and returns what is
+/// wrong with the answer: an unknown code, a failure without a sentence, a success with numbers that are not finite.
+std::string run_request(const std::vector<Seed>& seeds, const Limits& limits, Dice* dice);
+
+}  // namespace codesign::fuzz
+
+#endif  // MECHANISM_CODESIGN_TEST_FUZZ_REQUEST_FUZZ_H_
