@@ -28,6 +28,7 @@ options of every command
   --json                   one JSON object on standard output
 
 exit code: 0 done, 1 failed while running or output lost, 2 bad input
+what a failure's code means (error.code in JSON): doc/study.md, Statuses
 )";
 }
 

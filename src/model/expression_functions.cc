@@ -16,6 +16,25 @@ Complex extreme(const Complex* z, int count, double sign) {
   return best;
 }
 
+/// value + i slope Im z: to first order what a law with this value and slope does to a complex step. Unlike the analytic continuation it
+/// has an infinite derivative where the law has one, at an end of its domain.
+Complex first_order(const Complex& z, double value, double slope) { return {value, z.imag() == 0.0 ? 0.0 : slope * z.imag()}; }
+
+Complex square_root(const Complex* z, int) {
+  const double x = z->real(), root = std::sqrt(x);
+  return x >= 0.0 ? first_order(*z, root, 0.5 / root) : std::sqrt(*z);
+}
+
+Complex arc_sine(const Complex* z, int) {
+  const double x = z->real();
+  return std::abs(x) <= 1.0 ? first_order(*z, std::asin(x), 1.0 / std::sqrt(1.0 - x * x)) : std::asin(*z);
+}
+
+Complex arc_cosine(const Complex* z, int) {
+  const double x = z->real();
+  return std::abs(x) <= 1.0 ? first_order(*z, std::acos(x), -1.0 / std::sqrt(1.0 - x * x)) : std::acos(*z);
+}
+
 Complex arc_tangent2(const Complex* z, int) {
   const double y = z[0].real(), x = z[1].real();
   return {std::atan2(y, x), (x * z[0].imag() - y * z[1].imag()) / (x * x + y * y)};
@@ -40,12 +59,12 @@ std::complex<double> expression_quotient(std::complex<double> a, std::complex<do
 
 const std::vector<ExpressionFunction>& expression_function_table() {
   static const std::vector<ExpressionFunction> kTable = {
-      {"sqrt", 1, [](const Complex* z, int) { return std::sqrt(*z); }},
+      {"sqrt", 1, square_root},
       {"sin", 1, [](const Complex* z, int) { return std::sin(*z); }},
       {"cos", 1, [](const Complex* z, int) { return std::cos(*z); }},
       {"tan", 1, [](const Complex* z, int) { return std::tan(*z); }},
-      {"asin", 1, [](const Complex* z, int) { return std::asin(*z); }},
-      {"acos", 1, [](const Complex* z, int) { return std::acos(*z); }},
+      {"asin", 1, arc_sine},
+      {"acos", 1, arc_cosine},
       {"atan", 1, [](const Complex* z, int) { return std::atan(*z); }},
       {"atan2", 2, arc_tangent2},
       {"sinh", 1, [](const Complex* z, int) { return std::sinh(*z); }},

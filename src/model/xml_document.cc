@@ -17,6 +17,7 @@ std::string parse_fault(tinyxml2::XMLError error) {
       return "a tag that begins here is broken off or malformed";
     case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
       return "a tag has an attribute that is malformed, without quotation marks, or given twice";
+    case tinyxml2::XML_ERROR_PARSING:
     case tinyxml2::XML_ERROR_PARSING_TEXT:
       return "the text between two tags, or the file, ends too early";
     case tinyxml2::XML_ERROR_PARSING_COMMENT:

@@ -2,6 +2,7 @@
 #include "fuzz/request_fuzz.h"
 
 #include <ros/time.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>

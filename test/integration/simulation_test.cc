@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <thread>
 #include <vector>
 
 #include "dynamics/compiled.h"
@@ -98,6 +101,23 @@ TEST(Simulation, AnObserverMayEndIt) {
   EXPECT_EQ(status.code, StatusCode::kCancelled);
   EXPECT_NEAR(status.time, 0.2, 1e-15);
   EXPECT_EQ(frames, 3);
+}
+
+TEST(Simulation, ObeysACancelBetweenSamplesToo) {
+  Simulation simulation(small_swing(), {});
+  std::atomic<bool> cancel{false};
+  std::thread other([&cancel] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    cancel = true;
+  });
+  int frames = 0;
+  const Status status = simulate(
+      &simulation, 1e7, 2, [&frames](const Frame&) { return ++frames < 3; }, &cancel);
+  other.join();
+  EXPECT_EQ(status.code, StatusCode::kCancelled);
+  EXPECT_EQ(frames, 1) << "the start alone";
+  EXPECT_GT(status.time, 0.0);
+  EXPECT_LT(status.time, 1e7);
 }
 
 }  // namespace

@@ -75,5 +75,13 @@ TEST(ExpressionFunctions, DerivativesAreExact) {
   }
 }
 
+TEST(ExpressionFunctions, DerivativesAreInfiniteWhereTheyAre) {
+  EXPECT_EQ(Expression("sqrt(x)", kNames).derivative(0, {0.0, 0.0, 0.0, 0.0}), HUGE_VAL);
+  EXPECT_EQ(Expression("x**0.5", kNames).derivative(0, {0.0, 0.0, 0.0, 0.0}), HUGE_VAL);
+  EXPECT_EQ(Expression("asin(x)", kNames).derivative(0, {1.0, 0.0, 0.0, 0.0}), HUGE_VAL);
+  EXPECT_EQ(Expression("acos(x)", kNames).derivative(0, {-1.0, 0.0, 0.0, 0.0}), -HUGE_VAL);
+  EXPECT_EQ(Expression("sqrt(x - 1) + y", kNames).derivative(1, {1.0, 0.0, 0.0, 0.0}), 1.0);
+}
+
 }  // namespace
 }  // namespace codesign

@@ -11,12 +11,7 @@ class QuantityReader : public ::testing::Test {
   XmlDocument document_{
       {"a.urdf", R"(<robot zero="0" minus="-1" a="0.5" codesign:a="${p}" xyz="0 0 0"><x><origin xyz="1 2 3"/></x><y/></robot>)"}};
   XmlElement robot_{document_.robot(), &document_};
-  ParameterTable table_;
-
-  void SetUp() override {
-    table_.names = {"p"};
-    table_.values = {0.5};
-  }
+  ParameterTable table_{{Parameter{"p", 0.5, 0.0, 1.0, "", {}}}};
 };
 
 TEST_F(QuantityReader, RangesAreChecked) {

@@ -33,7 +33,7 @@ TEST(Twin, MustEqualThePlainValue) {
 TEST(Twin, BadExpressions) {
   expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${lenght}")"),
                {"unknown name 'lenght', did you mean 'length'?", "value: 0 0 ${lenght}"});
-  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${length*}")"), {"Unexpected"});
+  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${length*}")"), {"a number is missing"});
   expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${length")"), {"${ without its }"});
   expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 length")"), {"'length' in codesign:xyz is not a number"});
   expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 2${length}")"), {"'2${length}' is no expression"});

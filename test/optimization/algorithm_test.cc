@@ -59,7 +59,7 @@ TEST(Algorithm, AnUnknownNameIsAnsweredWithThoseKnown) {
     EXPECT_EQ(error.fault().where.file, "study.yaml");
     EXPECT_EQ(error.fault().element, "optimizer.algorithm");
     EXPECT_EQ(error.fault().value, "newton");
-    EXPECT_EQ(error.fault().where.line, 0) << "no line: the study does not name it";
+    EXPECT_EQ(error.fault().where.line, 1) << "the study does not name it";
     for (const char* name : kNames) EXPECT_NE(error.fault().allowed.find(name), std::string::npos) << name;
   }
 }

@@ -1,0 +1,148 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// How searches end: success is only what it says.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mechanism_codesign/optimization/optimizer.h"
+#include "mechanism_codesign/optimization/problem.h"
+
+namespace codesign {
+namespace {
+
+const SourceText kPendulum{"pendulum.urdf", R"(<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
+  <codesign:parameter name="length" value="1" lower="0.5" upper="2" unit="m"/>
+  <codesign:parameter name="idle" value="3" lower="1" upper="5"/>
+  <link name="ground"/>
+  <link name="arm">
+    <inertial>
+      <origin xyz="0 0 -1" codesign:xyz="0 0 ${-length}"/>
+      <mass value="3"/>
+      <inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/>
+    </inertial>
+  </link>
+  <joint name="hinge" type="continuous"><parent link="ground"/><child link="arm"/><axis xyz="1 0 0"/></joint>
+</robot>)"};
+
+Problem problem_of(const std::string& more, const std::string& weight = "1", const std::string& parameters = "length: {}") {
+  return load_problem(kPendulum, {},
+                      {"swing.yaml", R"(duration: 0.3
+initial_state: {hinge: {position: 0.5}}
+objective: {terminal: [{signal: hinge/position, reference: 0.1, weight: ")" +
+                                         weight + R"("}]}
+parameters: {)" + parameters + "}\n" + more});
+}
+
+OptimizationResult search(const Problem& problem) { return optimize(problem.system, problem.study); }
+
+bool has_warning(const Warnings& warnings, const std::string& code, const std::string& part = "") {
+  return std::any_of(warnings.begin(), warnings.end(),
+                     [&](const Warning& warning) { return warning.code == code && warning.message.find(part) != std::string::npos; });
+}
+
+TEST(Outcome, OutsideTheConstraintsIsNoSuccess) {
+  const OptimizationResult result = search(problem_of("constraints: [\"length >= 2.2\"]\noptimizer: {algorithm: slsqp}\n"));
+  EXPECT_EQ(result.status.code, StatusCode::kInfeasible);
+  EXPECT_NE(result.status.cause.find("length >= 2.2"), std::string::npos) << result.status.cause;
+  ASSERT_EQ(result.margins.size(), 1);
+  EXPECT_NEAR(result.margins[0], result.rho[0] - 2.2, 1e-15);
+  EXPECT_LT(result.margins[0], 0.0);
+  EXPECT_EQ(result.gradient.size(), 1) << "the best point is kept";
+}
+
+TEST(Outcome, MarginsAreToldOfASuccessToo) {
+  const OptimizationResult result =
+      search(problem_of("constraints: [\"length >= 0.9\", \"length <= 1.1\"]\noptimizer: {algorithm: slsqp}\n"));
+  EXPECT_TRUE(result.status.ok()) << result.status.cause;
+  ASSERT_EQ(result.margins.size(), 2);
+  EXPECT_NEAR(result.margins[0], result.rho[0] - 0.9, 1e-15);
+  EXPECT_NEAR(result.margins[1], 1.1 - result.rho[0], 1e-15);
+}
+
+TEST(Outcome, AConstraintThatIsNoNumberAtTheStartIsBadInput) {
+  for (const char* constraint : {"sqrt(length - 1.5) >= 0", "1/(length - 1) >= 0", "log(length - 1) <= 0"}) {
+    try {
+      problem_of(std::string("constraints: [\"length >= 0\", \"") + constraint + "\"]\noptimizer: {algorithm: slsqp}\n");
+      ADD_FAILURE() << constraint;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("swing.yaml:5: constraints[1]: the constraint is not a number"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+TEST(Outcome, ASearchTurnsBackWhereAConstraintIsNoNumber) {
+  const OptimizationResult result = search(problem_of("constraints: [\"sqrt(1.2 - length) >= -1\"]\noptimizer: {algorithm: mma}\n"));
+  EXPECT_TRUE(result.status.ok()) << result.status.cause;
+  EXPECT_LE(result.rho[0], 1.2);
+}
+
+TEST(Outcome, AGradientThatIsNotFiniteIsNoSuccess) {
+  const Problem problem = problem_of("", "${sqrt(length - 1)}");
+  const Evaluation evaluation = Evaluator(problem.system).evaluate(problem.start(), true);
+  EXPECT_EQ(evaluation.status.code, StatusCode::kNonFiniteGradient);
+  EXPECT_NE(evaluation.status.cause.find("\"length\""), std::string::npos) << evaluation.status.cause;
+  EXPECT_TRUE(Evaluator(problem.system).evaluate(problem.start(), false).status.ok());
+  EXPECT_EQ(search(problem).status.code, StatusCode::kNonFiniteGradient);
+  for (const CheckMethod method : {CheckMethod::kComplexStep, CheckMethod::kRidders})
+    EXPECT_EQ(check_gradient(problem.system, problem.start(), method).status.code, StatusCode::kNonFiniteGradient);
+}
+
+TEST(Outcome, AReferenceThatIsNotFiniteIsNoCheck) {
+  // The objective exists to the right of the start alone, where the gradient is zero.
+  const Problem problem = problem_of("", "${length >= 1 ? 1 : sqrt(length - 1)}");
+  EXPECT_TRUE(Evaluator(problem.system).evaluate(problem.start(), true).status.ok());
+  EXPECT_FALSE(check_gradient(problem.system, problem.start(), CheckMethod::kRidders).status.ok());
+}
+
+TEST(Outcome, AnObjectiveThatIsNotFiniteIsNoSuccess) {
+  Problem problem = problem_of("", "1e308");
+  problem.study.terminal.front().reference = Quantity(1e100);
+  problem.system = make_system(problem.robot, problem.study);
+  EXPECT_EQ(search(problem).status.code, StatusCode::kNonFinite);
+}
+
+TEST(Outcome, WarnsOfParametersOnTheirBound) {
+  // From a longer pendulum the end is nearer to the start and farther from the reference: the shortest is best.
+  const OptimizationResult result = search(problem_of(""));
+  ASSERT_TRUE(result.status.ok()) << result.status.cause;
+  EXPECT_EQ(result.rho[0] == 0.5 || result.rho[0] == 2.0, has_warning(result.warnings, "parameter_on_bound", "length")) << result.rho[0];
+  const OptimizationResult narrow = search(problem_of("", "1", "length: {lower: 0.9, upper: 1.1}"));
+  EXPECT_TRUE(has_warning(narrow.warnings, "parameter_on_bound", "length")) << narrow.rho[0];
+}
+
+TEST(Outcome, WarnsOfParametersThatDoNothing) {
+  const Problem problem = problem_of("", "1", "length: {}, idle: {}, mine: {initial: 1}");
+  EXPECT_TRUE(has_warning(problem.warnings, "unused_parameter", "${idle}"));
+  EXPECT_TRUE(has_warning(problem.warnings, "unused_parameter", "${mine}"));
+  EXPECT_FALSE(has_warning(problem.warnings, "unused_parameter", "${length}"));
+  const OptimizationResult result = search(problem);
+  EXPECT_TRUE(has_warning(result.warnings, "parameter_without_influence", "idle"));
+  EXPECT_FALSE(has_warning(result.warnings, "parameter_without_influence", "length"));
+}
+
+TEST(Outcome, ABasisUsesItsCoefficientsWithoutNamingThem) {
+  const Problem problem =
+      problem_of("controllers: {push: {type: basis, output: hinge, coefficients: {count: 3, lower: -1, upper: 1}}}\n", "1", "length: {}");
+  EXPECT_EQ(problem.study.tuned.size(), 4U);
+  EXPECT_FALSE(has_warning(problem.warnings, "unused_parameter"));
+}
+
+TEST(Outcome, WarnsOfASearchThatRanOutOfEvaluations) {
+  const OptimizationResult result = search(problem_of("optimizer: {max_evaluations: 1}\n"));
+  EXPECT_TRUE(result.status.ok());
+  EXPECT_TRUE(has_warning(result.warnings, "max_evaluations_reached", "1"));
+  EXPECT_FALSE(has_warning(search(problem_of("")).warnings, "max_evaluations_reached"));
+}
+
+TEST(Outcome, TolerancesBelowRoundingAreRefused) {
+  for (const char* more : {"solver: {relative_tolerance: 1e-300}\n", "solver: {absolute_tolerance: 1e-17}\n",
+                           "solver: {sensitivity_tolerance: 1e-14}\n", "optimizer: {relative_tolerance: 1e-16}\n"})
+    EXPECT_THROW(problem_of(more), InputError) << more;
+  Problem problem = problem_of("");
+  problem.study.optimizer.relative_tolerance = 0.0;
+  EXPECT_THROW(search(problem), InputError) << "requests bring tolerances too";
+}
+
+}  // namespace
+}  // namespace codesign
