@@ -130,7 +130,7 @@ RobotDescription read_robot(const XmlDocument& document) {
   check_mimics(&robot);
   check_bodies(robot, &robot.warnings);
   check_friction(robot);
-  check_with_urdfdom(document.file(), document.text());
+  check_with_urdfdom(document);
   sort_by_place(robot.file, &robot.warnings);
   return robot;
 }

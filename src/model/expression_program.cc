@@ -19,7 +19,7 @@ Complex combine(Code code, const Complex& a, const Complex& b) {
     case Code::kSubtract:
       return a - b;
     case Code::kMultiply:
-      return a * b;
+      return a.imag() == 0.0 && b.imag() == 0.0 ? Complex(a.real() * b.real()) : a * b;  // with the sign of a zero that doubles have
     case Code::kDivide:
       return expression_quotient(a, b);
     case Code::kPower:

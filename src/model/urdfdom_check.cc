@@ -26,13 +26,31 @@ class ErrorCollector : public console_bridge::OutputHandler {
   std::string errors_;
 };
 
+/// The last element below `above` whose name stands in `words` between brackets or quotation marks, as urdfdom writes names; of two with
+/// the same name the second is the one too many.
+const tinyxml2::XMLElement* find_named(const tinyxml2::XMLElement* above, const std::string& words) {
+  const tinyxml2::XMLElement* found = nullptr;
+  for (const tinyxml2::XMLElement* child = above->FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    const char* name = child->Attribute("name");
+    const std::string word = name != nullptr ? name : "";
+    const bool named = words.find("[" + word + "]") != std::string::npos || words.find("'" + word + "'") != std::string::npos ||
+                       words.find("\"" + word + "\"") != std::string::npos;
+    if (!word.empty() && named) found = child;
+  }
+  return found;
+}
+
 }  // namespace
 
-void check_with_urdfdom(const std::string& file, const std::string& text) {
+void check_with_urdfdom(const XmlDocument& document) {
+  const std::string text = document.text();
   static std::mutex mutex;  // the output handler is one for the process
   const std::lock_guard<std::mutex> lock(mutex);
   const ErrorCollector collector;
-  if (urdf::parseURDF(text) == nullptr) throw InputError({{file, 0}, "<robot>", "urdfdom refuses the file: " + collector.errors(), "", ""});
+  if (urdf::parseURDF(text) != nullptr) return;
+  const tinyxml2::XMLElement* element = find_named(document.robot(), collector.errors());
+  throw InputError({document.location(element != nullptr ? element : document.robot()), "<robot>",
+                    "urdfdom refuses the file: " + collector.errors(), "", ""});
 }
 
 }  // namespace codesign

@@ -2,12 +2,13 @@
 #ifndef MECHANISM_CODESIGN_MODEL_URDFDOM_CHECK_H_
 #define MECHANISM_CODESIGN_MODEL_URDFDOM_CHECK_H_
 
-#include <string>
+#include "xml_document.h"
 
 namespace codesign {
 
-/// Lets urdfdom, the parser of robot_state_publisher and rviz, read the text. @throws InputError with urdfdom's own words if it refuses.
-void check_with_urdfdom(const std::string& file, const std::string& text);
+/// Lets urdfdom, the parser of robot_state_publisher and rviz, read the document.
+/// @throws InputError with urdfdom's own words if it refuses, at the element that they name, else at the root.
+void check_with_urdfdom(const XmlDocument& document);
 
 }  // namespace codesign
 
