@@ -196,7 +196,6 @@ class Minimization {
     }
     trial.iteration = result_.iterations;
     trial.best_objective = result_.objective;
-    result_.history.push_back(trial);
     return trial;
   }
 

@@ -14,6 +14,7 @@
 #include "mechanism_codesign/ros/inputs.h"
 #include "mechanism_codesign/ros/parameters.h"
 #include "mechanism_codesign/ros/recorded_run.h"
+#include "mechanism_codesign/ros/request.h"
 #include "mechanism_codesign/ros/trajectory_bag.h"
 #include "mechanism_codesign/ros/wire.h"
 
@@ -136,10 +137,26 @@ void OptimizationNode::tell_result(const Result& result) {
   }
 }
 
+template <class Reply>
+bool OptimizationNode::has_size(const std::vector<std::string>& names, const std::vector<double>& values, const std::string& field,
+                                Reply* refusal) const {
+  try {
+    if (problem_) check_size(*problem_, names, values, field);
+    return true;
+  } catch (const InputError& error) {
+    refuse("bad_input", error.what(), refusal);
+    return false;
+  }
+}
+
 bool OptimizationNode::on_optimize(mechanism_codesign::Optimize::Request& request, mechanism_codesign::Optimize::Response& response) {
   const auto done = std::make_shared<std::promise<Result>>();
   const Client client{{}, {}, [done](const Result& result) { done->set_value(result); }};
   Result result;
+  if (!has_size(request.parameters, request.start, "start", &result)) {
+    response = same_fields<mechanism_codesign::Optimize::Response>(result);
+    return true;
+  }
   if (start(same_fields<mechanism_codesign::OptimizeGoal>(request), client, &result)) result = done->get_future().get();
   response = same_fields<mechanism_codesign::Optimize::Response>(result);
   return true;
@@ -150,6 +167,7 @@ bool OptimizationNode::on_evaluate(mechanism_codesign::Evaluate::Request& reques
     refuse("bad_input", fault_, &response);
     return true;
   }
+  if (!has_size(request.parameters, request.values, "values", &response)) return true;
   const auto done = std::make_shared<std::promise<void>>();
   const auto job = [this, &request, &response](const std::atomic<bool>& cancel) { response = run_evaluation(*problem_, request, cancel); };
   if (evaluator_.try_start(job, [done] { done->set_value(); }))
@@ -176,7 +194,9 @@ void OptimizationNode::on_goal(GoalHandle goal) {
       goal.setAborted(result, result.message);
   };
   Result refusal;
-  if (!start(*goal.getGoal(), client, &refusal)) goal.setRejected(refusal, refusal.message);
+  const auto& request = *goal.getGoal();
+  if (!has_size(request.parameters, request.start, "start", &refusal) || !start(*goal.getGoal(), client, &refusal))
+    goal.setRejected(refusal, refusal.message);
 }
 
 /// As for goals, an empty identifier without a stamp cancels whatever runs, and so a job of the service too.

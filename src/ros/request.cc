@@ -79,10 +79,19 @@ void choose_options(const mechanism_codesign::OptimizeGoal& request, OptimizerOp
 
 }  // namespace
 
+void check_size(const Problem& problem, const std::vector<std::string>& names, const std::vector<double>& values,
+                const std::string& values_field) {
+  const std::size_t known = problem.study.parameters.size();
+  check_names(names, known);
+  if (values.size() > known)
+    fail(values_field, "more values than there are parameters", std::to_string(values.size()) + " values",
+         "at most " + std::to_string(known) + " values");
+}
+
 Problem apply_request(const Problem& problem, const mechanism_codesign::OptimizeGoal& request) {
   Problem changed = problem;
   choose_options(request, &changed.study.optimizer);
-  check_names(request.parameters, changed.study.parameters.size());
+  check_size(problem, request.parameters, request.start, "start");
   if (!request.parameters.empty()) {
     pair_up(request.parameters, std::vector<double>(request.parameters.size()), "parameters");
     choose_tuned(request.parameters, &changed.study);
@@ -96,7 +105,7 @@ Problem apply_request(const Problem& problem, const mechanism_codesign::Optimize
 Eigen::VectorXd design_of(const Problem& problem, const mechanism_codesign::EvaluateRequest& request) {
   const std::vector<std::string> tuned = problem.tuned_names();
   check_length("check", request.check);
-  check_names(request.parameters, tuned.size());
+  check_size(problem, request.parameters, request.values, "values");
   Eigen::VectorXd rho = problem.start();
   for (const auto& [name, value] : pair_up(request.parameters, request.values, "values")) {
     const std::size_t k = index_of(name, tuned);

@@ -125,6 +125,15 @@ TEST(ARequest, OfMoreNamesThanThereAreParametersIsRefusedAtOnce) {
   }
 }
 
+TEST(ARequest, OfMoreValuesThanThereAreParametersIsRefusedAtOnce) {
+  OptimizeGoal goal;
+  goal.start.resize(1000000);
+  EXPECT_NE(fault_of(goal).find("more values than there are parameters"), std::string::npos) << fault_of(goal);
+  EvaluateRequest evaluation;
+  evaluation.values.resize(1000000);
+  EXPECT_NE(fault_of(evaluation).find("1000000 values"), std::string::npos) << fault_of(evaluation);
+}
+
 TEST(ARequest, WithANameThatIsTooLongShowsItsBeginning) {
   OptimizeGoal goal;
   goal.parameters = {std::string(50000, 'a')};

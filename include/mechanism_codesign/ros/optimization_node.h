@@ -53,6 +53,9 @@ class OptimizationNode {
   /// Starts the job, or fills `refusal` and returns false.
   bool start(const mechanism_codesign::OptimizeGoal& request, const Client& client, Result* refusal);
   Result run(const mechanism_codesign::OptimizeGoal& request, const ProgressObserver& observer, const std::atomic<bool>& cancel);
+  /// Whether the lists of a request are of a length that can be meant; fills `refusal` if not.
+  template <class Reply>
+  bool has_size(const std::vector<std::string>& names, const std::vector<double>& values, const std::string& field, Reply* refusal) const;
   void tell_result(const Result& result);
 
   ros::NodeHandle node_, private_node_{"~"};

@@ -6,10 +6,17 @@
 #include <mechanism_codesign/OptimizeGoal.h>
 
 #include <Eigen/Core>
+#include <string>
+#include <vector>
 
 #include "mechanism_codesign/optimization/problem.h"
 
 namespace codesign {
+
+/// Refuses lists that no request can mean, before anything copies them or looks for names. @throws InputError naming the field.
+/// @param values_field the name of the field that holds `values`.
+void check_size(const Problem& problem, const std::vector<std::string>& names, const std::vector<double>& values,
+                const std::string& values_field);
 
 /// The loaded problem as a request changes it: other parameters to tune, other starts, other options of the optimizer.
 /// @throws InputError naming the field of the request.
