@@ -196,6 +196,7 @@ class Minimization {
     }
     trial.iteration = result_.iterations;
     trial.best_objective = result_.objective;
+    result_.history.push_back(trial);
     return trial;
   }
 
