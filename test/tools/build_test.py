@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""How tools/build calls CMake, with a stand-in for it, and where tools/environment puts ROS's logs. Usage: build_test.py [-v]"""
+"""How tools/build calls CMake, with a stand-in for it, and which home folder tools/environment chooses. Usage: build_test.py [-v]"""
 import os
 import shutil
 import subprocess
@@ -66,27 +66,22 @@ class BuildTest(unittest.TestCase):
 
 class EnvironmentTest(unittest.TestCase):
     @staticmethod
-    def ros_home(checkout, **environment):
-        with open(os.path.join(checkout.root, "devel", "setup.bash"), "w") as file:
-            file.write("")
-        script = '. tools/environment; echo "$ROS_HOME"'
-        return subprocess.run(["bash", "-ec", script], cwd=checkout.root, check=True, stdout=subprocess.PIPE, text=True,
-                              env={"PATH": os.environ["PATH"], **environment}).stdout.strip()
+    def home(checkout, **environment):
+        with open(os.path.join(checkout.root, "devel", "setup.bash"), "w"):
+            pass
+        return subprocess.run(["bash", "-ec", '. tools/environment; echo "$HOME"'], cwd=checkout.root, check=True, stdout=subprocess.PIPE, text=True,
+                              stderr=subprocess.DEVNULL, env={"PATH": os.environ["PATH"], **environment}).stdout.strip()
 
     def test_the_home_folder_is_used_where_it_can_be_written(self):
         with Checkout() as checkout, tempfile.TemporaryDirectory() as home:
-            self.assertEqual(self.ros_home(checkout, HOME=home), "")
+            self.assertEqual(self.home(checkout, HOME=home), home)
 
-    def test_the_build_folder_is_used_otherwise(self):
+    def test_the_build_folder_takes_its_place_otherwise(self):
         with Checkout() as checkout:
             # Nobody, not even root, can make a folder there.
-            home = self.ros_home(checkout, HOME="/proc/nobody")
-            self.assertEqual(home, os.path.join(checkout.root, "build", "ros_home"))
+            home = self.home(checkout, HOME="/proc/nobody")
+            self.assertEqual(home, os.path.join(checkout.root, "build", "home"))
             self.assertTrue(os.path.isdir(home))
-
-    def test_a_wish_is_respected(self):
-        with Checkout() as checkout:
-            self.assertEqual(self.ros_home(checkout, HOME="/proc/nobody", ROS_HOME="/elsewhere"), "/elsewhere")
 
 
 if __name__ == "__main__":
