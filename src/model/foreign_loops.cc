@@ -91,6 +91,7 @@ class Finder {
   void visit(const XmlElement& element, bool in_gazebo, bool in_equality) {
     const std::string tag = element.tag();
     if (tag == "loop_joint") return report(element, loop_text(of_loop_joint(element)));
+    if (tag == "plugin" && in_gazebo) return report_mimic_plugin(element);
     if (tag == "joint" && in_gazebo) return report(element, loop_text(of_gazebo(element)));
     if (tag == "drake:joint") return report(element, loop_text(of_drake_joint(element)));
     const bool constraint = tag.rfind("drake:", 0) == 0 && ends_with(tag, "_constraint");
@@ -103,6 +104,16 @@ class Finder {
   void report(const XmlElement& element, const std::string& remedy) {
     warnings_->push_back(element.warning("loop_ignored", "this ties links or joints together in other tools and is ignored here",
                                          "<" + element.tag() + ">", "write, in an overlay, " + remedy + ", or remove the element"));
+  }
+
+  // Gazebo knows no <mimic>; plugins couple joints there, as a rule what URDF's <mimic> says too.
+  void report_mimic_plugin(const XmlElement& plugin) {
+    const std::string follower = child_text(plugin, "mimicJoint"), leader = child_text(plugin, "joint");
+    if (follower.empty() || leader.empty()) return;
+    for (const JointDescription& joint : robot_.joints)
+      if (joint.name == follower && (joint.mimic || joint.type == JointType::kFixed)) return;
+    const std::string multiplier = child_text(plugin, "multiplier"), offset = child_text(plugin, "offset");
+    report(plugin, mimic_text(follower, leader, multiplier.empty() ? "1" : multiplier, offset.empty() ? "0" : offset));
   }
 
   Suggestion of_loop_joint(const XmlElement& element) const {

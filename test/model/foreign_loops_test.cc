@@ -31,6 +31,16 @@ TEST(ForeignLoops, GazeboPointsFollowFromTheZeroPosition) {
   expect_no_warning(two_links("<gazebo reference=\"wrist\"><implicitSpringDamper>1</implicitSpringDamper></gazebo>"));
 }
 
+TEST(ForeignLoops, GazeboMimicPluginsThatURDFDoesNotKnow) {
+  const std::string plugin =
+      "<gazebo><plugin filename=\"mimic.so\" "
+      "name=\"m\"><joint>hinge</joint><mimicJoint>wrist</mimicJoint><multiplier>-2</multiplier></plugin>"
+      "</gazebo>";
+  expect_loop(plugin, "<joint name=\"wrist\"><mimic joint=\"hinge\" multiplier=\"-2\" offset=\"0\"/></joint>");
+  expect_no_warning(pendulum("", link_with("tip") + joint_with("wrist", "continuous", "arm", "tip", "<mimic joint=\"hinge\"/>") + plugin));
+  expect_no_warning(two_links("<gazebo><plugin name=\"control\"><joint>hinge</joint></plugin></gazebo>"));
+}
+
 TEST(ForeignLoops, Drake) {
   expect_loop(
       "<drake:ball_constraint><drake:ball_constraint_body_A name=\"ground\"/><drake:ball_constraint_body_B name=\"tip\"/>"
