@@ -118,6 +118,7 @@ RobotDescription read_robot(const XmlDocument& document) {
   if (robot.links.empty()) element.fail("the robot has no links");
   for (const LinkDescription& link : robot.links) context.links.push_back(link.name);
   for (const XmlElement& joint : element.children("joint")) robot.joints.push_back(read_joint(joint, context));
+  close_with_second_parents(&robot);
   for (const XmlElement& loop : element.children("loop")) robot.joints.push_back(read_loop(loop, context));
   for (const XmlElement& coupling : element.children("coupling")) robot.couplings.push_back(read_coupling(coupling, context));
   read_constraints(element, context, &robot);

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "tree_check.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
@@ -35,6 +36,21 @@ std::vector<const JointDescription*> joints_above(const RobotDescription& robot)
   return above;
 }
 
+/// The joints by which a walk from the root comes to a link first.
+std::vector<bool> reached_first(const RobotDescription& robot, const std::vector<int>& parents) {
+  std::vector<bool> reached(robot.links.size()), first(robot.joints.size(), false);
+  for (std::size_t link = 0; link < parents.size(); ++link) reached[link] = parents[link] == 0;
+  for (bool progress = true; progress;) {
+    progress = false;
+    for (std::size_t k = 0; k < robot.joints.size(); ++k) {
+      const auto parent = static_cast<std::size_t>(robot.joints[k].parent), child = static_cast<std::size_t>(robot.joints[k].child);
+      if (!reached[parent] || reached[child]) continue;
+      first[k] = reached[child] = progress = true;
+    }
+  }
+  return first;
+}
+
 /// What is wrong with the joint that a joint mimics, directly or by way of others.
 std::optional<InputError> mimic_fault(const JointDescription& joint, const std::map<std::string, const JointDescription*>& targets,
                                       const std::vector<std::string>& names) {
@@ -57,6 +73,26 @@ void check_names(const RobotDescription& robot) {
   for (const CouplingDescription& coupling : robot.couplings) insert_unique(coupling.name, coupling.where, "coupling", &couplings);
   for (const SpringDamperDescription& spring : robot.spring_dampers)
     insert_unique(spring.name, spring.where, "codesign:spring_damper", &springs);
+}
+
+void close_with_second_parents(RobotDescription* robot) {
+  std::vector<int> parents(robot->links.size(), 0);
+  for (const JointDescription& joint : robot->joints) ++parents[static_cast<std::size_t>(joint.child)];
+  if (std::none_of(parents.begin(), parents.end(), [](int count) { return count > 1; })) return;
+  const std::vector<bool> in_tree = reached_first(*robot, parents);
+  for (std::size_t k = 0; k < robot->joints.size(); ++k) {
+    JointDescription& joint = robot->joints[k];
+    if (in_tree[k] || parents[static_cast<std::size_t>(joint.child)] < 2 || joint.where.file != robot->file) continue;
+    const std::string& child = robot->links[static_cast<std::size_t>(joint.child)].name;
+    robot->warnings.push_back(warn("second_parent", {joint.where, label(joint),
+                                                     "its child hangs on another joint already, so that it is read as a loop; to silence "
+                                                     "this: write a <loop> with predecessor and successor",
+                                                     child, ""}));
+    joint.is_loop = true;
+    joint.limit.reset();
+    joint.mimic.reset();
+  }
+  std::stable_partition(robot->joints.begin(), robot->joints.end(), [](const JointDescription& joint) { return !joint.is_loop; });
 }
 
 int find_root(const RobotDescription& robot) {

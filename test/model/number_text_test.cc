@@ -16,6 +16,12 @@ TEST(NumberText, ReadsWholeNumbersOnly) {
   for (const char* text : {"", "1,5", "1.5m", " 1", "1 ", "+-1", "--1", "0x1", "one", "+", "1e"}) EXPECT_FALSE(parse_number(text)) << text;
 }
 
+TEST(NumberText, WhatIsTooSmallIsZero) {
+  EXPECT_EQ(parse_number("1e-400"), 0.0);
+  EXPECT_FALSE(parse_number("1e400"));
+  EXPECT_FALSE(parse_number("1e-400m"));
+}
+
 TEST(NumberText, LeavesFinitenessToTheCaller) {
   EXPECT_TRUE(std::isnan(*parse_number("nan")));
   EXPECT_TRUE(std::isinf(*parse_number("-inf")));

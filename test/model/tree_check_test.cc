@@ -21,10 +21,21 @@ TEST(TreeCheck, Rings) {
   expect_error(robot_text(kGround + ab), {"<joint name=\"ba\">: the joints form a ring that hangs on nothing (value: a"});
 }
 
-TEST(TreeCheck, ALinkHangsOnOneJoint) {
-  expect_error(
-      robot_text("<link name=\"a\"/><link name=\"b\"/>" + joint_with("one", "fixed", "a", "b") + joint_with("two", "fixed", "a", "b")),
-      {"<joint name=\"two\">: its child b already hangs on the joint one", "<loop>"});
+TEST(TreeCheck, ASecondParentClosesALoop) {
+  // b hangs on a, and is named once more by a hinge on the ground, which stands first in the file.
+  const SourceText text = robot_text(kGround + link_with("a") + link_with("b") + "\n" + joint_with("ring", "continuous", "b", "a") + "\n" +
+                                     joint_with("ga", "continuous", "ground", "a") + "\n" + joint_with("ab", "continuous", "a", "b"));
+  expect_warning(text, "second_parent", {"test.urdf:3: <joint name=\"ring\">", "read as a loop", "(value: a)"});
+  const RobotDescription robot = read_urdf(text);
+  ASSERT_EQ(robot.joints.size(), 3U);
+  EXPECT_EQ(robot.joints[0].name, "ga");
+  EXPECT_EQ(robot.joints[2].name, "ring");
+  EXPECT_TRUE(robot.joints[2].is_loop);
+}
+
+TEST(TreeCheck, InAnOverlayALinkHangsOnOneJoint) {
+  expect_error(pendulum(""), {"notes.urdf:2: <joint name=\"two\">: its child arm already hangs on the joint hinge", "<loop>"},
+               {overlay_text(joint_with("two", "continuous", "ground", "arm"))});
 }
 
 TEST(TreeCheck, NoLinks) { expect_error(robot_text(""), {"the robot has no links"}); }
