@@ -71,6 +71,7 @@ XmlDocument load_overlay(SourceText source) {
   XmlDocument overlay(source);
   check_namespace(overlay);
   check_prefixes(overlay);
+  refuse_text(overlay);
   append(check_surroundings(overlay), &beside);
   if (!beside.empty()) throw InputError({beside.front().where, "", "something stands after </robot>", "", "one <robot> element"});
   return overlay;

@@ -125,7 +125,21 @@ Warning after_robot(const SourceLocation& where, const std::string& what, const 
               {where, "", what + " stands after </robot>; it is ignored, as other readers do; to silence this: remove it", value, ""});
 }
 
+void refuse_text_in(const tinyxml2::XMLElement& element, const XmlDocument& document) {
+  for (const tinyxml2::XMLNode* node = element.FirstChild(); node != nullptr; node = node->NextSibling()) {
+    if (node->ToText() != nullptr)
+      throw InputError({{document.file(), node->GetLineNum()},
+                        XmlElement(&element, &document).label(),
+                        "text stands between elements, where nobody reads it",
+                        std::string(node->Value()).substr(0, 40),
+                        "elements and comments"});
+    if (node->ToElement() != nullptr) refuse_text_in(*node->ToElement(), document);
+  }
+}
+
 }  // namespace
+
+void refuse_text(const XmlDocument& overlay) { refuse_text_in(*overlay.robot(), overlay); }
 
 void check_vocabulary(const XmlDocument& document, Warnings* warnings) {
   Check(warnings).visit(XmlElement(document.robot(), &document), "robot");

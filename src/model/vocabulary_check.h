@@ -17,6 +17,9 @@ void check_prefixes(const XmlDocument& document);
 /// What stands beside `<robot>`: a second element, or text, which URDF's readers pass over.
 Warnings check_surroundings(const XmlDocument& document);
 
+/// Text between the elements of an overlay, where it would be lost. @throws InputError
+void refuse_text(const XmlDocument& overlay);
+
 /// Cuts text behind the last `</robot>`, which the XML parser would refuse and other readers of URDF do not look at. @returns a warning if
 /// there was some.
 Warnings cut_trailing_text(SourceText* source);

@@ -40,6 +40,8 @@ TEST(VocabularyCheck, InAnOverlayEverythingIsMeantForUs) {
   refused("<joint name=\"hinge\">\n<limit efort=\"0.1\"/></joint>", {"notes.urdf:3:", "did you mean \"effort\"?"});
   refused("<link name=\"arm\"><inertial><mass val=\"0.1\"/></inertial></link>", {"unknown attribute val, did you mean \"value\"?"});
   refused("<joint name=\"hinge\"><limits effort=\"0.1\"/></joint>", {"unknown element <limits>, did you mean \"limit\"?"});
+  refused("<joint name=\"hinge\">\n<!-- a comment -->left over</joint>",
+          {"notes.urdf:3: <joint name=\"hinge\">: text stands between elements"});
   refused("<joint name=\"hinge\" independent=\"true\"/>", {"unknown attribute independent"});
   refused("<joint name=\"hinge\"><joint_properties/></joint>", {"unknown element <joint_properties>"});
 }
