@@ -7,16 +7,16 @@ namespace codesign {
 namespace {
 
 /// A message is for people: what is longer shows its beginning.
-std::string shortened(const std::string& text) {
-  constexpr std::size_t kMost = 300;
-  if (text.size() <= kMost) return text;
-  std::size_t end = kMost;
+std::string shortened(const std::string& text, std::size_t most) {
+  if (text.size() <= most) return text;
+  std::size_t end = most;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a letter
   return text.substr(0, end) + "...";
 }
 
 InputFault shortened(InputFault fault) {
-  for (std::string* part : {&fault.element, &fault.message, &fault.value, &fault.allowed}) *part = shortened(*part);
+  for (std::string* part : {&fault.element, &fault.value}) *part = shortened(*part, 300);
+  for (std::string* part : {&fault.message, &fault.allowed}) *part = shortened(*part, 1000);  // these may show an element to write
   return fault;
 }
 
