@@ -17,6 +17,7 @@ Problem load(const Arguments& arguments, const Console* console) {
 
 Problem load_tunable(const Arguments& arguments, const Console* console) {
   Problem problem = load(arguments, console);
+  require_objective(problem.study);
   if (problem.study.tuned.empty())
     throw InputError({{problem.study.file, 1}, "parameters", "the study tunes no parameter", "", "at least one parameter to tune"});
   return problem;

@@ -45,7 +45,8 @@ void summarize(const RunSummary& run, double duration, std::ostream& err) {
 /// The objective needs its own quadrature beside the run, so it is computed only where it is shown.
 Json run_json(const Problem& problem, const RunSummary& run, Json series, const Console& console) {
   Json object;
-  if (run.status.ok()) {
+  const bool has_objective = !problem.study.integral.empty() || !problem.study.terminal.empty();
+  if (run.status.ok() && has_objective) {
     const Evaluation evaluation = Evaluator(problem.system).evaluate(problem.start(), false, &console.cancel);
     if (evaluation.status.ok()) object["objective"] = evaluation.objective;
   }

@@ -23,7 +23,22 @@ const std::map<std::string, SignalKind>& joint_kinds() {
                                                        {"effort", SignalKind::kJointEffort},
                                                        {"friction", SignalKind::kJointFriction},
                                                        {"normal_force", SignalKind::kJointNormalForce},
-                                                       {"sliding_velocity", SignalKind::kJointSlidingVelocity}};
+                                                       {"sliding_velocity", SignalKind::kJointSlidingVelocity},
+                                                       {"friction_power", SignalKind::kFrictionPower},
+                                                       {"damping_power", SignalKind::kDampingPower},
+                                                       {"actuator_power", SignalKind::kActuatorPower},
+                                                       {"load_power", SignalKind::kLoadPower}};
+  return kinds;
+}
+
+int axis_of(const std::string& component) { return component == "x" ? 0 : component == "y" ? 1 : 2; }
+
+const std::map<std::string, SignalKind>& mechanism_kinds() {
+  static const std::map<std::string, SignalKind> kinds{
+      {"kinetic_energy", SignalKind::kKineticEnergy}, {"potential_energy", SignalKind::kPotentialEnergy},
+      {"total_energy", SignalKind::kTotalEnergy},     {"friction_power", SignalKind::kFrictionPower},
+      {"damping_power", SignalKind::kDampingPower},   {"actuator_power", SignalKind::kActuatorPower},
+      {"load_power", SignalKind::kLoadPower}};
   return kinds;
 }
 
@@ -46,10 +61,12 @@ SignalReference resolve_joint(const SignalTerm& term, int joint, const SignalDes
 SignalReference resolve_link(const SignalTerm& term, int link, const SignalDescription& signal, const Topology& topology) {
   SignalReference reference;
   reference.link = link;
-  reference.axis = term.component == "x" ? 0 : term.component == "y" ? 1 : 2;
-  reference.kind = term.quantity == "position"   ? SignalKind::kLinkPosition
-                   : term.quantity == "velocity" ? SignalKind::kLinkVelocity
-                                                 : SignalKind::kLinkAngularVelocity;
+  reference.axis = axis_of(term.component);
+  reference.kind = term.quantity == "position"      ? SignalKind::kLinkPosition
+                   : term.quantity == "velocity"    ? SignalKind::kLinkVelocity
+                   : term.quantity == "orientation" ? SignalKind::kLinkOrientation
+                                                    : SignalKind::kLinkAngularVelocity;
+  if (reference.kind == SignalKind::kLinkOrientation) reference.axis = term.component == "w" ? 0 : 1 + axis_of(term.component);
   if (topology.link_body[static_cast<std::size_t>(link)] == Topology::kMassless)
     throw InputError(
         {signal.where, "signal", "the link has no <inertial>, so it is folded into a joint and cannot be read", signal.text, ""});
@@ -93,7 +110,9 @@ Signal resolve_signal(const SignalDescription& signal, const RobotDescription& r
   Signal resolved;
   for (const SignalTerm& term : signal.terms) {
     SignalReference reference;
-    if (const auto controller = find_named(controllers, term.object)) {
+    if (is_of_mechanism(term)) {
+      reference.kind = mechanism_kinds().at(term.quantity);
+    } else if (const auto controller = find_named(controllers, term.object)) {
       reference = resolve_controller(term, *controller);
     } else if (const auto joint = find_named(robot.joints, term.object); joint && term.component.empty()) {
       reference = resolve_joint(term, *joint, signal, topology);

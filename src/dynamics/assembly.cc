@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/given_start.h"
 #include "mechanism_codesign/math/directions.h"
 
 namespace codesign {
@@ -14,12 +15,6 @@ constexpr double kRankTolerance = 1e-9;
 constexpr double kClosed = 1e-12;  // loop error that counts as closed, of a mechanism of size one
 constexpr int kNewtonIterations = 200;
 constexpr double kLargestTurn = 0.5;  // [rad or m] that one Newton step may move a coordinate: keeps to the branch of the start
-
-int joint_named(const RobotDescription& robot, const std::string& name) {
-  for (std::size_t k = 0; k < robot.joints.size(); ++k)
-    if (robot.joints[k].name == name && !robot.joints[k].is_loop) return static_cast<int>(k);
-  return -1;
-}
 
 Eigen::MatrixXd columns_of(const Eigen::MatrixXd& matrix, const std::vector<int>& columns) {
   Eigen::MatrixXd result(matrix.rows(), static_cast<Eigen::Index>(columns.size()));
@@ -46,21 +41,17 @@ Assembly::Assembly(const System& system) : system_(system), tree_(system.robot()
     }
   }
   const auto size = static_cast<std::size_t>(tree_.size);
-  for (std::vector<bool>* flags : {&position_given_, &guess_given_, &velocity_given_, &follows_}) flags->assign(size, false);
+  follows_.assign(size, false);
   for (std::size_t k = 0; k < topology.couplings.size(); ++k) {
     loop_rows_.push_back(system.layout().coupling_row(static_cast<int>(k)));
     loop_row_name_.push_back(topology.couplings[k].name);
     followers_.push_back(tree_.offset[static_cast<std::size_t>(topology.couplings[k].terms.front().joint)]);
     follows_[static_cast<std::size_t>(followers_.back())] = true;
   }
-  for (const InitialJointState& initial : system.study().initial_state) {
-    const int joint = joint_named(system.robot(), initial.joint);
-    if (joint < 0) continue;
-    const auto c = static_cast<std::size_t>(tree_.offset[static_cast<std::size_t>(joint)]);
-    position_given_[c] = initial.position.has_value();
-    guess_given_[c] = initial.guess.has_value();
-    velocity_given_[c] = initial.velocity.has_value();
-  }
+  const GivenStart given(system, tree_);
+  position_given_ = given.position;
+  guess_given_ = given.guess;
+  velocity_given_ = given.velocity;
   derivatives_.resize(system.patterns());
 }
 
@@ -68,13 +59,10 @@ void Assembly::set_start(const std::vector<double>& parameters) {
   theta_.setZero(tree_.size);
   theta_rate_.setZero(tree_.size);
   for (const InitialJointState& initial : system_.study().initial_state) {
-    const int joint = joint_named(system_.robot(), initial.joint);
-    if (joint < 0) continue;
-    const int c = tree_.offset[static_cast<std::size_t>(joint)];
-    if (initial.guess) theta_[c] = *initial.guess;
-    if (initial.position) theta_[c] = initial.position->at(parameters);
-    if (initial.velocity) theta_rate_[c] = initial.velocity->at(parameters);
+    const int joint = tree_joint(system_.robot(), initial);
+    if (joint >= 0 && initial.guess) theta_[tree_.offset[static_cast<std::size_t>(joint)]] = *initial.guess;
   }
+  set_given_start(system_, tree_, parameters, &theta_, &theta_rate_);
 }
 
 // Followers of followers come right after as many passes as there are couplings.
@@ -288,13 +276,7 @@ void Assembly::extend(const std::vector<T>& parameters, const State<double>& sta
   state->resize(system_.layout());
   state->t = start.t;
   VectorX<T> theta = theta_.template cast<T>(), rate = theta_rate_.template cast<T>(), Phi, Phi_rate;
-  for (const InitialJointState& initial : system_.study().initial_state) {
-    const int joint = joint_named(system_.robot(), initial.joint);
-    if (joint < 0) continue;
-    const int c = tree_.offset[static_cast<std::size_t>(joint)];
-    if (initial.position) theta[c] = initial.position->at(parameters);
-    if (initial.velocity) rate[c] = initial.velocity->at(parameters);
-  }
+  set_given_start(system_, tree_, parameters, &theta, &rate);
   const auto place_extended = [&] {
     body_coordinates(system_, equations->constants(), link_motions(system_.robot(), tree_, parameters, theta, rate), &state->q, &state->v);
     equations->constraint_errors(state->q, state->v, &Phi, &Phi_rate);

@@ -30,7 +30,10 @@ void Equations<T>::assemble(Sink* sink) {
   }
   for (std::size_t k = 0; k < rows_.size(); ++k) assemble_pair(k, sink);
   for (std::size_t k = 0; k < constants_.springs.size(); ++k) assemble_spring(k, sink);
+  for (std::size_t k = 0; k < wrenches_.size(); ++k) add_link_load(k);
   for (int b = 0; b < layout_.bodies; ++b) assemble_body(static_cast<std::size_t>(b), sink);
+  for (std::size_t k = 0; k < wrenches_.size(); ++k) assemble_link_load(k, sink);
+  for (const Rotor& rotor : system_.rotors()) assemble_rotor(rotor, sink);
   for (std::size_t k = 0; k < constants_.couplings.size(); ++k) assemble_coupling(k, sink);
   for (const JointLoad& load : system_.loads()) assemble_load(load, sink);
   for (int pair : system_.contacts()) assemble_contact(pair, sink);

@@ -73,6 +73,26 @@ void Equations<T>::append_rate(int pair, int element, const CoordinateMotion<T>&
 }
 
 template <class T>
+void Equations<T>::append_acceleration(int pair, int element, const CoordinateMotion<T>& motion, const T& factor,
+                                       SparseGradient<T>* gradient) const {
+  const bool with_r = coordinate_moves_r(pair, element);
+  append_local(pair, motion.acceleration_q, factor, with_r, &gradient->position);
+  append_local(pair, motion.acceleration_v, factor, with_r, &gradient->velocity);
+  append_local(pair, motion.J, factor, with_r, &gradient->rate);
+}
+
+template <class T>
+void Equations<T>::append_body_rate(int index, const Vector3<T>& axis, const T& factor, SparseGradient<T>* gradient) const {
+  const BodyKinematics<T>& k = body(index);
+  const Vector3<T> twice = (T(2.0) * factor) * axis;
+  const Vector4<T> by_pd = body_rate_transposed(k.p, twice), by_p = -body_rate_transposed(k.pd, twice);
+  for (int e = 0; e < 4; ++e) {
+    gradient->velocity.push_back({kBodySize * index + 3 + e, by_pd[e]});
+    gradient->position.push_back({kBodySize * index + 3 + e, by_p[e]});
+  }
+}
+
+template <class T>
 void Equations<T>::append_normal_gradient(int pair, const Vector3<T>& F, const Vector3<T>& torque, const T& factor,
                                           SparseGradient<T>* gradient) const {
   const auto& rows = rows_[static_cast<std::size_t>(pair)];
@@ -182,7 +202,8 @@ T Equations<T>::joint_load(const JointLoad& load, const CoordinateMotion<T>& mot
   T value(0.0);
   if (load.reaction_friction) value += reaction_friction(load.pair, load.element, motion, gradient, nullptr);
   if (load.passive || load.constant_friction) value += passive_load(load.pair, load.element, load, motion, gradient);
-  if (load.stop) value += stop_load(load, motion, gradient);
+  if (load.stop) value += stop_load(load, motion, system_.study().limits.dissipation, gradient);
+  if (!load.constant.empty()) value -= constant_effort(load);
   if (load.controllers.empty()) return value;
   const auto before = mark(gradient);
   value -= applied_effort(load, gradient);

@@ -36,6 +36,7 @@ void Equations<T>::set_design(const std::vector<T>& parameters) {
   parameters_ = parameters;
   compiled_.set_design(parameters);
   constants_ = evaluate_constants(system_.robot(), system_.topology(), parameters);
+  set_constant_loads();
   rows_.clear();
   for (std::size_t k = 0; k < constants_.pairs.size(); ++k)
     rows_.push_back(pair_rows(system_.topology().pairs[k].kind, constants_.pairs[k]));
@@ -91,7 +92,10 @@ void Equations<T>::residual_by_formulas(const State<T>& state, VectorX<T>* G, T*
   }
   for (std::size_t k = 0; k < rows_.size(); ++k) pair_residual(k, G);
   for (std::size_t k = 0; k < constants_.springs.size(); ++k) add_spring_load(k, spring(k));
+  for (std::size_t k = 0; k < wrenches_.size(); ++k) add_link_load(k);
   for (int b = 0; b < layout_.bodies; ++b) body_residual(static_cast<std::size_t>(b), G);
+  for (std::size_t k = 0; k < wrenches_.size(); ++k) link_load_residual(k, G);
+  for (const Rotor& rotor : system_.rotors()) rotor_residual(rotor, G);
   for (std::size_t k = 0; k < constants_.couplings.size(); ++k) coupling_residual(k, G);
   for (const JointLoad& load : system_.loads()) load_residual(load, G);
   for (int pair : system_.contacts()) contact_residual(pair, G);

@@ -4,12 +4,16 @@
 
 #include "equations_assembly.h"
 #include "equations_bristles.h"
+#include "equations_constant_loads.h"
 #include "equations_contacts.h"
 #include "equations_controllers.h"
 #include "equations_couplings.h"
+#include "equations_energy.h"
 #include "equations_limits.h"
 #include "equations_loads.h"
+#include "equations_power.h"
 #include "equations_residual.h"
+#include "equations_rotors.h"
 #include "equations_signals.h"
 #include "equations_springs.h"
 

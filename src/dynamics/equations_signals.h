@@ -21,11 +21,7 @@ T Equations<T>::joint_term(const SignalReference& term, const T& factor, SparseG
       if (gradient) append_local(term.pair, m.position_q, factor, with_r, &gradient->position);
       return factor * m.position;
     case SignalKind::kJointAcceleration:
-      if (gradient) {
-        append_local(term.pair, m.acceleration_q, factor, with_r, &gradient->position);
-        append_local(term.pair, m.acceleration_v, factor, with_r, &gradient->velocity);
-        append_local(term.pair, m.J, factor, with_r, &gradient->rate);
-      }
+      if (gradient) append_acceleration(term.pair, term.element, m, factor, gradient);
       return factor * m.acceleration;
     default:
       if (gradient) append_rate(term.pair, term.element, m, factor, gradient);
@@ -88,6 +84,19 @@ T Equations<T>::term_value(const SignalReference& term, const T& factor, SparseG
     case SignalKind::kContactFriction:
     case SignalKind::kContactSpeed:
       return contact_term(term, factor, gradient);
+    case SignalKind::kLinkOrientation:
+      return orientation_term(term, factor, gradient);
+    case SignalKind::kKineticEnergy:
+    case SignalKind::kPotentialEnergy:
+    case SignalKind::kTotalEnergy:
+    case SignalKind::kFrictionPower:
+    case SignalKind::kDampingPower:
+    case SignalKind::kActuatorPower:
+    case SignalKind::kLoadPower: {
+      const T value = energy_or_power(term, gradient);
+      if (gradient) gradient->scale_from(before, factor);
+      return factor * value;
+    }
     case SignalKind::kJointEffort:
     case SignalKind::kJointFriction:
       return load_term(term, factor, gradient);
@@ -99,6 +108,47 @@ T Equations<T>::term_value(const SignalReference& term, const T& factor, SparseG
     default:
       return joint_term(term, factor, gradient);
   }
+}
+
+template <class T>
+T Equations<T>::energy_or_power(const SignalReference& term, SparseGradient<T>* gradient) {
+  const auto power_of = [&](PowerKind kind) {
+    return term.pair < 0 ? power(kind, gradient) : joint_power(kind, term.pair, term.element, gradient);
+  };
+  switch (term.kind) {
+    case SignalKind::kKineticEnergy:
+      return kinetic_energy(gradient);
+    case SignalKind::kPotentialEnergy:
+      return potential_energy(gradient);
+    case SignalKind::kFrictionPower:
+      return power_of(PowerKind::kFriction);
+    case SignalKind::kDampingPower:
+      return power_of(PowerKind::kDamping);
+    case SignalKind::kActuatorPower:
+      return power_of(PowerKind::kActuator);
+    case SignalKind::kLoadPower:
+      return power_of(PowerKind::kLoad);
+    default:
+      break;
+  }
+  // In this order for every scalar, as the gradient's entries are found again by it.
+  const T kinetic = kinetic_energy(gradient);
+  return kinetic + potential_energy(gradient);
+}
+
+// The link's quaternion is that of its body times a constant one, so that it is linear in p.
+template <class T>
+T Equations<T>::orientation_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient) {
+  const int index = system_.topology().link_body[static_cast<std::size_t>(term.link)];
+  const BodyKinematics<T>& k = body(index);
+  const Vector4<T> in_body = euler_parameters<T>(constants_.links[static_cast<std::size_t>(term.link)].R);
+  T value(0.0);
+  for (int e = 0; e < 4; ++e) {
+    const T by_p = quaternion_product<T>(Vector4<T>(Vector4<T>::Unit(e)), in_body)[term.axis];
+    value += by_p * k.p[e];
+    if (gradient && index >= 0) gradient->position.push_back({kBodySize * index + 3 + e, T(factor * by_p)});
+  }
+  return factor * value;
 }
 
 template <class T>

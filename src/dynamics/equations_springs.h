@@ -23,34 +23,20 @@ void Equations<T>::add_spring_load(std::size_t k, const SpringForce<T>& force) {
   add_vector_load(PairVector<T>::displacement(c.s_i, c.s_j), force.pull, load_on(c.body_i), load_on(c.body_j));
 }
 
-namespace internal {
-
-/// One end of a spring: its Jacobian D = +-[I, B(p, s)] and the part of d' that moves with the positions, +-[0, B(p', s)].
 template <class T>
-struct SpringEnd {
-  int column = -1;  ///< of the body's coordinates; -1 on the ground
-  Eigen::Matrix<T, 3, kBodySize> D, Dd;
-
-  SpringEnd(int body_index, const BodyKinematics<T>& body, const Vector3<T>& s, const T& sign)
-      : column(body_index < 0 ? -1 : kBodySize * body_index) {
-    D.template leftCols<3>() = sign * Matrix3<T>::Identity();
-    D.template rightCols<4>() = sign * rotated_vector_jacobian(body.p, s);
-    Dd.template leftCols<3>().setZero();
-    Dd.template rightCols<4>() = sign * rotated_vector_jacobian(body.pd, s);
-  }
-};
-
-}  // namespace internal
+std::array<internal::SpringEnd<T>, 2> Equations<T>::spring_ends(std::size_t k) const {
+  const SpringDamperConstants<T>& c = constants_.springs[k];
+  return {internal::SpringEnd<T>{c.body_i, body(c.body_i), c.s_i, T(-1.0)}, {c.body_j, body(c.body_j), c.s_j, T(1.0)}};
+}
 
 template <class T>
 template <class Sink>
 void Equations<T>::assemble_spring(std::size_t k, Sink* sink) {
-  const SpringDamperConstants<T>& c = constants_.springs[k];
   const Quantity& damping = system_.robot().spring_dampers[k].damping;
   const bool damped = !damping.is_constant() || damping.nominal() != 0.0;
   const SpringForce<T> force = spring(k);
   add_spring_load(k, force);
-  const internal::SpringEnd<T> ends[2] = {{c.body_i, body(c.body_i), c.s_i, T(-1.0)}, {c.body_j, body(c.body_j), c.s_j, T(1.0)}};
+  const std::array<internal::SpringEnd<T>, 2> ends = spring_ends(k);
   for (const internal::SpringEnd<T>& on : ends) {
     for (const internal::SpringEnd<T>& by : ends) {
       if (on.column < 0 || by.column < 0) continue;

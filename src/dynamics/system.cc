@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "dynamics/equation_code.h"
+#include "dynamics/given_start.h"
 #include "mechanism_codesign/dynamics/equations.h"
 
 namespace codesign {
@@ -37,7 +38,7 @@ bool zero(const Quantity& q) { return q.is_constant() && q.nominal() == 0.0; }
 }  // namespace
 
 System::System(const RobotDescription& robot, const Study& study, double compliance)
-    : robot_(robot),
+    : robot_(with_start_rotations(robot, study)),
       study_(study),
       topology_(derive_topology(robot_)),
       compliance_(compliance),
@@ -50,6 +51,8 @@ System::System(const RobotDescription& robot, const Study& study, double complia
   resolve_controllers();
   check_signals();
   collect_loads();
+  collect_link_loads();
+  collect_rotors();
   collect_bristles();
   record_pattern();
 }
@@ -127,12 +130,56 @@ void System::collect_loads() {
         load.passive = !zero(joint.damping) || load.spring;
         load.stop = study_.limits.position && has_stops(joint);
         load.saturated = study_.limits.effort && joint.limit && joint.limit->bounds_effort();
+        for (std::size_t k = 0; k < study_.loads.size(); ++k)
+          if (study_.loads[k].joint == joint.name) load.constant.push_back(static_cast<int>(k));
       }
       for (std::size_t c = 0; c < controllers_.size(); ++c)
         if (controllers_[c].pair == load.pair && controllers_[c].element == load.element) load.controllers.push_back(static_cast<int>(c));
-      if (!load.reaction_friction && !load.constant_friction && !load.passive && !load.stop && load.controllers.empty()) continue;
+      const bool driven = !load.controllers.empty() || !load.constant.empty();
+      if (!load.reaction_friction && !load.constant_friction && !load.passive && !load.stop && !driven) continue;
       if (!has_coordinate_[p][e]) refuse_load(load.pair, load.element);
       loads_.push_back(load);
+    }
+  }
+}
+
+void System::collect_link_loads() {
+  for (std::size_t k = 0; k < study_.loads.size(); ++k) {
+    const LoadDescription& load = study_.loads[k];
+    for (std::size_t joint = 0; joint < robot_.joints.size(); ++joint)
+      if (robot_.joints[joint].name == load.joint && topology_.joint_pair[joint] < 0)
+        throw InputError(
+            {load.where, "loads", "the joint moves only a link without <inertial>, so that nothing can load it", load.joint, ""});
+    for (std::size_t link = 0; link < robot_.links.size(); ++link) {
+      if (robot_.links[link].name != load.link) continue;
+      const int body = topology_.link_body[link];
+      if (body == Topology::kGround)
+        throw InputError({load.where, "loads", "the link is part of the ground, which no load moves", load.link, "a link that moves"});
+      if (body == Topology::kMassless)
+        throw InputError({load.where, "loads", "the link has no <inertial>, so it is folded into a joint and cannot be loaded", load.link,
+                          "a link with <inertial>"});
+      link_loads_.push_back({static_cast<int>(k), body, static_cast<int>(link), load.in_link_frame});
+    }
+  }
+}
+
+void System::collect_rotors() {
+  for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+    const JointDescription& joint = robot_.joints[j];
+    if (!joint.actuator || zero(joint.actuator->rotor_inertia)) continue;
+    const auto refuse = [&joint](const std::string& fault, const std::string& value) {
+      throw InputError({joint.actuator->where, "<joint name=\"" + joint.name + "\"> <codesign:actuator>", fault, value,
+                        "a link with <inertial>, which holds the rotor's mass and its inertia as if it did not spin"});
+    };
+    const int pair = topology_.joint_pair[j], body = topology_.link_body[static_cast<std::size_t>(joint.parent)];
+    if (pair < 0) refuse("the joint moves only a link without <inertial>", robot_.links[static_cast<std::size_t>(joint.child)].name);
+    if (body == Topology::kMassless)
+      refuse("the parent link, which carries the rotor, has no <inertial>", robot_.links[static_cast<std::size_t>(joint.parent)].name);
+    const std::vector<ChainElement>& chain = topology_.pairs[static_cast<std::size_t>(pair)].chain;
+    for (std::size_t e = 0; e < chain.size(); ++e) {
+      if (chain[e].joint != static_cast<int>(j)) continue;
+      if (!has_coordinate_[static_cast<std::size_t>(pair)][e]) refuse_load(pair, static_cast<int>(e));
+      rotors_.push_back({pair, static_cast<int>(e), body});
     }
   }
 }
@@ -169,10 +216,11 @@ void System::find_coordinates() {
 void System::refuse_load(int pair, int element) const {
   const ChainElement& in_chain = topology_.pairs[static_cast<std::size_t>(pair)].chain[static_cast<std::size_t>(element)];
   const JointDescription& joint = robot_.joints[static_cast<std::size_t>(in_chain.joint)];
-  throw InputError({joint.where, "<joint name=\"" + joint.name + "\">",
-                    "a controller, spring, damping, stop or stock friction on a joint without a scalar coordinate of its own",
-                    topology_.pairs[static_cast<std::size_t>(pair)].name,
-                    "revolute, continuous and prismatic joints; in a ball joint of three hinges those at right angles to each other"});
+  throw InputError(
+      {joint.where, "<joint name=\"" + joint.name + "\">",
+       "a controller, load, actuator, spring, damping, stop or stock friction on a joint without a scalar coordinate of its own",
+       topology_.pairs[static_cast<std::size_t>(pair)].name,
+       "revolute, continuous and prismatic joints; in a ball joint of three hinges those at right angles to each other"});
 }
 
 void System::check_couplings() const {

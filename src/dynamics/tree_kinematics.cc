@@ -61,15 +61,16 @@ JointMotion<T> joint_motion(const JointDescription& joint, const std::vector<T>&
       slide(axis_at(joint.axis, parameters), 0);
       break;
     case JointType::kPlanar: {
-      const Vector3<T> z = axis_at(joint.axis, parameters), x = transverse_axis<T>(z, std::nullopt);
-      slide(x, 0);
-      slide(cross(z, x), 1);
-      turn(z, 2);
+      const PlaneAxes<T> plane = plane_axes(joint, parameters);
+      slide(plane.x, 0);
+      slide(plane.y, 1);
+      turn(axis_at(joint.axis, parameters), 2);
       break;
     }
     case JointType::kFloating:
       for (int k = 0; k < 3; ++k) slide(Vector3<T>(Vector3<T>::Unit(k)), k);
       for (int k = 0; k < 3; ++k) turn(Vector3<T>(Vector3<T>::Unit(k)), 3 + k);
+      m.X.R = m.X.R * rotation_from_rpy<T>(vector_at(joint.start_rotation, parameters));
       break;
     default:
       break;

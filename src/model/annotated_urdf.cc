@@ -13,6 +13,7 @@
 #include "overlay.h"
 #include "parameter_reader.h"
 #include "quantity_reader.h"
+#include "transmission_reader.h"
 #include "tree_check.h"
 #include "urdfdom_check.h"
 #include "vocabulary_check.h"
@@ -125,6 +126,7 @@ RobotDescription read_robot(const XmlDocument& document) {
   read_constraints(element, context, &robot);
   for (const XmlElement& spring : element.children("codesign:spring_damper"))
     robot.spring_dampers.push_back(read_spring_damper(spring, context));
+  read_transmissions(element, &robot);
   check_twins(element, "robot", context.table);
   check_names(robot);
   robot.root = find_root(robot);

@@ -35,6 +35,7 @@ void add_joint_parts(const std::string& path, bool strict, std::vector<ElementRu
                     {},
                     {}});
   rules->push_back({path + "/codesign:torsion_spring", true, {}, {"stiffness", "damping", "free_position"}, {}, {}});
+  rules->push_back({path + "/codesign:actuator", true, {}, {"gear_ratio", "rotor_inertia"}, {}, {}});
 }
 
 std::vector<ElementRule> make_rules() {
@@ -52,7 +53,7 @@ std::vector<ElementRule> make_rules() {
   add_shapes("robot/link/visual", &rules);
   add_shapes("robot/link/collision", &rules);
 
-  rules.push_back({"robot/joint", false, {}, {}, {}, {"codesign:friction", "codesign:torsion_spring"}});
+  rules.push_back({"robot/joint", false, {}, {}, {}, {"codesign:friction", "codesign:torsion_spring", "codesign:actuator"}});
   rules.push_back({"robot/joint/origin", false, {}, {"xyz", "rpy"}, {}, {}});
   rules.push_back({"robot/joint/limit", false, {}, {"lower", "upper", "effort", "velocity"}, {}, {}});
   rules.push_back({"robot/joint/mimic", false, {}, {"multiplier", "offset"}, {}, {}});
@@ -64,7 +65,7 @@ std::vector<ElementRule> make_rules() {
                    {},
                    {},
                    {"predecessor", "successor", "axis", "dynamics", "codesign:second_axis", "codesign:length", "codesign:friction",
-                    "codesign:torsion_spring"}});
+                    "codesign:torsion_spring", "codesign:actuator"}});
   add_ends("robot/loop", true, &rules);
   add_joint_parts("robot/loop", true, &rules);
   rules.push_back({"robot/loop/codesign:second_axis", true, {}, {"xyz"}, {}, {}});

@@ -77,11 +77,13 @@ std::string friction_fault(const Pair& pair, const FrictionConstants<double>& f)
   return possible ? "" : "friction geometry or coefficients of joint '" + pair.name + "' are out of range";
 }
 
-std::string limit_fault(const RobotDescription& robot, const Pair& pair, const PairConstants<double>& constants) {
+std::string joint_fault(const RobotDescription& robot, const Pair& pair, const PairConstants<double>& constants) {
   for (std::size_t e = 0; e < pair.chain.size(); ++e) {
     const JointDescription& joint = robot.joints[index(pair.chain[e].joint)];
     const JointDynamicsConstants<double>& d = constants.dynamics[e];
     if (joint.limit && !(d.lower <= d.upper && d.effort >= 0.0)) return "a limit of joint '" + joint.name + "' is out of range";
+    if (!(d.rotor_inertia >= 0.0) || !std::isfinite(d.rotor_inertia) || !std::isfinite(d.gear_ratio))
+      return "the rotor of joint '" + joint.name + "' is out of range";
   }
   return "";
 }
@@ -98,6 +100,15 @@ Constants<T> evaluate_constants(const RobotDescription& robot, const Topology& t
     const Pose<T> X = link_in_base(robot, topology.link_base, topology.link_parent_joint, static_cast<int>(link), parameters);
     constants.links[link] = {X.t - centre_of(constants, topology.link_body[link]), X.R};
   }
+  for (const JointDescription& joint : robot.joints) {
+    LinkConstants<T>& frame = constants.joint_frames.emplace_back();
+    if (topology.link_body[index(joint.child)] == Topology::kMassless) continue;
+    const LinkConstants<T>& child = constants.links[index(joint.child)];
+    frame = child;
+    if (!joint.is_loop) continue;
+    const Pose<T> X = pose_at(joint.child_origin, parameters);
+    frame = {child.s + child.R * X.t, child.R * X.R};
+  }
   for (const Pair& pair : topology.pairs)
     constants.pairs.push_back(
         pair_constants(robot, topology, pair, centre_of(constants, pair.body_i), centre_of(constants, pair.body_j), parameters));
@@ -112,7 +123,7 @@ std::string find_impossible(const RobotDescription& robot, const Topology& topol
     if (std::string fault = body_fault(robot, topology, k, constants); !fault.empty()) return fault;
   for (std::size_t k = 0; k < topology.pairs.size(); ++k) {
     const PairConstants<double>& pair = constants.pairs[k];
-    if (std::string fault = limit_fault(robot, topology.pairs[k], pair); !fault.empty()) return fault;
+    if (std::string fault = joint_fault(robot, topology.pairs[k], pair); !fault.empty()) return fault;
     if (!pair.s_i.allFinite() || !pair.s_j.allFinite() || !pair.C_i.allFinite() || !pair.C_j.allFinite())
       return "geometry of joint '" + topology.pairs[k].name + "' is not finite";
     if (topology.pairs[k].friction_joint < 0) continue;

@@ -79,6 +79,17 @@ MimicDescription read_mimic(const XmlElement& element, const ParameterTable& tab
   return mimic;
 }
 
+ActuatorDescription read_actuator(const XmlElement& element, JointType type, const ParameterTable& table) {
+  if (!has_one_coordinate(type))
+    element.fail("a joint of this type has no coordinate that a rotor could turn with", "", "revolute, continuous or prismatic");
+  ActuatorDescription actuator;
+  actuator.where = element.where();
+  actuator.gear_ratio = read_quantity_or(1.0, element, "gear_ratio", Range::kAny, table);
+  if (actuator.gear_ratio.nominal() == 0.0) element.fail_at("gear_ratio", "the gear ratio is zero", "any other number");
+  actuator.rotor_inertia = read_quantity(element, "rotor_inertia", Range::kNonNegative, table);
+  return actuator;
+}
+
 void read_limit_of_joint(const XmlElement& element, const ReadContext& context, JointDescription* joint) {
   const std::optional<XmlElement> limit = element.child("limit");
   const bool bounded = joint->type == JointType::kRevolute || joint->type == JointType::kPrismatic;
@@ -121,7 +132,9 @@ void read_joint_parts(const XmlElement& element, const ReadContext& context, Joi
   if (axis && !welded && (joint->type != JointType::kFloating || joint->is_loop)) joint->axis = read_axis(*axis, table);
   if (dynamics && !welded) read_dynamics(*dynamics, context, joint);
   const std::optional<XmlElement> friction = element.child("codesign:friction"), spring = element.child("codesign:torsion_spring");
+  const std::optional<XmlElement> actuator = element.child("codesign:actuator");
   if (friction) joint->friction = read_friction(*friction, joint->axis, table);
+  if (actuator) joint->actuator = read_actuator(*actuator, joint->type, table);
   if (!spring) return;
   if (!has_one_coordinate(joint->type))
     spring->fail("a joint of this type has no coordinate for a spring", "", "revolute, continuous or prismatic");

@@ -33,6 +33,7 @@ class PairBuilder {
     for (std::size_t k = 0; k < pair_.chain.size(); ++k) {
       result_.coordinates.push_back(coordinate(k, X_ji.R));
       result_.dynamics.push_back(dynamics(joint(k)));
+      if (joint(k).actuator) place_rotor(k, X_ji.R);
     }
     if (pair_.kind == PairKind::kCylindrical && pair_.chain.size() == 1) add_cylindrical_coordinates();
     if (pair_.friction_joint >= 0) result_.friction = friction();
@@ -240,6 +241,15 @@ class PairBuilder {
     d.spring_damping = joint.spring->damping.at(parameters_);
     d.free_position = joint.spring->free_position.at(parameters_);
     return d;
+  }
+
+  // The parent link carries the rotor: body i, or body j where the chain runs from the child to the parent.
+  void place_rotor(std::size_t k, const Matrix3<T>& R_ji) {
+    const ActuatorDescription& actuator = *joint(k).actuator;
+    JointDynamicsConstants<T>& d = result_.dynamics[k];
+    d.gear_ratio = actuator.gear_ratio.at(parameters_);
+    d.rotor_inertia = actuator.rotor_inertia.at(parameters_);
+    d.rotor_axis = pair_.chain[k].reversed ? Vector3<T>(R_ji * axis(k)) : axis(k);
   }
 
   // A dimension that the annotation leaves out does not enter the joint's law; 1 keeps the unused quotient finite.

@@ -16,15 +16,32 @@ bool contains(const Names& names, const std::string& name) { return std::find(na
 /// What the object of a signal offers. A link may bear the name of a joint; the quantity then tells which is meant.
 struct Offer {
   bool exists = false;
-  Names scalars;  ///< of a joint or controller
-  Names vectors;  ///< of a link
+  Names scalars;      ///< of a joint, a controller or the mechanism
+  Names vectors;      ///< of a link
+  Names quaternions;  ///< of a link
+  Names ambiguous;    ///< of a joint that is called like the mechanism, and of the mechanism
 };
+
+constexpr const char* kMechanism = "mechanism";
+const Names& powers() {
+  static const Names kPowers{"friction_power", "damping_power", "actuator_power", "load_power"};
+  return kPowers;
+}
+const Names& mechanism_quantities() {
+  static const Names kQuantities = [] {
+    Names all{"kinetic_energy", "potential_energy", "total_energy"};
+    all.insert(all.end(), powers().begin(), powers().end());
+    return all;
+  }();
+  return kQuantities;
+}
 
 void add_joint(const JointDescription& joint, Offer* offer) {
   offer->exists = true;
-  if (has_scalar_position(joint)) offer->scalars = {"position", "velocity", "acceleration", "effort"};
+  if (has_scalar_position(joint))
+    offer->scalars = {"position", "velocity", "acceleration", "effort", "actuator_power", "damping_power", "load_power"};
   if (has_friction(joint))
-    for (const char* quantity : {"friction", "normal_force", "sliding_velocity"}) offer->scalars.emplace_back(quantity);
+    for (const char* quantity : {"friction", "normal_force", "sliding_velocity", "friction_power"}) offer->scalars.emplace_back(quantity);
 }
 
 Offer offer_of(const std::string& name, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
@@ -40,6 +57,12 @@ Offer offer_of(const std::string& name, const RobotDescription& robot, const std
     if (link.name != name) continue;
     offer.exists = true;
     offer.vectors = {"position", "velocity", "angular_velocity"};
+    offer.quaternions = {"orientation"};
+  }
+  if (name == kMechanism) {
+    offer.exists = true;
+    for (const std::string& quantity : mechanism_quantities())
+      (contains(offer.scalars, quantity) ? offer.ambiguous : offer.scalars).push_back(quantity);
   }
   return offer;
 }
@@ -49,6 +72,7 @@ Names all_names(const RobotDescription& robot, const std::vector<ControllerDescr
   for (const JointDescription& joint : robot.joints) names.push_back(joint.name);
   for (const ControllerDescription& controller : controllers) names.push_back(controller.name);
   for (const LinkDescription& link : robot.links) names.push_back(link.name);
+  names.emplace_back(kMechanism);
   return names;
 }
 
@@ -57,6 +81,7 @@ Names spelled(const std::string& object, const Offer& offer) {
   Names spellings;
   for (const std::string& quantity : offer.scalars) spellings.push_back(prefix + quantity);
   for (const std::string& quantity : offer.vectors) spellings.push_back(prefix + quantity + "/{x,y,z}");
+  for (const std::string& quantity : offer.quaternions) spellings.push_back(prefix + quantity + "/{w,x,y,z}");
   return spellings;
 }
 
@@ -66,15 +91,22 @@ std::string spelling(const SignalTerm& term) {
 
 void check_term(const SignalTerm& term, const Offer& offer, const SourceLocation& where, const std::string& element) {
   const bool as_scalar = contains(offer.scalars, term.quantity);
-  const bool as_vector = contains(offer.vectors, term.quantity);
-  const bool good_component = term.component == "x" || term.component == "y" || term.component == "z";
+  const bool as_quaternion = contains(offer.quaternions, term.quantity);
+  const bool as_vector = contains(offer.vectors, term.quantity) || as_quaternion;
+  const bool good_component =
+      term.component == "x" || term.component == "y" || term.component == "z" || (as_quaternion && term.component == "w");
+  if (contains(offer.ambiguous, term.quantity))
+    throw InputError({where, element, "a joint bears the name of the whole mechanism, whose power this could be too", spelling(term),
+                      "another name of the joint"});
   if (as_scalar && term.component.empty()) return;
   if (as_vector && good_component) return;
   const std::string allowed = list_names(spelled(term.object, offer));
-  if (as_vector) throw InputError({where, element, "a link's signal needs the component x, y or z", spelling(term), allowed});
+  if (as_vector)
+    throw InputError({where, element, std::string("this signal needs the component ") + (as_quaternion ? "w, x, y or z" : "x, y or z"),
+                      spelling(term), allowed});
   if (as_scalar) throw InputError({where, element, "this signal has no components", spelling(term), allowed});
   Names known = offer.scalars;
-  known.insert(known.end(), offer.vectors.begin(), offer.vectors.end());
+  for (const Names* more : {&offer.vectors, &offer.quaternions}) known.insert(known.end(), more->begin(), more->end());
   InputFault fault = unknown_name(where, element, "quantity of \"" + term.object + "\"", term.quantity, known).fault();
   fault.value = spelling(term);
   fault.allowed = allowed;
@@ -82,6 +114,10 @@ void check_term(const SignalTerm& term, const Offer& offer, const SourceLocation
 }
 
 }  // namespace
+
+bool is_of_mechanism(const SignalTerm& term) {
+  return term.object == kMechanism && term.component.empty() && contains(mechanism_quantities(), term.quantity);
+}
 
 bool has_scalar_position(const JointDescription& joint) {
   return joint.type == JointType::kRevolute || joint.type == JointType::kContinuous || joint.type == JointType::kPrismatic;

@@ -66,12 +66,15 @@ void read_model_based(const YamlValue& value, const Context& context, Controller
 }
 
 void read_state_feedback(const YamlValue& value, const Context& context, ControllerDescription* controller) {
-  value.require_keys({"type", "output", "feedback"}, {"feedforward"});
+  value.require_keys({"type", "output"}, {"feedback", "feedforward"});
   const std::vector<Parameter>& parameters = context.study.parameters;
   if (const auto feedforward = value.find("feedforward"))
     controller->feedforward = read_reference(*feedforward, parameters, context.loader);
-  const YamlValue feedback = value.at("feedback");
-  for (const YamlValue& item : feedback.items()) {
+  const auto feedback = value.find("feedback");
+  const std::vector<YamlValue> terms = feedback ? feedback->items() : std::vector<YamlValue>{};
+  if (terms.empty() && !value.find("feedforward"))
+    value.fail("the controller does nothing", "feedback: at least one {signal, gain, reference}; or feedforward");
+  for (const YamlValue& item : terms) {
     item.require_keys({"signal", "gain"}, {"reference"});
     FeedbackTerm term;
     term.signal = read_signal(item.at("signal"), context);
@@ -79,7 +82,6 @@ void read_state_feedback(const YamlValue& value, const Context& context, Control
     if (const auto reference = item.find("reference")) term.reference = read_reference(*reference, parameters, context.loader);
     controller->feedback.push_back(term);
   }
-  if (controller->feedback.empty()) feedback.fail("nothing is fed back", "at least one {signal, gain, reference}");
 }
 
 void read_basis_controller(const YamlValue& value, const Context& context, ControllerDescription* controller) {

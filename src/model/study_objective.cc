@@ -31,12 +31,11 @@ std::vector<ObjectiveTerm> read_terms(const YamlValue& objective, const std::str
 }  // namespace
 
 void read_objective(const YamlValue& study_value, const RobotDescription& robot, const TrajectoryLoader& loader, Study* study) {
-  const YamlValue objective = study_value.at("objective");
-  objective.require_keys({}, {"integral", "terminal"});
-  study->integral = read_terms(objective, "integral", robot, loader, *study);
-  study->terminal = read_terms(objective, "terminal", robot, loader, *study);
-  if (study->integral.empty() && study->terminal.empty())
-    objective.fail("the objective has no term", "at least one term under integral or terminal");
+  const auto objective = study_value.find("objective");
+  if (!objective) return;
+  objective->require_keys({}, {"integral", "terminal"});
+  study->integral = read_terms(*objective, "integral", robot, loader, *study);
+  study->terminal = read_terms(*objective, "terminal", robot, loader, *study);
 }
 
 }  // namespace codesign

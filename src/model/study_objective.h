@@ -8,7 +8,7 @@
 
 namespace codesign {
 
-/// Reads `objective:`, which needs at least one term; needs Study::parameters and Study::controllers.
+/// Reads `objective:`, which may be left out or empty; needs Study::parameters and Study::controllers.
 void read_objective(const YamlValue& study_value, const RobotDescription& robot, const TrajectoryLoader& loader, Study* study);
 
 }  // namespace codesign

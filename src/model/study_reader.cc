@@ -3,10 +3,11 @@
 
 #include "study_basis.h"
 #include "study_controllers.h"
+#include "study_initial_state.h"
+#include "study_loads.h"
 #include "study_objective.h"
 #include "study_options.h"
 #include "study_parameters.h"
-#include "study_values.h"
 #include "yaml_reader.h"
 
 namespace codesign {
@@ -24,32 +25,12 @@ std::array<double, 3> read_gravity(const YamlValue& value) {
   return {items[0].number(), items[1].number(), items[2].number()};
 }
 
-InitialJointState read_initial_joint(const std::string& name, const YamlValue& value, const RobotDescription& robot, const Study& study) {
-  value.require_keys({}, {"position", "velocity", "guess"});
-  if (value.entries().empty()) value.fail("nothing is said of this joint", "position, velocity, guess");
-  InitialJointState state;
-  state.joint = scalar_joint(name, robot, value).name;
-  state.where = value.where();
-  if (const auto position = value.find("position")) state.position = read_quantity(*position, study.parameters);
-  if (const auto velocity = value.find("velocity")) state.velocity = read_quantity(*velocity, study.parameters);
-  const auto guess = value.find("guess");
-  if (guess && state.position) guess->fail("a joint has either a position or a guess of it");
-  if (guess) state.guess = guess->number();
-  return state;
-}
-
-void read_initial_state(const YamlValue& study_value, const RobotDescription& robot, Study* study) {
-  const auto initial_state = study_value.find("initial_state");
-  if (!initial_state) return;
-  for (const auto& [name, value] : initial_state->entries()) study->initial_state.push_back(read_initial_joint(name, value, robot, *study));
-}
-
 }  // namespace
 
 Study read_study(const SourceText& yaml, const RobotDescription& robot, const TrajectoryLoader& loader) {
   const YamlValue root = YamlValue::parse(yaml);
-  root.require_keys({"duration", "objective"},
-                    {"gravity", "initial_state", "controllers", "parameters", "constraints", "limits", "solver", "optimizer"});
+  root.require_keys({"duration"}, {"gravity", "initial_state", "controllers", "loads", "parameters", "objective", "constraints", "limits",
+                                   "solver", "optimizer"});
   Study study;
   study.file = yaml.name;
   study.duration = read_duration(root.at("duration"));
@@ -59,6 +40,7 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot, const Tr
   read_constraints(root, &study);
   read_initial_state(root, robot, &study);
   read_controllers(root, robot, loader, &study);
+  read_loads(root, robot, &study);
   read_objective(root, robot, loader, &study);
   if (const auto limits = root.find("limits")) study.limits = read_limit_options(*limits);
   if (const auto solver = root.find("solver")) study.solver = read_solver_options(*solver);

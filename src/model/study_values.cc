@@ -46,6 +46,13 @@ Quantity read_quantity(const YamlValue& value, const std::vector<Parameter>& par
   return Quantity(nominal, std::move(expression));
 }
 
+QuantityVector read_vector(const YamlValue& value, const std::vector<Parameter>& parameters) {
+  if (!value.is_list()) value.fail("three components are needed", "[x, y, z]");
+  const std::vector<YamlValue> items = value.items();
+  if (items.size() != 3) value.fail("three components are needed, found " + std::to_string(items.size()), "[x, y, z]");
+  return {read_quantity(items[0], parameters), read_quantity(items[1], parameters), read_quantity(items[2], parameters)};
+}
+
 const JointDescription& scalar_joint(const std::string& name, const RobotDescription& robot, const YamlValue& at) {
   std::vector<std::string> known;
   for (const JointDescription& joint : robot.joints) {

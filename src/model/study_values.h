@@ -19,6 +19,9 @@ ExpressionScope scope_of(const std::vector<Parameter>& parameters);
 /// A number, or `${expression}` of all named parameters, finite at their start.
 Quantity read_quantity(const YamlValue& value, const std::vector<Parameter>& parameters);
 
+/// Three of them.
+QuantityVector read_vector(const YamlValue& value, const std::vector<Parameter>& parameters);
+
 /// The joint or loop called `name`, which must have one coordinate.
 /// @param at the place to report.
 const JointDescription& scalar_joint(const std::string& name, const RobotDescription& robot, const YamlValue& at);

@@ -87,6 +87,15 @@ Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& over
   return compile(std::move(problem), settings);
 }
 
+void require_objective(const Study& study) {
+  if (study.integral.empty() && study.terminal.empty())
+    throw InputError({{study.file, 1},
+                      "objective",
+                      "the study has no objective: it can be simulated and checked, but there is nothing to optimize",
+                      "",
+                      "at least one term under objective.integral or objective.terminal"});
+}
+
 Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& overlays, const ParameterSettings& settings) {
   const CpuTimer timer;
   Problem problem;

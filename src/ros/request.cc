@@ -89,6 +89,7 @@ void check_size(const Problem& problem, const std::vector<std::string>& names, c
 }
 
 Problem apply_request(const Problem& problem, const mechanism_codesign::OptimizeGoal& request) {
+  require_objective(problem.study);
   Problem changed = problem;
   choose_options(request, &changed.study.optimizer);
   check_size(problem, request.parameters, request.start, "start");
@@ -103,6 +104,7 @@ Problem apply_request(const Problem& problem, const mechanism_codesign::Optimize
 }
 
 Eigen::VectorXd design_of(const Problem& problem, const mechanism_codesign::EvaluateRequest& request) {
+  require_objective(problem.study);
   const std::vector<std::string> tuned = problem.tuned_names();
   check_length("check", request.check);
   check_size(problem, request.parameters, request.values, "values");

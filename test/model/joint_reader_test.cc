@@ -96,6 +96,19 @@ TEST(JointReader, Springs) {
   expect_error(typed("floating", "<codesign:torsion_spring stiffness=\"1\"/>"), {"no coordinate for a spring"});
 }
 
+TEST(JointReader, Actuators) {
+  const JointDescription joint = hinge(
+      R"(<codesign:actuator gear_ratio="-10" codesign:gear_ratio="${-50*length}" rotor_inertia="2e-5" codesign:rotor_inertia="${length/1e4}"/>)");
+  EXPECT_EQ(joint.actuator->gear_ratio.at(std::vector<double>{0.3}), -15.0);
+  EXPECT_DOUBLE_EQ(joint.actuator->rotor_inertia.at(std::vector<double>{0.3}), 3e-5);
+  EXPECT_EQ(hinge("<codesign:actuator rotor_inertia=\"1e-5\"/>").actuator->gear_ratio.nominal(), 1.0);
+  expect_error(pendulum("<codesign:actuator gear_ratio=\"3\"/>"), {"the attribute rotor_inertia is missing"});
+  expect_error(pendulum("<codesign:actuator gear_ratio=\"0\" rotor_inertia=\"1\"/>"), {"the gear ratio is zero"});
+  expect_error(pendulum("<codesign:actuator rotor_inertia=\"-1\"/>"), {"rotor_inertia is negative"});
+  expect_error(pendulum("<codesign:actuator rotor_inertia=\"1\" gear_ration=\"2\"/>"), {"did you mean \"gear_ratio\""});
+  expect_error(typed("floating", "<codesign:actuator rotor_inertia=\"1\"/>"), {"no coordinate that a rotor could turn with"});
+}
+
 TEST(JointReader, Mimics) {
   const std::string second =
       link_with("tip") + joint_with("wrist", "continuous", "arm", "tip", R"(<mimic joint="hinge" multiplier="-2" offset="1"/>)");

@@ -68,6 +68,37 @@ TEST(SignalCatalog, AcceptsWhatEachKindOffers) {
   check("hinge/velocity - slide/velocity + arm/position/z");
 }
 
+TEST(SignalCatalog, PowersEnergiesAndOrientations) {
+  for (const char* quantity : {"actuator_power", "damping_power", "load_power"}) check(std::string("hinge/") + quantity);
+  for (const char* joint : {"slide", "plane"}) check(std::string(joint) + "/friction_power");
+  for (const char* quantity :
+       {"kinetic_energy", "potential_energy", "total_energy", "friction_power", "damping_power", "actuator_power", "load_power"})
+    check(std::string("mechanism/") + quantity);
+  for (const char* component : {"w", "x", "y", "z"}) check(std::string("arm/orientation/") + component);
+  expect_refused("hinge/friction_power", "unknown quantity", "hinge/actuator_power");
+  expect_refused("mechanism/energy", "unknown quantity", "mechanism/total_energy");
+  expect_refused("mechansim/total_energy", "did you mean \"mechanism\"", "");
+  expect_refused("mechanism/total_energy/x", "no components", "");
+  expect_refused("arm/orientation", "needs the component w, x, y or z", "arm/orientation/{w,x,y,z}");
+}
+
+TEST(SignalCatalog, WhatIsCalledLikeTheMechanismKeepsItsSignals) {
+  const auto check_in = [](const RobotDescription& robot, const std::string& text) {
+    check_signal(parse_signal(text, {"s.yaml", 2}, "here"), robot, controllers(), "here");
+  };
+  RobotDescription named = robot();
+  named.links[1].name = "mechanism";
+  for (const char* text : {"mechanism/position/x", "mechanism/total_energy", "mechanism/friction_power"}) check_in(named, text);
+  named.joints[1].name = "mechanism";
+  for (const char* text : {"mechanism/position", "mechanism/position/x", "mechanism/total_energy"}) check_in(named, text);
+  try {
+    check_in(named, "mechanism/friction_power");
+    ADD_FAILURE() << "of the joint or of all?";
+  } catch (const InputError& error) {
+    EXPECT_NE(error.fault().message.find("the name of the whole mechanism"), std::string::npos) << error.what();
+  }
+}
+
 TEST(SignalCatalog, ALinkMayBearTheNameOfAJoint) {
   check("hinge/position");
   check("hinge/position/x");

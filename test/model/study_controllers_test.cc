@@ -92,7 +92,9 @@ TEST(StudyControllers, StateFeedbackIsAListOfSignalsWithGains) {
   EXPECT_EQ(a.feedback[0].reference.kind, ReferenceDescription::Kind::kWaypoints);
   EXPECT_EQ(a.feedback[1].signal.terms.size(), 2U);
   EXPECT_EQ(a.feedback[1].gain.nominal(), 0.3);
-  expect_fault(start + "feedback: []}}\n", "controllers.a.feedback", "nothing is fed back", 3);
+  expect_fault(start + "feedback: []}}\n", "controllers.a", "does nothing", 3);
+  expect_fault(kLeastStudy + "controllers: {a: {type: state_feedback, output: slider_joint}}\n", "controllers.a", "does nothing", 3);
+  EXPECT_TRUE(read_text(start + "feedforward: \"${rod_length}\"}}\n").controllers.at(0).feedback.empty());
   expect_fault(start + "feedback: [{signal: slider_joint/position}]}}\n", "controllers.a.feedback[0].gain", "required key is missing", 3);
   expect_fault(start + "feedback: [{signal: slider_joint/position, gian: 1, gain: 1}]}}\n", "controllers.a.feedback[0].gian",
                "did you mean \"gain\"", 3);

@@ -27,9 +27,11 @@ TEST(StudyObjective, ReadsTerms) {
   EXPECT_EQ(study.terminal[0].where.line, 3);
 }
 
-TEST(StudyObjective, NeedsATerm) {
-  expect_fault(with("{}"), "objective", "no term", 3);
-  expect_fault(with("{integral: [], terminal: []}"), "objective", "no term", 3);
+TEST(StudyObjective, MayBeEmptyOrLeftOut) {
+  for (const std::string& none : {with("{}"), with("{integral: [], terminal: []}"), std::string("duration: 1\n")}) {
+    const Study study = read_text(none);
+    EXPECT_TRUE(study.integral.empty() && study.terminal.empty());
+  }
   expect_fault(with("[]"), "objective", "expected a map", 3);
 }
 

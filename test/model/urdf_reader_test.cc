@@ -4,15 +4,13 @@
 #include <cmath>
 
 #include "mechanism_codesign/model/mass_properties.h"
-#include "urdf_fixture.h"
 #include "paths.h"
+#include "urdf_fixture.h"
 
 namespace codesign {
 namespace {
 
-RobotDescription shipped(const std::string& name) {
-  return read_urdf(read_source(source_dir() + "/urdf/" + name + ".urdf"));
-}
+RobotDescription shipped(const std::string& name) { return read_urdf(read_source(source_dir() + "/urdf/" + name + ".urdf")); }
 
 /// Pose of a link in the root's frame with all joints at zero.
 void pose_at_zero(const RobotDescription& robot, int link, const std::vector<double>& at, Matrix3<double>* R, Vector3<double>* t) {

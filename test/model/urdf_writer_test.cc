@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "mechanism_codesign/model/mass_properties.h"
-#include "urdf_fixture.h"
 #include "paths.h"
+#include "urdf_fixture.h"
 
 namespace codesign {
 namespace {

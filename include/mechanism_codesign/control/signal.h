@@ -27,13 +27,15 @@ enum class SignalKind {
   kLinkAcceleration,
   kLinkAngularVelocity,
   kLinkOrientation,  ///< component w, x, y or z of the quaternion in the root link's frame; axis 0 is w
-  kReactionForce,    ///< on the child of a joint, at and in the joint frame
+  kReactionForce,    ///< on the child of a joint, at and in the joint frame that it carries
   kReactionTorque,
-  kKineticEnergy,
+  kKineticEnergy,  ///< of the whole mechanism
   kPotentialEnergy,
   kTotalEnergy,
-  kFrictionPower,  ///< of a joint, or of all; what friction does to the mechanism is negative
+  kFrictionPower,  ///< of a joint, or of the whole mechanism (pair -1); see PowerKind
+  kDampingPower,
   kActuatorPower,
+  kLoadPower,
   kControllerError,
   kControllerErrorRate,
   kControllerIntegral,

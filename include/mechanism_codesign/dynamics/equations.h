@@ -12,7 +12,9 @@
 #include "mechanism_codesign/dynamics/compiled_equations.h"
 #include "mechanism_codesign/dynamics/contact_friction.h"
 #include "mechanism_codesign/dynamics/inverse_dynamics.h"
+#include "mechanism_codesign/dynamics/power_kind.h"
 #include "mechanism_codesign/dynamics/sparsity.h"
+#include "mechanism_codesign/dynamics/spring_end.h"
 #include "mechanism_codesign/dynamics/state.h"
 #include "mechanism_codesign/dynamics/system.h"
 #include "mechanism_codesign/forces/normal_force.h"
@@ -34,6 +36,22 @@ struct FrictionState {
 /// Whole turns are counted with values alone; while equations are recorded, these come with each evaluation.
 template <class T>
 using TurnReference = std::conditional_t<std::is_same_v<T, Traced>, Traced, double>;
+
+/// How a rotor's carrier moves about the rotor's axis u; theory (9a).
+template <class T>
+struct RotorMotion {
+  Vector3<T> axis;                                 ///< u, in the carrier's axes
+  T ratio{1.0}, coupling{0.0};                     ///< n, n J_r
+  T carrier_rate{0.0}, carrier_acceleration{0.0};  ///< omega . u and omega' . u of the carrier
+  Vector3<T> swing = Vector3<T>::Zero();           ///< omega x u, in the carrier's axes
+};
+
+/// A constant wrench at one design.
+template <class T>
+struct ConstantWrench {
+  Vector3<T> force, torque;  ///< in the root's axes; of one that turns in the body's, with the torque about the centre of mass
+  Vector3<T> point;          ///< in body coordinates [m]
+};
 
 /// The equations of motion of one design, with the scratch memory to evaluate them; doc/theory.md (14):
 ///   rows 0..n:      M a + Phi_q^T lambda - Q - Q_Af = 0
@@ -93,6 +111,12 @@ class Equations {
   /// The k-th spring-damper of the description.
   SpringForce<T> spring(std::size_t k) const;
   T effort(int pair, int element);
+  /// Mechanical energy [J], and the power [W] that goes into the mechanism, with their gradients if asked for; theory (14b), (14c).
+  T kinetic_energy(SparseGradient<T>* gradient) const;
+  T potential_energy(SparseGradient<T>* gradient) const;
+  T power(PowerKind kind, SparseGradient<T>* gradient);
+  /// Of one joint: a pair and its chain element.
+  T joint_power(PowerKind kind, int pair, int element, SparseGradient<T>* gradient);
   T controller_output(int controller, SparseGradient<T>* gradient);
   T controller_error(int controller, SparseGradient<T>* gradient);
   const BodyKinematics<T>& body(int index) const { return kinematics_[static_cast<std::size_t>(index < 0 ? layout_.bodies : index)]; }
@@ -124,6 +148,12 @@ class Equations {
   template <class Sink>
   void assemble_spring(std::size_t k, Sink* sink);
   template <class Sink>
+  void assemble_link_load(std::size_t k, Sink* sink);
+  template <class Sink>
+  void assemble_rotor(const Rotor& rotor, Sink* sink);
+  template <class Sink>
+  void assemble_rotor_moment(const Rotor& rotor, const RotorMotion<T>& m, Sink* sink);
+  template <class Sink>
   void assemble_states(Sink* sink);
   template <class Sink>
   void assemble_objective(Sink* sink);
@@ -146,6 +176,24 @@ class Equations {
   /// Gradient of factor . omega of a body.
   void append_spin(int body, const Vector3<T>& factor, SparseGradient<T>* gradient) const;
   void add_spring_load(std::size_t k, const SpringForce<T>& force);
+  std::array<internal::SpringEnd<T>, 2> spring_ends(std::size_t k) const;
+  void set_constant_loads();
+  /// Of the study's constant loads on one coordinate.
+  T constant_effort(const JointLoad& load) const;
+  void add_link_load(std::size_t k);
+  void link_load_residual(std::size_t k, VectorX<T>* G);
+  RotorMotion<T> rotor_motion(const Rotor& rotor) const;
+  void rotor_residual(const Rotor& rotor, VectorX<T>* G) const;
+  T rotor_energy(const Rotor& rotor, SparseGradient<T>* gradient) const;
+  T spring_energy(std::size_t k, SparseGradient<T>* gradient) const;
+  T joint_energy(const JointLoad& load, SparseGradient<T>* gradient) const;
+  /// Power that goes in over one coordinate.
+  T load_power(PowerKind kind, const JointLoad& load, SparseGradient<T>* gradient);
+  /// What a kind contributes to joint_load().
+  T load_of(PowerKind kind, const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient);
+  T contact_power(int pair, SparseGradient<T>* gradient);
+  T spring_power(std::size_t k, SparseGradient<T>* gradient) const;
+  T link_load_power(std::size_t k, SparseGradient<T>* gradient) const;
   /// Scalar load along a coordinate, positive against it; its gradient is appended.
   T joint_load(const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient);
   NormalForce<T> normal_force(int pair) const;
@@ -153,10 +201,15 @@ class Equations {
   T passive_load(int pair, int element, const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient) const;
   /// What the controllers of a load apply, within the effort limit if that holds.
   T applied_effort(const JointLoad& load, SparseGradient<T>* gradient);
-  /// Load of the stops, positive against the coordinate.
-  T stop_load(const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient) const;
+  /// Load of the stops, positive against the coordinate. @param dissipation of them, in place of the study's; 0: their elasticity alone.
+  T stop_load(const JointLoad& load, const CoordinateMotion<T>& motion, double dissipation, SparseGradient<T>* gradient) const;
+  /// What their load is more than their elasticity.
+  T stop_dissipation(const JointLoad& load, const CoordinateMotion<T>& motion, SparseGradient<T>* gradient) const;
   void append_normal_gradient(int pair, const Vector3<T>& F, const Vector3<T>& torque, const T& factor, SparseGradient<T>* gradient) const;
   void append_local(int pair, const LocalRow<T>& row, const T& factor, bool with_r, typename SparseGradient<T>::Entries* entries) const;
+  void append_acceleration(int pair, int element, const CoordinateMotion<T>& motion, const T& factor, SparseGradient<T>* gradient) const;
+  /// Gradient of a body's angular velocity along an axis that it carries.
+  void append_body_rate(int body, const Vector3<T>& axis, const T& factor, SparseGradient<T>* gradient) const;
   /// Gradient of a coordinate's rate.
   void append_rate(int pair, int element, const CoordinateMotion<T>& motion, const T& factor, SparseGradient<T>* gradient) const;
   static typename SparseGradient<T>::Mark mark(const SparseGradient<T>* gradient) {
@@ -171,6 +224,8 @@ class Equations {
   T load_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
   T contact_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
   T link_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
+  T orientation_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
+  T energy_or_power(const SignalReference& term, SparseGradient<T>* gradient);
   T signal_value(const Signal& signal, const T& factor, SparseGradient<T>* gradient);
   T objective_terms(const std::vector<ResolvedTerm>& terms, const std::vector<T>& weights, const std::vector<Reference<T>>& references,
                     SparseGradient<T>* gradient);
@@ -207,6 +262,8 @@ class Equations {
   std::vector<T> accelerations_, by_acceleration_;    ///< of the nodes of one controller's tree
   std::vector<T> integral_weights_, terminal_weights_;
   std::vector<Reference<T>> integral_references_, terminal_references_;
+  std::vector<T> efforts_;                   ///< of Study::loads
+  std::vector<ConstantWrench<T>> wrenches_;  ///< of System::link_loads()
   Vector3<T> gravity_;
   const State<T>* state_ = nullptr;
   State<T> constraint_state_;                  ///< scratch of constraint_errors()

@@ -32,8 +32,22 @@ struct JointLoad {
   bool stop = false;               ///< `<limit lower upper>` as stops
   bool saturated = false;          ///< `<limit effort>` bounds what the controllers apply
   std::vector<int> controllers;    ///< that drive this coordinate
+  std::vector<int> constant;       ///< indices into Study::loads
 
   bool needs_position() const { return spring || stop; }
+};
+
+/// A spinning rotor, theory (9a).
+struct Rotor {
+  int pair = -1, element = -1;  ///< of the joint that it drives
+  int body = -1;                ///< that carries it; -1: the ground
+};
+
+/// A constant wrench on a link, theory (13g).
+struct LinkLoad {
+  int load = -1;  ///< index into Study::loads
+  int body = -1, link = -1;
+  bool turns = false;  ///< its components turn with the link
 };
 
 class EquationCode;
@@ -55,6 +69,8 @@ class System {
   const Layout& layout() const { return layout_; }
   const std::vector<Controller>& controllers() const { return controllers_; }
   const std::vector<JointLoad>& loads() const { return loads_; }
+  const std::vector<LinkLoad>& link_loads() const { return link_loads_; }
+  const std::vector<Rotor>& rotors() const { return rotors_; }
   /// Pairs with isotropic friction.
   const std::vector<int>& contacts() const { return contacts_; }
   /// Contacts whose friction law has states.
@@ -89,6 +105,8 @@ class System {
   void resolve_controllers();
   void check_signals() const;
   void collect_loads();
+  void collect_link_loads();
+  void collect_rotors();
   void collect_bristles();
   void add_bristle(int pair, int element, int size);
   void find_coordinates();
@@ -105,6 +123,8 @@ class System {
   double compliance_;
   std::vector<Controller> controllers_;
   std::vector<JointLoad> loads_;
+  std::vector<LinkLoad> link_loads_;
+  std::vector<Rotor> rotors_;
   std::vector<int> contacts_;
   std::vector<BristleContact> bristles_;
   std::vector<std::vector<bool>> has_coordinate_;  ///< per pair and chain element

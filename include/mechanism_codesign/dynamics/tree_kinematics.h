@@ -12,7 +12,8 @@
 namespace codesign {
 
 /// Where the coordinates theta of each tree joint stand: one for revolute, continuous and prismatic joints, three for planar (x, y, turn),
-/// six for floating ones (translation, then turns about x, y, z), none for fixed ones.
+/// six for floating ones (translation, then turns about x, y, z that carry on from JointDescription::start_rotation; where they are zero
+/// their rates are the angular velocity in the joint frame), none for fixed ones.
 struct TreeLayout {
   std::vector<int> joint_order;  ///< tree joints, parents before children
   std::vector<int> offset;       ///< per joint of the description: first coordinate
@@ -20,6 +21,18 @@ struct TreeLayout {
 
   explicit TreeLayout(const RobotDescription& robot);
 };
+
+/// The directions in a planar joint's plane along which it slides, in the joint frame.
+template <class T>
+struct PlaneAxes {
+  Vector3<T> x, y;
+};
+
+template <class T>
+PlaneAxes<T> plane_axes(const JointDescription& joint, const std::vector<T>& parameters) {
+  const Vector3<T> z = axis_at(joint.axis, parameters), x = transverse_axis<T>(z, std::nullopt);
+  return {x, cross(z, x)};
+}
 
 /// Pose and twist of a link frame in the ground frame.
 template <class T>

@@ -44,12 +44,14 @@ StopForce<T> joint_stop(const T& excess, const T& rate, double stiffness, double
 /// Elastic energy of the depth [J], the integral of k delta(g).
 template <class T>
 T stop_energy(const T& excess, double stiffness, double width) {
-  if (value_of(excess) <= 0.0) return T(0.0);
+  if (!is_less(T(0.0), excess, false)) return T(0.0);
   const T w(width), k(stiffness);
-  const T s = value_of(excess) < width ? T(excess / w) : T(1.0), s2 = s * s, s5 = s2 * s2 * s;
-  const T inside = k * w * w * s5 * (T(0.5) - T(0.5) * s + s2 / T(7.0));
-  const T beyond = value_of(excess) < width ? T(0.0) : T(excess - w);
-  return inside + T(0.5) * k * beyond * (beyond + w);
+  if (is_less(excess, w, true)) {
+    const T s = excess / w, s2 = s * s;
+    return k * w * w * s2 * s2 * s * (T(0.5) - T(0.5) * s + s2 / T(7.0));
+  }
+  // The whole width holds k w^2/7; beyond it the force grows from k w/2.
+  return k * (w * w / T(7.0) + T(0.5) * (excess - w) * excess);
 }
 
 }  // namespace codesign

@@ -157,7 +157,7 @@ Vector4<T> euler_parameters(const Matrix3<T>& A) {
                         1.0 - A(0, 0) - A(1, 1) + A(2, 2)};
   int largest = 0;
   for (int k = 1; k < 4; ++k)
-    if (value_of(squares[k]) > value_of(squares[largest])) largest = k;
+    if (is_less(squares[largest], squares[k], false)) largest = k;
   const T root = sqrt(squares[largest]);
   const T f = 0.5 / root;
   const T a = A(2, 1) - A(1, 2), b = A(0, 2) - A(2, 0), c = A(1, 0) - A(0, 1);

@@ -56,7 +56,9 @@ struct FrictionConstants {
 template <class T>
 struct JointDynamicsConstants {
   T damping{0.0}, dry_friction{0.0}, stiffness{0.0}, spring_damping{0.0}, free_position{0.0};
-  T lower{0.0}, upper{0.0}, effort{0.0};  ///< meaningless where LimitDescription says that they bound nothing
+  T lower{0.0}, upper{0.0}, effort{0.0};       ///< meaningless where LimitDescription says that they bound nothing
+  T gear_ratio{1.0}, rotor_inertia{0.0};       ///< n and J_r of an actuator
+  Vector3<T> rotor_axis = Vector3<T>::Zero();  ///< in the axes of the body that carries the rotor, see Rotor
 };
 
 /// Geometry of a kinematic pair in body coordinates.
@@ -99,7 +101,8 @@ template <class T>
 struct Constants {
   std::vector<BodyConstants<T>> bodies;
   std::vector<PairConstants<T>> pairs;
-  std::vector<LinkConstants<T>> links;  ///< of links that belong to a body or the ground
+  std::vector<LinkConstants<T>> links;         ///< of links that belong to a body or the ground
+  std::vector<LinkConstants<T>> joint_frames;  ///< per joint: its frame as the child (of a loop: the successor) carries it, likewise
   std::vector<SpringDamperConstants<T>> springs;
   std::vector<CouplingConstants<T>> couplings;
 };

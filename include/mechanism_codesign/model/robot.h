@@ -119,6 +119,8 @@ struct JointDescription {
   std::optional<MimicDescription> mimic;
   std::optional<TorsionSpringDescription> spring;
   std::optional<ActuatorDescription> actuator;
+  /// kFloating: the child's orientation where the joint's turning coordinates are zero, as rpy in the joint frame: a study's start.
+  QuantityVector start_rotation;
   SourceLocation where;
 };
 

@@ -16,6 +16,10 @@ bool has_scalar_position(const JointDescription& joint);
 /// Whether a joint or loop has friction, annotated or as `<dynamics friction>`.
 bool has_friction(const JointDescription& joint);
 
+/// Whether a term reads the whole mechanism, such as `mechanism/total_energy`. Joints, links and controllers may bear that name too: the
+/// quantity tells which is meant, and where it does not, check_signal() refuses the term.
+bool is_of_mechanism(const SignalTerm& term);
+
 /// Checks that every term of a signal names something that exists and has that quantity.
 /// @throws InputError naming the term, what is allowed and the nearest known name.
 void check_signal(const SignalDescription& signal, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers,

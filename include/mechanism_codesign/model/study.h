@@ -42,7 +42,8 @@ struct InitialJointState {
   std::optional<Quantity> position;  ///< an independent coordinate's value [rad or m]
   std::optional<Quantity> velocity;  ///< [rad/s or m/s]
   std::optional<double> guess;       ///< start of the assembly for a dependent joint; chooses between its branches
-  // Of planar and floating joints; all in the joint frame, a planar joint's components out of its plane being zero.
+  // Of planar and floating joints; all in the joint frame that the parent carries. A planar joint turns about its normal alone: its
+  // rotation and angular_velocity have one number, the last.
   std::optional<QuantityVector> translation;       ///< of the child's frame [m]
   std::optional<QuantityVector> rotation;          ///< fixed-axis roll, pitch, yaw, as URDF's rpy [rad]
   std::optional<QuantityVector> linear_velocity;   ///< of the child's frame [m/s]
@@ -87,8 +88,9 @@ struct LoadDescription {
   std::string joint;  ///< one of joint and link is empty
   std::string link;
   Quantity effort;               ///< of a joint, along its coordinate [N m or N]
-  QuantityVector force, torque;  ///< of a link, components in the root link's frame [N], [N m]
+  QuantityVector force, torque;  ///< of a link [N], [N m]
   QuantityVector point;          ///< where the force acts, in the link's frame [m]
+  bool in_link_frame = false;    ///< the components of force and torque turn with the link; else they are the root link's
   SourceLocation where;
 };
 

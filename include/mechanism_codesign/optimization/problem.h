@@ -53,6 +53,9 @@ Problem compile(Problem problem, const ParameterSettings& settings);
 Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
                      const ParameterSettings& settings = {}, const TrajectoryLoader& loader = {});
 
+/// @throws InputError if the study has no objective, so that there is nothing to evaluate, differentiate or optimize.
+void require_objective(const Study& study);
+
 /// The mechanism alone: no parameter is tuned, nothing is controlled, and Study::duration is zero.
 Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& overlays, const ParameterSettings& settings = {});
 
