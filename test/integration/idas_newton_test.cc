@@ -52,8 +52,8 @@ struct IdasNewtonTest : ::testing::Test {
 TEST_F(IdasNewtonTest, SolvesTheWholeSystem) {
   for (double c_j : {10.0, 1e3, 1e6}) {
     newton.set_rates(c_j, 0.0);
-    ASSERT_EQ(SUNLinSolSetup(newton.solver(), newton.matrix()), SUNLS_SUCCESS);
-    ASSERT_EQ(SUNLinSolSolve(newton.solver(), newton.matrix(), x.get(), b.get(), 0.0), SUNLS_SUCCESS);
+    ASSERT_EQ(SUNLinSolSetup(newton.solver(), newton.matrix()), kSundialsSuccess);
+    ASSERT_EQ(SUNLinSolSolve(newton.solver(), newton.matrix(), x.get(), b.get(), 0.0), kSundialsSuccess);
     EXPECT_LT((product(c_j) - Eigen::Map<const VectorX<double>>(data(b), size)).cwiseAbs().maxCoeff(), 1e-9) << c_j;
   }
 }
@@ -61,8 +61,8 @@ TEST_F(IdasNewtonTest, SolvesTheWholeSystem) {
 TEST_F(IdasNewtonTest, StabilizationOnlyScalesTheConstraintRows) {
   const double c_j = 1e3, kappa = 50.0, growth = std::pow(1.0 + kappa / c_j, 2);
   newton.set_rates(c_j, kappa);
-  ASSERT_EQ(SUNLinSolSetup(newton.solver(), newton.matrix()), SUNLS_SUCCESS);
-  ASSERT_EQ(SUNLinSolSolve(newton.solver(), newton.matrix(), x.get(), b.get(), 0.0), SUNLS_SUCCESS);
+  ASSERT_EQ(SUNLinSolSetup(newton.solver(), newton.matrix()), kSundialsSuccess);
+  ASSERT_EQ(SUNLinSolSolve(newton.solver(), newton.matrix(), x.get(), b.get(), 0.0), kSundialsSuccess);
   VectorX<double> expected = Eigen::Map<const VectorX<double>>(data(b), size);
   VectorX<double> result = product(c_j);
   // What the left-out terms of order kappa/c_j^2 would change; q' - v is not among them.
