@@ -37,6 +37,7 @@ Complex arc_cosine(const Complex* z, int) {
 
 Complex arc_tangent2(const Complex* z, int) {
   const double y = z[0].real(), x = z[1].real();
+  if (z[0].imag() == 0.0 && z[1].imag() == 0.0) return std::atan2(y, x);  // at the origin too, where there is no derivative
   return {std::atan2(y, x), (x * z[0].imag() - y * z[1].imag()) / (x * x + y * y)};
 }
 

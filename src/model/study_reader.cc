@@ -37,6 +37,11 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot, const Tr
   if (const auto gravity = root.find("gravity")) study.gravity = read_gravity(*gravity);
   read_parameters(root, robot, &study);
   declare_coefficients(root, &study);
+  constexpr std::size_t kMostTuned = 10000;
+  if (study.tuned.size() > kMostTuned) {
+    const YamlValue at = root.find("parameters").value_or(root);
+    at.fail("too many parameters to tune: " + std::to_string(study.tuned.size()), "at most " + std::to_string(kMostTuned));
+  }
   read_constraints(root, &study);
   read_initial_state(root, robot, &study);
   read_controllers(root, robot, loader, &study);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "mechanism_codesign/dynamics/assembly.h"
@@ -75,12 +76,6 @@ std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
   return all;
 }
 
-bool share(const std::vector<int>& a, const std::vector<int>& b) {
-  std::vector<int> common;
-  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
-  return !common.empty();
-}
-
 }  // namespace
 
 std::vector<std::vector<int>> dependent_rows(const System& system, const std::vector<double>& parameters, const State<double>& at) {
@@ -106,11 +101,16 @@ LanePlan plan_lanes(std::vector<std::vector<int>> rows) {
   std::vector<std::size_t> order(plan.rows.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return plan.rows[a].size() > plan.rows[b].size(); });
+  std::map<int, std::vector<bool>> taken;  // by row: the lanes in use there
   for (std::size_t k : order) {
-    std::vector<bool> taken(plan.rows.size() + 1, false);
-    for (std::size_t other = 0; other < plan.rows.size(); ++other)
-      if (plan.lane[other] >= 0 && share(plan.rows[k], plan.rows[other])) taken[static_cast<std::size_t>(plan.lane[other])] = true;
-    plan.lane[k] = static_cast<int>(std::find(taken.begin(), taken.end(), false) - taken.begin());
+    std::size_t lane = 0;
+    const auto is_taken = [&](int row) { return lane < taken[row].size() && taken[row][lane]; };
+    while (std::any_of(plan.rows[k].begin(), plan.rows[k].end(), is_taken)) ++lane;
+    for (int row : plan.rows[k]) {
+      if (taken[row].size() <= lane) taken[row].resize(lane + 1, false);
+      taken[row][lane] = true;
+    }
+    plan.lane[k] = static_cast<int>(lane);
     plan.lanes = std::max(plan.lanes, plan.lane[k] + 1);
   }
   return plan;
