@@ -34,9 +34,10 @@ std::string brief(double value) {
   return text.str();
 }
 
-void summarize(const RunSummary& run, double duration, std::ostream& err) {
+void summarize(const RunSummary& run, double duration, double setup_seconds, std::ostream& err) {
   err << "simulated " << readable(duration) << " s in " << run.statistics.steps << " steps (" << run.statistics.rejected_steps
-      << " rejected), " << readable(run.statistics.cpu_seconds) << " s of processor time" << std::endl;
+      << " rejected), " << readable(run.statistics.cpu_seconds) << " s of processor time, set-up " << readable(setup_seconds) << " s"
+      << std::endl;
   err << "energy balance to " << brief(run.statistics.energy_error) << " of the largest energy; constraint drift at most "
       << brief(run.statistics.constraint_drift) << " times the error tolerance" << std::endl;
   for (const LimitCrossing& crossing : run.crossings) err << describe(crossing) << std::endl;
@@ -75,7 +76,7 @@ int simulate(const Arguments& arguments, const Console& console) {
     if (arguments.json) rows.push_back(row);
   };
   const RunSummary run = record_run(problem, problem.parameters(), signals, arguments.samples, sink, &console.cancel);
-  if (run.status.ok()) summarize(run, problem.study.duration, console.err);
+  if (run.status.ok()) summarize(run, problem.study.duration, problem.setup_seconds, console.err);
   Json object;
   if (arguments.json) object = run_json(problem, run, series_json(names, rows), console);
   add_warnings(arguments, problem, run.warnings, &object, console);

@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mechanism_codesign/dynamics/assembly.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "dynamics/given_start.h"
 #include "mechanism_codesign/math/directions.h"
@@ -11,40 +11,33 @@
 namespace codesign {
 namespace {
 
-constexpr double kRankTolerance = 1e-9;
-constexpr double kClosed = 1e-12;  // loop error that counts as closed, of a mechanism of size one
+// Of the scaled Jacobian of loops. What is smaller than the first comes from rounded angles and lengths, or from a position that is almost
+// singular; if without it the loops do not close, the second decides.
+constexpr double kRank = 1e-3, kSingularRank = 1e-9;
+constexpr double kClosed = 1e-12;    // loop error that counts as closed, of a mechanism of size one
+constexpr double kAtRest = 1e-13;    // step of Newton's method [rad or m] that changes nothing, of a mechanism of size one
+constexpr double kSamePlace = 0.05;  // [rad or m]
 constexpr int kNewtonIterations = 200;
 constexpr double kLargestTurn = 0.5;  // [rad or m] that one Newton step may move a coordinate: keeps to the branch of the start
 
-Eigen::MatrixXd columns_of(const Eigen::MatrixXd& matrix, const std::vector<int>& columns) {
-  Eigen::MatrixXd result(matrix.rows(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = matrix.col(columns[k]);
-  return result;
-}
+double size_of(const LoopMiss& miss) { return std::max(miss.length, miss.angle); }
 
-Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix) {
-  if (matrix.cols() == 0) return Eigen::MatrixXd(0, matrix.rows());
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod;
-  cod.setThreshold(kRankTolerance);
-  return cod.compute(matrix).pseudoInverse();
+int joint_named(const RobotDescription& robot, const std::string& name) {
+  for (std::size_t k = 0; k < robot.joints.size(); ++k)
+    if (robot.joints[k].name == name && !robot.joints[k].is_loop) return static_cast<int>(k);
+  return -1;
 }
 
 }  // namespace
 
-Assembly::Assembly(const System& system) : system_(system), tree_(system.robot()), matrix_(system) {
+Assembly::Assembly(const System& system)
+    : system_(system), tree_(system.robot()), loops_(system, tree_), rank_tolerance_(kRank), matrix_(system) {
   const Topology& topology = system.topology();
-  for (std::size_t k = 0; k < topology.pairs.size(); ++k) {
-    if (!topology.pairs[k].is_loop) continue;
-    for (int row = system.layout().pair_row[k]; row < system.layout().pair_end(static_cast<int>(k)); ++row) {
-      loop_rows_.push_back(row);
-      loop_row_name_.push_back(topology.pairs[k].name);
-    }
-  }
+  for (int row : loops_.constraint_rows())
+    drops_.push_back(std::binary_search(system.sharing().dropped.begin(), system.sharing().dropped.end(), row));
   const auto size = static_cast<std::size_t>(tree_.size);
   follows_.assign(size, false);
   for (std::size_t k = 0; k < topology.couplings.size(); ++k) {
-    loop_rows_.push_back(system.layout().coupling_row(static_cast<int>(k)));
-    loop_row_name_.push_back(topology.couplings[k].name);
     followers_.push_back(tree_.offset[static_cast<std::size_t>(topology.couplings[k].terms.front().joint)]);
     follows_[static_cast<std::size_t>(followers_.back())] = true;
   }
@@ -108,100 +101,152 @@ void Assembly::place(const std::vector<double>& parameters, Equations<double>* e
 }
 
 Eigen::VectorXd Assembly::loop_part(const VectorX<double>& rows) const {
-  Eigen::VectorXd part(static_cast<Eigen::Index>(loop_rows_.size()));
-  for (std::size_t k = 0; k < loop_rows_.size(); ++k) part[static_cast<Eigen::Index>(k)] = rows[loop_rows_[k]];
+  Eigen::VectorXd part(loops_.rows());
+  for (int k = 0; k < loops_.rows(); ++k) {
+    const auto row = static_cast<std::size_t>(k);
+    part[k] = drops_[row] && !all_rows_count_ ? 0.0 : rows[loops_.constraint_rows()[row]];
+  }
   return part;
 }
 
-// Columns of Phi_q q_theta: each coordinate's unit rate gives body velocities, whose constraint rates are the column.
-Eigen::MatrixXd Assembly::loop_jacobian(const std::vector<double>& parameters, Equations<double>* equations) {
-  Eigen::MatrixXd jacobian(static_cast<Eigen::Index>(loop_rows_.size()), tree_.size);
-  VectorX<double> q, v, errors, rates;
-  for (int c = 0; c < tree_.size; ++c) {
-    const VectorX<double> unit = VectorX<double>::Unit(tree_.size, c);
-    body_coordinates(system_, equations->constants(), link_motions(system_.robot(), tree_, parameters, theta_, unit), &q, &v);
-    equations->constraint_errors(q, v, &errors, &rates);
-    jacobian.col(c) = loop_part(rates);
-  }
-  return jacobian;
+Assembly::ScaledLoops Assembly::scaled_loops(const std::vector<double>& parameters, const Equations<double>& equations) const {
+  ScaledLoops loops;
+  loops.matrix = loops_.evaluate(parameters, theta_, equations);
+  loops.scales = loops_.scales(loops.matrix, equations);
+  for (std::size_t k = 0; k < drops_.size(); ++k)
+    if (drops_[k] && !all_rows_count_) loops.scales.rows[static_cast<Eigen::Index>(k)] = 0.0;
+  loops.matrix = loops.scales.rows.asDiagonal() * loops.matrix * loops.scales.columns.asDiagonal();
+  return loops;
 }
 
-Assembly::Dependents Assembly::choose(const Eigen::MatrixXd& jacobian, const std::vector<std::vector<int>>& preferences) const {
-  Dependents chosen;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> whole;
-  whole.setThreshold(kRankTolerance);
-  const Eigen::Index rank = jacobian.size() == 0 ? 0 : whole.compute(jacobian).rank();
-  for (const std::vector<int>& candidates : preferences) {
-    // What the columns chosen so far do not reach, the best of the next candidates must.
-    const auto missing = rank - static_cast<Eigen::Index>(chosen.columns.size());
-    if (missing <= 0 || candidates.empty()) continue;
-    const Eigen::MatrixXd taken = columns_of(jacobian, chosen.columns);
-    Eigen::MatrixXd rest = columns_of(jacobian, candidates);
-    if (taken.cols() > 0) rest -= taken * (pseudo_inverse(taken) * rest);
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-    qr.setThreshold(kRankTolerance);
-    qr.compute(rest);
-    const Eigen::Index take = std::min(missing, qr.rank());
-    for (Eigen::Index k = 0; k < take; ++k)
-      chosen.columns.push_back(candidates[static_cast<std::size_t>(qr.colsPermutation().indices()[k])]);
-  }
-  std::sort(chosen.columns.begin(), chosen.columns.end());
-  chosen.inverse = pseudo_inverse(columns_of(jacobian, chosen.columns));
-  return chosen;
+Assembly::Dependents Assembly::factor(const ScaledLoops& loops, const std::vector<int>& columns, double rank_tolerance) {
+  Dependents dependents;
+  dependents.columns = columns;
+  dependents.scales = loops.scales;
+  dependents.inverse.factor(columns_of(loops.matrix, columns), rank_tolerance);
+  return dependents;
 }
 
-bool Assembly::newton(const std::vector<double>& parameters, Equations<double>* equations, const std::vector<int>& free) {
+Assembly::Dependents Assembly::choose(const ScaledLoops& loops, const std::vector<std::vector<int>>& preferences) const {
+  return factor(loops, independent_columns(loops.matrix, preferences, rank_tolerance_), rank_tolerance_);
+}
+
+Eigen::MatrixXd Assembly::Dependents::solve(const Eigen::MatrixXd& rows) const {
+  Eigen::MatrixXd x = inverse.solve(scales.rows.asDiagonal() * rows);
+  for (std::size_t k = 0; k < columns.size(); ++k) x.row(static_cast<Eigen::Index>(k)) *= scales.columns[columns[k]];
+  return x;
+}
+
+Assembly::Rest Assembly::newton(const std::vector<double>& parameters, Equations<double>* equations, const std::vector<int>& free,
+                                double rank_tolerance) {
   State<double> state;
   state.resize(system_.layout());
   VectorX<double> errors, rates;
-  double previous = std::numeric_limits<double>::infinity();
+  double previous = std::numeric_limits<double>::infinity(), closed = kClosed;
+  LoopMiss nearest{"", previous, previous};
   for (int iteration = 0; iteration < kNewtonIterations; ++iteration) {
     place(parameters, equations, &state);
     equations->constraint_errors(state.q, state.v, &errors, &rates);
     const Eigen::VectorXd loops = loop_part(errors);
     const double error = loops.size() == 0 ? 0.0 : loops.cwiseAbs().maxCoeff();
-    if (!std::isfinite(error)) return false;
+    if (!std::isfinite(error)) return Rest::kApart;
+    note_miss(errors, *equations);
+    if (size_of(worst_miss_) < size_of(nearest)) nearest = worst_miss_;
     // Converged when rounding stops the quadratic decrease.
-    const double closed = kClosed * (1.0 + theta_.cwiseAbs().maxCoeff());
-    if (error == 0.0 || (error < closed && error >= 0.5 * previous)) return true;
+    const double size = 1.0 + theta_.cwiseAbs().maxCoeff();
+    closed = kClosed * size;
+    if (error == 0.0 || (error < closed && error >= 0.5 * previous)) return Rest::kClosed;
     previous = error;
-    note_worst_loop(loops);
-    Eigen::VectorXd step = pseudo_inverse(columns_of(loop_jacobian(parameters, equations), free)) * loops;
+    const Eigen::VectorXd step = factor(scaled_loops(parameters, *equations), free, rank_tolerance).solve(loops);
     double largest = 0.0;  // but for what only follows: a coupling is linear and has no branches
     for (std::size_t k = 0; k < free.size(); ++k)
       if (!follows_[static_cast<std::size_t>(free[k])]) largest = std::max(largest, std::abs(step[static_cast<Eigen::Index>(k)]));
-    if (largest > kLargestTurn) step *= kLargestTurn / largest;
-    for (std::size_t k = 0; k < free.size(); ++k) theta_[free[k]] -= step[static_cast<Eigen::Index>(k)];
+    const double shortened = largest > kLargestTurn ? kLargestTurn / largest : 1.0;
+    for (std::size_t k = 0; k < free.size(); ++k) theta_[free[k]] -= shortened * step[static_cast<Eigen::Index>(k)];
+    if (step.size() == 0 || (error >= closed && step.cwiseAbs().maxCoeff() < kAtRest * size)) break;
   }
-  return previous < kClosed;
+  if (previous < closed) return Rest::kClosed;
+  if (is_near()) return Rest::kNear;
+  worst_miss_ = nearest;
+  return Rest::kApart;
 }
 
-void Assembly::note_worst_loop(const Eigen::VectorXd& errors) {
-  Eigen::Index worst = 0;
-  if (errors.size() == 0) return;
-  const double error = errors.cwiseAbs().maxCoeff(&worst);
-  if (!worst_loop_.empty() && error >= nearest_miss_) return;
-  nearest_miss_ = error;
-  worst_loop_ = loop_row_name_[static_cast<std::size_t>(worst)];
+bool Assembly::is_near() const {
+  const double tolerance = system_.study().solver.closure_tolerance;
+  return worst_miss_.length <= tolerance && worst_miss_.angle <= tolerance;
 }
 
-Status Assembly::solve_positions(const std::vector<double>& parameters, Equations<double>* equations) {
+void Assembly::note_miss(const VectorX<double>& errors, const Equations<double>& equations) {
+  worst_miss_ = {};
+  for (const LoopMiss& miss : loops_.misses(errors, equations))
+    if (size_of(miss) > size_of(worst_miss_)) worst_miss_ = miss;
+}
+
+// If the dependent coordinates alone do not reach a closed position, the start may be singular (a stretched-out linkage): then every open
+// coordinate moves.
+Assembly::Rest Assembly::close(const std::vector<double>& parameters, Equations<double>* equations, double rank_tolerance) {
   const std::vector<std::vector<int>> preferences = by_preference(position_given_);
   std::vector<int> open = preferences[0];
   open.insert(open.end(), preferences[1].begin(), preferences[1].end());
   std::sort(open.begin(), open.end());
   const VectorX<double> start = theta_;
-  worst_loop_.clear();
-  positions_ = choose(loop_jacobian(parameters, equations), preferences);
-  if (!newton(parameters, equations, positions_.columns)) {
-    // The start may be singular (a stretched-out linkage): let every open coordinate move.
+  rank_tolerance_ = rank_tolerance;
+  const Rest rest = newton(parameters, equations, choose(scaled_loops(parameters, *equations), preferences).columns, rank_tolerance);
+  if (rest != Rest::kApart) return rest;
+  const LoopMiss miss = worst_miss_;
+  theta_ = start;
+  const Rest second = newton(parameters, equations, open, rank_tolerance);
+  if (second == Rest::kApart && size_of(miss) < size_of(worst_miss_)) worst_miss_ = miss;
+  return second;
+}
+
+// A position that is only near may be an almost singular one, where the loops close exactly a little farther on.
+void Assembly::refine(const std::vector<double>& parameters, Equations<double>* equations) {
+  const VectorX<double> near = theta_;
+  const LoopMiss miss = worst_miss_;
+  const bool closes = close(parameters, equations, kSingularRank) == Rest::kClosed;
+  if (closes && (theta_ - near).cwiseAbs().maxCoeff() < kSamePlace) return;
+  theta_ = near;
+  worst_miss_ = miss;
+  rank_tolerance_ = kRank;
+}
+
+Status Assembly::closure_failed() const {
+  return {StatusCode::kAssemblyFailed, 0.0, "loop or coupling '" + worst_miss_.owner + "' cannot be closed from the given initial state"};
+}
+
+Status Assembly::solve_positions(const std::vector<double>& parameters, Equations<double>* equations) {
+  const VectorX<double> start = theta_;
+  all_rows_count_ = true;
+  Rest rest = close(parameters, equations, kRank);
+  if (rest == Rest::kNear) refine(parameters, equations);
+  if (rest == Rest::kApart) {
+    const LoopMiss miss = worst_miss_;
     theta_ = start;
-    if (!newton(parameters, equations, open))
-      return {StatusCode::kAssemblyFailed, 0.0, "loop or coupling '" + worst_loop_ + "' cannot be closed from the given initial state"};
+    rest = close(parameters, equations, kSingularRank);
+    if (rest == Rest::kApart && size_of(miss) < size_of(worst_miss_)) worst_miss_ = miss;
   }
-  positions_ = choose(loop_jacobian(parameters, equations), preferences);
-  worst_loop_.clear();
+  if (rest == Rest::kApart) return closure_failed();
+  all_rows_count_ = !system_.sharing().drops();
+  if (all_rows_count_) return {};
+  // The rows that hold, exactly: the motion keeps to them.
+  const LoopMiss miss = worst_miss_;
+  const std::vector<int> columns = choose(scaled_loops(parameters, *equations), by_preference(position_given_)).columns;
+  if (newton(parameters, equations, columns, rank_tolerance_) != Rest::kClosed || !is_near()) {
+    worst_miss_ = miss;
+    return closure_failed();
+  }
   return {};
+}
+
+Status Assembly::solve_positions(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
+  state->resize(system_.layout());
+  state->t = 0.0;
+  set_start(parameters);
+  follow_couplings(equations->constants());
+  Status status = solve_positions(parameters, equations);
+  if (status.ok()) place(parameters, equations, state);
+  return status;
 }
 
 Status Assembly::solve_velocities(const std::vector<double>& parameters, Equations<double>* equations) {
@@ -215,10 +260,15 @@ Status Assembly::solve_velocities(const std::vector<double>& parameters, Equatio
   }
   std::vector<std::vector<int>> preferences = by_preference(not_open);
   preferences.push_back(held);
-  const Eigen::MatrixXd jacobian = loop_jacobian(parameters, equations);
-  velocities_ = choose(jacobian, preferences);
-  const Eigen::VectorXd rates = jacobian * theta_rate_;
-  const Eigen::VectorXd step = velocities_.inverse * rates;
+  const ScaledLoops loops = scaled_loops(parameters, *equations);
+  positions_ = choose(loops, by_preference(position_given_));
+  velocities_ = choose(loops, preferences);
+  SparseMatrix jacobian = loops_.evaluate(parameters, theta_, *equations);
+  Eigen::VectorXd holds = Eigen::VectorXd::Ones(loops_.rows());
+  for (std::size_t k = 0; k < drops_.size(); ++k)
+    if (drops_[k]) holds[static_cast<Eigen::Index>(k)] = 0.0;
+  jacobian = holds.asDiagonal() * jacobian;
+  const Eigen::VectorXd step = velocities_.solve(jacobian * theta_rate_);
   for (std::size_t k = 0; k < velocities_.columns.size(); ++k) theta_rate_[velocities_.columns[k]] -= step[static_cast<Eigen::Index>(k)];
   const Eigen::VectorXd left = jacobian * theta_rate_;
   if (left.size() > 0 && !(left.cwiseAbs().maxCoeff() <= 1e-9 * (1.0 + theta_rate_.cwiseAbs().maxCoeff())))
@@ -226,14 +276,15 @@ Status Assembly::solve_velocities(const std::vector<double>& parameters, Equatio
   return {};
 }
 
-Status Assembly::solve(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
-  state->resize(system_.layout());
-  state->t = 0.0;
-  set_start(parameters);
-  follow_couplings(equations->constants());
-  if (Status status = solve_positions(parameters, equations); !status.ok()) return status;
+Status Assembly::solve_motion(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
+  if (Status status = solve_positions(parameters, equations, state); !status.ok()) return status;
   if (Status status = solve_velocities(parameters, equations); !status.ok()) return status;
   place(parameters, equations, state);
+  return {};
+}
+
+Status Assembly::solve(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
+  if (Status status = solve_motion(parameters, equations, state); !status.ok()) return status;
   return solve_rates(equations, state);
 }
 
@@ -263,9 +314,9 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
 template <class T>
 void Assembly::correct(const Dependents& dependents, const VectorX<T>& rows, VectorX<T>* coordinates) const {
   const Eigen::MatrixXd all = directions_of(rows);
-  Eigen::MatrixXd loops(static_cast<Eigen::Index>(loop_rows_.size()), all.cols());
-  for (std::size_t k = 0; k < loop_rows_.size(); ++k) loops.row(static_cast<Eigen::Index>(k)) = all.row(loop_rows_[k]);
-  const Eigen::MatrixXd step = dependents.inverse * loops;
+  Eigen::MatrixXd loops(loops_.rows(), all.cols());
+  for (int k = 0; k < loops_.rows(); ++k) loops.row(k) = all.row(loops_.constraint_rows()[static_cast<std::size_t>(k)]);
+  const Eigen::MatrixXd step = dependents.solve(loops);
   Eigen::MatrixXd full = Eigen::MatrixXd::Zero(coordinates->size(), all.cols());
   for (std::size_t k = 0; k < dependents.columns.size(); ++k) full.row(dependents.columns[k]) = -step.row(static_cast<Eigen::Index>(k));
   add_directions(full, coordinates);

@@ -39,6 +39,7 @@ void Equations<T>::assemble(Sink* sink) {
   for (int pair : system_.contacts()) assemble_contact(pair, sink);
   for (const BristleContact& contact : system_.bristles()) assemble_bristle(contact, sink);
   assemble_states(sink);
+  if (system_.sharing().drops()) assemble_sharing(sink);
   assemble_objective(sink);
 }
 

@@ -48,7 +48,7 @@ bool Equations<T>::coordinate_moves_r(int pair, int element) const {
 template <class T>
 void Equations<T>::track_turns(const State<T>& state) {
   load(state);
-  for (std::size_t p = 0; p < turn_references_.size(); ++p)
+  for (std::size_t p = 0; p < rows_.size(); ++p)
     for (std::size_t e = 0; e < turn_references_[p].size(); ++e)
       turn_references_[p][e] = value_of(coordinate_value(static_cast<int>(p), static_cast<int>(e)));
   ++version_;

@@ -14,6 +14,10 @@ Equations<T>::Equations(const System& system) : system_(system), layout_(system.
   kinematics_.back().at_rest = true;
   loads_.resize(static_cast<std::size_t>(layout_.bodies));
   constraint_state_.resize(layout_);
+  if (system.sharing().drops()) {
+    displaced_ = kinematics_;
+    shared_loads_ = loads_;
+  }
   std::size_t nodes = 0;
   for (const Controller& controller : system.controllers()) {
     inverse_dynamics_.emplace_back(controller.tree);
@@ -40,11 +44,17 @@ void Equations<T>::set_design(const std::vector<T>& parameters) {
   rows_.clear();
   for (std::size_t k = 0; k < constants_.pairs.size(); ++k)
     rows_.push_back(pair_rows(system_.topology().pairs[k].kind, constants_.pairs[k]));
-  if (turn_references_.empty())
+  if (turn_references_.empty()) {
     for (const PairConstants<T>& pair : constants_.pairs) {
       turn_references_.emplace_back(pair.coordinates.size(), 0.0);
       coordinates_.emplace_back(pair.coordinates.size());
     }
+    if (system_.sharing().drops()) {
+      turn_references_.emplace_back(static_cast<std::size_t>(system_.sharing_layout().misses), 0.0);
+      for (int row : system_.sharing().dropped)
+        turn_references_.back()[static_cast<std::size_t>(system_.sharing_layout().miss_slot[static_cast<std::size_t>(row)])] = 1.0;
+    }
+  }
   const auto evaluate = [&parameters](const auto& terms, std::vector<T>* weights, std::vector<Reference<T>>* references) {
     weights->clear();
     references->clear();
@@ -104,6 +114,7 @@ void Equations<T>::residual_by_formulas(const State<T>& state, VectorX<T>* G, T*
     const int s = system_.controllers()[c].state;
     if (s >= 0) (*G)[layout_.state_column(s)] = state.z[layout_.state_column(s)] - controller_error(static_cast<int>(c), nullptr);
   }
+  if (system_.sharing().drops()) sharing_residual(G);
   *g = objective_terms(system_.integral(), integral_weights_, integral_references_, nullptr);
 }
 
@@ -161,24 +172,12 @@ void Equations<T>::constraint_errors_by_formulas(const VectorX<T>& q, const Vect
   constraint_state_.q = q;
   constraint_state_.v = v;
   load(constraint_state_);
-  Phi->resize(layout_.m);
-  Phi_rate->resize(layout_.m);
+  Phi->setZero(layout_.m);
+  Phi_rate->setZero(layout_.m);
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     const Pair& pair = system_.topology().pairs[k];
-    const BodyKinematics<T>&i = body(pair.body_i), &j = body(pair.body_j);
-    int row = layout_.pair_row[k];
-    if (rows_[k].coincident) {
-      const VectorMotion<T> d = displacement_motion(i, rows_[k].point(Side::kI), j, rows_[k].point(Side::kJ));
-      Phi->template segment<3>(row) = d.x;
-      Phi_rate->template segment<3>(row) = d.xd;
-      row += 3;
-    }
-    for (const ProductRow<T>& product : rows_[k].products) {
-      const ProductMotion<T> phi = product_motion(motion_of(product.X, i, j), motion_of(product.Y, i, j));
-      (*Phi)[row] = product.scale * (phi.phi - product.offset);
-      (*Phi_rate)[row] = product.scale * phi.phid;
-      ++row;
-    }
+    const int row = layout_.pair_row[k];
+    pair_errors(static_cast<int>(k), body(pair.body_i), body(pair.body_j), Phi->data() + row, Phi_rate->data() + row);
   }
   for (std::size_t k = 0; k < constants_.couplings.size(); ++k) coupling_error(k, Phi, Phi_rate);
   for (int b = 0; b < layout_.bodies; ++b) {
@@ -191,6 +190,23 @@ void Equations<T>::constraint_errors_by_formulas(const VectorX<T>& q, const Vect
     (*Phi_rate)[layout_.norm_row(b)] = rate;
   }
   state_ = nullptr;
+}
+
+template <class T>
+void Equations<T>::pair_errors(int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, T* errors, T* rates) const {
+  const PairRows<T>& rows = rows_[static_cast<std::size_t>(pair)];
+  if (rows.coincident) {
+    const VectorMotion<T> d = displacement_motion(i, rows.point(Side::kI), j, rows.point(Side::kJ));
+    for (int k = 0; k < 3; ++k) {
+      *errors++ = d.x[k];
+      *rates++ = d.xd[k];
+    }
+  }
+  for (const ProductRow<T>& product : rows.products) {
+    const ProductMotion<T> phi = product_motion(motion_of(product.X, i, j), motion_of(product.Y, i, j));
+    *errors++ = product.scale * (phi.phi - product.offset);
+    *rates++ = product.scale * phi.phid;
+  }
 }
 
 template <class T>

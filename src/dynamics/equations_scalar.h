@@ -14,6 +14,7 @@
 #include "equations_power.h"
 #include "equations_residual.h"
 #include "equations_rotors.h"
+#include "equations_sharing.h"
 #include "equations_signals.h"
 #include "equations_springs.h"
 

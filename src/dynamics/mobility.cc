@@ -82,41 +82,6 @@ int dimension(const Forms& forms, Eigen::Index size, int starts) {
   return largest;
 }
 
-/// Rows of loops and couplings over the tree's coordinates.
-class LoopJacobian {
- public:
-  LoopJacobian(const System& system, const std::vector<double>& parameters, const TreeLayout& tree, Equations<double>* equations)
-      : system_(system), parameters_(parameters), tree_(tree), equations_(equations) {
-    const Layout& layout = system.layout();
-    const Topology& topology = system.topology();
-    for (std::size_t k = 0; k < topology.pairs.size(); ++k)
-      if (topology.pairs[k].is_loop)
-        for (int row = layout.pair_row[k]; row < layout.pair_end(static_cast<int>(k)); ++row) rows_.push_back(row);
-    for (std::size_t k = 0; k < topology.couplings.size(); ++k) rows_.push_back(layout.coupling_row(static_cast<int>(k)));
-  }
-
-  bool empty() const { return rows_.empty(); }
-
-  Eigen::MatrixXd at(const VectorX<double>& theta) const {
-    Eigen::MatrixXd jacobian(static_cast<Eigen::Index>(rows_.size()), tree_.size);
-    VectorX<double> q, v, errors, rates;
-    for (int c = 0; c < tree_.size; ++c) {
-      const VectorX<double> unit = VectorX<double>::Unit(tree_.size, c);
-      body_coordinates(system_, equations_->constants(), link_motions(system_.robot(), tree_, parameters_, theta, unit), &q, &v);
-      equations_->constraint_errors(q, v, &errors, &rates);
-      for (std::size_t k = 0; k < rows_.size(); ++k) jacobian(static_cast<Eigen::Index>(k), c) = rates[rows_[k]];
-    }
-    return jacobian;
-  }
-
- private:
-  const System& system_;
-  const std::vector<double>& parameters_;
-  const TreeLayout& tree_;
-  Equations<double>* equations_;
-  std::vector<int> rows_;
-};
-
 }  // namespace
 
 int dimension_of_cone(const std::vector<Eigen::MatrixXd>& forms) {
@@ -128,12 +93,12 @@ int dimension_of_cone(const std::vector<Eigen::MatrixXd>& forms) {
   return dimension(scaled, forms.front().rows(), kStarts);
 }
 
-int motions_lost_to_curvature(const System& system, const std::vector<double>& parameters, const Assembly& assembly,
-                              Equations<double>* equations) {
-  const LoopJacobian loops(system, parameters, assembly.tree(), equations);
-  if (loops.empty()) return 0;
+int motions_lost_to_curvature(const std::vector<double>& parameters, const Assembly& assembly, const Equations<double>& equations) {
+  const LoopJacobian& loops = assembly.loops();
+  if (loops.rows() == 0) return 0;
+  const auto jacobian = [&](const VectorX<double>& theta) { return Eigen::MatrixXd(loops.evaluate(parameters, theta, equations)); };
   const VectorX<double> theta = assembly.theta();
-  const Eigen::MatrixXd J = loops.at(theta);
+  const Eigen::MatrixXd J = jacobian(theta);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(J, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::VectorXd& values = svd.singularValues();
   const Eigen::Index rank = (values.array() > kRank * std::max(values[0], 1e-300)).count();
@@ -142,7 +107,7 @@ int motions_lost_to_curvature(const System& system, const std::vector<double>& p
   Forms forms(static_cast<std::size_t>(U.cols()), Eigen::MatrixXd(N.cols(), N.cols()));
   for (Eigen::Index a = 0; a < N.cols(); ++a) {
     const VectorX<double> ahead = theta + kStep * N.col(a), behind = theta - kStep * N.col(a);
-    const Eigen::MatrixXd products = U.transpose() * (loops.at(ahead) - loops.at(behind)) * N / (2.0 * kStep);
+    const Eigen::MatrixXd products = U.transpose() * (jacobian(ahead) - jacobian(behind)) * N / (2.0 * kStep);
     for (Eigen::Index u = 0; u < U.cols(); ++u) forms[static_cast<std::size_t>(u)].row(a) = products.row(u);
   }
   for (Eigen::MatrixXd& form : forms) form = Eigen::MatrixXd(0.5 * (form + form.transpose()));

@@ -17,8 +17,7 @@ int dimension_of_cone(const std::vector<Eigen::MatrixXd>& forms);
 /// second derivatives forbid them; doc/theory.md (23a). @returns by how many dimensions the motions fall short of the null space, 0 where
 /// the position is regular.
 /// @param assembly as it found the position; `equations` hold the design at `parameters`.
-int motions_lost_to_curvature(const System& system, const std::vector<double>& parameters, const Assembly& assembly,
-                              Equations<double>* equations);
+int motions_lost_to_curvature(const std::vector<double>& parameters, const Assembly& assembly, const Equations<double>& equations);
 
 }  // namespace codesign
 

@@ -37,11 +37,11 @@ bool zero(const Quantity& q) { return q.is_constant() && q.nominal() == 0.0; }
 
 }  // namespace
 
-System::System(const RobotDescription& robot, const Study& study, double compliance)
+System::System(const RobotDescription& robot, const Study& study, ReactionSharing sharing)
     : robot_(with_start_rotations(robot, study)),
       study_(study),
       topology_(derive_topology(robot_)),
-      compliance_(compliance),
+      sharing_(std::move(sharing)),
       code_(std::make_shared<LazyEquationCode>()) {
   refuse_unsupported();
   lay_out();
@@ -79,6 +79,9 @@ void System::lay_out() {
   }
   layout_.couplings = static_cast<int>(topology_.couplings.size());
   layout_.m += layout_.couplings + layout_.bodies;
+  sharing_layout_ = SharingLayout(sharing_, topology_, layout_);
+  layout_.sharing = sharing_layout_.size();
+  layout_.m += layout_.sharing;
 }
 
 void System::resolve_objective() {

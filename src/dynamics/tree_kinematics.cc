@@ -2,9 +2,11 @@
 #include "mechanism_codesign/dynamics/tree_kinematics.h"
 
 #include <cmath>
+#include <functional>
+#include <queue>
+#include <utility>
 
 namespace codesign {
-namespace {
 
 int coordinates_of(JointType type) {
   switch (type) {
@@ -20,6 +22,8 @@ int coordinates_of(JointType type) {
       return 0;
   }
 }
+
+namespace {
 
 /// Rotation by `angle` about a unit axis (Rodrigues).
 template <class T>
@@ -80,18 +84,21 @@ JointMotion<T> joint_motion(const JointDescription& joint, const std::vector<T>&
 
 }  // namespace
 
+// As passes over the joints would order them, but a file that lists children before parents does not cost a pass for each.
 TreeLayout::TreeLayout(const RobotDescription& robot) : offset(robot.joints.size(), 0) {
-  std::vector<bool> placed(robot.links.size(), false);
-  placed[static_cast<std::size_t>(robot.root)] = true;
-  for (bool progress = true; progress;) {
-    progress = false;
-    for (std::size_t k = 0; k < robot.joints.size(); ++k) {
-      const JointDescription& joint = robot.joints[k];
-      if (joint.is_loop || !placed[static_cast<std::size_t>(joint.parent)] || placed[static_cast<std::size_t>(joint.child)]) continue;
-      placed[static_cast<std::size_t>(joint.child)] = true;
-      joint_order.push_back(static_cast<int>(k));
-      progress = true;
-    }
+  std::vector<std::vector<int>> children(robot.links.size());
+  for (std::size_t k = 0; k < robot.joints.size(); ++k)
+    if (!robot.joints[k].is_loop) children[static_cast<std::size_t>(robot.joints[k].parent)].push_back(static_cast<int>(k));
+  // In one pass a joint follows its parent's if it stands behind it in the file, else it waits for the next pass.
+  using Place = std::pair<int, int>;  // pass, joint
+  std::priority_queue<Place, std::vector<Place>, std::greater<>> next;
+  for (int k : children[static_cast<std::size_t>(robot.root)]) next.emplace(0, k);
+  while (!next.empty()) {
+    const auto [pass, joint] = next.top();
+    next.pop();
+    joint_order.push_back(joint);
+    for (int k : children[static_cast<std::size_t>(robot.joints[static_cast<std::size_t>(joint)].child)])
+      next.emplace(k > joint ? pass : pass + 1, k);
   }
   for (int k : joint_order) {
     offset[static_cast<std::size_t>(k)] = size;
@@ -115,6 +122,27 @@ std::vector<LinkMotion<T>> link_motions(const RobotDescription& robot, const Tre
     child.velocity = parent.velocity + cross<T>(parent.omega, child.X.t - parent.X.t) + X_GF.R * m.velocity;
   }
   return links;
+}
+
+std::vector<CoordinateTwist> coordinate_twists(const RobotDescription& robot, const TreeLayout& layout,
+                                               const std::vector<double>& parameters, const VectorX<double>& theta,
+                                               const std::vector<LinkMotion<double>>& links) {
+  std::vector<CoordinateTwist> twists(static_cast<std::size_t>(layout.size));
+  for (int k : layout.joint_order) {
+    const JointDescription& joint = robot.joints[static_cast<std::size_t>(k)];
+    const int first = layout.offset[static_cast<std::size_t>(k)], count = coordinates_of(joint.type);
+    if (count == 0) continue;
+    const Matrix3<double> R =
+        links[static_cast<std::size_t>(joint.parent)].X.R * rotation_from_rpy<double>(vector_at(joint.origin.rpy, parameters));
+    double unit[6] = {};
+    for (int c = 0; c < count; ++c) {
+      unit[c] = 1.0;
+      const JointMotion<double> m = joint_motion(joint, parameters, theta.data() + first, unit);
+      twists[static_cast<std::size_t>(first + c)] = {R * m.omega, R * m.velocity, links[static_cast<std::size_t>(joint.child)].X.t};
+      unit[c] = 0.0;
+    }
+  }
+  return twists;
 }
 
 template <class T>

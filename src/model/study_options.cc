@@ -68,7 +68,7 @@ LimitOptions read_limit_options(const YamlValue& limits) {
 
 SolverOptions read_solver_options(const YamlValue& solver) {
   solver.require_keys({}, {"integrator", "method", "gradient", "relative_tolerance", "absolute_tolerance", "sensitivity_tolerance",
-                           "initial_step", "maximum_step", "maximum_steps", "maximum_speed"});
+                           "initial_step", "maximum_step", "maximum_steps", "maximum_speed", "closure_tolerance"});
   SolverOptions options;
   if (const auto integrator = solver.find("integrator")) options.integrator = integrator->choice("integrator", {"rosenbrock", "idas"});
   if (const auto method = solver.find("method")) options.method = method->choice("method", {"rodas4", "rodas4p2", "rodas5p"});
@@ -79,6 +79,7 @@ SolverOptions read_solver_options(const YamlValue& solver) {
   read_step(solver, "maximum_step", &options.maximum_step);
   read_count(solver, "maximum_steps", &options.maximum_steps);
   read_positive_or_zero(solver, "maximum_speed", "a positive speed in m/s and rad/s, or 0: chosen", &options.maximum_speed);
+  read_positive(solver, "closure_tolerance", true, &options.closure_tolerance);
   read_gradient(solver, &options);
   return options;
 }

@@ -67,7 +67,7 @@ Problem compile(Problem problem, const ParameterSettings& settings) {
   const CpuTimer timer;
   require_numbers_at_start(problem.study, parameter_values(problem.study));
   append(unused_parameters(problem), &problem.warnings);
-  problem.system = make_system(problem.robot, problem.study);
+  problem.system = make_system(problem.robot, problem.study, &problem.warnings);
   problem.setup_seconds += timer.seconds();
   return problem;
 }

@@ -90,7 +90,7 @@ void check_by_differences(const System& system, const Eigen::VectorXd& rho, cons
   study.solver.integrator = "rosenbrock";
   study.solver.method = "rodas5p";
   study.solver.maximum_steps = std::max(study.solver.maximum_steps, 2000000);
-  Evaluator evaluator(std::make_shared<const System>(system.robot(), study, system.compliance()));
+  Evaluator evaluator(std::make_shared<const System>(system.robot(), study, system.sharing()));
   for (Eigen::Index k = 0; check->status.ok() && k < rho.size(); ++k) {
     const auto objective = [&](double value) {
       Eigen::VectorXd moved = rho;

@@ -53,7 +53,7 @@ TEST(Assembly, ALoopThatCannotBeClosedIsAStatusThatNamesIt) {
   const Status status = c.start();
   EXPECT_EQ(status.code, StatusCode::kAssemblyFailed);
   EXPECT_NE(status.cause.find("'tip'"), std::string::npos);
-  EXPECT_EQ(c.assembly.worst_loop(), "tip");
+  EXPECT_EQ(c.assembly.worst_miss().owner, "tip");
 }
 
 TEST(Assembly, VelocitiesThatContradictEachOtherAreAStatus) {

@@ -18,11 +18,11 @@ struct Compiled {
   Assembly assembly;
   State<double> state;
 
-  /// @param compliance of the constraints, see System; planar loops need some.
-  Compiled(const std::string& urdf, const std::string& study, double compliance = 0.0)
-      : Compiled(read_urdf({"test.urdf", urdf}), study, compliance) {}
-  Compiled(const RobotDescription& robot, const std::string& study, double compliance)
-      : system(robot, read_study({"test.yaml", study}, robot), compliance), equations(system), assembly(system) {}
+  /// @param sharing of redundant constraints, see System; planar loops need some, or at least compliance.
+  Compiled(const std::string& urdf, const std::string& study, const ReactionSharing& sharing = {})
+      : Compiled(read_urdf({"test.urdf", urdf}), study, sharing) {}
+  Compiled(const RobotDescription& robot, const std::string& study, const ReactionSharing& sharing)
+      : system(robot, read_study({"test.yaml", study}, robot), sharing), equations(system), assembly(system) {}
 
   /// Assembles the start of a design.
   Status start(const std::vector<double>& parameters) {

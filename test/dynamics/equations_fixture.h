@@ -18,8 +18,11 @@ namespace codesign {
 /// The equations of a mechanism at a generic state, with a complex twin that differentiates them.
 class EquationsFixture {
  public:
-  EquationsFixture(const std::string& urdf, const std::string& study)
-      : robot(read_urdf({"all.urdf", urdf})), system(robot, read_study({"all.yaml", study}, robot)), real(system), complex(system) {
+  EquationsFixture(const std::string& urdf, const std::string& study, const ReactionSharing& sharing = {})
+      : robot(read_urdf({"all.urdf", urdf})),
+        system(robot, read_study({"all.yaml", study}, robot), sharing),
+        real(system),
+        complex(system) {
     const std::vector<double> parameters = system.parameters();
     real.set_design(parameters);
     complex.set_design(std::vector<std::complex<double>>(parameters.begin(), parameters.end()));

@@ -44,7 +44,7 @@ int lost(double a, double b, double c, double d, const std::string& start = "{}"
                            " 0 0'/></successor></constraint></robot>";
   Compiled mechanism(urdf, "{duration: 1.0, initial_state: " + start + ", objective: {integral: [{signal: j1/velocity}]}}", 1e-9);
   EXPECT_TRUE(mechanism.start().ok());
-  return motions_lost_to_curvature(mechanism.system, mechanism.system.parameters(), mechanism.assembly, &mechanism.equations);
+  return motions_lost_to_curvature(mechanism.system.parameters(), mechanism.assembly, mechanism.equations);
 }
 
 TEST(Mobility, AFlatParallelogramMovesOnOneOfTwoBranches) { EXPECT_EQ(lost(0.3, 0.5, 0.3, 0.5), 1); }

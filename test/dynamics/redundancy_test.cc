@@ -12,12 +12,21 @@
 namespace codesign {
 namespace {
 
+/// What the start of a mechanism needs that has no sharing yet.
+ReactionSharing sharing_of(const std::string& urdf, const std::string& study) {
+  Compiled c(urdf, study, 1e-8);
+  EXPECT_TRUE(c.start().ok());
+  ReactionSharing sharing = analyse_redundancy(c.system, &c.equations, c.assembly, c.system.parameters(), c.state).sharing;
+  sharing.compliance = 1e-8;
+  return sharing;
+}
+
 struct Started : Compiled {
   Started(const std::string& urdf, const std::string& initial, const std::string& signal)
-      : Compiled(urdf, let_go(initial, signal), 1e-8), status(start()) {
+      : Compiled(urdf, let_go(initial, signal), sharing_of(urdf, let_go(initial, signal))), status(start()) {
     if (status.ok()) Phi_q = constraint_jacobian(system, &equations, state);
   }
-  Redundancy redundancy() { return analyse_redundancy(system, equations, Phi_q); }
+  Redundancy redundancy() { return analyse_redundancy(system, &equations, assembly, system.parameters(), state); }
 
   Status status;
   Eigen::MatrixXd Phi_q;
@@ -80,6 +89,25 @@ TEST(Redundancy, ABricardRingHasOneRowTooManyAtItsAssembledStart) {
   EXPECT_EQ(r.undetermined.size(), 6U) << "all six hinges share the open reaction";
 }
 
+TEST(Redundancy, RowsAreOfLoopsNeverOfTheTreeOrOfEulerParameters) {
+  Started c(bricard(), bricard_start(1.2, 0.7), "turn1/velocity");
+  for (const ConstraintRow& row : c.redundancy().rows) {
+    EXPECT_EQ(row.joint, "turn6");
+    EXPECT_NE(row.kind, "unit Euler parameters");
+  }
+}
+
+TEST(Redundancy, WhatHoldsAtASingularPositionAloneIsNotDropped) {
+  // All bars of the flat parallelogram lie on one line, so that a row of its plane follows from the others, but only there.
+  Compiled c(four_bar_row(1),
+             let_go("{bar0_hinge: {position: 1.5707963267948966}, bar1_hinge: {guess: 1.5707963267948966}}", "bar0_hinge/velocity"), 1e-8);
+  ASSERT_TRUE(
+      c.assembly.solve_positions(c.system.parameters(), (c.equations.set_design(c.system.parameters()), &c.equations), &c.state).ok());
+  const Redundancy r = analyse_redundancy(c.system, &c.equations, c.assembly, c.system.parameters(), c.state);
+  EXPECT_EQ(r.rows.size(), 4U);
+  EXPECT_EQ(r.sharing.dropped.size(), 3U);
+}
+
 TEST(Redundancy, ASecondMimicOfTheSameIsNamedAsOne) {
   const std::string twice = robot(bar("a") + bar("b") + hinge("first", "ground", "a", "0 0 0") +
                                   hinge("second", "ground", "b", "0 1 0", "<mimic joint='first' multiplier='2'/>") +
@@ -111,7 +139,7 @@ void expect_least_norm(Started&& c) {
   const Layout& layout = c.system.layout();
   const int joints = layout.norm_row(0);
   State<double> unloaded = c.state;
-  unloaded.z.segment(layout.n, layout.m).setZero();
+  unloaded.z.segment(layout.n, layout.constraints()).setZero();
   Eigen::VectorXd G;
   double g = 0.0;
   c.equations.residual(unloaded, &G, &g);

@@ -7,6 +7,7 @@
 
 #include "mechanism_codesign/dynamics/equations.h"
 #include "mechanism_codesign/dynamics/iteration_matrix.h"
+#include "mechanism_codesign/dynamics/loop_jacobian.h"
 #include "mechanism_codesign/dynamics/status.h"
 #include "mechanism_codesign/dynamics/tree_kinematics.h"
 
@@ -25,6 +26,11 @@ class Assembly {
   /// Solves for `state` (at t = 0, extra states zero). `equations` must hold the design at `parameters`; its turn references are set too.
   Status solve(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
 
+  /// The same without accelerations and multipliers.
+  Status solve_motion(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
+  /// Positions alone, with every row of loops and couplings, those that the system drops too.
+  Status solve_positions(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
+
   /// Carries first-order parts (complex step or lanes) of `parameters` through the solution found by solve(): exact initial sensitivities.
   /// @param start what solve() gave. `equations` must hold the design at the extended parameters.
   template <class T>
@@ -35,36 +41,54 @@ class Assembly {
   const TreeLayout& tree() const { return tree_; }
   /// Accelerations and multipliers consistent with state->q, v, s; starts from state->z.
   Status solve_rates(Equations<double>* equations, State<double>* state);
-  /// The name of the loop or coupling that is violated most in the last failed assembly; empty if none.
-  const std::string& worst_loop() const { return worst_loop_; }
-  /// How near that assembly came: the largest constraint error of the loops and couplings [m, rad or -].
-  double nearest_miss() const { return nearest_miss_; }
+  /// How far the loop or coupling that is violated most is from closed at the positions found last.
+  const LoopMiss& worst_miss() const { return worst_miss_; }
+  const LoopJacobian& loops() const { return loops_; }
 
  private:
+  /// The loops' Jacobian, scaled, its columns those of every coordinate.
+  struct ScaledLoops {
+    SparseMatrix matrix;
+    LoopScales scales;
+  };
   struct Dependents {
     std::vector<int> columns;  ///< dependent coordinates
-    Eigen::MatrixXd inverse;   ///< pseudo-inverse of their columns of the loops' Jacobian
+    LeastSquares inverse;      ///< of their columns of the scaled Jacobian
+    LoopScales scales;
+    /// Changes of the dependent coordinates that make changes of the loops' rows.
+    Eigen::MatrixXd solve(const Eigen::MatrixXd& rows) const;
   };
+  /// Where Newton's method came to rest.
+  enum class Rest { kClosed, kNear, kApart };
 
   Status solve_positions(const std::vector<double>& parameters, Equations<double>* equations);
   Status solve_velocities(const std::vector<double>& parameters, Equations<double>* equations);
-  bool newton(const std::vector<double>& parameters, Equations<double>* equations, const std::vector<int>& free);
+  Rest close(const std::vector<double>& parameters, Equations<double>* equations, double rank_tolerance);
+  Rest newton(const std::vector<double>& parameters, Equations<double>* equations, const std::vector<int>& free, double rank_tolerance);
+  void refine(const std::vector<double>& parameters, Equations<double>* equations);
+  Status closure_failed() const;
+  void note_miss(const VectorX<double>& errors, const Equations<double>& equations);
+  /// Within the closure tolerance.
+  bool is_near() const;
   void place(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) const;
   void set_start(const std::vector<double>& parameters);
   void follow_couplings(const Constants<double>& constants);
   void set_turns(Equations<double>* equations) const;
   std::vector<std::vector<int>> by_preference(const std::vector<bool>& given) const;
-  Eigen::MatrixXd loop_jacobian(const std::vector<double>& parameters, Equations<double>* equations);
+  ScaledLoops scaled_loops(const std::vector<double>& parameters, const Equations<double>& equations) const;
+  /// The loops' rows; zero for those that are dropped, unless all count.
   Eigen::VectorXd loop_part(const VectorX<double>& rows) const;
-  Dependents choose(const Eigen::MatrixXd& jacobian, const std::vector<std::vector<int>>& preferences) const;
-  void note_worst_loop(const Eigen::VectorXd& errors);
+  Dependents choose(const ScaledLoops& loops, const std::vector<std::vector<int>>& preferences) const;
+  static Dependents factor(const ScaledLoops& loops, const std::vector<int>& columns, double rank_tolerance);
   template <class T>
   void correct(const Dependents& dependents, const VectorX<T>& rows, VectorX<T>* coordinates) const;
 
   const System& system_;
   TreeLayout tree_;
-  std::vector<int> loop_rows_;  ///< constraint rows that the tree does not satisfy by itself
-  std::vector<std::string> loop_row_name_;
+  LoopJacobian loops_;
+  std::vector<bool> drops_;     ///< per row of the loops
+  bool all_rows_count_ = true;  ///< and none is left out, though the system drops it
+  double rank_tolerance_;       ///< by which the positions were found
   std::vector<int> followers_;  ///< per coupling: the coordinate that follows the others
   std::vector<bool> follows_;   ///< per coordinate
   std::vector<bool> position_given_, guess_given_, velocity_given_;
@@ -72,8 +96,7 @@ class Assembly {
   Dependents positions_, velocities_;
   Linearization<double> derivatives_;
   IterationMatrix matrix_;
-  std::string worst_loop_;
-  double nearest_miss_ = 0.0;
+  LoopMiss worst_miss_;
 };
 
 }  // namespace codesign

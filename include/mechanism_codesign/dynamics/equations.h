@@ -93,7 +93,11 @@ class Equations {
   /// Constraint values Phi(q) (m rows) and rates Phi_q v.
   void constraint_errors(const VectorX<T>& q, const VectorX<T>& v, VectorX<T>* Phi, VectorX<T>* Phi_rate);
 
-  /// Counts whole turns: positions of turning joints are continued from the value nearest to these. One per pair and chain element.
+  /// The same of one pair's rows, for bodies that move as given; the ground is a body at rest.
+  void pair_errors(int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, T* errors, T* rates) const;
+
+  /// Counts whole turns: positions of turning joints are continued from the value nearest to these. One per pair and chain element; where
+  /// reactions are shared, then one list more, 1 for each row that is dropped and 0 for each that could be.
   std::vector<std::vector<TurnReference<T>>>& turn_references() {
     ++version_;
     return turn_references_;
@@ -157,6 +161,32 @@ class Equations {
   void assemble_states(Sink* sink);
   template <class Sink>
   void assemble_objective(Sink* sink);
+
+  // How redundant rows share reactions; theory (23).
+  void load_sharing();
+  void sharing_residual(VectorX<T>* G);
+  void share_pair(int k, VectorX<T>* G);
+  void share_coupling(int k, VectorX<T>* G);
+  /// The equations of one row, of which the displacements w make `given` = Phi_q w.
+  void share_row(int row, const T& given, VectorX<T>* G) const;
+  template <class Sink>
+  void assemble_sharing(Sink* sink);
+  template <class Sink>
+  void assemble_shared_pair(int k, Sink* sink);
+  template <class Sink>
+  void assemble_shared_products(int k, Sink* sink);
+  template <class Sink>
+  void assemble_shared_coupling(int k, Sink* sink);
+  /// What does not depend on Phi_q.
+  template <class Sink>
+  void assemble_shared_row(int row, Sink* sink) const;
+  /// Derivatives of Phi_q w of a row by one coordinate of a body, and by its displacement.
+  template <class Sink>
+  void assemble_given(int row, int body, int local, const T& by_q, const T& by_w, bool moves_q, Sink* sink) const;
+  /// 1 for a row that is dropped, 0 for one that holds.
+  T dropped(int row) const;
+  const BodyKinematics<T>& displaced(int body) const { return displaced_[static_cast<std::size_t>(body < 0 ? layout_.bodies : body)]; }
+  BodyLoad<T>* shared_load_on(int body) { return body < 0 ? nullptr : &shared_loads_[static_cast<std::size_t>(body)]; }
 
   void pair_residual(std::size_t k, VectorX<T>* G);
   void coupling_residual(std::size_t k, VectorX<T>* G);
@@ -269,6 +299,8 @@ class Equations {
   State<T> constraint_state_;                  ///< scratch of constraint_errors()
   std::vector<BodyKinematics<T>> kinematics_;  ///< the ground last
   std::vector<BodyLoad<T>> loads_;             ///< multiplier loads per body
+  std::vector<BodyKinematics<T>> displaced_;   ///< bodies at rest, with displacements w as accelerations; the ground last
+  std::vector<BodyLoad<T>> shared_loads_;      ///< of eta, per body
 
   /// A coordinate's motion, kept for the several that ask for it at the same state.
   struct KnownCoordinate {

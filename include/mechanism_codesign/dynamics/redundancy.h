@@ -2,10 +2,10 @@
 #ifndef MECHANISM_CODESIGN_DYNAMICS_REDUNDANCY_H_
 #define MECHANISM_CODESIGN_DYNAMICS_REDUNDANCY_H_
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
 
+#include "mechanism_codesign/dynamics/assembly.h"
 #include "mechanism_codesign/dynamics/counts.h"
 #include "mechanism_codesign/dynamics/equations.h"
 
@@ -13,18 +13,22 @@ namespace codesign {
 
 /// Which constraints of a mechanism depend on the others at one position, and whose reactions that leaves undetermined; doc/theory.md (23).
 struct Redundancy {
-  std::vector<ConstraintRow> rows;           ///< as many as the rank lacks; without them the others are independent
+  std::vector<ConstraintRow> rows;           ///< as many as the rank lacks, of loops and couplings; without them the others are independent
   std::vector<std::string> undetermined;     ///< joints, loops and couplings whose multipliers are not unique
   std::vector<std::string> friction_chosen;  ///< those among them whose friction depends on the reaction
+  std::vector<int> chosen_joints;            ///< of the description: the joints of that friction
+  ReactionSharing sharing;                   ///< without compliance. Rows that only depend on the others at this very position are kept
 };
 
-/// Phi_q at a state, dense (m x n).
-Eigen::MatrixXd constraint_jacobian(const System& system, Equations<double>* equations, const State<double>& state);
+/// Phi_q at a state.
+SparseMatrix constraint_jacobian(const System& system, Equations<double>* equations, const State<double>& state);
 
-/// Rank by a pivoted QR factorization, relative threshold 1e-9; multipliers that are not unique are those that a vector of the null space
-/// of Phi_q^T moves.
-/// @param Phi_q (m x n) at a position where the constraints hold.
-Redundancy analyse_redundancy(const System& system, const Equations<double>& equations, const Eigen::MatrixXd& Phi_q);
+/// Rank of what loops and couplings ask of the tree, by a pivoted QR factorization for each set of them that shares no coordinates with
+/// others. A row counts as redundant if less than 1e-3 of it is left (scaled as LoopScales says), and is dropped if it also holds after
+/// motions of 0.2 rad along which the other rows hold. Multipliers that are not unique are those of loads that balance each other.
+/// @param assembly at the positions of `state`, where the constraints hold.
+Redundancy analyse_redundancy(const System& system, Equations<double>* equations, const Assembly& assembly,
+                              const std::vector<double>& parameters, const State<double>& state);
 
 }  // namespace codesign
 

@@ -16,11 +16,13 @@ namespace codesign {
 struct Layout {
   int bodies = 0;
   int n = 0;                  ///< 7 per body: r, p
-  int m = 0;                  ///< constraints: pairs in order, then couplings, then |p| = 1 per body
+  int m = 0;                  ///< multipliers of the constraints: pairs in order, then couplings, then |p| = 1 per body; then `sharing`
   int couplings = 0;          ///< `<mimic>` and `<coupling>`, one row each
+  int sharing = 0;            ///< of m: unknowns behind the constraints' multipliers by which redundant rows share reactions; theory (23)
   int states = 0;             ///< extra first-order states s (integrals of controllers)
   std::vector<int> pair_row;  ///< first constraint row of each pair
 
+  int constraints() const { return m - sharing; }  ///< rows of Phi
   int columns() const { return n + m + states; }
   int positions() const { return n + states; }
   int lambda_column(int row) const { return n + row; }
@@ -28,8 +30,8 @@ struct Layout {
   int position_column(int k) const { return n + k; }   ///< of s_k
   /// Of the rate that a position is eliminated by: a_k for q_k, sigma_k for s_k.
   int rate_column(int position) const { return position < n ? position : state_column(position - n); }
-  int norm_row(int body) const { return m - bodies + body; }
-  int coupling_row(int k) const { return m - bodies - couplings + k; }
+  int norm_row(int body) const { return constraints() - bodies + body; }
+  int coupling_row(int k) const { return constraints() - bodies - couplings + k; }
   /// One behind the last row of a pair.
   int pair_end(int pair) const {
     const auto next = static_cast<std::size_t>(pair) + 1;

@@ -8,6 +8,7 @@
 #include "mechanism_codesign/control/signal.h"
 #include "mechanism_codesign/dynamics/bristle_law.h"
 #include "mechanism_codesign/dynamics/controller.h"
+#include "mechanism_codesign/dynamics/reaction_sharing.h"
 #include "mechanism_codesign/dynamics/sparsity.h"
 #include "mechanism_codesign/dynamics/state.h"
 #include "mechanism_codesign/model/robot.h"
@@ -56,10 +57,9 @@ class LazyEquationCode;
 /// A mechanism and a study compiled into equations of motion; immutable, shared by all workspaces.
 class System {
  public:
-  /// @param compliance epsilon of every joint's constraint rows, Phi'' - epsilon lambda = 0; zero unless constraints are redundant; theory
-  /// (23).
+  /// @param sharing what becomes of redundant constraints; none by default. theory (23).
   /// @throws InputError for what cannot be compiled.
-  System(const RobotDescription& robot, const Study& study, double compliance = 0.0);
+  System(const RobotDescription& robot, const Study& study, ReactionSharing sharing = {});
   System(const System&) = delete;
   System& operator=(const System&) = delete;
 
@@ -86,7 +86,9 @@ class System {
   /// Slots of the assembly's calls in order, as PatternRecorder::build() gives them.
   const ByVariable<std::vector<int>>& slots() const { return slots_; }
 
-  double compliance() const { return compliance_; }
+  const ReactionSharing& sharing() const { return sharing_; }
+  const SharingLayout& sharing_layout() const { return sharing_layout_; }
+  double compliance() const { return sharing_.compliance; }
 
   /// The equations compiled for this mechanism, when they are first asked for; null where that cannot be. Thread-safe.
   const EquationCode* equation_code() const;
@@ -120,7 +122,8 @@ class System {
   Study study_;
   Topology topology_;
   Layout layout_;
-  double compliance_;
+  ReactionSharing sharing_;
+  SharingLayout sharing_layout_;
   std::vector<Controller> controllers_;
   std::vector<JointLoad> loads_;
   std::vector<LinkLoad> link_loads_;

@@ -34,6 +34,9 @@ PlaneAxes<T> plane_axes(const JointDescription& joint, const std::vector<T>& par
   return {x, cross(z, x)};
 }
 
+/// How many coordinates a joint of the tree has.
+int coordinates_of(JointType type);
+
 /// Pose and twist of a link frame in the ground frame.
 template <class T>
 struct LinkMotion {
@@ -45,6 +48,17 @@ struct LinkMotion {
 template <class T>
 std::vector<LinkMotion<T>> link_motions(const RobotDescription& robot, const TreeLayout& layout, const std::vector<T>& parameters,
                                         const VectorX<T>& theta, const VectorX<T>& theta_rate);
+
+/// What one coordinate's unit rate makes of everything that hangs on its joint, in ground axes.
+struct CoordinateTwist {
+  Vector3<double> omega, velocity;  ///< of the point
+  Vector3<double> point;            ///< the origin of the joint's child
+};
+
+/// Per coordinate, at theta and the links' poses there.
+std::vector<CoordinateTwist> coordinate_twists(const RobotDescription& robot, const TreeLayout& layout,
+                                               const std::vector<double>& parameters, const VectorX<double>& theta,
+                                               const std::vector<LinkMotion<double>>& links);
 
 /// Centroidal coordinates and velocities of the bodies that hang on these links.
 template <class T>

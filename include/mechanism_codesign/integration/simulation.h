@@ -22,7 +22,8 @@ class System;  // the immutable equations of motion, dynamics/system.h
 /// Compiles a mechanism and a study into equations of motion.
 /// @throws InputError for a mechanism that cannot be (two masses on one loop end, a massless chain that cannot be folded, an unknown
 /// signal, ...).
-std::shared_ptr<const System> make_system(const RobotDescription& robot, const Study& study);
+/// @param warnings what is doubtful is appended: loops that close only nearly, friction that rests on a reaction nothing determines.
+std::shared_ptr<const System> make_system(const RobotDescription& robot, const Study& study, Warnings* warnings = nullptr);
 
 /// What an integration cost.
 struct Statistics {
