@@ -31,7 +31,12 @@ int joint_named(const RobotDescription& robot, const std::string& name) {
 }  // namespace
 
 Assembly::Assembly(const System& system)
-    : system_(system), tree_(system.robot()), loops_(system, tree_), rank_tolerance_(kRank), matrix_(system) {
+    : system_(system),
+      tree_(system.robot()),
+      loops_(system, tree_),
+      rank_tolerance_(kRank),
+      singular_start_(system, tree_),
+      matrix_(system) {
   const Topology& topology = system.topology();
   for (int row : loops_.constraint_rows())
     drops_.push_back(std::binary_search(system.sharing().dropped.begin(), system.sharing().dropped.end(), row));
@@ -272,20 +277,24 @@ Status Assembly::solve_velocities(const std::vector<double>& parameters, Equatio
   for (std::size_t k = 0; k < velocities_.columns.size(); ++k) theta_rate_[velocities_.columns[k]] -= step[static_cast<Eigen::Index>(k)];
   const Eigen::VectorXd left = jacobian * theta_rate_;
   if (left.size() > 0 && !(left.cwiseAbs().maxCoeff() <= 1e-9 * (1.0 + theta_rate_.cwiseAbs().maxCoeff())))
-    return {StatusCode::kInitialVelocityFailed, 0.0, "the given initial velocities contradict each other: the loops cannot follow them"};
+    return contradiction(jacobian, left);
   return {};
 }
 
 Status Assembly::solve_motion(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
+  warnings_.clear();
+  contradicting_.clear();
   if (Status status = solve_positions(parameters, equations, state); !status.ok()) return status;
   if (Status status = solve_velocities(parameters, equations); !status.ok()) return status;
+  const Status branch = choose_branch(parameters, equations);
   place(parameters, equations, state);
-  return {};
+  return branch;
 }
 
 Status Assembly::solve(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
   if (Status status = solve_motion(parameters, equations, state); !status.ok()) return status;
-  return solve_rates(equations, state);
+  if (Status status = solve_rates(equations, state); !status.ok()) return status;
+  return check_rest(*state);
 }
 
 Status Assembly::solve_rates(Equations<double>* equations, State<double>* state) {

@@ -13,6 +13,7 @@
 #include "mechanism_codesign/integration/break_times.h"
 #include "mechanism_codesign/integration/motion_watch.h"
 #include "mechanism_codesign/integration/run_watch.h"
+#include "mechanism_codesign/integration/singularity_watch.h"
 
 namespace codesign {
 namespace {
@@ -36,6 +37,7 @@ class IdasIntegrator::Implementation {
         assembly_(system),
         watch_(system),
         run_watch_(system),
+        singularity_(system),
         context_(make_context()),
         newton_(system, context_.get()),
         equations_(system, &newton_),
@@ -68,8 +70,14 @@ class IdasIntegrator::Implementation {
   double largest_drift() const { return largest_drift_; }
   Equations<double>& equations() { return equations_.equations(); }
   Assembly& assembly() { return assembly_; }
+  void watch_singularities(bool watch) { watch_singularities_ = watch; }
   const Statistics& statistics() const { return statistics_; }
-  Warnings warnings() const { return run_watch_.warnings(statistics_); }
+  Warnings warnings() const {
+    Warnings all = assembly_.warnings();
+    append(run_watch_.warnings(statistics_), &all);
+    append(singularity_.warnings(), &all);
+    return all;
+  }
 
  private:
   void set_up();
@@ -90,6 +98,7 @@ class IdasIntegrator::Implementation {
   Assembly assembly_;
   MotionWatch watch_;
   RunWatch run_watch_;
+  SingularityWatch singularity_;
   ContextHandle context_;
   IdasNewton newton_;
   IdasEquations equations_;
@@ -105,6 +114,7 @@ class IdasIntegrator::Implementation {
   double work_ = 0.0;  ///< [J] of everything but gravity so far
   double largest_drift_ = 0.0, drift_size_ = 0.0;
   Statistics before_restart_;
+  bool watch_singularities_ = false;
   std::string message_;
   Statistics statistics_;
 };
@@ -152,6 +162,7 @@ Status IdasIntegrator::Implementation::start(const std::vector<double>& paramete
   restart_solver();
   watch_.start(equations(), initial_);
   run_watch_.start(equations().constants(), initial_);
+  singularity_.start(watch_singularities_, initial_, &equations());
   work_ = 0.0;
   return {};
 }
@@ -255,6 +266,7 @@ Status IdasIntegrator::Implementation::check_run() {
   newton_.correct(drift_, &position_correction_);
   newton_.correct(drift_rate_, &velocity_correction_);
   drift_size_ = run_watch_.drift(state_, position_correction_, velocity_correction_);
+  singularity_.look(state_, drift_size_, &equations());
   return run_watch_.check(state_, drift_size_, work_ - before, &statistics_);
 }
 
@@ -301,6 +313,7 @@ double IdasIntegrator::psi() const { return implementation_->psi(); }
 void IdasIntegrator::interpolate(double time, State<double>* state, double* psi) { implementation_->interpolate(time, state, psi); }
 Equations<double>& IdasIntegrator::equations() { return implementation_->equations(); }
 Assembly& IdasIntegrator::assembly() { return implementation_->assembly(); }
+void IdasIntegrator::watch_singularities(bool watch) { implementation_->watch_singularities(watch); }
 const Statistics& IdasIntegrator::statistics() const { return implementation_->statistics(); }
 Warnings IdasIntegrator::warnings() const { return implementation_->warnings(); }
 void IdasIntegrator::sensitivity(int k, State<double>* direction) const { implementation_->sensitivity(k, direction); }

@@ -25,15 +25,17 @@ InputFault fault_of(const System& system, const std::string& name) {
     for (const ChainElement& element : pair.chain)
       if (const JointDescription& loop = system.robot().joints[static_cast<std::size_t>(element.joint)]; pair.name == name && loop.is_loop)
         return {loop.where, "<loop name=\"" + loop.name + "\">", "", "", ""};
-  const std::vector<InitialJointState>& given = system.study().initial_state;
   const int root = system.robot().root;
-  return {given.empty() ? system.robot().links[static_cast<std::size_t>(root)].where : given.front().where, "initial_state", "", "", ""};
+  return {system.robot().links[static_cast<std::size_t>(root)].where, "initial_state", "", "", ""};
 }
 
 /// The start values contradict a loop or a coupling.
 [[noreturn]] void refuse_start(const System& system, const Assembly& assembly, const Status& status) {
   InputFault fault = fault_of(system, status.code == StatusCode::kAssemblyFailed ? assembly.worst_miss().owner : "");
   fault.message = status.cause;
+  const std::vector<InitialJointState>& given = system.study().initial_state;
+  const std::vector<std::size_t>& contradicting = assembly.contradicting();
+  if (!given.empty() && fault.element == "initial_state") fault.where = given[contradicting.empty() ? 0 : contradicting.front()].where;
   if (status.code != StatusCode::kAssemblyFailed) throw InputError(fault);
   const std::string tolerance = to_decimal(system.study().solver.closure_tolerance);
   fault.message = fault.element.rfind("<loop", 0) == 0 ? "the loop cannot be closed at the start values" : "the start values contradict it";
@@ -108,7 +110,8 @@ void check_start(const System& system) {
   Assembly assembly(system);
   State<double> state;
   const Status status = assembly.solve_motion(system.parameters(), &equations, &state);
-  if (!status.ok()) refuse_start(system, assembly, status);
+  if (status.code == StatusCode::kAssemblyFailed || status.code == StatusCode::kInitialVelocityFailed)
+    refuse_start(system, assembly, status);
 }
 
 }  // namespace

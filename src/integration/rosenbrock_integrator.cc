@@ -16,7 +16,8 @@ RosenbrockIntegrator::RosenbrockIntegrator(const System& system)
       controller_(step_.tableau().order),
       watch_(system),
       run_watch_(system),
-      work_(system, step_.tableau()) {}
+      work_(system, step_.tableau()),
+      singularity_(system) {}
 
 Status RosenbrockIntegrator::start(const std::vector<double>& parameters) {
   statistics_ = {};
@@ -26,8 +27,16 @@ Status RosenbrockIntegrator::start(const std::vector<double>& parameters) {
   watch_.start(step_.equations(), initial_);
   run_watch_.start(step_.equations().constants(), initial_);
   work_.start(initial_, run_watch_.motion());
+  singularity_.start(watch_singularities_, initial_, &step_.equations());
   proposal_ = options_.initial_step > 0.0 ? options_.initial_step : first_step();
   return {};
+}
+
+Warnings RosenbrockIntegrator::warnings() const {
+  Warnings all = assembly_.warnings();
+  append(run_watch_.warnings(statistics_), &all);
+  append(singularity_.warnings(), &all);
+  return all;
 }
 
 // A hundredth of the time in which the state changes by its own scaled size (Hairer, Norsett and Wanner, II.4).
@@ -87,6 +96,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     if (!step_.accept()) return {StatusCode::kSingularMatrix, t + h, "the augmented matrix of the equations of motion is singular"};
     step_.equations().track_turns(step_.state());
     const double drift = run_watch_.drift(step_.state(), step_.position_correction(), step_.velocity_correction());
+    singularity_.look(step_.state(), drift, &step_.equations());
     if (Status status = run_watch_.check(step_.state(), drift, work_.over(step_, run_watch_.motion()), &statistics_); !status.ok())
       return status;
     return watch_.check(step_.state(), statistics_.steps + statistics_.rejected_steps);

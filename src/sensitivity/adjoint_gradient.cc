@@ -17,6 +17,7 @@ AdjointGradient::AdjointGradient(const System& system, LanePlan plan) : system_(
 // Memory for the way back is only taken by who asks for a gradient.
 Status AdjointGradient::start(const std::vector<double>& parameters, bool with_gradient) {
   with_gradient_ = with_gradient;
+  integrator_.watch_singularities(with_gradient);
   Status status = integrator_.start(parameters);
   if (!status.ok() || !with_gradient) return status;
   if (!back_) {

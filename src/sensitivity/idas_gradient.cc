@@ -9,6 +9,7 @@ IdasGradient::IdasGradient(const System& system) : system_(system), integrator_(
 Status IdasGradient::start(const std::vector<double>& parameters, bool with_gradient) {
   if (with_gradient && !tangent_) tangent_ = std::make_unique<IdasTangent>(system_);
   integrator_.carry(with_gradient ? tangent_.get() : nullptr);
+  integrator_.watch_singularities(with_gradient);
   return integrator_.start(parameters);
 }
 

@@ -20,6 +20,7 @@ RosenbrockGradient::RosenbrockGradient(const System& system) : system_(system), 
 // Memory for tangents is only taken by who asks for a gradient.
 Status RosenbrockGradient::start(const std::vector<double>& parameters, bool with_gradient) {
   with_gradient_ = with_gradient;
+  integrator_.watch_singularities(with_gradient);
   Status status = integrator_.start(parameters);
   if (!status.ok() || !with_gradient) return status;
   if (!groups_) groups_.emplace(system_, integrator_.step().tableau());

@@ -8,6 +8,7 @@
 #include "mechanism_codesign/dynamics/equations.h"
 #include "mechanism_codesign/dynamics/iteration_matrix.h"
 #include "mechanism_codesign/dynamics/loop_jacobian.h"
+#include "mechanism_codesign/dynamics/singular_start.h"
 #include "mechanism_codesign/dynamics/status.h"
 #include "mechanism_codesign/dynamics/tree_kinematics.h"
 
@@ -39,6 +40,10 @@ class Assembly {
   /// Tree joint coordinates of the last solution, TreeLayout order.
   const VectorX<double>& theta() const { return theta_; }
   const TreeLayout& tree() const { return tree_; }
+  /// What is doubtful about the last start.
+  const Warnings& warnings() const { return warnings_; }
+  /// Entries of Study::initial_state whose velocities contradict each other in the last start.
+  const std::vector<std::size_t>& contradicting() const { return contradicting_; }
   /// Accelerations and multipliers consistent with state->q, v, s; starts from state->z.
   Status solve_rates(Equations<double>* equations, State<double>* state);
   /// How far the loop or coupling that is violated most is from closed at the positions found last.
@@ -70,6 +75,9 @@ class Assembly {
   void note_miss(const VectorX<double>& errors, const Equations<double>& equations);
   /// Within the closure tolerance.
   bool is_near() const;
+  Status choose_branch(const std::vector<double>& parameters, Equations<double>* equations);
+  Status check_rest(const State<double>& state);
+  Status contradiction(const SparseMatrix& jacobian, const Eigen::VectorXd& left);
   void place(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) const;
   void set_start(const std::vector<double>& parameters);
   void follow_couplings(const Constants<double>& constants);
@@ -89,6 +97,9 @@ class Assembly {
   std::vector<bool> drops_;     ///< per row of the loops
   bool all_rows_count_ = true;  ///< and none is left out, though the system drops it
   double rank_tolerance_;       ///< by which the positions were found
+  SingularStart singular_start_;
+  Warnings warnings_;
+  std::vector<std::size_t> contradicting_;
   std::vector<int> followers_;  ///< per coupling: the coordinate that follows the others
   std::vector<bool> follows_;   ///< per coordinate
   std::vector<bool> position_given_, guess_given_, velocity_given_;

@@ -51,6 +51,7 @@ class IdasIntegrator final : public Integrator {
   void interpolate(double time, State<double>* state, double* psi) override;
   Equations<double>& equations() override;
   Assembly& assembly() override;
+  void watch_singularities(bool watch) override;
   const Statistics& statistics() const override;
   Warnings warnings() const override;
 

@@ -30,6 +30,8 @@ class Integrator {
 
   virtual Equations<double>& equations() = 0;
   virtual Assembly& assembly() = 0;
+  /// Whether singular positions that the run passes are found, for warnings(); from the next start() on.
+  virtual void watch_singularities(bool watch) = 0;
   virtual const Statistics& statistics() const = 0;
   /// What the run since start() gives reason to doubt.
   virtual Warnings warnings() const = 0;

@@ -10,6 +10,7 @@
 #include "mechanism_codesign/integration/motion_watch.h"
 #include "mechanism_codesign/integration/rosenbrock_step.h"
 #include "mechanism_codesign/integration/run_watch.h"
+#include "mechanism_codesign/integration/singularity_watch.h"
 #include "mechanism_codesign/integration/step_controller.h"
 
 namespace codesign {
@@ -26,8 +27,9 @@ class RosenbrockIntegrator final : public Integrator {
   void interpolate(double time, State<double>* state, double* psi) override;
   Equations<double>& equations() override { return step_.equations(); }
   Assembly& assembly() override { return assembly_; }
+  void watch_singularities(bool watch) override { watch_singularities_ = watch; }
   const Statistics& statistics() const override { return statistics_; }
-  Warnings warnings() const override { return run_watch_.warnings(statistics_); }
+  Warnings warnings() const override;
 
   /// Called when a step's error has been accepted, before it is taken: the tangent of its stages is due.
   using BeforeAccept = std::function<double(const RosenbrockStep<double>&)>;
@@ -51,6 +53,8 @@ class RosenbrockIntegrator final : public Integrator {
   MotionWatch watch_;
   RunWatch run_watch_;
   StepWork work_;
+  SingularityWatch singularity_;
+  bool watch_singularities_ = false;
   double proposal_ = 0.0;
   Statistics statistics_;
 };
