@@ -22,12 +22,6 @@ constexpr double kLargestTurn = 0.5;  // [rad or m] that one Newton step may mov
 
 double size_of(const LoopMiss& miss) { return std::max(miss.length, miss.angle); }
 
-int joint_named(const RobotDescription& robot, const std::string& name) {
-  for (std::size_t k = 0; k < robot.joints.size(); ++k)
-    if (robot.joints[k].name == name && !robot.joints[k].is_loop) return static_cast<int>(k);
-  return -1;
-}
-
 }  // namespace
 
 Assembly::Assembly(const System& system)

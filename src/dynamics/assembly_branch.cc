@@ -2,6 +2,7 @@
 // The part of an assembly that judges the velocities at the start.
 #include <cmath>
 
+#include "dynamics/given_start.h"
 #include "mechanism_codesign/dynamics/assembly.h"
 
 namespace codesign {

@@ -7,7 +7,8 @@
 namespace codesign {
 
 /// Merges an overlay into `base` by name. Loops, couplings, parameters and spring-dampers that are not there are added, so is a joint that
-/// says its type, and a link that a joint names. Inside, a `codesign:` child takes the place of its like; attributes of a plain child win over those of the first like child.
+/// says its type, and a link that a joint names. Inside, a `codesign:` child takes the place of its like; attributes of a plain child win
+/// over those of the first like child.
 /// @throws InputError naming the overlay's file and line.
 void merge_overlay(const XmlDocument& overlay, XmlDocument* base);
 

@@ -9,8 +9,8 @@ namespace codesign {
 /// Names must be unique (links; joints with loops; couplings; spring-dampers).
 void check_names(const RobotDescription& robot);
 
-/// A link that several joints name as their child hangs on the one by which the root reaches it first; in a vendor's file the others are read
-/// as loops, with a warning. Called before `<loop>` elements are added.
+/// A link that several joints name as their child hangs on the one by which the root reaches it first; in a vendor's file the others are
+/// read as loops, with a warning. Called before `<loop>` elements are added.
 void close_with_second_parents(RobotDescription* robot);
 
 /// The tree's root. @throws InputError if a link hangs on two joints, no link or several could be the root, or links hang in a ring.

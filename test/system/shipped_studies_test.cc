@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "mechanism_codesign/model/signal_catalog.h"
-#include "system/shipped.h"
 #include "paths.h"
+#include "system/shipped.h"
 
 namespace codesign {
 namespace {

@@ -33,9 +33,9 @@ class IdasSensitivities {
 /// Variable-order BDF by SUNDIALS IDAS on q' = v, 0 = G(q, v, s; v', lambda, s'), psi' = g; doc/theory.md (25)-(27).
 ///
 /// The unknowns are (q, v, s, lambda); a and sigma are derivatives, not unknowns. Newton's systems are reduced to the size of (a, lambda,
-/// sigma). lambda stays out of the error test. A multistep method has no place for a projection, so the constraints' rows are stabilized; where
-/// that is not enough, (q, v) and the sensitivities are projected and the method starts again.
-/// Failures of IDAS come back as a Status with time and cause.
+/// sigma). lambda stays out of the error test. A multistep method has no place for a projection, so the constraints' rows are stabilized;
+/// where that is not enough, (q, v) and the sensitivities are projected and the method starts again. Failures of IDAS come back as a Status
+/// with time and cause.
 class IdasIntegrator final : public Integrator {
  public:
   explicit IdasIntegrator(const System& system);
