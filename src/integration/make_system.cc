@@ -84,6 +84,14 @@ double compliance_of(const System& system) {
   return 1e-9 * static_cast<double>(equations.constants().bodies.size()) / mass;
 }
 
+/// Whether redundant rows must be dropped: where they contradict each other a little, or where friction follows from the reactions that
+/// they leave open, so that rounding divided by a compliance would be felt. Elsewhere all rows stay, which holds however far the mechanism
+/// turns.
+bool must_drop(const LoopMiss& miss, const Redundancy& redundancy) {
+  constexpr double kExact = 1e-12;  // [m and rad] a miss that a compliance of 1e-9 turns into no load worth speaking of
+  return std::max(miss.length, miss.angle) > kExact || !redundancy.friction_chosen.empty();
+}
+
 /// The system with what its redundant constraints need. A design that cannot start is bad input; later ones are trial points.
 std::shared_ptr<const System> with_sharing(std::shared_ptr<const System> system, Warnings* warnings) {
   Equations<double> equations(*system);
@@ -99,6 +107,7 @@ std::shared_ptr<const System> with_sharing(std::shared_ptr<const System> system,
   Redundancy redundancy = analyse_redundancy(*system, &equations, assembly, parameters, state);
   if (redundancy.rows.empty()) return system;
   warn_of_friction(*system, redundancy, warnings);
+  if (!must_drop(assembly.worst_miss(), redundancy)) redundancy.sharing = ReactionSharing();
   redundancy.sharing.compliance = compliance_of(*system);
   return std::make_shared<const System>(system->robot(), system->study(), redundancy.sharing);
 }
