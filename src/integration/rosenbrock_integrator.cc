@@ -27,7 +27,7 @@ Status RosenbrockIntegrator::start(const std::vector<double>& parameters) {
   watch_.start(step_.equations(), initial_);
   run_watch_.start(step_.equations().constants(), initial_);
   work_.start(initial_, run_watch_.motion());
-  singularity_.start(watch_singularities_, initial_, &step_.equations());
+  singularity_.start(watch_singularities_, initial_);
   proposal_ = options_.initial_step > 0.0 ? options_.initial_step : first_step();
   return {};
 }

@@ -20,32 +20,32 @@ constexpr int kLargest = 400;          // coordinates, whose rank is still decid
 
 }  // namespace
 
-SingularityWatch::SingularityWatch(const System& system) : system_(system), matrix_(system) {
+SingularityWatch::SingularityWatch(const System& system) : system_(system) {
   derivatives_.resize(system.patterns());
   for (Point& point : points_) point.state.resize(system.layout());
   initial_.resize(system.layout());
   between_.resize(system.layout());
 }
 
-void SingularityWatch::start(bool enabled, const State<double>& initial, Equations<double>* equations) {
+void SingularityWatch::start(bool enabled, const State<double>& initial) {
   enabled_ = enabled;
   warnings_.clear();
   count_ = 0;
   sum_of_logarithms_ = 0.0;
   threshold_ = kPeak;
-  if (!enabled) return;
-  initial_ = between_ = initial;
-  typical_stiffness_ = stiffness(equations);
+  typical_stiffness_ = 0.0;
+  if (enabled) initial_ = initial;
 }
 
 // The reciprocal of how far a unit error of the constraints, without any pattern, moves the mechanism.
 double SingularityWatch::stiffness(Equations<double>* equations) {
   const Layout& layout = system_.layout();
+  if (!matrix_) matrix_ = std::make_unique<IterationMatrix>(system_);
   equations->linearize(between_, &derivatives_);
-  if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) return 0.0;
+  if (!matrix_->factor(derivatives_, 0.0, 0.0, 0.0)) return 0.0;
   response_.setZero(layout.columns());
   for (int row = 0; row < layout.m; ++row) response_[layout.n + row] = std::sin(1.0 + 7.0 * row);
-  matrix_.lu().solve(response_.data());
+  matrix_->lu().solve(response_.data());
   return 1.0 / response_.head(layout.n).norm();
 }
 
@@ -81,6 +81,10 @@ int SingularityWatch::rank(Equations<double>* equations, const State<double>& st
 }
 
 void SingularityWatch::search(Equations<double>* equations) {
+  if (typical_stiffness_ == 0.0) {
+    between_ = initial_;
+    typical_stiffness_ = stiffness(equations);
+  }
   double a = points_[0].state.t, b = points_[2].state.t;
   const auto at = [&](double time) {
     place(time);

@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_INTEGRATION_SINGULARITY_WATCH_H_
 
 #include <array>
+#include <memory>
 
 #include "mechanism_codesign/dynamics/equations.h"
 #include "mechanism_codesign/dynamics/iteration_matrix.h"
@@ -18,7 +19,7 @@ class SingularityWatch {
   explicit SingularityWatch(const System& system);
 
   /// @param enabled whether to look at all.
-  void start(bool enabled, const State<double>& initial, Equations<double>* equations);
+  void start(bool enabled, const State<double>& initial);
   /// After each step, at its end. @param drift RunWatch::drift().
   void look(const State<double>& state, double drift, Equations<double>* equations);
 
@@ -37,7 +38,7 @@ class SingularityWatch {
   int rank(Equations<double>* equations, const State<double>& state) const;
 
   const System& system_;
-  IterationMatrix matrix_;
+  std::unique_ptr<IterationMatrix> matrix_;  ///< made when a peak is first looked at: few runs have one
   Linearization<double> derivatives_;
   VectorX<double> response_;
   std::array<Point, 3> points_;
