@@ -57,15 +57,15 @@ RunWatch::RunWatch(const System& system)
       energy_limit_(energy_limit(options_.relative_tolerance)),
       motion_(system) {}
 
-// Energies that the tolerances or the rounding of large sums do not resolve are nothing to measure errors by.
+// What the absolute tolerance or the rounding of large sums does not resolve must stay below the limit of the warning.
 double RunWatch::smallest_scale(const Constants<double>& constants, const State<double>& initial) const {
   const double g = Eigen::Vector3d(system_.study().gravity.data()).norm(), atol = options_.absolute_tolerance;
-  double scale = 0.0;
+  double unresolved = 0.0;
   for (std::size_t b = 0; b < constants.bodies.size(); ++b) {
     const double distance = initial.q.segment<3>(kBodySize * static_cast<Eigen::Index>(b)).norm();
-    scale += constants.bodies[b].mass * (g * (atol + kRounding * distance) + atol * atol);
+    unresolved += constants.bodies[b].mass * (g * (atol + kRounding * distance) + atol * atol);
   }
-  return scale;
+  return unresolved / energy_limit_.warning;
 }
 
 void RunWatch::start(const Constants<double>& constants, const State<double>& initial) {

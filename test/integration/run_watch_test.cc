@@ -163,5 +163,16 @@ TEST(RunWatch, ABricardRingIsRightByBothIntegratorsOrSaysThatItIsNot) {
   }
 }
 
+// Gravity along the hinges: the redundant ring gives way by its compliance, less than the absolute tolerance resolves.
+TEST(RunWatch, AMechanismThatHardlyMovesIsNotJudgedByWhatNoToleranceResolves) {
+  const std::string text = motion_study(2.0, "{left_hinge: {position: 0.3}}", "left_hinge/velocity", solver("rosenbrock", 1e-6));
+  const auto system = compile(four_bar(), text + "gravity: [0, -9.81, 0]\n");
+  Simulation simulation(system, system->parameters());
+  Status status = simulation.start();
+  if (status.ok()) status = simulation.advance(2.0);
+  EXPECT_TRUE(status.ok()) << status.cause;
+  EXPECT_TRUE(simulation.warnings().empty()) << simulation.statistics().energy_error;
+}
+
 }  // namespace
 }  // namespace codesign
