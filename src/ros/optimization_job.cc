@@ -115,7 +115,8 @@ class Job {
     Warnings warnings = result_.warnings;
     if (!best_.failure().empty())
       warnings.push_back({"best_point_not_on_disk", "the best point so far was not on disk while the job ran: " + best_.failure(), {}});
-    for (const auto& [side, run] : {std::make_pair("initial", &record_->initial.run), std::make_pair("tuned", &record_->tuned.run)})
+    const std::pair<const char*, const RecordedRun*> sides[] = {{"initial", &record_->initial.run}, {"tuned", &record_->tuned.run}};
+    for (const auto& [side, run] : sides)
       if (!run->status.ok())
         warnings.push_back(
             {"run_ends_early",
