@@ -75,7 +75,7 @@ const std::map<std::string, Option>& options() {
 
 [[noreturn]] void fail_unknown(const std::string& kind, const std::string& word, const Names& known) {
   const std::string near = nearest_name(word, known);
-  throw UsageError("unknown " + kind + " \"" + word + "\"" + (near.empty() ? "" : ", did you mean \"" + near + "\"?"));
+  throw UsageError("unknown " + kind + " \"" + word + "\"" + did_you_mean(near));
 }
 
 const Option& find_option(const std::string& name, const std::string& command) {

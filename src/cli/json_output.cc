@@ -51,22 +51,6 @@ Json to_json(const Warnings& warnings) {
   return array;
 }
 
-Json by_name(const std::vector<std::string>& names, const std::vector<double>& values) {
-  Json object = Json::object();
-  for (std::size_t i = 0; i < names.size() && i < values.size(); ++i) object[names[i]] = values[i];
-  return object;
-}
-
-Json by_name(const std::vector<std::string>& names, const Eigen::VectorXd& values) {
-  return by_name(names, std::vector<double>(values.data(), values.data() + values.size()));
-}
-
-Json parameters_json(const Problem& problem, const std::vector<double>& values) {
-  std::vector<std::string> names;
-  for (const Parameter& parameter : problem.study.parameters) names.push_back(parameter.name);
-  return by_name(names, values);
-}
-
 void add_statistics(const Statistics& statistics, Json* object) {
   (*object)["steps"] = statistics.steps;
   (*object)["rejected_steps"] = statistics.rejected_steps;
@@ -80,8 +64,6 @@ void add_counts(const Problem& problem, const std::vector<double>& parameters, J
   const Counts counts = count_equations(problem.system, parameters, &status);
   if (status.ok()) (*object)["counts"] = to_json(counts);
 }
-
-std::string to_text(const Json& object) { return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 void print(const Json& object, std::ostream& out) { out << to_text(object) << std::flush; }
 

@@ -29,7 +29,7 @@ Assembly::Assembly(const System& system)
       tree_(system.robot()),
       loops_(system, tree_),
       rank_tolerance_(kRank),
-      singular_start_(system, tree_),
+      singular_start_(system, tree_, loops_),
       matrix_(system) {
   const Topology& topology = system.topology();
   for (int row : loops_.constraint_rows())
@@ -110,11 +110,11 @@ Eigen::VectorXd Assembly::loop_part(const VectorX<double>& rows) const {
 
 Assembly::ScaledLoops Assembly::scaled_loops(const std::vector<double>& parameters, const Equations<double>& equations) const {
   ScaledLoops loops;
-  loops.matrix = loops_.evaluate(parameters, theta_, equations);
-  loops.scales = loops_.scales(loops.matrix, equations);
+  loops.unscaled = loops_.evaluate(parameters, theta_, equations);
+  loops.scales = loops_.scales(loops.unscaled, equations);
   for (std::size_t k = 0; k < drops_.size(); ++k)
     if (drops_[k] && !all_rows_count_) loops.scales.rows[static_cast<Eigen::Index>(k)] = 0.0;
-  loops.matrix = loops.scales.rows.asDiagonal() * loops.matrix * loops.scales.columns.asDiagonal();
+  loops.matrix = loops.scales.rows.asDiagonal() * loops.unscaled * loops.scales.columns.asDiagonal();
   return loops;
 }
 
@@ -262,11 +262,10 @@ Status Assembly::solve_velocities(const std::vector<double>& parameters, Equatio
   const ScaledLoops loops = scaled_loops(parameters, *equations);
   positions_ = choose(loops, by_preference(position_given_));
   velocities_ = choose(loops, preferences);
-  SparseMatrix jacobian = loops_.evaluate(parameters, theta_, *equations);
   Eigen::VectorXd holds = Eigen::VectorXd::Ones(loops_.rows());
   for (std::size_t k = 0; k < drops_.size(); ++k)
     if (drops_[k]) holds[static_cast<Eigen::Index>(k)] = 0.0;
-  jacobian = holds.asDiagonal() * jacobian;
+  const SparseMatrix jacobian = holds.asDiagonal() * loops.unscaled;
   const Eigen::VectorXd step = velocities_.solve(jacobian * theta_rate_);
   for (std::size_t k = 0; k < velocities_.columns.size(); ++k) theta_rate_[velocities_.columns[k]] -= step[static_cast<Eigen::Index>(k)];
   const Eigen::VectorXd left = jacobian * theta_rate_;

@@ -66,9 +66,8 @@ class Motions {
   const JointDescription& joint_of(int coordinate) const {
     for (int k : tree_.joint_order) {
       const int first = tree_.offset[index(k)];
-      const JointType type = system_.robot().joints[index(k)].type;
-      const int count = type == JointType::kFloating ? 6 : type == JointType::kPlanar ? 3 : type == JointType::kFixed ? 0 : 1;
-      if (coordinate >= first && coordinate < first + count) return system_.robot().joints[index(k)];
+      if (coordinate >= first && coordinate < first + coordinates_of(system_.robot().joints[index(k)].type))
+        return system_.robot().joints[index(k)];
     }
     return system_.robot().joints.front();
   }

@@ -16,39 +16,25 @@ constexpr Eigen::Index kLargest = 250000;  // entries of J; larger ones are not 
 
 }  // namespace
 
-SingularStart::SingularStart(const System& system, const TreeLayout& tree) : system_(system), tree_(tree) {
-  const Layout& layout = system.layout();
-  const auto add = [this](int row, int owner) {
-    rows_.push_back(row);
-    owner_.push_back(owner);
-  };
-  for (std::size_t k = 0; k < system.topology().pairs.size(); ++k)
-    if (system.topology().pairs[k].is_loop)
-      for (int row = layout.pair_row[k]; row < layout.pair_end(static_cast<int>(k)); ++row) add(row, static_cast<int>(k));
-  for (int k = 0; k < layout.couplings; ++k) add(layout.coupling_row(k), -1 - k);
-}
+SingularStart::SingularStart(const System& system, const TreeLayout& tree, const LoopJacobian& loops)
+    : system_(system), tree_(tree), loops_(loops) {}
 
 VectorX<double> SingularStart::rates(const VectorX<double>& theta, const VectorX<double>& x) {
   body_coordinates(system_, equations_->constants(), link_motions(system_.robot(), tree_, parameters_, theta, x), &q_, &v_);
   equations_->constraint_errors(q_, v_, &Phi_, &Phi_rate_);
-  VectorX<double> part(static_cast<Eigen::Index>(rows_.size()));
-  for (std::size_t k = 0; k < rows_.size(); ++k) part[static_cast<Eigen::Index>(k)] = Phi_rate_[rows_[k]];
+  VectorX<double> part(loops_.rows());
+  for (int k = 0; k < loops_.rows(); ++k) part[k] = Phi_rate_[loops_.constraint_rows()[static_cast<std::size_t>(k)]];
   return part;
 }
 
 void SingularStart::load(const std::vector<double>& parameters, const VectorX<double>& theta, Equations<double>* equations) {
-  const auto count = static_cast<Eigen::Index>(rows_.size());
+  const Eigen::Index count = loops_.rows();
   parameters_ = parameters;
   theta_ = theta;
   equations_ = equations;
   L_.resize(count, 0);
   if (count == 0 || count * tree_.size > kLargest) return;
-  J_.resize(count, tree_.size);
-  body_velocities_.resize(system_.layout().n, tree_.size);
-  for (int c = 0; c < tree_.size; ++c) {
-    J_.col(c) = rates(theta_, VectorX<double>::Unit(tree_.size, c));
-    body_velocities_.col(c) = v_;
-  }
+  J_ = loops_.evaluate(parameters, theta, *equations);
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(J_);
   qr.setThreshold(kRank);
   const Eigen::MatrixXd Q = qr.householderQ();
@@ -114,8 +100,14 @@ bool SingularStart::choose_motion(const std::vector<bool>& held, VectorX<double>
   return false;
 }
 
-VectorX<double> SingularStart::tree_accelerations(const VectorX<double>& a) const {
-  return L_.cols() == 0 ? VectorX<double>::Zero(tree_.size) : VectorX<double>(body_velocities_.colPivHouseholderQr().solve(a));
+VectorX<double> SingularStart::tree_accelerations(const VectorX<double>& a) {
+  if (L_.cols() == 0) return VectorX<double>::Zero(tree_.size);
+  Eigen::MatrixXd body_velocities(a.size(), tree_.size);
+  for (int c = 0; c < tree_.size; ++c) {
+    rates(theta_, VectorX<double>::Unit(tree_.size, c));
+    body_velocities.col(c) = v_;
+  }
+  return body_velocities.colPivHouseholderQr().solve(a);
 }
 
 std::string SingularStart::joints() const {
@@ -125,7 +117,7 @@ std::string SingularStart::joints() const {
   for (Eigen::Index row = 0; row < violated_.size(); ++row) {
     if (std::abs(violated_[row]) < 1e-6 * largest) continue;
     for (Eigen::Index other = 0; other < violated_.size(); ++other)
-      if (owner_[static_cast<std::size_t>(other)] == owner_[static_cast<std::size_t>(row)])
+      if (loops_.owner(static_cast<int>(other)) == loops_.owner(static_cast<int>(row)))
         moves = moves.cwiseMax(J_.row(other).transpose().cwiseAbs());
   }
   for (std::size_t k = 0; k < system_.robot().joints.size(); ++k) {

@@ -75,9 +75,7 @@ void warn_of_friction(const System& system, const Redundancy& redundancy, Warnin
 }
 
 /// A billionth of what a body yields to a force: far above rounding, far below what a motion shows; theory (23).
-double compliance_of(const System& system) {
-  Equations<double> equations(system);
-  equations.set_design(system.parameters());
+double compliance_of(const Equations<double>& equations) {
   double mass = 0.0;
   for (const BodyConstants<double>& body : equations.constants().bodies) mass += body.mass;
   if (!(mass > 0.0)) mass = 1.0;  // rotors alone
@@ -108,7 +106,7 @@ std::shared_ptr<const System> with_sharing(std::shared_ptr<const System> system,
   if (redundancy.rows.empty()) return system;
   warn_of_friction(*system, redundancy, warnings);
   if (!must_drop(assembly.worst_miss(), redundancy)) redundancy.sharing = ReactionSharing();
-  redundancy.sharing.compliance = compliance_of(*system);
+  redundancy.sharing.compliance = compliance_of(equations);
   return std::make_shared<const System>(system->robot(), system->study(), redundancy.sharing);
 }
 

@@ -3,29 +3,10 @@
 
 #include <unistd.h>
 
-#include <nlohmann/json.hpp>
-
+#include "mechanism_codesign/jobs/json.h"
 #include "mechanism_codesign/jobs/whole_file.h"
 
 namespace codesign {
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json by_name(const std::vector<std::string>& names, const Eigen::VectorXd& values) {
-  Json object = Json::object();
-  for (std::size_t i = 0; i < names.size(); ++i) object[names[i]] = values[static_cast<Eigen::Index>(i)];
-  return object;
-}
-
-Json all_by_name(const Problem& problem, const Eigen::VectorXd& rho) {
-  Json object = Json::object();
-  const std::vector<double> values = problem.parameters(rho);
-  for (std::size_t i = 0; i < values.size(); ++i) object[problem.study.parameters[i].name] = values[i];
-  return object;
-}
-
-}  // namespace
 
 void BestRecord::note(const Trial& trial) {
   const bool better = trial.status.ok() && trial.iteration > iteration_;
@@ -46,13 +27,13 @@ std::string BestRecord::json(const Trial& trial) const {
   object["model"] = problem_.robot.name;
   object["objective"] = trial.objective;
   object["initial_objective"] = first_.objective;
-  object["parameters"] = all_by_name(problem_, trial.rho);
-  object["initial_parameters"] = all_by_name(problem_, first_.rho);
+  object["parameters"] = parameters_json(problem_, problem_.parameters(trial.rho));
+  object["initial_parameters"] = parameters_json(problem_, problem_.parameters(first_.rho));
   object["gradient"] = by_name(problem_.tuned_names(), trial.gradient);
   object["iterations"] = trial.iteration;
   object["evaluations"] = trial.evaluation;
   object["termination"] = "running";
-  return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return to_text(object);
 }
 
 void BestRecord::remove() {

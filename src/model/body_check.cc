@@ -4,18 +4,13 @@
 #include <Eigen/Eigenvalues>
 #include <map>
 
+#include "default_values.h"
 #include "mechanism_codesign/math/decimal.h"
 #include "number_text.h"
 #include "rigid_groups.h"
 
 namespace codesign {
 namespace {
-
-std::vector<double> defaults_of(const RobotDescription& robot) {
-  std::vector<double> values;
-  for (const Parameter& parameter : robot.parameters) values.push_back(parameter.value);
-  return values;
-}
 
 const LinkDescription& link_of(const RobotDescription& robot, int link) { return robot.links[static_cast<std::size_t>(link)]; }
 
@@ -69,7 +64,7 @@ MassFault find_mass_fault(const MassProperties<double>& body) {
 
 void check_bodies(const RobotDescription& robot, Warnings* warnings) {
   const RigidGroups groups(robot);
-  const std::vector<double> values = defaults_of(robot);
+  const std::vector<double> values = default_values(robot);
   std::map<int, std::vector<int>> bodies;
   for (std::size_t link = 0; link < robot.links.size(); ++link)
     if (groups.link_base[link] != groups.link_base[static_cast<std::size_t>(robot.root)])

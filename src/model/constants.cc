@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "body_check.h"
+#include "default_values.h"
 #include "mechanism_codesign/model/mass_properties.h"
 #include "mechanism_codesign/model/pose.h"
 #include "pair_geometry.h"
@@ -63,9 +64,7 @@ MassFault body_fault(const BodyConstants<double>& body) {
 std::string body_fault(const RobotDescription& robot, const Topology& topology, std::size_t k, const Constants<double>& constants) {
   const MassFault fault = body_fault(constants.bodies[k]);
   if (fault.code.empty()) return "";
-  std::vector<double> defaults;
-  for (const Parameter& parameter : robot.parameters) defaults.push_back(parameter.value);
-  const MassFault known = body_fault(body_constants(robot, topology, topology.bodies[k], defaults));
+  const MassFault known = body_fault(body_constants(robot, topology, topology.bodies[k], default_values(robot)));
   if (known.code == fault.code) return "";
   return "body '" + topology.bodies[k].name + "': " + fault.message + (fault.value.empty() ? "" : " (" + fault.value + ")");
 }

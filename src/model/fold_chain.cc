@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "default_values.h"
 #include "joints_between.h"
 #include "mechanism_codesign/model/chain_geometry.h"
 #include "pair_geometry.h"
@@ -100,14 +101,8 @@ std::optional<PairKind> kind_of_single(JointType type) {
 
 bool is_turn(JointType type) { return type == JointType::kRevolute || type == JointType::kContinuous; }
 
-std::vector<double> defaults_of(const RobotDescription& robot) {
-  std::vector<double> defaults;
-  for (const Parameter& parameter : robot.parameters) defaults.push_back(parameter.value);
-  return defaults;
-}
-
 std::optional<PairKind> kind_of_chain(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain) {
-  const ChainGeometry<double> geometry = chain_geometry(robot, topology, chain, defaults_of(robot));
+  const ChainGeometry<double> geometry = chain_geometry(robot, topology, chain, default_values(robot));
   Axes axes;
   for (std::size_t k = 0; k < chain.size(); ++k) {
     const JointType type = robot.joints[static_cast<std::size_t>(chain[k].joint)].type;
@@ -153,7 +148,7 @@ bool folds(const RobotDescription& robot, const Topology& topology, const std::v
   pair.kind = *kind;
   pair.chain = chain;
   const Vector none = Vector::Zero();
-  const PairConstants<double> constants = pair_constants(robot, topology, pair, none, none, defaults_of(robot));
+  const PairConstants<double> constants = pair_constants(robot, topology, pair, none, none, default_values(robot));
   for (std::size_t k = 0; k < chain.size(); ++k)
     if (constants.coordinates[k].kind == CoordinateConstants<double>::Kind::kNone && needs_coordinate(robot, topology, chain[k].joint))
       return false;

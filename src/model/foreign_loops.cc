@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "default_values.h"
 #include "mechanism_codesign/model/pose.h"
 #include "number_text.h"
 
@@ -78,10 +79,6 @@ std::string child_text(const XmlElement& element, const std::string& tag) {
 std::string child_attribute(const XmlElement& element, const std::string& tag, const std::string& name) {
   const std::optional<XmlElement> child = element.child(tag);
   return child ? trimmed(child->find(name).value_or("").c_str()) : "";
-}
-
-bool ends_with(const std::string& text, const std::string& tail) {
-  return text.size() >= tail.size() && text.compare(text.size() - tail.size(), tail.size(), tail) == 0;
 }
 
 class Finder {
@@ -218,8 +215,7 @@ class Finder {
     const auto found =
         std::find_if(robot_.links.begin(), robot_.links.end(), [&name](const LinkDescription& link) { return link.name == name; });
     if (found == robot_.links.end()) return std::nullopt;
-    std::vector<double> defaults;
-    for (const Parameter& parameter : robot_.parameters) defaults.push_back(parameter.value);
+    const std::vector<double> defaults = default_values(robot_);
     Pose<double> X;
     for (int link = static_cast<int>(found - robot_.links.begin()); link != robot_.root;) {
       const auto above = std::find_if(robot_.joints.begin(), robot_.joints.end(),

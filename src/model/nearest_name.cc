@@ -53,4 +53,6 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
   return nearest;
 }
 
+std::string did_you_mean(const std::string& near) { return near.empty() ? "" : ", did you mean \"" + near + "\"?"; }
+
 }  // namespace codesign

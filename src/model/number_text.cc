@@ -49,4 +49,8 @@ std::vector<std::string> split_words(const std::string& text) {
   return words;
 }
 
+bool ends_with(const std::string& text, const std::string& tail) {
+  return text.size() >= tail.size() && text.compare(text.size() - tail.size(), tail.size(), tail) == 0;
+}
+
 }  // namespace codesign

@@ -14,6 +14,9 @@ std::optional<double> parse_number(const std::string& text);
 /// Space-separated, each the shortest decimal that reads back as the same double.
 std::string format_numbers(const std::vector<double>& values);
 
+/// Whether `text` ends with `tail`.
+bool ends_with(const std::string& text, const std::string& tail);
+
 /// The words of `text` between white space.
 std::vector<std::string> split_words(const std::string& text);
 

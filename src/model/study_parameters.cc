@@ -19,8 +19,7 @@ Parameter new_parameter(const std::string& name, const YamlValue& value, const s
   const std::string fault = identifier_fault(name);
   if (!fault.empty()) throw InputError({value.where(), value.path(), fault, name, "an identifier that is no function's name"});
   if (value.find("initial")) return {name, 0.0, Parameter().lower, Parameter().upper, "", value.where()};
-  const std::string near = nearest_name(name, names_of(model));
-  const std::string hint = near.empty() ? "" : ", did you mean \"" + near + "\"?";
+  const std::string hint = did_you_mean(nearest_name(name, names_of(model)));
   throw InputError({value.where(), value.path() + ".initial", "required key is missing: the model has no such parameter" + hint, "", ""});
 }
 

@@ -20,9 +20,8 @@ std::string type_of(const XmlElement& transmission) {
 }
 
 bool is_simple(const XmlElement& transmission) {
-  const std::string type = type_of(transmission), simple = "SimpleTransmission";
-  const bool named = type.size() >= simple.size() && type.compare(type.size() - simple.size(), simple.size(), simple) == 0;
-  return named && transmission.children("joint").size() == 1 && transmission.children("actuator").size() <= 1;
+  return ends_with(type_of(transmission), "SimpleTransmission") && transmission.children("joint").size() == 1 &&
+         transmission.children("actuator").size() <= 1;
 }
 
 /// Where ros_control looks for a reduction first, then where other files have it.

@@ -19,7 +19,7 @@ std::string list_names(const std::vector<std::string>& names) {
 InputError unknown_name(const SourceLocation& where, const std::string& element, const std::string& kind, const std::string& name,
                         const std::vector<std::string>& known) {
   const std::string near = nearest_name(name, known);
-  const std::string message = "unknown " + kind + (near.empty() ? "" : ", did you mean \"" + near + "\"?");
+  const std::string message = "unknown " + kind + did_you_mean(near);
   return InputError({where, element, message, name, list_names(known)});
 }
 

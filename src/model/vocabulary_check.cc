@@ -49,9 +49,8 @@ class Check {
       throw unknown_name(element.where(attribute), element.label(), "attribute " + attribute, attribute, words.attributes);
     if (contains(words.other_attributes, attribute)) return;
     const std::string near = nearest_name(attribute, words.attributes);
-    const std::string guess = near.empty() ? "" : ", did you mean \"" + near + "\"?";
     warnings_->push_back(element.warning_at("unknown_attribute", attribute,
-                                            "no reader of URDF knows the attribute " + attribute + guess + " It is ignored",
+                                            "no reader of URDF knows the attribute " + attribute + did_you_mean(near) + " It is ignored",
                                             near.empty() ? "remove it" : "write " + near + ", or remove it"));
   }
 
@@ -62,10 +61,8 @@ class Check {
     if (rule != nullptr) known.insert(known.end(), rule->children.begin(), rule->children.end());
     std::string near = forgotten_prefix(tag, rule);
     if (near.empty()) near = nearest_name(tag, known);
-    if (child.in_overlay()) {
-      const std::string guess = near.empty() ? "" : ", did you mean \"" + near + "\"?";
-      throw InputError({child.where(), child.label(), "unknown element <" + tag + ">" + guess, tag, list_names(known)});
-    }
+    if (child.in_overlay())
+      throw InputError({child.where(), child.label(), "unknown element <" + tag + ">" + did_you_mean(near), tag, list_names(known)});
     if (has_prefix(tag) || contains(words.other_children, tag)) return;
     if (const Names places = elements_with(tag); !places.empty()) {
       warnings_->push_back(child.warning("unknown_element", "the element does not belong here and is ignored", "<" + tag + ">",

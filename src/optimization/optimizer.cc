@@ -118,14 +118,7 @@ class Minimization {
 
   // Where a constraint is no number it counts as violated, and the more so the farther from the best point.
   double step_back_from_constraint(const std::vector<double>& x, std::vector<double>* gradient) const {
-    const std::vector<double> best = scaling_.to_scaled(result_.rho);
-    double violation = 1.0;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-      const double d = x[k] - best[k];
-      violation += d * d;
-      if (!gradient->empty()) (*gradient)[k] = 2.0 * d;
-    }
-    return violation;
+    return 1.0 + distance_from_best(x, 1.0, gradient);
   }
 
   double objective(const std::vector<double>& x, std::vector<double>* gradient) {
@@ -164,15 +157,20 @@ class Minimization {
   // A point without a value is worse than all seen, and the more so the farther it lies from the best one: a line search turns back.
   double step_back(const std::vector<double>& x, std::vector<double>* gradient) const {
     if (!have_best_) throw std::runtime_error("the start could not be evaluated");
-    const std::vector<double> best = scaling_.to_scaled(result_.rho);
     const double weight = std::abs(worst_) + std::abs(result_.objective) + 1e-300;
+    return (worst_ + weight * (1.0 + distance_from_best(x, weight / unit_, gradient))) / unit_;
+  }
+
+  /// The square of the distance of scaled variables. @param gradient if not empty, set to `weight` times its derivative.
+  double distance_from_best(const std::vector<double>& x, double weight, std::vector<double>* gradient) const {
+    const std::vector<double> best = scaling_.to_scaled(result_.rho);
     double distance = 0.0;
     for (std::size_t k = 0; k < x.size(); ++k) {
       const double d = x[k] - best[k];
       distance += d * d;
-      if (!gradient->empty()) (*gradient)[k] = 2.0 * weight * d / unit_;
+      if (!gradient->empty()) (*gradient)[k] = 2.0 * weight * d;
     }
-    return (worst_ + weight * (1.0 + distance)) / unit_;
+    return distance;
   }
 
   Trial note(const Evaluation& evaluation, const Eigen::VectorXd& rho) {

@@ -146,8 +146,7 @@ Warnings unknown_parameters(const ros::NodeHandle& private_node, const std::vect
   for (const std::string& name : known) unknown.erase(name);
   Warnings warnings;
   for (const std::string& name : unknown) {
-    const std::string near = nearest_name(name, known);
-    const std::string hint = near.empty() ? "" : ", did you mean \"" + near + "\"?";
+    const std::string hint = did_you_mean(nearest_name(name, known));
     warnings.push_back(
         warn("unknown_parameter", {{space + name, 0}, name, "unknown private parameter, ignored" + hint, "", list_names(known)}));
   }

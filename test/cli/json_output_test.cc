@@ -18,13 +18,6 @@ TEST(JsonOutput, DoublesReadBackAsTheSameDoubles) {
   EXPECT_TRUE(read["infinite"].is_null());
 }
 
-TEST(JsonOutput, ValuesGoByName) {
-  const Eigen::Vector2d values(0.08, -1.5);
-  const Json object = by_name({"crank_length", "Kp"}, Eigen::VectorXd(values));
-  EXPECT_EQ(object.dump(), R"({"crank_length":0.08,"Kp":-1.5})");
-  EXPECT_EQ(by_name({"a"}, std::vector<double>{}).dump(), "{}");
-}
-
 TEST(JsonOutput, CountsHaveTheirNames) {
   Counts counts;
   counts.bodies = 3;

@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_TEST_INTEGRATION_LINKAGES_H_
 
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include "integration/mechanisms.h"
@@ -98,6 +99,18 @@ inline std::string bricard_start(double theta, double rate) {
   for (int k = 2; k <= 5; ++k)
     initial += ", turn" + std::to_string(k) + ": {guess: " + std::to_string(k % 2 == 1 ? theta : bricard_partner(theta)) + "}";
   return initial + "}";
+}
+
+/// theta(t) of theta'' = f(theta) by Runge and Kutta's fourth-order method in many small steps.
+inline double reference_angle(const std::function<double(double)>& f, double theta, double rate, double t, int steps = 20000) {
+  const double h = t / steps;
+  for (int k = 0; k < steps; ++k) {
+    const double a1 = f(theta), a2 = f(theta + 0.5 * h * rate), a3 = f(theta + 0.5 * h * rate + 0.25 * h * h * a1),
+                 a4 = f(theta + h * rate + 0.5 * h * h * a2);
+    theta += h * rate + h * h / 6.0 * (a1 + a2 + a3);
+    rate += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+  }
+  return theta;
 }
 
 }  // namespace codesign

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
-
 #include "integration/energy_balance.h"
 #include "integration/servo.h"
 
@@ -16,19 +14,6 @@ std::vector<SignalDescription> signals(const std::vector<std::string>& texts) {
   std::vector<SignalDescription> result;
   for (const std::string& text : texts) result.push_back(parse_signal(text, {"test", 0}, "signal"));
   return result;
-}
-
-/// theta(t) of theta'' = f(theta) by Runge and Kutta's fourth-order method in many small steps.
-double reference_angle(const std::function<double(double)>& f, double theta, double rate, double t) {
-  constexpr int kSteps = 20000;
-  const double h = t / kSteps;
-  for (int k = 0; k < kSteps; ++k) {
-    const double a1 = f(theta), a2 = f(theta + 0.5 * h * rate), a3 = f(theta + 0.5 * h * rate + 0.25 * h * h * a1),
-                 a4 = f(theta + h * rate + 0.5 * h * h * a2);
-    theta += h * rate + h * h / 6.0 * (a1 + a2 + a3);
-    rate += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
-  }
-  return theta;
 }
 
 TEST(Linkages, RowsOfFourBarsSwingAsTheirPlanarEquationSays) {

@@ -109,19 +109,9 @@ TEST(RunWatch, WhatHangsAtRestIsNotMeasuredByItsRounding) {
 
 double angle(const State<double>& state) { return 2.0 * std::atan2(state.q[5], state.q[3]); }
 
-/// theta of upright_row() by Runge and Kutta's fourth-order method in many small steps.
+/// theta of upright_row(), which starts upright.
 double upright_angle(int count, double rate, double t) {
-  constexpr int kSteps = 40000;
-  double theta = 0.0;
-  const double h = t / kSteps;
-  const auto f = [count](double x) { return upright_row_acceleration(count, x); };
-  for (int k = 0; k < kSteps; ++k) {
-    const double a1 = f(theta), a2 = f(theta + 0.5 * h * rate), a3 = f(theta + 0.5 * h * rate + 0.25 * h * h * a1),
-                 a4 = f(theta + h * rate + 0.5 * h * h * a2);
-    theta += h * rate + h * h / 6.0 * (a1 + a2 + a3);
-    rate += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
-  }
-  return theta;
+  return reference_angle([count](double x) { return upright_row_acceleration(count, x); }, 0.0, rate, t, 40000);
 }
 
 // IFToMM A02: ten seconds take it past its flat position a dozen times. `idas` used to leave the branch, with half as much energy again.

@@ -39,5 +39,10 @@ TEST(NearestName, TakesMillisecondsWhateverItIsAskedFor) {
   EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 2.0);
 }
 
+TEST(NearestName, IsOfferedAsAQuestion) {
+  EXPECT_EQ(did_you_mean("crank_joint"), ", did you mean \"crank_joint\"?");
+  EXPECT_EQ(did_you_mean(""), "");
+}
+
 }  // namespace
 }  // namespace codesign

@@ -32,5 +32,12 @@ TEST(NumberText, FormatsAndSplits) {
   EXPECT_EQ(split_words("  a\tb\n c "), (std::vector<std::string>{"a", "b", "c"}));
 }
 
+TEST(NumberText, EndsAreComparedWhole) {
+  EXPECT_TRUE(ends_with("drake:ball_constraint", "_constraint"));
+  EXPECT_TRUE(ends_with("same", "same"));
+  EXPECT_FALSE(ends_with("straint", "constraint"));
+  EXPECT_FALSE(ends_with("constraints", "constraint"));
+}
+
 }  // namespace
 }  // namespace codesign

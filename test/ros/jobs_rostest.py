@@ -3,7 +3,6 @@
 """What a job leaves, whatever ends it: two nodes in one second, Ctrl-C, cancel, kill -9, a full disk, requests beyond all bounds."""
 import json
 import os
-import shutil
 import signal
 import subprocess
 import sys
@@ -18,7 +17,7 @@ from actionlib_msgs.msg import GoalID
 from mechanism_codesign.srv import EvaluateRequest, OptimizeRequest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import SHARE, TIMEOUT, Node, files, wait_until  # noqa: E402
+from node_process import SHARE, TIMEOUT, Node, NodesTestCase, files, wait_until  # noqa: E402
 
 LONG = OptimizeRequest(relative_tolerance=1e-15, max_evaluations=100000)
 SHORT = OptimizeRequest(max_evaluations=1)
@@ -34,21 +33,9 @@ def long_study():
     return path
 
 
-class JobsTest(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.mkdtemp()
-        self.nodes = []
-
-    def tearDown(self):
-        for node in self.nodes:
-            if node.process.poll() is None:
-                node.end(signal.SIGKILL)
-        shutil.rmtree(self.folder, ignore_errors=True)
-
-    def start(self, name, **parameters):
-        node = Node("optimization", name, output_directory=self.folder, **parameters)
-        self.nodes.append(node)
-        return node
+class JobsTest(NodesTestCase):
+    def start_job_node(self, name, **parameters):
+        return self.start("optimization", name, output_directory=self.folder, **parameters)
 
     def result_of(self, bag):
         with rosbag.Bag(bag) as opened:
@@ -72,7 +59,7 @@ class JobsTest(unittest.TestCase):
         return thread, answers
 
     def test_two_nodes_that_finish_in_the_same_seconds(self):
-        nodes = [self.start(f"twin_{k}", set={"crank_length": value}) for k, value in enumerate((0.07, 0.09))]
+        nodes = [self.start_job_node(f"twin_{k}", set={"crank_length": value}) for k, value in enumerate((0.07, 0.09))]
         replies = [[], []]
 
         def ask(k):
@@ -96,7 +83,7 @@ class JobsTest(unittest.TestCase):
 
     def test_an_interrupted_node_leaves_the_bag_of_a_job_of_the_service(self):
         for kind in (signal.SIGINT, signal.SIGTERM):
-            node = self.start("interrupted", study=long_study())
+            node = self.start_job_node("interrupted", study=long_study())
             thread, _ = self.in_background(node, LONG)
             self.assertLess(node.end(kind), 10.0)
             thread.join()
@@ -108,7 +95,7 @@ class JobsTest(unittest.TestCase):
             os.remove(bag)
 
     def test_a_job_of_the_service_can_be_cancelled(self):
-        node = self.start("cancelled", study=long_study())
+        node = self.start_job_node("cancelled", study=long_study())
         cancel = rospy.Publisher("/cancelled/optimize/cancel", GoalID, queue_size=1)
         wait_until(lambda: cancel.get_num_connections() > 0, "nobody listens to cancel")
         thread, answers = self.in_background(node, LONG)
@@ -119,7 +106,7 @@ class JobsTest(unittest.TestCase):
         self.assertEqual(self.result_of(answers[0].bag)[0].objective, answers[0].objective)
 
     def test_a_killed_node_leaves_its_best_point_and_the_next_one_cleans_up(self):
-        node = self.start("killed", study=long_study())
+        node = self.start_job_node("killed", study=long_study())
         thread, _ = self.in_background(node, LONG)
         node.end(signal.SIGKILL)
         thread.join()
@@ -130,7 +117,7 @@ class JobsTest(unittest.TestCase):
         self.assertGreater(point["objective"], 0.0)
         model = best.replace(".json", ".urdf")
         subprocess.run(["rosrun", "mechanism_codesign", "codesign", "check", model], check=True, stdout=subprocess.DEVNULL)
-        next_node = self.start("killed")
+        next_node = self.start_job_node("killed")
         self.assertTrue(next_node.optimize(SHORT).success)
         self.assertEqual(files(self.folder, ".active") + files(self.folder, ".job") + files(self.folder, ".part"), [])
         self.assertEqual(files(self.folder, ".best.json"), [best], "the best point stays")
@@ -139,16 +126,16 @@ class JobsTest(unittest.TestCase):
         self.assertIn(best, next_node.output())
 
     def test_a_running_job_keeps_its_files_when_another_node_starts(self):
-        node = self.start("running", study=long_study())
+        node = self.start_job_node("running", study=long_study())
         thread, answers = self.in_background(node, LONG)
-        other = self.start("starting")
+        other = self.start_job_node("starting")
         self.assertTrue(other.optimize(SHORT).success)
         node.end(signal.SIGINT)
         thread.join()
         self.assertEqual(len(files(self.folder, ".bag")), 2)
 
     def test_requests_beyond_all_bounds_are_answered_at_once(self):
-        node = self.start("asked")
+        node = self.start_job_node("asked")
         names = [f"parameter_{k}" for k in range(1000000)]
         start = rospy.get_time()
         for reply in (node.optimize(OptimizeRequest(parameters=names)),
@@ -180,7 +167,7 @@ class JobsTest(unittest.TestCase):
                 for name in os.listdir(disk):
                     os.remove(f"{disk}/{name}")
             self.assertIsNone(node.process.poll(), "the node is up")
-            self.assertEqual(self.start("beside").optimize(SHORT).code, "success")
+            self.assertEqual(self.start_job_node("beside").optimize(SHORT).code, "success")
             node.end()
         finally:
             subprocess.run(["umount", "-l", disk], check=True)

@@ -1,10 +1,12 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """Nodes as processes of a test, which ends them as users do."""
 import os
+import shutil
 import signal
 import subprocess
 import tempfile
 import time
+import unittest
 
 import roslib.packages
 import rospkg
@@ -53,6 +55,25 @@ class Node:
     def output(self):
         self.log.seek(0)
         return self.log.read()
+
+
+class NodesTestCase(unittest.TestCase):
+    """Tests with a folder of their own and nodes that do not outlive them."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.nodes = []
+
+    def tearDown(self):
+        for node in self.nodes:
+            if node.process.poll() is None:
+                node.end(signal.SIGKILL)
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def start(self, program, name, **parameters):
+        node = Node(program, name, **parameters)
+        self.nodes.append(node)
+        return node
 
 
 def wait_until(condition, what):

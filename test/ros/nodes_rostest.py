@@ -10,7 +10,6 @@ import sys
 import tempfile
 import threading
 import time
-import unittest
 
 import rosbag
 import rospy
@@ -20,7 +19,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from std_msgs.msg import String
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import SHARE, TIMEOUT, Node, wait_until  # noqa: E402
+from node_process import SHARE, TIMEOUT, NodesTestCase, wait_until  # noqa: E402
 
 
 def state_of(name, wanted):
@@ -58,22 +57,7 @@ class Launch:
         return self.log.read()
 
 
-class NodesTest(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.mkdtemp()
-        self.nodes = []
-
-    def tearDown(self):
-        for node in self.nodes:
-            if node.process.poll() is None:
-                node.end(signal.SIGKILL)
-        shutil.rmtree(self.folder, ignore_errors=True)
-
-    def start(self, program, name, **parameters):
-        node = Node(program, name, **parameters)
-        self.nodes.append(node)
-        return node
-
+class NodesTest(NodesTestCase):
     def test_parameters_that_cannot_be_read_are_errors_that_show_the_value(self):
         cases = {"rate": "fast", "time_scale": -2.0, "loop": "yes", "world_frame": 3, "mode": 7, "set": "crank_length", "overlays": 1.5, "bag": True,
                  "wait_for_subscribers": "joint_state", "frame_prefix": "/left"}

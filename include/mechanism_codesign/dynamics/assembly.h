@@ -53,7 +53,7 @@ class Assembly {
  private:
   /// The loops' Jacobian, scaled, its columns those of every coordinate.
   struct ScaledLoops {
-    SparseMatrix matrix;
+    SparseMatrix matrix, unscaled;
     LoopScales scales;
   };
   struct Dependents {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mechanism_codesign/dynamics/equations.h"
+#include "mechanism_codesign/dynamics/loop_jacobian.h"
 #include "mechanism_codesign/dynamics/tree_kinematics.h"
 
 namespace codesign {
@@ -16,7 +17,8 @@ namespace codesign {
 /// permanent; where several motions meet it tells their tangents from all others.
 class SingularStart {
  public:
-  SingularStart(const System& system, const TreeLayout& tree);
+  /// @param tree, loops must outlive this.
+  SingularStart(const System& system, const TreeLayout& tree, const LoopJacobian& loops);
 
   /// Makes the position present. @param theta tree coordinates.
   void load(const std::vector<double>& parameters, const VectorX<double>& theta, Equations<double>* equations);
@@ -27,7 +29,7 @@ class SingularStart {
   bool choose_motion(const std::vector<bool>& held, VectorX<double>* x);
 
   /// Tree accelerations from the bodies' at rest.
-  VectorX<double> tree_accelerations(const VectorX<double>& a) const;
+  VectorX<double> tree_accelerations(const VectorX<double>& a);
 
   /// The joints of the loops that the last rates violate, by name: 'a', 'b' and 'c'.
   std::string joints() const;
@@ -40,12 +42,11 @@ class SingularStart {
 
   const System& system_;
   const TreeLayout& tree_;
-  std::vector<int> rows_;   ///< of loops and couplings
-  std::vector<int> owner_;  ///< of each row: a number per loop or coupling
+  const LoopJacobian& loops_;
   std::vector<double> parameters_;
   Equations<double>* equations_ = nullptr;
   VectorX<double> theta_, q_, v_, Phi_, Phi_rate_, violated_;
-  Eigen::MatrixXd J_, L_, body_velocities_;
+  Eigen::MatrixXd J_, L_;
   double tolerance_ = 0.0;  ///< of the last violation()
 };
 

@@ -12,6 +12,9 @@ namespace codesign {
 /// Returns "" if none is near (more than a third of the longer name differs, at least two letters allowed).
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
 
+/// `, did you mean "near"?`, or nothing where `near` is empty.
+std::string did_you_mean(const std::string& near);
+
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_MODEL_NEAREST_NAME_H_

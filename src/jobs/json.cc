@@ -1,0 +1,24 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/jobs/json.h"
+
+namespace codesign {
+
+Json by_name(const std::vector<std::string>& names, const std::vector<double>& values) {
+  Json object = Json::object();
+  for (std::size_t i = 0; i < names.size() && i < values.size(); ++i) object[names[i]] = values[i];
+  return object;
+}
+
+Json by_name(const std::vector<std::string>& names, const Eigen::VectorXd& values) {
+  return by_name(names, std::vector<double>(values.data(), values.data() + values.size()));
+}
+
+Json parameters_json(const Problem& problem, const std::vector<double>& values) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : problem.study.parameters) names.push_back(parameter.name);
+  return by_name(names, values);
+}
+
+std::string to_text(const Json& object) { return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+}  // namespace codesign

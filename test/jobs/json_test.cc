@@ -1,0 +1,19 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism_codesign/jobs/json.h"
+
+#include <gtest/gtest.h>
+
+namespace codesign {
+namespace {
+
+TEST(Json, ValuesGoByName) {
+  const Eigen::Vector2d values(0.08, -1.5);
+  const Json object = by_name({"crank_length", "Kp"}, Eigen::VectorXd(values));
+  EXPECT_EQ(object.dump(), R"({"crank_length":0.08,"Kp":-1.5})");
+  EXPECT_EQ(by_name({"a"}, std::vector<double>{}).dump(), "{}");
+}
+
+TEST(Json, BytesThatAreNoUtf8AreReplaced) { EXPECT_EQ(Json::parse(to_text({{"model", "arm\xe4"}}))["model"], "arm\xef\xbf\xbd"); }
+
+}  // namespace
+}  // namespace codesign
