@@ -8,7 +8,8 @@
 
 namespace codesign::cli {
 
-LimitWatch::LimitWatch(const Problem& problem, const std::vector<double>& parameters, const FrameNames& names) {
+LimitWatch::LimitWatch(const Problem& problem, const std::vector<double>& parameters, const FrameNames& names)
+    : absolute_margin_(problem.study.solver.absolute_tolerance), relative_margin_(problem.study.solver.relative_tolerance) {
   const LimitOptions& enforced = problem.study.limits;
   for (const JointDescription& joint : problem.robot.joints) {
     const auto found = std::find(names.joints.begin(), names.joints.end(), joint.name);
@@ -28,10 +29,11 @@ LimitWatch::LimitWatch(const Problem& problem, const std::vector<double>& parame
 void LimitWatch::observe(const Frame& frame) {
   for (Watched& watched : watched_) {
     const JointSample& sample = frame.joints[watched.sample];
-    if (watched.limit == "lower") note(&watched, sample.position, sample.position < watched.bound, frame.time);
-    if (watched.limit == "upper") note(&watched, sample.position, sample.position > watched.bound, frame.time);
-    if (watched.limit == "velocity") note(&watched, sample.velocity, std::abs(sample.velocity) > watched.bound, frame.time);
-    if (watched.limit == "effort") note(&watched, sample.effort, std::abs(sample.effort) > watched.bound, frame.time);
+    const double margin = absolute_margin_ + relative_margin_ * std::abs(watched.bound);
+    if (watched.limit == "lower") note(&watched, sample.position, sample.position < watched.bound - margin, frame.time);
+    if (watched.limit == "upper") note(&watched, sample.position, sample.position > watched.bound + margin, frame.time);
+    if (watched.limit == "velocity") note(&watched, sample.velocity, std::abs(sample.velocity) > watched.bound + margin, frame.time);
+    if (watched.limit == "effort") note(&watched, sample.effort, std::abs(sample.effort) > watched.bound + margin, frame.time);
   }
 }
 

@@ -20,7 +20,7 @@ struct LimitCrossing {
 };
 
 /// Watches a run for joints beyond their `<limit>`. Velocities are only ever reported; positions and efforts where the study does not
-/// enforce them.
+/// enforce them. Beyond is what the solver's tolerances cannot explain: more than absolute_tolerance + relative_tolerance * |bound|.
 class LimitWatch {
  public:
   LimitWatch(const Problem& problem, const std::vector<double>& parameters, const FrameNames& names);
@@ -37,6 +37,7 @@ class LimitWatch {
   };
   void note(Watched* watched, double value, bool beyond, double time);
 
+  double absolute_margin_, relative_margin_;
   std::vector<Watched> watched_;
   std::vector<LimitCrossing> crossings_;
 };

@@ -177,21 +177,26 @@ void Observer::observe_controllers(const State<double>& state, Equations<double>
   }
 }
 
-// Bodies are read off the state; links without mass follow from the tree's joint positions.
+// Bodies are read off the state; a link without mass stands on its parent as the position of its joint says. The tree's own kinematics
+// cannot place it in the world: it knows planar and floating joints where they started only.
 void Observer::observe_links(const VectorX<double>& theta, Equations<double>* equations, Frame* frame) const {
   const auto& links = equations->constants().links;
   frame->links.resize(links.size());
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    const int body = system_.topology().link_body[k];
+    if (body == Topology::kMassless) continue;
+    const BodyKinematics<double>& b = equations->body(body);
+    frame->links[k] = {b.r + b.A * links[k].s, Eigen::Quaterniond(Eigen::Matrix3d(b.A * links[k].R)).normalized()};
+  }
   const std::vector<LinkMotion<double>> motions =
       link_motions<double>(system_.robot(), tree_, equations->parameters(), theta, VectorX<double>::Zero(theta.size()));
-  for (std::size_t k = 0; k < links.size(); ++k) {
-    LinkSample& sample = frame->links[k];
-    const int body = system_.topology().link_body[k];
-    if (body == Topology::kMassless) {
-      sample = {motions[k].X.t, Eigen::Quaterniond(motions[k].X.R)};
-      continue;
-    }
-    const BodyKinematics<double>& b = equations->body(body);
-    sample = {b.r + b.A * links[k].s, Eigen::Quaterniond(Eigen::Matrix3d(b.A * links[k].R)).normalized()};
+  for (int joint : tree_.joint_order) {
+    const JointDescription& description = system_.robot().joints[static_cast<std::size_t>(joint)];
+    const auto parent = static_cast<std::size_t>(description.parent), child = static_cast<std::size_t>(description.child);
+    if (system_.topology().link_body[child] != Topology::kMassless) continue;
+    const LinkSample& base = frame->links[parent];
+    const Pose<double> X = motions[parent].X.inverse() * motions[child].X;
+    frame->links[child] = {base.position + base.orientation * X.t, (base.orientation * Eigen::Quaterniond(X.R)).normalized()};
   }
 }
 

@@ -53,7 +53,8 @@ bool has_files(const std::string& stem) {
 /// Removes what a killed job has not finished and names what it has.
 std::string clean(const std::string& stem) {
   std::string removed, kept;
-  for (const std::string& suffix : {std::string(".bag.active"), kBest[0] + kPartSuffix, kBest[1] + kPartSuffix}) {
+  // Without `.bag`: the simulation node's own bag in the same folder, whose path may end in any way.
+  for (const std::string& suffix : {std::string(".bag.active"), std::string(".active"), kBest[0] + kPartSuffix, kBest[1] + kPartSuffix}) {
     std::error_code error;
     if (fs::remove(stem + suffix, error)) removed += (removed.empty() ? "" : ", ") + stem + suffix;
   }

@@ -38,6 +38,8 @@ void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& 
   reply->steps = static_cast<std::uint64_t>(check.evaluation.statistics.steps);
   reply->rejected_steps = static_cast<std::uint64_t>(check.evaluation.statistics.rejected_steps);
   reply->cpu_seconds = check.evaluation.statistics.cpu_seconds;
+  reply->constraint_drift = check.evaluation.statistics.constraint_drift;
+  reply->energy_error = check.evaluation.statistics.energy_error;
   reply->warnings = warning_messages(problem.warnings, check.evaluation.warnings);
 }
 

@@ -36,6 +36,8 @@ mechanism_codesign::OptimizeResult to_message(const OptimizationResult& result, 
   message.steps = static_cast<std::uint64_t>(result.statistics.steps);
   message.rejected_steps = static_cast<std::uint64_t>(result.statistics.rejected_steps);
   message.cpu_seconds = result.statistics.cpu_seconds;
+  message.constraint_drift = result.statistics.constraint_drift;
+  message.energy_error = result.statistics.energy_error;
   return message;
 }
 

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <system_error>
 
 #include "mechanism_codesign/jobs/output_error.h"
+#include "mechanism_codesign/math/decimal.h"
 #include "mechanism_codesign/model/error.h"
 #include "mechanism_codesign/model/unknown_name.h"
 #include "mechanism_codesign/ros/advance.h"
@@ -135,18 +137,25 @@ Status SimulationNode::run_once() {
     if (!clock_.wait(time, [this] { return stopping(); })) break;
     publish(simulation.names(), frame);
     record(simulation.names(), frame);
-    tell_progress(frame);
+    tell_progress(frame, simulation.statistics());
     if (time >= duration) break;
   }
   state_.show("real-time factor of the run", std::to_string(factor_.mean(frame.time, ros::WallTime::now())));
+  tell_figures(simulation.statistics());
   state_.warn("run", simulation.warnings());
   return status;
 }
 
-void SimulationNode::tell_progress(const Frame& frame) {
+void SimulationNode::tell_figures(const Statistics& statistics) {
+  state_.show("constraint drift", to_decimal(statistics.constraint_drift));
+  state_.show("energy error", to_decimal(statistics.energy_error));
+}
+
+void SimulationNode::tell_progress(const Frame& frame, const Statistics& statistics) {
   if (!factor_.note(frame.time, ros::WallTime::now())) return;
   state_.show("time of the run", std::to_string(frame.time));
   state_.show("real-time factor", std::to_string(factor_.value()));
+  tell_figures(statistics);
 }
 
 void SimulationNode::wait_for_subscribers() {
@@ -187,20 +196,29 @@ void SimulationNode::publish(const FrameNames& names, const Frame& frame) {
 
 void SimulationNode::open_bag() {
   if (options_.bag.empty()) return;
-  const std::string lock = options_.bag + ".job";
   try {
-    // What a killed node left unfinished is known by its lock.
-    if (LockFile::take_abandoned(lock)) {
-      ROS_WARN_STREAM("a node was killed: removed " << options_.bag << ".active");
-      std::filesystem::remove(options_.bag + ".active");
-    }
-    bag_lock_ = LockFile::create(lock);
+    bag_lock_ = lock_bag();
     bag_ = std::make_unique<BagWriter>(options_.bag);
     bag_->write_text("robot_description", description_);
   } catch (const OutputError& error) {
-    bag_.reset();
-    state_.warn("bag", {{"output_failed", error.what(), {}}});
+    give_up_bag(error);
   }
+}
+
+// What a killed node left unfinished is known by its lock, which is held until it is gone.
+std::optional<LockFile> SimulationNode::lock_bag() {
+  const std::string lock = options_.bag + ".job";
+  std::optional<LockFile> abandoned = LockFile::take_abandoned(lock);
+  if (!abandoned) return LockFile::create(lock);
+  std::error_code error;
+  if (std::filesystem::remove(options_.bag + ".active", error)) ROS_WARN_STREAM("a node was killed: removed " << options_.bag << ".active");
+  return abandoned;
+}
+
+void SimulationNode::give_up_bag(const OutputError& error) {
+  bag_.reset();
+  bag_lock_.reset();
+  state_.warn("bag", {{"output_failed", error.what(), {}}});
 }
 
 void SimulationNode::record(const FrameNames& names, const Frame& frame) {
@@ -209,8 +227,7 @@ void SimulationNode::record(const FrameNames& names, const Frame& frame) {
     bag_->write_frame("", options_.frame_prefix + names.links[0], names, frame, options_.style);
     bag_->write("tf", frame.time, link_transforms(names, frame, BagWriter::stamp(frame.time), options_.frame_prefix));
   } catch (const OutputError& error) {
-    bag_.reset();
-    state_.warn("bag", {{"output_failed", error.what(), {}}});
+    give_up_bag(error);
   }
 }
 
@@ -219,11 +236,11 @@ void SimulationNode::close_bag() {
   try {
     bag_->finish();
     state_.show("bag", options_.bag);
+    bag_.reset();
+    bag_lock_.reset();
   } catch (const OutputError& error) {
-    state_.warn("bag", {{"output_failed", error.what(), {}}});
+    give_up_bag(error);
   }
-  bag_.reset();
-  bag_lock_.reset();
 }
 
 }  // namespace codesign

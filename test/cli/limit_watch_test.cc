@@ -50,6 +50,15 @@ TEST(LimitWatch, NotesFirstTimeAndWorstValueOfEachLimit) {
   EXPECT_EQ(describe(crossings[1]), "joint 'elbow_joint' is beyond its velocity limit 3.15 from t = 0.1 s, 4 at the worst");
 }
 
+TEST(LimitWatch, WhatTheTolerancesExplainIsNotReported) {
+  const double margin = 1e-7 + 1e-6 * 3.1416;  // the study's tolerances
+  EXPECT_TRUE(
+      watch("limits: {}", {at(0.0, 3.1416 + 1e-15, 3.15 + 1e-15, 150.0 + 1e-13), at(0.1, -3.1416 - 0.9 * margin, -3.15, 0.0)}).empty());
+  const auto crossings = watch("limits: {}", {at(0.0, 3.1416 + 1.1 * margin, 3.15 + 4e-6, -150.0 - 2e-4)});
+  ASSERT_EQ(crossings.size(), 3U);
+  EXPECT_EQ(crossings[0].worst, 3.1416 + 1.1 * margin);
+}
+
 TEST(LimitWatch, WhatIsEnforcedIsNotReported) {
   const auto crossings = watch("limits: {effort: true, position: true}", {at(0.0, -4.0, 3.2, 200.0)});
   ASSERT_EQ(crossings.size(), 1U);

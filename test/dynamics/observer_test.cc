@@ -85,6 +85,30 @@ TEST(Observer, AJointThatMovesNoMassStaysWhereItStarted) {
   EXPECT_LT((o.frame.links[2].position + Eigen::Vector3d(std::sin(0.4), 0.0, std::cos(0.4))).norm(), 1e-14);
 }
 
+// The tree's kinematics knows the poses of planar and floating joints at the start only.
+TEST(Observer, ALinkWithoutMassBelowAFreeJointGoesWithIt) {
+  for (const char* type : {"floating", "planar"}) {
+    const std::string urdf =
+        robot(bar("bar") + "<joint name='free' type='" + type +
+              "'><parent link='ground'/><child link='bar'/><axis xyz='0 1 0'/></joint><link name='finger'/>" +
+              hinge("grip", "bar", "finger", "0 0 -1") + "<link name='tip'/>" + hinge("tip_joint", "finger", "tip", "0 0 -0.5"));
+    Observed o(urdf, let_go("{grip: {position: 0.3}}", "bar/position/z"));
+    // Half a metre along z, and a turn of 0.8 rad about y, the hinges' axis.
+    State<double> moved = o.compiled.state;
+    const double half = 0.4;
+    const Eigen::Vector3d centre = moved.q.head<3>();
+    moved.q.segment<4>(3) = Eigen::Vector4d(std::cos(half), 0.0, std::sin(half), 0.0);
+    const Eigen::Matrix3d R = Eigen::AngleAxisd(2.0 * half, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    moved.q.head<3>() = R * centre + 0.5 * Eigen::Vector3d::UnitZ();
+    o.observer.observe(moved, 0.0, o.compiled.assembly.theta(), &o.compiled.equations, &o.frame);
+    const LinkSample &bar = o.frame.links.at(1), &finger = o.frame.links.at(2), &tip = o.frame.links.at(3);
+    EXPECT_LT((bar.position - Eigen::Vector3d(0.0, 0.0, 0.5)).norm(), 1e-12) << type;
+    EXPECT_LT((finger.position - (Eigen::Vector3d(0.0, 0.0, 0.5) - R.col(2))).norm(), 1e-12) << type;
+    EXPECT_NEAR(finger.orientation.angularDistance(bar.orientation), 0.3, 1e-12) << type;
+    EXPECT_LT((tip.position - (finger.position - 0.5 * (finger.orientation * Eigen::Vector3d::UnitZ()))).norm(), 1e-12) << type;
+  }
+}
+
 TEST(Observer, ASignalMustExist) {
   const Compiled c(pendulum(), let_go("{}", "hinge/velocity"));
   EXPECT_THROW(Observer(c.system, {parse_signal("hing/velocity", {}, "signal")}), InputError);

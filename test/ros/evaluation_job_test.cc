@@ -22,6 +22,9 @@ TEST_F(EvaluationJob, GivesObjectiveAndGradientAtTheStart) {
   EXPECT_GT(reply.objective, 0.0);
   EXPECT_EQ(reply.gradient.size(), 2U);
   EXPECT_TRUE(reply.reference.empty());
+  EXPECT_GT(reply.constraint_drift, 0.0);
+  EXPECT_GT(reply.energy_error, 0.0);
+  EXPECT_LT(reply.energy_error, 1e-4);
 }
 
 TEST_F(EvaluationJob, TheObjectiveAloneIsTheSame) {

@@ -1,16 +1,19 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """Nodes as processes of a test, which ends them as users do."""
 import os
+import re
 import shutil
 import signal
 import subprocess
 import tempfile
+import threading
 import time
 import unittest
 
 import roslib.packages
 import rospkg
 import rospy
+from diagnostic_msgs.msg import DiagnosticArray
 from mechanism_codesign.srv import Evaluate, Optimize
 
 TIMEOUT = 60.0
@@ -55,6 +58,51 @@ class Node:
     def output(self):
         self.log.seek(0)
         return self.log.read()
+
+
+class Launch:
+    """A launch file of the package."""
+
+    def __init__(self, file, *arguments, cwd=None, environment=None):
+        self.log = tempfile.TemporaryFile("w+")
+        command = ["roslaunch", "mechanism_codesign", file, *arguments]
+        self.process = subprocess.Popen(command, cwd=cwd, env={**os.environ, **(environment or {})}, stdout=self.log, stderr=subprocess.STDOUT)
+
+    def end(self, kind=signal.SIGINT):
+        """While it starts, roslaunch may miss a signal; one presses Ctrl-C again then."""
+        end = time.monotonic() + TIMEOUT
+        while self.process.poll() is None:
+            assert time.monotonic() < end, "roslaunch does not end"
+            self.process.send_signal(kind)
+            try:
+                self.process.wait(20)
+            except subprocess.TimeoutExpired:
+                continue
+
+    def output(self):
+        self.process.wait(60)
+        self.log.seek(0)
+        return self.log.read()
+
+
+def state_of(name, wanted):
+    """The first state of a node on /diagnostics whose sentence matches."""
+    found, done = [], threading.Event()
+
+    def receive(message):
+        for status in message.status:
+            if status.name.startswith(name + ":") and re.search(wanted, status.message):
+                found.append(status)
+                done.set()
+
+    subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, receive)
+    assert done.wait(TIMEOUT), f"{name} never says {wanted}"
+    subscriber.unregister()
+    return found[0]
+
+
+def values_of(status):
+    return {value.key: value.value for value in status.values}
 
 
 class NodesTestCase(unittest.TestCase):

@@ -1,60 +1,20 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""Nodes and launch files as they are started by hand: parameters, what they show of the mechanism, what they leave on the master."""
+"""Nodes as they are started by hand: parameters, what they show of the mechanism and of their runs, what they leave on the disk."""
 import os
-import re
-import shutil
 import signal
 import subprocess
 import sys
-import tempfile
-import threading
 import time
 
 import rosbag
 import rospy
 import rostest
 import tf2_ros
-from diagnostic_msgs.msg import DiagnosticArray
 from std_msgs.msg import String
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import SHARE, TIMEOUT, NodesTestCase, wait_until  # noqa: E402
-
-
-def state_of(name, wanted):
-    """The first state of a node on /diagnostics whose sentence matches."""
-    found, done = [], threading.Event()
-
-    def receive(message):
-        for status in message.status:
-            if status.name.startswith(name + ":") and re.search(wanted, status.message):
-                found.append(status)
-                done.set()
-
-    subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, receive)
-    assert done.wait(TIMEOUT), f"{name} never says {wanted}"
-    subscriber.unregister()
-    return found[0]
-
-
-def values_of(status):
-    return {value.key: value.value for value in status.values}
-
-
-class Launch:
-    def __init__(self, file, *arguments, cwd=None):
-        self.log = tempfile.TemporaryFile("w+")
-        self.process = subprocess.Popen(["roslaunch", "mechanism_codesign", file, *arguments], cwd=cwd, stdout=self.log, stderr=subprocess.STDOUT)
-
-    def end(self):
-        self.process.send_signal(signal.SIGINT)
-        self.process.wait(60)
-
-    def output(self):
-        self.process.wait(60)
-        self.log.seek(0)
-        return self.log.read()
+from node_process import SHARE, TIMEOUT, Launch, NodesTestCase, files, state_of, values_of, wait_until  # noqa: E402
 
 
 class NodesTest(NodesTestCase):
@@ -124,6 +84,8 @@ class NodesTest(NodesTestCase):
                 rospy.set_param("/use_sim_time", before)
         self.assertGreater(float(values_of(status)["real-time factor of the run"]), 0.0)
         self.assertEqual(values_of(status)["bag"], own)
+        self.assertGreater(float(values_of(status)["constraint drift"]), 0.0)
+        self.assertLess(float(values_of(status)["energy error"]), 1e-4)
         node.end()
         for path, topics in ((recorded, ("joint_states", "loop_errors")), (own, ("joint_states", "joint_friction", "loop_errors", "tf"))):
             with rosbag.Bag(path) as bag:
@@ -132,6 +94,33 @@ class NodesTest(NodesTestCase):
                     stamps = [(m.transforms[0] if topic == "tf" else m).header.stamp.to_sec() for _, m, _ in bag.read_messages(topics=names)]
                     self.assertEqual(len(stamps), 1001, f"{path} {topic}")
                     self.assertTrue(all(abs(b - a - 0.002) < 1e-6 for a, b in zip(stamps, stamps[1:])), topic)
+
+    def test_the_bag_of_a_killed_node_is_removed_by_the_next_one(self):
+        path = f"{self.folder}/run.bag"
+        killed = self.start("simulation", "recorded", bag=path, time_scale=0.05)
+        wait_until(lambda: files(self.folder, ".active"), "no bag is begun")
+        state_of("recorded", "running")
+        beside = self.start("simulation", "beside", bag=path, time_scale=0.05)
+        self.assertTrue(any("output_failed" in key for key in values_of(state_of("beside", "running .*warning"))))
+        self.assertEqual(files(self.folder, ".active"), [path + ".active"], "a bag that is being written stays")
+        beside.end()
+        killed.end(signal.SIGKILL)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["run.bag.active", "run.bag.job"])
+        following = self.start("simulation", "recorded", bag=path, time_scale=10.0)
+        self.assertEqual(values_of(state_of("recorded", "finished"))["bag"], path)
+        self.assertEqual(os.listdir(self.folder), ["run.bag"])
+        following.end()
+        self.assertIn(f"a node was killed: removed {path}.active", following.output())
+        with rosbag.Bag(path) as bag:
+            self.assertEqual(bag.get_message_count(["joint_states"]), 101)
+
+    def test_an_optimization_node_in_the_same_folder_removes_the_bag_of_a_killed_node_too(self):
+        killed = self.start("simulation", "recorded", bag=f"{self.folder}/run.bag", time_scale=0.05)
+        wait_until(lambda: files(self.folder, ".active"), "no bag is begun")
+        killed.end(signal.SIGKILL)
+        self.start("optimization", "beside", output_directory=self.folder)
+        state_of("beside", "ready")
+        self.assertEqual(os.listdir(self.folder), [])
 
     def test_the_description_is_that_of_the_mechanism_and_the_rod_ends_in_the_slider(self):
         launch = Launch("simulate.launch", "rviz:=false", "set:={crank_length: 0.1}", "time_scale:=0.2")
@@ -171,44 +160,6 @@ class NodesTest(NodesTestCase):
             self.assertAlmostEqual((tip.x**2 + tip.y**2 + tip.z**2) ** 0.5, length, delta=1e-9)
             buffer.lookup_transform("world", f"{side}/slider", rospy.Time(0), rospy.Duration(TIMEOUT))
         listener.unregister()
-
-    def test_launch_files_leave_the_master_as_they_found_it(self):
-        rospy.set_param("/use_sim_time", False)
-        rospy.set_param("/robot_description", "what was here")
-        names = set(rospy.get_param_names())
-        for arguments in (("simulate.launch", "rviz:=false", "mode:=as_fast_as_possible"), ("optimize.launch", f"output_directory:={self.folder}")):
-            launch = Launch(*arguments)
-            node = arguments[0].split("e.")[0][:5]
-            wait_until(lambda: any(name.startswith("/" + node) for name in rospy.get_param_names()), "no node is up")
-            state_of("simulation" if "simulate.launch" in arguments else "optimization", "running|ready")
-            if "simulate.launch" in arguments:
-                self.assertTrue(rospy.get_param("/use_sim_time"))
-            launch.end()
-            left = {name for name in rospy.get_param_names() if not name.startswith("/roslaunch/")}
-            self.assertEqual(left - names, set())
-        self.assertFalse(rospy.get_param("/use_sim_time"))
-        self.assertEqual(rospy.get_param("/robot_description"), "what was here")
-        rospy.delete_param("/use_sim_time")
-        rospy.delete_param("/robot_description")
-
-    def test_launch_files_take_relative_paths_and_forget_the_parameters_of_the_last_start(self):
-        for name, shipped in (("my.urdf", "urdf/slider_crank.urdf"), ("my.yaml", "config/slider_crank.yaml")):
-            shutil.copy(f"{SHARE}/{shipped}", f"{self.folder}/{name}")
-        rospy.set_param("/optimization/set", {"crank_length": 0.07})
-        launch = Launch("optimize.launch", "model:=my.urdf", "study:=my.yaml", "output_directory:=bags", cwd=self.folder)
-        try:
-            state = state_of("optimization", "ready")
-            self.assertEqual(values_of(state)["output directory"], f"{self.folder}/bags")
-            self.assertEqual(rospy.get_param("/optimization/model"), f"{self.folder}/my.urdf")
-            self.assertEqual(rospy.get_param("/optimization/set", {}), {})
-        finally:
-            launch.end()
-
-    def test_a_launch_file_names_the_known_cases_on_a_typo(self):
-        for file in ("simulate.launch", "optimize.launch"):
-            output = Launch(file, "case:=slider_crnk").output()
-            self.assertIn('did you mean "slider_crank"?', output)
-            self.assertIn("inverted_pendulum", output)
 
 
 if __name__ == "__main__":

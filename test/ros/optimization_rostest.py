@@ -59,6 +59,8 @@ class OptimizationTest(unittest.TestCase):
         self.assertTrue(reply.success, reply.message)
         self.assertAlmostEqual(reply.objective, self.result.initial_objective, delta=1e-9)
         self.assertLess(reply.largest_relative_difference, 1e-6)
+        self.assertTrue(0.0 < reply.constraint_drift <= self.result.constraint_drift, "the start is one of the optimization's points")
+        self.assertTrue(0.0 < reply.energy_error <= self.result.energy_error < 1e-4)
 
     def test_evaluate_at_the_tuned_design(self):
         reply = rospy.ServiceProxy("evaluate", Evaluate)(EvaluateRequest(parameters=self.result.parameters, values=self.result.tuned))
@@ -82,6 +84,7 @@ class OptimizationTest(unittest.TestCase):
             (_, result, _), = bag.read_messages(topics=["result"])
             self.assertEqual(result.objective, self.result.objective)
             self.assertEqual(result.bag, self.result.bag)
+            self.assertEqual((result.constraint_drift, result.energy_error), (self.result.constraint_drift, self.result.energy_error))
             velocity = [message.velocity[message.name.index("crank_joint")] for _, message, _ in bag.read_messages(topics=["tuned/joint_states"])]
             self.assertAlmostEqual(velocity[-1], -10.0, delta=0.2)
 

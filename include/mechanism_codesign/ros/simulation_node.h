@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "mechanism_codesign/jobs/lock_file.h"
+#include "mechanism_codesign/jobs/output_error.h"
 #include "mechanism_codesign/optimization/problem.h"
 #include "mechanism_codesign/ros/bag_writer.h"
 #include "mechanism_codesign/ros/node_state.h"
@@ -45,9 +46,12 @@ class SimulationNode {
   void publish(const FrameNames& names, const Frame& frame);
   void publish_clock(double time);
   void open_bag();
+  std::optional<LockFile> lock_bag();
+  void give_up_bag(const OutputError& error);
   void record(const FrameNames& names, const Frame& frame);
   void close_bag();
-  void tell_progress(const Frame& frame);
+  void tell_progress(const Frame& frame, const Statistics& statistics);
+  void tell_figures(const Statistics& statistics);
   bool stopping() const { return stopping_ || !ros::ok(); }
 
   ros::NodeHandle node_, private_node_{"~"};

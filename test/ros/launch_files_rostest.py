@@ -1,0 +1,253 @@
+#!/usr/bin/python3
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""Launch files as they are typed: paths, typing errors, and a master that is left as it was found, whatever ends them in whatever order."""
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+
+import rospy
+import rostest
+import yaml
+from mechanism_codesign.srv import OptimizeRequest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from node_process import SHARE, Launch, NodesTestCase, state_of, values_of, wait_until  # noqa: E402
+
+FOUND = {"/use_sim_time": False, "/robot_description": "what was here", "/simulation/rate": 7, "/replay/color": [1, 2], "/rviz/a": {"b": 1.5},
+         "/tuned/robot_description": "the tuned one", "/optimization/set/crank_length": 0.07}
+FAST = ("simulate.launch", "rviz:=false", "mode:=as_fast_as_possible", "loop:=true")
+REAL_TIME = ("simulate.launch", "rviz:=false", "set:={crank_length: 0.09}", "loop:=true")
+
+
+def parameters():
+    """All of the master but what roslaunch itself leaves there."""
+    return {name: rospy.get_param(name) for name in rospy.get_param_names() if not name.startswith("/roslaunch/")}
+
+
+def records():
+    return [name for name in rospy.get_param_names() if name.endswith("/before_launch")]
+
+
+def processes(parent=None):
+    """Numbers and command lines."""
+    found = []
+    for folder in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            if parent is None or int((folder / "stat").read_text().rsplit(")", 1)[1].split()[1]) == parent:
+                found.append((int(folder.name), (folder / "cmdline").read_text()))
+        except (OSError, ValueError):
+            continue
+    return found
+
+
+def nodes_of(launch):
+    return [pid for pid, _ in processes(launch.process.pid)]
+
+
+class LaunchFilesTest(NodesTestCase):
+    def setUp(self):
+        super().setUp()
+        self.launches = []
+        for name in parameters():
+            if not name.startswith(("/ros", "/run_id")):
+                rospy.delete_param(name)
+        for name, value in FOUND.items():
+            rospy.set_param(name, value)
+        self.before = parameters()
+
+    def tearDown(self):
+        for launch in self.launches:
+            launch.end()
+        super().tearDown()
+
+    def launch(self, *arguments, **settings):
+        """Returns once all parameters are set."""
+        earlier = set(records())
+        launch = Launch(*arguments, **settings)
+        self.launches.append(launch)
+        wait_until(lambda: set(records()) - earlier or launch.process.poll() is not None, f"{arguments} sets nothing")
+        wait_until(lambda: nodes_of(launch) or launch.process.poll() is not None, f"{arguments} starts nothing")
+        self.assertIsNone(launch.process.poll(), launch.output() if launch.process.poll() is not None else "")
+        return launch
+
+    def end(self, *launches):
+        """Ends launch files. What the node that restores parameters had no time for is done a moment later."""
+        count = len(records())
+        for launch in launches:
+            launch.process.send_signal(signal.SIGINT)
+        for launch in launches:
+            launch.end()
+        wait_until(lambda: len(records()) == count - len(launches), "nobody restores the parameters")
+
+    def bag(self):
+        node = self.start("optimization", "recorded", output_directory=self.folder)
+        reply = node.optimize(OptimizeRequest(max_evaluations=1))
+        node.end()
+        return reply.bag
+
+    def replay(self, bag):
+        return self.launch("replay.launch", "rviz:=false", f"bag:={bag}")
+
+    def assert_left_as_found(self):
+        self.assertEqual(parameters(), self.before)
+
+    def test_each_alone(self):
+        bag = self.bag()
+        for arguments, node in ((FAST, "simulation"), (("optimize.launch", f"output_directory:={self.folder}"), "optimization"),
+                                (("replay.launch", "rviz:=false", f"bag:={bag}"), None)):
+            launch = self.launch(*arguments)
+            if node:
+                state_of(node, "running|ready")
+            self.assertEqual(rospy.get_param("/use_sim_time"), arguments[0] != "optimize.launch")
+            self.end(launch)
+            self.assert_left_as_found()
+
+    def test_a_master_that_has_nothing_gets_nothing(self):
+        for name in FOUND:
+            rospy.delete_param(name)
+        self.before = parameters()
+        first, second = self.launch(*FAST), self.launch("optimize.launch", f"output_directory:={self.folder}")
+        self.end(first)
+        self.end(second)
+        self.assert_left_as_found()
+
+    def test_two_that_overlap_may_end_in_either_order(self):
+        bag = self.bag()
+        starts = {"fast": lambda: self.launch(*FAST), "real time": lambda: self.launch(*REAL_TIME), "replay": lambda: self.replay(bag)}
+        for first, second in (("fast", "replay"), ("fast", "real time")):
+            for is_first_to_end_first in (True, False):
+                launches = [starts[first](), starts[second]()]
+                # A command in a launch file is done before the next one begins: what is set by now is the second's.
+                both = parameters()
+                self.assertEqual(both["/use_sim_time"], second != "real time")
+                if is_first_to_end_first:
+                    self.end(launches[0])
+                    self.assertEqual(rospy.get_param("/use_sim_time"), both["/use_sim_time"], "the second's stays as long as it runs")
+                    if second != "replay":
+                        self.assertEqual(rospy.get_param("/robot_description"), both["/robot_description"])
+                        self.assertEqual(rospy.get_param("/simulation/mode"), both["/simulation/mode"])
+                    self.end(launches[1])
+                else:
+                    self.end(launches[1])
+                    self.assertEqual(rospy.get_param("/use_sim_time"), first != "real time", "the first's is back")
+                    if second != "replay":
+                        self.assertEqual(rospy.get_param("/robot_description") == "what was here", first == "replay")
+                    self.end(launches[0])
+                with self.subTest(first=first, second=second, is_first_to_end_first=is_first_to_end_first):
+                    self.assert_left_as_found()
+
+    def test_three_of_which_the_second_ends_first_and_two_at_once(self):
+        bag = self.bag()
+        launches = [self.launch(*FAST), self.replay(bag), self.launch(*REAL_TIME)]
+        self.end(launches[1])
+        self.end(launches[0], launches[2])
+        self.assert_left_as_found()
+
+    def test_a_roslaunch_that_is_interrupted_while_it_starts(self):
+        for ready in (records, lambda: rospy.get_param("/use_sim_time", False)):
+            launch = Launch(*FAST)
+            self.launches.append(launch)
+            wait_until(ready, "no parameter is set")
+            launch.end()
+            wait_until(lambda: not records(), "nobody restores the parameters")
+            self.assert_left_as_found()
+
+    def test_a_killed_roslaunch_leaves_nothing_either(self):
+        for ending in (signal.SIGKILL, signal.SIGTERM, signal.SIGHUP):
+            launch = self.launch(*FAST)
+            state_of("simulation", "running")
+            nodes = nodes_of(launch)
+            launch.end(ending)
+            wait_until(lambda: not records(), "nobody sees that roslaunch is gone")
+            self.assert_left_as_found()
+            self.end_orphans(nodes)
+
+    def test_a_roslaunch_killed_with_its_nodes_is_put_right_by_the_next(self):
+        launch = self.launch(*FAST)
+        nodes = nodes_of(launch)
+        watchers = [pid for pid, words in processes() if "watch" in words and f'"pid": {launch.process.pid},' in words]
+        self.assertEqual(len(watchers), 1)
+        for pid in [*watchers, launch.process.pid, *nodes]:
+            os.kill(pid, signal.SIGKILL)
+        launch.process.wait(20)
+        self.assertEqual(len(records()), 1)
+        self.assertTrue(rospy.get_param("/use_sim_time"))
+        following = self.launch("optimize.launch", f"output_directory:={self.folder}")
+        self.assertFalse(rospy.get_param("/use_sim_time"))
+        self.end(following)
+        self.assertIn("a roslaunch was killed: restored /use_sim_time", following.output())
+        self.assert_left_as_found()
+
+    def end_orphans(self, nodes):
+        for pid in nodes:
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        wait_until(lambda: not any(os.path.exists(f"/proc/{pid}/exe") for pid in nodes), "a node does not end")
+
+    def test_paths_may_be_relative_or_begin_with_a_tilde(self):
+        bag = self.bag()
+        home = os.path.join(self.folder, "home of me")
+        os.mkdir(home)
+        for name, source in (("my.urdf", f"{SHARE}/urdf/slider_crank.urdf"), ("my.yaml", f"{SHARE}/config/slider_crank.yaml"), ("my.bag", bag)):
+            for folder in (self.folder, home):
+                shutil.copy(source, os.path.join(folder, name))
+        for folder in (self.folder, home):
+            for name in ("one.urdf", "two.urdf"):
+                pathlib.Path(folder, name).write_text('<robot name="slider_crank"/>', encoding="utf-8")
+        for place, folder in (("", self.folder), ("~/", home)):
+            inputs = [f"model:={place}my.urdf", f"study:={place}my.yaml", f"overlays:={place}one.urdf, {place}two.urdf"]
+            simulation = self.set_by("simulate.launch", *inputs, f"bag:={place}new.bag", f"rviz_config:={place}my.rviz", home=home)
+            optimization = self.set_by("optimize.launch", *inputs, f"output_directory:={place}bags", home=home)
+            replay = self.set_by("replay.launch", f"bag:={place}my.bag", f"rviz_config:={place}my.rviz", home=home)
+            for node, found in (("/simulation", simulation), ("/optimization", optimization)):
+                self.assertEqual(found[node + "/model"], f"{folder}/my.urdf")
+                self.assertEqual(found[node + "/study"], f"{folder}/my.yaml")
+                self.assertEqual(found[node + "/overlays"], [f"{folder}/one.urdf", f"{folder}/two.urdf"])
+            self.assertEqual(simulation["/simulation/bag"], f"{folder}/new.bag")
+            self.assertEqual(optimization["/optimization/output_directory"], f"{folder}/bags")
+            self.assertEqual(replay["/replay/bag"], f"{folder}/my.bag")
+            for found in (simulation, replay):
+                self.assertEqual(found["/rviz/config"], f"{folder}/my.rviz")
+            self.assertIn("<robot", simulation["/robot_description"])
+            self.assertIn("<robot", replay["/tuned/robot_description"])
+
+    def set_by(self, *arguments, home):
+        """What a launch file would set. In the folder of the test."""
+        command = ["roslaunch", "--dump-params", "mechanism_codesign", *arguments]
+        reply = subprocess.run(command, cwd=self.folder, env={**os.environ, "HOME": home}, stdout=subprocess.PIPE, text=True, check=True)
+        return yaml.safe_load(reply.stdout)
+
+    def test_relative_paths_reach_the_nodes_without_the_parameters_of_the_last_start(self):
+        for name, shipped in (("my.urdf", "urdf/slider_crank.urdf"), ("my.yaml", "config/slider_crank.yaml")):
+            shutil.copy(f"{SHARE}/{shipped}", f"{self.folder}/{name}")
+        self.launch("optimize.launch", "model:=my.urdf", "study:=my.yaml", "output_directory:=bags", cwd=self.folder)
+        state = state_of("optimization", "ready")
+        self.assertEqual(values_of(state)["output directory"], f"{self.folder}/bags")
+        self.assertEqual(rospy.get_param("/optimization/model"), f"{self.folder}/my.urdf")
+        self.assertEqual(rospy.get_param("/optimization/set", {}), {})
+
+    def test_a_launch_file_names_the_known_cases_on_a_typo(self):
+        for file in ("simulate.launch", "optimize.launch"):
+            output = Launch(file, "case:=slider_crnk").output()
+            self.assertIn('did you mean "slider_crank"?', output)
+            self.assertIn("inverted_pendulum", output)
+        self.assert_left_as_found()
+
+    def test_a_record_of_another_kind_is_left_alone(self):
+        for name, text in (("a", "no JSON"), ("b", json.dumps({"time": 1.0})), ("c", 5)):
+            rospy.set_param(f"/{name}/before_launch", text)
+        self.before = parameters()
+        launch = self.launch("optimize.launch", f"output_directory:={self.folder}")
+        self.end(launch)
+        self.assert_left_as_found()
+
+
+if __name__ == "__main__":
+    rospy.init_node("launch_files_test")
+    rostest.rosrun("mechanism_codesign", "launch_files", LaunchFilesTest)
