@@ -164,6 +164,7 @@ class LaunchFilesTest(NodesTestCase):
             launch.end(ending)
             wait_until(lambda: not records(), "nobody sees that roslaunch is gone")
             self.assert_left_as_found()
+            wait_until(lambda: not any("/restore_parameters" in words for pid, words in processes() if pid in nodes), "a process waits for ever")
             self.end_orphans(nodes)
 
     def test_a_roslaunch_killed_with_its_nodes_is_put_right_by_the_next(self):
