@@ -11,6 +11,7 @@
 #include "cli/report.h"
 #include "cli/run_recorder.h"
 #include "cli/table.h"
+#include "mechanism_codesign/integration/signal_warnings.h"
 
 namespace codesign::cli {
 namespace {
@@ -79,7 +80,9 @@ int simulate(const Arguments& arguments, const Console& console) {
   if (run.status.ok()) summarize(run, problem.study.duration, problem.setup_seconds, console.err);
   Json object;
   if (arguments.json) object = run_json(problem, run, series_json(names, rows), console);
-  add_warnings(arguments, problem, run.warnings, &object, console);
+  Warnings warnings = run.warnings;
+  append(warn_of_open_reactions(*problem.system, signals), &warnings);
+  add_warnings(arguments, problem, warnings, &object, console);
   return finish(arguments, run.status, std::move(object), console);
 }
 

@@ -27,7 +27,9 @@ const std::map<std::string, SignalKind>& joint_kinds() {
                                                        {"friction_power", SignalKind::kFrictionPower},
                                                        {"damping_power", SignalKind::kDampingPower},
                                                        {"actuator_power", SignalKind::kActuatorPower},
-                                                       {"load_power", SignalKind::kLoadPower}};
+                                                       {"load_power", SignalKind::kLoadPower},
+                                                       {"reaction_force", SignalKind::kReactionForce},
+                                                       {"reaction_torque", SignalKind::kReactionTorque}};
   return kinds;
 }
 
@@ -42,7 +44,22 @@ const std::map<std::string, SignalKind>& mechanism_kinds() {
   return kinds;
 }
 
-SignalReference resolve_joint(const SignalTerm& term, int joint, const SignalDescription& signal, const Topology& topology) {
+/// The wrench on a link without mass is handed on to the next joint, in whose frame it is read.
+[[noreturn]] void refuse_reaction(const SignalTerm& term, const Pair& pair, const SignalDescription& signal, const RobotDescription& robot,
+                                  const Topology& topology) {
+  std::string allowed;
+  for (const ChainElement& element : pair.chain) {
+    const JointDescription& other = robot.joints[static_cast<std::size_t>(element.joint)];
+    if (topology.link_body[static_cast<std::size_t>(other.child)] == Topology::kMassless) continue;
+    allowed = other.name + "/" + term.quantity + "/" + term.component + ", in the frame of that joint";
+  }
+  throw InputError({signal.where, "signal",
+                    "the joint's child has no <inertial>, so that it is folded into a joint and hands on what acts on it", signal.text,
+                    allowed});
+}
+
+SignalReference resolve_joint(const SignalTerm& term, int joint, const SignalDescription& signal, const RobotDescription& robot,
+                              const Topology& topology) {
   SignalReference reference;
   reference.kind = joint_kinds().at(term.quantity);
   reference.pair = topology.joint_pair[static_cast<std::size_t>(joint)];
@@ -52,6 +69,11 @@ SignalReference resolve_joint(const SignalTerm& term, int joint, const SignalDes
   const Pair& pair = topology.pairs[static_cast<std::size_t>(reference.pair)];
   for (std::size_t k = 0; k < pair.chain.size(); ++k)
     if (pair.chain[k].joint == joint) reference.element = static_cast<int>(k);
+  if (is_reaction(term)) {
+    reference.axis = axis_of(term.component);
+    const int child = robot.joints[static_cast<std::size_t>(joint)].child;
+    if (topology.link_body[static_cast<std::size_t>(child)] == Topology::kMassless) refuse_reaction(term, pair, signal, robot, topology);
+  }
   if (pair.friction_joint != joint || !slips_isotropically(pair.kind)) return reference;
   if (reference.kind == SignalKind::kJointFriction) reference.kind = SignalKind::kContactFriction;
   if (reference.kind == SignalKind::kJointSlidingVelocity) reference.kind = SignalKind::kContactSpeed;
@@ -114,8 +136,8 @@ Signal resolve_signal(const SignalDescription& signal, const RobotDescription& r
       reference.kind = mechanism_kinds().at(term.quantity);
     } else if (const auto controller = find_named(controllers, term.object)) {
       reference = resolve_controller(term, *controller);
-    } else if (const auto joint = find_named(robot.joints, term.object); joint && term.component.empty()) {
-      reference = resolve_joint(term, *joint, signal, topology);
+    } else if (const auto joint = find_named(robot.joints, term.object); joint && (term.component.empty() || is_reaction(term))) {
+      reference = resolve_joint(term, *joint, signal, robot, topology);
     } else {
       reference = resolve_link(term, find_named(robot.links, term.object).value(), signal, topology);
     }

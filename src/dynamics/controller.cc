@@ -34,10 +34,22 @@ class Resolver {
   Signal readable(const SignalDescription& description, std::size_t k, const std::string& key) const {
     Signal signal = resolve_signal(description, robot_, topology_, study_.controllers);
     for (const SignalReference& term : signal)
-      if (term.controller >= static_cast<int>(k) || term.kind == SignalKind::kJointEffort)
+      if (term.controller >= static_cast<int>(k) || reads_effort(term, k))
         throw InputError({study_.controllers[k].where, element(k) + key, "a controller cannot read an effort, itself or a later controller",
                           description.text, "controllers defined before it"});
     return signal;
+  }
+
+  /// What contains the output of the k-th controller or of a later one. A reaction does if one of them drives that joint.
+  bool reads_effort(const SignalReference& term, std::size_t k) const {
+    if (term.kind == SignalKind::kJointEffort || term.kind == SignalKind::kActuatorPower) return true;
+    if (term.kind != SignalKind::kReactionForce && term.kind != SignalKind::kReactionTorque) return false;
+    const auto drives = [&](const ControllerDescription& controller) {
+      for (std::size_t j = 0; j < robot_.joints.size(); ++j)
+        if (robot_.joints[j].name == controller.output && topology_.joint_pair[j] == term.pair) return true;
+      return false;
+    };
+    return std::any_of(study_.controllers.begin() + static_cast<std::ptrdiff_t>(k), study_.controllers.end(), drives);
   }
 
   void resolve_signals(std::size_t k) {
@@ -87,6 +99,13 @@ class Resolver {
       for (std::size_t other = 0; other < controllers_.size(); ++other)
         if (controllers_[other].kind == ControllerKind::kComputedTorque && controllers_[other].pair == node.pair)
           node.controller = static_cast<int>(other);
+    for (DrivenTree::Node& node : controller.tree.nodes) node.rotor = node.moved && has_rotor(node.pair);
+  }
+
+  bool has_rotor(int pair) const {
+    const int joint = topology_.pairs[static_cast<std::size_t>(pair)].chain.front().joint;
+    const auto& actuator = robot_.joints[static_cast<std::size_t>(joint)].actuator;
+    return actuator && !zero(actuator->rotor_inertia);
   }
 
   const Study& study_;

@@ -64,8 +64,8 @@ T Equations<T>::pid(int controller, SparseGradient<T>* gradient) {
 template <class T>
 T Equations<T>::inverse_dynamics(int controller, const T* accelerations, SparseGradient<T>* gradient) {
   const auto c = static_cast<std::size_t>(controller);
-  const T load = inverse_dynamics_[c].load(constants_, kinematics_, gravity_, accelerations);
-  if (gradient) inverse_dynamics_[c].append_gradient(T(1.0), gradient, by_acceleration_.data());
+  const T load = inverse_dynamics_[c].load(constants_, kinematics_, gravity_, accelerations, rates_.data());
+  if (gradient) inverse_dynamics_[c].append_gradient(T(1.0), gradient, by_acceleration_.data(), by_rate_.data());
   return load;
 }
 
@@ -75,6 +75,9 @@ T Equations<T>::computed_torque(int controller, SparseGradient<T>* gradient) {
   const std::vector<DrivenTree::Node>& nodes = system_.controllers()[static_cast<std::size_t>(controller)].tree.nodes;
   for (std::size_t k = 0; k < nodes.size(); ++k)
     accelerations_[k] = nodes[k].controller < 0 ? T(0.0) : wanted_acceleration(nodes[k].controller, nullptr);
+  const CoordinateDetail detail = gradient ? CoordinateDetail::kGradient : CoordinateDetail::kRate;
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    if (nodes[k].rotor) rates_[k] = coordinate(nodes[k].pair, 0, detail).rate;
   const T load = inverse_dynamics(controller, accelerations_.data(), gradient);
   for (std::size_t k = 0; gradient && k < nodes.size(); ++k) {
     if (nodes[k].controller < 0) continue;
@@ -82,6 +85,8 @@ T Equations<T>::computed_torque(int controller, SparseGradient<T>* gradient) {
     wanted_acceleration(nodes[k].controller, gradient);
     gradient->scale_from(before, by_acceleration_[k]);
   }
+  for (std::size_t k = 0; gradient && k < nodes.size(); ++k)
+    if (nodes[k].rotor) append_rate(nodes[k].pair, 0, coordinate(nodes[k].pair, 0, detail), by_rate_[k], gradient);
   return load;
 }
 

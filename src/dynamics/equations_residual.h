@@ -23,8 +23,7 @@ Equations<T>::Equations(const System& system) : system_(system), layout_(system.
     inverse_dynamics_.emplace_back(controller.tree);
     nodes = std::max(nodes, controller.tree.nodes.size());
   }
-  accelerations_.resize(nodes, T(0.0));
-  by_acceleration_.resize(nodes, T(0.0));
+  for (std::vector<T>* of_nodes : {&accelerations_, &by_acceleration_, &rates_, &by_rate_}) of_nodes->resize(nodes, T(0.0));
   for (const Pair& pair : system.topology().pairs) {
     std::array<int, kLocalSize>& columns = columns_.emplace_back();
     for (int local = 0; local < kLocalSize; ++local) {

@@ -37,10 +37,27 @@ T Equations<T>::rotor_energy(const Rotor& rotor, SparseGradient<T>* gradient) co
 }
 
 template <class T>
+T Equations<T>::rotor_load(const Rotor& rotor, SparseGradient<T>* gradient) const {
+  const RotorMotion<T> m = rotor_motion(rotor);
+  const CoordinateMotion<T>& joint = coordinate(rotor.pair, rotor.element, CoordinateDetail::kGradient);
+  if (gradient) append_acceleration(rotor.pair, rotor.element, joint, m.coupling * m.ratio, gradient);
+  if (gradient && rotor.body >= 0) {
+    const BodyKinematics<T>& carrier = body(rotor.body);
+    const Vector3<T> axis = (T(2.0) * m.coupling) * m.axis;
+    const Vector4<T> by_pdd = body_rate_transposed(carrier.p, axis), by_p = -body_rate_transposed(carrier.pdd, axis);
+    for (int e = 0; e < 4; ++e) {
+      gradient->rate.push_back({kBodySize * rotor.body + 3 + e, by_pdd[e]});
+      gradient->position.push_back({kBodySize * rotor.body + 3 + e, by_p[e]});
+    }
+  }
+  return m.coupling * (m.ratio * joint.acceleration + m.carrier_acceleration);
+}
+
+template <class T>
 void Equations<T>::rotor_residual(const Rotor& rotor, VectorX<T>* G) const {
   const RotorMotion<T> m = rotor_motion(rotor);
   const CoordinateMotion<T>& joint = coordinate(rotor.pair, rotor.element, CoordinateDetail::kGradient);
-  const T load = m.coupling * (m.ratio * joint.acceleration + m.carrier_acceleration);
+  const T load = rotor_load(rotor, nullptr);
   for (int local = 0; local < kLocalSize; ++local)
     if (const int c = column(rotor.pair, local); c >= 0) (*G)[c] += joint.J[local] * load;
   if (rotor.body < 0) return;
@@ -55,21 +72,11 @@ void Equations<T>::assemble_rotor(const Rotor& rotor, Sink* sink) {
   const CoordinateMotion<T>& joint = coordinate(rotor.pair, rotor.element, CoordinateDetail::kGradient);
   const bool with_r = coordinate_moves_r(rotor.pair, rotor.element);
   gradient_.clear();
-  append_acceleration(rotor.pair, rotor.element, joint, m.coupling * m.ratio, &gradient_);
-  if (rotor.body >= 0) {
-    const BodyKinematics<T>& carrier = body(rotor.body);
-    const Vector3<T> axis = (T(2.0) * m.coupling) * m.axis;
-    const Vector4<T> by_pdd = body_rate_transposed(carrier.p, axis), by_p = -body_rate_transposed(carrier.pdd, axis);
-    for (int e = 0; e < 4; ++e) {
-      gradient_.rate.push_back({kBodySize * rotor.body + 3 + e, by_pdd[e]});
-      gradient_.position.push_back({kBodySize * rotor.body + 3 + e, by_p[e]});
-    }
-  }
+  const T load = rotor_load(rotor, &gradient_);
   for (int local = 0; local < kLocalSize; ++local) {
     const int row = column(rotor.pair, local);
     if (row >= 0 && (local % kBodySize >= 3 || with_r)) add_row(row, joint.J[local], gradient_, sink);
   }
-  const T load = m.coupling * (m.ratio * joint.acceleration + m.carrier_acceleration);
   assemble_load_curvature(rotor.pair, coordinate_constants(rotor.pair, rotor.element), load, sink);
   if (rotor.body >= 0) assemble_rotor_moment(rotor, m, sink);
 }

@@ -12,6 +12,7 @@
 #include "equations_limits.h"
 #include "equations_loads.h"
 #include "equations_power.h"
+#include "equations_reactions.h"
 #include "equations_residual.h"
 #include "equations_rotors.h"
 #include "equations_sharing.h"

@@ -86,6 +86,9 @@ T Equations<T>::term_value(const SignalReference& term, const T& factor, SparseG
       return contact_term(term, factor, gradient);
     case SignalKind::kLinkOrientation:
       return orientation_term(term, factor, gradient);
+    case SignalKind::kReactionForce:
+    case SignalKind::kReactionTorque:
+      return reaction_term(term, factor, gradient);
     case SignalKind::kKineticEnergy:
     case SignalKind::kPotentialEnergy:
     case SignalKind::kTotalEnergy:

@@ -5,7 +5,11 @@ namespace codesign {
 
 template <class T>
 InverseDynamics<T>::InverseDynamics(const DrivenTree& tree)
-    : tree_(tree), accelerations_(tree.nodes.size(), T(0.0)), motions_(tree.nodes.size() + 1), adjoints_(tree.nodes.size() + 1) {
+    : tree_(tree),
+      accelerations_(tree.nodes.size(), T(0.0)),
+      rates_(tree.nodes.size(), T(0.0)),
+      motions_(tree.nodes.size() + 1),
+      adjoints_(tree.nodes.size() + 1) {
   for (Motion& m : motions_)
     for (Vector3<T>* x : {&m.omega, &m.omega_rate, &m.acceleration, &m.axis, &m.lever_parent, &m.lever, &m.force, &m.moment}) x->setZero();
 }
@@ -33,12 +37,14 @@ Vector3<T> InverseDynamics<T>::local_axis(std::size_t k) const {
 
 template <class T>
 T InverseDynamics<T>::load(const Constants<T>& constants, const std::vector<BodyKinematics<T>>& bodies, const Vector3<T>& gravity,
-                           const T* accelerations) {
+                           const T* accelerations, const T* rates) {
   constants_ = &constants;
   bodies_ = &bodies;
   moving_ = accelerations != nullptr;
   if (moving_) accelerations_.assign(accelerations, accelerations + tree_.nodes.size());
+  if (moving_ && rates) rates_.assign(rates, rates + tree_.nodes.size());
   Vector3<T> force = Vector3<T>::Zero(), moment = Vector3<T>::Zero();
+  T rotors(0.0);
   for (std::size_t k = 0; k < tree_.nodes.size(); ++k) {
     if (moving_ || k == driven()) move(k, accelerations_[k]);
     if (!node(k).moved) continue;
@@ -47,8 +53,20 @@ T InverseDynamics<T>::load(const Constants<T>& constants, const std::vector<Body
     force += motions_[k].force;
     const Vector3<T> lever = body(k).r - parent_body(driven()).r - at.lever_parent;
     moment += motions_[k].moment + cross<T>(lever, motions_[k].force);
+    if (moving_ && node(k).rotor) rotors += rotor_load(k);
   }
-  return dot<T>(motions_[driven()].axis, node(driven()).slides ? force : moment);
+  return dot<T>(motions_[driven()].axis, node(driven()).slides ? force : moment) + rotors;
+}
+
+// Its own rotor the joint turns over the gear. Those on the bodies that it moves ask for h' of these, theory (9a).
+template <class T>
+T InverseDynamics<T>::rotor_load(std::size_t k) const {
+  const Motion& m = motions_[k];
+  const T coupling = actuator(k).gear_ratio * actuator(k).rotor_inertia;
+  if (k == driven()) return coupling * (actuator(k).gear_ratio * accelerations_[k] + dot<T>(m.axis, parent_motion(k).omega_rate));
+  if (node(driven()).slides) return T(0.0);
+  const Vector3<T> moment = accelerations_[k] * m.axis + rates_[k] * cross<T>(parent_motion(k).omega, m.axis);
+  return coupling * dot<T>(motions_[driven()].axis, moment);
 }
 
 // Motion of a body from its parent's and its joint's acceleration.
@@ -92,7 +110,7 @@ void InverseDynamics<T>::weigh(std::size_t k, const Vector3<T>& gravity) {
 }
 
 template <class T>
-void InverseDynamics<T>::append_gradient(const T& factor, SparseGradient<T>* gradient, T* by_acceleration) {
+void InverseDynamics<T>::append_gradient(const T& factor, SparseGradient<T>* gradient, T* by_acceleration, T* by_rate) {
   for (Adjoint& x : adjoints_) {
     for (Vector3<T>* part : {&x.r, &x.v, &x.omega, &x.omega_rate, &x.acceleration, &x.axis, &x.force, &x.moment}) part->setZero();
     x.W.setZero();
@@ -105,6 +123,7 @@ void InverseDynamics<T>::append_gradient(const T& factor, SparseGradient<T>* gra
       node(k).slides ? reverse_slide(k) : reverse_turn(k);
       const Adjoint& x = adjoints_[k];
       if (by_acceleration) by_acceleration[k] = dot<T>(motions_[k].axis, node(k).slides ? x.acceleration : x.omega_rate);
+      if (node(k).rotor) reverse_rotor(k, by_acceleration, by_rate);
     }
     parent_adjoint(k).W += adjoints_[k].axis * local_axis(k).transpose();
   }
@@ -136,6 +155,28 @@ void InverseDynamics<T>::reverse_sum() {
   if (slides) return;
   parent_adjoint(driven()).r += on_point;
   parent_adjoint(driven()).W += on_point * constants_->pairs[static_cast<std::size_t>(node(driven()).pair)].s_i.transpose();
+}
+
+// Of rotor_load(). The parent's adjoints are still to be read, as is that of the axis.
+template <class T>
+void InverseDynamics<T>::reverse_rotor(std::size_t k, T* by_acceleration, T* by_rate) {
+  const Motion &m = motions_[k], &parent = parent_motion(k);
+  Adjoint &x = adjoints_[k], &up = parent_adjoint(k);
+  const T coupling = actuator(k).gear_ratio * actuator(k).rotor_inertia;
+  if (by_rate) by_rate[k] = T(0.0);
+  if (k == driven()) {
+    if (by_acceleration) by_acceleration[k] += coupling * actuator(k).gear_ratio;
+    x.axis += coupling * parent.omega_rate;
+    up.omega_rate += coupling * m.axis;
+    return;
+  }
+  if (node(driven()).slides) return;
+  const Vector3<T> on_moment = coupling * motions_[driven()].axis, swing = cross<T>(parent.omega, m.axis);
+  if (by_acceleration) by_acceleration[k] += dot<T>(on_moment, m.axis);
+  if (by_rate) by_rate[k] = dot<T>(on_moment, swing);
+  x.axis += accelerations_[k] * on_moment + rates_[k] * cross<T>(on_moment, parent.omega);
+  up.omega += rates_[k] * cross<T>(m.axis, on_moment);
+  adjoints_[driven()].axis += coupling * (accelerations_[k] * m.axis + rates_[k] * swing);
 }
 
 // Of force = m (r'' - g) and moment = J w' + w x J w with J = A J_body A^T.

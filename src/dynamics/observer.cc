@@ -11,6 +11,7 @@ Observer::Observer(const System& system, const std::vector<SignalDescription>& s
   for (const SignalDescription& signal : signals) {
     signals_.push_back(resolve_signal(signal, system.robot(), system.topology(), system.study().controllers));
     system.check_readable(signals_.back(), signal);
+    names_.signals.push_back(signal.text);
   }
   name_joints();
   name_frictions();

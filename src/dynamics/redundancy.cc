@@ -236,7 +236,9 @@ void find_undetermined(const System& system, Equations<double>* equations, const
   Eigen::MatrixXd stress = Eigen::MatrixXd::Zero(layout.constraints(), kTrials);
   for (std::size_t k = 0; k < redundant.size(); ++k) stress.row(redundant[k]) = chosen.row(static_cast<Eigen::Index>(k));
   for (std::size_t k = 0; k < others.size(); ++k) stress.row(others[k]) = answer.row(static_cast<Eigen::Index>(k));
-  Analysis(system, *equations).find_undetermined(stress, kTakesPart * stress.cwiseAbs().maxCoeff() + 100.0 * left, result);
+  result->stress_threshold = kTakesPart * stress.cwiseAbs().maxCoeff() + 100.0 * left;
+  Analysis(system, *equations).find_undetermined(stress, result->stress_threshold, result);
+  result->self_stress = std::move(stress);
 }
 
 }  // namespace
@@ -283,6 +285,28 @@ Redundancy analyse_redundancy(const System& system, Equations<double>* equations
   for (int row : rows) result.sharing.dropped.push_back(loops.constraint_rows()[at(row)]);
   std::sort(result.sharing.dropped.begin(), result.sharing.dropped.end());
   return result;
+}
+
+std::vector<std::size_t> open_reactions(const System& system, const Redundancy& redundancy, State<double> state,
+                                        const std::vector<Signal>& signals, Equations<double>* equations) {
+  const Layout& layout = system.layout();
+  std::vector<bool> open(signals.size(), false);
+  state.z.setZero(layout.columns());
+  for (Eigen::Index trial = 0; trial < redundancy.self_stress.cols(); ++trial) {
+    state.z.segment(layout.n, layout.constraints()) = redundancy.self_stress.col(trial);
+    equations->load(state);
+    for (std::size_t k = 0; k < signals.size(); ++k) {
+      double moved = 0.0;
+      for (const SignalReference& term : signals[k])
+        if (term.kind == SignalKind::kReactionForce || term.kind == SignalKind::kReactionTorque)
+          moved += term.factor * equations->multiplier_reaction(term);
+      if (std::abs(moved) > redundancy.stress_threshold) open[k] = true;
+    }
+  }
+  std::vector<std::size_t> found;
+  for (std::size_t k = 0; k < open.size(); ++k)
+    if (open[k]) found.push_back(k);
+  return found;
 }
 
 }  // namespace codesign

@@ -6,9 +6,11 @@
 #include "mechanism_codesign/dynamics/assembly.h"
 #include "mechanism_codesign/dynamics/redundancy.h"
 #include "mechanism_codesign/dynamics/system.h"
+#include "mechanism_codesign/integration/signal_warnings.h"
 #include "mechanism_codesign/integration/simulation.h"
 #include "mechanism_codesign/integration/tableau.h"
 #include "mechanism_codesign/math/decimal.h"
+#include "mechanism_codesign/model/signal_catalog.h"
 
 namespace codesign {
 namespace {
@@ -105,6 +107,7 @@ std::shared_ptr<const System> with_sharing(std::shared_ptr<const System> system,
   Redundancy redundancy = analyse_redundancy(*system, &equations, assembly, parameters, state);
   if (redundancy.rows.empty()) return system;
   warn_of_friction(*system, redundancy, warnings);
+  append(warn_of_open_reactions(*system, redundancy, state, signals_of(system->study()), &equations), warnings);
   if (!must_drop(assembly.worst_miss(), redundancy)) redundancy.sharing = ReactionSharing();
   redundancy.sharing.compliance = compliance_of(equations);
   return std::make_shared<const System>(system->robot(), system->study(), redundancy.sharing);

@@ -16,13 +16,18 @@ bool contains(const Names& names, const std::string& name) { return std::find(na
 /// What the object of a signal offers. A link may bear the name of a joint; the quantity then tells which is meant.
 struct Offer {
   bool exists = false;
-  Names scalars;      ///< of a joint, a controller or the mechanism
-  Names vectors;      ///< of a link
-  Names quaternions;  ///< of a link
-  Names ambiguous;    ///< of a joint that is called like the mechanism, and of the mechanism
+  Names scalars;        ///< of a joint, a controller or the mechanism
+  Names vectors;        ///< of a joint or a link
+  Names quaternions;    ///< of a link
+  Names ambiguous;      ///< of a joint that is called like the mechanism, and of the mechanism
+  bool welded = false;  ///< a fixed joint of the tree
 };
 
 constexpr const char* kMechanism = "mechanism";
+const Names& reactions() {
+  static const Names kReactions{"reaction_force", "reaction_torque"};
+  return kReactions;
+}
 const Names& powers() {
   static const Names kPowers{"friction_power", "damping_power", "actuator_power", "load_power"};
   return kPowers;
@@ -42,6 +47,8 @@ void add_joint(const JointDescription& joint, Offer* offer) {
     offer->scalars = {"position", "velocity", "acceleration", "effort", "actuator_power", "damping_power", "load_power"};
   if (has_friction(joint))
     for (const char* quantity : {"friction", "normal_force", "sliding_velocity", "friction_power"}) offer->scalars.emplace_back(quantity);
+  offer->welded = joint.type == JointType::kFixed && !joint.is_loop;
+  if (!offer->welded) offer->vectors = reactions();
 }
 
 Offer offer_of(const std::string& name, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
@@ -56,7 +63,7 @@ Offer offer_of(const std::string& name, const RobotDescription& robot, const std
   for (const LinkDescription& link : robot.links) {
     if (link.name != name) continue;
     offer.exists = true;
-    offer.vectors = {"position", "velocity", "angular_velocity"};
+    for (const char* quantity : {"position", "velocity", "angular_velocity"}) offer.vectors.emplace_back(quantity);
     offer.quaternions = {"orientation"};
   }
   if (name == kMechanism) {
@@ -98,6 +105,9 @@ void check_term(const SignalTerm& term, const Offer& offer, const SourceLocation
   if (contains(offer.ambiguous, term.quantity))
     throw InputError({where, element, "a joint bears the name of the whole mechanism, whose power this could be too", spelling(term),
                       "another name of the joint"});
+  if (offer.welded && is_reaction(term))
+    throw InputError({where, element, "a fixed joint makes one body of its links, and what it transmits is not computed", spelling(term),
+                      "a movable joint; or a floating joint and a <loop type=\"fixed\"> in place of the fixed joint"});
   if (as_scalar && term.component.empty()) return;
   if (as_vector && good_component) return;
   const std::string allowed = list_names(spelled(term.object, offer));
@@ -118,6 +128,8 @@ void check_term(const SignalTerm& term, const Offer& offer, const SourceLocation
 bool is_of_mechanism(const SignalTerm& term) {
   return term.object == kMechanism && term.component.empty() && contains(mechanism_quantities(), term.quantity);
 }
+
+bool is_reaction(const SignalTerm& term) { return contains(reactions(), term.quantity); }
 
 bool has_scalar_position(const JointDescription& joint) {
   return joint.type == JointType::kRevolute || joint.type == JointType::kContinuous || joint.type == JointType::kPrismatic;
@@ -150,6 +162,21 @@ std::vector<std::string> default_signals(const RobotDescription& robot, const st
     for (const char* quantity : {"/friction", "/normal_force", "/sliding_velocity"}) signals.push_back(joint.name + quantity);
   }
   for (const ControllerDescription& controller : controllers) signals.push_back(controller.name + "/output");
+  return signals;
+}
+
+std::vector<SignalDescription> signals_of(const Study& study) {
+  std::vector<SignalDescription> signals;
+  const auto add = [&signals](const SignalDescription& signal) {
+    const auto is_same = [&signal](const SignalDescription& other) { return other.text == signal.text; };
+    if (!signal.terms.empty() && std::none_of(signals.begin(), signals.end(), is_same)) signals.push_back(signal);
+  };
+  for (const std::vector<ObjectiveTerm>* terms : {&study.integral, &study.terminal})
+    for (const ObjectiveTerm& term : *terms) add(term.signal);
+  for (const ControllerDescription& controller : study.controllers) {
+    add(controller.input);
+    for (const FeedbackTerm& term : controller.feedback) add(term.signal);
+  }
   return signals;
 }
 

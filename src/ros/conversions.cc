@@ -77,6 +77,14 @@ mechanism_codesign::LoopErrors loop_errors(const FrameNames& names, const Frame&
   return message;
 }
 
+mechanism_codesign::Signals signals(const FrameNames& names, const Frame& frame, const MessageContext& context) {
+  mechanism_codesign::Signals message;
+  message.header = header_of(context);
+  message.name = names.signals;
+  message.value = frame.signals;
+  return message;
+}
+
 tf2_msgs::TFMessage free_link_transforms(const FrameNames& names, const Frame& frame, const MessageContext& context) {
   tf2_msgs::TFMessage message;
   for (const auto& [link, parent] : names.free_links) {

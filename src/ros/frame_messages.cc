@@ -8,6 +8,7 @@ FrameMessages::FrameMessages(const FrameNames& names, const Frame& frame, const 
       joint_friction(codesign::joint_friction(names, frame, context)),
       controller_states(codesign::controller_states(names, frame, context)),
       loop_errors(codesign::loop_errors(names, frame, context)),
+      signals(codesign::signals(names, frame, context)),
       friction_markers(codesign::friction_markers(names, frame, context, style)) {}
 
 }  // namespace codesign

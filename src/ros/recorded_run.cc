@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "mechanism_codesign/math/decimal.h"
+#include "mechanism_codesign/model/signal_catalog.h"
 #include "mechanism_codesign/ros/advance.h"
 #include "mechanism_codesign/ros/run_clock.h"
 
@@ -53,10 +54,11 @@ struct Extent {
 /// For the frames of both runs [bytes].
 constexpr double kMostMemory = 256e6;
 
-double bytes_of_a_frame(const RobotDescription& robot, std::size_t controllers) {
+double bytes_of_a_frame(const RobotDescription& robot, const Study& study) {
   const std::size_t pairs = robot.joints.size();
   return static_cast<double>(sizeof(Frame) + pairs * (sizeof(JointSample) + sizeof(FrictionSample) + sizeof(double)) +
-                             robot.links.size() * sizeof(LinkSample) + controllers * sizeof(ControllerSample));
+                             robot.links.size() * sizeof(LinkSample) + study.controllers.size() * sizeof(ControllerSample) +
+                             signals_of(study).size() * sizeof(double));
 }
 
 }  // namespace
@@ -69,7 +71,7 @@ void check_recording(const Problem& problem, double rate, const std::string& ele
                       "the run is longer than ROS can count",
                       to_decimal(duration),
                       "at most " + to_decimal(kLongestRun) + " s"});
-  const double most = kMostMemory / (2.0 * bytes_of_a_frame(problem.robot, problem.study.controllers.size()));
+  const double most = kMostMemory / (2.0 * bytes_of_a_frame(problem.robot, problem.study));
   if (!(duration * rate <= most))
     throw InputError({{element, 0},
                       "rate",
@@ -80,7 +82,7 @@ void check_recording(const Problem& problem, double rate, const std::string& ele
 
 RecordedRun record_run(const Problem& problem, const std::vector<double>& parameters, double rate, const std::function<bool()>& stop) {
   RecordedRun run;
-  Simulation simulation(problem.system, parameters);
+  Simulation simulation(problem.system, parameters, signals_of(problem.study));
   run.names = simulation.names();
   const double duration = problem.study.duration;
   const auto count = std::max<std::int64_t>(std::llround(duration * rate), 1);

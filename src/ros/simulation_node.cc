@@ -12,6 +12,7 @@
 #include "mechanism_codesign/jobs/output_error.h"
 #include "mechanism_codesign/math/decimal.h"
 #include "mechanism_codesign/model/error.h"
+#include "mechanism_codesign/model/signal_catalog.h"
 #include "mechanism_codesign/model/unknown_name.h"
 #include "mechanism_codesign/ros/advance.h"
 #include "mechanism_codesign/ros/description.h"
@@ -72,6 +73,7 @@ void SimulationNode::advertise() {
   publishers_["joint_friction"] = node_.advertise<mechanism_codesign::JointFriction>("joint_friction", size);
   publishers_["controller_states"] = node_.advertise<mechanism_codesign::ControllerStates>("controller_states", size);
   publishers_["loop_errors"] = node_.advertise<mechanism_codesign::LoopErrors>("loop_errors", size);
+  publishers_["signals"] = node_.advertise<mechanism_codesign::Signals>("signals", size);
   publishers_["friction_markers"] = node_.advertise<visualization_msgs::MarkerArray>("friction_markers", size);
   if (clock_.is_free_running()) clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", size);
   description_publisher_ = node_.advertise<std_msgs::String>("robot_description", 1, true);
@@ -123,7 +125,7 @@ void SimulationNode::run_all() {
 }
 
 Status SimulationNode::run_once() {
-  Simulation simulation(problem_.system, problem_.parameters());
+  Simulation simulation(problem_.system, problem_.parameters(), signals_of(problem_.study));
   Status status = simulation.start();
   const double duration = problem_.study.duration;
   const auto instant = [&](std::int64_t k) { return std::min(static_cast<double>(k) / options_.rate, duration); };

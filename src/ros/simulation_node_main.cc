@@ -8,7 +8,7 @@ namespace {
 
 const char* const kHelp = R"(usage: rosrun mechanism_codesign simulation _study:=PATH [_PARAMETER:=VALUE ...]
 
-Runs a study and publishes it: joint_states, joint_friction, controller_states, loop_errors, friction_markers.
+Runs a study and publishes it: joint_states, joint_friction, controller_states, loop_errors, signals, friction_markers.
 doc/ros_api.md has more.
 
 parameters

@@ -17,7 +17,8 @@ constexpr double kHighestRate = 1e9;
 }  // namespace
 
 const std::vector<std::string>& frame_topics() {
-  static const std::vector<std::string> kNames = {"joint_states", "joint_friction", "controller_states", "loop_errors", "friction_markers"};
+  static const std::vector<std::string> kNames = {"joint_states", "joint_friction", "controller_states",
+                                                  "loop_errors",  "signals",        "friction_markers"};
   return kNames;
 }
 

@@ -77,6 +77,21 @@ TEST(ResolveSignal, WhatHasNoMassHasNothingToRead) {
   EXPECT_NE(fixture.refusal("pich/velocity").find("pitch"), std::string::npos);
 }
 
+TEST(ResolveSignal, AReactionIsReadWhereTheChildHasMass) {
+  const Fixture fixture;
+  const Signal signal = fixture.resolve("pitch/reaction_torque/y");
+  EXPECT_EQ(signal[0].kind, SignalKind::kReactionTorque);
+  EXPECT_EQ(signal[0].pair, 0);
+  EXPECT_EQ(signal[0].element, 1);
+  EXPECT_EQ(signal[0].axis, 1);
+  const std::string refused = fixture.refusal("yaw/reaction_force/x");
+  EXPECT_NE(refused.find("hands on what acts on it"), std::string::npos) << refused;
+  EXPECT_NE(refused.find("pitch/reaction_force/x, in the frame of that joint"), std::string::npos) << refused;
+  EXPECT_NE(fixture.refusal("grip/reaction_force/x").find("without <inertial>"), std::string::npos);
+  EXPECT_NE(fixture.refusal("mount/reaction_force/x").find("one body"), std::string::npos);
+  EXPECT_THROW(fixture.rate("pitch/reaction_force/x"), InputError);
+}
+
 TEST(Differentiate, FollowsEachTerm) {
   const Fixture fixture;
   const Signal rate = fixture.rate("pitch/position + pitch/velocity - arm/position/x + arm/velocity/y");

@@ -52,6 +52,18 @@ TEST(Controller, FeedbackReadsEarlierControllersOnly) {
       Resolved(std::string(kInner) + "  a: {type: state_feedback, output: elbow, feedback: [{signal: inner/output, gain: 1.0}]}\n"));
 }
 
+// A reaction or a power that holds a controller's own output would have to be known before it.
+TEST(Controller, NothingReadsItsOwnEffort) {
+  const auto feedback = [](const std::string& signal) {
+    return "  a: {type: state_feedback, output: elbow, feedback: [{signal: " + signal + ", gain: 1.0}]}\n";
+  };
+  for (const char* signal : {"elbow/reaction_force/x", "elbow/reaction_torque/y", "elbow/actuator_power", "mechanism/actuator_power"})
+    EXPECT_THROW(Resolved(feedback(signal)), InputError) << signal;
+  EXPECT_NO_THROW(Resolved(feedback("shoulder/reaction_force/x")));
+  EXPECT_NO_THROW(Resolved(kInner + feedback("shoulder/reaction_torque/y"))) << "an earlier controller drives the shoulder";
+  EXPECT_THROW(Resolved(feedback("shoulder/reaction_torque/y") + kInner), InputError);
+}
+
 TEST(Controller, ComputedTorquesKnowOfEachOther) {
   const std::string servo = ": {type: computed_torque, setpoint: 0.0, gains: {p: 1.0}, output: ";
   const Resolved both("  a" + servo + "shoulder}\n  b" + servo + "elbow}\n");

@@ -2,6 +2,8 @@
 // Each law's value at points computed by hand, and its derivatives by state and time.
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "dynamics/arm.h"
 #include "dynamics/compiled.h"
 #include "equations_fixture.h"
@@ -63,6 +65,17 @@ TEST(EquationsControllers, ComputedTorqueHasExactDerivatives) {
   expect_exact(arm(), study(torques({"turn", "wrist"}), "{signal: wrist/effort}"));
 }
 
+/// With a rotor for every joint.
+std::string geared_arm() {
+  return std::regex_replace(arm(), std::regex("</joint>"), "<codesign:actuator gear_ratio='-8' rotor_inertia='0.003'/></joint>");
+}
+
+TEST(EquationsControllers, ComputedTorqueOfRotorsHasExactDerivatives) {
+  expect_exact(geared_arm(),
+               study(torques({"travel", "turn", "reach", "wrist"}), "{signal: turn/effort}, {signal: reach_servo/output, weight: 0.1}"));
+  expect_exact(geared_arm(), study(torques({"turn", "wrist"}), "{signal: wrist/effort}, {signal: turn/effort}"));
+}
+
 TEST(EquationsControllers, StateFeedbackAndShapedInputsHaveExactDerivatives) {
   expect_exact(double_pendulum(),
                study("  a: {type: state_feedback, output: shoulder, feedforward: " + std::string(kSine) +
@@ -103,9 +116,11 @@ TEST(EquationsControllers, WhatIsHeldAgainstGravityStaysWhereItIs) {
   EXPECT_LT(c.state.z.head(c.system.layout().n).cwiseAbs().maxCoeff(), 1e-11);
 }
 
-TEST(EquationsControllers, ComputedTorqueGivesEachJointTheAccelerationAskedFor) {
+class ComputedTorque : public ::testing::TestWithParam<bool> {};
+
+TEST_P(ComputedTorque, GivesEachJointTheAccelerationAskedFor) {
   Compiled c(
-      arm(),
+      GetParam() ? geared_arm() : arm(),
       let_go("{travel: {position: 0.3, velocity: 0.5}, turn: {position: 1.3, velocity: -2.0}, reach: {position: 0.1, velocity: 0.7}, "
              "wrist: {position: -0.6, velocity: 3.0}}",
              "turn/position", "controllers:\n" + torques({"travel", "turn", "reach", "wrist"})));
@@ -117,7 +132,10 @@ TEST(EquationsControllers, ComputedTorqueGivesEachJointTheAccelerationAskedFor) 
     EXPECT_NEAR(m.acceleration, -w * w * s + 0.5 * (w * cosine - m.rate) + 3.0 * (s - m.position), 1e-9);
   }
   EXPECT_EQ(c.system.loads().size(), 4U);
+  EXPECT_EQ(c.system.rotors().size(), GetParam() ? 4U : 0U);
 }
+
+INSTANTIATE_TEST_SUITE_P(Arms, ComputedTorque, ::testing::Bool(), [](const auto& c) { return c.param ? "WithRotors" : "Plain"; });
 
 // At the inner joint the whole double pendulum moves as one bar if the elbow's acceleration is asked to be nil: theory (C6).
 TEST(EquationsControllers, JointsWithoutComputedTorqueAreTakenToKeepTheirRates) {

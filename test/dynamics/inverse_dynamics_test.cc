@@ -10,8 +10,8 @@ namespace {
 
 /// The double pendulum at a start, with the tree of its shoulder.
 struct Shoulder : Compiled {
-  explicit Shoulder(bool accelerations)
-      : Compiled(double_pendulum(),
+  explicit Shoulder(bool accelerations, const std::string& actuator = "")
+      : Compiled(double_pendulum(actuator),
                  let_go("{shoulder: {position: 0.3, velocity: 2.0}, elbow: {position: 0.5, velocity: -1.0}}", "elbow/position")),
         tree(driven_tree(system.topology(), system.topology().joint_pair[0], accelerations, {}, "")),
         inverse(tree) {
@@ -20,7 +20,9 @@ struct Shoulder : Compiled {
     bodies = {equations.body(0), equations.body(1), equations.body(-1)};
   }
 
-  double load(const double* accelerations) { return inverse.load(equations.constants(), bodies, {0.0, 0.0, -9.81}, accelerations); }
+  double load(const double* accelerations, const double* rates = nullptr) {
+    return inverse.load(equations.constants(), bodies, {0.0, 0.0, -9.81}, accelerations, rates);
+  }
 
   DrivenTree tree;
   InverseDynamics<double> inverse;
@@ -54,6 +56,22 @@ TEST(InverseDynamics, ItsDerivativeByAccelerationsIsTheMassMatrix) {
   const double c = std::cos(0.5);
   EXPECT_NEAR(by_acceleration[0], 2.0 * 0.0834 + 1.5 + c, 1e-12);
   EXPECT_NEAR(by_acceleration[1], 0.0834 + 0.25 + 0.5 * c, 1e-12);
+}
+
+// About parallel axes J_r (n theta'' + w') of each rotor: of the shoulder's own n^2 J_r, of the elbow's n J_r on the upper bar.
+TEST(InverseDynamics, RotorsAddTheirShareOfTheMassMatrix) {
+  Shoulder plain(true), geared(true, "<codesign:actuator gear_ratio='5' rotor_inertia='0.004'/>");
+  for (DrivenTree::Node& node : geared.tree.nodes) node.rotor = true;
+  const double some[2] = {3.0, -4.0}, rates[2] = {2.0, -1.0};
+  const double expected = plain.load(some) + 25.0 * 0.004 * 3.0 + 5.0 * 0.004 * -4.0;
+  EXPECT_NEAR(geared.load(some, rates), expected, 1e-12);
+  SparseGradient<double> gradient;
+  double by_acceleration[2] = {0.0, 0.0}, by_rate[2] = {1.0, 1.0};
+  geared.inverse.append_gradient(1.0, &gradient, by_acceleration, by_rate);
+  const double c = std::cos(0.5);
+  EXPECT_NEAR(by_acceleration[0], 2.0 * 0.0834 + 1.5 + c + 25.0 * 0.004, 1e-12);
+  EXPECT_NEAR(by_acceleration[1], 0.0834 + 0.25 + 0.5 * c + 5.0 * 0.004, 1e-12);
+  for (double x : by_rate) EXPECT_NEAR(x, 0.0, 1e-14) << "the axes do not swing";
 }
 
 // Along r -> r + e, p unchanged, the load does not change: only differences of positions matter.

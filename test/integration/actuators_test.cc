@@ -131,6 +131,28 @@ TEST(Rotor, EnergyAndMomentumAreConserved) {
   EXPECT_LT((momentum() - start).norm(), 1e-8 * start.norm());
 }
 
+// Whose rotors turn with the links that carry them and put more on the joints than the links do.
+TEST(Rotor, ComputedTorqueFollowsItsWayPoints) {
+  const std::string link =
+      "<inertial><origin xyz='0.1 0.02 -0.3'/><mass value='1.5'/><inertia ixx='0.03' ixy='0.001' ixz='0.002' iyy='0.025' "
+      "iyz='0.001' izz='0.02'/></inertial></link>";
+  const auto joint = [](const std::string& name, const std::string& parent, const std::string& child, const std::string& axis) {
+    return "<joint name='" + name + "' type='continuous'><parent link='" + parent + "'/><child link='" + child +
+           "'/><origin xyz='0.1 0 -0.4'/><axis xyz='" + axis + "'/><codesign:actuator gear_ratio='30' rotor_inertia='0.0005'/></joint>";
+  };
+  const std::string urdf =
+      robot("<link name='one'>" + link + "<link name='two'>" + link + "<link name='three'>" + link + joint("a", "ground", "one", "0 0 1") +
+            joint("b", "one", "two", "0.3 1 0") + joint("c", "two", "three", "1 0 0.2"));
+  std::string controllers;
+  for (const char* name : {"a", "b", "c"})
+    controllers += std::string("  ") + name + "_servo: {type: computed_torque, output: " + name +
+                   ", gains: {p: 100.0, d: 20.0}, setpoint: " + "{type: waypoints, times: [0.0, 0.5, 1.0], positions: [0.0, 1.5, -0.7]}}\n";
+  for (const char* solver : {kTight, kIdas}) {
+    const std::string text = "duration: 0.8\ncontrollers:\n" + controllers + "solver: " + solver + "\n";
+    for (double error : at_end(urdf, text, {"a_servo/error", "b_servo/error", "c_servo/error"})) EXPECT_NEAR(error, 0.0, 1e-8) << solver;
+  }
+}
+
 TEST(Rotor, TheEnergyGrowsByTheWorkOfTheActuator) {
   const std::string urdf = flyer(std::string("<dynamics damping='0.05' friction='0.02'/>") + pin_friction() +
                                  "<codesign:actuator gear_ratio='20' rotor_inertia='0.0005'/>");

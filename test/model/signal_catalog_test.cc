@@ -82,6 +82,15 @@ TEST(SignalCatalog, PowersEnergiesAndOrientations) {
   expect_refused("arm/orientation", "needs the component w, x, y or z", "arm/orientation/{w,x,y,z}");
 }
 
+TEST(SignalCatalog, ReactionsOfJointsThatMove) {
+  for (const char* joint : {"hinge", "slide", "plane", "needle"})
+    for (const char* quantity : {"/reaction_force/x", "/reaction_torque/z"}) check(std::string(joint) + quantity);
+  expect_refused("hinge/reaction_force", "needs the component x, y or z", "hinge/reaction_force/{x,y,z}");
+  expect_refused("hinge/reaction_force/w", "needs the component x, y or z", "hinge/reaction_force/{x,y,z}");
+  expect_refused("weld/reaction_torque/x", "makes one body of its links", "loop type=\"fixed\"");
+  expect_refused("arm/reaction_force/x", "unknown quantity", "arm/position/{x,y,z}");
+}
+
 TEST(SignalCatalog, WhatIsCalledLikeTheMechanismKeepsItsSignals) {
   const auto check_in = [](const RobotDescription& robot, const std::string& text) {
     check_signal(parse_signal(text, {"s.yaml", 2}, "here"), robot, controllers(), "here");
@@ -122,6 +131,24 @@ TEST(SignalCatalog, ComponentsBelongToLinks) {
   expect_refused("arm/position", "needs the component", "arm/position/{x,y,z}");
   expect_refused("arm/position/w", "needs the component", "arm/position/{x,y,z}");
   expect_refused("slide/velocity/x", "no components", "slide/velocity");
+}
+
+TEST(SignalCatalog, AStudyReadsEachSignalOnce) {
+  const auto signal = [](const std::string& text) { return parse_signal(text, {}, "here"); };
+  Study study;
+  study.integral.resize(2);
+  study.terminal.resize(1);
+  study.integral[0].signal = signal("hinge/velocity");
+  study.integral[1].signal = signal("arm/position/x");
+  study.terminal[0].signal = signal("hinge/velocity");
+  study.controllers = controllers();
+  study.controllers[0].input = signal("slide/position");
+  study.controllers.emplace_back();
+  study.controllers[1].feedback.resize(1);
+  study.controllers[1].feedback[0].signal = signal("hinge/reaction_force/x");
+  std::vector<std::string> texts;
+  for (const SignalDescription& read : signals_of(study)) texts.push_back(read.text);
+  EXPECT_EQ(texts, (std::vector<std::string>{"hinge/velocity", "arm/position/x", "slide/position", "hinge/reaction_force/x"}));
 }
 
 TEST(SignalCatalog, DefaultsCoverJointsFrictionAndControllers) {

@@ -47,6 +47,12 @@ TEST(Conversions, ControllersAndLoops) {
   EXPECT_EQ(loops.error, Numbers{1e-9});
 }
 
+TEST(Conversions, Signals) {
+  const auto message = signals(sample_names(), sample_frame(0.0), kContext);
+  EXPECT_EQ(message.name, (Names{"cart_joint/position", "speed/output"}));
+  EXPECT_EQ(message.value, (Numbers{1.0, 20.0}));
+}
+
 void expect_transform(const geometry_msgs::TransformStamped& transform, const std::string& parent, const std::string& child,
                       const Eigen::Vector3d& position, double yaw) {
   EXPECT_EQ(transform.header.frame_id, parent);

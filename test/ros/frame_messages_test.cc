@@ -16,7 +16,8 @@ TEST(FrameMessages, EveryTopicOnceAndAllOfOneInstant) {
   const FrameMessages messages(sample_names(), sample_frame(2.0), context, MarkerStyle());
   std::vector<std::string> topics;
   messages.visit([&topics](const std::string& topic, const auto&) { topics.push_back(topic); });
-  EXPECT_EQ(topics, (std::vector<std::string>{"joint_states", "joint_friction", "controller_states", "loop_errors", "friction_markers"}));
+  EXPECT_EQ(topics, (std::vector<std::string>{"joint_states", "joint_friction", "controller_states", "loop_errors", "signals",
+                                              "friction_markers"}));
   EXPECT_EQ(messages.joint_states.header.stamp, context.stamp);
   EXPECT_EQ(messages.joint_friction.header.stamp, context.stamp);
   EXPECT_EQ(messages.controller_states.header.stamp, context.stamp);

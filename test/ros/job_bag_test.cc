@@ -58,7 +58,7 @@ TEST_F(JobBag, HoldsBothRunsAndEverythingAroundThem) {
                                       {"tf_static", 1}, {"labels", 1},  {"tf", 6}};
   for (const std::string side : {"initial/", "tuned/"}) {
     expected[side + "robot_description"] = 1;
-    for (const char* topic : {"joint_states", "joint_friction", "controller_states", "loop_errors", "friction_markers"})
+    for (const char* topic : {"joint_states", "joint_friction", "controller_states", "loop_errors", "signals", "friction_markers"})
       expected[side + topic] = 3;
   }
   EXPECT_EQ(counts, expected);

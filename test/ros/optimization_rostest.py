@@ -16,7 +16,7 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 TIMEOUT = 60.0
-RUN_TOPICS = ("joint_states", "joint_friction", "controller_states", "loop_errors", "friction_markers")
+RUN_TOPICS = ("joint_states", "joint_friction", "controller_states", "loop_errors", "signals", "friction_markers")
 
 
 class OptimizationTest(unittest.TestCase):
@@ -87,6 +87,9 @@ class OptimizationTest(unittest.TestCase):
             self.assertEqual((result.constraint_drift, result.energy_error), (self.result.constraint_drift, self.result.energy_error))
             velocity = [message.velocity[message.name.index("crank_joint")] for _, message, _ in bag.read_messages(topics=["tuned/joint_states"])]
             self.assertAlmostEqual(velocity[-1], -10.0, delta=0.2)
+            signals = [message for _, message, _ in bag.read_messages(topics=["tuned/signals"])]
+            self.assertEqual(signals[-1].name, ["crank_joint/velocity", "crank_speed/output"])
+            self.assertEqual(signals[-1].value[0], velocity[-1])
 
     def test_replay(self):
         launch = subprocess.Popen(["roslaunch", "mechanism_codesign", "replay.launch", f"bag:={self.result.bag}", "rviz:=false"])

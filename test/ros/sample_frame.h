@@ -17,6 +17,7 @@ inline FrameNames sample_names() {
   names.friction_is_torque = {false, true};
   names.controllers = {"speed"};
   names.loops = {"loop_joint"};
+  names.signals = {"cart_joint/position", "speed/output"};
   names.links = {"ground", "cart", "plate"};
   names.free_links = {{2, 1}};
   return names;
@@ -31,6 +32,7 @@ inline Frame sample_frame(double time) {
   frame.frictions[1] = {0.25, 1.5, 0.125, {0.4, 0.5, 0.6}, {0.0, 0.0, 0.0}, {0.0, 0.0, -2.0}};
   frame.controllers = {{10.0, 8.0, 2.0, 0.5, 20.0}};
   frame.loop_errors = {1e-9};
+  frame.signals = {1.0, 20.0};
   frame.links.resize(3);
   // The cart stands at x = 1, turned by 90 degrees about z; the plate two metres along the world's y from it, turned by 180 degrees about
   // z.

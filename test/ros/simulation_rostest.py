@@ -8,7 +8,7 @@ import unittest
 import rospy
 import rostest
 import tf2_ros
-from mechanism_codesign.msg import ControllerStates, JointFriction, LoopErrors
+from mechanism_codesign.msg import ControllerStates, JointFriction, LoopErrors, Signals
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 
@@ -54,6 +54,8 @@ class SimulationTest(unittest.TestCase):
         loops = rospy.wait_for_message("loop_errors", LoopErrors, TIMEOUT)
         self.assertEqual(loops.name, ["slider_pin"])
         self.assertLess(loops.error[0], 1e-6)
+        signals = rospy.wait_for_message("signals", Signals, TIMEOUT)
+        self.assertEqual(signals.name, ["crank_joint/velocity", "crank_speed/output"])
         markers = rospy.wait_for_message("friction_markers", MarkerArray, TIMEOUT)
         self.assertEqual([marker.ns for marker in markers.markers], ["slider_joint"])
 

@@ -47,7 +47,8 @@ struct SignalReference {
   double factor = 1.0;
   SignalKind kind = SignalKind::kJointPosition;
   int pair = -1, element = -1;  ///< joints: the pair and its chain element
-  int link = -1, axis = 0;      ///< links
+  int link = -1;                ///< links
+  int axis = 0;                 ///< of a vector or a quaternion
   int controller = -1;          ///< controllers
 };
 

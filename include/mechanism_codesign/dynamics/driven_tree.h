@@ -19,6 +19,8 @@ struct DrivenTree {
     bool slides = false;  ///< prismatic, else it turns
     bool moved = false;   ///< by the driven joint
     int controller = -1;  ///< that asks for an acceleration of this joint, or -1
+    bool rotor =
+        false;  ///< of an actuator, which the parent carries; theory (9a). Noted for joints that move, where accelerations are asked for
   };
   std::vector<Node> nodes;  ///< parents before children
   int driven = -1;          ///< the node whose joint is driven; -1: there is none

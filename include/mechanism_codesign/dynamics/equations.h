@@ -13,6 +13,7 @@
 #include "mechanism_codesign/dynamics/contact_friction.h"
 #include "mechanism_codesign/dynamics/inverse_dynamics.h"
 #include "mechanism_codesign/dynamics/power_kind.h"
+#include "mechanism_codesign/dynamics/reaction_axis.h"
 #include "mechanism_codesign/dynamics/sparsity.h"
 #include "mechanism_codesign/dynamics/spring_end.h"
 #include "mechanism_codesign/dynamics/state.h"
@@ -126,6 +127,8 @@ class Equations {
   const BodyKinematics<T>& body(int index) const { return kinematics_[static_cast<std::size_t>(index < 0 ? layout_.bodies : index)]; }
   /// Reaction force and torque on the child in the parent's joint axes, as far as the pair constrains them.
   void reaction(int pair, Vector3<T>* F, Vector3<T>* torque) const;
+  /// The share of the multipliers in a reaction signal; theory (11a).
+  T multiplier_reaction(const SignalReference& term);
 
   /// Assembles all derivatives through `sink.position(row, column, x)`, `sink.velocity(...)`, `sink.rate(...)` and `sink.time(row, x)`.
   template <class Sink>
@@ -214,6 +217,8 @@ class Equations {
   void link_load_residual(std::size_t k, VectorX<T>* G);
   RotorMotion<T> rotor_motion(const Rotor& rotor) const;
   void rotor_residual(const Rotor& rotor, VectorX<T>* G) const;
+  /// What the rotor takes over the gear, against its joint's coordinate.
+  T rotor_load(const Rotor& rotor, SparseGradient<T>* gradient) const;
   T rotor_energy(const Rotor& rotor, SparseGradient<T>* gradient) const;
   T spring_energy(std::size_t k, SparseGradient<T>* gradient) const;
   T joint_energy(const JointLoad& load, SparseGradient<T>* gradient) const;
@@ -256,6 +261,20 @@ class Equations {
   T link_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
   T orientation_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
   T energy_or_power(const SignalReference& term, SparseGradient<T>* gradient);
+
+  // What a joint exerts on its child; theory (11a).
+  ReactionAxis<T> reaction_axis(const SignalReference& term) const;
+  T reaction_term(const SignalReference& term, const T& factor, SparseGradient<T>* gradient);
+  T constraint_reaction(const ReactionAxis<T>& axis, SparseGradient<T>* gradient) const;
+  T product_reaction(const ReactionAxis<T>& axis, const ProductRow<T>& product, int row, SparseGradient<T>* gradient) const;
+  T coordinate_reaction(const ReactionAxis<T>& axis, SparseGradient<T>* gradient);
+  T rotor_reaction(const ReactionAxis<T>& axis, SparseGradient<T>* gradient) const;
+  T coupling_reaction(const ReactionAxis<T>& axis, SparseGradient<T>* gradient) const;
+  T contact_reaction(const ReactionAxis<T>& axis, SparseGradient<T>* gradient) const;
+  /// Of a load along a coordinate of the joint. @param own where the load's own gradient begins.
+  T load_reaction(const ReactionAxis<T>& axis, const CoordinateConstants<T>& coordinate, const LocalRow<T>& J, const T& load,
+                  const typename SparseGradient<T>::Mark& own, SparseGradient<T>* gradient) const;
+
   T signal_value(const Signal& signal, const T& factor, SparseGradient<T>* gradient);
   T objective_terms(const std::vector<ResolvedTerm>& terms, const std::vector<T>& weights, const std::vector<Reference<T>>& references,
                     SparseGradient<T>* gradient);
@@ -289,7 +308,8 @@ class Equations {
   std::vector<std::array<int, kLocalSize>> columns_;  ///< of each pair's local coordinates
   std::vector<ControllerConstants<T>> controllers_;
   std::vector<InverseDynamics<T>> inverse_dynamics_;  ///< one per controller
-  std::vector<T> accelerations_, by_acceleration_;    ///< of the nodes of one controller's tree
+  /// Of the nodes of one controller's tree; rates where rotors need them.
+  std::vector<T> accelerations_, by_acceleration_, rates_, by_rate_;
   std::vector<T> integral_weights_, terminal_weights_;
   std::vector<Reference<T>> integral_references_, terminal_references_;
   std::vector<T> efforts_;                   ///< of Study::loads

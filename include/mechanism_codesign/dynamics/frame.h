@@ -49,6 +49,7 @@ struct FrameNames {
   std::vector<std::string> links;  ///< every link of the URDF, the root first
   /// Links that robot_state_publisher cannot place from joint positions (below a planar or floating joint): index, and its parent's index.
   std::vector<std::pair<std::size_t, std::size_t>> free_links;
+  std::vector<std::string> signals;  ///< as they were written
 };
 
 /// Everything observable at one instant.

@@ -23,12 +23,14 @@ class InverseDynamics {
 
   /// Force or torque along the driven joint's coordinate.
   /// @param bodies kinematics of all bodies, the ground last. @param accelerations one per node, or nullptr: everything at rest, so that
-  /// gravity alone is balanced.
-  T load(const Constants<T>& constants, const std::vector<BodyKinematics<T>>& bodies, const Vector3<T>& gravity, const T* accelerations);
+  /// gravity alone is balanced. @param rates likewise, of joints that rotors drive; nullptr: there are none.
+  T load(const Constants<T>& constants, const std::vector<BodyKinematics<T>>& bodies, const Vector3<T>& gravity, const T* accelerations,
+         const T* rates = nullptr);
 
   /// Appends factor times the gradient of the last load() by positions and velocities.
   /// @param by_acceleration its derivative by the acceleration of each node, not multiplied by the factor; may be nullptr.
-  void append_gradient(const T& factor, SparseGradient<T>* gradient, T* by_acceleration);
+  /// @param by_rate likewise by the rates of joints that rotors drive.
+  void append_gradient(const T& factor, SparseGradient<T>* gradient, T* by_acceleration, T* by_rate = nullptr);
 
  private:
   /// One body's motion, and the adjoint of each quantity: the derivative of the load by it.
@@ -44,7 +46,10 @@ class InverseDynamics {
 
   void move(std::size_t k, const T& acceleration);
   void weigh(std::size_t k, const Vector3<T>& gravity);
+  /// What the spin of a joint's rotor asks of the driven joint.
+  T rotor_load(std::size_t k) const;
   void reverse_sum();
+  void reverse_rotor(std::size_t k, T* by_acceleration, T* by_rate);
   void reverse_weigh(std::size_t k);
   void reverse_turn(std::size_t k);
   void reverse_slide(std::size_t k);
@@ -54,6 +59,9 @@ class InverseDynamics {
   std::size_t driven() const { return static_cast<std::size_t>(tree_.driven); }
   const BodyKinematics<T>& body(std::size_t k) const { return (*bodies_)[static_cast<std::size_t>(tree_.nodes[k].body)]; }
   const BodyKinematics<T>& parent_body(std::size_t k) const;
+  const JointDynamicsConstants<T>& actuator(std::size_t k) const {
+    return constants_->pairs[static_cast<std::size_t>(node(k).pair)].dynamics.front();
+  }
   const BodyConstants<T>& mass_of(std::size_t k) const { return constants_->bodies[static_cast<std::size_t>(tree_.nodes[k].body)]; }
   /// The motion of a node's parent; at rest for the ground.
   const Motion& parent_motion(std::size_t k) const;
@@ -65,7 +73,7 @@ class InverseDynamics {
   const Constants<T>* constants_ = nullptr;
   const std::vector<BodyKinematics<T>>* bodies_ = nullptr;
   bool moving_ = false;
-  std::vector<T> accelerations_;
+  std::vector<T> accelerations_, rates_;
   std::vector<Motion> motions_;    ///< one per node, the ground last
   std::vector<Adjoint> adjoints_;  ///< likewise
 };

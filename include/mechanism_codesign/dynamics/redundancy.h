@@ -17,6 +17,8 @@ struct Redundancy {
   std::vector<std::string> undetermined;     ///< joints, loops and couplings whose multipliers are not unique
   std::vector<std::string> friction_chosen;  ///< those among them whose friction depends on the reaction
   std::vector<int> chosen_joints;            ///< of the description: the joints of that friction
+  Eigen::MatrixXd self_stress;               ///< by columns some multipliers of all constraints that balance each other
+  double stress_threshold = 0.0;             ///< what they move by less they do not move
   ReactionSharing sharing;                   ///< without compliance. Rows that only depend on the others at this very position are kept
 };
 
@@ -29,6 +31,11 @@ SparseMatrix constraint_jacobian(const System& system, Equations<double>* equati
 /// @param assembly at the positions of `state`, where the constraints hold.
 Redundancy analyse_redundancy(const System& system, Equations<double>* equations, const Assembly& assembly,
                               const std::vector<double>& parameters, const State<double>& state);
+
+/// Which of some signals read a component of a reaction that self-stresses move, so that nothing determines it.
+/// @param state of the redundancy.
+std::vector<std::size_t> open_reactions(const System& system, const Redundancy& redundancy, State<double> state,
+                                        const std::vector<Signal>& signals, Equations<double>* equations);
 
 }  // namespace codesign
 

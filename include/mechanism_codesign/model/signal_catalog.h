@@ -20,6 +20,9 @@ bool has_friction(const JointDescription& joint);
 /// quantity tells which is meant, and where it does not, check_signal() refuses the term.
 bool is_of_mechanism(const SignalTerm& term);
 
+/// Whether a term reads what a joint exerts on its child: the quantity tells it from a link of the same name.
+bool is_reaction(const SignalTerm& term);
+
 /// Checks that every term of a signal names something that exists and has that quantity.
 /// @throws InputError naming the term, what is allowed and the nearest known name.
 void check_signal(const SignalDescription& signal, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers,
@@ -28,6 +31,9 @@ void check_signal(const SignalDescription& signal, const RobotDescription& robot
 /// What is worth plotting of any run: position and velocity of every joint that moves a mass, friction, normal force and sliding velocity
 /// where there is friction, and each controller's output.
 std::vector<std::string> default_signals(const RobotDescription& robot, const std::vector<ControllerDescription>& controllers);
+
+/// The signals that a study itself reads, each once: those of its objective, then those of its controllers.
+std::vector<SignalDescription> signals_of(const Study& study);
 
 }  // namespace codesign
 

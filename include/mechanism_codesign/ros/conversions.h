@@ -6,6 +6,7 @@
 #include <mechanism_codesign/JointFriction.h>
 #include <mechanism_codesign/LoopErrors.h>
 #include <mechanism_codesign/OptimizationProgress.h>
+#include <mechanism_codesign/Signals.h>
 #include <mechanism_codesign/Warning.h>
 #include <ros/time.h>
 #include <sensor_msgs/JointState.h>
@@ -36,6 +37,7 @@ mechanism_codesign::JointFriction joint_friction(const FrameNames& names, const 
 mechanism_codesign::ControllerStates controller_states(const FrameNames& names, const Frame& frame, const MessageContext& context);
 
 mechanism_codesign::LoopErrors loop_errors(const FrameNames& names, const Frame& frame, const MessageContext& context);
+mechanism_codesign::Signals signals(const FrameNames& names, const Frame& frame, const MessageContext& context);
 
 /// Poses of the links that robot_state_publisher cannot place, each relative to its parent link.
 tf2_msgs::TFMessage free_link_transforms(const FrameNames& names, const Frame& frame, const MessageContext& context);

@@ -13,6 +13,7 @@ struct FrameMessages {
   mechanism_codesign::JointFriction joint_friction;
   mechanism_codesign::ControllerStates controller_states;
   mechanism_codesign::LoopErrors loop_errors;
+  mechanism_codesign::Signals signals;
   visualization_msgs::MarkerArray friction_markers;
 
   FrameMessages(const FrameNames& names, const Frame& frame, const MessageContext& context, const MarkerStyle& style);
@@ -24,6 +25,7 @@ struct FrameMessages {
     visitor("joint_friction", joint_friction);
     visitor("controller_states", controller_states);
     visitor("loop_errors", loop_errors);
+    visitor("signals", signals);
     visitor("friction_markers", friction_markers);
   }
 };
