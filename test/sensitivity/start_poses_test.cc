@@ -36,9 +36,9 @@ std::vector<StartCase> cases() {
            ""},
           {"floating_on_a_ball", floating, "base: {" + turned + "}, " + driven, loop("spherical")},
           {"floating_on_a_rod", floating, "base: {translation: [0.1, '${a*b}', '${0.2*w}'], linear_velocity: ['${w}', '${a*a}', 0.2]}",
-           loop("distance", "<codesign:length value='0.5' codesign:value='${0.5 + 0.1*a}'/>")},
+           loop("distance", "<codesign:length value='0.54' codesign:value='${0.5 + 0.1*a}'/>")},
           {"planar_on_a_rod", planar, "base: {rotation: '${3*a}', angular_velocity: '${a*4}'}, " + driven,
-           loop("distance", "<codesign:length value='0.5' codesign:value='${0.5 + 0.1*a}'/>")}};
+           loop("distance", "<codesign:length value='0.54' codesign:value='${0.5 + 0.1*a}'/>")}};
 }
 
 std::string model(const StartCase& c) {
