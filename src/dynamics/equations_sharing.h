@@ -9,6 +9,11 @@ namespace codesign {
 // How redundant rows share reactions, theory (23). The displacements w enter where accelerations do, of bodies without velocity: a row's
 // acceleration is then Phi_q w, with derivatives that are there already.
 
+// The loads eta are counted in units of 1 / kLoadUnit, so that the equation of w reads kLoadUnit w + Phi_q^T eta = 0. With a unit of one,
+// elimination would form Phi_q Phi_q^T, which squares the condition number: of small mechanisms, and near singular positions, no digit of
+// the loads is left. A factor as small as the least singular values of Phi_q makes the factorization begin with Phi_q itself.
+constexpr double kLoadUnit = 1e-4;
+
 template <class T>
 T Equations<T>::dropped(int row) const {
   return T(turn_references_.back()[static_cast<std::size_t>(system_.sharing_layout().miss_slot[static_cast<std::size_t>(row)])]);
@@ -104,8 +109,8 @@ void Equations<T>::sharing_residual(VectorX<T>* G) {
     const BodyKinematics<T>& k = displaced(b);
     const BodyLoad<T>& load = shared_loads_[static_cast<std::size_t>(b)];
     const int w = at.displacement(b), norm = at.load(layout_.norm_row(b));
-    G->template segment<3>(w) += k.rdd + load.force;
-    G->template segment<4>(w + 3) += k.pdd + rotation_hessian_product(load.W, k.p) + state_->z[norm] * k.p;
+    G->template segment<3>(w) += kLoadUnit * k.rdd + load.force;
+    G->template segment<4>(w + 3) += kLoadUnit * k.pdd + rotation_hessian_product(load.W, k.p) + state_->z[norm] * k.p;
     T sum(0.0);
     for (int e = 0; e < 4; ++e) sum += k.p[e] * k.pdd[e];
     (*G)[norm] = sum;
@@ -254,7 +259,7 @@ void Equations<T>::assemble_sharing(Sink* sink) {
     const int w = at.displacement(b), p = kBodySize * b + 3, norm = at.load(layout_.norm_row(b));
     Matrix4<T> by_p = rotation_hessian(shared_loads_[static_cast<std::size_t>(b)].W);
     for (int e = 0; e < 4; ++e) by_p(e, e) += state_->z[norm];
-    for (int e = 0; e < 7; ++e) sink->rate(w + e, w + e, T(1.0));
+    for (int e = 0; e < 7; ++e) sink->rate(w + e, w + e, T(kLoadUnit));
     for (int e = 0; e < 4; ++e) {
       for (int c = 0; c < 4; ++c) sink->position(w + 3 + e, p + c, by_p(e, c));
       sink->position(norm, p + e, k.pdd[e]);

@@ -10,6 +10,7 @@
 #include "integration/idas_equations.h"
 #include "integration/idas_status.h"
 #include "integration/projection.h"
+#include "integration/standstill.h"
 #include "mechanism_codesign/integration/break_times.h"
 #include "mechanism_codesign/integration/motion_watch.h"
 #include "mechanism_codesign/integration/run_watch.h"
@@ -61,6 +62,7 @@ class IdasIntegrator::Implementation {
 
   Status start(const std::vector<double>& parameters);
   Status advance(double limit);
+  Status take_step(double limit);
   void interpolate(double time, State<double>* state, double* psi);
   void sensitivity(int k, State<double>* direction) const { equations_.unpack(state_.t, y_rho_->data(k), y_dot_rho_->data(k), direction); }
 
@@ -228,6 +230,12 @@ Status IdasIntegrator::Implementation::project() {
 }
 
 Status IdasIntegrator::Implementation::advance(double limit) {
+  const double before = state_.t;
+  const Status status = take_step(limit);
+  return judge_standstill(status, system_, initial_, state_, state_.t - before, statistics_, &equations());
+}
+
+Status IdasIntegrator::Implementation::take_step(double limit) {
   if (statistics_.steps + statistics_.rejected_steps >= options_.maximum_steps)
     return {StatusCode::kTooManySteps, state_.t, "more than " + std::to_string(options_.maximum_steps) + " steps"};
   // Not sooner: dense output needs the points before.

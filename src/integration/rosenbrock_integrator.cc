@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "integration/standstill.h"
+
 namespace codesign {
 
 RosenbrockIntegrator::RosenbrockIntegrator(const System& system)
@@ -62,9 +64,12 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
   const double t = step_.state().t;
   const double smallest = 16.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), 1e-3 * system_.study().duration);
   bool singular = false;
+  const auto judged = [&](const Status& status) {
+    return judge_standstill(status, system_, initial_, step_.state(), step_.step_size(), statistics_, &step_.equations());
+  };
   for (;;) {
     if (statistics_.steps + statistics_.rejected_steps >= options_.maximum_steps)
-      return {StatusCode::kTooManySteps, t, "more than " + std::to_string(options_.maximum_steps) + " steps"};
+      return judged({StatusCode::kTooManySteps, t, "more than " + std::to_string(options_.maximum_steps) + " steps"});
     if (cancelled()) return {StatusCode::kCancelled, t, "cancelled"};
     double h = proposal_;
     if (options_.maximum_step > 0.0) h = std::min(h, options_.maximum_step);
@@ -74,9 +79,9 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     if (last) h = rest;
     if (!last && h > 0.5 * rest) h = 0.5 * rest;
     if (!(h >= smallest))
-      return singular ? Status{StatusCode::kSingularMatrix, t, "the equations of motion become singular: a dead point or lock-up"}
-                      : Status{StatusCode::kStepSizeTooSmall, t,
-                               "the step size fell below " + std::to_string(smallest * 1e12) + " ps: the motion is not resolvable"};
+      return judged(singular ? Status{StatusCode::kSingularMatrix, t, "the equations of motion become singular: a dead point or lock-up"}
+                             : Status{StatusCode::kStepSizeTooSmall, t,
+                                      "the step size fell below " + std::to_string(smallest * 1e12) + " ps: the motion is not resolvable"});
     if (!step_.attempt(h)) {
       singular = true;
       ++statistics_.rejected_steps;
@@ -98,8 +103,8 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     const double drift = run_watch_.drift(step_.state(), step_.position_correction(), step_.velocity_correction());
     singularity_.look(step_.state(), drift, &step_.equations());
     if (Status status = run_watch_.check(step_.state(), drift, work_.over(step_, run_watch_.motion()), &statistics_); !status.ok())
-      return status;
-    return watch_.check(step_.state(), statistics_.steps + statistics_.rejected_steps);
+      return judged(status);
+    return judged(watch_.check(step_.state(), statistics_.steps + statistics_.rejected_steps));
   }
 }
 

@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kPeak = 8.0;          // times the mean drift, that is worth a look
 constexpr double kSingular = 2e-3;     // of the typical stiffness; the compliance of redundant constraints leaves 2e-4
+constexpr double kLarge = 4.0;         // times threshold_: drift after which idas begins anew, so that it has no higher peaks
+constexpr double kBeside = 0.05;       // of the typical stiffness, where a run that begins anew over and over passes
 constexpr double kRank = 3e-4;         // of the largest singular value
 constexpr double kLeastDrift = 1e-12;  // whose logarithm counts
 constexpr int kIterations = 40;        // of the search, by 0.618 each
@@ -51,7 +53,8 @@ double SingularityWatch::stiffness(Equations<double>* equations) {
 
 bool SingularityWatch::is_peak() const {
   const double mean = std::exp(sum_of_logarithms_ / count_);
-  return points_[1].drift > points_[0].drift && points_[1].drift >= points_[2].drift && points_[1].drift > threshold_ * mean;
+  return points_[1].drift > points_[0].drift && points_[1].drift >= points_[2].drift &&
+         points_[1].drift > threshold_ * std::min(mean, kLarge);
 }
 
 void SingularityWatch::look(const State<double>& state, double drift, Equations<double>* equations) {
@@ -106,8 +109,10 @@ void SingularityWatch::search(Equations<double>* equations) {
       at_right = at(right = a + kGolden * (b - a));
     }
   }
-  if (std::min(at_left, at_right) > kSingular * typical_stiffness_) {
-    threshold_ *= 2.0;  // so that searches without result end
+  // Steps that begin anew are too short for the position to lie between two of them.
+  const bool restarts = points_[1].drift <= threshold_ * std::exp(sum_of_logarithms_ / count_);
+  if (std::min(at_left, at_right) > (restarts ? kBeside : kSingular) * typical_stiffness_) {
+    threshold_ *= restarts ? 1.2 : 2.0;  // so that searches without result end
     return;
   }
   place(0.5 * (a + b));

@@ -49,7 +49,7 @@ TEST_F(EquationsSharing, AllRowsShareAsIfTheyWereEqualSprings) {
   const Eigen::VectorXd w = -Phi_q.transpose() * loads;
   ASSERT_EQ(at.bodies.size(), 3U);
   unknowns.segment(at.first, w.size()) = w;
-  for (int row = 0; row < layout.constraints(); ++row) unknowns[at.load(row)] = loads[row];
+  for (int row = 0; row < layout.constraints(); ++row) unknowns[at.load(row)] = 1e-4 * loads[row];  // in their unit
   unknowns.segment(layout.n, last) = (Phi_q * w).head(last);
   const Eigen::VectorXd left = G_z * unknowns;
   for (int row = 0; row < last; ++row) EXPECT_LT(std::abs(left[at.load(row)]), 1e-9) << row;

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "dynamics/compiled.h"
+#include "integration/rounded_linkages.h"
+#include "mechanism_codesign/dynamics/system.h"
 #include "mechanism_codesign/math/decimal.h"
 #include "mechanism_codesign/optimization/problem.h"
 #include "mechanism_codesign/sensitivity/evaluation.h"
@@ -74,6 +76,35 @@ TEST(RoundedLoops, ObjectiveAndGradientSettleAsTheToleranceFalls) {
   ASSERT_TRUE(tight.status.ok() && loose.status.ok());
   EXPECT_NEAR(loose.objective, tight.objective, 1e-7 * tight.objective);
   EXPECT_NEAR(loose.gradient[0], tight.gradient[0], 1e-6 * std::abs(tight.gradient[0]));
+}
+
+struct RoundedCase {
+  const char* name;
+  std::string urdf, start, signal;
+};
+
+TEST(RoundedLoops, OtherLinkagesSettleAsTheToleranceFalls) {
+  for (const RoundedCase& c :
+       {RoundedCase{"two four-bars", rounded::two_four_bars(), rounded::two_four_bars_start(), "j1_a/velocity + j1_b/velocity"},
+        {"three cranks", rounded::three_cranks(), rounded::three_cranks_start(), "j0/velocity"},
+        {"Bennett's ring", rounded::bennett(), rounded::bennett_start(), "t1/velocity"},
+        {"parallel arms", rounded::parallel_arms(), rounded::parallel_arms_start(), "m1/velocity"}}) {
+    const auto at = [&c](double tolerance) {
+      const Problem problem =
+          load_problem({"rounded.urdf", c.urdf}, {}, {"rounded.yaml", rounded::study(c.start, c.signal, 0.2, tolerance)});
+      EXPECT_FALSE(problem.system->sharing().dropped.empty()) << c.name;
+      return Evaluator(problem.system).evaluate(problem.start(), true);
+    };
+    const Evaluation tight = at(1e-11);
+    ASSERT_TRUE(tight.status.ok()) << c.name << ": " << tight.status.cause;
+    const double size = std::max(std::abs(tight.objective), std::abs(tight.gradient[0]));
+    for (double tolerance : {1e-6, 1e-8}) {
+      const Evaluation loose = at(tolerance);
+      ASSERT_TRUE(loose.status.ok()) << c.name << ": " << loose.status.cause;
+      EXPECT_NEAR(loose.objective, tight.objective, 5.0 * tolerance * size) << c.name << " at " << tolerance;
+      EXPECT_NEAR(loose.gradient[0], tight.gradient[0], 5.0 * tolerance * size) << c.name << " at " << tolerance;
+    }
+  }
 }
 
 TEST(RoundedLoops, AMissIsAWarningAndTooMuchIsRefused) {

@@ -1,0 +1,123 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "integration/standstill.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+
+#include "mechanism_codesign/dynamics/redundancy.h"
+#include "mechanism_codesign/dynamics/system.h"
+
+namespace codesign {
+namespace {
+
+constexpr std::int64_t kWindow = 100;  // steps from one look at the pace to the next
+constexpr double kNever = 20000.0;     // steps to come that no study needs
+constexpr double kSingular = 0.02;     // of the value at the start; reactions are fifty times as large as there
+constexpr double kNearby = 0.1;        // of the same, where a run failed: friction locks a mechanism before the position is reached
+constexpr double kTakesPart = 0.1;     // of the largest load of a pair in a self-stress
+constexpr int kLargest = 400;          // coordinates whose singular values are still looked at
+
+using Svd = Eigen::JacobiSVD<Eigen::MatrixXd>;
+
+bool may_be_singular(StatusCode code) {
+  return code == StatusCode::kStepSizeTooSmall || code == StatusCode::kSingularMatrix || code == StatusCode::kConstraintDrift ||
+         code == StatusCode::kEnergyError || code == StatusCode::kTooManySteps;
+}
+
+/// Distance of the farthest body from the middle of all [m].
+double size_of(const VectorX<double>& q, int bodies) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (int b = 0; b < bodies; ++b) middle += q.segment<3>(kBodySize * b) / bodies;
+  double size = 0.0;
+  for (int b = 0; b < bodies; ++b) size = std::max(size, (q.segment<3>(kBodySize * b) - middle).norm());
+  return size > 0.0 ? size : 1.0;
+}
+
+std::vector<int> enforced_rows(const System& system) {
+  const std::vector<int>& dropped = system.sharing().dropped;
+  std::vector<int> rows;
+  for (int row = 0; row < system.layout().constraints(); ++row)
+    if (!std::binary_search(dropped.begin(), dropped.end(), row)) rows.push_back(row);
+  return rows;
+}
+
+/// Phi_q free of units: lengths by the mechanism's size, rows by their own.
+Eigen::MatrixXd scaled_jacobian(const System& system, const State<double>& state, Equations<double>* equations) {
+  Eigen::MatrixXd rows = constraint_jacobian(system, equations, state);
+  const double size = size_of(state.q, system.layout().bodies);
+  for (Eigen::Index c = 0; c < rows.cols(); ++c)
+    if (c % kBodySize < 3) rows.col(c) *= size;
+  for (Eigen::Index r = 0; r < rows.rows(); ++r) rows.row(r).normalize();
+  return rows;
+}
+
+Eigen::MatrixXd enforced_part(const System& system, const Eigen::MatrixXd& all) {
+  const std::vector<int> enforced = enforced_rows(system);
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(enforced.size()), all.cols());
+  for (std::size_t k = 0; k < enforced.size(); ++k) rows.row(static_cast<Eigen::Index>(k)) = all.row(enforced[k]);
+  return rows;
+}
+
+/// The singular value of number `rank`, in descending order.
+double singular_value(const Eigen::MatrixXd& rows, Eigen::Index rank) { return Svd(rows).singularValues()[rank - 1]; }
+
+void add_name(const std::string& name, std::string* list) { *list += (list->empty() ? "'" : ", '") + name + "'"; }
+
+/// Joints and loops that a self-stress (a number per enforced row) loads.
+std::string loaded_pairs(const System& system, const Eigen::VectorXd& stress) {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(system.layout().constraints());
+  const std::vector<int> enforced = enforced_rows(system);
+  for (std::size_t k = 0; k < enforced.size(); ++k) all[enforced[k]] = std::abs(stress[static_cast<Eigen::Index>(k)]);
+  const std::vector<Pair>& pairs = system.topology().pairs;
+  std::vector<double> loads;
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const int first = system.layout().pair_row[p], count = system.layout().pair_end(static_cast<int>(p)) - first;
+    loads.push_back(count > 0 ? all.segment(first, count).maxCoeff() : 0.0);
+  }
+  const double least = kTakesPart * *std::max_element(loads.begin(), loads.end());
+  std::string names;
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    if (loads[p] > least) add_name(pairs[p].name, &names);
+  return names;
+}
+
+std::string frictions_in_loops(const System& system) {
+  std::string names;
+  for (int p : system.sharing().pairs)
+    if (const int joint = system.topology().pairs[static_cast<std::size_t>(p)].friction_joint; joint >= 0)
+      add_name(system.robot().joints[static_cast<std::size_t>(joint)].name, &names);
+  return names;
+}
+
+std::string cause(const System& system, const Eigen::MatrixXd& rows, bool all_lose_rank) {
+  const Svd svd(rows, Eigen::ComputeThinU);
+  const std::string names = loaded_pairs(system, svd.matrixU().col(svd.singularValues().size() - 1)),
+                    frictions = frictions_in_loops(system);
+  const std::string rank = std::to_string(rows.rows() - 1), usual = std::to_string(rows.rows());
+  if (!all_lose_rank)
+    return "the constraints that were independent at the start have rank " + rank + " instead of " + usual +
+           " here, though the mechanism's have not: those of " + names +
+           " that were dropped as redundant would have to take the place of others; end the study before, or begin it nearer to here";
+  return "the mechanism comes to a singular position, where its independent constraints have rank " + rank + " instead of " + usual +
+         ": reactions of " + names + " grow without bound on the way there" +
+         (frictions.empty() ? "" : ", and the friction of " + frictions + " with them, so that rigid bodies do not say what follows") +
+         "; end the study before, or start elsewhere";
+}
+
+}  // namespace
+
+Status judge_standstill(const Status& status, const System& system, const State<double>& initial, const State<double>& state,
+                        double step_size, const Statistics& statistics, Equations<double>* equations) {
+  if (!system.sharing().drops() || system.layout().n > kLargest) return status;
+  const bool slow = statistics.steps % kWindow == 0 && system.study().duration - state.t > kNever * step_size;
+  if (!(status.ok() ? slow : may_be_singular(status.code)) || !state.q.allFinite()) return status;
+  const Eigen::MatrixXd all = scaled_jacobian(system, state, equations), before = scaled_jacobian(system, initial, equations);
+  const Eigen::MatrixXd rows = enforced_part(system, all);
+  const Eigen::Index rank = rows.rows();
+  const double limit = status.ok() ? kSingular : kNearby;
+  if (singular_value(rows, rank) > limit * singular_value(enforced_part(system, before), rank)) return status;
+  const bool all_lose_rank = singular_value(all, rank) <= 2.0 * limit * singular_value(before, rank);
+  return {StatusCode::kSingularConfiguration, state.t, cause(system, rows, all_lose_rank)};
+}
+
+}  // namespace codesign

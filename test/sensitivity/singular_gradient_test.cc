@@ -1,0 +1,39 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// Gradients of motions through singular positions are right to four digits, or come with a warning, or fail.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "integration/linkages.h"
+#include "mechanism_codesign/math/decimal.h"
+#include "mechanism_codesign/optimization/problem.h"
+#include "mechanism_codesign/sensitivity/evaluation.h"
+
+namespace codesign {
+namespace {
+
+/// IFToMM's A02 past its flat position, by the speed it starts with.
+Evaluation evaluate(const std::string& integrator, double tolerance) {
+  std::string urdf = upright_row(2);
+  urdf.insert(urdf.find('>') + 1, "<codesign:parameter name='rate' value='1' lower='0.5' upper='2'/>");
+  const std::string study =
+      "duration: 3\nparameters: {rate: {}}\ninitial_state: {hinge0: {position: 0.0, velocity: '${rate}'}}\nsolver: {integrator: " +
+      integrator + ", relative_tolerance: " + to_decimal(tolerance) + ", absolute_tolerance: " + to_decimal(tolerance) +
+      "}\nobjective: {integral: [{signal: hinge0/velocity}]}\n";
+  const Problem problem = load_problem({"row.urdf", urdf}, {}, {"row.yaml", study});
+  return Evaluator(problem.system).evaluate(problem.start(), true);
+}
+
+TEST(SingularGradient, ADoubleParallelogramWarnsOrFailsByBothIntegrators) {
+  for (const char* integrator : {"rosenbrock", "idas"}) {
+    for (double tolerance : {1e-5, 1e-6, 1e-7}) {
+      const Evaluation e = evaluate(integrator, tolerance);
+      const bool warned =
+          std::any_of(e.warnings.begin(), e.warnings.end(), [](const Warning& w) { return w.code == "singular_position_passed"; });
+      EXPECT_TRUE(!e.status.ok() || warned) << integrator << " at " << tolerance << ": " << e.gradient[0] << " in place of 41.958";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace codesign
