@@ -43,10 +43,25 @@ foreach(folder math model joints forces control dynamics integration sensitivity
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test)
   codesign_warnings(${target})
   # A quarter less time to compile; the code under test is optimized all the same.
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  if(CMAKE_BUILD_TYPE STREQUAL Release OR CODESIGN_SANITIZE)
+    target_compile_options(${target} PRIVATE -O1)
+  endif()
   add_dependencies(tests ${target})
   gtest_discover_tests(${target} DISCOVERY_TIMEOUT 120 TEST_PREFIX ${folder}. PROPERTIES TIMEOUT 300)
 endforeach()
+
+# What several threads do at once, compiled for the thread sanitizer with the tests themselves: tools/sanitize thread.
+if(CODESIGN_SANITIZE MATCHES thread)
+  set(thread_tests dynamics/equation_code integration/simulation model/expression model/urdfdom_check ros/worker sensitivity/threads)
+  list(TRANSFORM thread_tests REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/test/\\1_test.cc")
+  add_executable(test_threads EXCLUDE_FROM_ALL ${thread_tests} ${PROJECT_SOURCE_DIR}/src/ros/worker.cc ${PROJECT_SOURCE_DIR}/benchmark/mechanisms.cc)
+  target_include_directories(test_threads PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/test ${PROJECT_SOURCE_DIR}/include)
+  target_link_libraries(test_threads PRIVATE codesign_core codesign_test_paths GTest::gtest GTest::gtest_main console_bridge::console_bridge)
+  codesign_warnings(test_threads)
+  codesign_sanitize(test_threads)
+  set_target_properties(test_threads PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test)
+  gtest_discover_tests(test_threads DISCOVERY_TIMEOUT 120 TEST_PREFIX threads. PROPERTIES TIMEOUT 600)
+endif()
 
 include(${PROJECT_SOURCE_DIR}/cmake/Fuzz.cmake)
 

@@ -36,14 +36,14 @@ void print_table(const Problem& problem, const GradientCheck& result, std::ostre
   if (verified) out << "largest relative difference " << readable(result.largest_relative_difference) << '\n';
 }
 
-Json result_json(const Arguments& arguments, const Problem& problem, const GradientCheck& result) {
+Json result_json(const Arguments& arguments, const Problem& problem, const GradientCheck& result, const Json& counts) {
   const std::vector<std::string> names = problem.tuned_names();
   Json object;
   if (result.evaluation.status.ok()) object["objective"] = result.evaluation.objective;
   object["parameters"] = parameters_json(problem, problem.parameters());
   if (result.evaluation.gradient.size() > 0) object["gradient"] = by_name(names, result.evaluation.gradient);
   add_statistics(result.evaluation.statistics, &object);
-  add_counts(problem, problem.parameters(), &object);
+  object.update(counts);
   if (!arguments.verify || !result.status.ok()) return object;
   object["verification"] = {{"method", name_of(result.method)},
                             {"reference", by_name(names, result.reference)},
@@ -56,10 +56,13 @@ Json result_json(const Arguments& arguments, const Problem& problem, const Gradi
 
 int gradient(const Arguments& arguments, const Console& console) {
   const Problem problem = load_tunable(arguments, &console);
+  // Before the computation, so that nothing keeps a cancelled one waiting.
+  Json counts = Json::object();
+  if (arguments.json) add_counts(problem, problem.parameters(), &counts);
   const GradientCheck result = compute(arguments, problem, console);
   const bool known = result.evaluation.status.ok() && result.evaluation.gradient.size() > 0;
   if (!arguments.json && known) print_table(problem, result, console.out);
-  Json object = result_json(arguments, problem, result);
+  Json object = result_json(arguments, problem, result, counts);
   add_warnings(arguments, problem, result.evaluation.warnings, &object, console);
   return finish(arguments, result.status, std::move(object), console);
 }

@@ -9,7 +9,6 @@
 
 #include "cli/inputs.h"
 #include "cli/output_file.h"
-#include "cli/report.h"
 #include "cli/run_recorder.h"
 #include "mechanism_codesign/jobs/whole_file.h"
 #include "mechanism_codesign/math/decimal.h"
@@ -51,7 +50,7 @@ void JobFolder::try_to(const std::function<void()>& write) {
   try {
     write();
   } catch (const std::exception& error) {
-    failures_.emplace_back(error.what());
+    failures_.push_back({"output_failed", error.what()});
   }
 }
 
@@ -68,24 +67,25 @@ void JobFolder::add(const Trial& trial) {
   if (failures_.size() > before) convergence_.reset();
 }
 
-void JobFolder::write_run(const std::string& name, const std::vector<double>& parameters) {
+void JobFolder::write_run(const std::string& name, const std::vector<double>& parameters, const std::atomic<bool>* cancel) {
   const std::vector<SignalDescription> signals = select_signals({}, problem_);
   std::ostringstream text;
   CsvWriter csv(text, column_names(signals));
   const auto sink = [&csv](const std::vector<double>& row) { csv.write(row); };
-  const Status status = record_run(problem_, parameters, signals, kSamples, sink).status;
-  if (!status.ok()) failures_.push_back(in_folder(name) + " ends early: " + describe(status));
+  const Status status = record_run(problem_, parameters, signals, kSamples, sink, cancel).status;
+  if (!status.ok()) failures_.push_back({name_of(status.code), in_folder(name) + " ends early: " + describe(status)});
   write_whole_file(in_folder(name), text.str());
 }
 
-std::vector<std::string> JobFolder::finish(const Json& result, const Eigen::VectorXd& rho) {
+std::vector<Failure> JobFolder::finish(const Json& result, const Eigen::VectorXd& rho, const std::atomic<bool>& cancel) {
+  const std::atomic<bool>* const watched = cancel ? nullptr : &cancel;
   const std::vector<double> tuned = problem_.parameters(rho);
   const std::size_t before = failures_.size();
   try_to([&] { write_whole_file(in_folder("result.json"), to_text(result)); });
   try_to([&] { write_whole_file(in_folder("tuned.urdf"), write_tuned_urdf(problem_.urdf, problem_.overlays, tuned)); });
   if (failures_.size() == before) best_.remove();
-  try_to([&] { write_run("initial.csv", problem_.parameters()); });
-  try_to([&] { write_run("tuned.csv", tuned); });
+  try_to([&] { write_run("initial.csv", problem_.parameters(), watched); });
+  try_to([&] { write_run("tuned.csv", tuned, watched); });
   return failures_;
 }
 

@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_CLI_JOB_FOLDER_H_
 #define MECHANISM_CODESIGN_CLI_JOB_FOLDER_H_
 
+#include <atomic>
 #include <fstream>
 #include <functional>
 #include <optional>
@@ -10,6 +11,7 @@
 
 #include "cli/csv_writer.h"
 #include "cli/json_output.h"
+#include "cli/report.h"
 #include "mechanism_codesign/jobs/best_record.h"
 #include "mechanism_codesign/jobs/lock_file.h"
 #include "mechanism_codesign/optimization/optimizer.h"
@@ -32,19 +34,21 @@ class JobFolder {
   void add(const Trial& trial);
 
   /// Writes the other files, each of them even if another one fails.
-  /// Returns a sentence for each that is missing or, since its run failed, ends early; none: all is well.
-  std::vector<std::string> finish(const Json& result, const Eigen::VectorXd& rho);
+  /// Returns what became of each that is missing or, since its run failed, ends early; none: all is well.
+  /// @param cancel set while a run is recorded: it ends early. An optimization that was cancelled before keeps whole runs.
+  std::vector<Failure> finish(const Json& result, const Eigen::VectorXd& rho, const std::atomic<bool>& cancel);
 
  private:
   std::string in_folder(const std::string& name) const;
   void make_room();
-  void write_run(const std::string& name, const std::vector<double>& parameters);
+  void write_run(const std::string& name, const std::vector<double>& parameters, const std::atomic<bool>* cancel);
   void try_to(const std::function<void()>& write);
 
   std::string path_;
   const Problem& problem_;
   std::optional<LockFile> lock_;
-  std::vector<std::string> notes_, failures_;
+  std::vector<std::string> notes_;
+  std::vector<Failure> failures_;
   std::ofstream convergence_file_;
   std::optional<CsvWriter> convergence_;  // empty once it cannot be written
   BestRecord best_;

@@ -109,12 +109,11 @@ int optimize(const Arguments& arguments, const Console& console) {
   if (!arguments.json && designed) print_result(problem, result, console.out);
   Json object = result_json(problem, result);
   add_warnings(arguments, problem, result.warnings, &object, console);
-  const int code = finish(arguments, result.status, object, console);
-  if (!folder || !designed) return code;
-  // The result is out by now, so that a failure here only adds messages.
-  const std::vector<std::string> failures = folder->finish(object, result.rho);
-  tell(failures, console);
-  return failures.empty() ? code : kFailed;
+  if (!result.status.ok()) object["error"] = to_json(result.status);
+  std::vector<Failure> failures;
+  // First, so that what is printed tells of files that are missing.
+  if (folder && designed) failures = folder->finish(object, result.rho, console.cancel);
+  return finish(arguments, result.status, std::move(object), console, failures);
 }
 
 }  // namespace codesign::cli

@@ -18,13 +18,21 @@ void add_warnings(const Arguments& arguments, const Problem& problem, const Warn
   (*object)["warnings"] = to_json(warnings);
 }
 
-int finish(const Arguments& arguments, const Status& status, Json object, const Console& console) {
+int finish(const Arguments& arguments, const Status& status, Json object, const Console& console, const std::vector<Failure>& failures) {
+  const auto tell = [&](const std::string& sentence) { console.err << "codesign " << arguments.command << ": " << sentence << std::endl; };
   if (!status.ok()) {
     object["error"] = to_json(status);
-    console.err << "codesign " << arguments.command << ": " << describe(status) << std::endl;
+    tell(describe(status));
+  }
+  for (const Failure& failure : failures) {
+    tell(failure.message);
+    if (object.contains("error"))
+      object["error"]["message"] = object["error"]["message"].get<std::string>() + "; " + failure.message;
+    else
+      object["error"] = {{"code", failure.code}, {"message", failure.message}};
   }
   if (arguments.json) print(object, console.out);
-  return status.ok() ? kDone : kFailed;
+  return object.contains("error") ? kFailed : kDone;
 }
 
 }  // namespace codesign::cli

@@ -2,6 +2,9 @@
 #ifndef MECHANISM_CODESIGN_CLI_REPORT_H_
 #define MECHANISM_CODESIGN_CLI_REPORT_H_
 
+#include <string>
+#include <vector>
+
 #include "cli/arguments.h"
 #include "cli/console.h"
 #include "cli/json_output.h"
@@ -16,9 +19,16 @@ std::string describe(const Status& status);
 /// @param of_run what the run added to the warnings of the files.
 void add_warnings(const Arguments& arguments, const Problem& problem, const Warnings& of_run, Json* object, const Console& console);
 
-/// Ends a command: prints `object` if JSON was asked for, with an `error` if the status is one, and names a failure on the error stream.
-/// Returns the exit code.
-int finish(const Arguments& arguments, const Status& status, Json object, const Console& console);
+/// Something else than the computation that went wrong: a file that could not be written, a run that ends early.
+struct Failure {
+  std::string code;
+  std::string message;
+};
+
+/// Ends a command: prints `object` if JSON was asked for, with an `error` if something failed, and names each failure on the error stream.
+/// The status, or else the first of `failures`, gives the error its code. Returns the exit code.
+int finish(const Arguments& arguments, const Status& status, Json object, const Console& console,
+           const std::vector<Failure>& failures = {});
 
 }  // namespace codesign::cli
 

@@ -44,20 +44,21 @@ void summarize(const RunSummary& run, double duration, double setup_seconds, std
   for (const LimitCrossing& crossing : run.crossings) err << describe(crossing) << std::endl;
 }
 
-/// The objective needs its own quadrature beside the run, so it is computed only where it is shown.
-Json run_json(const Problem& problem, const RunSummary& run, Json series, const Console& console) {
-  Json object;
+/// The objective needs its own quadrature beside the run, so it is computed only where it is shown. Cancelled meanwhile, the command is.
+void add_objective(const Problem& problem, const Console& console, Status* status, Json* object) {
   const bool has_objective = !problem.study.integral.empty() || !problem.study.terminal.empty();
-  if (run.status.ok() && has_objective) {
-    const Evaluation evaluation = Evaluator(problem.system).evaluate(problem.start(), false, &console.cancel);
-    if (evaluation.status.ok()) object["objective"] = evaluation.objective;
-  }
-  object["parameters"] = parameters_json(problem, problem.parameters());
-  add_statistics(run.statistics, &object);
-  add_counts(problem, problem.parameters(), &object);
-  object["limits_exceeded"] = to_json(run.crossings);
-  object["series"] = std::move(series);
-  return object;
+  if (!status->ok() || !has_objective) return;
+  const Evaluation evaluation = Evaluator(problem.system).evaluate(problem.start(), false, &console.cancel);
+  if (evaluation.status.ok()) (*object)["objective"] = evaluation.objective;
+  if (evaluation.status.code == StatusCode::kCancelled) *status = evaluation.status;
+}
+
+void add_run(const Problem& problem, const RunSummary& run, const Json& counts, Json series, Json* object) {
+  (*object)["parameters"] = parameters_json(problem, problem.parameters());
+  add_statistics(run.statistics, object);
+  object->update(counts);
+  (*object)["limits_exceeded"] = to_json(run.crossings);
+  (*object)["series"] = std::move(series);
 }
 
 }  // namespace
@@ -76,10 +77,16 @@ int simulate(const Arguments& arguments, const Console& console) {
     if (csv) csv->write(row);
     if (arguments.json) rows.push_back(row);
   };
-  const RunSummary run = record_run(problem, problem.parameters(), signals, arguments.samples, sink, &console.cancel);
+  // Before the run, so that nothing keeps a cancelled one waiting.
+  Json counts = Json::object();
+  if (arguments.json) add_counts(problem, problem.parameters(), &counts);
+  RunSummary run = record_run(problem, problem.parameters(), signals, arguments.samples, sink, &console.cancel);
   if (run.status.ok()) summarize(run, problem.study.duration, problem.setup_seconds, console.err);
   Json object;
-  if (arguments.json) object = run_json(problem, run, series_json(names, rows), console);
+  if (arguments.json) {
+    add_objective(problem, console, &run.status, &object);
+    add_run(problem, run, counts, series_json(names, rows), &object);
+  }
   Warnings warnings = run.warnings;
   append(warn_of_open_reactions(*problem.system, signals), &warnings);
   add_warnings(arguments, problem, warnings, &object, console);

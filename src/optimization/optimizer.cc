@@ -27,6 +27,7 @@ class Minimization {
     nlopt::opt optimizer = make_optimizer(study_, static_cast<unsigned>(study_.tuned.size()));
     configure(&optimizer);
     result_.initial_rho = result_.rho = scaling_.start();
+    result_.influences.assign(study_.tuned.size(), false);
     require_numbers_at_start(study_, scaling_.all_parameters(result_.initial_rho));
     std::vector<double> x = scaling_.to_scaled(result_.initial_rho);
     minimize(&optimizer, &x);
@@ -90,9 +91,8 @@ class Minimization {
   /// A line search that gives up between points that are equal within the tolerance asked for, on a slope that is nearly gone (or taken up
   /// by a constraint), has converged as far as it can.
   bool has_converged() const {
-    const Trial& last = result_.history.back();
-    const double difference = std::abs(last.objective - result_.objective);
-    if (!last.status.ok() || difference > study_.optimizer.relative_tolerance * std::abs(result_.objective)) return false;
+    const double difference = std::abs(last_.objective - result_.objective);
+    if (!last_.status.ok() || difference > study_.optimizer.relative_tolerance * std::abs(result_.objective)) return false;
     const Eigen::VectorXd margins = constraint_margins(study_, scaling_.all_parameters(result_.rho));
     if ((margins.array() < 1e-6).any()) return all_met(margins);
     const double start = scaling_.gradient_norm(result_.initial_gradient);
@@ -187,6 +187,8 @@ class Minimization {
       trial.objective = evaluation.objective;
       trial.gradient = evaluation.gradient;
       trial.gradient_norm = scaling_.gradient_norm(evaluation.gradient);
+      for (std::size_t k = 0; k < result_.influences.size(); ++k)
+        if (evaluation.gradient[static_cast<Eigen::Index>(k)] != 0.0) result_.influences[k] = true;
       take_best(evaluation, rho);
     } else {
       ++result_.failed_evaluations;
@@ -194,7 +196,6 @@ class Minimization {
     }
     trial.iteration = result_.iterations;
     trial.best_objective = result_.objective;
-    result_.history.push_back(trial);
     return trial;
   }
 

@@ -1,7 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "search_warnings.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "mechanism_codesign/math/decimal.h"
@@ -41,11 +40,6 @@ void add_bound_warning(const Parameter& parameter, double value, double slope, W
                                   to_decimal(value), "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"}));
 }
 
-bool has_influence(const OptimizationResult& result, Eigen::Index k) {
-  return std::any_of(result.history.begin(), result.history.end(),
-                     [k](const Trial& trial) { return trial.status.ok() && trial.gradient[k] != 0.0; });
-}
-
 }  // namespace
 
 Warnings search_warnings(const Study& study, const OptimizationResult& result) {
@@ -55,7 +49,7 @@ Warnings search_warnings(const Study& study, const OptimizationResult& result) {
     const Parameter& parameter = study.parameters[static_cast<std::size_t>(study.tuned[k])];
     const auto i = static_cast<Eigen::Index>(k);
     add_bound_warning(parameter, result.rho[i], result.gradient[i], &warnings);
-    if (!has_influence(result, i))
+    if (!result.influences[k])
       warnings.push_back(
           warn("parameter_without_influence",
                {parameter.where, parameter.name,

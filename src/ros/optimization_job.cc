@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "mechanism_codesign/jobs/best_record.h"
 #include "mechanism_codesign/jobs/job_files.h"

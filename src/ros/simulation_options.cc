@@ -2,6 +2,7 @@
 #include "mechanism_codesign/ros/simulation_options.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "mechanism_codesign/math/decimal.h"
 #include "mechanism_codesign/model/unknown_name.h"
@@ -14,6 +15,78 @@ namespace {
 /// Stamps have nanoseconds.
 constexpr double kHighestRate = 1e9;
 
+using Node = ros::NodeHandle;
+
+/// A private parameter: its name, which is written here alone, and where its value goes.
+struct Entry {
+  const char* name;
+  std::function<void(const Node& node, const std::string& name, SimulationOptions* options)> read;
+};
+
+std::function<void(const Node&, const std::string&, SimulationOptions*)> positive(double SimulationOptions::*field) {
+  return [field](const Node& node, const std::string& name, SimulationOptions* options) {
+    options->*field = read_positive(node, name, options->*field);
+  };
+}
+
+std::function<void(const Node&, const std::string&, SimulationOptions*)> positive(double MarkerStyle::*field) {
+  return [field](const Node& node, const std::string& name, SimulationOptions* options) {
+    options->style.*field = read_positive(node, name, options->style.*field);
+  };
+}
+
+void read_rate(const Node& node, const std::string& name, SimulationOptions* options) {
+  options->rate = read_positive(node, name, options->rate, kHighestRate);
+}
+
+void read_mode(const Node& node, const std::string& name, SimulationOptions* options) {
+  const std::string mode = read_text(node, name, "real_time");
+  if (mode == "as_fast_as_possible")
+    options->time_scale = 0.0;
+  else if (mode != "real_time")
+    throw unknown_name({node.resolveName(name), 0}, name, "mode", mode, {"real_time", "as_fast_as_possible"});
+}
+
+void read_loop(const Node& node, const std::string& name, SimulationOptions* options) {
+  options->loop = read_flag(node, name, options->loop);
+}
+
+void read_world_frame(const Node& node, const std::string& name, SimulationOptions* options) {
+  options->world_frame = read_text(node, name, "");
+}
+
+void read_frame_prefix(const Node& node, const std::string& name, SimulationOptions* options) {
+  options->frame_prefix = read_text(node, name, "");
+  if (!options->frame_prefix.empty() && options->frame_prefix[0] == '/')
+    refuse_parameter(node, name, "TF frames begin with no slash", options->frame_prefix, "a text such as left/");
+}
+
+void read_topics(const Node& node, const std::string& name, SimulationOptions* options) {
+  options->wait_for_subscribers = read_texts(node, name);
+  for (const std::string& topic : options->wait_for_subscribers)
+    if (std::count(frame_topics().begin(), frame_topics().end(), topic) == 0)
+      throw unknown_name({node.resolveName(name), 0}, name, "topic", topic, frame_topics());
+}
+
+void read_bag(const Node& node, const std::string& name, SimulationOptions* options) { options->bag = read_path(node, name, ""); }
+
+/// In the order in which they are read: the mode overrules the time scale.
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> kEntries = {{"rate", read_rate},
+                                              {"time_scale", positive(&SimulationOptions::time_scale)},
+                                              {"mode", read_mode},
+                                              {"publish_limit", positive(&SimulationOptions::publish_limit)},
+                                              {"loop", read_loop},
+                                              {"world_frame", read_world_frame},
+                                              {"frame_prefix", read_frame_prefix},
+                                              {"force_scale", positive(&MarkerStyle::metres_per_newton)},
+                                              {"torque_scale", positive(&MarkerStyle::metres_per_newton_metre)},
+                                              {"arrow_width", positive(&MarkerStyle::shaft_diameter)},
+                                              {"wait_for_subscribers", read_topics},
+                                              {"bag", read_bag}};
+  return kEntries;
+}
+
 }  // namespace
 
 const std::vector<std::string>& frame_topics() {
@@ -22,36 +95,15 @@ const std::vector<std::string>& frame_topics() {
   return kNames;
 }
 
-const std::vector<std::string>& simulation_parameters() {
-  static const std::vector<std::string> kNames = {"rate",         "mode",        "time_scale",           "publish_limit",
-                                                  "loop",         "world_frame", "frame_prefix",         "force_scale",
-                                                  "torque_scale", "arrow_width", "wait_for_subscribers", "bag"};
-  return kNames;
+std::vector<std::string> simulation_parameters() {
+  std::vector<std::string> names;
+  for (const Entry& entry : entries()) names.emplace_back(entry.name);
+  return names;
 }
 
 SimulationOptions read_simulation_options(const ros::NodeHandle& private_node) {
   SimulationOptions options;
-  options.rate = read_positive(private_node, "rate", options.rate, kHighestRate);
-  options.time_scale = read_positive(private_node, "time_scale", options.time_scale);
-  options.publish_limit = read_positive(private_node, "publish_limit", options.publish_limit);
-  options.loop = read_flag(private_node, "loop", options.loop);
-  options.world_frame = read_text(private_node, "world_frame", "");
-  options.frame_prefix = read_text(private_node, "frame_prefix", "");
-  options.style.metres_per_newton = read_positive(private_node, "force_scale", options.style.metres_per_newton);
-  options.style.metres_per_newton_metre = read_positive(private_node, "torque_scale", options.style.metres_per_newton_metre);
-  options.style.shaft_diameter = read_positive(private_node, "arrow_width", options.style.shaft_diameter);
-  options.bag = read_path(private_node, "bag", "");
-  options.wait_for_subscribers = read_texts(private_node, "wait_for_subscribers");
-  for (const std::string& topic : options.wait_for_subscribers)
-    if (std::count(frame_topics().begin(), frame_topics().end(), topic) == 0)
-      throw unknown_name({private_node.resolveName("wait_for_subscribers"), 0}, "wait_for_subscribers", "topic", topic, frame_topics());
-  const std::string mode = read_text(private_node, "mode", "real_time");
-  if (mode == "as_fast_as_possible")
-    options.time_scale = 0.0;
-  else if (mode != "real_time")
-    throw unknown_name({private_node.resolveName("mode"), 0}, "mode", "mode", mode, {"real_time", "as_fast_as_possible"});
-  if (!options.frame_prefix.empty() && options.frame_prefix[0] == '/')
-    refuse_parameter(private_node, "frame_prefix", "TF frames begin with no slash", options.frame_prefix, "a text such as left/");
+  for (const Entry& entry : entries()) entry.read(private_node, entry.name, &options);
   return options;
 }
 

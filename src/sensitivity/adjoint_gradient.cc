@@ -6,13 +6,14 @@
 
 namespace codesign {
 
-AdjointGradient::Backward::Backward(const System& system, const RosenbrockTableau& tableau)
-    : replay(system, tableau), adjoint(system, tableau), boundary(system), path(system.layout()) {
-  point.resize(system.layout());
+AdjointGradient::Backward::Backward(const System& system, const RosenbrockTableau& tableau, int most_points)
+    : replay(system, tableau), adjoint(system, tableau), boundary(system), path(system.layout(), most_points) {
+  point.state.resize(system.layout());
   final_adjoint.setZero(IncrementLayout(system.layout()).size());
 }
 
-AdjointGradient::AdjointGradient(const System& system, LanePlan plan) : system_(system), plan_(std::move(plan)), integrator_(system) {}
+AdjointGradient::AdjointGradient(const System& system, LanePlan plan, int most_points)
+    : system_(system), most_points_(most_points), plan_(std::move(plan)), integrator_(system) {}
 
 // Memory for the way back is only taken by who asks for a gradient.
 Status AdjointGradient::start(const std::vector<double>& parameters, bool with_gradient) {
@@ -21,18 +22,19 @@ Status AdjointGradient::start(const std::vector<double>& parameters, bool with_g
   Status status = integrator_.start(parameters);
   if (!status.ok() || !with_gradient) return status;
   if (!back_) {
-    back_.emplace(system_, integrator_.step().tableau());
+    back_.emplace(system_, integrator_.step().tableau(), most_points_);
     share(plan_);
   }
   back_->path.clear();
-  back_->path.append(0.0, integrator_.initial_state());
   back_->initial_turns = integrator_.equations().turn_references();
+  back_->path.append(0.0, integrator_.initial_state(), back_->initial_turns);
   return status;
 }
 
 Status AdjointGradient::advance(double limit) {
   Status status = integrator_.advance(limit);
-  if (status.ok() && with_gradient_) back_->path.append(integrator_.step().step_size(), integrator_.step().unprojected());
+  if (status.ok() && with_gradient_)
+    back_->path.append(integrator_.step().step_size(), integrator_.step().unprojected(), integrator_.equations().turn_references());
   return status;
 }
 
@@ -56,33 +58,58 @@ void AdjointGradient::prepare() {
   back_->parameters->for_each([&](auto* lanes) { lanes->start(parameters); });
 }
 
-/// Makes the step that began at point k once more, but not beyond the last point.
-bool AdjointGradient::replay(int k) {
+/// Takes the solution up at point k, which `point` holds.
+bool AdjointGradient::take_up(int k) {
   RosenbrockStep<double>& step = back_->replay;
   if (k == 0) {
-    step.start(back_->point);
-  } else if (!step.resume(back_->point)) {
+    step.start(back_->point.state);
+  } else if (!step.resume(back_->point.state)) {
     return false;
   }
   // Backwards too, positions continue the nearest.
   step.equations().track_turns(step.state());
-  return k + 1 == back_->path.size() || step.attempt(back_->path.step_size(k + 1));
+  return true;
+}
+
+/// Sets `point` to the k-th. Where it was not kept, the steps up to it are made once more.
+bool AdjointGradient::reach(int k) {
+  StepPath& path = back_->path;
+  PathPoint& point = back_->point;
+  RosenbrockStep<double>& step = back_->replay;
+  const int from = path.kept_before(k);
+  path.point(from, &point);
+  if (from == k) return true;
+  const int spacing = path.make_room(from, k);
+  step.equations().turn_references() = point.turns;
+  for (int at = from; at < k; ++at) {
+    if (cancel_ != nullptr && *cancel_) return false;
+    if (!take_up(at) || !step.attempt(path.step_size(at + 1))) return false;
+    point.state = step.unprojected();
+    point.turns = step.equations().turn_references();
+    if (at + 1 == k || (at + 1 - from) % spacing == 0) path.keep(at + 1, point);
+  }
+  return true;
+}
+
+/// Makes the step that began at point k once more, but not beyond the last point.
+bool AdjointGradient::replay(int k) {
+  if (!take_up(k)) return false;
+  return k + 1 == back_->path.size() || back_->replay.attempt(back_->path.step_size(k + 1));
 }
 
 bool AdjointGradient::step_back(int k) {
   AdjointStep& adjoint = back_->adjoint;
-  back_->path.point(k, &back_->point);
-  if (!replay(k)) return false;
+  if (!reach(k) || !replay(k)) return false;
   const RosenbrockStep<double>& step = back_->replay;
   const bool has_stages = k + 1 < back_->path.size(), is_projected = k > 0;
   adjoint.clear();
   if (has_stages) adjoint.reverse_stages(step);
-  if (is_projected) adjoint.reverse_projection(back_->point, step);
-  adjoint.reverse_matrices(back_->point, step);
+  if (is_projected) adjoint.reverse_projection(back_->point.state, step);
+  adjoint.reverse_matrices(back_->point.state, step);
   back_->parameters->for_each([&](auto* lanes) {
     if (has_stages) lanes->add_stages(adjoint, step.equations());
     if (is_projected) lanes->add_projection(adjoint);
-    lanes->add_matrices(back_->point, adjoint, step.equations());
+    lanes->add_matrices(back_->point.state, adjoint, step.equations());
   });
   return true;
 }

@@ -16,7 +16,8 @@ namespace codesign {
 /// To rounding the same as RosenbrockGradient's.
 class AdjointGradient final : public GradientEngine {
  public:
-  AdjointGradient(const System& system, LanePlan plan);
+  /// @param most_points of the way that are kept, see StepPath.
+  AdjointGradient(const System& system, LanePlan plan, int most_points = 0);
 
   Status start(const std::vector<double>& parameters, bool with_gradient) override;
   Status advance(double limit) override;
@@ -33,14 +34,14 @@ class AdjointGradient final : public GradientEngine {
  private:
   /// What only a gradient needs.
   struct Backward {
-    Backward(const System& system, const RosenbrockTableau& tableau);
+    Backward(const System& system, const RosenbrockTableau& tableau, int most_points);
     RosenbrockStep<double> replay;
     AdjointStep adjoint;
     std::optional<LaneGroups<ParameterLanes>> parameters;
     Equations<Lanes<8>> boundary;
     State<Lanes<8>> boundary_state;
     StepPath path;
-    State<double> point;
+    PathPoint point;
     std::vector<std::vector<double>> initial_turns;
     SparseGradient<double> terminal;
     VectorX<double> final_adjoint;
@@ -52,10 +53,13 @@ class AdjointGradient final : public GradientEngine {
   bool plan_holds();
   void prepare();
   bool step_back(int k);
+  bool reach(int k);
+  bool take_up(int k);
   bool replay(int k);
   void add_boundaries(Eigen::VectorXd* gradient);
 
   const System& system_;
+  const int most_points_;
   LanePlan plan_;
   RosenbrockIntegrator integrator_;
   std::optional<Backward> back_;

@@ -12,9 +12,12 @@
 namespace codesign {
 
 /// Gradient by the exact tangent of the Rosenbrock steps; doc/theory.md (18), (22).
+///
+/// Where the tangents of all parameters would take too much memory, gradient() makes the run once more for each further part of them.
 class RosenbrockGradient final : public GradientEngine {
  public:
-  explicit RosenbrockGradient(const System& system);
+  /// @param most_lanes tangents that are carried at a time; 0: what fits into 128 MB.
+  explicit RosenbrockGradient(const System& system, int most_lanes = 0);
 
   Status start(const std::vector<double>& parameters, bool with_gradient) override;
   Status advance(double limit) override;
@@ -35,8 +38,15 @@ class RosenbrockGradient final : public GradientEngine {
     TangentStep<N> step;
   };
 
+  int count() const { return static_cast<int>(system_.study().tuned.size()); }
+  /// Begins with the tangents of the parameters from `first` on.
+  void carry(int first, const std::vector<double>& parameters);
+  void collect(Eigen::VectorXd* gradient);
+
   const System& system_;
   RosenbrockIntegrator integrator_;
+  const int most_lanes_;
+  int first_ = -1;  ///< whose tangents `groups_` hold
   std::optional<LaneGroups<Group>> groups_;
   RosenbrockIntegrator::BeforeAccept stages_;
   bool with_gradient_ = false;

@@ -1,24 +1,83 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensitivity/step_path.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace codesign {
+namespace {
 
-StepPath::StepPath(const Layout& layout) : stride_(static_cast<std::size_t>(2 + 2 * layout.n + layout.states + layout.columns())) {}
+constexpr int kMemory = 32000000;  // bytes
+constexpr int kFewest = 16;
 
-void StepPath::append(double h, const State<double>& point) {
-  numbers_.push_back(h);
-  numbers_.push_back(point.t);
-  for (const VectorX<double>* part : {&point.q, &point.v, &point.s, &point.z})
-    numbers_.insert(numbers_.end(), part->data(), part->data() + part->size());
+int points_in_memory(const Layout& layout) {
+  const int numbers = 1 + 2 * layout.n + layout.states + layout.columns();
+  return std::max(kFewest, kMemory / (static_cast<int>(sizeof(double)) * numbers));
 }
 
-void StepPath::point(int k, State<double>* state) const {
-  const double* from = numbers_at(k) + 1;
-  state->t = *from++;
-  for (VectorX<double>* part : {&state->q, &state->v, &state->s, &state->z}) {
+}  // namespace
+
+StepPath::StepPath(const Layout& layout, int most) : most_(static_cast<std::size_t>(most > 0 ? most : points_in_memory(layout))) {}
+
+void StepPath::clear() {
+  sizes_.clear();
+  count_ = 0;
+  stride_ = 1;
+}
+
+void StepPath::append(double h, const State<double>& state, const std::vector<std::vector<double>>& turns) {
+  const int k = size();
+  sizes_.push_back(h);
+  if (k % stride_ != 0) return;
+  if (count_ >= most_) thin_out();
+  if (k % stride_ == 0) push(k, state, turns);
+}
+
+void StepPath::push(int k, const State<double>& state, const std::vector<std::vector<double>>& turns) {
+  if (count_ == kept_.size()) kept_.emplace_back();
+  Kept& kept = kept_[count_++];
+  kept.k = k;
+  kept.numbers.clear();
+  kept.numbers.push_back(state.t);
+  for (const VectorX<double>* part : {&state.q, &state.v, &state.s, &state.z})
+    kept.numbers.insert(kept.numbers.end(), part->data(), part->data() + part->size());
+  kept.turns = turns;
+}
+
+void StepPath::thin_out() {
+  stride_ *= 2;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < count_; ++i)
+    if (kept_[i].k % stride_ == 0) std::swap(kept_[count++], kept_[i]);
+  count_ = count;
+}
+
+int StepPath::kept_before(int k) const {
+  const auto end = kept_.begin() + static_cast<std::ptrdiff_t>(count_);
+  return std::prev(std::upper_bound(kept_.begin(), end, k, [](int number, const Kept& kept) { return number < kept.k; }))->k;
+}
+
+void StepPath::point(int k, PathPoint* point) const {
+  const auto end = kept_.begin() + static_cast<std::ptrdiff_t>(count_);
+  const Kept& kept = *std::lower_bound(kept_.begin(), end, k, [](const Kept& one, int number) { return one.k < number; });
+  const double* from = kept.numbers.data();
+  State<double>& state = point->state;
+  state.t = *from++;
+  for (VectorX<double>* part : {&state.q, &state.v, &state.s, &state.z}) {
     *part = Eigen::Map<const Eigen::VectorXd>(from, part->size());
     from += part->size();
   }
+  point->turns = kept.turns;
 }
+
+// Half of what is free, so that there is room between these points too.
+int StepPath::make_room(int from, int to) {
+  while (stride_ > 1 && kept_[count_ - 1].k > from) --count_;
+  const std::size_t all = 2 * most_, free = all > count_ ? (all - count_) / 2 : 0;
+  const int places = std::max(1, static_cast<int>(free));
+  return (to - from + places - 1) / places;
+}
+
+void StepPath::keep(int k, const PathPoint& point) { push(k, point.state, point.turns); }
 
 }  // namespace codesign

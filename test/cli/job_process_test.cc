@@ -86,7 +86,9 @@ TEST_F(JobProcess, ACsvThatIsLostIsAFailure) {
 
 TEST_F(JobProcess, WithoutRoomItKeepsWhatFitsAndNamesWhatDoesNot) {
   // 12 kB are enough for tuned.urdf and result.json, not for the runs.
-  ChildProcess process(optimize(short_study(folder_)), folder_.path("out"), folder_.path("err"), 12000);
+  std::vector<std::string> words = optimize(short_study(folder_));
+  words.emplace_back("--json");
+  ChildProcess process(words, folder_.path("out"), folder_.path("err"), 12000);
   EXPECT_EQ(process.wait(), kFailed);
   const std::string err = read_text_file(folder_.path("err"));
   for (const char* name : {"initial.csv", "tuned.csv"}) {
@@ -95,7 +97,11 @@ TEST_F(JobProcess, WithoutRoomItKeepsWhatFitsAndNamesWhatDoesNot) {
     EXPECT_FALSE(has(std::string(name) + ".part")) << name;
   }
   for (const char* name : {"tuned.urdf", "result.json", "convergence.csv"}) EXPECT_TRUE(has(name)) << name;
-  EXPECT_NE(read_text_file(folder_.path("out")).find("objective"), std::string::npos);
+  const Json object = Json::parse(read_text_file(folder_.path("out")));
+  EXPECT_TRUE(object.contains("objective"));
+  EXPECT_EQ(object["error"]["code"], "output_failed");
+  for (const char* name : {"initial.csv", "tuned.csv"})
+    EXPECT_NE(object["error"]["message"].get<std::string>().find(job(name) + ": cannot be written"), std::string::npos) << object["error"];
 }
 
 TEST_F(JobProcess, ANameThatIsNoUtf8LosesNothing) {

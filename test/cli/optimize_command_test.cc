@@ -64,6 +64,7 @@ TEST(OptimizeCommand, ACancelledOptimizationKeepsItsBestPoint) {
   Json object = Json::parse(out.str());
   EXPECT_EQ(object["termination"], "cancelled");
   EXPECT_EQ(object["error"]["code"], "cancelled");
+  EXPECT_EQ(Json::parse(read_text_file(folder.path("job/result.json"))), object);
   EXPECT_EQ(object["evaluations"], 3);
   EXPECT_LE(object["objective"].get<double>(), object["initial_objective"].get<double>());
   EXPECT_EQ(lines_of(read_text_file(folder.path("job/tuned.csv"))).size(), 102U);

@@ -13,14 +13,14 @@ struct Finished {
   std::string out, err;
 };
 
-Finished finish_with(const Status& status, bool json) {
+Finished finish_with(const Status& status, bool json, const std::vector<Failure>& failures = {}) {
   std::ostringstream out, err;
   const std::atomic<bool> cancel{false};
   Arguments arguments;
   arguments.command = "simulate";
   arguments.json = json;
   Finished finished;
-  finished.code = finish(arguments, status, {{"objective", 0.5}}, {out, err, cancel});
+  finished.code = finish(arguments, status, {{"objective", 0.5}}, {out, err, cancel}, failures);
   finished.out = out.str();
   finished.err = err.str();
   return finished;
@@ -47,6 +47,22 @@ TEST(Report, FailureKeepsWhatIsKnown) {
   Json object = Json::parse(failed.out);
   EXPECT_EQ(object["objective"], 0.5);
   EXPECT_EQ(object["error"]["code"], "too_many_steps");
+}
+
+TEST(Report, WhatGoesWrongBesideTheComputationIsAFailureToo) {
+  const Finished finished = finish_with({}, true, {{"output_failed", "a: cannot be written"}, {"cancelled", "b ends early"}});
+  EXPECT_EQ(finished.code, kFailed);
+  EXPECT_EQ(finished.err, "codesign simulate: a: cannot be written\ncodesign simulate: b ends early\n");
+  const Json object = Json::parse(finished.out);
+  EXPECT_EQ(object["objective"], 0.5);
+  EXPECT_EQ(object["error"]["code"], "output_failed");
+  EXPECT_EQ(object["error"]["message"], "a: cannot be written; b ends early");
+}
+
+TEST(Report, TheComputationsStatusComesFirst) {
+  const Json object = Json::parse(finish_with(kStopped, true, {{"output_failed", "a: cannot be written"}}).out);
+  EXPECT_EQ(object["error"]["code"], "too_many_steps");
+  EXPECT_EQ(object["error"]["message"], "500 steps taken; a: cannot be written");
 }
 
 }  // namespace

@@ -36,6 +36,18 @@ INSTANTIATE_TEST_SUITE_P(Mechanisms, AdjointGradientTest,
                            return gradient_cases().at(std::get<0>(instance.param)).name + "_" + std::get<1>(instance.param);
                          });
 
+// Of a long way only a part is kept; the rest is made once more.
+TEST_P(AdjointGradientTest, IsTheSameFromAWayOfWhichLittleIsKept) {
+  const auto& [index, method] = GetParam();
+  const GradientCase test = gradient_cases().at(index);
+  const auto system = test.compile(method, "auto");
+  AdjointGradient whole(*system, plan_lanes(*system)), parts(*system, plan_lanes(*system), 4);
+  const GradientRun a = run_gradient(&whole, *system, system->parameters()), b = run_gradient(&parts, *system, system->parameters());
+  ASSERT_TRUE(a.status.ok() && b.status.ok());
+  EXPECT_GT(a.steps, 8);
+  EXPECT_LT((a.gradient - b.gradient).norm(), 1e-10 * a.gradient.norm());
+}
+
 TEST(AdjointGradient, StartsAnewToTheLastBit) {
   const auto system = servo("{}");
   AdjointGradient engine(*system, plan_lanes(*system));

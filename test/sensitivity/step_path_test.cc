@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace codesign {
 namespace {
 
@@ -24,25 +27,82 @@ State<double> numbered(double first) {
   return state;
 }
 
+using Turns = std::vector<std::vector<double>>;
+
+Turns turned(double first) { return {{first}, {}, {2.0 * first, 3.0 * first}}; }
+
+StepPath path_of(int points, int most) {
+  StepPath path(layout(), most);
+  for (int k = 0; k < points; ++k) path.append(0.25 * k, numbered(100.0 * k), turned(k));
+  return path;
+}
+
+void expect_point(const StepPath& path, int k) {
+  PathPoint point;
+  point.state.resize(layout());
+  path.point(k, &point);
+  const State<double> expected = numbered(100.0 * k);
+  EXPECT_EQ(point.state.t, expected.t);
+  EXPECT_EQ(point.state.q, expected.q);
+  EXPECT_EQ(point.state.v, expected.v);
+  EXPECT_EQ(point.state.s, expected.s);
+  EXPECT_EQ(point.state.z, expected.z);
+  EXPECT_EQ(point.turns, turned(k));
+}
+
 TEST(StepPath, GivesBackWhatItTook) {
-  StepPath path(layout());
-  path.append(0.0, numbered(0.5));
-  path.append(0.25, numbered(100.5));
-  ASSERT_EQ(path.size(), 2);
-  EXPECT_EQ(path.step_size(1), 0.25);
-  State<double> state;
-  state.resize(layout());
-  for (int k : {1, 0}) {
-    path.point(k, &state);
-    const State<double> expected = numbered(k == 0 ? 0.5 : 100.5);
-    EXPECT_EQ(state.t, expected.t);
-    EXPECT_EQ(state.q, expected.q);
-    EXPECT_EQ(state.v, expected.v);
-    EXPECT_EQ(state.s, expected.s);
-    EXPECT_EQ(state.z, expected.z);
+  StepPath path = path_of(3, 0);
+  ASSERT_EQ(path.size(), 3);
+  for (int k : {2, 1, 0}) {
+    EXPECT_EQ(path.step_size(k), 0.25 * k);
+    EXPECT_EQ(path.kept_before(k), k);
+    expect_point(path, k);
   }
   path.clear();
   EXPECT_EQ(path.size(), 0);
+}
+
+TEST(StepPath, KeepsTheFewerOfALongPathTheLongerItIs) {
+  const StepPath path = path_of(100, 10);
+  ASSERT_EQ(path.size(), 100);
+  EXPECT_EQ(path.step_size(99), 0.25 * 99);
+  for (int k = 0; k < 100; ++k) EXPECT_EQ(path.kept_before(k), k / 16 * 16) << k;
+  expect_point(path, 96);
+  expect_point(path, 16);
+}
+
+TEST(StepPath, TakesPointsThatAreMadeOnceMoreAsFarAsThereIsRoom) {
+  StepPath path = path_of(100, 10);
+  long made = 0;
+  int most = 0;
+  for (int k = 99; k >= 0; --k) {
+    const int from = path.kept_before(k);
+    if (from < k) {
+      const int spacing = path.make_room(from, k);
+      EXPECT_LE((k - from) / spacing, 10);
+      PathPoint point;
+      for (int at = from + 1; at <= k; ++at, ++made) {
+        if (at != k && (at - from) % spacing != 0) continue;
+        point.state = numbered(100.0 * at);
+        point.turns = turned(at);
+        path.keep(at, point);
+      }
+    }
+    ASSERT_EQ(path.kept_before(k), k);
+    expect_point(path, k);
+    int kept = 0;
+    for (int at = 0; at <= k; ++at) kept += path.kept_before(at) == at ? 1 : 0;
+    most = std::max(most, kept);
+  }
+  EXPECT_LE(most, 2 * 10);
+  EXPECT_LT(made, 3 * 100);
+}
+
+TEST(StepPath, BeginsAnewWithEveryPoint) {
+  StepPath path = path_of(100, 10);
+  path.clear();
+  for (int k = 0; k < 10; ++k) path.append(0.25 * k, numbered(100.0 * k), turned(k));
+  for (int k = 0; k < 10; ++k) expect_point(path, k);
 }
 
 }  // namespace

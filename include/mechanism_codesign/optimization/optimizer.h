@@ -42,7 +42,7 @@ struct OptimizationResult {
   Eigen::VectorXd margins;  ///< of the study's constraints at `rho`; negative: not met
   Statistics statistics;    ///< summed over the evaluations; drift and energy error: those of the worst evaluation
   Warnings warnings;        ///< of the best point, and of the search: a parameter without influence, or on its bound
-  std::vector<Trial> history;
+  std::vector<bool> influences;  ///< of each tuned parameter: whether the objective changed with it at any point that was tried
 };
 
 /// Minimizes psi(rho) within the bounds and the parameter constraints, from the parameters' start values.

@@ -27,7 +27,7 @@ struct SimulationOptions {
 const std::vector<std::string>& frame_topics();
 
 /// The names of the parameters that read_simulation_options() knows.
-const std::vector<std::string>& simulation_parameters();
+std::vector<std::string> simulation_parameters();
 
 /// Reads the private parameters of those names. @throws InputError
 SimulationOptions read_simulation_options(const ros::NodeHandle& private_node);

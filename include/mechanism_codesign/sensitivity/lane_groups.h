@@ -24,9 +24,9 @@ struct LaneRange {
   }
 };
 
-/// How many lanes to group, where it is not one per tuned parameter, and how many more each group keeps for itself.
+/// Which lanes to group, where it is not one per tuned parameter: so many from `first` on. Each group keeps `reserved` more for itself.
 struct LaneCount {
-  int value = 0, reserved = 0;
+  int value = 0, reserved = 0, first = 0;
 };
 
 /// All tuned parameters in groups: eight at a time; a last group of four or fewer takes the narrower kind.
@@ -39,12 +39,12 @@ class LaneGroups {
       : LaneGroups(LaneCount{static_cast<int>(system.study().tuned.size())}, system, arguments...) {}
   template <class... Arguments>
   LaneGroups(LaneCount lanes, const System& system, const Arguments&... arguments) {
-    const int count = lanes.value;
-    int first = 0;
+    const int end = lanes.first + lanes.value;
+    int first = lanes.first;
     const int wide = 8 - lanes.reserved;
-    for (; count - first > 4 - lanes.reserved; first += wide)
-      wide_.push_back(std::make_unique<Group<8>>(system, LaneRange<8>{first, std::min(wide, count - first)}, arguments...));
-    if (first < count) narrow_.push_back(std::make_unique<Group<4>>(system, LaneRange<4>{first, count - first}, arguments...));
+    for (; end - first > 4 - lanes.reserved; first += wide)
+      wide_.push_back(std::make_unique<Group<8>>(system, LaneRange<8>{first, std::min(wide, end - first)}, arguments...));
+    if (first < end) narrow_.push_back(std::make_unique<Group<4>>(system, LaneRange<4>{first, end - first}, arguments...));
   }
 
   template <class Action>
