@@ -144,6 +144,7 @@ Assembly::Rest Assembly::newton(const std::vector<double>& parameters, Equations
   double previous = std::numeric_limits<double>::infinity(), closed = kClosed;
   LoopMiss nearest{"", previous, previous};
   for (int iteration = 0; iteration < kNewtonIterations; ++iteration) {
+    if (cancelled()) return Rest::kApart;
     place(parameters, equations, &state);
     equations->constraint_errors(state.q, state.v, &errors, &rates);
     const Eigen::VectorXd loops = loop_part(errors);
@@ -211,6 +212,7 @@ void Assembly::refine(const std::vector<double>& parameters, Equations<double>* 
 }
 
 Status Assembly::closure_failed() const {
+  if (cancelled()) return {StatusCode::kCancelled, 0.0, "cancelled"};
   return {StatusCode::kAssemblyFailed, 0.0, "loop or coupling '" + worst_miss_.owner + "' cannot be closed from the given initial state"};
 }
 
@@ -296,6 +298,7 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
   // Rounding of the redundant rows, divided by their compliance, is left in the reactions that these rows leave open.
   const double converged = system_.compliance() == 0.0 ? 1e-11 : 1e-7;
   for (int iteration = 0; iteration < 100; ++iteration) {
+    if (cancelled()) return {StatusCode::kCancelled, state->t, "cancelled"};
     equations->residual(*state, &G, &g);
     const double error = G.cwiseAbs().maxCoeff();
     if (!std::isfinite(error)) return {StatusCode::kNonFinite, state->t, "the equations of motion are not finite at the start"};

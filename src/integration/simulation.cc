@@ -86,10 +86,10 @@ Status simulate(Simulation* simulation, double duration, int count, const FrameO
   Status status = simulation->start();
   for (int k = 0; status.ok() && k < count; ++k) {
     const double time = count > 1 ? duration * k / (count - 1) : 0.0;
-    if (k > 0 && cancel != nullptr && *cancel) return {StatusCode::kCancelled, time, "cancelled"};
     status = simulation->advance(time);
     if (!status.ok()) break;
     simulation->sample(time, &frame);
+    if (cancel != nullptr && *cancel) return {StatusCode::kCancelled, time, "cancelled"};
     if (std::string fault = find_not_finite(simulation->names(), frame); !fault.empty()) return {StatusCode::kNonFinite, time, fault};
     if (!observer(frame)) return {StatusCode::kCancelled, time, "cancelled"};
   }

@@ -82,7 +82,6 @@ Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& over
   problem.robot = read_urdf(urdf, overlays);
   problem.study = read_study(study, problem.robot, loader);
   append(problem.robot.warnings, &problem.warnings);
-  append(problem.study.warnings, &problem.warnings);
   problem.setup_seconds = timer.seconds();
   return compile(std::move(problem), settings);
 }

@@ -20,11 +20,16 @@ const std::string& tuned_name(const System& system, Eigen::Index k) {
 
 class Evaluator::Implementation {
  public:
-  explicit Implementation(std::shared_ptr<const System> system) : system_(std::move(system)), engine_(make_gradient_engine(*system_)) {}
+  explicit Implementation(std::shared_ptr<const System> system) : system_(std::move(system)) {}
 
   Evaluation evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel) {
-    const CpuTimer timer;
     Evaluation evaluation;
+    if (!engine_) engine_ = make_gradient_engine(*system_, cancel);
+    if (!engine_) {
+      evaluation.status = {StatusCode::kCancelled, 0.0, "cancelled"};
+      return evaluation;
+    }
+    const CpuTimer timer;
     engine_->obey(cancel);
     evaluation.status = run(system_->parameters(rho), with_gradient, cancel);
     if (evaluation.status.ok()) collect(with_gradient, cancel, &evaluation);
@@ -67,7 +72,7 @@ class Evaluator::Implementation {
   }
 
   std::shared_ptr<const System> system_;
-  std::unique_ptr<GradientEngine> engine_;
+  std::unique_ptr<GradientEngine> engine_;  // made by the first evaluation, which can be cancelled meanwhile
 };
 
 Evaluator::Evaluator(std::shared_ptr<const System> system) : implementation_(std::make_unique<Implementation>(std::move(system))) {}

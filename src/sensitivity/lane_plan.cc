@@ -70,6 +70,8 @@ class RowProbe {
   std::vector<Scalar> touched_;
 };
 
+bool is_set(const std::atomic<bool>* flag) { return flag != nullptr && *flag; }
+
 std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
   std::vector<int> all;
   std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
@@ -78,11 +80,12 @@ std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
 
 }  // namespace
 
-std::vector<std::vector<int>> dependent_rows(const System& system, const std::vector<double>& parameters, const State<double>& at) {
+std::vector<std::vector<int>> dependent_rows(const System& system, const std::vector<double>& parameters, const State<double>& at,
+                                             const std::atomic<bool>* cancel) {
   std::vector<std::vector<int>> rows;
   RowProbe probe(system);
   const int count = static_cast<int>(system.study().tuned.size());
-  for (int first = 0; first < count; first += kWidth) {
+  for (int first = 0; first < count && !is_set(cancel); first += kWidth) {
     const LaneRange<kWidth> range{first, std::min(kWidth, count - first)};
     std::vector<Scalar> lanes = range.seed(system, parameters);
     for (Scalar& lane : lanes)
@@ -91,6 +94,7 @@ std::vector<std::vector<int>> dependent_rows(const System& system, const std::ve
     probe.find(lanes, at);
     for (int k = 0; k < range.count; ++k) rows.push_back(probe.rows(k));
   }
+  rows.resize(static_cast<std::size_t>(count));
   return rows;
 }
 
@@ -126,18 +130,19 @@ LanePlan unshared_lanes(const System& system) {
   return plan;
 }
 
-LanePlan plan_lanes(const System& system) {
+LanePlan plan_lanes(const System& system, const std::atomic<bool>* cancel) {
   const std::vector<double> parameters = system.parameters();
   Equations<double> equations(system);
   equations.set_design(parameters);
   Assembly assembly(system);
+  assembly.obey(cancel);
   State<double> at;
   assembly.solve(parameters, &equations, &at);
-  std::vector<std::vector<int>> rows = dependent_rows(system, parameters, at);
+  std::vector<std::vector<int>> rows = dependent_rows(system, parameters, at, cancel);
   const auto hidden = [](const std::vector<int>& found) { return found.empty(); };
-  for (int k = 1; k <= kInstants && std::any_of(rows.begin(), rows.end(), hidden); ++k) {
+  for (int k = 1; k <= kInstants && !is_set(cancel) && std::any_of(rows.begin(), rows.end(), hidden); ++k) {
     at.t = system.study().duration * k / kInstants;
-    const std::vector<std::vector<int>> then = dependent_rows(system, parameters, at);
+    const std::vector<std::vector<int>> then = dependent_rows(system, parameters, at, cancel);
     for (std::size_t parameter = 0; parameter < rows.size(); ++parameter) rows[parameter] = united(rows[parameter], then[parameter]);
   }
   return plan_lanes(std::move(rows));

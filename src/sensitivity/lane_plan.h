@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_SRC_SENSITIVITY_LANE_PLAN_H_
 #define MECHANISM_CODESIGN_SRC_SENSITIVITY_LANE_PLAN_H_
 
+#include <atomic>
 #include <vector>
 
 #include "mechanism_codesign/dynamics/equations.h"
@@ -19,7 +20,9 @@ struct LanePlan {
 /// Rows of G, g, Phi and Phi_q v (at the place of their acceleration rows) that depend on each tuned parameter, and those of G's and g's
 /// derivatives. Found with NaN for the parameters' directions, which nothing cancels or multiplies away: what stays a number does not
 /// depend on them.
-std::vector<std::vector<int>> dependent_rows(const System& system, const std::vector<double>& parameters, const State<double>& at);
+/// @param cancel if given and set, the rest of the parameters has no rows.
+std::vector<std::vector<int>> dependent_rows(const System& system, const std::vector<double>& parameters, const State<double>& at,
+                                             const std::atomic<bool>* cancel = nullptr);
 
 /// Greedy colouring, the parameters with most rows first.
 LanePlan plan_lanes(std::vector<std::vector<int>> rows);
@@ -28,7 +31,8 @@ LanePlan plan_lanes(std::vector<std::vector<int>> rows);
 LanePlan unshared_lanes(const System& system);
 
 /// For a system at its start values; a parameter's rows are the same for every design.
-LanePlan plan_lanes(const System& system);
+/// @param cancel if given and set, it ends soon, with a plan that is good for nothing.
+LanePlan plan_lanes(const System& system, const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign
 

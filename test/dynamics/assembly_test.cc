@@ -56,6 +56,17 @@ TEST(Assembly, ALoopThatCannotBeClosedIsAStatusThatNamesIt) {
   EXPECT_EQ(c.assembly.worst_miss().owner, "tip");
 }
 
+TEST(Assembly, ObeysACancel) {
+  Compiled c(triangle(), let_go("{left_hinge: {guess: -0.5}, right_hinge: {guess: 0.5}}", "left_hinge/velocity"), kCompliance);
+  const std::atomic<bool> cancel{true};
+  c.assembly.obey(&cancel);
+  EXPECT_EQ(c.start().code, StatusCode::kCancelled);
+  c.assembly.obey(nullptr);
+  ASSERT_TRUE(c.start().ok());
+  c.assembly.obey(&cancel);
+  EXPECT_EQ(c.assembly.solve_rates(&c.equations, &c.state).code, StatusCode::kCancelled);
+}
+
 TEST(Assembly, VelocitiesThatContradictEachOtherAreAStatus) {
   Compiled c(four_bar(), let_go("{left_hinge: {position: 0.6, velocity: 1.0}, right_hinge: {velocity: 2.0}, left_pin: {velocity: 0.0}}",
                                 "left_hinge/velocity"));

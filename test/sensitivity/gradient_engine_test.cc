@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mechanism_codesign/sensitivity/gradient_engine.h"
 
+#include "mechanism_codesign/sensitivity/evaluation.h"
+
 #include <gtest/gtest.h>
 
 #include "sensitivity/adjoint_gradient.h"
@@ -78,6 +80,18 @@ TEST(GradientEngine, NothingTunedIsNoGradient) {
   const GradientRun result = run_gradient(make_gradient_engine(*system).get(), *system, {});
   EXPECT_TRUE(result.status.ok());
   EXPECT_EQ(result.gradient.size(), 0);
+}
+
+TEST(GradientEngine, ItsMakingCanBeCancelled) {
+  const std::atomic<bool> cancel{true};
+  const auto system = servo("{gradient: adjoint}");
+  EXPECT_EQ(make_gradient_engine(*system, &cancel), nullptr);
+  Evaluator evaluator(system);
+  Eigen::VectorXd rho(static_cast<Eigen::Index>(system->study().tuned.size()));
+  for (Eigen::Index k = 0; k < rho.size(); ++k)
+    rho[k] = system->parameters()[static_cast<std::size_t>(system->study().tuned[static_cast<std::size_t>(k)])];
+  EXPECT_EQ(evaluator.evaluate(rho, true, &cancel).status.code, StatusCode::kCancelled);
+  EXPECT_TRUE(evaluator.evaluate(rho, true).status.ok());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_DYNAMICS_ASSEMBLY_H_
 
 #include <Eigen/Core>
+#include <atomic>
 #include <vector>
 
 #include "mechanism_codesign/dynamics/equations.h"
@@ -46,6 +47,8 @@ class Assembly {
   const std::vector<std::size_t>& contradicting() const { return contradicting_; }
   /// Accelerations and multipliers consistent with state->q, v, s; starts from state->z.
   Status solve_rates(Equations<double>* equations, State<double>* state);
+  /// From now on every solve ends with kCancelled soon after `cancel` is set, from any thread. Null: never.
+  void obey(const std::atomic<bool>* cancel) { cancel_ = cancel; }
   /// How far the loop or coupling that is violated most is from closed at the positions found last.
   const LoopMiss& worst_miss() const { return worst_miss_; }
   const LoopJacobian& loops() const { return loops_; }
@@ -71,6 +74,8 @@ class Assembly {
   Rest close(const std::vector<double>& parameters, Equations<double>* equations, double rank_tolerance);
   Rest newton(const std::vector<double>& parameters, Equations<double>* equations, const std::vector<int>& free, double rank_tolerance);
   void refine(const std::vector<double>& parameters, Equations<double>* equations);
+  bool cancelled() const { return cancel_ != nullptr && *cancel_; }
+  /// Why no closed position was found.
   Status closure_failed() const;
   void note_miss(const VectorX<double>& errors, const Equations<double>& equations);
   /// Within the closure tolerance.
@@ -108,6 +113,7 @@ class Assembly {
   Linearization<double> derivatives_;
   IterationMatrix matrix_;
   LoopMiss worst_miss_;
+  const std::atomic<bool>* cancel_ = nullptr;
 };
 
 }  // namespace codesign

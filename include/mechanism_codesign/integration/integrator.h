@@ -36,9 +36,12 @@ class Integrator {
   /// What the run since start() gives reason to doubt.
   virtual Warnings warnings() const = 0;
 
-  /// From now on advance() ends with kCancelled soon after `cancel` is set (from any thread), also while a step is tried again and again.
-  /// Null: never.
-  void obey(const std::atomic<bool>* cancel) { cancel_ = cancel; }
+  /// From now on start() and advance() end with kCancelled soon after `cancel` is set (from any thread), also while a step is tried again
+  /// and again. Null: never.
+  void obey(const std::atomic<bool>* cancel) {
+    cancel_ = cancel;
+    assembly().obey(cancel);
+  }
 
  protected:
   bool cancelled() const { return cancel_ != nullptr && *cancel_; }

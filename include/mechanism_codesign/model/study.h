@@ -13,7 +13,6 @@
 #include "mechanism_codesign/model/parameter.h"
 #include "mechanism_codesign/model/quantity.h"
 #include "mechanism_codesign/model/reference.h"
-#include "mechanism_codesign/model/warning.h"
 
 namespace codesign {
 
@@ -156,7 +155,6 @@ struct Study {
   SolverOptions solver;
   OptimizerOptions optimizer;
   std::string file;
-  Warnings warnings;
 };
 
 }  // namespace codesign

@@ -38,8 +38,8 @@ class GradientEngine {
 /// cheaper; doc/decisions/0018-adjoint.md.
 bool prefers_adjoint(const System& system);
 
-/// The engine of the study's integrator.
-std::unique_ptr<GradientEngine> make_gradient_engine(const System& system);
+/// The engine of the study's integrator. @param cancel if given and set, null comes soon.
+std::unique_ptr<GradientEngine> make_gradient_engine(const System& system, const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign
 
