@@ -18,9 +18,14 @@ constexpr int kAmd = 0, kColamd = 1;
 struct Proposal {
   bool blocks;
   int ordering;
+  int preference;  ///< the lower one is taken of two that cost the same
 };
 
-constexpr Proposal kProposals[] = {{false, kAmd}, {true, kAmd}, {false, kColamd}, {true, kColamd}};
+// In the order in which they are tried. With COLAMD fill stays bounded whatever the pivots turn out to be. AMD supposes pivots on the
+// diagonal, and where these are zero, as in saddle points of thousands of rows, it may fill the matrix: without blocks still more than
+// with.
+constexpr Proposal kProposals[] = {{false, kColamd, 2}, {true, kColamd, 3}, {true, kAmd, 1}, {false, kAmd, 0}};
+constexpr double kHopeless = 4.0;  // times the operations of the best: AMD without blocks is not tried
 // A pivot on the diagonal may be this much smaller than the largest of its column. KLU's own choice, 1e-3, saves little fill, and pivots
 // that were small to begin with serve for a few steps only.
 constexpr double kThreshold = 0.1;
@@ -121,19 +126,22 @@ std::int64_t count_products(const LuPattern& pattern) {
 
 std::optional<LuPattern> choose_pivots(const std::vector<int>& column_start, const std::vector<int>& row_index, const double* values) {
   std::optional<LuPattern> best;
-  std::int64_t least = 0;
+  std::pair<std::int64_t, int> least;  // products, preference
   double fewest = 0.0;
+  bool hopeless = false;
   for (const Proposal& proposal : kProposals) {
+    if (hopeless && proposal.ordering == kAmd) continue;
     Run run(proposal, column_start, row_index, values);
     if (!run.ok()) continue;
     // KLU's own count is near enough to leave out what cannot be the cheapest.
     const double operations = run.operations();
+    if (proposal.ordering == kAmd) hopeless = best && operations > kHopeless * fewest;
     if (best && operations > 2.0 * fewest) continue;
     fewest = best ? std::min(fewest, operations) : operations;
     LuPattern pattern = eliminate_pattern(run.pivots(), column_start, row_index);
-    const std::int64_t products = count_products(pattern);
-    if (best && products >= least) continue;
-    least = products;
+    const std::pair<std::int64_t, int> cost{count_products(pattern), proposal.preference};
+    if (best && cost >= least) continue;
+    least = cost;
     best = std::move(pattern);
   }
   return best;
