@@ -21,11 +21,12 @@ constexpr Part kParts[] = {{"kernels", measure_kernels},
                            {"parameters", measure_parameters},
                            {"optimization", measure_optimization},
                            {"scaling", measure_scaling},
+                           {"setup", measure_setup},
                            {"simbody", measure_simbody}};
 
 constexpr const char* kUsage =
     "usage: benchmarks [--markdown] [PART...]\n"
-    "Run it where urdf/ and config/ are. PART: kernels, steps, work_precision, parameters, optimization, scaling, simbody; all by "
+    "Run it where urdf/ and config/ are. PART: kernels, steps, work_precision, parameters, optimization, scaling, setup, simbody; all by "
     "default.\n";
 
 Table summary(const std::vector<Finding>& findings) {

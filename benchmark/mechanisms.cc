@@ -110,4 +110,24 @@ GeneratedCase ladder(int loops) {
   return {{"ladder.urdf", robot("ladder", content)}, {"ladder.yaml", study(initial, "", "hinge_0/velocity")}};
 }
 
+GeneratedCase stacked_four_bars(int loops, bool with_friction) {
+  constexpr double kWidth = 1.5 * kLength;
+  const std::string along_x = "rpy=\"0 -1.5707963267948966 0\"/>", at_width = "<origin xyz=\"" + to_decimal(kWidth) + " 0 0\"/>";
+  std::string content, initial, below = "ground";
+  for (int k = 0; k < loops; ++k) {
+    const std::string index = std::to_string(k), crank = "crank_" + index, rocker = "rocker_" + index, coupler = "coupler_" + index;
+    content += bar(crank) + bar(rocker) + bar(coupler);
+    content += hinge("crank_hinge_" + index, below, crank, "", "0 1 0", with_friction ? friction() : "");
+    content += hinge("rocker_hinge_" + index, below, rocker, k == 0 ? at_width : on_z(-kWidth), "0 1 0", "");
+    // The coupler lies along x of the linkage; its own -z is turned there.
+    content += hinge("coupler_hinge_" + index, crank, coupler, "<origin xyz=\"0 0 " + to_decimal(-kLength) + "\" " + along_x, "0 1 0", "");
+    content += "<loop name=\"pin_" + index + "\" type=\"continuous\"><predecessor link=\"" + coupler + "\">" + on_z(-kWidth) +
+               "</predecessor><successor link=\"" + rocker + "\">" + on_z(-kLength) + "</successor><axis xyz=\"0 1 0\"/></loop>\n";
+    initial += (k == 0 ? "" : ", ") + ("crank_hinge_" + index) + ": {position: 0.2}";
+    initial += ", rocker_hinge_" + index + ": {guess: 0.2}, coupler_hinge_" + index + ": {guess: -0.2}";
+    below = coupler;
+  }
+  return {{"stack.urdf", robot("stack", content)}, {"stack.yaml", study(initial, "", "crank_hinge_0/velocity")}};
+}
+
 }  // namespace codesign

@@ -23,6 +23,11 @@ GeneratedCase parametric_chain(int links, int tuned);
 /// coupler, with a ball joint to the one and a universal joint to the other. One degree of freedom, no redundant constraint.
 GeneratedCase ladder(int loops);
 
+/// `loops` four-bar linkages, each of which stands on the coupler of the one before: 3 loops links, as many degrees of freedom as loops,
+/// and three redundant constraints in each loop, since all its axes are parallel.
+/// @param with_friction in the cranks' hinges, so that it rests on reactions that nothing determines.
+GeneratedCase stacked_four_bars(int loops, bool with_friction);
+
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_BENCHMARK_MECHANISMS_H_

@@ -31,6 +31,7 @@ void measure_work_precision(Report* report);
 void measure_parameters(Report* report);
 void measure_optimization(Report* report);
 void measure_scaling(Report* report);
+void measure_setup(Report* report);
 void measure_simbody(Report* report);
 
 }  // namespace codesign

@@ -29,6 +29,7 @@ function(codesign_import name header header_suffixes)
 endfunction()
 
 codesign_import(klu klu.h suitesparse klu amd colamd btf suitesparseconfig)
+codesign_import(spqr SuiteSparseQR.hpp suitesparse spqr cholmod)
 
 # Equations and sparse factorizations are compiled to machine code with it; without it, and on other processors, formulas and loops do their work.
 find_path(XBYAK_INCLUDE_DIR xbyak/xbyak.h)

@@ -15,6 +15,7 @@
 #include "mechanism_codesign/integration/motion_watch.h"
 #include "mechanism_codesign/integration/run_watch.h"
 #include "mechanism_codesign/integration/singularity_watch.h"
+#include "mechanism_codesign/math/decimal.h"
 
 namespace codesign {
 namespace {
@@ -78,6 +79,7 @@ class IdasIntegrator::Implementation {
     Warnings all = assembly_.warnings();
     append(run_watch_.warnings(statistics_), &all);
     append(singularity_.warnings(), &all);
+    append(restart_warnings_, &all);
     return all;
   }
 
@@ -87,6 +89,7 @@ class IdasIntegrator::Implementation {
   void start_sensitivities(const std::vector<double>& parameters);
   void restart_solver();
   Status project();
+  void warn_of_restart();
   bool with_sensitivities() const { return carried_ && carried_->count() > 0; }
   void take_over(double time);
   Status check_run();
@@ -117,6 +120,7 @@ class IdasIntegrator::Implementation {
   double largest_drift_ = 0.0, drift_size_ = 0.0;
   Statistics before_restart_;
   bool watch_singularities_ = false;
+  Warnings restart_warnings_;
   std::string message_;
   Statistics statistics_;
 };
@@ -155,6 +159,7 @@ Status IdasIntegrator::Implementation::start(const std::vector<double>& paramete
   before_restart_ = {};
   largest_drift_ = drift_size_ = 0.0;
   message_.clear();
+  restart_warnings_.clear();
   equations_.start();
   if (Status status = assemble_start(system_, parameters, &assembly_, &equations(), &initial_); !status.ok()) return status;
   equations_.pack(initial_, N_VGetArrayPointer(y_.get()), N_VGetArrayPointer(y_dot_.get()));
@@ -217,6 +222,7 @@ Status IdasIntegrator::Implementation::project() {
   if (Status status = assembly_.solve_rates(&equations(), &state_); !status.ok()) return status;
   equations_.pack(state_, N_VGetArrayPointer(y_.get()), N_VGetArrayPointer(y_dot_.get()));
   if (with_sensitivities()) {
+    warn_of_restart();
     for (int k = 0; k < carried_->count(); ++k) sensitivity(k, &directions_[static_cast<std::size_t>(k)]);
     if (!carried_->project(state_, &equations(), &directions_))
       return {StatusCode::kSingularMatrix, state_.t, "the augmented matrix of the equations of motion is singular"};
@@ -227,6 +233,17 @@ Status IdasIntegrator::Implementation::project() {
   restart_solver();
   drift_size_ = 0.0;
   return {};
+}
+
+/// The state is right after a projection. Its sensitivities were carried by steps that had left the constraints, and keep that error.
+void IdasIntegrator::Implementation::warn_of_restart() {
+  if (!restart_warnings_.empty()) return;
+  restart_warnings_.push_back(
+      {"sensitivities_restarted",
+       "at t = " + to_decimal(state_.t) + " s the steps of idas had drifted off the constraints by " + to_decimal(drift_size_) +
+           " tolerances, as they do beside a singular position: idas began anew there, and the gradient may be wrong in its first digits; "
+           "compare it with solver.integrator: rosenbrock",
+       {}});
 }
 
 Status IdasIntegrator::Implementation::advance(double limit) {

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mechanism_codesign/math/least_squares.h"
 
-#include <Eigen/OrderingMethods>
 #include <Eigen/QR>
-#include <Eigen/SparseQR>
 #include <algorithm>
 #include <numeric>
+
+#include "math/sparse_qr.h"
 
 namespace codesign {
 namespace {
@@ -14,7 +14,6 @@ constexpr Eigen::Index kDense = 256;  // columns up to which dense factors are t
 
 using DenseQr = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
 using DenseFactors = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
-using SparseFactors = Eigen::SparseQR<SparseMatrix, Eigen::COLAMDOrdering<int>>;
 
 double largest_column(const SparseMatrix& A) {
   double largest = 0.0;
@@ -57,13 +56,12 @@ std::vector<int> independent_dense_columns(const SparseMatrix& A, const ColumnPr
 std::vector<int> first_independent_columns(const SparseMatrix& A, const ColumnPreferences& preferences, double tolerance) {
   std::vector<int> order;
   for (const std::vector<int>& candidates : preferences) order.insert(order.end(), candidates.begin(), candidates.end());
-  SparseMatrix ordered = columns_of(A, order);
-  ordered.makeCompressed();
-  Eigen::SparseQR<SparseMatrix, Eigen::NaturalOrdering<int>> qr;
-  qr.setPivotThreshold(tolerance * largest_column(A));
-  qr.compute(ordered);
+  SparseQr qr;
+  qr.factor(columns_of(A, order), tolerance * largest_column(A), SparseQr::Ordering::kNatural);
+  const std::vector<int> dependent = qr.dependent();
   std::vector<int> chosen;
-  for (Eigen::Index k = 0; k < qr.rank(); ++k) chosen.push_back(order[static_cast<std::size_t>(qr.colsPermutation().indices()[k])]);
+  for (std::size_t k = 0; k < order.size(); ++k)
+    if (!std::binary_search(dependent.begin(), dependent.end(), static_cast<int>(k))) chosen.push_back(order[k]);
   return ascending(chosen);
 }
 
@@ -73,7 +71,7 @@ struct LeastSquares::Implementation {
   bool dense = true;
   Eigen::Index columns = 0;
   DenseFactors dense_factors;
-  SparseFactors sparse_factors;
+  SparseQr sparse_factors;
 };
 
 LeastSquares::LeastSquares() : implementation_(std::make_unique<Implementation>()) {}
@@ -90,8 +88,7 @@ void LeastSquares::factor(const SparseMatrix& A, double tolerance) {
     implementation_->dense_factors.compute(Eigen::MatrixXd(A));
     return;
   }
-  implementation_->sparse_factors.setPivotThreshold(tolerance * largest_column(A));
-  implementation_->sparse_factors.compute(A);
+  implementation_->sparse_factors.factor(A, tolerance * largest_column(A));
 }
 
 Eigen::MatrixXd LeastSquares::solve(const Eigen::MatrixXd& b) const {
@@ -120,10 +117,9 @@ std::vector<int> dependent_columns(const SparseMatrix& A, double tolerance) {
     while (rank < std::min(A.rows(), A.cols()) && std::abs(qr.matrixQR()(rank, rank)) > tolerance) ++rank;
     take(qr.colsPermutation(), rank, A.cols());
   } else {
-    SparseFactors qr;
-    qr.setPivotThreshold(tolerance);
-    qr.compute(A);
-    take(qr.colsPermutation(), qr.rank(), A.cols());
+    SparseQr qr;
+    qr.factor(A, tolerance);
+    return qr.dependent();
   }
   return ascending(dependent);
 }

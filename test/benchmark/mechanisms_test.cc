@@ -37,6 +37,17 @@ TEST(Mechanisms, ALadderMovesInOneWay) {
   }
 }
 
+TEST(Mechanisms, StackedFourBarsHaveThreeRedundantConstraintsEach) {
+  for (bool with_friction : {false, true}) {
+    const Problem problem = load(stacked_four_bars(3, with_friction));
+    const Counts counts = counts_of(problem);
+    EXPECT_EQ(counts.bodies, 9);
+    EXPECT_EQ(counts.degrees_of_freedom, 3);
+    EXPECT_EQ(counts.redundant_constraints, 9);
+    EXPECT_EQ(problem.warnings.size(), with_friction ? 3U : 0U) << "undetermined_friction of each crank";
+  }
+}
+
 TEST(Mechanisms, EveryParameterOfAChainMatters) {
   const Problem problem = load(parametric_chain(2, 8));
   EXPECT_EQ(problem.tuned_names(),
