@@ -68,7 +68,18 @@ void LuSchedule::place_sources(const std::vector<int>& column_start, const std::
 }
 
 void LuSchedule::list_targets() {
+  constexpr std::size_t kMostListed = 4'000'000;  // 16 MB
   std::vector<int> slot(n_);
+  std::size_t products = 0;
+  for (int l : multiplier_) products += at(start_[at(column_[at(l)]) + 1] - diagonal_[at(column_[at(l)])] - 1);
+  // What surely does not fit is not even written down for the compiler.
+  if (products > StraightLine::kMostProducts) elimination_ = LazyStraightLine(false);
+  if (column_.size() > StraightLine::kMostProducts) solution_ = LazyStraightLine(false);
+  if (products > kMostListed) {
+    entry_of_ = std::move(slot);
+    return;
+  }
+  target_.reserve(products);
   for (std::size_t k = 0; k < n_; ++k) {
     for (int e = start_[k]; e < start_[k + 1]; ++e) slot[at(column_[at(e)])] = e;
     for (int l = start_[k]; l < diagonal_[k]; ++l) {
@@ -150,6 +161,7 @@ LuSchedule::Quality LuSchedule::quality() const {
 void LuSchedule::eliminate(const double* values) {
   std::fill(factors_.begin(), factors_.end(), 0.0);
   for (std::size_t e = 0; e < source_slot_.size(); ++e) factors_[at(source_slot_[e])] = source_scale_[e] * values[e];
+  if (!entry_of_.empty()) return eliminate_by_columns();
   double* const w = factors_.data();
   const int *target = target_.data(), *const column = column_.data(), *const diagonal = diagonal_.data(), *const start = start_.data();
   for (std::size_t k = 0; k < n_; ++k) {
@@ -158,6 +170,21 @@ void LuSchedule::eliminate(const double* values) {
       const double factor = w[l] * w[pivot];
       w[l] = factor;
       for (int u = pivot + 1; u < end; ++u) w[*target++] -= factor * w[u];
+    }
+    w[diagonal[k]] = 1.0 / w[diagonal[k]];
+  }
+}
+
+void LuSchedule::eliminate_by_columns() {
+  double* const w = factors_.data();
+  const int *const column = column_.data(), *const diagonal = diagonal_.data(), *const start = start_.data();
+  for (std::size_t k = 0; k < n_; ++k) {
+    for (int e = start[k]; e < start[k + 1]; ++e) entry_of_[at(column[e])] = e;
+    for (int l = start[k]; l < diagonal[k]; ++l) {
+      const int j = column[l], pivot = diagonal[j], end = start[j + 1];
+      const double factor = w[l] * w[pivot];
+      w[l] = factor;
+      for (int u = pivot + 1; u < end; ++u) w[entry_of_[at(column[u])]] -= factor * w[u];
     }
     w[diagonal[k]] = 1.0 / w[diagonal[k]];
   }

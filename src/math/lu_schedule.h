@@ -46,6 +46,7 @@ class LuSchedule {
   std::vector<Sum> elimination_sums() const;
   std::vector<Sum> solution_sums() const;
   void eliminate(const double* values);
+  void eliminate_by_columns();
   Quality quality() const;
   template <int N>
   void solve_by_lists(double* x) const;
@@ -57,7 +58,8 @@ class LuSchedule {
   std::vector<int> column_;            ///< of each entry
   std::vector<int> source_slot_;       ///< where each entry of A goes
   std::vector<double> source_scale_;
-  std::vector<int> target_;      ///< where each product of the elimination is subtracted, in order
+  std::vector<int> target_;      ///< where each product of the elimination is subtracted, in order; empty if there are too many
+  std::vector<int> entry_of_;    ///< then: where the row that is being eliminated has each column
   std::vector<int> multiplier_;  ///< places of the entries of L
   std::vector<double> factors_;  ///< of L and U, with inverse pivots
   mutable LineVector work_;

@@ -36,6 +36,9 @@ class StraightLine {
   using RowLayouts = std::array<RowLayout, kCodeArrays>;
   using Arrays = std::array<const double*, kCodeArrays>;
 
+  /// More products than this never fit into half a megabyte of code: each takes four bytes at least.
+  static constexpr std::size_t kMostProducts = 128 * 1024;
+
   virtual ~StraightLine() = default;
 
   /// @param width of rows: 1, 4 or 8; they lie one behind the other. Null where that cannot be: other processors than x86-64 with AVX2 and

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <cmath>
 #include <optional>
 
 #include "math/pivots.h"
@@ -45,6 +46,29 @@ TEST_P(LuScheduleTest, SolvesForOneAndForSeveralRightHandSides) {
       EXPECT_LT((many.row(k).transpose() - (k + 1.0) * x).norm(), 1e-12);
       EXPECT_LT((transposed.row(k).transpose() - (k + 1.0) * y).norm(), 1e-12);
     }
+  }
+}
+
+TEST_P(LuScheduleTest, EliminatesMoreProductsThanAreListed) {
+  constexpr int n = 250;  // n^3/3 products
+  const Eigen::MatrixXd A = Eigen::MatrixXd::NullaryExpr(
+      n, n, [](Eigen::Index r, Eigen::Index c) { return std::sin(static_cast<double>(3 * r + 7 * c + r * c)) + (r == c ? 40.0 : 0.0); });
+  std::vector<int> start{0}, rows;
+  for (int c = 0; c < n; ++c) {
+    for (int r = 0; r < n; ++r) rows.push_back(r);
+    start.push_back(static_cast<int>(rows.size()));
+  }
+  const std::optional<LuPattern> pattern = choose_pivots(start, rows, A.data());
+  ASSERT_TRUE(pattern.has_value());
+  EXPECT_GT(count_products(*pattern), 4000000);
+  LuSchedule lu(*pattern, start, rows, GetParam());
+  for (int time = 0; time < 2; ++time) {
+    const LuSchedule::Quality quality = lu.refactor(A.data());
+    EXPECT_GT(quality.pivot_ratio, 0.1);
+    const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, -1.0, 2.0);
+    Eigen::VectorXd x = b;
+    lu.solve<1>(x.data());
+    EXPECT_LT((A * x - b).norm(), 1e-12);
   }
 }
 
