@@ -35,14 +35,16 @@ TEST(RunRecorder, RowsHoldTimeAndSignals) {
   }
 }
 
-TEST(RunRecorder, ACancelledRunEndsAfterItsFirstRow) {
+TEST(RunRecorder, ACancelledRunEndsAfterTheRowThatItIsAt) {
   const ScratchFolder folder;
   const Problem problem = short_problem(folder);
-  const std::atomic<bool> cancel{true};
-  int rows = 0;
-  const auto count = [&rows](const std::vector<double>&) { ++rows; };
-  EXPECT_EQ(record_run(problem, problem.parameters(), {}, 5, count, &cancel).status.code, StatusCode::kCancelled);
-  EXPECT_EQ(rows, 1);
+  for (int last : {0, 1, 3}) {
+    std::atomic<bool> cancel{last == 0};
+    int rows = 0;
+    const auto count = [&](const std::vector<double>&) { cancel = ++rows == last; };
+    EXPECT_EQ(record_run(problem, problem.parameters(), {}, 5, count, &cancel).status.code, StatusCode::kCancelled);
+    EXPECT_EQ(rows, last);
+  }
 }
 
 }  // namespace
