@@ -37,7 +37,7 @@ class StraightLine {
   using Arrays = std::array<const double*, kCodeArrays>;
 
   /// More products than this never fit into half a megabyte of code: each takes four bytes at least.
-  static constexpr std::size_t kMostProducts = 128 * 1024;
+  static constexpr std::size_t kMostProducts = std::size_t{128} * 1024;
 
   virtual ~StraightLine() = default;
 
