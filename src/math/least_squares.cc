@@ -104,9 +104,6 @@ std::vector<int> independent_columns(const SparseMatrix& A, const ColumnPreferen
 
 std::vector<int> dependent_columns(const SparseMatrix& A, double tolerance) {
   std::vector<int> dependent;
-  const auto take = [&dependent](const auto& permutation, Eigen::Index rank, Eigen::Index size) {
-    for (Eigen::Index k = rank; k < size; ++k) dependent.push_back(static_cast<int>(permutation.indices()[k]));
-  };
   if (A.cols() == 0) return dependent;
   if (A.rows() == 0) {
     dependent.resize(static_cast<std::size_t>(A.cols()));
@@ -115,7 +112,7 @@ std::vector<int> dependent_columns(const SparseMatrix& A, double tolerance) {
     const DenseQr qr{Eigen::MatrixXd(A)};
     Eigen::Index rank = 0;
     while (rank < std::min(A.rows(), A.cols()) && std::abs(qr.matrixQR()(rank, rank)) > tolerance) ++rank;
-    take(qr.colsPermutation(), rank, A.cols());
+    for (Eigen::Index k = rank; k < A.cols(); ++k) dependent.push_back(static_cast<int>(qr.colsPermutation().indices()[k]));
   } else {
     SparseQr qr;
     qr.factor(A, tolerance);

@@ -17,19 +17,22 @@ constexpr double kHighestRate = 1e9;
 
 using Node = ros::NodeHandle;
 
+/// Reads a private parameter into the options.
+using Read = std::function<void(const Node& node, const std::string& name, SimulationOptions* options)>;
+
 /// A private parameter: its name, which is written here alone, and where its value goes.
 struct Entry {
   const char* name;
-  std::function<void(const Node& node, const std::string& name, SimulationOptions* options)> read;
+  Read read;
 };
 
-std::function<void(const Node&, const std::string&, SimulationOptions*)> positive(double SimulationOptions::*field) {
+Read positive(double SimulationOptions::*field) {
   return [field](const Node& node, const std::string& name, SimulationOptions* options) {
     options->*field = read_positive(node, name, options->*field);
   };
 }
 
-std::function<void(const Node&, const std::string&, SimulationOptions*)> positive(double MarkerStyle::*field) {
+Read positive(double MarkerStyle::*field) {
   return [field](const Node& node, const std::string& name, SimulationOptions* options) {
     options->style.*field = read_positive(node, name, options->style.*field);
   };

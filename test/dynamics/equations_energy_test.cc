@@ -4,6 +4,7 @@
 
 #include "dynamics/equations_fixture.h"
 #include "dynamics/generic_state.h"
+#include "dynamics/loaded_arm.h"
 #include "mechanism_codesign/dynamics/energy.h"
 
 namespace codesign {
@@ -14,25 +15,6 @@ struct EnergyCase {
 };
 
 void PrintTo(const EnergyCase& c, std::ostream* out) { *out << c.name; }
-
-/// A hinge with everything that may act along a coordinate.
-std::string loaded_hinge(const std::string& name, const std::string& parent, const std::string& child, const std::string& xyz) {
-  return "<joint name='" + name + "' type='revolute'><parent link='" + parent + "'/><child link='" + child + "'/><origin xyz='" + xyz +
-         "'/><axis xyz='0.2 1 0'/><limit lower='-0.1' upper='0.05' effort='3' velocity='1'/><dynamics damping='0.3' friction='0.2'/>" +
-         pin_friction() +
-         "<codesign:torsion_spring stiffness='2' damping='0.1' free_position='0.3'/><codesign:actuator gear_ratio='7' "
-         "rotor_inertia='0.002'/></joint>";
-}
-
-std::string spring_damper() {
-  return "<codesign:spring_damper name='spring' stiffness='40' damping='3' free_length='0.5'><predecessor link='ground'><origin xyz='1 0.2 "
-         "-0.3'/></predecessor><successor link='lower'><origin xyz='0 0.1 -1'/></successor></codesign:spring_damper>";
-}
-
-std::string arm() {
-  return robot(bar("upper") + bar("lower") + loaded_hinge("shoulder", "ground", "upper", "0 0 0") +
-               loaded_hinge("elbow", "upper", "lower", "0 0 -1") + spring_damper());
-}
 
 std::string study_of(const std::string& signals, const std::string& more = "") {
   return "duration: 1.0\nobjective: {integral: [" + signals + "]}\n" + more;
@@ -52,7 +34,7 @@ const char* const kDriven =
     "        {link: upper, force: [0.4, 0.3, -1.0], torque: [0.3, -0.2, 0.1], point: [0, 0.2, 0.1], frame: link}]\n";
 
 std::vector<EnergyCase> cases() {
-  return {{"Arm", arm(), kDriven},
+  return {{"Arm", loaded_arm(), kDriven},
           {"Puck", puck(), "loads: [{link: puck, force: [1.0, 0.0, 0.0]}]\n"},
           {"Ball", ball_pendulum(), "loads: [{joint: ball_y, effort: 0.4}]\n"},
           {"FourBarWithASpring", spring_pendulum(), ""}};
@@ -103,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(AllCases, EnergyConformance, ::testing::ValuesIn(cases(
 
 TEST(EnergySignals, OfTheJointsAddUp) {
   const auto value = [](const std::string& text) {
-    EquationsFixture e(arm(), study_of(kEnergies, kDriven));
+    EquationsFixture e(loaded_arm(), study_of(kEnergies, kDriven));
     const SignalDescription description = parse_signal(text, {}, "test");
     return e.real.signal(resolve_signal(description, e.robot, e.system.topology(), e.system.study().controllers), e.state);
   };

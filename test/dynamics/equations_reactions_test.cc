@@ -5,6 +5,7 @@
 #include "dynamics/equations_fixture.h"
 #include "dynamics/generic_state.h"
 #include "dynamics/joint_cases.h"
+#include "dynamics/loaded_arm.h"
 #include "integration/linkages.h"
 #include "system/shipped.h"
 
@@ -20,32 +21,14 @@ struct ReactionCase {
 
 void PrintTo(const ReactionCase& c, std::ostream* out) { *out << c.name; }
 
-/// A hinge with everything that may act along a coordinate.
-std::string loaded_hinge(const std::string& name, const std::string& parent, const std::string& child, const std::string& xyz) {
-  return "<joint name='" + name + "' type='revolute'><parent link='" + parent + "'/><child link='" + child + "'/><origin xyz='" + xyz +
-         "'/><axis xyz='0.2 1 0'/><limit lower='-0.1' upper='0.05' effort='3' velocity='1'/><dynamics damping='0.3' friction='0.2'/>" +
-         pin_friction() +
-         "<codesign:torsion_spring stiffness='2' damping='0.1' free_position='0.3'/><codesign:actuator gear_ratio='7' "
-         "rotor_inertia='0.002'/></joint>";
-}
-
-ReactionCase loaded_arm() {
-  const std::string spring =
-      "<codesign:spring_damper name='spring' stiffness='40' damping='3' free_length='0.5'><predecessor link='ground'><origin xyz='1 0.2 "
-      "-0.3'/></predecessor><successor link='lower'><origin xyz='0 0.1 -1'/></successor></codesign:spring_damper>";
+ReactionCase arm() {
   const char* const study =
       "limits: {position: true, effort: true, stiffness: 50.0, width: 0.01, dissipation: 0.4}\n"
       "controllers:\n  servo: {type: pid, input: elbow/position, output: elbow, setpoint: 0.4, gains: {p: 3.0, d: 0.2}}\n"
       "  compliant: {type: state_feedback, output: elbow, feedback: [{signal: shoulder/reaction_force/x, gain: 0.02}]}\n"
       "loads: [{joint: shoulder, effort: 1.5}, {link: lower, force: [1.0, -2.0, 0.5], torque: [0.1, 0.2, 0.3], point: [0.1, 0, -0.4]},\n"
       "        {link: upper, force: [0.4, 0.3, -1.0], torque: [0.3, -0.2, 0.1], point: [0, 0.2, 0.1], frame: link}]\n";
-  return {"arm",
-          robot(bar("upper") + bar("lower") + loaded_hinge("shoulder", "ground", "upper", "0 0 0") +
-                loaded_hinge("elbow", "upper", "lower", "0 0 -1") + spring),
-          study,
-          {},
-          true,
-          false};
+  return {"arm", loaded_arm(), study, {}, true, false};
 }
 
 /// A parallelogram with friction in one hinge, of whose rows three are dropped.
@@ -67,7 +50,7 @@ std::vector<ReactionCase> cases() {
                    "",
                    {},
                    true});
-  all.push_back(loaded_arm());
+  all.push_back(arm());
   all.push_back({"puck", puck(), "", {}});
   all.push_back({"lugre_puck", with_friction_model(puck(), "lugre"), "", {}});
   all.push_back({"ball", ball_pendulum(), "loads: [{joint: ball_y, effort: 0.4}]\n", {}});
