@@ -158,36 +158,34 @@ LuSchedule::Quality LuSchedule::quality() const {
 }
 
 // Row by row: each earlier row that stands to the left is subtracted with its multiplier.
-void LuSchedule::eliminate(const double* values) {
-  std::fill(factors_.begin(), factors_.end(), 0.0);
-  for (std::size_t e = 0; e < source_slot_.size(); ++e) factors_[at(source_slot_[e])] = source_scale_[e] * values[e];
-  if (!entry_of_.empty()) return eliminate_by_columns();
+/// @param begin_row (row), before a row is eliminated. @param target (place in U) -> where its product is subtracted; called in order.
+template <class BeginRow, class Target>
+void LuSchedule::eliminate_rows(const BeginRow& begin_row, Target target) {
   double* const w = factors_.data();
-  const int *target = target_.data(), *const column = column_.data(), *const diagonal = diagonal_.data(), *const start = start_.data();
+  const int *const column = column_.data(), *const diagonal = diagonal_.data(), *const start = start_.data();
   for (std::size_t k = 0; k < n_; ++k) {
+    begin_row(k);
     for (int l = start[k]; l < diagonal[k]; ++l) {
       const int j = column[l], pivot = diagonal[j], end = start[j + 1];
       const double factor = w[l] * w[pivot];
       w[l] = factor;
-      for (int u = pivot + 1; u < end; ++u) w[*target++] -= factor * w[u];
+      for (int u = pivot + 1; u < end; ++u) w[target(u)] -= factor * w[u];
     }
     w[diagonal[k]] = 1.0 / w[diagonal[k]];
   }
 }
 
-void LuSchedule::eliminate_by_columns() {
-  double* const w = factors_.data();
-  const int *const column = column_.data(), *const diagonal = diagonal_.data(), *const start = start_.data();
-  for (std::size_t k = 0; k < n_; ++k) {
-    for (int e = start[k]; e < start[k + 1]; ++e) entry_of_[at(column[e])] = e;
-    for (int l = start[k]; l < diagonal[k]; ++l) {
-      const int j = column[l], pivot = diagonal[j], end = start[j + 1];
-      const double factor = w[l] * w[pivot];
-      w[l] = factor;
-      for (int u = pivot + 1; u < end; ++u) w[entry_of_[at(column[u])]] -= factor * w[u];
-    }
-    w[diagonal[k]] = 1.0 / w[diagonal[k]];
+void LuSchedule::eliminate(const double* values) {
+  std::fill(factors_.begin(), factors_.end(), 0.0);
+  for (std::size_t e = 0; e < source_slot_.size(); ++e) factors_[at(source_slot_[e])] = source_scale_[e] * values[e];
+  if (entry_of_.empty()) {
+    eliminate_rows([](std::size_t) {}, [next = target_.data()](int) mutable { return *next++; });
+    return;
   }
+  const auto note_row = [this](std::size_t k) {
+    for (int e = start_[k]; e < start_[k + 1]; ++e) entry_of_[at(column_[at(e)])] = e;
+  };
+  eliminate_rows(note_row, [entry = entry_of_.data(), column = column_.data()](int u) { return entry[column[u]]; });
 }
 
 namespace {

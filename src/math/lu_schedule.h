@@ -46,7 +46,8 @@ class LuSchedule {
   std::vector<Sum> elimination_sums() const;
   std::vector<Sum> solution_sums() const;
   void eliminate(const double* values);
-  void eliminate_by_columns();
+  template <class BeginRow, class Target>
+  void eliminate_rows(const BeginRow& begin_row, Target target);
   Quality quality() const;
   template <int N>
   void solve_by_lists(double* x) const;
