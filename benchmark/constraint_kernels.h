@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "mechanism_codesign/dynamics/system.h"
-#include "mechanism_codesign/joints/body_kinematics.h"
-#include "mechanism_codesign/joints/pair_rows.h"
+#include "equations/system.h"
+#include "joints/body_kinematics.h"
+#include "joints/pair_rows.h"
 
 namespace codesign {
 

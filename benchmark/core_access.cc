@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "benchmark/core_access.h"
 
-#include "mechanism_codesign/integration/rosenbrock_integrator.h"
+#include "integration/rosenbrock_integrator.h"
 
 namespace codesign {
 

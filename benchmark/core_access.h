@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "mechanism_codesign/dynamics/equations.h"
-#include "mechanism_codesign/dynamics/status.h"
+#include "equations/equations.h"
+#include "mechanism_codesign/status.h"
 
 namespace codesign {
 

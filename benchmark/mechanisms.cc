@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "benchmark/mechanisms.h"
 
-#include "mechanism_codesign/math/decimal.h"
+#include "text/decimal.h"
 
 namespace codesign {
 namespace {

@@ -2,7 +2,7 @@
 #ifndef MECHANISM_CODESIGN_BENCHMARK_MECHANISMS_H_
 #define MECHANISM_CODESIGN_BENCHMARK_MECHANISMS_H_
 
-#include "mechanism_codesign/model/urdf_reader.h"
+#include "reading/urdf/urdf_reader.h"
 
 namespace codesign {
 

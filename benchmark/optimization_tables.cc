@@ -4,7 +4,7 @@
 #include "benchmark/report.h"
 #include "benchmark/slider_crank.h"
 #include "benchmark/timing.h"
-#include "mechanism_codesign/optimization/optimizer.h"
+#include "optimization/optimizer.h"
 
 namespace codesign {
 namespace {

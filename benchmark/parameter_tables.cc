@@ -5,10 +5,10 @@
 #include "benchmark/mechanisms.h"
 #include "benchmark/report.h"
 #include "benchmark/timing.h"
-#include "mechanism_codesign/dynamics/system.h"
-#include "mechanism_codesign/optimization/problem.h"
-#include "mechanism_codesign/sensitivity/evaluation.h"
-#include "mechanism_codesign/sensitivity/gradient_engine.h"
+#include "equations/system.h"
+#include "problem/problem.h"
+#include "sensitivity/evaluation.h"
+#include "sensitivity/gradient_engine.h"
 
 namespace codesign {
 namespace {

@@ -5,8 +5,8 @@
 #include "benchmark/mechanisms.h"
 #include "benchmark/report.h"
 #include "benchmark/timing.h"
-#include "mechanism_codesign/dynamics/system.h"
-#include "mechanism_codesign/optimization/problem.h"
+#include "equations/system.h"
+#include "problem/problem.h"
 
 namespace codesign {
 namespace {

@@ -4,10 +4,10 @@
 
 #include "benchmark/mechanisms.h"
 #include "benchmark/report.h"
-#include "mechanism_codesign/dynamics/system.h"
-#include "mechanism_codesign/integration/simulation.h"
-#include "mechanism_codesign/math/cpu_timer.h"
-#include "mechanism_codesign/optimization/problem.h"
+#include "equations/system.h"
+#include "integration/simulation.h"
+#include "math/cpu_timer.h"
+#include "problem/problem.h"
 
 namespace codesign {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "mechanism_codesign/model/error.h"
+#include "mechanism_codesign/error.h"
 
 namespace codesign {
 namespace {

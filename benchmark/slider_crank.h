@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "mechanism_codesign/optimization/problem.h"
+#include "problem/problem.h"
 
 namespace codesign {
 

@@ -12,9 +12,9 @@
 #include <map>
 #include <type_traits>
 
+#include "assembly/assembly.h"
 #include "benchmark/core_access.h"
-#include "mechanism_codesign/dynamics/assembly.h"
-#include "src/integration/sundials_compatibility.h"
+#include "integration/sundials_compatibility.h"
 
 namespace codesign {
 namespace {

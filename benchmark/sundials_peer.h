@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "mechanism_codesign/dynamics/system.h"
+#include "equations/system.h"
 
 namespace codesign {
 

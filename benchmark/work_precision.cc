@@ -7,7 +7,7 @@
 
 #include "benchmark/slider_crank.h"
 #include "benchmark/timing.h"
-#include "mechanism_codesign/sensitivity/evaluation.h"
+#include "sensitivity/evaluation.h"
 
 namespace codesign {
 namespace {

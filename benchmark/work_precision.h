@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "benchmark/report.h"
-#include "mechanism_codesign/optimization/problem.h"
+#include "problem/problem.h"
 
 namespace codesign {
 

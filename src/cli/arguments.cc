@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-#include "mechanism_codesign/model/nearest_name.h"
+#include "text/nearest_name.h"
 
 namespace codesign::cli {
 namespace {

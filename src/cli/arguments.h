@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "mechanism_codesign/optimization/problem.h"
-#include "mechanism_codesign/sensitivity/evaluation.h"
+#include "problem/problem.h"
+#include "sensitivity/evaluation.h"
 
 namespace codesign::cli {
 

@@ -4,8 +4,8 @@
 #include <cerrno>
 #include <utility>
 
-#include "mechanism_codesign/jobs/output_error.h"
-#include "mechanism_codesign/math/decimal.h"
+#include "jobs/output_error.h"
+#include "text/decimal.h"
 
 namespace codesign::cli {
 namespace {

@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/inputs.h"
 
-#include "mechanism_codesign/model/signal_catalog.h"
+#include "mechanism/signal_catalog.h"
 
 namespace codesign::cli {
 

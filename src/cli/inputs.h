@@ -6,7 +6,7 @@
 
 #include "cli/arguments.h"
 #include "cli/console.h"
-#include "mechanism_codesign/optimization/problem.h"
+#include "problem/problem.h"
 
 namespace codesign::cli {
 

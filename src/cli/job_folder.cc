@@ -10,8 +10,8 @@
 #include "cli/inputs.h"
 #include "cli/output_file.h"
 #include "cli/run_recorder.h"
-#include "mechanism_codesign/jobs/whole_file.h"
-#include "mechanism_codesign/math/decimal.h"
+#include "jobs/whole_file.h"
+#include "text/decimal.h"
 
 namespace codesign::cli {
 namespace {

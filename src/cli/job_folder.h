@@ -12,10 +12,10 @@
 #include "cli/csv_writer.h"
 #include "cli/json_output.h"
 #include "cli/report.h"
-#include "mechanism_codesign/jobs/best_record.h"
-#include "mechanism_codesign/jobs/lock_file.h"
-#include "mechanism_codesign/optimization/optimizer.h"
-#include "mechanism_codesign/optimization/problem.h"
+#include "jobs/best_record.h"
+#include "jobs/lock_file.h"
+#include "optimization/optimizer.h"
+#include "problem/problem.h"
 
 namespace codesign::cli {
 

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "cli/limit_watch.h"
-#include "mechanism_codesign/dynamics/counts.h"
-#include "mechanism_codesign/dynamics/status.h"
-#include "mechanism_codesign/integration/simulation.h"
-#include "mechanism_codesign/jobs/json.h"
-#include "mechanism_codesign/model/error.h"
-#include "mechanism_codesign/optimization/problem.h"
+#include "integration/simulation.h"
+#include "jobs/json.h"
+#include "mechanism_codesign/counts.h"
+#include "mechanism_codesign/error.h"
+#include "mechanism_codesign/status.h"
+#include "problem/problem.h"
 
 namespace codesign::cli {
 

@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_CLI_LIMIT_WATCH_H_
-#define MECHANISM_CODESIGN_SRC_CLI_LIMIT_WATCH_H_
+#ifndef MECHANISM_CODESIGN_CLI_LIMIT_WATCH_H_
+#define MECHANISM_CODESIGN_CLI_LIMIT_WATCH_H_
 
 #include <string>
 #include <vector>
 
-#include "mechanism_codesign/dynamics/frame.h"
-#include "mechanism_codesign/optimization/problem.h"
+#include "mechanism_codesign/frame.h"
+#include "problem/problem.h"
 
 namespace codesign::cli {
 
@@ -47,4 +47,4 @@ std::string describe(const LimitCrossing& crossing);
 
 }  // namespace codesign::cli
 
-#endif  // MECHANISM_CODESIGN_SRC_CLI_LIMIT_WATCH_H_
+#endif  // MECHANISM_CODESIGN_CLI_LIMIT_WATCH_H_

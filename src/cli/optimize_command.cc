@@ -6,7 +6,7 @@
 #include "cli/job_folder.h"
 #include "cli/report.h"
 #include "cli/table.h"
-#include "mechanism_codesign/optimization/optimizer.h"
+#include "optimization/optimizer.h"
 
 namespace codesign::cli {
 namespace {

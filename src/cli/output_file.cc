@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "mechanism_codesign/model/error.h"
+#include "mechanism_codesign/error.h"
 
 namespace codesign::cli {
 

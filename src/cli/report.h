@@ -8,7 +8,7 @@
 #include "cli/arguments.h"
 #include "cli/console.h"
 #include "cli/json_output.h"
-#include "mechanism_codesign/dynamics/status.h"
+#include "mechanism_codesign/status.h"
 
 namespace codesign::cli {
 

@@ -7,8 +7,8 @@
 #include "cli/commands.h"
 #include "cli/json_output.h"
 #include "cli/usage.h"
-#include "mechanism_codesign/jobs/output_error.h"
-#include "mechanism_codesign/model/error.h"
+#include "jobs/output_error.h"
+#include "mechanism_codesign/error.h"
 
 namespace codesign::cli {
 namespace {

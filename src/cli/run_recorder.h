@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/limit_watch.h"
-#include "mechanism_codesign/optimization/problem.h"
+#include "problem/problem.h"
 
 namespace codesign::cli {
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <sstream>
 
+#include "assembly/signal_warnings.h"
 #include "cli/commands.h"
 #include "cli/csv_writer.h"
 #include "cli/inputs.h"
@@ -11,7 +12,6 @@
 #include "cli/report.h"
 #include "cli/run_recorder.h"
 #include "cli/table.h"
-#include "mechanism_codesign/integration/signal_warnings.h"
 
 namespace codesign::cli {
 namespace {

@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/control/signal.h"
+#include "control/signal.h"
 
 #include <map>
 #include <optional>
 
-#include "mechanism_codesign/model/signal_catalog.h"
+#include "mechanism/signal_catalog.h"
 
 namespace codesign {
 namespace {

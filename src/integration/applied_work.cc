@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/integration/applied_work.h"
+#include "integration/applied_work.h"
 
 namespace codesign {
 namespace {

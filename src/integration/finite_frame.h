@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_INTEGRATION_FINITE_FRAME_H_
-#define MECHANISM_CODESIGN_SRC_INTEGRATION_FINITE_FRAME_H_
+#ifndef MECHANISM_CODESIGN_INTEGRATION_FINITE_FRAME_H_
+#define MECHANISM_CODESIGN_INTEGRATION_FINITE_FRAME_H_
 
 #include <string>
 
-#include "mechanism_codesign/dynamics/frame.h"
+#include "mechanism_codesign/frame.h"
 
 namespace codesign {
 
@@ -13,4 +13,4 @@ std::string find_not_finite(const FrameNames& names, const Frame& frame);
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_INTEGRATION_FINITE_FRAME_H_
+#endif  // MECHANISM_CODESIGN_INTEGRATION_FINITE_FRAME_H_

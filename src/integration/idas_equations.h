@@ -1,14 +1,14 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_EQUATIONS_H_
-#define MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_EQUATIONS_H_
+#ifndef MECHANISM_CODESIGN_INTEGRATION_IDAS_EQUATIONS_H_
+#define MECHANISM_CODESIGN_INTEGRATION_IDAS_EQUATIONS_H_
 
 #include <string>
 #include <vector>
 
+#include "equations/equations.h"
+#include "integration/applied_work.h"
+#include "integration/idas_integrator.h"
 #include "integration/idas_newton.h"
-#include "mechanism_codesign/dynamics/equations.h"
-#include "mechanism_codesign/integration/applied_work.h"
-#include "mechanism_codesign/integration/idas_integrator.h"
 
 namespace codesign {
 
@@ -66,4 +66,4 @@ class IdasEquations {
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_EQUATIONS_H_
+#endif  // MECHANISM_CODESIGN_INTEGRATION_IDAS_EQUATIONS_H_

@@ -1,6 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_HANDLES_H_
-#define MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_HANDLES_H_
+#ifndef MECHANISM_CODESIGN_INTEGRATION_IDAS_HANDLES_H_
+#define MECHANISM_CODESIGN_INTEGRATION_IDAS_HANDLES_H_
 
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_linearsolver.h>
@@ -72,4 +72,4 @@ inline void require(int flag, const char* call) {
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_HANDLES_H_
+#endif  // MECHANISM_CODESIGN_INTEGRATION_IDAS_HANDLES_H_

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/integration/idas_integrator.h"
+#include "integration/idas_integrator.h"
 
 #include <idas/idas_ls.h>
 
@@ -7,15 +7,15 @@
 #include <cmath>
 #include <limits>
 
+#include "integration/break_times.h"
 #include "integration/idas_equations.h"
 #include "integration/idas_status.h"
+#include "integration/motion_watch.h"
 #include "integration/projection.h"
+#include "integration/run_watch.h"
+#include "integration/singularity_watch.h"
 #include "integration/standstill.h"
-#include "mechanism_codesign/integration/break_times.h"
-#include "mechanism_codesign/integration/motion_watch.h"
-#include "mechanism_codesign/integration/run_watch.h"
-#include "mechanism_codesign/integration/singularity_watch.h"
-#include "mechanism_codesign/math/decimal.h"
+#include "text/decimal.h"
 
 namespace codesign {
 namespace {

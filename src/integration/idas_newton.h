@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_NEWTON_H_
-#define MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_NEWTON_H_
+#ifndef MECHANISM_CODESIGN_INTEGRATION_IDAS_NEWTON_H_
+#define MECHANISM_CODESIGN_INTEGRATION_IDAS_NEWTON_H_
 
+#include "equations/iteration_matrix.h"
 #include "integration/idas_handles.h"
-#include "mechanism_codesign/dynamics/iteration_matrix.h"
 
 namespace codesign {
 
@@ -52,4 +52,4 @@ class IdasNewton {
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_NEWTON_H_
+#endif  // MECHANISM_CODESIGN_INTEGRATION_IDAS_NEWTON_H_

@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_STATUS_H_
-#define MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_STATUS_H_
+#ifndef MECHANISM_CODESIGN_INTEGRATION_IDAS_STATUS_H_
+#define MECHANISM_CODESIGN_INTEGRATION_IDAS_STATUS_H_
 
 #include <string>
 
-#include "mechanism_codesign/dynamics/status.h"
+#include "mechanism_codesign/status.h"
 
 namespace codesign {
 
@@ -15,4 +15,4 @@ Status idas_status(int flag, double time, bool singular, const std::string& mess
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_INTEGRATION_IDAS_STATUS_H_
+#endif  // MECHANISM_CODESIGN_INTEGRATION_IDAS_STATUS_H_

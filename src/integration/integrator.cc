@@ -1,8 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/integration/integrator.h"
+#include "integration/integrator.h"
 
-#include "mechanism_codesign/integration/idas_integrator.h"
-#include "mechanism_codesign/integration/rosenbrock_integrator.h"
+#include "integration/idas_integrator.h"
+#include "integration/rosenbrock_integrator.h"
 
 namespace codesign {
 

@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/integration/motion_watch.h"
+#include "integration/motion_watch.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
-#include "mechanism_codesign/control/reference.h"
-#include "mechanism_codesign/math/decimal.h"
+#include "control/reference.h"
+#include "text/decimal.h"
 
 namespace codesign {
 namespace {

@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_INTEGRATION_PROJECTION_H_
-#define MECHANISM_CODESIGN_SRC_INTEGRATION_PROJECTION_H_
+#ifndef MECHANISM_CODESIGN_INTEGRATION_PROJECTION_H_
+#define MECHANISM_CODESIGN_INTEGRATION_PROJECTION_H_
 
-#include "mechanism_codesign/dynamics/equations.h"
-#include "mechanism_codesign/dynamics/iteration_matrix.h"
+#include "equations/equations.h"
+#include "equations/iteration_matrix.h"
 
 namespace codesign {
 
@@ -26,4 +26,4 @@ class Projection {
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_INTEGRATION_PROJECTION_H_
+#endif  // MECHANISM_CODESIGN_INTEGRATION_PROJECTION_H_

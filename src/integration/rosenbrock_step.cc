@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/integration/rosenbrock_step.h"
+#include "integration/rosenbrock_step.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "mechanism_codesign/dynamics/row_product.h"
+#include "sparse/row_product.h"
 
 namespace codesign {
 namespace {

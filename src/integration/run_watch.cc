@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/integration/run_watch.h"
+#include "integration/run_watch.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 
-#include "mechanism_codesign/math/decimal.h"
+#include "text/decimal.h"
 
 namespace codesign {
 namespace {

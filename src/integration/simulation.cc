@@ -1,14 +1,14 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/integration/simulation.h"
+#include "integration/simulation.h"
 
 #include <algorithm>
 #include <limits>
 
+#include "equations/system.h"
 #include "integration/finite_frame.h"
-#include "mechanism_codesign/dynamics/observer.h"
-#include "mechanism_codesign/dynamics/system.h"
-#include "mechanism_codesign/integration/integrator.h"
-#include "mechanism_codesign/math/cpu_timer.h"
+#include "integration/integrator.h"
+#include "math/cpu_timer.h"
+#include "observation/observer.h"
 
 namespace codesign {
 

@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/integration/singularity_watch.h"
+#include "integration/singularity_watch.h"
 
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
-#include "mechanism_codesign/dynamics/redundancy.h"
-#include "mechanism_codesign/math/decimal.h"
+#include "assembly/redundancy.h"
+#include "text/decimal.h"
 
 namespace codesign {
 namespace {

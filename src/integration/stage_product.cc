@@ -1,8 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/integration/stage_product.h"
+#include "integration/stage_product.h"
 
-#include "math/straight_line.h"
-#include "mechanism_codesign/dynamics/row_product.h"
+#include "codegen/straight_line.h"
+#include "sparse/row_product.h"
 
 namespace codesign {
 namespace {

@@ -4,8 +4,8 @@
 #include <Eigen/SVD>
 #include <algorithm>
 
-#include "mechanism_codesign/dynamics/redundancy.h"
-#include "mechanism_codesign/dynamics/system.h"
+#include "assembly/redundancy.h"
+#include "equations/system.h"
 
 namespace codesign {
 namespace {

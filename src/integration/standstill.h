@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_INTEGRATION_STANDSTILL_H_
-#define MECHANISM_CODESIGN_SRC_INTEGRATION_STANDSTILL_H_
+#ifndef MECHANISM_CODESIGN_INTEGRATION_STANDSTILL_H_
+#define MECHANISM_CODESIGN_INTEGRATION_STANDSTILL_H_
 
-#include "mechanism_codesign/dynamics/equations.h"
-#include "mechanism_codesign/dynamics/status.h"
-#include "mechanism_codesign/integration/simulation.h"
+#include "equations/equations.h"
+#include "integration/simulation.h"
+#include "mechanism_codesign/status.h"
 
 namespace codesign {
 
@@ -21,4 +21,4 @@ Status judge_standstill(const Status& status, const System& system, const State<
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_INTEGRATION_STANDSTILL_H_
+#endif  // MECHANISM_CODESIGN_INTEGRATION_STANDSTILL_H_

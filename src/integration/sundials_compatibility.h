@@ -1,6 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_INTEGRATION_SUNDIALS_COMPATIBILITY_H_
-#define MECHANISM_CODESIGN_SRC_INTEGRATION_SUNDIALS_COMPATIBILITY_H_
+#ifndef MECHANISM_CODESIGN_INTEGRATION_SUNDIALS_COMPATIBILITY_H_
+#define MECHANISM_CODESIGN_INTEGRATION_SUNDIALS_COMPATIBILITY_H_
 
 #include <idas/idas.h>
 #include <sundials/sundials_config.h>
@@ -44,4 +44,4 @@ inline int keep_last_message(void* ida, SUNContext context, std::string* message
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_INTEGRATION_SUNDIALS_COMPATIBILITY_H_
+#endif  // MECHANISM_CODESIGN_INTEGRATION_SUNDIALS_COMPATIBILITY_H_

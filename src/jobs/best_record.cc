@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/jobs/best_record.h"
+#include "jobs/best_record.h"
 
 #include <unistd.h>
 
-#include "mechanism_codesign/jobs/json.h"
-#include "mechanism_codesign/jobs/whole_file.h"
+#include "jobs/json.h"
+#include "jobs/whole_file.h"
 
 namespace codesign {
 

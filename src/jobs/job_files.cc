@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/jobs/job_files.h"
+#include "jobs/job_files.h"
 
 #include <unistd.h>
 
@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <system_error>
 
-#include "mechanism_codesign/jobs/output_error.h"
-#include "mechanism_codesign/jobs/whole_file.h"
+#include "jobs/output_error.h"
+#include "jobs/whole_file.h"
 
 namespace codesign {
 namespace {

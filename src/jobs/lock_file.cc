@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/jobs/lock_file.h"
+#include "jobs/lock_file.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <utility>
 
-#include "mechanism_codesign/jobs/output_error.h"
+#include "jobs/output_error.h"
 
 namespace codesign {
 namespace {

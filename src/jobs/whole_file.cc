@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/jobs/whole_file.h"
+#include "jobs/whole_file.h"
 
 #include <unistd.h>
 
@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "mechanism_codesign/jobs/output_error.h"
+#include "jobs/output_error.h"
 
 namespace codesign {
 

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_OPTIMIZATION_ALGORITHM_H_
-#define MECHANISM_CODESIGN_SRC_OPTIMIZATION_ALGORITHM_H_
+#ifndef MECHANISM_CODESIGN_OPTIMIZATION_ALGORITHM_H_
+#define MECHANISM_CODESIGN_OPTIMIZATION_ALGORITHM_H_
 
 #include <nlopt.hpp>
 #include <string>
 
-#include "mechanism_codesign/model/study.h"
+#include "description/study.h"
 
 namespace codesign {
 
@@ -17,4 +17,4 @@ std::string termination_name(nlopt::result result);
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_OPTIMIZATION_ALGORITHM_H_
+#endif  // MECHANISM_CODESIGN_OPTIMIZATION_ALGORITHM_H_

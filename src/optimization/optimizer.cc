@@ -1,13 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/optimization/optimizer.h"
+#include "optimization/optimizer.h"
 
 #include <cmath>
 #include <limits>
 
 #include "algorithm.h"
+#include "equations/system.h"
 #include "margins.h"
-#include "mechanism_codesign/dynamics/system.h"
-#include "mechanism_codesign/math/cpu_timer.h"
+#include "math/cpu_timer.h"
 #include "scaling.h"
 #include "search_warnings.h"
 

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_OPTIMIZATION_SCALING_H_
-#define MECHANISM_CODESIGN_SRC_OPTIMIZATION_SCALING_H_
+#ifndef MECHANISM_CODESIGN_OPTIMIZATION_SCALING_H_
+#define MECHANISM_CODESIGN_OPTIMIZATION_SCALING_H_
 
 #include <Eigen/Core>
 #include <vector>
 
-#include "mechanism_codesign/model/study.h"
+#include "description/study.h"
 
 namespace codesign {
 
@@ -39,4 +39,4 @@ class Scaling {
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_OPTIMIZATION_SCALING_H_
+#endif  // MECHANISM_CODESIGN_OPTIMIZATION_SCALING_H_

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "mechanism_codesign/math/decimal.h"
+#include "text/decimal.h"
 
 namespace codesign {
 namespace {

@@ -1,8 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_OPTIMIZATION_SEARCH_WARNINGS_H_
-#define MECHANISM_CODESIGN_SRC_OPTIMIZATION_SEARCH_WARNINGS_H_
+#ifndef MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_WARNINGS_H_
+#define MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_WARNINGS_H_
 
-#include "mechanism_codesign/optimization/optimizer.h"
+#include "optimization/optimizer.h"
 
 namespace codesign {
 
@@ -11,4 +11,4 @@ Warnings search_warnings(const Study& study, const OptimizationResult& result);
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_OPTIMIZATION_SEARCH_WARNINGS_H_
+#endif  // MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_WARNINGS_H_

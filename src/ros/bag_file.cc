@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/ros/bag_file.h"
+#include "ros/bag_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "mechanism_codesign/jobs/output_error.h"
-#include "mechanism_codesign/jobs/whole_file.h"
+#include "jobs/output_error.h"
+#include "jobs/whole_file.h"
 
 namespace codesign {
 

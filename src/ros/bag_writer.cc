@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/ros/bag_writer.h"
+#include "ros/bag_writer.h"
 
 #include <std_msgs/String.h>
 

@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <cstdint>
 
-#include "mechanism_codesign/model/error.h"
-#include "mechanism_codesign/model/unknown_name.h"
-#include "mechanism_codesign/ros/conversions.h"
-#include "mechanism_codesign/ros/job.h"
-#include "mechanism_codesign/ros/request.h"
-#include "mechanism_codesign/sensitivity/evaluation.h"
+#include "mechanism_codesign/error.h"
+#include "ros/conversions.h"
+#include "ros/job.h"
+#include "ros/request.h"
+#include "sensitivity/evaluation.h"
+#include "text/unknown_name.h"
 
 namespace codesign {
 namespace {

@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/ros/inputs.h"
+#include "ros/inputs.h"
 
 #include <yaml-cpp/yaml.h>
 
-#include "mechanism_codesign/model/error.h"
-#include "mechanism_codesign/ros/parameters.h"
+#include "mechanism_codesign/error.h"
+#include "ros/parameters.h"
 
 namespace codesign {
 namespace {

@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/ros/job_bag.h"
+#include "ros/job_bag.h"
 
 #include <algorithm>
 
-#include "mechanism_codesign/ros/bag_writer.h"
+#include "ros/bag_writer.h"
 
 namespace codesign {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/ros/node_state.h"
+#include "ros/node_state.h"
 
 #include <ros/console.h>
 #include <ros/node_handle.h>

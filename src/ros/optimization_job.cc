@@ -5,15 +5,15 @@
 #include <limits>
 #include <utility>
 
-#include "mechanism_codesign/jobs/best_record.h"
-#include "mechanism_codesign/jobs/job_files.h"
-#include "mechanism_codesign/jobs/output_error.h"
-#include "mechanism_codesign/model/error.h"
-#include "mechanism_codesign/optimization/optimizer.h"
-#include "mechanism_codesign/ros/job.h"
-#include "mechanism_codesign/ros/job_bag.h"
-#include "mechanism_codesign/ros/progress_log.h"
-#include "mechanism_codesign/ros/request.h"
+#include "jobs/best_record.h"
+#include "jobs/job_files.h"
+#include "jobs/output_error.h"
+#include "mechanism_codesign/error.h"
+#include "optimization/optimizer.h"
+#include "ros/job.h"
+#include "ros/job_bag.h"
+#include "ros/progress_log.h"
+#include "ros/request.h"
 
 namespace codesign {
 namespace {

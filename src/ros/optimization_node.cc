@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/ros/optimization_node.h"
+#include "ros/optimization_node.h"
 
 #include <std_msgs/String.h>
 
@@ -8,15 +8,15 @@
 #include <sstream>
 #include <utility>
 
-#include "mechanism_codesign/jobs/job_files.h"
-#include "mechanism_codesign/model/error.h"
-#include "mechanism_codesign/ros/conversions.h"
-#include "mechanism_codesign/ros/inputs.h"
-#include "mechanism_codesign/ros/parameters.h"
-#include "mechanism_codesign/ros/recorded_run.h"
-#include "mechanism_codesign/ros/request.h"
-#include "mechanism_codesign/ros/trajectory_bag.h"
-#include "mechanism_codesign/ros/wire.h"
+#include "jobs/job_files.h"
+#include "mechanism_codesign/error.h"
+#include "ros/conversions.h"
+#include "ros/inputs.h"
+#include "ros/parameters.h"
+#include "ros/recorded_run.h"
+#include "ros/request.h"
+#include "ros/trajectory_bag.h"
+#include "ros/wire.h"
 
 namespace codesign {
 namespace {

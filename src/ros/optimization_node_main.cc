@@ -1,8 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <ros/ros.h>
 
-#include "mechanism_codesign/ros/node_arguments.h"
-#include "mechanism_codesign/ros/optimization_node.h"
+#include "ros/node_arguments.h"
+#include "ros/optimization_node.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/ros/parameters.h"
+#include "ros/parameters.h"
 
 #include <ros/param.h>
 #include <yaml-cpp/yaml.h>
@@ -9,9 +9,9 @@
 #include <limits>
 #include <set>
 
-#include "mechanism_codesign/math/decimal.h"
-#include "mechanism_codesign/model/nearest_name.h"
-#include "mechanism_codesign/model/unknown_name.h"
+#include "text/decimal.h"
+#include "text/nearest_name.h"
+#include "text/unknown_name.h"
 
 namespace codesign {
 

@@ -1,15 +1,15 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/ros/recorded_run.h"
+#include "ros/recorded_run.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "mechanism_codesign/math/decimal.h"
-#include "mechanism_codesign/model/signal_catalog.h"
-#include "mechanism_codesign/ros/advance.h"
-#include "mechanism_codesign/ros/run_clock.h"
+#include "mechanism/signal_catalog.h"
+#include "ros/advance.h"
+#include "ros/run_clock.h"
+#include "text/decimal.h"
 
 namespace codesign {
 namespace {

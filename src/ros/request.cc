@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/ros/request.h"
+#include "ros/request.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "mechanism_codesign/math/decimal.h"
-#include "mechanism_codesign/model/unknown_name.h"
+#include "text/decimal.h"
+#include "text/unknown_name.h"
 
 namespace codesign {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/ros/simulation_node.h"
+#include "ros/simulation_node.h"
 
 #include <rosgraph_msgs/Clock.h>
 #include <std_msgs/String.h>
@@ -9,16 +9,16 @@
 #include <filesystem>
 #include <system_error>
 
-#include "mechanism_codesign/jobs/output_error.h"
-#include "mechanism_codesign/math/decimal.h"
-#include "mechanism_codesign/model/error.h"
-#include "mechanism_codesign/model/signal_catalog.h"
-#include "mechanism_codesign/model/unknown_name.h"
-#include "mechanism_codesign/ros/advance.h"
-#include "mechanism_codesign/ros/description.h"
-#include "mechanism_codesign/ros/inputs.h"
-#include "mechanism_codesign/ros/parameters.h"
-#include "mechanism_codesign/ros/trajectory_bag.h"
+#include "jobs/output_error.h"
+#include "mechanism/signal_catalog.h"
+#include "mechanism_codesign/error.h"
+#include "ros/advance.h"
+#include "ros/description.h"
+#include "ros/inputs.h"
+#include "ros/parameters.h"
+#include "ros/trajectory_bag.h"
+#include "text/decimal.h"
+#include "text/unknown_name.h"
 
 namespace codesign {
 namespace {

@@ -1,13 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/ros/simulation_options.h"
+#include "ros/simulation_options.h"
 
 #include <algorithm>
 #include <functional>
 
-#include "mechanism_codesign/math/decimal.h"
-#include "mechanism_codesign/model/unknown_name.h"
-#include "mechanism_codesign/ros/parameters.h"
-#include "mechanism_codesign/ros/run_clock.h"
+#include "ros/parameters.h"
+#include "ros/run_clock.h"
+#include "text/decimal.h"
+#include "text/unknown_name.h"
 
 namespace codesign {
 namespace {

@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_SENSITIVITY_ADJOINT_GRADIENT_H_
-#define MECHANISM_CODESIGN_SRC_SENSITIVITY_ADJOINT_GRADIENT_H_
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_ADJOINT_GRADIENT_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_ADJOINT_GRADIENT_H_
 
 #include <optional>
 #include <vector>
 
-#include "mechanism_codesign/integration/rosenbrock_integrator.h"
-#include "mechanism_codesign/sensitivity/gradient_engine.h"
+#include "integration/rosenbrock_integrator.h"
+#include "sensitivity/gradient_engine.h"
 #include "sensitivity/parameter_lanes.h"
 #include "sensitivity/step_path.h"
 
@@ -69,4 +69,4 @@ class AdjointGradient final : public GradientEngine {
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_SENSITIVITY_ADJOINT_GRADIENT_H_
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_ADJOINT_GRADIENT_H_

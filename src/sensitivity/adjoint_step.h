@@ -1,13 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_SENSITIVITY_ADJOINT_STEP_H_
-#define MECHANISM_CODESIGN_SRC_SENSITIVITY_ADJOINT_STEP_H_
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_ADJOINT_STEP_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_ADJOINT_STEP_H_
 
 #include <optional>
 #include <vector>
 
-#include "mechanism_codesign/dynamics/transposed_product.h"
-#include "mechanism_codesign/integration/rosenbrock_step.h"
+#include "integration/rosenbrock_step.h"
 #include "sensitivity/curvature.h"
+#include "sparse/transposed_product.h"
 
 namespace codesign {
 
@@ -78,4 +78,4 @@ class AdjointStep {
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_SENSITIVITY_ADJOINT_STEP_H_
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_ADJOINT_STEP_H_

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_SENSITIVITY_CURVATURE_H_
-#define MECHANISM_CODESIGN_SRC_SENSITIVITY_CURVATURE_H_
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_CURVATURE_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_CURVATURE_H_
 
 #include <vector>
 
-#include "mechanism_codesign/integration/increment.h"
-#include "mechanism_codesign/sensitivity/tangent_step.h"
+#include "integration/increment.h"
+#include "sensitivity/tangent_step.h"
 
 namespace codesign {
 
@@ -47,4 +47,4 @@ class Curvature {
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_SENSITIVITY_CURVATURE_H_
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_CURVATURE_H_

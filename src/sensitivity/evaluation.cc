@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/sensitivity/evaluation.h"
+#include "sensitivity/evaluation.h"
 
 #include <cmath>
 
-#include "mechanism_codesign/dynamics/system.h"
-#include "mechanism_codesign/math/cpu_timer.h"
-#include "mechanism_codesign/sensitivity/gradient_engine.h"
+#include "equations/system.h"
+#include "math/cpu_timer.h"
+#include "sensitivity/gradient_engine.h"
 
 namespace codesign {
 

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanism_codesign/dynamics/system.h"
-#include "mechanism_codesign/integration/rosenbrock_integrator.h"
-#include "mechanism_codesign/math/ridders.h"
-#include "mechanism_codesign/sensitivity/evaluation.h"
+#include "equations/system.h"
+#include "integration/rosenbrock_integrator.h"
+#include "math/ridders.h"
+#include "sensitivity/evaluation.h"
 #include "sensitivity/rosenbrock_gradient.h"
 
 namespace codesign {

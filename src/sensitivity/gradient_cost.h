@@ -1,6 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_SENSITIVITY_GRADIENT_COST_H_
-#define MECHANISM_CODESIGN_SRC_SENSITIVITY_GRADIENT_COST_H_
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_GRADIENT_COST_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_GRADIENT_COST_H_
 
 namespace codesign {
 
@@ -25,4 +25,4 @@ inline double adjoint_cost(int lanes) {
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_SENSITIVITY_GRADIENT_COST_H_
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_GRADIENT_COST_H_

@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/sensitivity/gradient_engine.h"
+#include "sensitivity/gradient_engine.h"
 
-#include "mechanism_codesign/dynamics/system.h"
+#include "equations/system.h"
 #include "sensitivity/adjoint_gradient.h"
 #include "sensitivity/gradient_cost.h"
 #include "sensitivity/idas_gradient.h"

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_SENSITIVITY_IDAS_GRADIENT_H_
-#define MECHANISM_CODESIGN_SRC_SENSITIVITY_IDAS_GRADIENT_H_
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_IDAS_GRADIENT_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_IDAS_GRADIENT_H_
 
 #include <memory>
 #include <vector>
 
-#include "mechanism_codesign/sensitivity/gradient_engine.h"
+#include "sensitivity/gradient_engine.h"
 #include "sensitivity/idas_tangent.h"
 
 namespace codesign {
@@ -37,4 +37,4 @@ class IdasGradient final : public GradientEngine {
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_SENSITIVITY_IDAS_GRADIENT_H_
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_IDAS_GRADIENT_H_

@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensitivity/idas_tangent.h"
 
-#include "mechanism_codesign/dynamics/derivative_products.h"
+#include "equations/derivative_products.h"
 
 namespace codesign {
 

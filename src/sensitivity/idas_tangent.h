@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_SENSITIVITY_IDAS_TANGENT_H_
-#define MECHANISM_CODESIGN_SRC_SENSITIVITY_IDAS_TANGENT_H_
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_IDAS_TANGENT_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_IDAS_TANGENT_H_
 
 #include <vector>
 
-#include "mechanism_codesign/dynamics/iteration_matrix.h"
-#include "mechanism_codesign/integration/idas_integrator.h"
-#include "mechanism_codesign/sensitivity/lane_groups.h"
+#include "equations/iteration_matrix.h"
+#include "integration/idas_integrator.h"
+#include "sensitivity/lane_groups.h"
 
 namespace codesign {
 
@@ -62,4 +62,4 @@ class IdasTangent final : public IdasSensitivities {
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_SENSITIVITY_IDAS_TANGENT_H_
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_IDAS_TANGENT_H_

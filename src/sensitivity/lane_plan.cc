@@ -8,8 +8,8 @@
 #include <map>
 #include <numeric>
 
-#include "mechanism_codesign/dynamics/assembly.h"
-#include "mechanism_codesign/sensitivity/lane_groups.h"
+#include "assembly/assembly.h"
+#include "sensitivity/lane_groups.h"
 
 namespace codesign {
 namespace {

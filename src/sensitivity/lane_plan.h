@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_SENSITIVITY_LANE_PLAN_H_
-#define MECHANISM_CODESIGN_SRC_SENSITIVITY_LANE_PLAN_H_
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_LANE_PLAN_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_LANE_PLAN_H_
 
 #include <atomic>
 #include <vector>
 
-#include "mechanism_codesign/dynamics/equations.h"
+#include "equations/equations.h"
 
 namespace codesign {
 
@@ -36,4 +36,4 @@ LanePlan plan_lanes(const System& system, const std::atomic<bool>* cancel = null
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_SENSITIVITY_LANE_PLAN_H_
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_LANE_PLAN_H_

@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_SENSITIVITY_LANE_STATE_H_
-#define MECHANISM_CODESIGN_SRC_SENSITIVITY_LANE_STATE_H_
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_LANE_STATE_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_LANE_STATE_H_
 
-#include "mechanism_codesign/dynamics/state.h"
-#include "mechanism_codesign/integration/increment.h"
-#include "mechanism_codesign/sensitivity/lane_directions.h"
+#include "equations/state.h"
+#include "integration/increment.h"
+#include "sensitivity/lane_directions.h"
 
 namespace codesign {
 
@@ -26,4 +26,4 @@ void load_lanes(const IncrementLayout& at, const State<double>& values, const Di
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_SENSITIVITY_LANE_STATE_H_
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_LANE_STATE_H_

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_SENSITIVITY_PARAMETER_LANES_H_
-#define MECHANISM_CODESIGN_SRC_SENSITIVITY_PARAMETER_LANES_H_
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_PARAMETER_LANES_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_PARAMETER_LANES_H_
 
 #include <vector>
 
-#include "mechanism_codesign/sensitivity/lane_groups.h"
 #include "sensitivity/adjoint_step.h"
+#include "sensitivity/lane_groups.h"
 #include "sensitivity/lane_plan.h"
 
 namespace codesign {
@@ -55,4 +55,4 @@ class ParameterLanes {
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_SENSITIVITY_PARAMETER_LANES_H_
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_PARAMETER_LANES_H_

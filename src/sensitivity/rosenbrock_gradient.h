@@ -1,13 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_SENSITIVITY_ROSENBROCK_GRADIENT_H_
-#define MECHANISM_CODESIGN_SRC_SENSITIVITY_ROSENBROCK_GRADIENT_H_
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_ROSENBROCK_GRADIENT_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_ROSENBROCK_GRADIENT_H_
 
 #include <optional>
 
-#include "mechanism_codesign/integration/rosenbrock_integrator.h"
-#include "mechanism_codesign/sensitivity/gradient_engine.h"
-#include "mechanism_codesign/sensitivity/lane_groups.h"
-#include "mechanism_codesign/sensitivity/tangent_step.h"
+#include "integration/rosenbrock_integrator.h"
+#include "sensitivity/gradient_engine.h"
+#include "sensitivity/lane_groups.h"
+#include "sensitivity/tangent_step.h"
 
 namespace codesign {
 
@@ -54,4 +54,4 @@ class RosenbrockGradient final : public GradientEngine {
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_SENSITIVITY_ROSENBROCK_GRADIENT_H_
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_ROSENBROCK_GRADIENT_H_

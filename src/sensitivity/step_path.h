@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SRC_SENSITIVITY_STEP_PATH_H_
-#define MECHANISM_CODESIGN_SRC_SENSITIVITY_STEP_PATH_H_
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_STEP_PATH_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_STEP_PATH_H_
 
 #include <vector>
 
-#include "mechanism_codesign/dynamics/state.h"
+#include "equations/state.h"
 
 namespace codesign {
 
@@ -61,4 +61,4 @@ class StepPath {
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SRC_SENSITIVITY_STEP_PATH_H_
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_STEP_PATH_H_

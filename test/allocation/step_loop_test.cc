@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 // No memory is asked for in the loop over time steps, once a first run has shown how much is needed.
 #include "allocation/count.h"
-#include "mechanism_codesign/integration/integrator.h"
+#include "integration/integrator.h"
 #include "sensitivity/gradient_cases.h"
 
 namespace codesign {

@@ -6,9 +6,9 @@
 #include <complex>
 
 #include "benchmark/mechanisms.h"
-#include "mechanism_codesign/dynamics/equations.h"
-#include "mechanism_codesign/optimization/problem.h"
+#include "equations/equations.h"
 #include "paths.h"
+#include "problem/problem.h"
 
 namespace codesign {
 namespace {

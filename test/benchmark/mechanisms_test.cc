@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "mechanism_codesign/dynamics/system.h"
-#include "mechanism_codesign/optimization/problem.h"
-#include "mechanism_codesign/sensitivity/evaluation.h"
+#include "equations/system.h"
+#include "problem/problem.h"
+#include "sensitivity/evaluation.h"
 
 namespace codesign {
 namespace {

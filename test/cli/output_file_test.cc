@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <sstream>
 
-#include "mechanism_codesign/jobs/output_error.h"
-#include "mechanism_codesign/jobs/whole_file.h"
-#include "mechanism_codesign/model/error.h"
+#include "jobs/output_error.h"
+#include "jobs/whole_file.h"
+#include "mechanism_codesign/error.h"
 
 namespace codesign::cli {
 namespace {

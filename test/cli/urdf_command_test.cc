@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/slider_crank.h"
-#include "mechanism_codesign/model/urdf_reader.h"
+#include "reading/urdf/urdf_reader.h"
 
 namespace codesign::cli {
 namespace {

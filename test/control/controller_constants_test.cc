@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/control/controller_constants.h"
+#include "control/controller_constants.h"
 
 #include <gtest/gtest.h>
 
-#include "model/study_fixture.h"
+#include "reading/study/study_fixture.h"
 
 namespace codesign {
 namespace {

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/control/reference.h"
+#include "control/reference.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "mechanism_codesign/math/ridders.h"
+#include "math/ridders.h"
 
 namespace codesign {
 namespace {

@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/control/shaped_input.h"
+#include "control/shaped_input.h"
 
 #include <gtest/gtest.h>
 
-#include "mechanism_codesign/math/ridders.h"
+#include "math/ridders.h"
 
 namespace codesign {
 namespace {

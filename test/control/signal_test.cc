@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/control/signal.h"
+#include "control/signal.h"
 
 #include <gtest/gtest.h>
 
-#include "model/urdf_fixture.h"
+#include "reading/urdf/urdf_fixture.h"
 
 namespace codesign {
 namespace {

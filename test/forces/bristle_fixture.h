@@ -6,9 +6,9 @@
 
 #include <Eigen/Geometry>
 
-#include "mechanism_codesign/forces/bristle.h"
-#include "mechanism_codesign/math/derivative_check.h"
-#include "mechanism_codesign/model/constants.h"
+#include "forces/bristle.h"
+#include "math/derivative_check.h"
+#include "mechanism/constants.h"
 
 namespace codesign {
 

@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/forces/isotropic_friction.h"
+#include "forces/isotropic_friction.h"
 
 #include <gtest/gtest.h>
 
-#include "mechanism_codesign/forces/brown_mcphee.h"
-#include "mechanism_codesign/math/derivative_check.h"
+#include "forces/brown_mcphee.h"
+#include "math/derivative_check.h"
 
 namespace codesign {
 namespace {

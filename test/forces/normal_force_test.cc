@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/forces/normal_force.h"
+#include "forces/normal_force.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
-#include "mechanism_codesign/math/derivative_check.h"
+#include "math/derivative_check.h"
 
 namespace codesign {
 namespace {

@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/forces/saturation.h"
+#include "forces/saturation.h"
 
 #include <gtest/gtest.h>
 
-#include "mechanism_codesign/math/derivative_check.h"
+#include "math/derivative_check.h"
 
 namespace codesign {
 namespace {

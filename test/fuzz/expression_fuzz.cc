@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "description/expression.h"
 #include "fuzz/mutation.h"
-#include "mechanism_codesign/model/expression.h"
 
 namespace codesign::fuzz {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "mechanism_codesign/ros/job.h"
+#include "ros/job.h"
 
 namespace codesign::fuzz {
 namespace {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "integration/energy_balance.h"
-#include "mechanism_codesign/integration/simulation.h"
-#include "mechanism_codesign/model/signal_catalog.h"
+#include "integration/simulation.h"
+#include "mechanism/signal_catalog.h"
 
 namespace codesign {
 namespace {

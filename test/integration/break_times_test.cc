@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/integration/break_times.h"
+#include "integration/break_times.h"
 
 #include <gtest/gtest.h>
 
+#include "integration/integrator.h"
 #include "integration/servo.h"
-#include "mechanism_codesign/integration/integrator.h"
 
 namespace codesign {
 namespace {

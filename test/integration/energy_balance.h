@@ -6,9 +6,9 @@
 #include <cmath>
 #include <string>
 
+#include "equations/energy.h"
 #include "integration/mechanisms.h"
-#include "mechanism_codesign/dynamics/energy.h"
-#include "mechanism_codesign/integration/rosenbrock_integrator.h"
+#include "integration/rosenbrock_integrator.h"
 
 namespace codesign {
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "mechanism_codesign/dynamics/assembly.h"
-#include "mechanism_codesign/integration/rosenbrock_step.h"
+#include "assembly/assembly.h"
+#include "integration/rosenbrock_step.h"
 
 namespace codesign {
 

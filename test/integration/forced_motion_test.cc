@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "integration/equal_steps.h"
+#include "integration/rosenbrock_step.h"
 #include "integration/servo.h"
-#include "mechanism_codesign/integration/rosenbrock_step.h"
-#include "mechanism_codesign/sensitivity/evaluation.h"
+#include "sensitivity/evaluation.h"
 
 namespace codesign {
 namespace {

@@ -2,8 +2,8 @@
 // Every joint that carries friction of its reaction, in the tree and as a loop, with preload: friction takes exactly its work.
 #include <gtest/gtest.h>
 
-#include "dynamics/compiled.h"
-#include "dynamics/joint_cases.h"
+#include "equations/compiled.h"
+#include "equations/joint_cases.h"
 #include "integration/energy_balance.h"
 
 namespace codesign {

@@ -5,7 +5,7 @@
 #include <regex>
 #include <tuple>
 
-#include "mechanism_codesign/integration/simulation.h"
+#include "integration/simulation.h"
 #include "mechanisms.h"
 
 namespace codesign {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "assembly/assembly.h"
+#include "equations/derivative_products.h"
 #include "integration/servo.h"
-#include "mechanism_codesign/dynamics/assembly.h"
-#include "mechanism_codesign/dynamics/derivative_products.h"
 
 namespace codesign {
 namespace {

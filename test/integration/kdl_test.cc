@@ -15,11 +15,11 @@
 #include <kdl/treeidsolver_recursive_newton_euler.hpp>
 #include <random>
 
-#include "mechanism_codesign/dynamics/system.h"
-#include "mechanism_codesign/integration/simulation.h"
-#include "mechanism_codesign/model/topology.h"
-#include "mechanism_codesign/model/urdf_reader.h"
+#include "equations/system.h"
+#include "integration/simulation.h"
+#include "mechanism/topology.h"
 #include "paths.h"
+#include "reading/urdf/urdf_reader.h"
 
 namespace codesign {
 namespace {

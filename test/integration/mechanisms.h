@@ -5,8 +5,8 @@
 #include <regex>
 #include <string>
 
-#include "mechanism_codesign/model/study_reader.h"
-#include "mechanism_codesign/model/urdf_reader.h"
+#include "reading/study/study_reader.h"
+#include "reading/urdf/urdf_reader.h"
 
 namespace codesign {
 

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "equations/system.h"
+#include "integration/rosenbrock_integrator.h"
 #include "integration/servo.h"
-#include "mechanism_codesign/dynamics/system.h"
-#include "mechanism_codesign/integration/rosenbrock_integrator.h"
 
 namespace codesign {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "mechanism_codesign/math/decimal.h"
+#include "text/decimal.h"
 
 namespace codesign::rounded {
 

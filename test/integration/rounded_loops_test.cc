@@ -4,12 +4,12 @@
 
 #include <cmath>
 
-#include "dynamics/compiled.h"
+#include "equations/compiled.h"
+#include "equations/system.h"
 #include "integration/rounded_linkages.h"
-#include "mechanism_codesign/dynamics/system.h"
-#include "mechanism_codesign/math/decimal.h"
-#include "mechanism_codesign/optimization/problem.h"
-#include "mechanism_codesign/sensitivity/evaluation.h"
+#include "problem/problem.h"
+#include "sensitivity/evaluation.h"
+#include "text/decimal.h"
 
 namespace codesign {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "integration/mechanisms.h"
-#include "mechanism_codesign/integration/simulation.h"
+#include "integration/simulation.h"
 
 namespace codesign {
 

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/integration/simulation.h"
+#include "integration/simulation.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "dynamics/compiled.h"
+#include "equations/compiled.h"
 
 namespace codesign {
 namespace {

@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/integration/singularity_watch.h"
+#include "integration/singularity_watch.h"
 
 #include <gtest/gtest.h>
 
+#include "equations/system.h"
+#include "integration/integrator.h"
 #include "integration/linkages.h"
 #include "integration/servo.h"
-#include "mechanism_codesign/dynamics/system.h"
-#include "mechanism_codesign/integration/integrator.h"
 
 namespace codesign {
 namespace {

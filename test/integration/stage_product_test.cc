@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/integration/stage_product.h"
+#include "integration/stage_product.h"
 
 #include <gtest/gtest.h>
 
 #include "integration/servo.h"
-#include "mechanism_codesign/dynamics/row_product.h"
+#include "sparse/row_product.h"
 
 namespace codesign {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "equations/system.h"
+#include "integration/integrator.h"
 #include "integration/rounded_linkages.h"
-#include "mechanism_codesign/dynamics/system.h"
-#include "mechanism_codesign/integration/integrator.h"
-#include "mechanism_codesign/optimization/problem.h"
+#include "problem/problem.h"
 
 namespace codesign {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/jobs/job_files.h"
+#include "jobs/job_files.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -10,7 +10,7 @@
 #include <regex>
 #include <set>
 
-#include "mechanism_codesign/jobs/output_error.h"
+#include "jobs/output_error.h"
 #include "temporary_directory.h"
 
 namespace codesign {

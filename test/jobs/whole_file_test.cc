@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/jobs/whole_file.h"
+#include "jobs/whole_file.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <iterator>
 
-#include "mechanism_codesign/jobs/output_error.h"
+#include "jobs/output_error.h"
 #include "temporary_directory.h"
 
 namespace codesign {

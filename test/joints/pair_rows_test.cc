@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/joints/pair_rows.h"
+#include "joints/pair_rows.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/joints/scalar_product.h"
+#include "joints/scalar_product.h"
 
 #include <gtest/gtest.h>
 
 #include "joints/two_bodies.h"
-#include "mechanism_codesign/math/derivative_check.h"
+#include "math/derivative_check.h"
 
 namespace codesign {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "mechanism_codesign/joints/body_kinematics.h"
-#include "mechanism_codesign/joints/local_row.h"
+#include "joints/body_kinematics.h"
+#include "joints/local_row.h"
 
 namespace codesign {
 

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/math/lanes.h"
+#include "math/lanes.h"
 
 #include <gtest/gtest.h>
 
 #include <complex>
 
-#include "mechanism_codesign/math/elementary.h"
+#include "math/elementary.h"
 
 namespace codesign {
 namespace {

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/optimization/optimizer.h"
+#include "optimization/optimizer.h"
 
 #include <gtest/gtest.h>
 
-#include "mechanism_codesign/model/study_reader.h"
-#include "mechanism_codesign/model/urdf_reader.h"
 #include "paths.h"
+#include "reading/study/study_reader.h"
+#include "reading/urdf/urdf_reader.h"
 
 namespace codesign {
 namespace {

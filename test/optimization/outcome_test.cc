@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "mechanism_codesign/optimization/optimizer.h"
-#include "mechanism_codesign/optimization/problem.h"
+#include "optimization/optimizer.h"
+#include "problem/problem.h"
 
 namespace codesign {
 namespace {

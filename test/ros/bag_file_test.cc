@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/ros/bag_file.h"
+#include "ros/bag_file.h"
 
 #include <gtest/gtest.h>
 #include <rosbag/view.h>
@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "child_process.h"
-#include "mechanism_codesign/jobs/output_error.h"
+#include "jobs/output_error.h"
 #include "temporary_directory.h"
 
 namespace codesign {

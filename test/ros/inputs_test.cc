@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/ros/inputs.h"
+#include "ros/inputs.h"
 
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "mechanism_codesign/model/error.h"
-#include "mechanism_codesign/ros/parameters.h"
+#include "mechanism_codesign/error.h"
 #include "paths.h"
+#include "ros/parameters.h"
 #include "ros/pendulum.h"
 
 namespace codesign {

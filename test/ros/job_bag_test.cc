@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/ros/job_bag.h"
+#include "ros/job_bag.h"
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
@@ -9,8 +9,8 @@
 
 #include <map>
 
-#include "mechanism_codesign/jobs/output_error.h"
-#include "mechanism_codesign/ros/conversions.h"
+#include "jobs/output_error.h"
+#include "ros/conversions.h"
 #include "sample_frame.h"
 #include "temporary_directory.h"
 

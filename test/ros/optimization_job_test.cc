@@ -12,8 +12,8 @@
 #include <csignal>
 #include <set>
 
-#include "mechanism_codesign/ros/job.h"
 #include "pendulum.h"
+#include "ros/job.h"
 #include "temporary_directory.h"
 
 namespace codesign {

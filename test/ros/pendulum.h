@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "mechanism_codesign/optimization/problem.h"
+#include "problem/problem.h"
 
 namespace codesign {
 

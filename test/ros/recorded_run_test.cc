@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/ros/recorded_run.h"
+#include "ros/recorded_run.h"
 
 #include <gtest/gtest.h>
 
-#include "mechanism_codesign/model/error.h"
+#include "mechanism_codesign/error.h"
 #include "pendulum.h"
 #include "sample_frame.h"
 

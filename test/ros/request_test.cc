@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/ros/request.h"
+#include "ros/request.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "mechanism_codesign/model/error.h"
+#include "mechanism_codesign/error.h"
 #include "pendulum.h"
 
 namespace codesign {

@@ -2,7 +2,7 @@
 #ifndef MECHANISM_CODESIGN_TEST_ROS_SAMPLE_FRAME_H_
 #define MECHANISM_CODESIGN_TEST_ROS_SAMPLE_FRAME_H_
 
-#include "mechanism_codesign/dynamics/frame.h"
+#include "mechanism_codesign/frame.h"
 
 namespace codesign {
 

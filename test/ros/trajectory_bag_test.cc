@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/ros/trajectory_bag.h"
+#include "ros/trajectory_bag.h"
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>

@@ -4,9 +4,9 @@
 
 #include <regex>
 
+#include "equations/system.h"
 #include "integration/servo.h"
-#include "mechanism_codesign/dynamics/system.h"
-#include "mechanism_codesign/sensitivity/evaluation.h"
+#include "sensitivity/evaluation.h"
 
 namespace codesign {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "benchmark/mechanisms.h"
 #include "integration/servo.h"
-#include "mechanism_codesign/sensitivity/gradient_engine.h"
+#include "sensitivity/gradient_engine.h"
 #include "system/shipped.h"
 
 namespace codesign {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "integration/mechanisms.h"
-#include "mechanism_codesign/sensitivity/evaluation.h"
+#include "sensitivity/evaluation.h"
 
 namespace codesign {
 namespace {

@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/sensitivity/gradient_engine.h"
+#include "sensitivity/gradient_engine.h"
 
 #include <gtest/gtest.h>
 
-#include "mechanism_codesign/sensitivity/evaluation.h"
 #include "sensitivity/adjoint_gradient.h"
+#include "sensitivity/evaluation.h"
 #include "sensitivity/gradient_cases.h"
 #include "sensitivity/idas_gradient.h"
 #include "sensitivity/rosenbrock_gradient.h"

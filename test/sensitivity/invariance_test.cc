@@ -3,10 +3,10 @@
 
 #include <regex>
 
-#include "mechanism_codesign/model/study_reader.h"
-#include "mechanism_codesign/model/urdf_reader.h"
-#include "mechanism_codesign/sensitivity/evaluation.h"
 #include "paths.h"
+#include "reading/study/study_reader.h"
+#include "reading/urdf/urdf_reader.h"
+#include "sensitivity/evaluation.h"
 
 namespace codesign {
 namespace {

@@ -2,10 +2,10 @@
 // Gradients of objectives that hold what joints exert, over the integral and at the end.
 #include <gtest/gtest.h>
 
+#include "equations/system.h"
 #include "integration/linkages.h"
 #include "integration/servo.h"
-#include "mechanism_codesign/dynamics/system.h"
-#include "mechanism_codesign/sensitivity/evaluation.h"
+#include "sensitivity/evaluation.h"
 #include "system/shipped.h"
 
 namespace codesign {

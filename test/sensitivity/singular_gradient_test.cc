@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "integration/linkages.h"
-#include "mechanism_codesign/math/decimal.h"
-#include "mechanism_codesign/optimization/problem.h"
-#include "mechanism_codesign/sensitivity/evaluation.h"
+#include "problem/problem.h"
+#include "sensitivity/evaluation.h"
+#include "text/decimal.h"
 
 namespace codesign {
 namespace {

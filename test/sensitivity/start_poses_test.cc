@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "integration/servo.h"
-#include "mechanism_codesign/sensitivity/evaluation.h"
+#include "sensitivity/evaluation.h"
 
 namespace codesign {
 namespace {

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/sensitivity/tangent_equations.h"
+#include "sensitivity/tangent_equations.h"
 
 #include <gtest/gtest.h>
 
-#include "dynamics/generic_state.h"
+#include "equations/generic_state.h"
 #include "integration/servo.h"
-#include "mechanism_codesign/math/directions.h"
+#include "math/directions.h"
 
 namespace codesign {
 namespace {

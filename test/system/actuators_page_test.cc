@@ -2,8 +2,8 @@
 // The numbers of doc/actuators.md.
 #include <gtest/gtest.h>
 
-#include "mechanism_codesign/optimization/problem.h"
 #include "paths.h"
+#include "problem/problem.h"
 
 namespace codesign {
 namespace {

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "mechanism_codesign/integration/simulation.h"
-#include "mechanism_codesign/model/study_reader.h"
-#include "mechanism_codesign/model/urdf_reader.h"
-#include "mechanism_codesign/sensitivity/evaluation.h"
+#include "integration/simulation.h"
 #include "paths.h"
+#include "reading/study/study_reader.h"
+#include "reading/urdf/urdf_reader.h"
+#include "sensitivity/evaluation.h"
 
 namespace codesign {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "mechanism_codesign/model/signal_catalog.h"
+#include "mechanism/signal_catalog.h"
 #include "paths.h"
 #include "system/shipped.h"
 

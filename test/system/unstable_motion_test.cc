@@ -2,7 +2,7 @@
 // Haug's slider-crank where it is hard: gains of the wrong sign, a stuck slider, a stiff controller. Counts of steps, no times.
 #include <algorithm>
 
-#include "mechanism_codesign/optimization/optimizer.h"
+#include "optimization/optimizer.h"
 #include "system/shipped.h"
 
 namespace codesign {

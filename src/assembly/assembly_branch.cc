@@ -1,0 +1,61 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// The part of an assembly that judges the velocities at the start.
+#include <cmath>
+
+#include "assembly/assembly.h"
+#include "assembly/given_start.h"
+
+namespace codesign {
+namespace {
+
+constexpr double kTakesPart = 1e-9;  // entry of the loops' Jacobian that counts
+
+}  // namespace
+
+// Named are the given ones that take part in a row that is not satisfied.
+Status Assembly::contradiction(const SparseMatrix& jacobian, const Eigen::VectorXd& left) {
+  const double most = left.cwiseAbs().maxCoeff();
+  std::string joints, loop;
+  const std::vector<InitialJointState>& given = system_.study().initial_state;
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    const int joint = tree_joint(system_.robot(), given[k]);
+    if (joint < 0 || !given[k].velocity) continue;
+    for (Eigen::Index row = 0; row < left.size(); ++row) {
+      if (std::abs(left[row]) < 1e-3 * most) continue;
+      loop = loops_.owner(static_cast<int>(row));
+      if (std::abs(jacobian.coeff(row, tree_.offset[static_cast<std::size_t>(joint)])) < kTakesPart) continue;
+      joints += (joints.empty() ? "'" : ", '") + given[k].joint + "'";
+      contradicting_.push_back(k);
+      break;
+    }
+  }
+  return {StatusCode::kInitialVelocityFailed, 0.0,
+          "the given initial velocities of " + joints + " contradict each other: loop or coupling '" + loop + "' cannot follow them"};
+}
+
+// Where several motions meet, rates that satisfy the loops need not be those of a motion.
+Status Assembly::choose_branch(const std::vector<double>& parameters, Equations<double>* equations) {
+  singular_start_.load(parameters, theta_, equations);
+  if (singular_start_.is_motion(theta_rate_)) return {};
+  const std::string joints = singular_start_.joints();
+  const std::string where = "the start is a singular position, where several motions of " + joints + " meet";
+  if (!singular_start_.choose_motion(velocity_given_, &theta_rate_))
+    return {StatusCode::kSingularConfiguration, 0.0, where + ", and the given velocities belong to none of them"};
+  warnings_.push_back({"singular_start",
+                       where + ", and the given velocities do not tell which: one was chosen, and gradients do not know of the choice. "
+                               "Give the initial velocity of one more of these joints, or start elsewhere",
+                       {}});
+  return {};
+}
+
+// From rest the accelerations must be such that a motion can follow.
+Status Assembly::check_rest(const State<double>& state) {
+  if (!theta_rate_.isZero(0.0)) return {};
+  const VectorX<double> accelerations = singular_start_.tree_accelerations(state.z.head(system_.layout().n));
+  if (accelerations.size() == 0 || accelerations.cwiseAbs().maxCoeff() < 1e-9 || singular_start_.is_motion(accelerations)) return {};
+  return {StatusCode::kSingularConfiguration, 0.0,
+          "the start is at rest in a singular position, where several motions of " + singular_start_.joints() +
+              " meet, and the forces do not tell which begins: give initial velocities, or start elsewhere"};
+}
+
+}  // namespace codesign

@@ -1,0 +1,196 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "determined_motion.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "text/decimal.h"
+
+namespace codesign {
+namespace {
+
+constexpr double kRank = 1e-9;
+constexpr double kSingular = 1e-12;          // smallest eigenvalue of M, scaled to a unit diagonal, that is told from rounding
+constexpr double kSmallestGyration = 1e-14;  // square of a radius of gyration [m^2] that no file means
+
+std::size_t index(int k) { return static_cast<std::size_t>(k); }
+
+bool lacks_inertia(const BodyConstants<double>& body) {
+  if (!(body.mass > 0.0)) return true;
+  const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.J, Eigen::EigenvaluesOnly).eigenvalues();
+  return !(moments[0] > kSingular * moments[2]) || !(moments[0] > kSmallestGyration * body.mass);
+}
+
+/// The motions that the tree's coordinates make one at a time.
+class Motions {
+ public:
+  Motions(const System& system, const std::vector<double>& parameters, const Assembly& assembly, Equations<double>* equations)
+      : system_(system), tree_(assembly.tree()), parameters_(parameters), theta_(assembly.theta()), equations_(equations) {
+    find_independent();
+    find_mass_matrix();
+    find_allowed();
+  }
+
+  /// A motion [one rate per independent coordinate] that has no inertia, or an empty vector.
+  Eigen::VectorXd undetermined() const {
+    if (allowed_.cols() == 0) return {};
+    const Eigen::MatrixXd projected = allowed_.transpose() * scale_.asDiagonal() * M_ * scale_.asDiagonal() * allowed_;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(projected);
+    const Eigen::VectorXd& values = solver.eigenvalues();
+    if (values[0] > kSingular * std::max(values[values.size() - 1], 0.0)) return {};
+    return scale_.asDiagonal() * (allowed_ * solver.eigenvectors().col(0));
+  }
+
+  [[noreturn]] void refuse(const Eigen::VectorXd& motion) const {
+    Eigen::Index largest = 0;
+    const double size = motion.cwiseAbs().maxCoeff(&largest);
+    std::string rates;
+    for (Eigen::Index k = 0; k < motion.size(); ++k)
+      if (std::abs(motion[k]) > 1e-6 * size)
+        rates += (rates.empty() ? "" : ", ") + joint_of(coordinates_[static_cast<std::size_t>(k)]).name + ": " +
+                 to_decimal(std::round(motion[k] / motion[largest] * 1e6) / 1e6);
+    const int c = coordinates_[static_cast<std::size_t>(largest)];
+    const LinkDescription& link = system_.robot().links[index(joint_of(c).child)];
+    throw InputError({link.inertial ? link.inertial->where : link.where, "<link name=\"" + link.name + "\">",
+                      "nothing with inertia resists the link " + direction(c) + ", so that this motion is not determined at the start",
+                      "rates of the joints that move: " + rates,
+                      "an <inertial> with mass, or with inertia in that direction; or a fixed joint"});
+  }
+
+ private:
+  const JointDescription& joint_of(int coordinate) const {
+    for (int k : tree_.joint_order) {
+      const int first = tree_.offset[index(k)];
+      if (coordinate >= first && coordinate < first + coordinates_of(system_.robot().joints[index(k)].type))
+        return system_.robot().joints[index(k)];
+    }
+    return system_.robot().joints.front();
+  }
+
+  std::vector<LinkMotion<double>> unit_motion(int c) const {
+    return link_motions(system_.robot(), tree_, parameters_, theta_, VectorX<double>(VectorX<double>::Unit(tree_.size, c)));
+  }
+
+  // Coordinates that move nothing, and those of a folded joint that repeat others, are left out.
+  void find_independent() {
+    Eigen::MatrixXd all(system_.layout().n, tree_.size);
+    VectorX<double> v;
+    for (int c = 0; c < tree_.size; ++c) {
+      body_coordinates(system_, equations_->constants(), unit_motion(c), &state_.q, &v);
+      const double size = v.norm();
+      all.col(c) = size > 1e-12 ? Eigen::VectorXd(v / size) : Eigen::VectorXd(Eigen::VectorXd::Zero(v.size()));
+    }
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+    qr.setThreshold(kRank);
+    qr.compute(all);
+    for (Eigen::Index k = 0; k < qr.rank(); ++k) coordinates_.push_back(qr.colsPermutation().indices()[k]);
+    std::sort(coordinates_.begin(), coordinates_.end());
+    V_.resize(all.rows(), qr.rank());
+    for (std::size_t k = 0; k < coordinates_.size(); ++k) {
+      body_coordinates(system_, equations_->constants(), unit_motion(coordinates_[k]), &state_.q, &v);
+      V_.col(static_cast<Eigen::Index>(k)) = v;
+    }
+  }
+
+  // What multiplies the accelerations in the equations of motion, bodies and all else that is accelerated.
+  void find_mass_matrix() {
+    const VectorX<double> q = state_.q;
+    state_.resize(system_.layout());
+    state_.q = q;
+    state_.v.setZero();
+    state_.z.setZero();
+    Linearization<double> d;
+    d.resize(system_.patterns());
+    equations_->linearize(state_, &d);
+    const Sparsity& G_z = system_.patterns().rate;
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int row = 0; row < system_.layout().n; ++row)
+      for (int e = G_z.first(row); e < G_z.first(row + 1); ++e)
+        if (G_z.column(e) < system_.layout().n) entries.emplace_back(row, G_z.column(e), d.rate[static_cast<std::size_t>(e)]);
+    Eigen::SparseMatrix<double> M(system_.layout().n, system_.layout().n);
+    M.setFromTriplets(entries.begin(), entries.end());
+    M_ = V_.transpose() * (M * V_);
+    choose_scale();
+  }
+
+  // To a unit diagonal; a coordinate that moves no inertia of its own is scaled as the lightest of the others.
+  void choose_scale() {
+    const Eigen::Index size = M_.rows();
+    double lightest = std::numeric_limits<double>::infinity();
+    for (Eigen::Index k = 0; k < size; ++k) {
+      M_(k, k) = moved_inertia(k);
+      if (M_(k, k) != 0.0) lightest = std::min(lightest, std::abs(M_(k, k)));
+    }
+    scale_.resize(size);
+    for (Eigen::Index k = 0; k < size; ++k)
+      scale_[k] = 1.0 / std::sqrt(M_(k, k) != 0.0 ? std::abs(M_(k, k)) : std::isfinite(lightest) ? lightest : 1.0);
+  }
+
+  double moved_inertia(Eigen::Index k) const {
+    double mass = 0.0;
+    const std::vector<LinkMotion<double>> motions = unit_motion(coordinates_[static_cast<std::size_t>(k)]);
+    for (std::size_t b = 0; b < system_.topology().bodies.size(); ++b)
+      if (motions[index(system_.topology().bodies[b].base_link)].omega.norm() > 0.0)
+        mass += std::abs(equations_->constants().bodies[b].mass);
+    return std::abs(M_(k, k)) > kSmallestGyration * mass ? M_(k, k) : 0.0;
+  }
+
+  // The null space of what loops and couplings forbid, in scaled coordinates.
+  void find_allowed() {
+    const Eigen::Index size = M_.rows();
+    Eigen::MatrixXd forbidden(system_.layout().m, size);
+    VectorX<double> errors, rates;
+    for (Eigen::Index k = 0; k < size; ++k) {
+      equations_->constraint_errors(state_.q, VectorX<double>(V_.col(k)), &errors, &rates);
+      forbidden.col(k) = rates * scale_[k];
+    }
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+    qr.setThreshold(kRank);
+    const double rounding = 1e-12 * scale_.maxCoeff();
+    forbidden = forbidden.unaryExpr([rounding](double x) { return std::abs(x) < rounding ? 0.0 : x; });
+    qr.compute(forbidden.transpose());
+    const Eigen::MatrixXd Q = qr.householderQ();
+    allowed_ = Q.rightCols(size - qr.rank());
+  }
+
+  std::string direction(int c) const {
+    const JointDescription& joint = joint_of(c);
+    const std::vector<LinkMotion<double>> motions = unit_motion(c);
+    const LinkMotion<double>&child = motions[index(joint.child)], &parent = motions[index(joint.parent)];
+    const Vector3<double> turn = child.omega - parent.omega;
+    const Vector3<double> axis = turn.norm() > 0.5 ? turn : child.velocity - parent.velocity;
+    std::string text;
+    for (int k = 0; k < 3; ++k) text += (k > 0 ? " " : "") + to_decimal(std::round(axis[k] * 1e6) / 1e6 + 0.0);
+    return std::string(turn.norm() > 0.5 ? "turning about" : "sliding along") + " the axis (" + text + ") of joint '" + joint.name + "'";
+  }
+
+  const System& system_;
+  const TreeLayout& tree_;
+  const std::vector<double>& parameters_;
+  VectorX<double> theta_;
+  Equations<double>* equations_;
+  State<double> state_;
+  std::vector<int> coordinates_;  ///< independent ones, ascending
+  Eigen::MatrixXd V_;             ///< velocities of the bodies per rate of these
+  Eigen::MatrixXd M_;             ///< their mass matrix
+  Eigen::VectorXd scale_;
+  Eigen::MatrixXd allowed_;  ///< orthonormal columns, of scaled coordinates
+};
+
+}  // namespace
+
+void require_determined_motion(const System& system, const std::vector<double>& parameters, const Assembly& assembly,
+                               Equations<double>* equations) {
+  const std::vector<BodyConstants<double>>& bodies = equations->constants().bodies;
+  if (std::none_of(bodies.begin(), bodies.end(), lacks_inertia)) return;
+  const Motions motions(system, parameters, assembly, equations);
+  const Eigen::VectorXd motion = motions.undetermined();
+  if (motion.size() > 0) motions.refuse(motion);
+}
+
+}  // namespace codesign

@@ -1,0 +1,32 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ASSEMBLY_GIVEN_START_H_
+#define MECHANISM_CODESIGN_ASSEMBLY_GIVEN_START_H_
+
+#include <vector>
+
+#include "equations/system.h"
+#include "equations/tree_kinematics.h"
+
+namespace codesign {
+
+/// Which of the tree's coordinates, and of their rates, the study gives.
+struct GivenStart {
+  std::vector<bool> position, guess, velocity;
+
+  GivenStart(const System& system, const TreeLayout& tree);
+};
+
+/// Sets the coordinates and rates that the study gives to their values at `parameters`; the others stay. The turning coordinates of a
+/// floating joint with a given rotation are zero: JointDescription::start_rotation holds it.
+template <class T>
+void set_given_start(const System& system, const TreeLayout& tree, const std::vector<T>& parameters, VectorX<T>* theta, VectorX<T>* rate);
+
+/// The tree joint of an initial state, as an index; -1 for a loop.
+int tree_joint(const RobotDescription& robot, const InitialJointState& initial);
+
+/// The description with the rotations that the study gives to floating joints.
+RobotDescription with_start_rotations(RobotDescription robot, const Study& study);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ASSEMBLY_GIVEN_START_H_

@@ -1,0 +1,227 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "assembly/loop_jacobian.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace codesign {
+namespace {
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+constexpr int kMostRows = 6;  // of one pair
+
+/// Disjoint sets of numbers.
+class Sets {
+ public:
+  explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int find(int k) {
+    while (parent_[at(k)] != k) k = parent_[at(k)] = parent_[at(parent_[at(k)])];
+    return k;
+  }
+  void join(int a, int b) { parent_[at(find(a))] = find(b); }
+
+ private:
+  std::vector<int> parent_;
+};
+
+/// A body as it stands at q, moved by a coordinate.
+void move(const CoordinateTwist& twist, BodyKinematics<double>* body) {
+  body->rd = twist.velocity + cross<double>(twist.omega, body->r - twist.point);
+  body->pd = 0.5 * (ground_rate_matrix(body->p).transpose() * twist.omega);
+  body->Ad = rotation_derivative(body->p, body->pd);
+}
+
+BodyKinematics<double> standing(const VectorX<double>& q, int body) {
+  BodyKinematics<double> k;
+  k.at_rest = body < 0;
+  if (k.at_rest) return k;
+  k.r = q.segment<3>(kBodySize * body);
+  k.p = q.segment<4>(kBodySize * body + 3);
+  k.update_rotation();
+  return k;
+}
+
+}  // namespace
+
+LoopJacobian::LoopJacobian(const System& system, const TreeLayout& tree)
+    : system_(system), tree_(tree), joint_of_(at(tree.size), -1), slides_(at(tree.size), false) {
+  for (int joint : tree.joint_order) {
+    const JointType type = system.robot().joints[at(joint)].type;
+    const int first = tree.offset[at(joint)], count = coordinates_of(type);
+    const int sliding = type == JointType::kPrismatic ? 1 : type == JointType::kPlanar ? 2 : type == JointType::kFloating ? 3 : 0;
+    for (int k = 0; k < count; ++k) {
+      joint_of_[at(first + k)] = joint;
+      slides_[at(first + k)] = k < sliding;
+    }
+  }
+  const Topology& topology = system.topology();
+  for (std::size_t k = 0; k < topology.pairs.size(); ++k)
+    if (topology.pairs[k].is_loop) add_loop(static_cast<int>(k));
+  first_coupling_row_ = rows();
+  for (std::size_t k = 0; k < topology.couplings.size(); ++k) {
+    add_row(system.layout().coupling_row(static_cast<int>(k)), topology.couplings[k].name);
+    for (const CouplingTerm& term : topology.couplings[k].terms) coordinates_.push_back(tree.offset[at(term.joint)]);
+  }
+  std::sort(coordinates_.begin(), coordinates_.end());
+  coordinates_.erase(std::unique(coordinates_.begin(), coordinates_.end()), coordinates_.end());
+}
+
+void LoopJacobian::add_row(int row, const std::string& owner) {
+  constraint_rows_.push_back(row);
+  owners_.push_back(owner);
+}
+
+// From both bodies towards the root; what both ways have in common moves the loop as a whole.
+void LoopJacobian::add_loop(int index) {
+  const Topology& topology = system_.topology();
+  const Pair& pair = topology.pairs[at(index)];
+  const auto joints_above = [&](int body) {
+    std::vector<int> joints;
+    if (body < 0) return joints;
+    for (int joint = topology.link_parent_joint[at(topology.bodies[at(body)].base_link)]; joint >= 0;
+         joint = topology.link_parent_joint[at(system_.robot().joints[at(joint)].parent)])
+      joints.push_back(joint);
+    return joints;
+  };
+  std::vector<int> above_i = joints_above(pair.body_i), above_j = joints_above(pair.body_j);
+  while (!above_i.empty() && !above_j.empty() && above_i.back() == above_j.back()) {
+    above_i.pop_back();
+    above_j.pop_back();
+  }
+  Loop loop{index, rows(), {}};
+  const auto add = [&](const std::vector<int>& joints, bool moves_j) {
+    for (int joint : joints)
+      for (int k = 0; k < coordinates_of(system_.robot().joints[at(joint)].type); ++k) {
+        loop.movers.push_back({tree_.offset[at(joint)] + k, moves_j});
+        coordinates_.push_back(loop.movers.back().coordinate);
+      }
+  };
+  add(above_i, false);
+  add(above_j, true);
+  for (int row = system_.layout().pair_row[at(index)]; row < system_.layout().pair_end(index); ++row) add_row(row, pair.name);
+  loops_.push_back(loop);
+}
+
+SparseMatrix LoopJacobian::evaluate(const std::vector<double>& parameters, const VectorX<double>& theta,
+                                    const Equations<double>& equations) const {
+  SparseMatrix result(rows(), tree_.size);
+  if (rows() == 0) return result;
+  const std::vector<LinkMotion<double>> links =
+      link_motions(system_.robot(), tree_, parameters, theta, VectorX<double>(VectorX<double>::Zero(tree_.size)));
+  const std::vector<CoordinateTwist> twists = coordinate_twists(system_.robot(), tree_, parameters, theta, links);
+  VectorX<double> q, v;
+  body_coordinates(system_, equations.constants(), links, &q, &v);
+  std::vector<Eigen::Triplet<double>> entries;
+  double errors[kMostRows], rates[kMostRows];
+  for (const Loop& loop : loops_) {
+    const Pair& pair = system_.topology().pairs[at(loop.pair)];
+    const BodyKinematics<double> i = standing(q, pair.body_i), j = standing(q, pair.body_j);
+    for (const Mover& mover : loop.movers) {
+      BodyKinematics<double> moved = mover.moves_j ? j : i;
+      move(twists[at(mover.coordinate)], &moved);
+      equations.pair_errors(loop.pair, mover.moves_j ? i : moved, mover.moves_j ? moved : j, errors, rates);
+      for (int k = 0; k < equations.rows(loop.pair).size(); ++k) entries.emplace_back(loop.first_row + k, mover.coordinate, rates[k]);
+    }
+  }
+  for (std::size_t k = 0; k < system_.topology().couplings.size(); ++k)
+    for (std::size_t t = 0; t < system_.topology().couplings[k].terms.size(); ++t)
+      entries.emplace_back(first_coupling_row_ + static_cast<int>(k), tree_.offset[at(system_.topology().couplings[k].terms[t].joint)],
+                           equations.constants().couplings[k].coefficients[t]);
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+int LoopJacobian::power(const Loop& loop, int within, const Equations<double>& equations) {
+  const PairRows<double>& kinds = equations.rows(loop.pair);
+  if (kinds.coincident && within < 3) return 1;
+  const ProductRow<double>& product = kinds.products[at(within - (kinds.coincident ? 3 : 0))];
+  return (product.X.terms == 2 ? 1 : 0) + (product.Y.terms == 2 ? 1 : 0);
+}
+
+LoopScales LoopJacobian::scales(const SparseMatrix& jacobian, const Equations<double>& equations) const {
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> by_rows = jacobian;
+  const auto largest = [&](int row, bool turns_only) {
+    double value = 0.0;
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(by_rows, row); entry; ++entry)
+      if (!turns_only || !slides(static_cast<int>(entry.col()))) value = std::max(value, std::abs(entry.value()));
+    return value > 0.0 ? value : 1.0;
+  };
+  LoopScales scales{Eigen::VectorXd::Ones(rows()), Eigen::VectorXd::Ones(jacobian.cols())};
+  for (const Loop& loop : loops_) {
+    double lever = 0.0;
+    for (int k = 0; k < rows_of(loop); ++k)
+      if (power(loop, k, equations) == 1) lever = std::max(lever, largest(loop.first_row + k, true));
+    for (int k = 0; k < rows_of(loop); ++k) {
+      const int order = power(loop, k, equations), row = loop.first_row + k;
+      if (order > 0) scales.rows[row] = 1.0 / (order == 1 ? lever : largest(row, false));
+    }
+  }
+  for (int k = first_coupling_row_; k < rows(); ++k) scales.rows[k] = 1.0 / largest(k, false);
+  for (int c : coordinates_) {
+    if (!slides(c)) continue;
+    double value = 0.0;
+    for (SparseMatrix::InnerIterator entry(jacobian, c); entry; ++entry)
+      value = std::max(value, std::abs(entry.value()) * scales.rows[entry.row()]);
+    if (value > 0.0) scales.columns[c] = 1.0 / value;
+  }
+  return scales;
+}
+
+std::vector<LoopMiss> LoopJacobian::misses(const VectorX<double>& errors, const Equations<double>& equations) const {
+  std::vector<LoopMiss> misses;
+  for (const Loop& loop : loops_) {
+    LoopMiss& miss = misses.emplace_back();
+    miss.owner = system_.topology().pairs[at(loop.pair)].name;
+    for (int k = 0; k < rows_of(loop); ++k) {
+      const double error = std::abs(errors[constraint_rows_[at(loop.first_row + k)]]);
+      const int order = power(loop, k, equations);
+      const double length = order == 2 ? equations.constants().pairs[at(loop.pair)].distance : 1.0;
+      double& part = order == 0 ? miss.angle : miss.length;
+      part = std::max(part, length > 0.0 ? error / length : std::sqrt(2.0 * error));
+    }
+  }
+  for (int k = first_coupling_row_; k < rows(); ++k) misses.push_back({owners_[at(k)], 0.0, std::abs(errors[constraint_rows_[at(k)]])});
+  return misses;
+}
+
+std::vector<LoopJacobian::Part> LoopJacobian::parts() const {
+  const Topology& topology = system_.topology();
+  Sets sets(at(tree_.size + rows()));  // coordinates, then rows
+  for (const Loop& loop : loops_) {
+    const int count = rows_of(loop);
+    for (int k = 0; k < count; ++k) sets.join(tree_.size + loop.first_row + k, tree_.size + loop.first_row);
+    for (const Mover& mover : loop.movers) sets.join(mover.coordinate, tree_.size + loop.first_row);
+  }
+  for (std::size_t k = 0; k < topology.couplings.size(); ++k)
+    for (const CouplingTerm& term : topology.couplings[k].terms)
+      sets.join(tree_.offset[at(term.joint)], tree_.size + first_coupling_row_ + static_cast<int>(k));
+  std::vector<Part> parts;
+  std::vector<int> part_of(at(tree_.size + rows()), -1);
+  for (int row = 0; row < rows(); ++row) {
+    int& part = part_of[at(sets.find(tree_.size + row))];
+    if (part < 0) {
+      part = static_cast<int>(parts.size());
+      parts.emplace_back();
+    }
+    parts[at(part)].rows.push_back(row);
+    if (row >= first_coupling_row_) parts[at(part)].couplings.push_back(row - first_coupling_row_);
+  }
+  std::vector<int> pair_part(topology.pairs.size(), -1);
+  for (const Loop& loop : loops_)
+    if (rows_of(loop) > 0) pair_part[at(loop.pair)] = part_of[at(sets.find(tree_.size + loop.first_row))];
+  for (int c : coordinates_) {
+    const int pair = topology.joint_pair[at(joint_of_[at(c)])];
+    if (pair >= 0) pair_part[at(pair)] = part_of[at(sets.find(c))];
+  }
+  for (std::size_t pair = 0; pair < pair_part.size(); ++pair)
+    if (pair_part[pair] >= 0) parts[at(pair_part[pair])].pairs.push_back(static_cast<int>(pair));
+  return parts;
+}
+
+int LoopJacobian::rows_of(const Loop& loop) const {
+  return system_.layout().pair_end(loop.pair) - system_.layout().pair_row[at(loop.pair)];
+}
+
+}  // namespace codesign

@@ -1,0 +1,312 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "assembly/redundancy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "math/euler_parameters.h"
+
+namespace codesign {
+namespace {
+
+constexpr double kRank = 1e-3;  // of the loops' scaled Jacobian: what rounded angles and lengths leave of a row that follows from others
+constexpr double kTakesPart = 1e-7;  // of the largest component of a self-stress: far above its rounding
+constexpr double kTestMotion = 0.2;  // [rad] or as much of a loop's longest lever
+constexpr double kTestMiss = 2e-3;   // of a row after the test motion; one that merely is singular at the start misses ten times as much
+constexpr int kTrials = 3;
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+std::string vector_name(const PairVector<double>& x) {
+  if (x.terms == 2) return "d";
+  const int index = x.term[0].shared % 4;
+  return std::string(1, "xyz"[index]) + (x.term[0].side == Side::kI ? "_i" : "_j");
+}
+
+/// The product and what it says: a displacement is d, from the joint's point on i to that on j.
+std::string product_kind(const ProductRow<double>& row) {
+  const std::string product = vector_name(row.X) + " . " + vector_name(row.Y);
+  if (row.X.terms == 2 && row.Y.terms == 2) return "distance, " + product;
+  if (row.X.terms == 2 || row.Y.terms == 2) return "point in a plane, " + product;
+  const int x = row.X.term[0].shared % 4, y = row.Y.term[0].shared % 4;
+  if (x == 2 && y == 2) return "constant angle, " + product;
+  return (x == 2 || y == 2 ? "parallel axes, " : "no turn, ") + product;
+}
+
+/// Numbers between -1 and 1, the same in every run.
+Eigen::MatrixXd mixed_numbers(Eigen::Index rows, Eigen::Index columns) {
+  std::mt19937 generator(1);
+  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&generator] { return static_cast<double>(generator() % 2001) / 1000.0 - 1.0; });
+}
+
+/// Rows of a matrix as columns, without the numbers that are zero in all of them.
+SparseMatrix rows_as_columns(const Eigen::SparseMatrix<double, Eigen::RowMajor>& A, const std::vector<int>& rows) {
+  std::vector<Eigen::Triplet<double>> entries;
+  std::map<Eigen::Index, int> place;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(A, rows[k]); entry; ++entry)
+      entries.emplace_back(place.emplace(entry.col(), static_cast<int>(place.size())).first->second, static_cast<int>(k), entry.value());
+  SparseMatrix result(static_cast<Eigen::Index>(place.size()), static_cast<Eigen::Index>(rows.size()));
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+/// Which of the rows that seem to follow from the others do so wherever the mechanism goes.
+class TestMotion {
+ public:
+  TestMotion(const System& system, Equations<double>* equations, const LoopJacobian& loops, const TreeLayout& tree,
+             const std::vector<double>& parameters)
+      : system_(system), equations_(equations), loops_(loops), tree_(tree), parameters_(parameters) {}
+
+  /// Drops from `rows` (of the loops) those that do not hold any more when the others lead the mechanism elsewhere.
+  void sift(const VectorX<double>& theta, std::vector<int>* rows) {
+    for (int trial = 0; trial < kTrials && !rows->empty(); ++trial) {
+      held_.setOnes(loops_.rows());
+      for (int row : *rows) held_[row] = 0.0;
+      for (double size = kTestMotion; size > 0.1 * kTestMotion; size *= 0.5)
+        if (try_motion(theta, trial, size, rows)) break;
+    }
+  }
+
+ private:
+  struct Linear {
+    SparseMatrix matrix;
+    LoopScales scales;
+    LeastSquares inverse;
+  };
+
+  void linearize(const VectorX<double>& theta, Linear* l) const {
+    l->matrix = loops_.evaluate(parameters_, theta, *equations_);
+    l->scales = loops_.scales(l->matrix, *equations_);
+    l->matrix =
+        columns_of(held_.cwiseProduct(l->scales.rows).asDiagonal() * l->matrix * l->scales.columns.asDiagonal(), loops_.coordinates());
+    l->inverse.factor(l->matrix, kRank);
+  }
+
+  void add(const Eigen::VectorXd& step, const LoopScales& scales, VectorX<double>* theta) const {
+    for (std::size_t k = 0; k < loops_.coordinates().size(); ++k) {
+      const int c = loops_.coordinates()[k];
+      (*theta)[c] += scales.columns[c] * step[static_cast<Eigen::Index>(k)];
+    }
+  }
+
+  Eigen::VectorXd errors(const VectorX<double>& theta, const LoopScales& scales) {
+    for (std::size_t p = 0; p < system_.topology().pairs.size(); ++p)
+      for (std::size_t e = 0; e < system_.topology().pairs[p].chain.size(); ++e) {
+        const int joint = system_.topology().pairs[p].chain[e].joint;
+        const bool in_loop = system_.robot().joints[at(joint)].is_loop;
+        equations_->turn_references()[p][e] = in_loop ? 0.0 : theta[tree_.offset[at(joint)]];
+      }
+    body_coordinates(system_, equations_->constants(),
+                     link_motions(system_.robot(), tree_, parameters_, theta, VectorX<double>(VectorX<double>::Zero(theta.size()))), &q_,
+                     &v_);
+    equations_->constraint_errors(q_, v_, &Phi_, &Phi_rate_);
+    Eigen::VectorXd part(loops_.rows());
+    for (int k = 0; k < loops_.rows(); ++k) part[k] = scales.rows[k] * Phi_[loops_.constraint_rows()[at(k)]];
+    return part;
+  }
+
+  /// False if the rows that are held could not be kept.
+  bool try_motion(const VectorX<double>& start, int trial, double size, std::vector<int>* rows) {
+    Linear l;
+    linearize(start, &l);
+    const Eigen::VectorXd before = errors(start, l.scales).cwiseAbs();
+    Eigen::VectorXd direction = mixed_numbers(static_cast<Eigen::Index>(loops_.coordinates().size()), kTrials).col(trial);
+    direction -= l.inverse.solve(l.matrix * direction);
+    const double largest = direction.cwiseAbs().maxCoeff();
+    if (largest < 1e-9) return true;
+    VectorX<double> theta = start;
+    add(direction * (size / largest), l.scales, &theta);
+    Eigen::VectorXd now;
+    for (int iteration = 0; iteration < 20; ++iteration) {
+      linearize(theta, &l);
+      now = errors(theta, l.scales);
+      const Eigen::VectorXd held = held_.cwiseProduct(now);
+      if (!held.allFinite()) return false;
+      if (held.cwiseAbs().maxCoeff() < 1e-9) break;
+      add(-l.inverse.solve(held), l.scales, &theta);
+    }
+    if (!(held_.cwiseProduct(now).cwiseAbs().maxCoeff() < 1e-6)) return false;
+    const double allowed = kTestMiss * size * size / (kTestMotion * kTestMotion);
+    const auto fails = [&](int row) { return std::abs(now[row]) > std::max(allowed, 10.0 * before[row]); };
+    rows->erase(std::remove_if(rows->begin(), rows->end(), fails), rows->end());
+    return true;
+  }
+
+  const System& system_;
+  Equations<double>* equations_;
+  const LoopJacobian& loops_;
+  const TreeLayout& tree_;
+  const std::vector<double>& parameters_;
+  Eigen::VectorXd held_;
+  VectorX<double> q_, v_, Phi_, Phi_rate_;
+};
+
+class Analysis {
+ public:
+  Analysis(const System& system, const Equations<double>& equations) : system_(system), layout_(system.layout()), equations_(equations) {}
+
+  ConstraintRow describe(int row) const {
+    if (row >= layout_.norm_row(0)) return {system_.topology().bodies[index(row - layout_.norm_row(0))].name, 1, "unit Euler parameters"};
+    if (row >= layout_.coupling_row(0)) {
+      const Coupling& coupling = system_.topology().couplings[index(row - layout_.coupling_row(0))];
+      return {coupling.name, 1, coupling.is_mimic ? "mimic" : "coupling"};
+    }
+    std::size_t pair = layout_.pair_row.size() - 1;
+    while (layout_.pair_row[pair] > row) --pair;
+    const int within = row - layout_.pair_row[pair];
+    return {system_.topology().pairs[pair].name, within + 1, pair_row_kind(pair, within)};
+  }
+
+  /// Notes what self-stresses move: loads of the rows (layout.constraints() x any number) that balance each other.
+  void find_undetermined(const Eigen::MatrixXd& stress, double threshold, Redundancy* result) const {
+    const auto moves = [&](int first, int last) {
+      return last > first && stress.middleRows(first, last - first).cwiseAbs().maxCoeff() > threshold;
+    };
+    const Topology& topology = system_.topology();
+    for (std::size_t k = 0; k < topology.pairs.size(); ++k) {
+      if (!moves(layout_.pair_row[k], layout_.pair_end(static_cast<int>(k)))) continue;
+      result->undetermined.push_back(topology.pairs[k].name);
+      const int joint = topology.pairs[k].friction_joint;
+      // All of a joint's rows enter its normal force, but in a plane and in a ball, whose pressure is the force alone.
+      const bool plane = topology.pairs[k].kind == PairKind::kPlanar || topology.pairs[k].kind == PairKind::kTable;
+      if (joint < 0 || (plane && !moves(layout_.pair_row[k], layout_.pair_row[k] + 1))) continue;
+      result->friction_chosen.push_back(topology.pairs[k].name);
+      result->chosen_joints.push_back(joint);
+    }
+    for (std::size_t k = 0; k < topology.couplings.size(); ++k) {
+      const int row = layout_.coupling_row(static_cast<int>(k));
+      if (moves(row, row + 1)) result->undetermined.push_back(topology.couplings[k].name);
+    }
+  }
+
+ private:
+  static std::size_t index(int k) { return static_cast<std::size_t>(k); }
+
+  std::string pair_row_kind(std::size_t pair, int within) const {
+    const PairRows<double>& rows = equations_.rows(static_cast<int>(pair));
+    if (rows.coincident && within < 3) return std::string("coincident points, ground ") + "xyz"[within];
+    return product_kind(rows.products[index(within - (rows.coincident ? 3 : 0))]);
+  }
+
+  const System& system_;
+  const Layout& layout_;
+  const Equations<double>& equations_;
+};
+
+/// Constraint rows by the bodies' translations and turns, which the unit Euler parameters do not restrict; a column per row.
+SparseMatrix loads_of_rows(const System& system, const SparseMatrix& Phi_q, const VectorX<double>& q, const std::vector<int>& rows) {
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> by_rows = Phi_q;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(by_rows, rows[k]); entry; ++entry) {
+      const int body = static_cast<int>(entry.col()) / kBodySize, local = static_cast<int>(entry.col()) % kBodySize;
+      if (local < 3) {
+        entries.emplace_back(6 * body + local, static_cast<int>(k), entry.value());
+        continue;
+      }
+      const Eigen::Vector3d turn = 0.5 * ground_rate_matrix<double>(q.segment<4>(kBodySize * body + 3)).col(local - 3);
+      for (int c = 0; c < 3; ++c) entries.emplace_back(6 * body + 3 + c, static_cast<int>(k), entry.value() * turn[c]);
+    }
+  SparseMatrix result(6 * system.layout().bodies, static_cast<Eigen::Index>(rows.size()));
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+/// Self-stresses: any loads of the redundant rows, and those of the others that balance them.
+void find_undetermined(const System& system, Equations<double>* equations, const State<double>& state, const std::vector<int>& redundant,
+                       const ReactionSharing& sharing, Redundancy* result) {
+  const Layout& layout = system.layout();
+  std::vector<int> others;
+  const auto add = [&](int first, int last) {
+    for (int row = first; row < last; ++row)
+      if (!std::binary_search(redundant.begin(), redundant.end(), row)) others.push_back(row);
+  };
+  for (int pair : sharing.pairs) add(layout.pair_row[at(pair)], layout.pair_end(pair));
+  for (int coupling : sharing.couplings) add(layout.coupling_row(coupling), layout.coupling_row(coupling) + 1);
+  const SparseMatrix Phi_q = constraint_jacobian(system, equations, state);
+  const SparseMatrix kept = loads_of_rows(system, Phi_q, state.q, others), open = loads_of_rows(system, Phi_q, state.q, redundant);
+  const Eigen::MatrixXd chosen = mixed_numbers(open.cols(), kTrials);
+  LeastSquares balance;
+  balance.factor(kept, 1e-9);
+  const Eigen::MatrixXd answer = balance.solve(Eigen::MatrixXd(-(open * chosen)));
+  const double left = (kept * answer + open * chosen).cwiseAbs().maxCoeff();
+  Eigen::MatrixXd stress = Eigen::MatrixXd::Zero(layout.constraints(), kTrials);
+  for (std::size_t k = 0; k < redundant.size(); ++k) stress.row(redundant[k]) = chosen.row(static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < others.size(); ++k) stress.row(others[k]) = answer.row(static_cast<Eigen::Index>(k));
+  result->stress_threshold = kTakesPart * stress.cwiseAbs().maxCoeff() + 100.0 * left;
+  Analysis(system, *equations).find_undetermined(stress, result->stress_threshold, result);
+  result->self_stress = std::move(stress);
+}
+
+}  // namespace
+
+SparseMatrix constraint_jacobian(const System& system, Equations<double>* equations, const State<double>& state) {
+  Linearization<double> d;
+  d.resize(system.patterns());
+  equations->linearize(state, &d);
+  const Layout& layout = system.layout();
+  const Sparsity& G_z = system.patterns().rate;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int row = 0; row < layout.constraints(); ++row)
+    for (int e = G_z.first(layout.lambda_column(row)); e < G_z.first(layout.lambda_column(row) + 1); ++e)
+      if (G_z.column(e) < layout.n) entries.emplace_back(row, G_z.column(e), d.rate[at(e)]);
+  SparseMatrix Phi_q(layout.constraints(), layout.n);
+  Phi_q.setFromTriplets(entries.begin(), entries.end());
+  return Phi_q;
+}
+
+Redundancy analyse_redundancy(const System& system, Equations<double>* equations, const Assembly& assembly,
+                              const std::vector<double>& parameters, const State<double>& state) {
+  Redundancy result;
+  const LoopJacobian& loops = assembly.loops();
+  if (loops.rows() == 0) return result;
+  const SparseMatrix jacobian = loops.evaluate(parameters, assembly.theta(), *equations);
+  const LoopScales scales = loops.scales(jacobian, *equations);
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> scaled = scales.rows.asDiagonal() * jacobian * scales.columns.asDiagonal();
+  std::vector<int> rows, redundant;
+  for (const LoopJacobian::Part& part : loops.parts()) {
+    const std::vector<int> dependent = dependent_columns(rows_as_columns(scaled, part.rows), kRank);
+    if (dependent.empty()) continue;
+    for (int k : dependent) rows.push_back(part.rows[at(k)]);
+    result.sharing.pairs.insert(result.sharing.pairs.end(), part.pairs.begin(), part.pairs.end());
+    result.sharing.couplings.insert(result.sharing.couplings.end(), part.couplings.begin(), part.couplings.end());
+  }
+  if (rows.empty()) return result;
+  for (std::vector<int>* list : {&result.sharing.pairs, &result.sharing.couplings}) std::sort(list->begin(), list->end());
+  for (int row : rows) redundant.push_back(loops.constraint_rows()[at(row)]);
+  std::sort(redundant.begin(), redundant.end());
+  const Analysis analysis(system, *equations);
+  for (int row : redundant) result.rows.push_back(analysis.describe(row));
+  find_undetermined(system, equations, state, redundant, result.sharing, &result);
+  TestMotion(system, equations, loops, assembly.tree(), parameters).sift(assembly.theta(), &rows);
+  for (int row : rows) result.sharing.dropped.push_back(loops.constraint_rows()[at(row)]);
+  std::sort(result.sharing.dropped.begin(), result.sharing.dropped.end());
+  return result;
+}
+
+std::vector<std::size_t> open_reactions(const System& system, const Redundancy& redundancy, State<double> state,
+                                        const std::vector<Signal>& signals, Equations<double>* equations) {
+  const Layout& layout = system.layout();
+  std::vector<bool> open(signals.size(), false);
+  state.z.setZero(layout.columns());
+  for (Eigen::Index trial = 0; trial < redundancy.self_stress.cols(); ++trial) {
+    state.z.segment(layout.n, layout.constraints()) = redundancy.self_stress.col(trial);
+    equations->load(state);
+    for (std::size_t k = 0; k < signals.size(); ++k) {
+      double moved = 0.0;
+      for (const SignalReference& term : signals[k])
+        if (term.kind == SignalKind::kReactionForce || term.kind == SignalKind::kReactionTorque)
+          moved += term.factor * equations->multiplier_reaction(term);
+      if (std::abs(moved) > redundancy.stress_threshold) open[k] = true;
+    }
+  }
+  std::vector<std::size_t> found;
+  for (std::size_t k = 0; k < open.size(); ++k)
+    if (open[k]) found.push_back(k);
+  return found;
+}
+
+}  // namespace codesign

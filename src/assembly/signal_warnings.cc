@@ -1,0 +1,45 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "assembly/signal_warnings.h"
+
+#include <algorithm>
+
+#include "assembly/assembly.h"
+#include "mechanism/signal_catalog.h"
+
+namespace codesign {
+
+Warnings warn_of_open_reactions(const System& system, const Redundancy& redundancy, const State<double>& state,
+                                const std::vector<SignalDescription>& signals, Equations<double>* equations) {
+  std::vector<Signal> resolved;
+  resolved.reserve(signals.size());
+  for (const SignalDescription& signal : signals)
+    resolved.push_back(resolve_signal(signal, system.robot(), system.topology(), system.study().controllers));
+  Warnings warnings;
+  for (std::size_t k : open_reactions(system, redundancy, state, resolved, equations))
+    append({warn("undetermined_reaction",
+                 {signals[k].where, "signal",
+                  "the signal reads a reaction that nothing determines, because constraints of the loop follow from each other; that of "
+                  "least norm is taken; to silence this, give one joint of the loop the freedom that it has in fact, as "
+                  "codesign:spherical or codesign:cylindrical",
+                  signals[k].text, ""})},
+           &warnings);
+  return warnings;
+}
+
+Warnings warn_of_open_reactions(const System& system, const std::vector<SignalDescription>& signals) {
+  const auto reads_one = [](const SignalDescription& signal) {
+    return std::any_of(signal.terms.begin(), signal.terms.end(), [](const SignalTerm& term) { return is_reaction(term); });
+  };
+  if (std::none_of(signals.begin(), signals.end(), reads_one)) return {};
+  Equations<double> equations(system);
+  equations.compiled().allow(false);
+  const std::vector<double> parameters = system.parameters();
+  equations.set_design(parameters);
+  Assembly assembly(system);
+  State<double> state;
+  if (!assembly.solve_positions(parameters, &equations, &state).ok()) return {};
+  const Redundancy redundancy = analyse_redundancy(system, &equations, assembly, parameters, state);
+  return warn_of_open_reactions(system, redundancy, state, signals, &equations);
+}
+
+}  // namespace codesign

@@ -1,0 +1,81 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_CODEGEN_MACHINE_CODE_H_
+#define MECHANISM_CODESIGN_CODEGEN_MACHINE_CODE_H_
+
+namespace codesign {
+
+/// A number in one of the arrays that compiled code works on; none if array < 0.
+struct Place {
+  int array = -1, index = 0;
+
+  friend bool operator==(const Place& x, const Place& y) { return x.array == y.array && x.index == y.index; }
+};
+
+/// How many arrays compiled code can work on.
+constexpr int kCodeArrays = 11;
+
+}  // namespace codesign
+
+#ifdef CODESIGN_MACHINE_CODE
+#include <xbyak/xbyak.h>
+#include <xbyak/xbyak_util.h>
+
+#include <cstddef>
+
+namespace codesign {
+
+/// Code without loops over numbers in arrays; a function int(double* const*) of the arrays' first numbers, which it finds in rbx. Its
+/// memory is writable only until finish(). System V calling convention.
+class MachineCode : protected Xbyak::CodeGenerator {
+ public:
+  MachineCode(const MachineCode&) = delete;
+  MachineCode& operator=(const MachineCode&) = delete;
+
+  /// Whether this processor has the instructions that are used, AVX2 and FMA.
+  static bool can_run() {
+    static const bool can = [] {
+      const Xbyak::util::Cpu cpu;
+      return cpu.has(Xbyak::util::Cpu::tAVX2) && cpu.has(Xbyak::util::Cpu::tFMA);
+    }();
+    return can;
+  }
+
+ protected:
+  explicit MachineCode(std::size_t bytes) : Xbyak::CodeGenerator((bytes + 4095) / 4096 * 4096, Xbyak::DontSetProtectRWE) {}
+
+  /// Saves registers and loads the arrays' addresses; the stack is then aligned for calls.
+  void enter() {
+    push(rbx), push(rbp), push(r13);
+    mov(rbx, rdi);
+    load_bases();
+  }
+  /// Again after a call, which may have changed them.
+  void load_bases() {
+    for (int k = 0; k < kCodeArrays; ++k) mov(base(k), ptr[rbx + 8 * k]);
+  }
+  /// Returns what eax holds.
+  void leave() {
+    pop(r13), pop(rbp), pop(rbx);
+    ret();
+  }
+  void finish() {
+    setProtectModeRE();
+    run_ = getCode<int (*)(const double* const*)>();
+  }
+
+  Xbyak::Reg64 base(int array) const {
+    const Xbyak::Reg64 bases[kCodeArrays] = {rsi, rdx, rcx, r8, r9, r10, r11, rax, rbp, r13, rdi};
+    return bases[array];
+  }
+  Xbyak::Address number(const Place& place) { return qword[base(place.array) + 8 * place.index]; }
+
+  int call(const double* const* arrays) const { return run_(arrays); }
+
+ private:
+  int (*run_)(const double* const*) = nullptr;
+};
+
+}  // namespace codesign
+#endif
+
+#endif  // MECHANISM_CODESIGN_CODEGEN_MACHINE_CODE_H_

@@ -1,0 +1,54 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "codegen/recording.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace codesign {
+namespace {
+
+int find_or_append(const void* origin, std::vector<const void*>* origins) {
+  const auto known = std::find(origins->begin(), origins->end(), origin);
+  const auto index = static_cast<int>(known - origins->begin());
+  if (known == origins->end()) origins->push_back(origin);
+  return index;
+}
+
+}  // namespace
+
+int Recording::append(const Node& node) {
+  nodes_.push_back(node);
+  return size() - 1;
+}
+
+int Recording::leaf(int array, int index, bool varies) {
+  const auto [known, is_new] = leaves_.try_emplace({array, index}, size());
+  return is_new ? append({Operation::kLeaf, array, index, 0.0, varies}) : known->second;
+}
+
+int Recording::literal(double x) {
+  if (std::isnan(x)) refuse();
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &x, sizeof bits);
+  const auto [known, is_new] = literals_.try_emplace(bits, size());
+  return is_new ? append({Operation::kLiteral, -1, -1, x, false}) : known->second;
+}
+
+int Recording::supplied(const void* origin) { return leaf(kSupplied, find_or_append(origin, &supplied_), false); }
+
+int Recording::timed(const void* origin, int order) {
+  return leaf(kTimed, kFunctionOrders * find_or_append(origin, &timed_) + order, true);
+}
+
+int Recording::operate(Operation operation, int a, int b) {
+  if ((operation == Operation::kAdd || operation == Operation::kMultiply) && a > b) std::swap(a, b);
+  constexpr int kBits = 29;
+  const std::uint64_t key = (static_cast<std::uint64_t>(operation) << (2 * kBits)) | (static_cast<std::uint64_t>(a + 1) << kBits) |
+                            static_cast<std::uint64_t>(b + 1);
+  const auto [known, is_new] = operations_.try_emplace(key, size());
+  if (!is_new) return known->second;
+  return append({operation, a, b, 0.0, node(a).varies || (b >= 0 && node(b).varies)});
+}
+
+}  // namespace codesign

@@ -1,0 +1,88 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_CODEGEN_RECORDING_H_
+#define MECHANISM_CODESIGN_CODEGEN_RECORDING_H_
+
+#include <cstdint>
+#include <map>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace codesign {
+
+/// Elementary operations of a Recording.
+enum class Operation : std::uint8_t {
+  kLeaf,     ///< a number that is put in: entry b of array a
+  kLiteral,  ///< a number known while recording
+  kAdd,
+  kSubtract,
+  kMultiply,
+  kDivide,
+  kNegate,
+  kSquareRoot,
+  kRound,  ///< to the nearest integer
+  kTanh,
+  kExp,
+  kSin,
+  kCos,
+  kArcSine,
+  kArcTangent  ///< atan2(a, b)
+};
+
+/// The elementary operations of a computation, as they come, each once (a computational graph; Griewank and Walther, Evaluating
+/// Derivatives, 2008, section 2.2). Operands stand before what uses them.
+class Recording {
+ public:
+  struct Node {
+    Operation operation;
+    int a = -1, b = -1;    ///< operands, -1 where there is none
+    double literal = 0.0;  ///< of kLiteral
+    bool varies = false;   ///< depends on a leaf that was said to vary
+  };
+
+  /// A decision: the recording holds where (a < b) == outcome.
+  struct Guard {
+    int a, b;
+    bool outcome;
+  };
+
+  /// Entry `index` of an array that is put in. @param varies between evaluations of one design.
+  int leaf(int array, int index, bool varies);
+  /// A number that is none refuses the recording: it stands for what must not be known while recording.
+  int literal(double x);
+  /// A leaf of array kSupplied that does not vary: what `origin` computes from the parameters of a design.
+  int supplied(const void* origin);
+  /// A leaf of array kTimed that varies: the derivative of an order (0 to 3) of the function of time `origin`.
+  int timed(const void* origin, int order);
+  /// @param b -1 for functions of one operand.
+  int operate(Operation operation, int a, int b = -1);
+
+  void guard(int a, int b, bool outcome) { guards_.push_back({a, b, outcome}); }
+  /// Says that a decision was asked for that no guard can stand for.
+  void refuse() { refused_ = true; }
+
+  int size() const { return static_cast<int>(nodes_.size()); }
+  const Node& node(int k) const { return nodes_[static_cast<std::size_t>(k)]; }
+  const std::vector<Guard>& guards() const { return guards_; }
+  bool refused() const { return refused_; }
+  /// Of the entries of kSupplied, and of each four of kTimed.
+  const std::vector<const void*>& supplied_origins() const { return supplied_; }
+  const std::vector<const void*>& timed_origins() const { return timed_; }
+
+  static constexpr int kSupplied = 100, kTimed = 101, kFunctionOrders = 4;
+
+ private:
+  int append(const Node& node);
+
+  std::vector<Node> nodes_;
+  std::vector<Guard> guards_;
+  std::vector<const void*> supplied_, timed_;
+  bool refused_ = false;
+  std::unordered_map<std::uint64_t, int> operations_;  ///< what is known already
+  std::map<std::pair<int, int>, int> leaves_;
+  std::unordered_map<std::uint64_t, int> literals_;  ///< by their bits
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_CODEGEN_RECORDING_H_

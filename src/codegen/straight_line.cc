@@ -1,0 +1,266 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "codegen/straight_line.h"
+
+#ifdef CODESIGN_MACHINE_CODE
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <unordered_map>
+#include <utility>
+#endif
+
+namespace codesign {
+
+#ifdef CODESIGN_MACHINE_CODE
+namespace {
+
+constexpr std::size_t kBytesPerOperation = 16;  // an instruction has fewer
+constexpr int kOne = 15;                        // the register that holds 1
+constexpr int kSecond = 14;                     // that holds the second part of a sum
+constexpr int kFactor = 15;                     // that holds a factor in all its parts
+constexpr int kNone = -1;
+
+/// When each row is read, in the order of the sums; and which registers hold which rows, of which the one that is read again last is given
+/// away first (Belady's rule).
+class RowRegisters {
+ public:
+  RowRegisters(const std::vector<Sum>& sums, int count) : held_(static_cast<std::size_t>(count)) {
+    int read = 0;
+    for (const Sum& sum : sums) {
+      if (sum.start.array >= 0) reads_[key(sum.start)].push_back(read++);
+      for (const Sum::Product& product : sum.products) reads_[key(product.row)].push_back(read++);
+    }
+  }
+
+  /// The present read is done.
+  void pass() { ++now_; }
+
+  int find(const Place& row) const {
+    for (std::size_t r = 0; r < held_.size(); ++r)
+      if (held_[r] == row) return static_cast<int>(r);
+    return kNone;
+  }
+
+  /// Whether a row that is read now had better be loaded: it is read twice again soon, and before what it would drive out.
+  bool is_worth_loading(const Place& row, int busy) const {
+    constexpr int kSoon = 48;
+    const auto [first, last] = later_reads(row);
+    if (last - first < 2 || *(first + 1) > now_ + kSoon) return false;
+    const int victim = farthest(busy);
+    return held_[static_cast<std::size_t>(victim)].array < 0 || next_read(held_[static_cast<std::size_t>(victim)]) > *first;
+  }
+
+  /// A register to write to, other than a busy one.
+  int take(int busy) {
+    const int r = farthest(busy);
+    held_[static_cast<std::size_t>(r)] = {};
+    return r;
+  }
+
+  /// From now on a register holds this row, and no other does.
+  void hold(const Place& row, int r) {
+    if (const int before = find(row); before >= 0) held_[static_cast<std::size_t>(before)] = {};
+    held_[static_cast<std::size_t>(r)] = row;
+  }
+
+ private:
+  static std::int64_t key(const Place& row) { return (static_cast<std::int64_t>(row.array) << 32) | row.index; }
+
+  /// Those after the present one.
+  std::pair<const int*, const int*> later_reads(const Place& row) const {
+    const auto known = reads_.find(key(row));
+    if (known == reads_.end()) return {nullptr, nullptr};
+    const std::vector<int>& reads = known->second;
+    const auto first = std::upper_bound(reads.begin(), reads.end(), now_);
+    return {reads.data() + (first - reads.begin()), reads.data() + reads.size()};
+  }
+  int next_read(const Place& row) const {
+    const auto [first, last] = later_reads(row);
+    return first == last ? std::numeric_limits<int>::max() : *first;
+  }
+
+  /// One that is free, or the one whose row is read again last.
+  int farthest(int busy) const {
+    int best = -1, best_read = -1;
+    for (std::size_t r = 0; r < held_.size(); ++r) {
+      if (static_cast<int>(r) == busy) continue;
+      if (held_[r].array < 0) return static_cast<int>(r);
+      if (const int read = next_read(held_[r]); read > best_read) {
+        best = static_cast<int>(r);
+        best_read = read;
+      }
+    }
+    return best;
+  }
+
+  std::unordered_map<std::int64_t, std::vector<int>> reads_;
+  std::vector<Place> held_;
+  int now_ = 0;
+};
+
+/// A sum without a start begins with a product, if one is added.
+std::vector<Sum> with_starts(std::vector<Sum> sums) {
+  for (Sum& sum : sums) {
+    const auto leading = std::find_if(sum.products.begin(), sum.products.end(), [](const Sum::Product& p) { return p.added; });
+    if (sum.start.array >= 0 || leading == sum.products.end()) continue;
+    sum.start = leading->row;
+    sum.start_scale = leading->factor;
+    sum.products.erase(leading);
+  }
+  return sums;
+}
+
+class SumsCode final : public StraightLine, private MachineCode {
+ public:
+  SumsCode(const std::vector<Sum>& sums, int width, const RowLayouts& layouts, std::size_t bytes)
+      : MachineCode(bytes), blocks_((width + 3) / 4), layouts_(layouts) {
+    enter();
+    width == 1 ? emit_all_ones(sums) : emit_all_many(with_starts(sums));
+    leave();
+    finish();
+  }
+
+  void run(const Arrays& arrays) const override { call(arrays.data()); }
+
+ private:
+  Xbyak::Address row(const Place& place, int block) {
+    const RowLayout& layout = layouts_[static_cast<std::size_t>(place.array)];
+    return yword[base(place.array) + 8 * (layout.stride * place.index + layout.offset) + 32 * block];
+  }
+
+  void emit_all_ones(const std::vector<Sum>& sums) {
+    mov(rbx, std::uint64_t{0x3ff0000000000000});  // the number 1
+    vmovq(Xbyak::Xmm(kOne), rbx);
+    RowRegisters registers(sums, kSecond);
+    for (const Sum& sum : sums) emit_one(sum, &registers);
+  }
+
+  // Long sums in two parts, since every addition waits for the one before it.
+  void emit_one(const Sum& sum, RowRegisters* registers) {
+    const int target = registers->take(kNone);
+    const Xbyak::Xmm result(target), second(kSecond);
+    if (sum.start.array < 0)
+      vxorpd(result, result, result);
+    else if (sum.start_scale.array < 0)
+      vmovsd(result, number(sum.start));
+    else
+      vmovsd(result, number(sum.start)), vmulsd(result, result, number(sum.start_scale));
+    if (sum.start.array >= 0) registers->pass();
+    const std::size_t in_second = sum.products.size() < 4 ? 0 : sum.products.size() / 2;
+    for (std::size_t k = 0; k < sum.products.size(); ++k) {
+      const Sum::Product& product = sum.products[k];
+      int held = registers->find(product.row);
+      if (held < 0) {
+        held = registers->take(target);
+        registers->hold(product.row, held);
+        vmovsd(Xbyak::Xmm(held), number(product.row));
+      }
+      if (k >= in_second)
+        vfnmadd231sd(result, Xbyak::Xmm(held), number(product.factor));
+      else if (k == 0)
+        vmulsd(second, Xbyak::Xmm(held), number(product.factor));
+      else
+        vfmadd231sd(second, Xbyak::Xmm(held), number(product.factor));
+      registers->pass();
+    }
+    if (in_second > 0) vsubsd(result, result, second);
+    if (sum.scale.array >= 0) vmulsd(result, result, number(sum.scale));
+    if (sum.reciprocal) vdivsd(result, Xbyak::Xmm(kOne), result);
+    vmovsd(number(sum.target), result);
+    registers->hold(sum.target, target);
+  }
+
+  void emit_all_many(const std::vector<Sum>& sums) {
+    RowRegisters registers(sums, kFactor / blocks_);
+    for (const Sum& sum : sums) emit_many(sum, &registers);
+    vzeroupper();
+  }
+
+  /// One part of the row that a register holds.
+  Xbyak::Ymm part(int held, int block) const { return Xbyak::Ymm(blocks_ * held + block); }
+
+  void emit_start(const Sum& sum, int result, const RowRegisters& registers) {
+    const Xbyak::Ymm factor(kFactor);
+    const int held = sum.start.array < 0 ? kNone : registers.find(sum.start);
+    if (sum.start_scale.array >= 0) vbroadcastsd(factor, number(sum.start_scale));
+    for (int block = 0; block < blocks_; ++block) {
+      const Xbyak::Ymm to = part(result, block);
+      if (sum.start.array < 0)
+        vxorpd(to, to, to);
+      else if (sum.start_scale.array < 0)
+        held < 0 ? vmovupd(to, row(sum.start, block)) : vmovapd(to, part(held, block));
+      else
+        held < 0 ? vmulpd(to, factor, row(sum.start, block)) : vmulpd(to, factor, part(held, block));
+    }
+  }
+
+  void add_to(const Xbyak::Ymm& to, const Sum::Product& product, const Xbyak::Operand& x) {
+    const Xbyak::Ymm factor(kFactor);
+    if (product.factor.array < 0)
+      product.added ? vaddpd(to, to, x) : vsubpd(to, to, x);
+    else
+      product.added ? vfmadd231pd(to, factor, x) : vfnmadd231pd(to, factor, x);
+  }
+
+  void emit_product(const Sum::Product& product, int result, RowRegisters* registers) {
+    int held = registers->find(product.row);
+    if (held < 0 && registers->is_worth_loading(product.row, result)) {
+      held = registers->take(result);
+      registers->hold(product.row, held);
+      for (int block = 0; block < blocks_; ++block) vmovupd(part(held, block), row(product.row, block));
+    }
+    if (product.factor.array >= 0) vbroadcastsd(Xbyak::Ymm(kFactor), number(product.factor));
+    for (int block = 0; block < blocks_; ++block) {
+      if (held >= 0)
+        add_to(part(result, block), product, part(held, block));
+      else
+        add_to(part(result, block), product, row(product.row, block));
+    }
+    registers->pass();
+  }
+
+  void emit_many(const Sum& sum, RowRegisters* registers) {
+    const int held = sum.start.array < 0 ? kNone : registers->find(sum.start);
+    const int result = registers->take(held);
+    emit_start(sum, result, *registers);
+    if (sum.start.array >= 0) registers->pass();
+    for (const Sum::Product& product : sum.products) emit_product(product, result, registers);
+    const Xbyak::Ymm factor(kFactor);
+    if (sum.scale.array >= 0) {
+      vbroadcastsd(factor, number(sum.scale));
+      for (int block = 0; block < blocks_; ++block) vmulpd(part(result, block), part(result, block), factor);
+    }
+    for (int block = 0; block < blocks_; ++block) vmovupd(row(sum.target, block), part(result, block));
+    registers->hold(sum.target, result);
+  }
+
+  int blocks_;
+  RowLayouts layouts_;
+};
+
+}  // namespace
+
+std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>& sums, int width, const RowLayouts& layouts,
+                                                    std::size_t most_bytes) {
+  std::size_t operations = 64;
+  for (const Sum& sum : sums) operations += 8 + (1 + static_cast<std::size_t>(width + 3) / 4) * sum.products.size();
+  const std::size_t bytes = kBytesPerOperation * operations;
+  if (bytes > most_bytes || !MachineCode::can_run()) return nullptr;
+  try {
+    return std::make_unique<SumsCode>(sums, width, layouts, bytes);
+  } catch (const Xbyak::Error&) {
+    return nullptr;
+  }
+}
+#else
+std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>&, int, const RowLayouts&, std::size_t) { return nullptr; }
+#endif
+
+std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>& sums, int width) {
+  constexpr std::size_t kMostBytes = 512 * 1024;
+  RowLayouts behind;
+  behind.fill({width, 0});
+  return compile(sums, width, behind, kMostBytes);
+}
+
+}  // namespace codesign

@@ -1,0 +1,91 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_CODEGEN_TRACED_H_
+#define MECHANISM_CODESIGN_CODEGEN_TRACED_H_
+
+#include <Eigen/Core>
+
+#include "codegen/recording.h"
+
+namespace codesign {
+
+/// A scalar that records what is done to it, so that a formula written once for every scalar can be compiled for one mechanism. It has a
+/// value only where that does not vary: at the design for which the recording is made. Numbers that are known while recording are computed
+/// with at once: products by zero and one, sums with zero and operations that were recorded before leave nothing behind.
+class Traced {
+ public:
+  Traced() = default;
+  Traced(double literal) : value_(literal) {}  // NOLINT(google-explicit-constructor): numbers mix with traces in every formula
+  /// @param value at the present design, of nodes that do not vary.
+  Traced(Recording* recording, int node, double value = 0.0) : recording_(recording), node_(node), value_(value) {}
+
+  bool is_literal() const { return recording_ == nullptr; }
+  /// Of a literal, and of what does not vary.
+  double value() const { return value_; }
+  Recording* recording() const { return recording_; }
+  /// Its node; -1 for a literal.
+  int node() const { return node_; }
+  /// Its node in a recording; of a literal, one that is made for it.
+  int node_in(Recording* recording) const { return is_literal() ? recording->literal(value_) : node_; }
+
+  Traced& operator+=(const Traced& y) { return *this = *this + y; }
+  Traced& operator-=(const Traced& y) { return *this = *this - y; }
+  Traced& operator*=(const Traced& y) { return *this = *this * y; }
+  Traced& operator/=(const Traced& y) { return *this = *this / y; }
+
+  friend Traced operator+(const Traced& x) { return x; }
+  friend Traced operator-(const Traced& x);
+  friend Traced operator+(const Traced& x, const Traced& y);
+  friend Traced operator-(const Traced& x, const Traced& y);
+  friend Traced operator*(const Traced& x, const Traced& y);
+  friend Traced operator/(const Traced& x, const Traced& y);
+
+ private:
+  bool is(double x) const { return is_literal() && value_ == x; }
+
+  Recording* recording_ = nullptr;
+  int node_ = -1;
+  double value_ = 0.0;
+};
+
+Traced sqrt(const Traced& x);
+Traced sin(const Traced& x);
+Traced cos(const Traced& x);
+Traced asin(const Traced& x);
+Traced tanh(const Traced& x);
+Traced exp(const Traced& x);
+Traced atan2(const Traced& y, const Traced& x);
+Traced round(const Traced& x);
+
+/// Traces have no value: whatever is decided with it, the recording refuses to be compiled. Decisions that may be recorded are is_less().
+double value_of(const Traced& x);
+
+/// x < y where it is known; else as it is at the present design, and where it varies the outcome that is `likely`, with a guard that asks
+/// for it.
+bool is_less(const Traced& x, const Traced& y, bool likely);
+
+}  // namespace codesign
+
+namespace Eigen {
+
+template <>
+struct NumTraits<codesign::Traced> : GenericNumTraits<double> {
+  using Real = codesign::Traced;
+  using NonInteger = codesign::Traced;
+  using Nested = codesign::Traced;
+  using Literal = codesign::Traced;
+  static Real dummy_precision() { return Real(1e-12); }
+  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 1, AddCost = 1, MulCost = 1 };
+};
+
+template <class Operation>
+struct ScalarBinaryOpTraits<codesign::Traced, double, Operation> {
+  using ReturnType = codesign::Traced;
+};
+template <class Operation>
+struct ScalarBinaryOpTraits<double, codesign::Traced, Operation> {
+  using ReturnType = codesign::Traced;
+};
+
+}  // namespace Eigen
+
+#endif  // MECHANISM_CODESIGN_CODEGEN_TRACED_H_

@@ -1,0 +1,124 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "control/controller.h"
+
+#include <algorithm>
+
+namespace codesign {
+namespace {
+
+bool zero(const Quantity& q) { return q.is_constant() && q.nominal() == 0.0; }
+
+bool reads(const Signal& signal, SignalKind kind, int controller) {
+  return std::any_of(signal.begin(), signal.end(),
+                     [&](const SignalReference& term) { return term.kind == kind && term.controller == controller; });
+}
+
+class Resolver {
+ public:
+  Resolver(const Study& study, const RobotDescription& robot, const Topology& topology)
+      : study_(study), robot_(robot), topology_(topology), controllers_(study.controllers.size()) {}
+
+  std::vector<Controller> resolve(const std::vector<Signal>& observed, int* states) {
+    for (std::size_t k = 0; k < controllers_.size(); ++k) resolve_signals(k);
+    // Later controllers read earlier ones: what a controller must provide is known when all behind it are complete.
+    for (std::size_t k = controllers_.size(); k-- > 0;) provide_rate(k);
+    for (std::size_t k = 0; k < controllers_.size(); ++k)
+      if (needs_integral(static_cast<int>(k), observed)) controllers_[k].state = (*states)++;
+    for (std::size_t k = 0; k < controllers_.size(); ++k) grow_tree(k);
+    return std::move(controllers_);
+  }
+
+ private:
+  std::string element(std::size_t k) const { return "controllers." + study_.controllers[k].name; }
+
+  Signal readable(const SignalDescription& description, std::size_t k, const std::string& key) const {
+    Signal signal = resolve_signal(description, robot_, topology_, study_.controllers);
+    for (const SignalReference& term : signal)
+      if (term.controller >= static_cast<int>(k) || reads_effort(term, k))
+        throw InputError({study_.controllers[k].where, element(k) + key, "a controller cannot read an effort, itself or a later controller",
+                          description.text, "controllers defined before it"});
+    return signal;
+  }
+
+  /// What contains the output of the k-th controller or of a later one. A reaction does if one of them drives that joint.
+  bool reads_effort(const SignalReference& term, std::size_t k) const {
+    if (term.kind == SignalKind::kJointEffort || term.kind == SignalKind::kActuatorPower) return true;
+    if (term.kind != SignalKind::kReactionForce && term.kind != SignalKind::kReactionTorque) return false;
+    const auto drives = [&](const ControllerDescription& controller) {
+      for (std::size_t j = 0; j < robot_.joints.size(); ++j)
+        if (robot_.joints[j].name == controller.output && topology_.joint_pair[j] == term.pair) return true;
+      return false;
+    };
+    return std::any_of(study_.controllers.begin() + static_cast<std::ptrdiff_t>(k), study_.controllers.end(), drives);
+  }
+
+  void resolve_signals(std::size_t k) {
+    const ControllerDescription& description = study_.controllers[k];
+    Controller& controller = controllers_[k];
+    controller.kind = description.kind;
+    if (has_error(description.kind)) controller.input = readable(description.input, k, ".input");
+    for (const FeedbackTerm& term : description.feedback) controller.feedback.push_back(readable(term.signal, k, ".feedback"));
+    const auto joint = std::find_if(robot_.joints.begin(), robot_.joints.end(),
+                                    [&description](const JointDescription& j) { return j.name == description.output; });
+    if (joint == robot_.joints.end()) return;
+    const SignalDescription output{joint->name + "/velocity", {{1.0, joint->name, "velocity", ""}}, description.where};
+    const Signal resolved = resolve_signal(output, robot_, topology_, study_.controllers);
+    controller.pair = resolved.front().pair;
+    controller.element = resolved.front().element;
+  }
+
+  void provide_rate(std::size_t k) {
+    const ControllerDescription& description = study_.controllers[k];
+    if (!has_error(description.kind)) return;
+    bool wanted = !zero(description.d);
+    for (const Controller& other : controllers_)
+      wanted = wanted || reads(other.input_rate, SignalKind::kControllerErrorRate, static_cast<int>(k));
+    if (wanted) controllers_[k].input_rate = differentiate(controllers_[k].input, description.input, element(k) + ".input");
+  }
+
+  bool needs_integral(int k, const std::vector<Signal>& observed) const {
+    if (!zero(study_.controllers[static_cast<std::size_t>(k)].i)) return true;
+    const auto integral = [k](const Signal& signal) { return reads(signal, SignalKind::kControllerIntegral, k); };
+    return std::any_of(observed.begin(), observed.end(), integral) ||
+           std::any_of(controllers_.begin(), controllers_.end(), [&integral](const Controller& other) {
+             return integral(other.input) || std::any_of(other.feedback.begin(), other.feedback.end(), integral);
+           });
+  }
+
+  void grow_tree(std::size_t k) {
+    Controller& controller = controllers_[k];
+    const bool torque = controller.kind == ControllerKind::kComputedTorque;
+    if (!torque && controller.kind != ControllerKind::kPdGravity) return;
+    controller.tree = driven_tree(topology_, controller.pair, torque, study_.controllers[k].where, element(k) + ".output");
+    if (!torque) return;
+    for (std::size_t other = 0; other < k; ++other)
+      if (controllers_[other].kind == ControllerKind::kComputedTorque && controllers_[other].pair == controller.pair)
+        throw InputError({study_.controllers[k].where, element(k) + ".output", "a joint can have one computed torque only",
+                          study_.controllers[k].output, "a joint that " + study_.controllers[other].name + " does not drive"});
+    for (DrivenTree::Node& node : controller.tree.nodes)
+      for (std::size_t other = 0; other < controllers_.size(); ++other)
+        if (controllers_[other].kind == ControllerKind::kComputedTorque && controllers_[other].pair == node.pair)
+          node.controller = static_cast<int>(other);
+    for (DrivenTree::Node& node : controller.tree.nodes) node.rotor = node.moved && has_rotor(node.pair);
+  }
+
+  bool has_rotor(int pair) const {
+    const int joint = topology_.pairs[static_cast<std::size_t>(pair)].chain.front().joint;
+    const auto& actuator = robot_.joints[static_cast<std::size_t>(joint)].actuator;
+    return actuator && !zero(actuator->rotor_inertia);
+  }
+
+  const Study& study_;
+  const RobotDescription& robot_;
+  const Topology& topology_;
+  std::vector<Controller> controllers_;
+};
+
+}  // namespace
+
+std::vector<Controller> resolve_controllers(const Study& study, const RobotDescription& robot, const Topology& topology,
+                                            const std::vector<Signal>& observed, int* states) {
+  return Resolver(study, robot, topology).resolve(observed, states);
+}
+
+}  // namespace codesign

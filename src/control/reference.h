@@ -1,0 +1,58 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_CONTROL_REFERENCE_H_
+#define MECHANISM_CODESIGN_CONTROL_REFERENCE_H_
+
+#include <array>
+#include <vector>
+
+#include "description/reference.h"
+#include "math/scalar.h"
+
+namespace codesign {
+
+/// A function of time and its first three derivatives at one instant.
+template <class T>
+struct ReferenceMotion {
+  T value{0.0}, rate{0.0}, acceleration{0.0}, jerk{0.0};
+};
+
+/// A prescribed function of time at one design; doc/theory.md (C1), (C2). T: double, std::complex<double>, Lanes<N>.
+template <class T>
+class Reference {
+ public:
+  Reference() = default;
+  Reference(const ReferenceDescription& description, const std::vector<T>& parameters);
+
+  /// At a break between way-points, derivatives are those of what follows.
+  ReferenceMotion<T> at(double t) const;
+
+ private:
+  /// sum c_k (t - start)^k from `start` on.
+  struct Piece {
+    double start;
+    std::array<T, 6> c;
+  };
+  void set_waypoints(const WaypointsDescription& description, const std::vector<T>& parameters);
+  static Piece hold(double start, const T& value);
+
+  ReferenceDescription::Kind kind_ = ReferenceDescription::Kind::kConstant;
+  T offset_{0.0}, amplitude_{0.0}, angular_frequency_{0.0}, phase_{0.0};
+  std::vector<Piece> pieces_;  ///< the first from minus infinity, the last to infinity
+};
+
+/// While equations are recorded: a constant, or numbers that come with each instant.
+template <>
+class Reference<Traced> {
+ public:
+  Reference() = default;
+  Reference(const ReferenceDescription& description, const std::vector<Traced>& parameters);
+
+  ReferenceMotion<Traced> at(double) const { return motion_; }
+
+ private:
+  ReferenceMotion<Traced> motion_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_CONTROL_REFERENCE_H_

@@ -1,0 +1,45 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_CONTROL_SHAPED_INPUT_H_
+#define MECHANISM_CODESIGN_CONTROL_SHAPED_INPUT_H_
+
+#include <vector>
+
+#include "control/reference.h"
+#include "description/basis.h"
+
+namespace codesign {
+
+/// A shaped input u(t) = sum_k c_k B_k(t) at one design; theory (C8). T as of Reference.
+template <class T>
+class ShapedInput {
+ public:
+  ShapedInput() = default;
+  /// @param basis must outlive this.
+  ShapedInput(const BasisDescription& basis, const std::vector<T>& parameters);
+
+  const std::vector<T>& coefficients() const { return coefficients_; }
+
+  /// Value and rate; higher derivatives are left at zero.
+  ReferenceMotion<T> at(double t) const;
+
+ private:
+  const BasisDescription* basis_ = nullptr;
+  std::vector<T> coefficients_;
+};
+
+/// While equations are recorded: numbers that come with each instant.
+template <>
+class ShapedInput<Traced> {
+ public:
+  ShapedInput() = default;
+  ShapedInput(const BasisDescription& basis, const std::vector<Traced>& parameters);
+
+  ReferenceMotion<Traced> at(double) const { return motion_; }
+
+ private:
+  ReferenceMotion<Traced> motion_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_CONTROL_SHAPED_INPUT_H_

@@ -1,0 +1,59 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "description/basis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace codesign {
+namespace {
+
+/// Knot i of the repeated-end sequence of a basis.
+double knot(const BasisDescription& basis, int i) {
+  const int spans = basis.count() - basis.degree();
+  return basis.duration * std::clamp(i - basis.degree(), 0, spans) / spans;
+}
+
+/// B-splines of `degree` on knot span `span`, by de Boor's recurrence. @param values degree + 1 of them.
+void spline_values(const BasisDescription& basis, int span, int degree, double t, double* values) {
+  values[0] = 1.0;
+  for (int d = 1; d <= degree; ++d) {
+    double carried = 0.0;
+    for (int r = 0; r < d; ++r) {
+      const double right = knot(basis, span + r + 1), left = knot(basis, span + 1 - d + r);
+      const double share = values[r] / (right - left);
+      values[r] = carried + (right - t) * share;
+      carried = (t - left) * share;
+    }
+    values[d] = carried;
+  }
+}
+
+}  // namespace
+
+std::array<double, 2> BasisDescription::support(int k) const {
+  const double end = k == count() - 1 ? std::numeric_limits<double>::infinity() : knot(*this, k + degree() + 1);
+  return {knot(*this, k), end};
+}
+
+BasisWeights basis_weights(const BasisDescription& basis, double t) {
+  const int degree = basis.degree(), spans = basis.count() - degree;
+  const double inside = std::clamp(t, 0.0, basis.duration);
+  BasisWeights weights;
+  weights.first = std::clamp(static_cast<int>(std::floor(inside / basis.duration * spans)), 0, spans - 1);
+  weights.count = degree + 1;
+  const int span = weights.first + degree;
+  spline_values(basis, span, degree, inside, weights.value.data());
+  if (t > basis.duration) return weights;
+  // B_k' = p (B_k of lower degree / (t_k+p - t_k) - the next one's).
+  double lower[4];
+  spline_values(basis, span, degree - 1, inside, lower);
+  for (int r = 0; r < degree; ++r) {
+    const double share = degree * lower[r] / (knot(basis, span + r + 1) - knot(basis, span + r + 1 - degree));
+    weights.rate[static_cast<std::size_t>(r)] -= share;
+    weights.rate[static_cast<std::size_t>(r) + 1] += share;
+  }
+  return weights;
+}
+
+}  // namespace codesign

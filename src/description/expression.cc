@@ -1,0 +1,84 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "description/expression.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "expression_syntax.h"
+
+namespace codesign {
+namespace {
+
+using Complex = std::complex<double>;
+constexpr double kStep = 1e-30;
+
+double real_part(const Complex& value) { return value.imag() == 0.0 ? value.real() : std::numeric_limits<double>::quiet_NaN(); }
+
+}  // namespace
+
+struct Expression::Program {
+  ExpressionSteps steps;
+  std::size_t stack = 0;
+
+  Complex evaluate(const Complex* variables) const {
+    constexpr std::size_t kSmall = 32;
+    if (stack <= kSmall) {
+      Complex numbers[kSmall];
+      return run(steps, variables, numbers);
+    }
+    std::vector<Complex> numbers(stack);
+    return run(steps, variables, numbers.data());
+  }
+};
+
+Expression::Expression(const std::string& text, const std::vector<std::string>& names)
+    : Expression(text, ExpressionScope{[&names](const std::string& name) {
+                                         const auto found = std::find(names.begin(), names.end(), name);
+                                         return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+                                       },
+                                       [&names] { return names; }}) {}
+
+Expression::Expression(const std::string& text, const ExpressionScope& scope) : text_(text) {
+  ParsedExpression parsed = parse_expression(text, scope);
+  dependencies_ = std::move(parsed.dependencies);
+  const auto stack = static_cast<std::size_t>(stack_size(parsed.steps));
+  program_ = std::make_unique<const Program>(Program{std::move(parsed.steps), stack});
+}
+
+Expression::~Expression() = default;
+
+double Expression::value(const std::vector<double>& parameters) const {
+  std::vector<double> values;
+  values.reserve(dependencies_.size());
+  for (int index : dependencies_) values.push_back(parameters.at(static_cast<std::size_t>(index)));
+  return value_of(values);
+}
+
+std::complex<double> Expression::value(const std::vector<std::complex<double>>& parameters) const {
+  std::vector<Complex> values;
+  values.reserve(dependencies_.size());
+  for (int index : dependencies_) values.push_back(parameters.at(static_cast<std::size_t>(index)));
+  return program_->evaluate(values.data());
+}
+
+double Expression::derivative(int index, const std::vector<double>& parameters) const {
+  const auto found = std::lower_bound(dependencies_.begin(), dependencies_.end(), index);
+  if (found == dependencies_.end() || *found != index) return 0.0;
+  std::vector<double> values;
+  values.reserve(dependencies_.size());
+  for (int used : dependencies_) values.push_back(parameters.at(static_cast<std::size_t>(used)));
+  return derivative_of(static_cast<std::size_t>(found - dependencies_.begin()), values);
+}
+
+double Expression::value_of(const std::vector<double>& values) const {
+  const std::vector<Complex> variables(values.begin(), values.end());
+  return real_part(program_->evaluate(variables.data()));
+}
+
+double Expression::derivative_of(std::size_t k, const std::vector<double>& values) const {
+  std::vector<Complex> variables(values.begin(), values.end());
+  variables.at(k) += Complex(0.0, kStep);
+  return program_->evaluate(variables.data()).imag() / kStep;
+}
+
+}  // namespace codesign

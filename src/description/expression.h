@@ -1,0 +1,65 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_H_
+#define MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_H_
+
+#include <complex>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace codesign {
+
+/// The names that an expression may use, without a copy of them for each expression.
+struct ExpressionScope {
+  std::function<int(const std::string&)> find;      ///< index of a parameter, -1 if there is none
+  std::function<std::vector<std::string>()> names;  ///< all of them, for messages
+};
+
+/// An arithmetic expression of named parameters, as xacro writes them inside `${...}`.
+///
+/// Operators + - * / ** ^ and parentheses, comparison with `?:`, the constant `pi`, and the usual functions (sqrt, sin, cos, tan, asin,
+/// acos, atan, atan2, sinh, cosh, tanh, exp, log, log10, pow, abs, sign, min, max, floor, ceil, radians, degrees). Immutable and safe to
+/// evaluate from several threads.
+class Expression {
+ public:
+  /// @param text the expression without the `${` `}`.
+  /// @param names the parameters that may appear; their order is the order of the vectors below.
+  /// @throws std::invalid_argument with a sentence that names the position, or the unknown name and the nearest known one.
+  Expression(const std::string& text, const std::vector<std::string>& names);
+  Expression(const std::string& text, const ExpressionScope& scope);
+  ~Expression();
+  Expression(const Expression&) = delete;
+  Expression& operator=(const Expression&) = delete;
+
+  const std::string& text() const { return text_; }
+
+  /// Indices of the parameters that appear in the expression, ascending.
+  const std::vector<int>& dependencies() const { return dependencies_; }
+
+  /// Value at `parameters`, which may hold more entries than the names given at construction (the surplus is ignored).
+  /// NaN where the expression has no real value (square root or logarithm of a negative number, 0/0).
+  double value(const std::vector<double>& parameters) const;
+  std::complex<double> value(const std::vector<std::complex<double>>& parameters) const;
+
+  /// Partial derivative with respect to parameter `index`, by a complex step (exact to rounding).
+  double derivative(int index, const std::vector<double>& parameters) const;
+
+  /// The same from the parameters that appear alone: `values[k]` is that of parameter dependencies()[k]. What a design costs then does not
+  /// grow with the number of parameters that an expression does not use.
+  double value_of(const std::vector<double>& values) const;
+  double derivative_of(std::size_t k, const std::vector<double>& values) const;
+
+ private:
+  struct Program;
+  std::string text_;
+  std::vector<int> dependencies_;
+  std::unique_ptr<const Program> program_;
+};
+
+/// Why `name` cannot name a parameter (no identifier, or a function's name), as a sentence; empty if it can.
+std::string identifier_fault(const std::string& name);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_H_

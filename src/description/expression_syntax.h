@@ -1,0 +1,26 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_SYNTAX_H_
+#define MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_SYNTAX_H_
+
+#include <string>
+#include <vector>
+
+#include "description/expression.h"
+#include "expression_program.h"
+
+namespace codesign {
+
+/// An expression taken apart.
+struct ParsedExpression {
+  std::vector<int> dependencies;  ///< the parameters used, ascending
+  ExpressionSteps steps;          ///< variable k is parameter dependencies[k]
+};
+
+/// Grammar, from what binds least to what binds most; doc/decisions/0040-expressions-parsed-by-ourselves.md:
+/// `sum < sum ? conditional : conditional`, `+ -`, `* /`, signs, `** ^` (from the right), numbers, names, calls and parentheses.
+/// @throws std::invalid_argument with a sentence that ends with the position.
+ParsedExpression parse_expression(const std::string& text, const ExpressionScope& scope);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_SYNTAX_H_

@@ -1,0 +1,71 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_DESCRIPTION_QUANTITY_H_
+#define MECHANISM_CODESIGN_DESCRIPTION_QUANTITY_H_
+
+#include <array>
+#include <complex>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "description/expression.h"
+#include "math/scalar.h"
+
+namespace codesign {
+
+/// The value of an expression at `parameters`.
+inline double value_at(const Expression& expression, const std::vector<double>& parameters) { return expression.value(parameters); }
+inline std::complex<double> value_at(const Expression& expression, const std::vector<std::complex<double>>& parameters) {
+  return expression.value(parameters);
+}
+/// Values of the parameters that an expression uses, in the order of its dependencies().
+template <class T, class Number>
+std::vector<double> values_used(const Expression& expression, const std::vector<T>& parameters, const Number& number) {
+  std::vector<double> values;
+  values.reserve(expression.dependencies().size());
+  for (int index : expression.dependencies()) values.push_back(number(parameters[static_cast<std::size_t>(index)]));
+  return values;
+}
+/// With the chain rule carried into every lane.
+template <int N>
+Lanes<N> value_at(const Expression& expression, const std::vector<Lanes<N>>& parameters) {
+  const std::vector<double> values = values_used(expression, parameters, [](const Lanes<N>& parameter) { return parameter.a; });
+  Lanes<N> result(expression.value_of(values));
+  for (std::size_t k = 0; k < values.size(); ++k)
+    result.v += expression.derivative_of(k, values) * parameters[static_cast<std::size_t>(expression.dependencies()[k])].v;
+  return result;
+}
+/// While equations are recorded an expression comes with each design. `parameters` are of the recording, and not empty.
+inline Traced value_at(const Expression& expression, const std::vector<Traced>& parameters) {
+  Recording* const recording = parameters.front().recording();
+  const std::vector<double> values = values_used(expression, parameters, [](const Traced& parameter) { return parameter.value(); });
+  return {recording, recording->supplied(&expression), expression.value_of(values)};
+}
+
+/// A number of the model: a constant, or an expression of the parameters.
+class Quantity {
+ public:
+  Quantity(double constant = 0.0) : nominal_(constant) {}  // NOLINT(google-explicit-constructor): a number is a quantity
+  Quantity(double nominal, std::shared_ptr<const Expression> expression) : nominal_(nominal), expression_(std::move(expression)) {}
+
+  /// The value at the parameters' default values, as written in the plain attribute.
+  double nominal() const { return nominal_; }
+  bool is_constant() const { return expression_ == nullptr; }
+  const Expression* expression() const { return expression_.get(); }
+
+  /// The value at `parameters` (all named parameters, in the order of the model, then of the study).
+  template <class T>
+  T at(const std::vector<T>& parameters) const {
+    return expression_ ? value_at(*expression_, parameters) : T(nominal_);
+  }
+
+ private:
+  double nominal_ = 0.0;
+  std::shared_ptr<const Expression> expression_;
+};
+
+using QuantityVector = std::array<Quantity, 3>;
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_DESCRIPTION_QUANTITY_H_

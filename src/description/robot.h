@@ -1,0 +1,163 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_DESCRIPTION_ROBOT_H_
+#define MECHANISM_CODESIGN_DESCRIPTION_ROBOT_H_
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "description/parameter.h"
+#include "description/quantity.h"
+#include "mechanism_codesign/error.h"
+#include "mechanism_codesign/warning.h"
+
+namespace codesign {
+
+/// A pose as URDF writes it: translation [m], then fixed-axis roll, pitch, yaw [rad].
+struct PoseDescription {
+  QuantityVector xyz;
+  QuantityVector rpy;
+};
+
+/// A visual (or collision) solid. Meshes have no volume here.
+struct ShapeDescription {
+  enum class Kind { kBox, kCylinder, kSphere, kMesh };
+  Kind kind = Kind::kMesh;
+  PoseDescription origin;        ///< in the link frame; a cylinder's axis is its z
+  std::array<Quantity, 3> size;  ///< box: x y z; cylinder: radius, length; sphere: radius [m]
+};
+
+/// Mass properties of a link, given as numbers or computed from its shapes.
+struct InertialDescription {
+  PoseDescription origin;           ///< centre of mass and axes of the inertia, in the link frame
+  Quantity mass;                    ///< [kg]
+  std::array<Quantity, 6> inertia;  ///< about `origin`: ixx ixy ixz iyy iyz izz [kg m^2]
+  /// Present: mass, centre and inertia follow from `shapes` at this density [kg/m^3], and the three fields above are unused.
+  std::optional<Quantity> density;
+  std::vector<ShapeDescription> shapes;
+  SourceLocation where;
+};
+
+struct LinkDescription {
+  std::string name;
+  std::optional<InertialDescription> inertial;
+  SourceLocation where;
+};
+
+/// Tree joints have URDF's types; `kSpherical` and those behind it exist as loops only.
+enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic, kPlanar, kFloating, kSpherical, kUniversal, kCylindrical, kDistance };
+
+/// Laws of the friction coefficient; Gonthier's and the LuGre model have states of their own.
+enum class FrictionModel { kBrownMcPhee, kGonthier, kLuGre };
+
+/// `<codesign:friction>`, see doc/annotations.md. SI units.
+struct FrictionDescription {
+  FrictionModel model = FrictionModel::kBrownMcPhee;
+  Quantity mu_static;                  ///< mu_s [-]
+  Quantity mu_dynamic;                 ///< mu_d [-]
+  Quantity transition_velocity{1e-2};  ///< v_t [m/s]
+  Quantity joint_length;               ///< a [m]
+  Quantity joint_width;                ///< b [m]
+  Quantity pin_radius;                 ///< r_e [m], arm of the friction of the forces across the axis; of a ball its radius
+  Quantity friction_arm;               ///< [m], arm of the friction of the thrust along the axis; the reader's default is pin_radius
+  Quantity preload;                    ///< [N]
+  Quantity smoothing{1e-3};            ///< epsilon [N]
+  Quantity viscous;                    ///< [N s/m] or [N m s/rad]
+  Quantity bristle_stiffness{1e4};     ///< sigma_0 [1/m], per normal force; of the models with states
+  Quantity bristle_damping{10.0};      ///< sigma_1 [s/m], per normal force
+  Quantity dwell_time{2.0};            ///< tau_dw [s]; of Gonthier's model
+  std::optional<std::array<double, 3>> transverse_axis;  ///< x'' in the joint frame
+  SourceLocation where;
+};
+
+/// `<limit>`. What exporters write for "not known" is none: see the three functions.
+struct LimitDescription {
+  Quantity lower, upper;      ///< position [rad or m]
+  Quantity effort, velocity;  ///< [N m or N], [rad/s or m/s]
+
+  static bool given(const Quantity& q) { return !q.is_constant() || q.nominal() != 0.0; }
+  /// Equal limits, as where neither is written, bound nothing.
+  bool bounds_position() const { return given(lower) || given(upper); }
+  bool bounds_effort() const { return given(effort); }
+  bool bounds_velocity() const { return given(velocity); }
+};
+
+/// `<mimic>`: theta = multiplier theta_joint + offset.
+struct MimicDescription {
+  std::string joint;
+  Quantity multiplier{1.0}, offset{0.0};
+  SourceLocation where;
+};
+
+struct TorsionSpringDescription {
+  Quantity stiffness, damping, free_position;  ///< [N m/rad or N/m], [.. s], [rad or m]
+};
+
+/// `<codesign:actuator>`: a motor whose rotor turns `gear_ratio` times as fast as the joint. The rotor is mounted on the parent link and
+/// turns about the joint's axis.
+struct ActuatorDescription {
+  Quantity gear_ratio{1.0};  ///< n, rotor rate per joint rate [-, or rad/m on a prismatic joint]
+  Quantity rotor_inertia;    ///< J_r about the rotor's axis [kg m^2]; the joint feels n^2 J_r
+  SourceLocation where;
+};
+
+/// A joint of the tree, or a loop. The joint frame is carried by the child (of a loop: the successor).
+struct JointDescription {
+  std::string name;
+  JointType type = JointType::kFixed;
+  bool is_loop = false;
+  int parent = -1, child = -1;                ///< indices into RobotDescription::links; of a loop: predecessor, successor
+  PoseDescription origin;                     ///< joint frame at zero position in the parent's link frame
+  PoseDescription child_origin;               ///< joint frame in the child's link frame; the identity for a tree joint
+  QuantityVector axis{1.0, 0.0, 0.0};         ///< in the joint frame, not necessarily of unit length
+  QuantityVector second_axis{0.0, 1.0, 0.0};  ///< universal loops: the successor's axis, in the successor's joint frame
+  Quantity distance;                          ///< kDistance: the length [m]
+  std::optional<FrictionDescription> friction;
+  Quantity damping, dry_friction;  ///< `<dynamics damping friction>`
+  std::optional<LimitDescription> limit;
+  std::optional<MimicDescription> mimic;
+  std::optional<TorsionSpringDescription> spring;
+  std::optional<ActuatorDescription> actuator;
+  /// kFloating: the child's orientation where the joint's turning coordinates are zero, as rpy in the joint frame: a study's start.
+  QuantityVector start_rotation;
+  SourceLocation where;
+};
+
+/// Whether `<limit lower upper>` bounds a joint's position: URDF ignores both on a continuous joint.
+inline bool has_stops(const JointDescription& joint) {
+  return joint.limit && joint.limit->bounds_position() && joint.type != JointType::kContinuous;
+}
+
+/// URDF+ `<coupling>`: the successor's joint turns `ratio` times the predecessor's.
+struct CouplingDescription {
+  std::string name;
+  int predecessor = -1, successor = -1;
+  Quantity ratio{1.0};
+  SourceLocation where;
+};
+
+struct SpringDamperDescription {
+  std::string name;
+  int predecessor = -1, successor = -1;
+  PoseDescription predecessor_origin, successor_origin;
+  Quantity stiffness, damping, free_length;  ///< [N/m], [N s/m], [m]
+  SourceLocation where;
+};
+
+/// A mechanism as its author wrote it: the annotated URDF, read strictly, nothing derived yet.
+struct RobotDescription {
+  std::string name;
+  std::vector<Parameter> parameters;
+  std::vector<LinkDescription> links;
+  int root = 0;                          ///< index of the root link, which is the ground
+  std::vector<JointDescription> joints;  ///< tree joints in file order, then loops in file order
+  std::vector<CouplingDescription> couplings;
+  std::vector<SpringDamperDescription> spring_dampers;
+  std::string file;   ///< where it came from, for messages
+  Warnings warnings;  ///< what is doubtful in the files, in the order of the files
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_DESCRIPTION_ROBOT_H_

@@ -1,0 +1,127 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "description/study.h"
+
+namespace codesign {
+namespace {
+
+constexpr const char* kSpelling =
+    "<joint>/<quantity>, <link>/<quantity>/{x,y,z}, <controller>/<quantity>, and sums and differences of them";
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\n");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\n") - first + 1);
+}
+
+bool is_quantity(const std::string& word) {
+  static const std::set<std::string> kQuantities{
+      "position",         "velocity",        "acceleration",   "effort",        "friction",         "normal_force",
+      "sliding_velocity", "error",           "integral",       "output",        "angular_velocity", "orientation",
+      "reaction_force",   "reaction_torque", "friction_power", "damping_power", "actuator_power",   "load_power"};
+  return kQuantities.count(word) != 0;
+}
+
+/// Reads left to right. An operator can only follow a quantity or a component, whose letters are a-z and _, so that
+/// `a-b/velocity-c-d/velocity` is the difference of two joints whose names hold a minus.
+class SignalParser {
+ public:
+  SignalParser(const std::string& text, const SourceLocation& where, const std::string& element)
+      : text_(text), where_(where), element_(element) {}
+
+  std::vector<SignalTerm> parse() {
+    std::vector<SignalTerm> terms;
+    skip_space();
+    double factor = 1.0;
+    if (next_is('+') || next_is('-')) factor = read_operator();
+    for (;;) {
+      terms.push_back(read_term(factor));
+      skip_space();
+      if (position_ == text_.size()) return terms;
+      factor = read_operator();
+    }
+  }
+
+ private:
+  bool next_is(char c) const { return position_ < text_.size() && text_[position_] == c; }
+
+  void skip_space() {
+    while (position_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[position_])) != 0) ++position_;
+  }
+
+  double read_operator() {
+    if (!next_is('+') && !next_is('-')) fail("expected + or - at column " + std::to_string(position_ + 1) + " of the signal");
+    return text_[position_++] == '-' ? -1.0 : 1.0;
+  }
+
+  std::string read_word(const char* what) {
+    const std::size_t first = position_;
+    while (position_ < text_.size() && (std::islower(static_cast<unsigned char>(text_[position_])) != 0 || next_is('_'))) ++position_;
+    if (position_ == first) fail(std::string("expected a ") + what + " at column " + std::to_string(first + 1) + " of the signal");
+    return text_.substr(first, position_ - first);
+  }
+
+  // Names may hold slashes, as `left/elbow`: then the name ends at a later one, behind which stands a quantity that closes the term.
+  std::size_t name_end() const {
+    const std::size_t first = text_.find('/', position_);
+    if (first == std::string::npos || closes(first, false) || std::isspace(static_cast<unsigned char>(behind_word(first))) != 0)
+      return first;
+    for (std::size_t slash = text_.find('/', first + 1); slash != std::string::npos; slash = text_.find('/', slash + 1))
+      if (closes(slash, true)) return slash;
+    return first;
+  }
+
+  std::size_t word_end(std::size_t at) const {
+    while (at < text_.size() && (std::islower(static_cast<unsigned char>(text_[at])) != 0 || text_[at] == '_')) ++at;
+    return at;
+  }
+
+  char behind_word(std::size_t slash) const {
+    const std::size_t end = word_end(slash + 1);
+    return end < text_.size() ? text_[end] : ' ';
+  }
+
+  /// Whether a quantity, with a component of one letter or none, and then an operator or nothing stand behind this slash.
+  bool closes(std::size_t slash, bool known_only) const {
+    std::size_t end = word_end(slash + 1);
+    if (end == slash + 1 || (known_only && !is_quantity(text_.substr(slash + 1, end - slash - 1)))) return false;
+    if (end + 1 < text_.size() && text_[end] == '/' && word_end(end + 1) == end + 2) end += 2;
+    end = std::min(text_.find_first_not_of(" \t\n", end), text_.size());
+    return end == text_.size() || text_[end] == '+' || text_[end] == '-';
+  }
+
+  SignalTerm read_term(double factor) {
+    const std::size_t slash = name_end();
+    if (slash == std::string::npos) fail("a signal needs a quantity after its name, such as crank_joint/velocity");
+    SignalTerm term;
+    term.factor = factor;
+    term.object = trimmed(text_.substr(position_, slash - position_));
+    if (term.object.empty() || term.object[0] == '+' || term.object[0] == '-')
+      fail("expected a name at column " + std::to_string(position_ + 1) + " of the signal");
+    position_ = slash + 1;
+    term.quantity = read_word("quantity");
+    if (next_is('/')) {
+      ++position_;
+      term.component = read_word("component");
+    }
+    return term;
+  }
+
+  [[noreturn]] void fail(const std::string& message) const { throw InputError({where_, element_, message, text_, kSpelling}); }
+
+  const std::string& text_;
+  const SourceLocation& where_;
+  const std::string& element_;
+  std::size_t position_ = 0;
+};
+
+}  // namespace
+
+SignalDescription parse_signal(const std::string& text, const SourceLocation& where, const std::string& element) {
+  return {text, SignalParser(text, where, element).parse(), where};
+}
+
+}  // namespace codesign

@@ -1,0 +1,175 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "equations/compiled_equations.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "codegen/operate.h"
+#include "equations/equation_code.h"
+
+namespace codesign {
+namespace {
+
+using Arrays = EquationArrays;
+
+template <class T>
+constexpr int kLanesOf = 0;
+template <int N>
+constexpr int kLanesOf<Lanes<N>> = N;
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+}  // namespace
+
+template <class T>
+void CompiledEquations<T>::set_design(const std::vector<T>& parameters) {
+  parameters_ = parameters;
+  known_ = false;
+  misses_ = {};
+}
+
+template <class T>
+bool CompiledEquations<T>::is_worth_trying(EquationFunction function) {
+  Misses& misses = misses_[static_cast<std::size_t>(function)];
+  if (misses.pause == 0) return true;
+  --misses.pause;
+  return false;
+}
+
+template <class T>
+bool CompiledEquations<T>::note(EquationFunction function, bool recorded) {
+  constexpr int kMost = 4, kPause = 60;
+  Misses& misses = misses_[static_cast<std::size_t>(function)];
+  misses.in_a_row = recorded ? 0 : misses.in_a_row + 1;
+  if (misses.in_a_row >= kMost) misses.pause = kPause;
+  return recorded;
+}
+
+template <class T>
+bool CompiledEquations<T>::prepare() {
+  if (!allowed_) return false;
+  if (known_) return code_ != nullptr;
+  known_ = true;
+  code_ = system_.equation_code();
+  if (code_) numbered_ = &code_->numbered(kLanesOf<T> > 0);
+  if (code_ && !fill_numbers()) code_ = nullptr;
+  if (!code_) return false;
+  functions_.clear();
+  const std::vector<ControllerDescription>& controllers = system_.study().controllers;
+  for (const void* origin : numbered_->recording.timed_origins()) {
+    const auto shaped = std::find_if(controllers.begin(), controllers.end(), [&](const auto& c) { return origin == &c.basis; });
+    if (shaped == controllers.end())
+      functions_.emplace_back(Reference<T>(*static_cast<const ReferenceDescription*>(origin), parameters_));
+    else
+      functions_.emplace_back(ShapedInput<T>(shaped->basis, parameters_));
+  }
+  return true;
+}
+
+template <class T>
+bool CompiledEquations<T>::fill_numbers() {
+  const Recording& recording = numbered_->recording;
+  std::vector<T> values(at(recording.size()), T(0.0));
+  numbers_.assign(numbered_->numbers.size(), T(0.0));
+  for (std::size_t k = 0; k < numbers_.size(); ++k) {
+    const int n = numbered_->numbers[k];
+    const Recording::Node& node = recording.node(n);
+    T& value = values[at(n)];
+    if (node.operation == Operation::kLiteral)
+      value = T(node.literal);
+    else if (node.operation != Operation::kLeaf)
+      value = operate<T>(node.operation, values[at(node.a)], node.b < 0 ? T(0.0) : values[at(node.b)]);
+    else if (node.a == Recording::kSupplied && node.b >= 0)
+      value = value_at(*static_cast<const Expression*>(recording.supplied_origins()[at(node.b)]), parameters_);
+    numbers_[k] = value;
+  }
+  const std::vector<Recording::Guard>& guards = code_->design_guards();
+  return std::all_of(guards.begin(), guards.end(), [&values](const Recording::Guard& guard) {
+    return (value_of(values[at(guard.a)]) < value_of(values[at(guard.b)])) == guard.outcome;
+  });
+}
+
+template <class T>
+void CompiledEquations<T>::set_instant(double t, const TurnReferences& turns) {
+  for (std::size_t k = 0; k < functions_.size(); ++k) {
+    const ReferenceMotion<T> motion = std::visit([t](const auto& function) { return function.at(t); }, functions_[k]);
+    const T* const orders[] = {&motion.value, &motion.rate, &motion.acceleration, &motion.jerk};
+    for (std::size_t order = 0; order < Recording::kFunctionOrders; ++order)
+      if (const int entry = numbered_->functions[k][order]; entry >= 0) numbers_[at(entry)] = *orders[order];
+  }
+  for (const auto& [pair, element, entry] : numbered_->turns) numbers_[at(entry)] = T(turns[at(pair)][at(element)]);
+}
+
+template <class T>
+const CompiledFunction* CompiledEquations<T>::begin(EquationFunction function, bool split, double t, const TurnReferences& turns) {
+  if (!is_worth_trying(function) || !prepare()) return nullptr;
+  const CompiledFunction* const code = code_->function(function, {kLanesOf<T>, split});
+  if (!code) return nullptr;
+  if (slots_.size() < code->slots) slots_.resize(code->slots);
+  if (rows_.size() < code->rows) rows_.resize(code->rows);
+  set_instant(t, turns);
+  return code;
+}
+
+// Lanes of values and directions that stand in one array are read as its numbers.
+template <class T>
+bool CompiledEquations<T>::run(EquationFunction function, double t, const TurnReferences& turns, const T* const (&state)[4],
+                               T* const (&results)[4]) {
+  const CompiledFunction* const code = begin(function, false, t, turns);
+  if (!code) return false;
+  const auto numbers = [](const T* first) { return reinterpret_cast<const double*>(first); };
+  ValueCode::Arrays arrays{};
+  std::transform(std::begin(state), std::end(state), arrays.begin(), numbers);
+  std::transform(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults, numbers);
+  arrays[Arrays::kNumbers] = numbers(numbers_.data());
+  arrays[Arrays::kSlots] = slots_.data();
+  arrays[Arrays::kRows] = rows_.data();
+  if (!note(function, code->values->run(arrays))) return false;
+  if (code->tangents) code->tangents->run(arrays);
+  return true;
+}
+
+template <class T>
+bool CompiledEquations<T>::tangents(EquationFunction function, double t, const TurnReferences& turns, const double* const (&values)[4],
+                                    const double* const (&directions)[4], double* const (&results)[4]) {
+  const CompiledFunction* const code = kLanesOf<T> == 0 ? nullptr : begin(function, true, t, turns);
+  if (!code) return false;
+  ValueCode::Arrays arrays{};
+  std::copy(std::begin(values), std::end(values), arrays.begin());
+  arrays[Arrays::kNumbers] = reinterpret_cast<const double*>(numbers_.data());
+  arrays[Arrays::kSlots] = slots_.data();
+  arrays[Arrays::kRows] = rows_.data();
+  if (!note(function, code->values->run(arrays))) return false;
+  std::copy(std::begin(directions), std::end(directions), arrays.begin());
+  std::copy(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults);
+  code->tangents->run(arrays);
+  return true;
+}
+
+template <class T>
+bool CompiledEquations<T>::residual(const State<T>& state, const TurnReferences& turns, VectorX<T>* G, T* g) {
+  G->resize(system_.layout().columns());
+  return run(EquationFunction::kResidual, state.t, turns, {state.q.data(), state.v.data(), state.s.data(), state.z.data()},
+             {G->data(), g, nullptr, nullptr});
+}
+
+template <class T>
+bool CompiledEquations<T>::linearize(const State<T>& state, const TurnReferences& turns, Linearization<T>* derivatives) {
+  return run(EquationFunction::kLinearization, state.t, turns, {state.q.data(), state.v.data(), state.s.data(), state.z.data()},
+             {derivatives->position.data(), derivatives->velocity.data(), derivatives->rate.data(), derivatives->time.data()});
+}
+
+template <class T>
+bool CompiledEquations<T>::constraint_errors(const VectorX<T>& q, const VectorX<T>& v, const TurnReferences& turns, VectorX<T>* Phi,
+                                             VectorX<T>* Phi_rate) {
+  Phi->resize(system_.layout().m);
+  Phi_rate->resize(system_.layout().m);
+  return run(EquationFunction::kConstraintErrors, 0.0, turns, {q.data(), v.data(), nullptr, nullptr},
+             {Phi->data(), Phi_rate->data(), nullptr, nullptr});
+}
+
+template class CompiledEquations<double>;
+template class CompiledEquations<Lanes<4>>;
+template class CompiledEquations<Lanes<8>>;
+
+}  // namespace codesign

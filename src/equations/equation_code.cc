@@ -1,0 +1,227 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "equations/equation_code.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "equations/equations.h"
+
+namespace codesign {
+namespace {
+
+using Arrays = EquationArrays;
+
+// Beyond these, code is longer than caches, and takes seconds to make.
+constexpr int kMostColumns = 4000;
+constexpr std::size_t kMostBytes = 16 * 1024 * 1024;
+
+constexpr int kTurns = Recording::kTimed + 1;  // array of the leaves that count turns
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+void leaves(int array, Recording* recording, VectorX<Traced>* x) {
+  for (int k = 0; k < x->size(); ++k) (*x)[k] = Traced(recording, recording->leaf(array, k, true));
+}
+
+/// A place of the arrays as doubles: Lanes lie lanes + 1 numbers apart.
+Place spread(const Place& place, int lanes) {
+  if (place.array < 0 || place.array >= Arrays::kSlots) return place;
+  return {place.array, place.index * (lanes + 1)};
+}
+
+/// Comes with the design or the instant.
+bool is_number(const Recording::Node& node) {
+  return !node.varies || (node.operation == Operation::kLeaf && node.a >= Recording::kSupplied);
+}
+
+/// Whether a derivative is given. What does not vary is a leaf to the tangents: its derivative is found with the design.
+bool is_tangent_leaf(const Recording::Node& node) {
+  return node.operation == Operation::kLeaf ? node.a != kTurns : !node.varies && node.operation != Operation::kLiteral;
+}
+
+}  // namespace
+
+EquationCode::EquationCode(const System& system) {
+  if (!ValueCode::is_available() || system.layout().columns() > kMostColumns) {
+    values_.recording.refuse();
+    return;
+  }
+  record(system);
+  if (usable()) values_.number_nodes(turn_owners_);
+}
+
+void EquationCode::record(const System& system) {
+  Recording* const recording = &values_.recording;
+  Equations<Traced> equations(system);
+  // One more than there are, so that a model without parameters finds the recording too.
+  const int parameter = recording->leaf(Recording::kSupplied, -1, false);
+  std::vector<Traced> parameters;
+  for (double value : system.parameters()) parameters.emplace_back(recording, parameter, value);
+  parameters.emplace_back(recording, parameter, 0.0);
+  equations.set_design(parameters);
+  std::vector<std::vector<Traced>>& turns = equations.turn_references();
+  for (std::size_t pair = 0; pair < turns.size(); ++pair)
+    for (std::size_t element = 0; element < turns[pair].size(); ++element) {
+      turns[pair][element] = Traced(recording, recording->leaf(kTurns, static_cast<int>(turn_owners_.size()), true));
+      turn_owners_.push_back({static_cast<int>(pair), static_cast<int>(element)});
+    }
+  State<Traced> state;
+  state.resize(system.layout());
+  state.t = std::numeric_limits<double>::quiet_NaN();  // only functions of time may depend on it
+  leaves(Arrays::kQ, recording, &state.q), leaves(Arrays::kV, recording, &state.v);
+  leaves(Arrays::kS, recording, &state.s), leaves(Arrays::kZ, recording, &state.z);
+
+  Recorded design;
+  take_guards(0, &design);
+
+  std::size_t guards = recording->guards().size();
+  VectorX<Traced> G, Phi, Phi_rate, g(1);
+  equations.residual(state, &G, g.data());
+  take(EquationFunction::kResidual, {&G, &g}, &guards);
+  Linearization<Traced> derivatives;
+  derivatives.resize(system.patterns());
+  equations.linearize(state, &derivatives);
+  const auto vector = [](const std::vector<Traced>& x) -> VectorX<Traced> {
+    return Eigen::Map<const VectorX<Traced>>(x.data(), static_cast<Eigen::Index>(x.size()));
+  };
+  const VectorX<Traced> by_position = vector(derivatives.position), by_velocity = vector(derivatives.velocity),
+                        by_rate = vector(derivatives.rate);
+  take(EquationFunction::kLinearization, {&by_position, &by_velocity, &by_rate, &derivatives.time}, &guards);
+  equations.constraint_errors(state.q, state.v, &Phi, &Phi_rate);
+  take(EquationFunction::kConstraintErrors, {&Phi, &Phi_rate}, &guards);
+}
+
+void EquationCode::take(EquationFunction function, const std::vector<const VectorX<Traced>*>& results, std::size_t* guards) {
+  Recording* const recording = &values_.recording;
+  Recorded& recorded = functions_[static_cast<std::size_t>(function)];
+  take_guards(*guards, &recorded);
+  *guards = recording->guards().size();
+  for (std::size_t k = 0; k < results.size(); ++k)
+    for (Eigen::Index i = 0; i < results[k]->size(); ++i)
+      recorded.outputs.push_back({(*results[k])[i].node_in(recording), {Arrays::kResults + static_cast<int>(k), static_cast<int>(i)}});
+}
+
+void EquationCode::take_guards(std::size_t first, Recorded* function) {
+  const Recording& recording = values_.recording;
+  for (std::size_t k = first; k < recording.guards().size(); ++k) {
+    const Recording::Guard& guard = recording.guards()[k];
+    const bool varies = recording.node(guard.a).varies || recording.node(guard.b).varies;
+    (varies ? function->guards : design_guards_).push_back(guard);
+  }
+}
+
+void EquationCode::differentiate() const {
+  Recording& recording = derivatives_.recording;
+  recording = values_.recording;
+  for (std::size_t f = 0; f < kFunctions; ++f) {
+    std::vector<bool> is_leaf(at(recording.size()));
+    for (int n = 0; n < recording.size(); ++n) is_leaf[at(n)] = is_tangent_leaf(recording.node(n));
+    derivatives_.tangents[f] = std::make_unique<TangentProgram>(&recording, functions_[f].outputs, is_leaf);
+  }
+  derivatives_.number_nodes(turn_owners_);
+}
+
+const NumberedRecording& EquationCode::numbered(bool with_derivatives) const {
+  if (!with_derivatives) return values_;
+  std::call_once(differentiated_, [this] { differentiate(); });
+  return derivatives_;
+}
+
+void NumberedRecording::number_nodes(const std::vector<std::array<int, 2>>& turn_owners) {
+  functions.resize(recording.timed_origins().size());
+  for (auto& orders : functions) orders.fill(-1);
+  homes.resize(at(recording.size()));
+  std::vector<bool> used(homes.size());
+  for (int n = 0; n < recording.size(); ++n) {
+    const Recording::Node& node = recording.node(n);
+    if (node.operation == Operation::kLeaf) continue;
+    for (int operand : {node.a, node.b})
+      if (operand >= 0) used[at(operand)] = true;
+  }
+  for (int n = 0; n < recording.size(); ++n) {
+    const Recording::Node& node = recording.node(n);
+    if (!is_number(node)) {
+      if (node.operation == Operation::kLeaf) homes[at(n)] = {node.a, node.b};
+      continue;
+    }
+    const auto entry = static_cast<int>(numbers.size());
+    homes[at(n)] = {Arrays::kNumbers, entry};
+    numbers.push_back(n);
+    if (node.operation != Operation::kLeaf) continue;
+    if (node.a == Recording::kTimed) functions[at(node.b / Recording::kFunctionOrders)][at(node.b % Recording::kFunctionOrders)] = entry;
+    if (node.a == kTurns && used[at(n)]) turns.push_back({turn_owners[at(node.b)][0], turn_owners[at(node.b)][1], entry});
+  }
+}
+
+const CompiledFunction* EquationCode::function(EquationFunction function, const Scalar& scalar) const {
+  const auto f = static_cast<std::size_t>(function);
+  Known& known = known_[f][at(scalar.lanes / 4 + (scalar.split ? 2 : 0))];
+  if (!known.tried.load(std::memory_order_acquire)) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!known.tried.load(std::memory_order_relaxed)) known.code = compile(f, scalar);
+    known.tried.store(true, std::memory_order_release);
+  }
+  return known.code.get();
+}
+
+// Factors that are read off the state are copied where the sums find them too.
+ValueTask EquationCode::value_task(std::size_t function, const Scalar& scalar, std::vector<Place>* value_places) const {
+  const NumberedRecording& from = numbered(scalar.lanes > 0);
+  ValueTask task;
+  const int state_lanes = scalar.split ? 0 : scalar.lanes;
+  for (const Place& home : from.homes) task.homes.push_back(spread(home, home.array == Arrays::kNumbers ? scalar.lanes : state_lanes));
+  task.guards = functions_[function].guards;
+  if (!scalar.split)
+    for (const ValueTask::Output& output : functions_[function].outputs)
+      task.outputs.push_back({output.node, spread(output.place, scalar.lanes)});
+  *value_places = task.homes;
+  if (scalar.lanes == 0) return task;
+  for (int n : from.tangents[function]->factors) {
+    Place& place = (*value_places)[at(n)];
+    if (place.array < 0) {
+      task.kept.push_back(n);
+    } else if (scalar.split && place.array != Arrays::kNumbers) {
+      place = {Arrays::kSlots, task.reserved_slots++};
+      task.outputs.push_back({n, place});
+    }
+  }
+  return task;
+}
+
+std::vector<Sum> EquationCode::tangent_sums(std::size_t function, const std::vector<Place>& value_places) const {
+  const TangentProgram& tangent = *derivatives_.tangents[function];
+  const auto row_place = [&](int n) {
+    const bool has_sum = at(n) < tangent.row.size() && tangent.row[at(n)] >= 0;
+    return has_sum ? Place{Arrays::kRows, tangent.row[at(n)]} : derivatives_.homes[at(n)];
+  };
+  std::vector<Sum> sums;
+  for (const TangentProgram::Sum& from : tangent.sums) {
+    Sum& sum = sums.emplace_back();
+    sum.target = from.node < 0 ? from.output.place : row_place(from.node);
+    for (const TangentProgram::Term& term : from.terms)
+      sum.products.push_back({row_place(term.row), term.factor < 0 ? Place{} : value_places[at(term.factor)], term.added});
+  }
+  return sums;
+}
+
+std::unique_ptr<CompiledFunction> EquationCode::compile(std::size_t function, const Scalar& scalar) const {
+  const NumberedRecording& from = numbered(scalar.lanes > 0);
+  std::vector<Place> value_places;
+  const ValueTask task = value_task(function, scalar, &value_places);
+  const ValueProgram program(from.recording, task);
+  auto compiled = std::make_unique<CompiledFunction>();
+  compiled->slots = at(program.slots);
+  compiled->values = ValueCode::compile(from.recording, task, program, Arrays::kSlots);
+  if (!compiled->values) return nullptr;
+  if (scalar.lanes == 0) return compiled;
+  for (int n : task.kept) value_places[at(n)] = {Arrays::kSlots, program.slot[at(n)]};
+  StraightLine::RowLayouts layouts;
+  layouts.fill(scalar.split ? StraightLine::RowLayout{scalar.lanes, 0} : StraightLine::RowLayout{scalar.lanes + 1, 1});
+  layouts[at(Arrays::kNumbers)] = {scalar.lanes + 1, 1};
+  layouts[at(Arrays::kRows)] = {scalar.lanes, 0};
+  compiled->rows = at(from.tangents[function]->rows * scalar.lanes);
+  compiled->tangents = StraightLine::compile(tangent_sums(function, value_places), scalar.lanes, layouts, kMostBytes);
+  return compiled->tangents ? std::move(compiled) : nullptr;
+}
+
+}  // namespace codesign

@@ -1,0 +1,102 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "equations/iteration_matrix.h"
+
+#include <algorithm>
+#include <array>
+
+#include "codegen/straight_line.h"
+
+namespace codesign {
+namespace {
+
+struct Entry {
+  int column, row, matrix, entry;
+  bool operator<(const Entry& other) const { return std::array<int, 2>{column, row} < std::array<int, 2>{other.column, other.row}; }
+};
+
+/// Notes the entries of one matrix, the integrand's row left out; `shift` moves its column to that of the rate it is eliminated by.
+template <class Shift>
+void collect(const Sparsity& pattern, int matrix, const Shift& shift, std::vector<Entry>* entries) {
+  for (int row = 0; row + 1 < pattern.rows; ++row)
+    for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) entries->push_back({shift(pattern.column(e)), row, matrix, e});
+}
+
+}  // namespace
+
+IterationMatrix::Pattern::Pattern(const System& system) {
+  const Layout& layout = system.layout();
+  const auto same = [](int column) { return column; };
+  const auto position = [&layout](int column) { return layout.rate_column(column); };
+  std::vector<Entry> entries;
+  collect(system.patterns().position, 0, position, &entries);
+  collect(system.patterns().velocity, 1, same, &entries);
+  collect(system.patterns().rate, 2, same, &entries);
+  std::stable_sort(entries.begin(), entries.end());
+  column_start.assign(static_cast<std::size_t>(layout.columns()) + 1, 0);
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    const Entry& e = entries[k];
+    if (k == 0 || entries[k - 1] < e) {
+      row_index.push_back(e.row);
+      ++column_start[static_cast<std::size_t>(e.column) + 1];
+    }
+    std::vector<Source>& list = e.matrix == 2 ? z : e.matrix == 1 ? v : e.column < layout.n ? q : s;
+    list.push_back({e.entry, static_cast<int>(row_index.size()) - 1});
+  }
+  for (std::size_t k = 1; k < column_start.size(); ++k) column_start[k] += column_start[k - 1];
+}
+
+namespace {
+
+// The arrays of the compiled code, and the places of the coefficients, which it subtracts multiples by.
+constexpr int kValues = 0, kPosition = 1, kVelocity = 2, kRate = 3, kCoefficients = 4;
+constexpr int kMinusCv = 0, kMinusCq = 1, kMinusCs = 2;
+
+std::vector<Sum> sums(const IterationMatrix::Pattern& pattern) {
+  std::vector<Sum> sums(pattern.row_index.size());
+  for (std::size_t slot = 0; slot < sums.size(); ++slot) sums[slot].target = {kValues, static_cast<int>(slot)};
+  for (const auto& source : pattern.z) sums[static_cast<std::size_t>(source.slot)].start = {kRate, source.entry};
+  const auto add = [&sums](const std::vector<IterationMatrix::Pattern::Source>& sources, int coefficient, int matrix) {
+    for (const auto& source : sources)
+      sums[static_cast<std::size_t>(source.slot)].products.push_back({{kCoefficients, coefficient}, {matrix, source.entry}});
+  };
+  add(pattern.v, kMinusCv, kVelocity);
+  add(pattern.q, kMinusCq, kPosition);
+  add(pattern.s, kMinusCs, kPosition);
+  return sums;
+}
+
+}  // namespace
+
+IterationMatrix::IterationMatrix(const System& system, bool machine_code)
+    : pattern_(system),
+      values_(pattern_.row_index.size()),
+      code_(std::make_unique<LazyStraightLine>(machine_code)),
+      lu_(pattern_.column_start, pattern_.row_index) {}
+
+IterationMatrix::~IterationMatrix() = default;
+IterationMatrix::IterationMatrix(IterationMatrix&&) noexcept = default;
+IterationMatrix& IterationMatrix::operator=(IterationMatrix&&) noexcept = default;
+
+bool IterationMatrix::factor(const Linearization<double>& d, double c_v, double c_q, double c_s) {
+  if (const StraightLine* const code = code_->get([this] { return sums(pattern_); }, 1)) {
+    const double coefficients[] = {-c_v, -c_q, -c_s};
+    code->run({values_.data(), d.position.data(), d.velocity.data(), d.rate.data(), coefficients});
+  } else {
+    add_up(d, c_v, c_q, c_s);
+  }
+  return lu_.factor(values_.data());
+}
+
+void IterationMatrix::add_up(const Linearization<double>& d, double c_v, double c_q, double c_s) {
+  std::fill(values_.begin(), values_.end(), 0.0);
+  const auto add = [this](const std::vector<Pattern::Source>& sources, double c, const std::vector<double>& from) {
+    for (const Pattern::Source& source : sources)
+      values_[static_cast<std::size_t>(source.slot)] += c * from[static_cast<std::size_t>(source.entry)];
+  };
+  add(pattern_.z, 1.0, d.rate);
+  if (c_v != 0.0) add(pattern_.v, c_v, d.velocity);
+  if (c_q != 0.0) add(pattern_.q, c_q, d.position);
+  if (c_s != 0.0) add(pattern_.s, c_s, d.position);
+}
+
+}  // namespace codesign

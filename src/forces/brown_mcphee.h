@@ -1,0 +1,33 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_FORCES_BROWN_MCPHEE_H_
+#define MECHANISM_CODESIGN_FORCES_BROWN_MCPHEE_H_
+
+#include <cmath>
+
+#include "math/scalar.h"
+
+namespace codesign {
+
+/// Friction coefficient and its slope.
+template <class T>
+struct FrictionCoefficient {
+  T value{0.0};  ///< S(v) [-], odd in v
+  T slope{0.0};  ///< dS/dv [s/m]
+};
+
+/// Brown and McPhee (2016) without the viscous term, the bracket of the paper's friction equation; doc/theory.md (10):
+///   S(v) = mu_d tanh(4 v / v_t) + (mu_s - mu_d) (v / v_t) / ((v / (2 v_t))^2 + 3/4)^2.
+/// @param v sliding speed [m/s], @param v_t transition velocity [m/s].
+template <class T>
+FrictionCoefficient<T> brown_mcphee(const T& v, const T& mu_static, const T& mu_dynamic, const T& v_t) {
+  using std::tanh;
+  const T u = v / v_t;
+  const T h = tanh(4.0 * u);
+  const T d = 0.25 * u * u + 0.75;
+  const T bump = (mu_static - mu_dynamic) / (d * d);
+  return {mu_dynamic * h + bump * u, (4.0 * mu_dynamic * (1.0 - h * h) + bump * (1.0 - u * u / d)) / v_t};
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_FORCES_BROWN_MCPHEE_H_

@@ -1,0 +1,37 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_FORCES_SATURATION_H_
+#define MECHANISM_CODESIGN_FORCES_SATURATION_H_
+
+#include <cmath>
+
+#include "math/scalar.h"
+
+namespace codesign {
+
+/// A bounded effort and its slope.
+template <class T>
+struct SaturatedEffort {
+  T value{0.0};  ///< [of u]
+  T slope{0.0};  ///< d value / d u, in (0, 1]
+};
+
+/// Smooth saturation of an actuator, doc/theory.md (13c): u / (1 + (u/u_max)^8)^(1/8).
+/// Odd and analytic; gain 1 up to terms of order (u/u_max)^8; never reaches u_max.
+/// @param u effort asked for, @param u_max > 0 the largest it can give, in the same unit.
+template <class T>
+SaturatedEffort<T> saturate(const T& u, const T& u_max) {
+  using std::sqrt;
+  const auto eighth_root = [](const T& x) { return sqrt(sqrt(sqrt(x))); };
+  const T x = u / u_max;
+  // Beyond the limit in powers of 1/x, which cannot overflow.
+  const bool beyond = is_less(T(1.0), T(x * x), false);
+  const T r = beyond ? T(1.0) / x : x, r2 = r * r, r4 = r2 * r2, r8 = r4 * r4;
+  const T root = eighth_root(T(1.0) + r8), root9 = (T(1.0) + r8) * root;
+  if (!beyond) return {u / root, T(1.0) / root9};
+  const T sign(is_less(x, T(0.0), false) ? -1.0 : 1.0);
+  return {sign * u_max / root, sign * r8 * r / root9};
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_FORCES_SATURATION_H_

@@ -1,0 +1,60 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_FORCES_SPRING_DAMPER_H_
+#define MECHANISM_CODESIGN_FORCES_SPRING_DAMPER_H_
+
+#include <cmath>
+
+#include "math/euler_parameters.h"
+
+namespace codesign {
+
+/// What a spring-damper does at one instant.
+template <class T>
+struct SpringForce {
+  T length{0.0};                            ///< l [m]
+  T tension{0.0};                           ///< k (l - l_0) + c l', positive if it pulls [N]
+  Vector3<T> pull = Vector3<T>::Zero();     ///< tension d/l: on the first point; the second feels the opposite [N]
+  Matrix3<T> by_d = Matrix3<T>::Zero();     ///< d pull / d d [N/m], symmetric but for the damper
+  Matrix3<T> by_rate = Matrix3<T>::Zero();  ///< d pull / d d' [N s/m], symmetric
+};
+
+/// Spring length below which its line has no direction, theory (13b) [m]: a billionth of what is drawn to a metre.
+constexpr double kSpringSmoothing = 1e-9;
+
+/// Linear spring and damper along the line between two points, doc/theory.md (13b): l = sqrt(d.d + delta^2), pull = (k (l - l_0) + c l')
+/// d/l. Analytic everywhere; where the points meet there is no line, and the pull is zero whatever the free length.
+/// @param d from the first point to the second [m], @param rate its time derivative [m/s],
+/// @param stiffness k [N/m], @param damping c [N s/m], @param free_length l_0 [m].
+template <class T>
+SpringForce<T> spring_damper(const Vector3<T>& d, const Vector3<T>& rate, const T& stiffness, const T& damping, const T& free_length) {
+  using std::sqrt;
+  SpringForce<T> s;
+  s.length = sqrt(dot(d, d) + T(kSpringSmoothing * kSpringSmoothing));
+  const T inverse = T(1.0) / s.length;
+  const Vector3<T> e = inverse * d;
+  const T length_rate = dot(e, rate);
+  s.tension = stiffness * (s.length - free_length) + damping * length_rate;
+  s.pull = s.tension * e;
+  // e_d = (I - e e^T)/l, l'_d = (rate - l' e)/l, and the tension's derivatives follow.
+  const Vector3<T> tension_d = stiffness * e + (damping * inverse) * (rate - length_rate * e);
+  const T across = s.tension * inverse;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      s.by_d(row, column) = e[row] * tension_d[column] + across * ((row == column ? T(1.0) : T(0.0)) - e[row] * e[column]);
+      s.by_rate(row, column) = damping * e[row] * e[column];
+    }
+  }
+  return s;
+}
+
+/// Elastic energy k (l - l_0)^2/2 [J].
+template <class T>
+T spring_energy(const Vector3<T>& d, const T& stiffness, const T& free_length) {
+  using std::sqrt;
+  const T stretch = sqrt(dot(d, d) + T(kSpringSmoothing * kSpringSmoothing)) - free_length;
+  return T(0.5) * stiffness * stretch * stretch;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_FORCES_SPRING_DAMPER_H_

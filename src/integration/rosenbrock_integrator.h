@@ -1,0 +1,64 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_INTEGRATION_ROSENBROCK_INTEGRATOR_H_
+#define MECHANISM_CODESIGN_INTEGRATION_ROSENBROCK_INTEGRATOR_H_
+
+#include <functional>
+#include <vector>
+
+#include "integration/break_times.h"
+#include "integration/integrator.h"
+#include "integration/motion_watch.h"
+#include "integration/rosenbrock_step.h"
+#include "integration/run_watch.h"
+#include "integration/singularity_watch.h"
+#include "integration/step_controller.h"
+
+namespace codesign {
+
+/// An adaptive Rosenbrock-Wanner method; doc/theory.md (15)-(17). Once warm, steps do not allocate.
+class RosenbrockIntegrator final : public Integrator {
+ public:
+  explicit RosenbrockIntegrator(const System& system);
+
+  Status start(const std::vector<double>& parameters) override;
+  Status advance(double limit) override { return advance(limit, {}); }
+  const State<double>& state() const override { return step_.state(); }
+  double psi() const override { return step_.psi(); }
+  void interpolate(double time, State<double>* state, double* psi) override;
+  Equations<double>& equations() override { return step_.equations(); }
+  Assembly& assembly() override { return assembly_; }
+  void watch_singularities(bool watch) override { watch_singularities_ = watch; }
+  const Statistics& statistics() const override { return statistics_; }
+  Warnings warnings() const override;
+
+  /// Called when a step's error has been accepted, before it is taken: the tangent of its stages is due.
+  using BeforeAccept = std::function<double(const RosenbrockStep<double>&)>;
+
+  Status advance(double limit, const BeforeAccept& before_accept);
+
+  const RosenbrockStep<double>& step() const { return step_; }
+  RosenbrockStep<double>& step() { return step_; }
+  const State<double>& initial_state() const { return initial_; }
+
+ private:
+  double first_step() const;
+
+  const System& system_;
+  const SolverOptions& options_;
+  const BreakTimes breaks_;
+  RosenbrockStep<double> step_;
+  Assembly assembly_;
+  State<double> initial_;
+  StepController controller_;
+  MotionWatch watch_;
+  RunWatch run_watch_;
+  StepWork work_;
+  SingularityWatch singularity_;
+  bool watch_singularities_ = false;
+  double proposal_ = 0.0;
+  Statistics statistics_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_INTEGRATION_ROSENBROCK_INTEGRATOR_H_

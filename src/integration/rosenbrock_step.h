@@ -1,0 +1,86 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_INTEGRATION_ROSENBROCK_STEP_H_
+#define MECHANISM_CODESIGN_INTEGRATION_ROSENBROCK_STEP_H_
+
+#include <vector>
+
+#include "equations/equations.h"
+#include "integration/increment.h"
+#include "integration/stage_matrix.h"
+#include "integration/stage_product.h"
+#include "integration/tableau.h"
+
+namespace codesign {
+
+/// One step of a Rosenbrock-Wanner method on q' = v, v' = a, s' = sigma, 0 = G(q, v, s; a, lambda, sigma), psi' = g; doc/theory.md
+/// (15)-(17).
+///
+/// The unknowns q, v, s of each stage are eliminated, so that one sparse matrix of the size of (a, lambda, sigma) serves all of them. After
+/// an accepted step (q, v) are projected onto Phi = 0, Phi_q v = 0; the derivatives of the next step are those at the unprojected point,
+/// whose factorization the projection uses. T: double for the solution, std::complex<double> to check its derivatives.
+template <class T>
+class RosenbrockStep {
+ public:
+  RosenbrockStep(const System& system, const RosenbrockTableau& tableau);
+
+  Equations<T>& equations() { return equations_; }
+  const Equations<T>& equations() const { return equations_; }
+  const RosenbrockTableau& tableau() const { return tableau_; }
+
+  /// Starts a solution at a consistent state.
+  void start(const State<T>& state);
+
+  /// Computes the step of size h [s] from the present state. False if the matrix is singular or a value is not finite.
+  bool attempt(double h);
+  /// Scaled error of the last attempt: the largest of u_last / (absolute + relative max(|y|, |y_1|)) over (q, v, s), whatever else is at
+  /// rest.
+  double error(double relative_tolerance, double absolute_tolerance) const;
+  /// Takes the last attempt: projects and linearizes. False if the augmented matrix is singular there.
+  bool accept();
+  /// Takes a solution up again where an accepted step ended, before its projection: what accept() made of it is made anew.
+  bool resume(const State<T>& unprojected);
+
+  const State<T>& state() const { return state_; }  ///< at the end of the last accepted step, projected
+  const T& psi() const { return psi_; }             ///< integral of g so far
+  double step_size() const { return h_; }
+
+  // What the tangent of the step needs.
+  const IncrementLayout& increment_layout() const { return at_; }
+  const std::vector<VectorX<T>>& increments() const { return increments_; }       ///< u_i of the last attempt
+  const std::vector<State<T>>& stages() const { return stages_; }                 ///< where the last attempt evaluated the equations
+  const State<T>& previous() const { return previous_; }                          ///< where the last accepted step began
+  const State<T>& unprojected() const { return end_; }                            ///< where the last attempt ended
+  const Linearization<T>& derivatives() const { return derivatives_; }            ///< that the next step will use
+  const VectorX<T>& position_correction() const { return position_correction_; }  ///< of the last projection: [delta q, multipliers]
+  const VectorX<T>& velocity_correction() const { return velocity_correction_; }  ///< [delta v, multipliers]
+  const StageMatrix<T>& stage_matrix() const { return stage_matrix_; }
+  const StageProduct& product() const { return product_; }
+  const StageMatrix<T>& projection_matrix() const { return projection_matrix_; }
+
+  /// State at `previous().t + theta h` by the method's dense output; psi too.
+  void interpolate(double theta, State<T>* state, T* psi) const;
+
+ private:
+  void stage_start(std::size_t i);
+  bool solve_stage(std::size_t i);
+  bool project();
+
+  const System& system_;
+  const Layout& layout_;
+  const IncrementLayout at_;
+  const RosenbrockTableau& tableau_;
+  Equations<T> equations_;
+  StageMatrix<T> stage_matrix_, projection_matrix_;
+  StageProduct product_;
+  Linearization<T> derivatives_;
+  State<T> state_, previous_, end_;
+  T psi_{0.0}, previous_psi_{0.0};
+  std::vector<VectorX<T>> increments_;
+  std::vector<State<T>> stages_;
+  VectorX<T> residual_, z_, constraint_, constraint_rate_, position_correction_, velocity_correction_;
+  double h_ = 0.0;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_INTEGRATION_ROSENBROCK_STEP_H_

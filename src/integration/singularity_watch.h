@@ -1,0 +1,54 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_INTEGRATION_SINGULARITY_WATCH_H_
+#define MECHANISM_CODESIGN_INTEGRATION_SINGULARITY_WATCH_H_
+
+#include <array>
+#include <memory>
+
+#include "equations/equations.h"
+#include "equations/iteration_matrix.h"
+
+namespace codesign {
+
+/// Finds the first singular position that a run passes, where the rank of Phi_q drops and sensitivities lose digits; doc/theory.md (17b).
+///
+/// A singular position shows in the drift of the steps beside it, which the way back to the constraints magnifies. Only there, between
+/// three ends of steps, is the response of the augmented matrix looked at.
+class SingularityWatch {
+ public:
+  explicit SingularityWatch(const System& system);
+
+  /// @param enabled whether to look at all.
+  void start(bool enabled, const State<double>& initial);
+  /// After each step, at its end. @param drift RunWatch::drift().
+  void look(const State<double>& state, double drift, Equations<double>* equations);
+
+  /// `singular_position_passed` with time and rank, if there was one.
+  Warnings warnings() const { return warnings_; }
+
+ private:
+  struct Point {
+    double drift = 0.0;
+    State<double> state;
+  };
+  bool is_peak() const;
+  void search(Equations<double>* equations);
+  void place(double time);
+  double stiffness(Equations<double>* equations);
+  int rank(Equations<double>* equations, const State<double>& state) const;
+
+  const System& system_;
+  std::unique_ptr<IterationMatrix> matrix_;  ///< made when a peak is first looked at: few runs have one
+  Linearization<double> derivatives_;
+  VectorX<double> response_;
+  std::array<Point, 3> points_;
+  State<double> initial_, between_;
+  double typical_stiffness_ = 0.0, sum_of_logarithms_ = 0.0, threshold_ = 0.0;
+  int count_ = 0;
+  bool enabled_ = false;
+  Warnings warnings_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_INTEGRATION_SINGULARITY_WATCH_H_

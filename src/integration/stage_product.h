@@ -1,0 +1,43 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_INTEGRATION_STAGE_PRODUCT_H_
+#define MECHANISM_CODESIGN_INTEGRATION_STAGE_PRODUCT_H_
+
+#include <complex>
+#include <memory>
+
+#include "equations/system.h"
+#include "sparse/sparsity.h"
+
+namespace codesign {
+
+class LazyStraightLine;
+
+/// The products with G_q (and G_s) and G_v on the right-hand side of every stage, of a step and of its tangent; theory (16), (18).
+class StageProduct {
+ public:
+  /// @param machine_code whether to compile the products where that is possible; loops take them otherwise.
+  explicit StageProduct(const System& system, bool machine_code = true);
+  ~StageProduct();
+  StageProduct(StageProduct&&) noexcept;
+  StageProduct& operator=(StageProduct&&) noexcept;
+
+  /// y -= G_q x + G_v v over the rows of the equations, for N vectors stored row by row. xv is [x | v] with x = (q, s). N is 1, 4 or 8.
+  template <int N>
+  void subtract(const Linearization<double>& derivatives, const double* xv, double* y) const;
+
+  /// The same for one complex vector, which only checks of derivatives use.
+  void subtract(const Linearization<std::complex<double>>& derivatives, const std::complex<double>* xv, std::complex<double>* y) const;
+  void subtract(const Linearization<double>& derivatives, const double* xv, double* y) const { subtract<1>(derivatives, xv, y); }
+
+ private:
+  template <class T>
+  void subtract_rows(const Linearization<T>& derivatives, const T* xv, T* y) const;
+
+  const ByVariable<Sparsity>* patterns_;
+  int rows_;
+  std::unique_ptr<LazyStraightLine> code_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_INTEGRATION_STAGE_PRODUCT_H_

@@ -1,0 +1,59 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOINTS_BODY_KINEMATICS_H_
+#define MECHANISM_CODESIGN_JOINTS_BODY_KINEMATICS_H_
+
+#include "math/euler_parameters.h"
+
+namespace codesign {
+
+/// Position, velocity and acceleration of one body's centroidal frame, with the rotation matrix and its first two time derivatives along
+/// (p, p', p''); doc/theory.md (1). The ground is a body at rest at the origin.
+template <class T>
+struct BodyKinematics {
+  Vector3<T> r = Vector3<T>::Zero(), rd = Vector3<T>::Zero(), rdd = Vector3<T>::Zero();
+  Vector4<T> p = Vector4<T>(T(1.0), T(0.0), T(0.0), T(0.0)), pd = Vector4<T>::Zero(), pdd = Vector4<T>::Zero();
+  Matrix3<T> A = Matrix3<T>::Identity(), Ad = Matrix3<T>::Zero(), Add = Matrix3<T>::Zero();
+  bool at_rest = false;  ///< the ground: what is fixed in it need not be computed, and has no derivatives
+
+  /// Fills A, Ad = DA(p)[p'], Add = DA(p)[p''] + 2 A(p') from p, pd, pdd.
+  void update_rotation() {
+    A = rotation(p);
+    Ad = rotation_derivative(p, pd);
+    Add = rotation_derivative(p, pdd) + 2.0 * rotation(pd);
+  }
+};
+
+/// x = value, first and second time derivative of a vector that moves with the bodies.
+template <class T>
+struct VectorMotion {
+  Vector3<T> x, xd, xdd;
+};
+
+/// Motion of a body-fixed direction A a.
+template <class T>
+VectorMotion<T> direction_motion(const BodyKinematics<T>& body, const Vector3<T>& a) {
+  if (body.at_rest) return {a, Vector3<T>::Zero(), Vector3<T>::Zero()};
+  return {body.A * a, body.Ad * a, body.Add * a};
+}
+
+/// Motion of the body-fixed point r + A s.
+template <class T>
+VectorMotion<T> point_motion(const BodyKinematics<T>& body, const Vector3<T>& s) {
+  VectorMotion<T> x = direction_motion(body, s);
+  if (body.at_rest) return x;
+  x.x += body.r;
+  x.xd += body.rd;
+  x.xdd += body.rdd;
+  return x;
+}
+
+/// Motion of the vector from point s_i of body i to point s_j of body j.
+template <class T>
+VectorMotion<T> displacement_motion(const BodyKinematics<T>& i, const Vector3<T>& s_i, const BodyKinematics<T>& j, const Vector3<T>& s_j) {
+  const VectorMotion<T> to = point_motion(j, s_j), from = point_motion(i, s_i);
+  return {to.x - from.x, to.xd - from.xd, to.xdd - from.xdd};
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOINTS_BODY_KINEMATICS_H_

@@ -1,0 +1,237 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOINTS_COORDINATE_H_
+#define MECHANISM_CODESIGN_JOINTS_COORDINATE_H_
+
+#include <cmath>
+
+#include "joints/scalar_product.h"
+#include "math/elementary.h"
+#include "mechanism/constants.h"
+
+namespace codesign {
+
+/// How much of a coordinate is asked for; each includes those before it.
+enum class CoordinateDetail {
+  kRate,      ///< rate and J
+  kGradient,  ///< rate_q, and the acceleration with its gradients
+  kAll        ///< position and position_q
+};
+
+/// A joint's scalar coordinate theta with its rate and acceleration, and their gradients over the pair's coordinates; doc/theory.md (8).
+///
+/// `J` maps velocities to the rate (rate = J v) and, transposed, a load on the joint to generalized forces, so that power balances exactly.
+/// What CoordinateDetail leaves out is not initialized.
+template <class T>
+struct CoordinateMotion {
+  T position, rate, acceleration;
+  LocalRow<T> position_q, J, rate_q, acceleration_q, acceleration_v;
+};
+
+namespace internal {
+
+/// N/D-type angle: theta = atan2(N, D) with N, D scalar products; all derivatives by the quotient rule on the unit circle.
+template <class T>
+void angle_motion(const ProductMotion<T>& N, const ProductGradient<T>& Ng, const ProductMotion<T>& D, const ProductGradient<T>& Dg,
+                  CoordinateMotion<T>* m) {
+  const T square = N.phi * N.phi + D.phi * D.phi;
+  const T c = D.phi / square, s = N.phi / square;
+  m->J = c * Ng.phi_q - s * Dg.phi_q;
+  m->position_q = m->J;
+  const T ratio = (N.phid * N.phi + D.phid * D.phi) / square;  // half the relative growth rate of N^2 + D^2
+  m->rate = c * N.phid - s * D.phid;
+  const LocalRow<T> square_q = 2.0 * (N.phi * Ng.phi_q + D.phi * Dg.phi_q) / square;
+  const LocalRow<T> cross_q = (Dg.phi_q * N.phid - Ng.phi_q * D.phid) / square;
+  m->rate_q = c * Ng.phid_q - s * Dg.phid_q + cross_q - m->rate * square_q;
+  m->acceleration = c * N.phidd - s * D.phidd - 2.0 * m->rate * ratio;
+  const LocalRow<T> ratio_q = (Ng.phi_q * N.phid + Dg.phi_q * D.phid + Ng.phid_q * N.phi + Dg.phid_q * D.phi) / square - ratio * square_q;
+  const LocalRow<T> outer_q = (Dg.phi_q * N.phidd - Ng.phi_q * D.phidd) / square - (c * N.phidd - s * D.phidd) * square_q;
+  m->acceleration_q = c * Ng.phidd_q - s * Dg.phidd_q + outer_q - 2.0 * (m->rate_q * ratio + m->rate * ratio_q);
+  const LocalRow<T> ratio_v = (Ng.phi_q * N.phi + Dg.phi_q * D.phi) / square;
+  m->acceleration_v = 2.0 * (c * Ng.phid_q - s * Dg.phid_q) - 2.0 * (m->J * ratio + m->rate * ratio_v);
+}
+
+template <class T>
+struct Product {
+  ProductMotion<T> motion;
+  ProductGradient<T> gradient;
+};
+
+template <class T>
+Product<T> product(const PairVector<T>& X, const PairVector<T>& Y, const BodyKinematics<T>& i, const BodyKinematics<T>& j, int order = 2) {
+  const VectorMotion<T> x = motion_of(X, i, j), y = motion_of(Y, i, j);
+  return {product_motion(x, y), product_gradient(X, Y, x, y, i, j, order)};
+}
+
+template <class T>
+Product<T> directions_product(const Vector3<T>& a_i, const Vector3<T>& b_j, const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
+  return product(PairVector<T>::direction(Side::kI, a_i), PairVector<T>::direction(Side::kJ, b_j), i, j);
+}
+
+/// A rate that is linear in p and in p': R(p_j) p_j' . u_j - R(p_i) p_i' . u_i with R(p) r = -R(r) p, so that no arc tangent is
+/// differentiated.
+/// @param rate_matrix p -> G(p) or E(p), @param u_i, u_j carried by the bodies (for G) or fixed in the ground (for E).
+template <class T, class RateMatrix>
+void angular_rate(const RateMatrix& rate_matrix, const Vector3<T>& u_i, const Vector3<T>& u_j, const BodyKinematics<T>& i,
+                  const BodyKinematics<T>& j, CoordinateDetail detail, CoordinateMotion<T>* m) {
+  const bool gradient = detail != CoordinateDetail::kRate;
+  m->J.setZero();
+  m->rate = m->acceleration = T(0.0);
+  if (gradient)
+    for (LocalRow<T>* row : {&m->rate_q, &m->acceleration_q, &m->acceleration_v}) row->setZero();
+  const auto add = [&](Side side, const BodyKinematics<T>& body, const Vector3<T>& u) {
+    if (body.at_rest) return;
+    const Vector4<T> row = rate_matrix(body.p).transpose() * u;
+    m->J.template segment<4>(p_offset(side)) = row;
+    for (int k = 0; k < 4; ++k) m->rate += row[k] * body.pd[k];
+    if (!gradient) return;
+    for (int k = 0; k < 4; ++k) m->acceleration += row[k] * body.pdd[k];
+    m->rate_q.template segment<4>(p_offset(side)) = -(rate_matrix(body.pd).transpose() * u);
+    m->acceleration_q.template segment<4>(p_offset(side)) = -(rate_matrix(body.pdd).transpose() * u);
+  };
+  add(Side::kJ, j, u_j);
+  add(Side::kI, i, u_i);
+}
+
+/// About the common axis, 2 u_j . G(p_j) p_j' - 2 u_i . G(p_i) p_i'.
+template <class T>
+void turn_rate(const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateDetail detail,
+               CoordinateMotion<T>* m) {
+  angular_rate<T>([](const Vector4<T>& p) { return body_rate_matrix(p); }, Vector3<T>(T(-2.0) * pair.C_i.col(2)),
+                  Vector3<T>(2.0 * pair.C_j.col(2)), i, j, detail, m);
+}
+
+/// About a ground axis, 2 a . (E(p_j) p_j' - E(p_i) p_i').
+template <class T>
+void spin_rate(const Vector3<T>& a, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateDetail detail,
+               CoordinateMotion<T>* m) {
+  angular_rate<T>([](const Vector4<T>& p) { return ground_rate_matrix(p); }, Vector3<T>(T(-2.0) * a), Vector3<T>(2.0 * a), i, j, detail, m);
+}
+
+template <class T>
+void sine_motion(const Product<T>& s, CoordinateMotion<T>* m) {
+  using std::sqrt;
+  const ProductMotion<T>& f = s.motion;
+  const T square = 1.0 - f.phi * f.phi, k = 1.0 / sqrt(square), k3 = k / square;
+  m->J = m->position_q = k * s.gradient.phi_q;
+  m->rate = k * f.phid;
+  m->rate_q = k * s.gradient.phid_q + (k3 * f.phi * f.phid) * s.gradient.phi_q;
+  const T curvature = k3 * f.phi;
+  m->acceleration = k * f.phidd + curvature * f.phid * f.phid;
+  const T curvature_slope = k3 + 3.0 * k3 * f.phi * f.phi / square;
+  m->acceleration_q = k * s.gradient.phidd_q + (curvature * f.phidd + curvature_slope * f.phid * f.phid) * s.gradient.phi_q +
+                      (2.0 * curvature * f.phid) * s.gradient.phid_q;
+  m->acceleration_v = 2.0 * (k * s.gradient.phid_q + (curvature * f.phid) * s.gradient.phi_q);
+}
+
+template <class T>
+void apply_sign(double sign, CoordinateDetail detail, CoordinateMotion<T>* m) {
+  if (sign > 0.0) return;
+  m->rate = -m->rate;
+  m->J = -m->J;
+  if (detail == CoordinateDetail::kRate) return;
+  m->acceleration = -m->acceleration;
+  for (LocalRow<T>* row : {&m->rate_q, &m->acceleration_q, &m->acceleration_v}) *row = -*row;
+  if (detail == CoordinateDetail::kAll) m->position_q = -m->position_q;
+}
+
+}  // namespace internal
+
+/// The direction or displacement products of a sliding coordinate.
+template <class T>
+PairVector<T> slide_axis(const CoordinateConstants<T>& c) {
+  return PairVector<T>::direction(c.fixed_in_j ? Side::kJ : Side::kI, c.a);
+}
+
+/// The value of a coordinate. A turn's position lies in (-pi, pi]; whole turns are counted by the caller. Zero where there is none.
+template <class T>
+T coordinate_position(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i,
+                      const BodyKinematics<T>& j) {
+  using Kind = typename CoordinateConstants<T>::Kind;
+  using std::asin;
+  const auto cosine = [&](const Vector3<T>& a, const Vector3<T>& b) { return dot<T>(i.A * a, j.A * b); };
+  const T sign(c.sign);
+  switch (c.kind) {
+    case Kind::kTurn:
+      return sign * arc_tangent(cosine(pair.C_i.col(1), pair.C_j.col(0)), cosine(pair.C_i.col(0), pair.C_j.col(0)));
+    case Kind::kAngle:
+      return sign * arc_tangent(cosine(c.a, c.b), cosine(c.c, c.d));
+    case Kind::kSine:
+      return sign * asin(cosine(c.a, c.b));
+    case Kind::kSlide:
+      return sign * dot<T>((c.fixed_in_j ? j : i).A * c.a, j.r + j.A * pair.s_j - i.r - i.A * pair.s_i);
+    case Kind::kSpin:
+    case Kind::kNone:
+      break;
+  }
+  return T(0.0);
+}
+
+namespace internal {
+
+template <class T>
+void slide_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
+                  CoordinateDetail detail, CoordinateMotion<T>* m) {
+  const bool gradient = detail != CoordinateDetail::kRate;
+  const auto s = product(slide_axis(c), PairVector<T>::displacement(pair.s_i, pair.s_j), i, j, gradient ? 2 : 0);
+  m->rate = s.motion.phid;
+  m->J = s.gradient.phi_q;
+  if (!gradient) return;
+  m->acceleration = s.motion.phidd;
+  m->position_q = s.gradient.phi_q;
+  m->rate_q = s.gradient.phid_q;
+  m->acceleration_q = s.gradient.phidd_q;
+  m->acceleration_v = 2.0 * s.gradient.phid_q;
+}
+
+template <class T>
+void angle_or_sine_motion(const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateMotion<T>* m) {
+  const auto N = directions_product(c.a, c.b, i, j);
+  if (c.kind == CoordinateConstants<T>::Kind::kSine) {
+    sine_motion(N, m);
+    return;
+  }
+  const auto D = directions_product(c.c, c.d, i, j);
+  angle_motion(N.motion, N.gradient, D.motion, D.gradient, m);
+}
+
+}  // namespace internal
+
+/// Evaluates one coordinate of a pair, its position as coordinate_position() does.
+template <class T>
+CoordinateMotion<T> coordinate_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i,
+                                      const BodyKinematics<T>& j, CoordinateDetail detail = CoordinateDetail::kAll) {
+  using Kind = typename CoordinateConstants<T>::Kind;
+  CoordinateMotion<T> m;
+  switch (c.kind) {
+    case Kind::kTurn:
+      if (detail == CoordinateDetail::kAll) {
+        const auto N = internal::directions_product<T>(pair.C_i.col(1), pair.C_j.col(0), i, j);
+        const auto D = internal::directions_product<T>(pair.C_i.col(0), pair.C_j.col(0), i, j);
+        internal::angle_motion(N.motion, N.gradient, D.motion, D.gradient, &m);
+      }
+      internal::turn_rate(pair, i, j, detail, &m);
+      break;
+    case Kind::kSlide:
+      internal::slide_motion(pair, c, i, j, detail, &m);
+      break;
+    case Kind::kSpin:
+      internal::spin_rate(c.a, i, j, detail, &m);
+      break;
+    case Kind::kAngle:
+    case Kind::kSine:
+      internal::angle_or_sine_motion(c, i, j, &m);
+      break;
+    case Kind::kNone:
+      m.rate = m.acceleration = T(0.0);
+      for (LocalRow<T>* row : {&m.J, &m.rate_q, &m.acceleration_q, &m.acceleration_v}) row->setZero();
+      break;
+  }
+  if (c.kind == Kind::kNone || c.kind == Kind::kSpin) m.position_q.setZero();
+  internal::apply_sign(c.sign, detail, &m);
+  if (detail == CoordinateDetail::kAll) m.position = coordinate_position(pair, c, i, j);
+  return m;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOINTS_COORDINATE_H_

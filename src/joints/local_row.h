@@ -1,0 +1,59 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOINTS_LOCAL_ROW_H_
+#define MECHANISM_CODESIGN_JOINTS_LOCAL_ROW_H_
+
+#include "math/euler_parameters.h"
+
+namespace codesign {
+
+/// Coordinates of a pair of bodies, in the order [r_i, p_i, r_j, p_j].
+constexpr int kLocalSize = 14;
+constexpr int kBodySize = 7;
+
+/// A row vector over the coordinates of a pair of bodies: the gradient of a scalar.
+template <class T>
+using LocalRow = Eigen::Matrix<T, kLocalSize, 1>;
+
+template <class T>
+using LocalMatrix = Eigen::Matrix<T, kLocalSize, kLocalSize>;
+
+/// Which body of the pair.
+enum class Side { kI = 0, kJ = 1 };
+
+constexpr int r_offset(Side side) { return side == Side::kI ? 0 : kBodySize; }
+constexpr int p_offset(Side side) { return r_offset(side) + 3; }
+
+/// One term of a vector that depends on a pair's coordinates: sign (r + A s) if `point`, else sign A s.
+template <class T>
+struct VectorTerm {
+  Side side = Side::kI;
+  bool point = false;
+  double sign = 1.0;
+  Vector3<T> s = Vector3<T>::Zero();
+  int shared = -1;  ///< place among the vectors that a pair's rows share, PairRows::vectors
+};
+
+/// A vector over a pair of bodies: a direction fixed in one, or the displacement between a point of each.
+template <class T>
+struct PairVector {
+  int terms = 0;
+  VectorTerm<T> term[2];
+
+  static PairVector direction(Side side, const Vector3<T>& a, int shared = -1) {
+    PairVector x;
+    x.terms = 1;
+    x.term[0] = {side, false, 1.0, a, shared};
+    return x;
+  }
+  static PairVector displacement(const Vector3<T>& s_i, const Vector3<T>& s_j, int shared_i = -1, int shared_j = -1) {
+    PairVector x;
+    x.terms = 2;
+    x.term[0] = {Side::kJ, true, 1.0, s_j, shared_j};
+    x.term[1] = {Side::kI, true, -1.0, s_i, shared_i};
+    return x;
+  }
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOINTS_LOCAL_ROW_H_

@@ -1,0 +1,30 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MATH_DIRECTIONS_H_
+#define MECHANISM_CODESIGN_MATH_DIRECTIONS_H_
+
+#include "math/scalar.h"
+
+namespace codesign {
+
+// The first-order part of a vector of extended numbers: imaginary parts or lanes, as the columns of a real matrix. Linear solves act on it
+// with the real matrix, which is the implicit function theorem.
+
+inline Eigen::MatrixXd directions_of(const VectorX<std::complex<double>>& x) { return x.imag(); }
+template <int N>
+Eigen::MatrixXd directions_of(const VectorX<Lanes<N>>& x) {
+  Eigen::MatrixXd d(x.size(), N);
+  for (Eigen::Index k = 0; k < x.size(); ++k) d.row(k) = x[k].directions().transpose();
+  return d;
+}
+
+inline void add_directions(const Eigen::MatrixXd& d, VectorX<std::complex<double>>* x) {
+  for (Eigen::Index k = 0; k < x->size(); ++k) (*x)[k] += std::complex<double>(0.0, d(k, 0));
+}
+template <int N>
+void add_directions(const Eigen::MatrixXd& d, VectorX<Lanes<N>>* x) {
+  for (Eigen::Index k = 0; k < x->size(); ++k) (*x)[k].directions() += d.row(k).transpose();
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MATH_DIRECTIONS_H_

@@ -1,0 +1,40 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MATH_ELEMENTARY_H_
+#define MECHANISM_CODESIGN_MATH_ELEMENTARY_H_
+
+#include <cmath>
+
+#include "math/scalar.h"
+
+namespace codesign {
+
+/// Smooth absolute value cabs(x) = sqrt(x^2 + epsilon^2), as in the paper.
+template <class T>
+T smooth_abs(const T& x, const T& epsilon) {
+  using std::sqrt;
+  return sqrt(x * x + epsilon * epsilon);
+}
+
+/// Four-quadrant arc tangent with first-order accurate complex and dual extensions.
+inline double arc_tangent(double y, double x) { return std::atan2(y, x); }
+inline std::complex<double> arc_tangent(const std::complex<double>& y, const std::complex<double>& x) {
+  const double square = x.real() * x.real() + y.real() * y.real();
+  return {std::atan2(y.real(), x.real()), (x.real() * y.imag() - y.real() * x.imag()) / square};
+}
+template <int N>
+Lanes<N> arc_tangent(const Lanes<N>& y, const Lanes<N>& x) {
+  return atan2(y, x);
+}
+inline Traced arc_tangent(const Traced& y, const Traced& x) { return atan2(y, x); }
+
+/// The whole turns [rad] to add to an angle so that it lies nearest to a reference; they have no derivative. Half a turn is rounded to
+/// even, as compiled code does.
+template <class T>
+T nearest_turns(double reference, const T& angle) {
+  return T(2.0 * M_PI * std::nearbyint((reference - value_of(angle)) / (2.0 * M_PI)));
+}
+inline Traced nearest_turns(const Traced& reference, const Traced& angle) { return 2.0 * M_PI * round((reference - angle) / (2.0 * M_PI)); }
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MATH_ELEMENTARY_H_

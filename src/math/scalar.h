@@ -1,0 +1,44 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MATH_SCALAR_H_
+#define MECHANISM_CODESIGN_MATH_SCALAR_H_
+
+#include <Eigen/Core>
+#include <complex>
+
+#include "codegen/traced.h"
+#include "math/lanes.h"
+
+namespace codesign {
+
+template <class T>
+using Vector3 = Eigen::Matrix<T, 3, 1>;
+template <class T>
+using Vector4 = Eigen::Matrix<T, 4, 1>;
+template <class T>
+using Matrix3 = Eigen::Matrix<T, 3, 3>;
+template <class T>
+using Matrix4 = Eigen::Matrix<T, 4, 4>;
+template <class T>
+using Matrix34 = Eigen::Matrix<T, 3, 4>;
+template <class T>
+using VectorX = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+
+/// The value without its derivatives or imaginary part; for decisions, which must not depend on them.
+inline double value_of(double x) { return x; }
+inline double value_of(const std::complex<double>& x) { return x.real(); }
+template <int N>
+double value_of(const Lanes<N>& x) {
+  return x.a;
+}
+
+/// Whether the value of x is below that of y. Formulas decide with this, so that they can be recorded.
+/// @param likely the outcome for which a recording is made; the others are left to the formula itself.
+template <class T>
+bool is_less(const T& x, const T& y, bool likely) {
+  static_cast<void>(likely);
+  return value_of(x) < value_of(y);
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MATH_SCALAR_H_

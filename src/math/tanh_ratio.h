@@ -1,0 +1,49 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MATH_TANH_RATIO_H_
+#define MECHANISM_CODESIGN_MATH_TANH_RATIO_H_
+
+#include <cmath>
+
+#include "math/scalar.h"
+
+namespace codesign {
+
+/// A function of one variable with its derivative.
+template <class T>
+struct ValueAndSlope {
+  T value{0.0}, slope{0.0};
+};
+
+/// tanh(sqrt x)/sqrt x, which is analytic in x, for x >= 0; 1 at zero. Near zero by the series of the hyperbolic tangent, elsewhere as
+/// written: relative errors of value and slope stay below 1e-14.
+template <class T>
+ValueAndSlope<T> tanh_ratio(const T& x) {
+  using std::sqrt;
+  using std::tanh;
+  constexpr double kSeriesBelow = 0.05;  // the series' terms fall like (4 x/pi^2)^k
+  constexpr double kSeries[] = {1.0,
+                                -1.0 / 3.0,
+                                2.0 / 15.0,
+                                -17.0 / 315.0,
+                                62.0 / 2835.0,
+                                -1382.0 / 155925.0,
+                                21844.0 / 6081075.0,
+                                -929569.0 / 638512875.0,
+                                6404582.0 / 10854718875.0,
+                                -443861162.0 / 1856156927625.0,
+                                18888466084.0 / 194896477400625.0};
+  if (!is_less(x, T(kSeriesBelow), false)) {
+    const T root = sqrt(x), h = tanh(root), value = h / root;
+    return {value, (1.0 - h * h - value) / (2.0 * x)};
+  }
+  ValueAndSlope<T> sum;
+  for (int k = 10; k >= 0; --k) {
+    sum.slope = sum.slope * x + sum.value;
+    sum.value = sum.value * x + T(kSeries[k]);
+  }
+  return sum;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MATH_TANH_RATIO_H_

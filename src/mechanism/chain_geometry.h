@@ -1,0 +1,49 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MECHANISM_CHAIN_GEOMETRY_H_
+#define MECHANISM_CODESIGN_MECHANISM_CHAIN_GEOMETRY_H_
+
+#include <vector>
+
+#include "mechanism/pose.h"
+#include "mechanism/topology.h"
+
+namespace codesign {
+
+/// A chain of joints at its zero configuration, seen from the base link of body i.
+template <class T>
+struct ChainGeometry {
+  Pose<T> X_ij;                  ///< base link of body j in the base link of body i
+  std::vector<Pose<T>> frames;   ///< each element's joint frame
+  std::vector<Vector3<T>> axes;  ///< each element's unit axis, in URDF's sense (not turned round for a reversed element)
+};
+
+/// Walks the chain through links and fixed offsets; all joints at zero.
+template <class T>
+ChainGeometry<T> chain_geometry(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain,
+                                const std::vector<T>& parameters) {
+  ChainGeometry<T> geometry;
+  for (const ChainElement& element : chain) {
+    const JointDescription& joint = robot.joints[static_cast<std::size_t>(element.joint)];
+    const Pose<T> X_PF =
+        link_in_base(robot, topology.link_base, topology.link_parent_joint, joint.parent, parameters) * pose_at(joint.origin, parameters);
+    const Pose<T> X_CF = link_in_base(robot, topology.link_base, topology.link_parent_joint, joint.child, parameters) *
+                         pose_at(joint.child_origin, parameters);
+    const Pose<T> X_iF = geometry.X_ij * (element.reversed ? X_CF : X_PF);
+    geometry.frames.push_back(X_iF);
+    geometry.axes.push_back(X_iF.R * axis_at(joint.axis, parameters));
+    geometry.X_ij = X_iF * (element.reversed ? X_PF : X_CF).inverse();
+  }
+  return geometry;
+}
+
+/// The point of the line (o1, z1) nearest to the line (o2, z2); both axes of unit length and not parallel.
+template <class T>
+Vector3<T> nearest_point(const Vector3<T>& o1, const Vector3<T>& z1, const Vector3<T>& o2, const Vector3<T>& z2) {
+  const Vector3<T> offset = o2 - o1;
+  const T c = dot(z1, z2);
+  return o1 + z1 * ((dot(offset, z1) - c * dot(offset, z2)) / (T(1.0) - c * c));
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MECHANISM_CHAIN_GEOMETRY_H_

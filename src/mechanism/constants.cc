@@ -1,0 +1,151 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism/constants.h"
+
+#include <cmath>
+
+#include "body_check.h"
+#include "default_values.h"
+#include "mechanism/mass_properties.h"
+#include "mechanism/pose.h"
+#include "pair_geometry.h"
+#include "rigid_groups.h"
+
+namespace codesign {
+namespace {
+
+std::size_t index(int k) { return static_cast<std::size_t>(k); }
+
+template <class T>
+BodyConstants<T> body_constants(const RobotDescription& robot, const Topology& topology, const Body& body,
+                                const std::vector<T>& parameters) {
+  const MassProperties<T> m = merged_mass(robot, topology.link_base, topology.link_parent_joint, body.links, parameters);
+  return {m.mass, m.inertia, m.centre};
+}
+
+template <class T>
+Vector3<T> centre_of(const Constants<T>& constants, int body) {
+  return body < 0 ? Vector3<T>(Vector3<T>::Zero()) : constants.bodies[index(body)].centre;
+}
+
+template <class T>
+SpringDamperConstants<T> spring_constants(const RobotDescription& robot, const Topology& topology, const SpringDamperDescription& spring,
+                                          const Constants<T>& constants, const std::vector<T>& parameters) {
+  SpringDamperConstants<T> result;
+  const auto attach = [&](int link, const PoseDescription& origin, int* body, Vector3<T>* s) {
+    *body = topology.link_body[index(link)];
+    if (*body == Topology::kMassless)
+      throw InputError({spring.where, "<codesign:spring_damper name=\"" + spring.name + "\">",
+                        "a spring cannot pull on a link without <inertial>", robot.links[index(link)].name, ""});
+    *s = constants.links[index(link)].R * vector_at(origin.xyz, parameters) + constants.links[index(link)].s;
+  };
+  attach(spring.predecessor, spring.predecessor_origin, &result.body_i, &result.s_i);
+  attach(spring.successor, spring.successor_origin, &result.body_j, &result.s_j);
+  result.stiffness = spring.stiffness.at(parameters);
+  result.damping = spring.damping.at(parameters);
+  result.free_length = spring.free_length.at(parameters);
+  return result;
+}
+
+template <class T>
+CouplingConstants<T> coupling_constants(const Coupling& coupling, const std::vector<T>& parameters) {
+  CouplingConstants<T> result;
+  for (const CouplingTerm& term : coupling.terms) result.coefficients.push_back(T(term.sign) * term.factor.at(parameters));
+  result.offset = coupling.offset.at(parameters);
+  return result;
+}
+
+MassFault body_fault(const BodyConstants<double>& body) {
+  if (!std::isfinite(body.mass) || !body.centre.allFinite() || !body.J.allFinite())
+    return {"not_finite", "mass or inertia is not finite", ""};
+  return find_mass_fault({body.mass, body.centre, body.J});
+}
+
+/// What the file itself says is told as a warning when it is read; only what a design adds is impossible.
+std::string body_fault(const RobotDescription& robot, const Topology& topology, std::size_t k, const Constants<double>& constants) {
+  const MassFault fault = body_fault(constants.bodies[k]);
+  if (fault.code.empty()) return "";
+  const MassFault known = body_fault(body_constants(robot, topology, topology.bodies[k], default_values(robot)));
+  if (known.code == fault.code) return "";
+  return "body '" + topology.bodies[k].name + "': " + fault.message + (fault.value.empty() ? "" : " (" + fault.value + ")");
+}
+
+std::string friction_fault(const Pair& pair, const FrictionConstants<double>& f) {
+  const bool possible = f.mu_static >= f.mu_dynamic && f.mu_dynamic >= 0.0 && f.transition_velocity > 0.0 && f.joint_length > 0.0 &&
+                        f.joint_width > 0.0 && f.pin_radius >= 0.0 && f.smoothing > 0.0 && f.viscous >= 0.0 && f.bristle_stiffness > 0.0 &&
+                        f.bristle_damping > 0.0 && f.dwell_time > 0.0;
+  return possible ? "" : "friction geometry or coefficients of joint '" + pair.name + "' are out of range";
+}
+
+std::string joint_fault(const RobotDescription& robot, const Pair& pair, const PairConstants<double>& constants) {
+  for (std::size_t e = 0; e < pair.chain.size(); ++e) {
+    const JointDescription& joint = robot.joints[index(pair.chain[e].joint)];
+    const JointDynamicsConstants<double>& d = constants.dynamics[e];
+    if (joint.limit && !(d.lower <= d.upper && d.effort >= 0.0)) return "a limit of joint '" + joint.name + "' is out of range";
+    if (!(d.rotor_inertia >= 0.0) || !std::isfinite(d.rotor_inertia) || !std::isfinite(d.gear_ratio))
+      return "the rotor of joint '" + joint.name + "' is out of range";
+  }
+  return "";
+}
+
+}  // namespace
+
+template <class T>
+Constants<T> evaluate_constants(const RobotDescription& robot, const Topology& topology, const std::vector<T>& parameters) {
+  Constants<T> constants;
+  for (const Body& body : topology.bodies) constants.bodies.push_back(body_constants(robot, topology, body, parameters));
+  constants.links.resize(robot.links.size());
+  for (std::size_t link = 0; link < robot.links.size(); ++link) {
+    if (topology.link_body[link] == Topology::kMassless) continue;
+    const Pose<T> X = link_in_base(robot, topology.link_base, topology.link_parent_joint, static_cast<int>(link), parameters);
+    constants.links[link] = {X.t - centre_of(constants, topology.link_body[link]), X.R};
+  }
+  for (const JointDescription& joint : robot.joints) {
+    LinkConstants<T>& frame = constants.joint_frames.emplace_back();
+    if (topology.link_body[index(joint.child)] == Topology::kMassless) continue;
+    const LinkConstants<T>& child = constants.links[index(joint.child)];
+    frame = child;
+    if (!joint.is_loop) continue;
+    const Pose<T> X = pose_at(joint.child_origin, parameters);
+    frame = {child.s + child.R * X.t, child.R * X.R};
+  }
+  for (const Pair& pair : topology.pairs)
+    constants.pairs.push_back(
+        pair_constants(robot, topology, pair, centre_of(constants, pair.body_i), centre_of(constants, pair.body_j), parameters));
+  for (const SpringDamperDescription& spring : robot.spring_dampers)
+    constants.springs.push_back(spring_constants(robot, topology, spring, constants, parameters));
+  for (const Coupling& coupling : topology.couplings) constants.couplings.push_back(coupling_constants(coupling, parameters));
+  return constants;
+}
+
+std::string find_impossible(const RobotDescription& robot, const Topology& topology, const Constants<double>& constants) {
+  for (std::size_t k = 0; k < topology.bodies.size(); ++k)
+    if (std::string fault = body_fault(robot, topology, k, constants); !fault.empty()) return fault;
+  for (std::size_t k = 0; k < topology.pairs.size(); ++k) {
+    const PairConstants<double>& pair = constants.pairs[k];
+    if (std::string fault = joint_fault(robot, topology.pairs[k], pair); !fault.empty()) return fault;
+    if (!pair.s_i.allFinite() || !pair.s_j.allFinite() || !pair.C_i.allFinite() || !pair.C_j.allFinite())
+      return "geometry of joint '" + topology.pairs[k].name + "' is not finite";
+    if (topology.pairs[k].friction_joint < 0) continue;
+    if (std::string fault = friction_fault(topology.pairs[k], pair.friction); !fault.empty()) return fault;
+  }
+  for (std::size_t k = 0; k < robot.spring_dampers.size(); ++k)
+    if (!std::isfinite(constants.springs[k].stiffness + constants.springs[k].damping + constants.springs[k].free_length))
+      return "spring-damper '" + robot.spring_dampers[k].name + "' is not finite";
+  for (std::size_t k = 0; k < topology.couplings.size(); ++k) {
+    double sum = constants.couplings[k].offset;
+    for (double coefficient : constants.couplings[k].coefficients) sum += coefficient;
+    if (!std::isfinite(sum)) return topology.couplings[k].element() + " is not finite";
+  }
+  return "";
+}
+
+#define CODESIGN_INSTANTIATE(T) \
+  template Constants<T> evaluate_constants<T>(const RobotDescription&, const Topology&, const std::vector<T>&);
+CODESIGN_INSTANTIATE(double)
+CODESIGN_INSTANTIATE(std::complex<double>)
+CODESIGN_INSTANTIATE(Lanes<4>)
+CODESIGN_INSTANTIATE(Lanes<8>)
+CODESIGN_INSTANTIATE(Traced)
+#undef CODESIGN_INSTANTIATE
+
+}  // namespace codesign

@@ -1,0 +1,20 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MECHANISM_DEFAULT_VALUES_H_
+#define MECHANISM_CODESIGN_MECHANISM_DEFAULT_VALUES_H_
+
+#include <vector>
+
+#include "description/robot.h"
+
+namespace codesign {
+
+/// The model's parameters at their defaults, in the order of RobotDescription::parameters.
+inline std::vector<double> default_values(const RobotDescription& robot) {
+  std::vector<double> values;
+  for (const Parameter& parameter : robot.parameters) values.push_back(parameter.value);
+  return values;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MECHANISM_DEFAULT_VALUES_H_

@@ -1,0 +1,158 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "fold_chain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "default_values.h"
+#include "joints_between.h"
+#include "mechanism/chain_geometry.h"
+#include "pair_geometry.h"
+
+namespace codesign {
+namespace {
+
+using Vector = Vector3<double>;
+constexpr double kParallel = 1e-9;    // of unit axes
+constexpr double kConcurrent = 1e-9;  // [m], plus as much of the mechanism's own size
+
+struct Axes {
+  std::vector<Vector> turn, turn_point, slide;
+};
+
+bool parallel(const Vector& a, const Vector& b) { return a.cross(b).norm() < kParallel; }
+
+bool meet(const Vector& p, const Vector& a, const Vector& q, const Vector& b) {
+  const Vector normal = a.cross(b);
+  return std::abs((q - p).dot(normal)) < kConcurrent * normal.norm();
+}
+
+bool on_line(const Vector& point, const Vector& origin, const Vector& axis) { return (point - origin).cross(axis).norm() < kConcurrent; }
+
+/// All turning axes through one point?
+bool concurrent(const Axes& axes) {
+  const auto& z = axes.turn;
+  const auto& o = axes.turn_point;
+  for (std::size_t k = 1; k < z.size(); ++k)
+    if (parallel(z[k - 1], z[k]) || !meet(o[k - 1], z[k - 1], o[k], z[k])) return false;
+  const Vector centre = nearest_point(o[0], z[0], o[1], z[1]);
+  for (std::size_t k = 2; k < z.size(); ++k)
+    if (!on_line(centre, o[k], z[k])) return false;
+  return true;
+}
+
+bool independent(const std::vector<Vector>& slide) {
+  if (slide.size() == 2) return !parallel(slide[0], slide[1]);
+  return slide.size() == 3 && std::abs(slide[0].cross(slide[1]).dot(slide[2])) > kParallel;
+}
+
+std::optional<PairKind> fold_axes(const Axes& axes) {
+  const std::size_t turns = axes.turn.size(), slides = axes.slide.size();
+  if (slides == 0 && turns == 1) return PairKind::kRevolute;
+  if (slides == 1 && turns == 0) return PairKind::kPrismatic;
+  if (slides == 0 && turns == 2 && concurrent(axes)) return PairKind::kUniversal;
+  if (slides == 0 && turns == 3 && concurrent(axes)) return PairKind::kSpherical;
+  if (slides == 1 && turns == 1 && parallel(axes.turn[0], axes.slide[0])) return PairKind::kCylindrical;
+  if (slides == 2 && turns == 0 && independent(axes.slide)) return PairKind::kTable;
+  if (slides == 3 && turns == 0 && independent(axes.slide)) return PairKind::kTranslational;
+  if (slides == 2 && turns == 1 && independent(axes.slide) && parallel(axes.turn[0], axes.slide[0].cross(axes.slide[1]).normalized()))
+    return PairKind::kPlanar;
+  if (slides == 3 && turns == 3 && independent(axes.slide) && concurrent(axes)) return PairKind::kFree;
+  return std::nullopt;
+}
+
+std::optional<PairKind> kind_of_single(JointType type) {
+  switch (type) {
+    case JointType::kFixed:
+      return PairKind::kFixed;
+    case JointType::kRevolute:
+    case JointType::kContinuous:
+      return PairKind::kRevolute;
+    case JointType::kPrismatic:
+      return PairKind::kPrismatic;
+    case JointType::kPlanar:
+      return PairKind::kPlanar;
+    case JointType::kFloating:
+      return PairKind::kFree;
+    case JointType::kSpherical:
+      return PairKind::kSpherical;
+    case JointType::kUniversal:
+      return PairKind::kUniversal;
+    case JointType::kCylindrical:
+      return PairKind::kCylindrical;
+    case JointType::kDistance:
+      return PairKind::kDistance;
+  }
+  return std::nullopt;
+}
+
+[[noreturn]] void refuse(const RobotDescription& robot, const std::vector<ChainElement>& chain) {
+  std::string names;
+  for (const ChainElement& element : chain)
+    names += (names.empty() ? "" : ", ") + robot.joints[static_cast<std::size_t>(element.joint)].name;
+  const JointDescription& joint = robot.joints[static_cast<std::size_t>(chain.front().joint)];
+  throw InputError(
+      {joint.where, "<joint name=\"" + joint.name + "\">", "a chain of links without <inertial> that cannot be folded into one joint",
+       names,
+       "concurrent revolutes (universal, spherical), a coaxial revolute and prismatic, two or three prismatics, two prismatics with a "
+       "revolute normal to them; or give the links an <inertial>"});
+}
+
+bool is_turn(JointType type) { return type == JointType::kRevolute || type == JointType::kContinuous; }
+
+std::optional<PairKind> kind_of_chain(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain) {
+  const ChainGeometry<double> geometry = chain_geometry(robot, topology, chain, default_values(robot));
+  Axes axes;
+  for (std::size_t k = 0; k < chain.size(); ++k) {
+    const JointType type = robot.joints[static_cast<std::size_t>(chain[k].joint)].type;
+    if (is_turn(type)) {
+      axes.turn.push_back(geometry.axes[k]);
+      axes.turn_point.push_back(geometry.frames[k].t);
+    } else if (type == JointType::kPrismatic) {
+      axes.slide.push_back(geometry.axes[k]);
+    } else {
+      return std::nullopt;
+    }
+  }
+  return fold_axes(axes);
+}
+
+bool zero(const Quantity& q) { return q.is_constant() && q.nominal() == 0.0; }
+
+bool needs_coordinate(const RobotDescription& robot, const Topology& topology, int k) {
+  const JointDescription& joint = robot.joints[static_cast<std::size_t>(k)];
+  if (!zero(joint.damping) || !zero(joint.dry_friction) || joint.spring || joint.actuator || joint.mimic) return true;
+  for (const JointDescription& other : robot.joints)
+    if (other.mimic && other.mimic->joint == joint.name) return true;
+  for (const CouplingDescription& coupling : robot.couplings) {
+    const std::vector<int> coupled = joints_between(robot, topology.link_parent_joint, coupling.predecessor, coupling.successor);
+    if (std::find(coupled.begin(), coupled.end(), k) != coupled.end()) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+PairKind fold_chain(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain) {
+  const auto kind = chain.size() == 1 ? kind_of_single(robot.joints[static_cast<std::size_t>(chain[0].joint)].type)
+                                      : kind_of_chain(robot, topology, chain);
+  if (!kind) refuse(robot, chain);
+  return *kind;
+}
+
+bool folds(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain) {
+  const std::optional<PairKind> kind = kind_of_chain(robot, topology, chain);
+  if (!kind) return false;
+  Pair pair;
+  pair.kind = *kind;
+  pair.chain = chain;
+  const Vector none = Vector::Zero();
+  const PairConstants<double> constants = pair_constants(robot, topology, pair, none, none, default_values(robot));
+  for (std::size_t k = 0; k < chain.size(); ++k)
+    if (constants.coordinates[k].kind == CoordinateConstants<double>::Kind::kNone && needs_coordinate(robot, topology, chain[k].joint))
+      return false;
+  return true;
+}
+
+}  // namespace codesign

@@ -1,0 +1,20 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MECHANISM_JOINTS_BETWEEN_H_
+#define MECHANISM_CODESIGN_MECHANISM_JOINTS_BETWEEN_H_
+
+#include <vector>
+
+#include "description/robot.h"
+
+namespace codesign {
+
+/// Links from one up to the root, itself first.
+/// @param link_parent_joint per link the tree joint above it, -1 for the root.
+std::vector<int> links_above(const RobotDescription& robot, const std::vector<int>& link_parent_joint, int link);
+
+/// Tree joints between two links, those on both ways up to their nearest common ancestor; fixed ones are left out.
+std::vector<int> joints_between(const RobotDescription& robot, const std::vector<int>& link_parent_joint, int predecessor, int successor);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MECHANISM_JOINTS_BETWEEN_H_

@@ -1,0 +1,131 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MECHANISM_MASS_PROPERTIES_H_
+#define MECHANISM_CODESIGN_MECHANISM_MASS_PROPERTIES_H_
+
+#include <cmath>
+#include <complex>
+#include <vector>
+
+#include "description/robot.h"
+#include "math/scalar.h"
+
+namespace codesign {
+
+/// Mass [kg], centre of mass [m, link frame] and inertia [kg m^2, about the centre, in the link's axes].
+template <class T>
+struct MassProperties {
+  T mass{};
+  Vector3<T> centre = Vector3<T>::Zero();
+  Matrix3<T> inertia = Matrix3<T>::Zero();
+};
+
+/// R = R_z(yaw) R_y(pitch) R_x(roll), URDF's fixed-axis angles [rad].
+template <class T>
+Matrix3<T> rotation_from_rpy(const Vector3<T>& rpy) {
+  using std::cos;
+  using std::sin;
+  const T cr = cos(rpy[0]), sr = sin(rpy[0]), cp = cos(rpy[1]), sp = sin(rpy[1]), cy = cos(rpy[2]), sy = sin(rpy[2]);
+  Matrix3<T> R;
+  R << cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr,  //
+      sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr,   //
+      -sp, cp * sr, cp * cr;
+  return R;
+}
+
+namespace internal {
+
+template <class T>
+Vector3<T> values_at(const QuantityVector& vector, const std::vector<T>& parameters) {
+  return {vector[0].at(parameters), vector[1].at(parameters), vector[2].at(parameters)};
+}
+
+/// R J R^T, without the conjugation Eigen's adjoint would bring for complex scalars.
+template <class T>
+Matrix3<T> turned(const Matrix3<T>& R, const Matrix3<T>& J) {
+  return R * J * R.transpose();
+}
+
+/// m (d.d I - d d^T), the parallel-axis term.
+template <class T>
+Matrix3<T> point_inertia(const T& mass, const Vector3<T>& d) {
+  const T square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+  return mass * (square * Matrix3<T>::Identity() - d * d.transpose());
+}
+
+/// A homogeneous solid about its own centre; a mesh has no volume here.
+template <class T>
+MassProperties<T> solid(const ShapeDescription& shape, const T& density, const std::vector<T>& parameters) {
+  const Vector3<T> size = values_at(shape.size, parameters);
+  MassProperties<T> result;
+  Vector3<T> J = Vector3<T>::Zero();
+  switch (shape.kind) {
+    case ShapeDescription::Kind::kBox: {
+      result.mass = density * size[0] * size[1] * size[2];
+      const Vector3<T> square = size.cwiseProduct(size);
+      J = Vector3<T>(square[1] + square[2], square[2] + square[0], square[0] + square[1]) * (result.mass / 12.0);
+      break;
+    }
+    case ShapeDescription::Kind::kCylinder: {
+      const T r2 = size[0] * size[0];
+      result.mass = density * M_PI * r2 * size[1];
+      const T across = result.mass * (3.0 * r2 + size[1] * size[1]) / 12.0;
+      J = Vector3<T>(across, across, result.mass * r2 / 2.0);
+      break;
+    }
+    case ShapeDescription::Kind::kSphere: {
+      const T r2 = size[0] * size[0];
+      result.mass = density * (4.0 / 3.0 * M_PI) * r2 * size[0];
+      J.setConstant(0.4 * result.mass * r2);
+      break;
+    }
+    case ShapeDescription::Kind::kMesh:
+      break;
+  }
+  result.inertia = J.asDiagonal();
+  return result;
+}
+
+template <class T>
+MassProperties<T> from_shapes(const InertialDescription& inertial, const std::vector<T>& parameters) {
+  const T density = inertial.density->at(parameters);
+  std::vector<MassProperties<T>> parts;
+  MassProperties<T> total;
+  for (const ShapeDescription& shape : inertial.shapes) {
+    MassProperties<T> part = solid(shape, density, parameters);
+    part.centre = values_at(shape.origin.xyz, parameters);
+    part.inertia = turned(rotation_from_rpy<T>(values_at(shape.origin.rpy, parameters)), part.inertia);
+    total.mass += part.mass;
+    total.centre += part.mass * part.centre;
+    parts.push_back(part);
+  }
+  if (!is_less(T(0.0), T(total.mass * total.mass), true)) return total;
+  total.centre /= total.mass;
+  for (const MassProperties<T>& part : parts) {
+    const Vector3<T> d = part.centre - total.centre;
+    total.inertia += part.inertia + point_inertia(part.mass, d);
+  }
+  return total;
+}
+
+}  // namespace internal
+
+/// Mass properties at `parameters`, from the numbers given or from the link's solids (boxes, cylinders, spheres; parallel axes; solids that
+/// overlap count twice). T: double, std::complex<double> or Lanes<N>.
+template <class T>
+MassProperties<T> mass_properties(const InertialDescription& inertial, const std::vector<T>& parameters) {
+  if (inertial.density) return internal::from_shapes(inertial, parameters);
+  MassProperties<T> result;
+  result.mass = inertial.mass.at(parameters);
+  result.centre = internal::values_at(inertial.origin.xyz, parameters);
+  const auto J = [&](std::size_t k) { return inertial.inertia[k].at(parameters); };
+  Matrix3<T> given;
+  given << J(0), J(1), J(2),  //
+      J(1), J(3), J(4),       //
+      J(2), J(4), J(5);
+  result.inertia = internal::turned(rotation_from_rpy<T>(internal::values_at(inertial.origin.rpy, parameters)), given);
+  return result;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MECHANISM_MASS_PROPERTIES_H_

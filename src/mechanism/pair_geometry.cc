@@ -1,0 +1,302 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "pair_geometry.h"
+
+#include <cmath>
+
+#include "mechanism/chain_geometry.h"
+
+namespace codesign {
+namespace {
+
+template <class T>
+class PairBuilder {
+ public:
+  PairBuilder(const RobotDescription& robot, const Topology& topology, const Pair& pair, const std::vector<T>& parameters)
+      : robot_(robot), pair_(pair), parameters_(parameters), geometry_(chain_geometry(robot, topology, pair.chain, parameters)) {
+    for (std::size_t k = 0; k < pair.chain.size(); ++k) {
+      const JointType type = joint(k).type;
+      if (type == JointType::kPrismatic) slides_.push_back(k);
+      if (type == JointType::kRevolute || type == JointType::kContinuous) turns_.push_back(k);
+    }
+  }
+
+  PairConstants<T> build(const Vector3<T>& centre_i, const Vector3<T>& centre_j) {
+    const Pose<T> X_ji = geometry_.X_ij.inverse();
+    const Vector3<T> point = joint_point();
+    const Matrix3<T> C = joint_axes();
+    result_.s_i = point - centre_i;
+    result_.s_j = X_ji * point - centre_j;
+    result_.C_i = C;
+    result_.C_j = X_ji.R * C;
+    if (pair_.kind == PairKind::kUniversal) place_universal(X_ji.R);
+    if (pair_.kind == PairKind::kDistance) place_distance(centre_j);
+    for (std::size_t k = 0; k < pair_.chain.size(); ++k) {
+      result_.coordinates.push_back(coordinate(k, X_ji.R));
+      result_.dynamics.push_back(dynamics(joint(k)));
+      if (joint(k).actuator) place_rotor(k, X_ji.R);
+    }
+    if (pair_.kind == PairKind::kCylindrical && pair_.chain.size() == 1) add_cylindrical_coordinates();
+    if (pair_.friction_joint >= 0) result_.friction = friction();
+    if (pair_.friction_joint >= 0) place_slip();
+    return result_;
+  }
+
+ private:
+  using Coordinate = CoordinateConstants<T>;
+
+  const JointDescription& joint(std::size_t k) const { return robot_.joints[static_cast<std::size_t>(pair_.chain[k].joint)]; }
+  const Vector3<T>& axis(std::size_t k) const { return geometry_.axes[k]; }
+  const Vector3<T>& origin(std::size_t k) const { return geometry_.frames[k].t; }
+
+  Vector3<T> joint_point() const {
+    if (turns_.empty()) return origin(0);
+    if (turns_.size() == 1) return origin(turns_[0]);
+    return nearest_point(origin(turns_[0]), axis(turns_[0]), origin(turns_[1]), axis(turns_[1]));
+  }
+
+  Vector3<T> z_axis() const {
+    if (pair_.kind == PairKind::kTable) {
+      const Vector3<T> normal = cross(axis(0), axis(1));
+      return normal / norm(normal);
+    }
+    if (turns_.size() == 1) return axis(turns_[0]);
+    return axis(0);
+  }
+
+  static T norm(const Vector3<T>& x) {
+    using std::sqrt;
+    return sqrt(dot(x, x));
+  }
+
+  // x'' is written in a joint frame: the one with the friction, else the one whose axis is z.
+  Matrix3<T> joint_axes() const {
+    std::size_t frame = turns_.size() == 1 ? turns_[0] : 0;
+    std::optional<std::array<double, 3>> preferred;
+    for (std::size_t k = 0; k < pair_.chain.size(); ++k) {
+      if (pair_.chain[k].joint != pair_.friction_joint) continue;
+      frame = k;
+      preferred = joint(k).friction->transverse_axis;
+    }
+    const Vector3<T> z = z_axis();
+    const Matrix3<T>& R = geometry_.frames[frame].R;
+    const Vector3<T> x = R * transverse_axis<T>(R.transpose() * z, preferred);
+    Matrix3<T> C;
+    C.col(0) = x;
+    C.col(1) = cross(z, x);
+    C.col(2) = z;
+    return C;
+  }
+
+  // Each side's z is its own axis; x is the other's axis made normal to it, so that both angles start at zero.
+  void place_universal(const Matrix3<T>& R_ji) {
+    const Vector3<T> z_i = axis(0);
+    const Vector3<T> z_j_in_i =
+        pair_.chain.size() == 2 ? axis(1) : Vector3<T>(geometry_.frames[0].R * axis_at(joint(0).second_axis, parameters_));
+    result_.cosine = dot(z_i, z_j_in_i);
+    const auto frame = [](const Vector3<T>& z, const Vector3<T>& other) {
+      Matrix3<T> C;
+      const Vector3<T> x = other - dot(other, z) * z;
+      C.col(0) = x / norm(x);
+      C.col(2) = z;
+      C.col(1) = cross<T>(C.col(2), C.col(0));
+      return C;
+    };
+    result_.C_i = frame(z_i, z_j_in_i);
+    result_.C_j = frame(R_ji * z_j_in_i, R_ji * z_i);
+  }
+
+  // Both ends are joint frames of their own; at zero position they need not coincide.
+  void place_distance(const Vector3<T>& centre_j) {
+    result_.s_j = vector_at(joint(0).child_origin.xyz, parameters_) - centre_j;
+    result_.distance = joint(0).distance.at(parameters_);
+  }
+
+  Coordinate coordinate(std::size_t k, const Matrix3<T>& R_ji) const {
+    Coordinate c;
+    const JointType type = joint(k).type;
+    if (type == JointType::kPrismatic) c = slide(k, R_ji);
+    if (type == JointType::kRevolute || type == JointType::kContinuous) c = turn(k, R_ji);
+    if (pair_.chain[k].reversed) c.sign = -c.sign;
+    return c;
+  }
+
+  // One cylindrical loop has two coordinates: it turns, and it slides.
+  void add_cylindrical_coordinates() {
+    Coordinate turning, sliding;
+    turning.kind = Coordinate::Kind::kTurn;
+    sliding.kind = Coordinate::Kind::kSlide;
+    sliding.a = axis(0);
+    result_.coordinates = {turning, sliding};
+    result_.dynamics.resize(2);
+  }
+
+  // d = sum of slides along their axes: the coordinate is the product with the dual basis vector.
+  Coordinate slide(std::size_t k, const Matrix3<T>& R_ji) const {
+    Coordinate c;
+    const bool before_turns = turns_.empty() || slides_.back() < turns_.front();
+    const bool after_turns = !turns_.empty() && slides_.front() > turns_.back();
+    if (!before_turns && !after_turns && pair_.kind != PairKind::kCylindrical) return c;
+    c.kind = Coordinate::Kind::kSlide;
+    c.fixed_in_j = after_turns && pair_.kind != PairKind::kCylindrical;
+    const Vector3<T> dual = dual_axis(k);
+    c.a = c.fixed_in_j ? Vector3<T>(R_ji * dual) : dual;
+    return c;
+  }
+
+  Vector3<T> dual_axis(std::size_t k) const {
+    if (slides_.size() == 1) return axis(k);
+    Vector3<T> normal = Vector3<T>::Zero();
+    std::vector<std::size_t> others;
+    for (std::size_t other : slides_)
+      if (other != k) others.push_back(other);
+    if (others.size() == 1) {
+      const Vector3<T>& b = axis(others[0]);
+      normal = axis(k) - dot(axis(k), b) * b;
+    } else {
+      normal = cross(axis(others[0]), axis(others[1]));
+    }
+    return normal / dot(normal, axis(k));
+  }
+
+  Coordinate turn(std::size_t k, const Matrix3<T>& R_ji) const {
+    Coordinate c;
+    if (turns_.size() == 1) {
+      c.kind = Coordinate::Kind::kTurn;
+    } else if (turns_.size() == 2) {
+      universal_angle(k == turns_[0], &c);
+    } else if (right_angled()) {
+      tait_bryan_angle(k, R_ji, &c);
+    }
+    return c;
+  }
+
+  void universal_angle(bool first, Coordinate* c) const {
+    c->kind = Coordinate::Kind::kAngle;
+    const Matrix3<T>&C_i = result_.C_i, &C_j = result_.C_j;
+    c->sign = first ? 1.0 : -1.0;
+    c->a = first ? C_i.col(1) : C_i.col(2);
+    c->b = first ? C_j.col(2) : C_j.col(1);
+    c->c = first ? C_i.col(0) : C_i.col(2);
+    c->d = first ? C_j.col(2) : C_j.col(0);
+  }
+
+  bool right_angled() const {
+    const auto normal = [this](std::size_t a, std::size_t b) {
+      const T cosine = dot(axis(turns_[a]), axis(turns_[b]));
+      return is_less(T(cosine * cosine), T(1e-18), true);
+    };
+    return normal(0, 1) && normal(1, 2) && normal(0, 2);
+  }
+
+  // R_ij = R(z1) R(z2) R(z3) about mutually normal axes: z1 and z3 by arc tangents, z2 by an arc sine.
+  void tait_bryan_angle(std::size_t k, const Matrix3<T>& R_ji, Coordinate* c) const {
+    const Vector3<T>&z1 = axis(turns_[0]), &z2 = axis(turns_[1]), &z3 = axis(turns_[2]);
+    if (k == turns_[1]) {
+      c->kind = Coordinate::Kind::kSine;
+      c->sign = is_less(T(0.0), dot(z1, cross(z2, z3)), true) ? 1.0 : -1.0;
+      c->a = z1;
+      c->b = R_ji * z3;
+      return;
+    }
+    const bool first = k == turns_[0];
+    c->kind = Coordinate::Kind::kAngle;
+    c->sign = first ? 1.0 : -1.0;
+    c->a = first ? cross(z1, z3) : z1;
+    c->b = R_ji * (first ? z3 : cross(z3, z1));
+    c->c = first ? z3 : z1;
+    c->d = R_ji * (first ? z3 : z1);
+  }
+
+  // A plane slips along x'' and y'' of the parent's side, and turns; a ball turns about three ground axes.
+  void place_slip() {
+    SlipConstants<T>& slip = result_.slip;
+    const auto add = [&slip](typename Coordinate::Kind kind, const Vector3<T>& a, const T& arm, const T& viscous) {
+      const std::size_t k = slip.coordinates.size();
+      slip.coordinates.emplace_back();
+      slip.coordinates[k].kind = kind;
+      slip.coordinates[k].a = a;
+      slip.arm[k] = arm;
+      slip.viscous[k] = viscous;
+    };
+    const FrictionConstants<T>& f = result_.friction;
+    if (pair_.kind == PairKind::kTable || pair_.kind == PairKind::kPlanar)
+      for (int k = 0; k < 2; ++k) add(Coordinate::Kind::kSlide, result_.C_i.col(k), T(1.0), f.viscous);
+    if (pair_.kind == PairKind::kPlanar)
+      add(Coordinate::Kind::kTurn, Vector3<T>::Zero(), f.pin_radius, f.viscous * f.pin_radius * f.pin_radius);
+    if (pair_.kind == PairKind::kSpherical)
+      for (int k = 0; k < 3; ++k) add(Coordinate::Kind::kSpin, Vector3<T>::Unit(k), f.pin_radius, f.viscous);
+  }
+
+  JointDynamicsConstants<T> dynamics(const JointDescription& joint) const {
+    JointDynamicsConstants<T> d;
+    d.damping = joint.damping.at(parameters_);
+    d.dry_friction = joint.dry_friction.at(parameters_);
+    if (joint.limit) {
+      d.lower = joint.limit->lower.at(parameters_);
+      d.upper = joint.limit->upper.at(parameters_);
+      d.effort = joint.limit->effort.at(parameters_);
+    }
+    if (!joint.spring) return d;
+    d.stiffness = joint.spring->stiffness.at(parameters_);
+    d.spring_damping = joint.spring->damping.at(parameters_);
+    d.free_position = joint.spring->free_position.at(parameters_);
+    return d;
+  }
+
+  // The parent link carries the rotor: body i, or body j where the chain runs from the child to the parent.
+  void place_rotor(std::size_t k, const Matrix3<T>& R_ji) {
+    const ActuatorDescription& actuator = *joint(k).actuator;
+    JointDynamicsConstants<T>& d = result_.dynamics[k];
+    d.gear_ratio = actuator.gear_ratio.at(parameters_);
+    d.rotor_inertia = actuator.rotor_inertia.at(parameters_);
+    d.rotor_axis = pair_.chain[k].reversed ? Vector3<T>(R_ji * axis(k)) : axis(k);
+  }
+
+  // A dimension that the annotation leaves out does not enter the joint's law; 1 keeps the unused quotient finite.
+  FrictionConstants<T> friction() const {
+    const FrictionDescription& f = *robot_.joints[static_cast<std::size_t>(pair_.friction_joint)].friction;
+    const auto length = [this](const Quantity& q) { return q.is_constant() && q.nominal() == 0.0 ? T(1.0) : q.at(parameters_); };
+    FrictionConstants<T> c;
+    c.mu_static = f.mu_static.at(parameters_);
+    c.mu_dynamic = f.mu_dynamic.at(parameters_);
+    c.transition_velocity = f.transition_velocity.at(parameters_);
+    c.joint_length = length(f.joint_length);
+    c.joint_width = length(f.joint_width);
+    c.pin_radius = f.pin_radius.at(parameters_);
+    c.friction_arm = f.friction_arm.is_constant() && f.friction_arm.nominal() == 0.0 ? c.pin_radius : f.friction_arm.at(parameters_);
+    c.preload = f.preload.at(parameters_);
+    c.smoothing = f.smoothing.at(parameters_);
+    c.viscous = f.viscous.at(parameters_);
+    c.bristle_stiffness = f.bristle_stiffness.at(parameters_);
+    c.bristle_damping = f.bristle_damping.at(parameters_);
+    c.dwell_time = f.dwell_time.at(parameters_);
+    return c;
+  }
+
+  const RobotDescription& robot_;
+  const Pair& pair_;
+  const std::vector<T>& parameters_;
+  ChainGeometry<T> geometry_;
+  std::vector<std::size_t> turns_, slides_;
+  PairConstants<T> result_;
+};
+
+}  // namespace
+
+template <class T>
+PairConstants<T> pair_constants(const RobotDescription& robot, const Topology& topology, const Pair& pair, const Vector3<T>& centre_i,
+                                const Vector3<T>& centre_j, const std::vector<T>& parameters) {
+  return PairBuilder<T>(robot, topology, pair, parameters).build(centre_i, centre_j);
+}
+
+#define CODESIGN_INSTANTIATE(T)                                                                                                            \
+  template PairConstants<T> pair_constants<T>(const RobotDescription&, const Topology&, const Pair&, const Vector3<T>&, const Vector3<T>&, \
+                                              const std::vector<T>&);
+CODESIGN_INSTANTIATE(double)
+CODESIGN_INSTANTIATE(std::complex<double>)
+CODESIGN_INSTANTIATE(Lanes<4>)
+CODESIGN_INSTANTIATE(Lanes<8>)
+CODESIGN_INSTANTIATE(Traced)
+#undef CODESIGN_INSTANTIATE
+
+}  // namespace codesign

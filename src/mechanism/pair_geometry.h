@@ -1,0 +1,19 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MECHANISM_PAIR_GEOMETRY_H_
+#define MECHANISM_CODESIGN_MECHANISM_PAIR_GEOMETRY_H_
+
+#include <vector>
+
+#include "mechanism/constants.h"
+
+namespace codesign {
+
+/// Joint point, axes, coordinates and coefficients of a pair at `parameters`.
+/// @param centre_i, centre_j centres of mass in the base links, where the body frames have their origins.
+template <class T>
+PairConstants<T> pair_constants(const RobotDescription& robot, const Topology& topology, const Pair& pair, const Vector3<T>& centre_i,
+                                const Vector3<T>& centre_j, const std::vector<T>& parameters);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MECHANISM_PAIR_GEOMETRY_H_

@@ -1,0 +1,81 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MECHANISM_POSE_H_
+#define MECHANISM_CODESIGN_MECHANISM_POSE_H_
+
+#include <vector>
+
+#include "description/robot.h"
+#include "math/euler_parameters.h"
+#include "mechanism/mass_properties.h"
+
+namespace codesign {
+
+/// Rigid displacement X_AB: a point s_B in frame B is R s_B + t in frame A.
+template <class T>
+struct Pose {
+  Matrix3<T> R = Matrix3<T>::Identity();
+  Vector3<T> t = Vector3<T>::Zero();
+
+  Pose operator*(const Pose& other) const { return {R * other.R, R * other.t + t}; }
+  Vector3<T> operator*(const Vector3<T>& s) const { return R * s + t; }
+  Pose inverse() const {
+    const Matrix3<T> Rt = R.transpose();
+    return {Rt, -(Rt * t)};
+  }
+};
+
+/// The three components at `parameters`.
+template <class T>
+Vector3<T> vector_at(const QuantityVector& vector, const std::vector<T>& parameters) {
+  return Vector3<T>(vector[0].at(parameters), vector[1].at(parameters), vector[2].at(parameters));
+}
+
+/// The pose a URDF `<origin>` stands for.
+template <class T>
+Pose<T> pose_at(const PoseDescription& origin, const std::vector<T>& parameters) {
+  const Vector3<T> rpy = vector_at(origin.rpy, parameters);
+  return {rotation_from_rpy<T>(rpy), vector_at(origin.xyz, parameters)};
+}
+
+/// The joint's unit axis in its joint frame.
+template <class T>
+Vector3<T> axis_at(const QuantityVector& axis, const std::vector<T>& parameters) {
+  using std::sqrt;
+  const Vector3<T> z = vector_at(axis, parameters);
+  return z / sqrt(dot(z, z));
+}
+
+/// Pose of a link in the base link of its rigid group, through the fixed joints between them.
+template <class T>
+Pose<T> link_in_base(const RobotDescription& robot, const std::vector<int>& link_base, const std::vector<int>& link_parent_joint, int link,
+                     const std::vector<T>& parameters) {
+  Pose<T> pose;
+  while (link != link_base[static_cast<std::size_t>(link)]) {
+    const JointDescription& joint = robot.joints[static_cast<std::size_t>(link_parent_joint[static_cast<std::size_t>(link)])];
+    pose = pose_at(joint.origin, parameters) * pose;
+    link = joint.parent;
+  }
+  return pose;
+}
+
+/// A column of an orthonormal frame chosen across the joint axis z: the given direction, else the next axis in x, y, z, x order; made
+/// normal to z.
+template <class T>
+Vector3<T> transverse_axis(const Vector3<T>& z, const std::optional<std::array<double, 3>>& preferred) {
+  using std::sqrt;
+  Vector3<T> x = Vector3<T>::Zero();
+  if (preferred) {
+    for (int k = 0; k < 3; ++k) x[k] = T((*preferred)[static_cast<std::size_t>(k)]);
+  } else {
+    int largest = 0;
+    for (int k = 1; k < 3; ++k)
+      if (is_less(T(z[largest] * z[largest] + 1e-9), T(z[k] * z[k]), false)) largest = k;
+    x[(largest + 1) % 3] = T(1.0);
+  }
+  x -= dot(x, z) * z;
+  return x / sqrt(dot(x, x));
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MECHANISM_POSE_H_

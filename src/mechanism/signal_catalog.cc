@@ -1,0 +1,183 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism/signal_catalog.h"
+
+#include <algorithm>
+
+#include "mechanism/topology.h"
+#include "text/unknown_name.h"
+
+namespace codesign {
+namespace {
+
+using Names = std::vector<std::string>;
+
+bool contains(const Names& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+
+/// What the object of a signal offers. A link may bear the name of a joint; the quantity then tells which is meant.
+struct Offer {
+  bool exists = false;
+  Names scalars;        ///< of a joint, a controller or the mechanism
+  Names vectors;        ///< of a joint or a link
+  Names quaternions;    ///< of a link
+  Names ambiguous;      ///< of a joint that is called like the mechanism, and of the mechanism
+  bool welded = false;  ///< a fixed joint of the tree
+};
+
+constexpr const char* kMechanism = "mechanism";
+const Names& reactions() {
+  static const Names kReactions{"reaction_force", "reaction_torque"};
+  return kReactions;
+}
+const Names& powers() {
+  static const Names kPowers{"friction_power", "damping_power", "actuator_power", "load_power"};
+  return kPowers;
+}
+const Names& mechanism_quantities() {
+  static const Names kQuantities = [] {
+    Names all{"kinetic_energy", "potential_energy", "total_energy"};
+    all.insert(all.end(), powers().begin(), powers().end());
+    return all;
+  }();
+  return kQuantities;
+}
+
+void add_joint(const JointDescription& joint, Offer* offer) {
+  offer->exists = true;
+  if (has_scalar_position(joint))
+    offer->scalars = {"position", "velocity", "acceleration", "effort", "actuator_power", "damping_power", "load_power"};
+  if (has_friction(joint))
+    for (const char* quantity : {"friction", "normal_force", "sliding_velocity", "friction_power"}) offer->scalars.emplace_back(quantity);
+  offer->welded = joint.type == JointType::kFixed && !joint.is_loop;
+  if (!offer->welded) offer->vectors = reactions();
+}
+
+Offer offer_of(const std::string& name, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
+  Offer offer;
+  for (const JointDescription& joint : robot.joints)
+    if (joint.name == name) add_joint(joint, &offer);
+  for (const ControllerDescription& controller : controllers) {
+    if (controller.name != name) continue;
+    offer.exists = true;
+    offer.scalars = has_error(controller.kind) ? Names{"error", "integral", "output"} : Names{"output"};
+  }
+  for (const LinkDescription& link : robot.links) {
+    if (link.name != name) continue;
+    offer.exists = true;
+    for (const char* quantity : {"position", "velocity", "angular_velocity"}) offer.vectors.emplace_back(quantity);
+    offer.quaternions = {"orientation"};
+  }
+  if (name == kMechanism) {
+    offer.exists = true;
+    for (const std::string& quantity : mechanism_quantities())
+      (contains(offer.scalars, quantity) ? offer.ambiguous : offer.scalars).push_back(quantity);
+  }
+  return offer;
+}
+
+Names all_names(const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
+  Names names;
+  for (const JointDescription& joint : robot.joints) names.push_back(joint.name);
+  for (const ControllerDescription& controller : controllers) names.push_back(controller.name);
+  for (const LinkDescription& link : robot.links) names.push_back(link.name);
+  names.emplace_back(kMechanism);
+  return names;
+}
+
+Names spelled(const std::string& object, const Offer& offer) {
+  const std::string prefix = object + "/";
+  Names spellings;
+  for (const std::string& quantity : offer.scalars) spellings.push_back(prefix + quantity);
+  for (const std::string& quantity : offer.vectors) spellings.push_back(prefix + quantity + "/{x,y,z}");
+  for (const std::string& quantity : offer.quaternions) spellings.push_back(prefix + quantity + "/{w,x,y,z}");
+  return spellings;
+}
+
+std::string spelling(const SignalTerm& term) {
+  return term.object + "/" + term.quantity + (term.component.empty() ? "" : "/" + term.component);
+}
+
+void check_term(const SignalTerm& term, const Offer& offer, const SourceLocation& where, const std::string& element) {
+  const bool as_scalar = contains(offer.scalars, term.quantity);
+  const bool as_quaternion = contains(offer.quaternions, term.quantity);
+  const bool as_vector = contains(offer.vectors, term.quantity) || as_quaternion;
+  const bool good_component =
+      term.component == "x" || term.component == "y" || term.component == "z" || (as_quaternion && term.component == "w");
+  if (contains(offer.ambiguous, term.quantity))
+    throw InputError({where, element, "a joint bears the name of the whole mechanism, whose power this could be too", spelling(term),
+                      "another name of the joint"});
+  if (offer.welded && is_reaction(term))
+    throw InputError({where, element, "a fixed joint makes one body of its links, and what it transmits is not computed", spelling(term),
+                      "a movable joint; or a floating joint and a <loop type=\"fixed\"> in place of the fixed joint"});
+  if (as_scalar && term.component.empty()) return;
+  if (as_vector && good_component) return;
+  const std::string allowed = list_names(spelled(term.object, offer));
+  if (as_vector)
+    throw InputError({where, element, std::string("this signal needs the component ") + (as_quaternion ? "w, x, y or z" : "x, y or z"),
+                      spelling(term), allowed});
+  if (as_scalar) throw InputError({where, element, "this signal has no components", spelling(term), allowed});
+  Names known = offer.scalars;
+  for (const Names* more : {&offer.vectors, &offer.quaternions}) known.insert(known.end(), more->begin(), more->end());
+  InputFault fault = unknown_name(where, element, "quantity of \"" + term.object + "\"", term.quantity, known).fault();
+  fault.value = spelling(term);
+  fault.allowed = allowed;
+  throw InputError(fault);
+}
+
+}  // namespace
+
+bool is_of_mechanism(const SignalTerm& term) {
+  return term.object == kMechanism && term.component.empty() && contains(mechanism_quantities(), term.quantity);
+}
+
+bool is_reaction(const SignalTerm& term) { return contains(reactions(), term.quantity); }
+
+bool has_scalar_position(const JointDescription& joint) {
+  return joint.type == JointType::kRevolute || joint.type == JointType::kContinuous || joint.type == JointType::kPrismatic;
+}
+
+bool has_friction(const JointDescription& joint) {
+  return joint.friction.has_value() || !joint.dry_friction.is_constant() || joint.dry_friction.nominal() != 0.0;
+}
+
+void check_signal(const SignalDescription& signal, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers,
+                  const std::string& element) {
+  for (const SignalTerm& term : signal.terms) {
+    const Offer offer = offer_of(term.object, robot, controllers);
+    if (!offer.exists) throw unknown_name(signal.where, element, "joint, link or controller", term.object, all_names(robot, controllers));
+    check_term(term, offer, signal.where, element);
+  }
+}
+
+std::vector<std::string> default_signals(const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
+  const std::vector<int> pairs = derive_topology(robot).joint_pair;
+  Names signals;
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    const JointDescription& joint = robot.joints[i];
+    if (!has_scalar_position(joint) || pairs[i] < 0) continue;
+    signals.push_back(joint.name + "/position");
+    signals.push_back(joint.name + "/velocity");
+  }
+  for (const JointDescription& joint : robot.joints) {
+    if (!has_friction(joint)) continue;
+    for (const char* quantity : {"/friction", "/normal_force", "/sliding_velocity"}) signals.push_back(joint.name + quantity);
+  }
+  for (const ControllerDescription& controller : controllers) signals.push_back(controller.name + "/output");
+  return signals;
+}
+
+std::vector<SignalDescription> signals_of(const Study& study) {
+  std::vector<SignalDescription> signals;
+  const auto add = [&signals](const SignalDescription& signal) {
+    const auto is_same = [&signal](const SignalDescription& other) { return other.text == signal.text; };
+    if (!signal.terms.empty() && std::none_of(signals.begin(), signals.end(), is_same)) signals.push_back(signal);
+  };
+  for (const std::vector<ObjectiveTerm>* terms : {&study.integral, &study.terminal})
+    for (const ObjectiveTerm& term : *terms) add(term.signal);
+  for (const ControllerDescription& controller : study.controllers) {
+    add(controller.input);
+    for (const FeedbackTerm& term : controller.feedback) add(term.signal);
+  }
+  return signals;
+}
+
+}  // namespace codesign

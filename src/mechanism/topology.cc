@@ -1,0 +1,262 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism/topology.h"
+
+#include <algorithm>
+#include <map>
+
+#include "fold_chain.h"
+#include "joints_between.h"
+#include "mechanism/friction_geometry.h"
+#include "rigid_groups.h"
+
+namespace codesign {
+namespace {
+
+/// A vertex is a rigid group of links; an edge is a joint or loop, or a chain of them.
+struct Edge {
+  int from = -1, to = -1;  // groups
+  std::vector<ChainElement> chain;
+  std::vector<int> inside;  // groups without mass between the elements of the chain
+};
+
+bool has_mass(const LinkDescription& link) { return link.inertial.has_value(); }
+
+std::string joint_element(const JointDescription& joint) {
+  return (joint.is_loop ? "<loop name=\"" : "<joint name=\"") + joint.name + "\">";
+}
+
+/// The type of an ordinary joint with the same friction law. Joints without one are alike.
+JointType equivalent_type(PairKind kind) {
+  switch (kind) {
+    case PairKind::kRevolute:
+      return JointType::kRevolute;
+    case PairKind::kPrismatic:
+      return JointType::kPrismatic;
+    case PairKind::kCylindrical:
+      return JointType::kCylindrical;
+    case PairKind::kSpherical:
+      return JointType::kSpherical;
+    case PairKind::kTable:
+    case PairKind::kPlanar:
+      return JointType::kPlanar;
+    default:
+      return JointType::kFloating;
+  }
+}
+
+class TopologyBuilder {
+ public:
+  explicit TopologyBuilder(const RobotDescription& robot) : robot_(robot) {}
+
+  Topology build() {
+    find_groups();
+    find_masses();
+    find_coupled();
+    collect_edges();
+    drop_massless_ends();
+    contract_massless_chains();
+    unfold_chains();
+    number_bodies();
+    make_pairs();
+    return std::move(topology_);
+  }
+
+ private:
+  static std::size_t index(int k) { return static_cast<std::size_t>(k); }
+  bool massless(int base) const { return !is_body_[index(base)]; }
+
+  void find_groups() {
+    RigidGroups groups(robot_);
+    topology_.link_parent_joint = std::move(groups.link_parent_joint);
+    topology_.link_base = std::move(groups.link_base);
+    topology_.joint_pair.assign(robot_.joints.size(), -1);
+  }
+
+  void find_masses() {
+    is_body_.assign(robot_.links.size(), false);
+    is_body_[index(robot_.root)] = true;
+    for (std::size_t link = 0; link < robot_.links.size(); ++link)
+      if (has_mass(robot_.links[link])) is_body_[index(topology_.link_base[link])] = true;
+  }
+
+  // Bodies are numbered in the order of the file, so that q is laid out as its reader expects.
+  void number_bodies() {
+    std::map<int, std::vector<int>> groups;
+    for (std::size_t link = 0; link < robot_.links.size(); ++link) groups[topology_.link_base[link]].push_back(static_cast<int>(link));
+    topology_.link_body.assign(robot_.links.size(), Topology::kMassless);
+    for (auto& [base, links] : groups) {
+      int body = Topology::kMassless;
+      if (base == robot_.root) {
+        body = Topology::kGround;
+      } else if (!massless(base)) {
+        body = static_cast<int>(topology_.bodies.size());
+        std::stable_partition(links.begin(), links.end(), [base = base](int link) { return link == base; });
+        topology_.bodies.push_back({robot_.links[index(base)].name, base, links});
+      }
+      for (int link : links) topology_.link_body[index(link)] = body;
+    }
+  }
+
+  void collect_edges() {
+    for (std::size_t k = 0; k < robot_.joints.size(); ++k) {
+      const JointDescription& joint = robot_.joints[k];
+      if (joint.type == JointType::kFixed && !joint.is_loop) continue;
+      edges_.push_back(single_edge(static_cast<int>(k)));
+      if (edges_.back().from == edges_.back().to)
+        throw InputError(
+            {joint.where, joint_element(joint), "both ends lie on the same rigid body", robot_.links[index(joint.parent)].name, ""});
+    }
+  }
+
+  Edge single_edge(int joint) const {
+    const JointDescription& description = robot_.joints[index(joint)];
+    return {topology_.link_base[index(description.parent)], topology_.link_base[index(description.child)], {{joint, false}}, {}};
+  }
+
+  std::vector<std::size_t> edges_at(int group) const {
+    std::vector<std::size_t> result;
+    for (std::size_t k = 0; k < edges_.size(); ++k)
+      if (edges_[k].from == group || edges_[k].to == group) result.push_back(k);
+    return result;
+  }
+
+  // A massless link at the end of a chain (a sensor frame) carries no load: its joint stays where it starts.
+  void drop_massless_ends() {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t link = 0; link < robot_.links.size(); ++link) {
+        const int group = static_cast<int>(link);
+        if (topology_.link_base[link] != group || !massless(group)) continue;
+        const auto edges = edges_at(group);
+        if (edges.size() != 1 || carries_load(edges_[edges[0]].chain[0].joint)) continue;
+        edges_.erase(edges_.begin() + static_cast<std::ptrdiff_t>(edges[0]));
+        changed = true;
+      }
+    }
+  }
+
+  // The joint of a massless end feels a rotor, or others with mass that are coupled to it.
+  bool carries_load(int joint) const {
+    const JointDescription& description = robot_.joints[index(joint)];
+    if (description.actuator) return true;
+    for (const Edge& edge : edges_) {
+      const std::optional<MimicDescription>& mimic = robot_.joints[index(edge.chain[0].joint)].mimic;
+      if (mimic && mimic->joint == description.name) return true;
+    }
+    return in_coupling_[index(joint)];
+  }
+
+  void find_coupled() {
+    in_coupling_.assign(robot_.joints.size(), false);
+    for (const CouplingDescription& coupling : robot_.couplings)
+      for (int joint : joints_between(robot_, topology_.link_parent_joint, coupling.predecessor, coupling.successor))
+        in_coupling_[index(joint)] = true;
+  }
+
+  // What stands between three joints or more cannot be folded: it is a body, if one without mass.
+  void contract_massless_chains() {
+    for (std::size_t link = 0; link < robot_.links.size(); ++link) {
+      const int group = static_cast<int>(link);
+      if (topology_.link_base[link] != group || !massless(group)) continue;
+      const auto edges = edges_at(group);
+      if (edges.empty()) continue;
+      if (edges.size() == 2) {
+        join(group, edges[0], edges[1]);
+      } else {
+        is_body_[link] = true;
+      }
+    }
+  }
+
+  // Links without mass of a chain that is no joint we know are bodies without mass. A chain that comes back to where it began
+  // moves nothing.
+  void unfold_chains() {
+    for (std::size_t k = 0; k < edges_.size();) {
+      const Edge edge = edges_[k];
+      if (edge.chain.size() == 1 || (edge.from != edge.to && folds(robot_, topology_, edge.chain))) {
+        ++k;
+        continue;
+      }
+      edges_.erase(edges_.begin() + static_cast<std::ptrdiff_t>(k));
+      if (edge.from == edge.to) continue;
+      for (int group : edge.inside) is_body_[index(group)] = true;
+      for (const ChainElement& element : edge.chain) edges_.push_back(single_edge(element.joint));
+    }
+    std::stable_sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return first_joint(a) < first_joint(b); });
+  }
+
+  static int first_joint(const Edge& edge) {
+    const auto by_number = [](const ChainElement& a, const ChainElement& b) { return a.joint < b.joint; };
+    return std::min_element(edge.chain.begin(), edge.chain.end(), by_number)->joint;
+  }
+
+  // The joined edge runs from the end of the one that arrives to the end of the one that leaves.
+  void join(int group, std::size_t first, std::size_t second) {
+    Edge a = edges_[first], b = edges_[second];
+    if (a.to != group && b.to == group) std::swap(a, b);
+    if (a.to != group) reverse(&a);
+    if (b.from != group) reverse(&b);
+    Edge joined{a.from, b.to, a.chain, a.inside};
+    joined.inside.push_back(group);
+    joined.inside.insert(joined.inside.end(), b.inside.begin(), b.inside.end());
+    joined.chain.insert(joined.chain.end(), b.chain.begin(), b.chain.end());
+    edges_[std::min(first, second)] = joined;
+    edges_.erase(edges_.begin() + static_cast<std::ptrdiff_t>(std::max(first, second)));
+  }
+
+  static void reverse(Edge* edge) {
+    std::swap(edge->from, edge->to);
+    std::reverse(edge->chain.begin(), edge->chain.end());
+    for (ChainElement& element : edge->chain) element.reversed = !element.reversed;
+  }
+
+  void make_pairs() {
+    for (const Edge& edge : edges_) {
+      Pair pair;
+      pair.chain = edge.chain;
+      pair.body_i = topology_.link_body[index(edge.from)];
+      pair.body_j = topology_.link_body[index(edge.to)];
+      pair.kind = fold_chain(robot_, topology_, pair.chain);
+      for (const ChainElement& element : edge.chain) {
+        const JointDescription& joint = robot_.joints[index(element.joint)];
+        topology_.joint_pair[index(element.joint)] = static_cast<int>(topology_.pairs.size());
+        pair.name += (pair.name.empty() ? "" : "+") + joint.name;
+        pair.is_loop = pair.is_loop || joint.is_loop;
+        take_friction(element.joint, &pair);
+      }
+      if (pair.friction_joint >= 0) check_friction(pair);
+      topology_.pairs.push_back(pair);
+    }
+  }
+
+  void take_friction(int joint, Pair* pair) const {
+    const JointDescription& description = robot_.joints[index(joint)];
+    if (!description.friction) return;
+    if (pair->friction_joint >= 0)
+      throw InputError({description.friction->where, joint_element(description), "a second <codesign:friction> on one folded joint",
+                        pair->name, "one for the whole chain of massless links"});
+    pair->friction_joint = joint;
+  }
+
+  // The reader has checked joints between links with mass, not those folded from a chain.
+  void check_friction(const Pair& pair) const {
+    const JointDescription& joint = robot_.joints[index(pair.friction_joint)];
+    check_friction_geometry(*joint.friction, equivalent_type(pair.kind), joint_element(joint) + " <codesign:friction>");
+  }
+
+  const RobotDescription& robot_;
+  Topology topology_;
+  std::vector<bool> is_body_;      // per base link of a group: it has mass, is the ground, or cannot be folded away
+  std::vector<bool> in_coupling_;  // per joint: a `<coupling>` counts it
+  std::vector<Edge> edges_;
+};
+
+}  // namespace
+
+Topology derive_topology(const RobotDescription& robot) {
+  Topology topology = TopologyBuilder(robot).build();
+  topology.couplings = derive_couplings(robot, topology);
+  return topology;
+}
+
+}  // namespace codesign

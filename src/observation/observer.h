@@ -1,0 +1,56 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_OBSERVATION_OBSERVER_H_
+#define MECHANISM_CODESIGN_OBSERVATION_OBSERVER_H_
+
+#include <vector>
+
+#include "assembly/assembly.h"
+#include "equations/equations.h"
+#include "mechanism_codesign/frame.h"
+
+namespace codesign {
+
+/// Reads everything a user may want to see off a state: URDF joint positions (massless joints included), link poses, friction, controllers.
+class Observer {
+ public:
+  /// @throws InputError for a signal that does not exist.
+  Observer(const System& system, const std::vector<SignalDescription>& signals);
+
+  const FrameNames& names() const { return names_; }
+
+  /// @param theta tree joint coordinates of the start; joints that only carry massless end links stay there.
+  void observe(const State<double>& state, double objective, const VectorX<double>& theta, Equations<double>* equations, Frame* frame);
+
+ private:
+  struct JointSource {
+    int joint = -1, pair = -1, element = -1;  ///< pair -1: a joint below which nothing has mass
+    int mimicked = -1;                        ///< what such a joint mimics, as an index of joints_; or -1
+  };
+  static constexpr int kContact = -2;  ///< in place of an element: isotropic friction of the whole pair
+  struct FrictionSource {
+    int pair = -1, element = -1;
+  };
+
+  void name_joints();
+  void name_frictions();
+  void name_links();
+  void follow_mimics(const std::vector<double>& parameters, VectorX<double>* positions, Frame* frame) const;
+  void observe_frictions(Equations<double>* equations, Frame* frame) const;
+  void observe_contact(int index, Equations<double>* equations, FrictionSample* sample) const;
+  void observe_controllers(const State<double>& state, Equations<double>* equations, Frame* frame) const;
+  void observe_links(const VectorX<double>& theta, Equations<double>* equations, Frame* frame) const;
+  void observe_loops(const State<double>& state, Equations<double>* equations, Frame* frame);
+
+  const System& system_;
+  TreeLayout tree_;
+  std::vector<Signal> signals_;
+  FrameNames names_;
+  std::vector<JointSource> joints_;
+  std::vector<FrictionSource> frictions_;
+  std::vector<int> loops_;  ///< pairs with a loop
+  VectorX<double> errors_, rates_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_OBSERVATION_OBSERVER_H_

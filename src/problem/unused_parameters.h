@@ -1,0 +1,14 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_PROBLEM_UNUSED_PARAMETERS_H_
+#define MECHANISM_CODESIGN_PROBLEM_UNUSED_PARAMETERS_H_
+
+#include "problem/problem.h"
+
+namespace codesign {
+
+/// A warning `unused_parameter` for each tuned parameter that no `${...}` of model, overlays and study names.
+Warnings unused_parameters(const Problem& problem);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_PROBLEM_UNUSED_PARAMETERS_H_

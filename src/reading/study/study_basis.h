@@ -1,0 +1,21 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_BASIS_H_
+#define MECHANISM_CODESIGN_READING_STUDY_STUDY_BASIS_H_
+
+#include <string>
+
+#include "description/study.h"
+#include "yaml_reader.h"
+
+namespace codesign {
+
+/// Declares the parameters that basis controllers ask for by `coefficients: {count, initial, lower, upper, tune}`: of a controller `push`
+/// they are push_c0, push_c1, ..., behind all others.
+void declare_coefficients(const YamlValue& study_value, Study* study);
+
+/// Reads the keys of one basis controller; needs Study::duration and the parameters that declare_coefficients() made.
+BasisDescription read_basis(const std::string& controller, const YamlValue& value, const Study& study);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_BASIS_H_

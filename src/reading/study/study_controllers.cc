@@ -1,0 +1,125 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "study_controllers.h"
+
+#include <algorithm>
+#include <map>
+
+#include "mechanism/signal_catalog.h"
+#include "study_basis.h"
+#include "study_references.h"
+#include "study_values.h"
+
+namespace codesign {
+namespace {
+
+/// What reading one controller needs to know.
+struct Context {
+  const RobotDescription& robot;
+  const TrajectoryLoader& loader;
+  const Study& study;
+};
+
+void read_gains(const YamlValue& gains, const std::vector<std::string>& known, const std::vector<Parameter>& parameters,
+                ControllerDescription* controller) {
+  gains.require_keys({}, known);
+  std::string all;
+  for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
+  if (gains.entries().empty()) gains.fail("a controller needs at least one gain", all);
+  if (const auto p = gains.find("p")) controller->p = read_quantity(*p, parameters);
+  if (const auto i = gains.find("i")) controller->i = read_quantity(*i, parameters);
+  if (const auto d = gains.find("d")) controller->d = read_quantity(*d, parameters);
+}
+
+/// A signal could not tell a controller from a joint or link of the same name.
+void refuse_taken_name(const std::string& name, const YamlValue& value, const RobotDescription& robot) {
+  const auto taken = [&name](const auto& item) { return item.name == name; };
+  const bool joint = std::any_of(robot.joints.begin(), robot.joints.end(), taken);
+  const bool link = std::any_of(robot.links.begin(), robot.links.end(), taken);
+  if (joint || link) throw InputError({value.where(), value.path(), "a joint or link has this name", name, "a name of its own"});
+}
+
+// Controllers written earlier may be read, so a cascade works and a circle cannot arise.
+SignalDescription read_signal(const YamlValue& value, const Context& context) {
+  SignalDescription signal = parse_signal(value.text(), value.where(), value.path());
+  check_signal(signal, context.robot, context.study.controllers, value.path());
+  return signal;
+}
+
+/// The position of the joint that the controller drives.
+SignalDescription own_position(const ControllerDescription& controller) {
+  return {controller.output + "/position", {{1.0, controller.output, "position", ""}}, controller.where};
+}
+
+void read_pid(const YamlValue& value, const Context& context, ControllerDescription* controller) {
+  value.require_keys({"type", "input", "setpoint", "output", "gains"}, {});
+  controller->input = read_signal(value.at("input"), context);
+  controller->setpoint = read_reference(value.at("setpoint"), context.study.parameters, context.loader);
+  read_gains(value.at("gains"), {"p", "i", "d"}, context.study.parameters, controller);
+}
+
+/// Laws that know the model, of the joint that they drive.
+void read_model_based(const YamlValue& value, const Context& context, ControllerDescription* controller) {
+  value.require_keys({"type", "setpoint", "output", "gains"}, {});
+  controller->input = own_position(*controller);
+  controller->setpoint = read_reference(value.at("setpoint"), context.study.parameters, context.loader);
+  read_gains(value.at("gains"), {"p", "d"}, context.study.parameters, controller);
+}
+
+void read_state_feedback(const YamlValue& value, const Context& context, ControllerDescription* controller) {
+  value.require_keys({"type", "output"}, {"feedback", "feedforward"});
+  const std::vector<Parameter>& parameters = context.study.parameters;
+  if (const auto feedforward = value.find("feedforward"))
+    controller->feedforward = read_reference(*feedforward, parameters, context.loader);
+  const auto feedback = value.find("feedback");
+  const std::vector<YamlValue> terms = feedback ? feedback->items() : std::vector<YamlValue>{};
+  if (terms.empty() && !value.find("feedforward"))
+    value.fail("the controller does nothing", "feedback: at least one {signal, gain, reference}; or feedforward");
+  for (const YamlValue& item : terms) {
+    item.require_keys({"signal", "gain"}, {"reference"});
+    FeedbackTerm term;
+    term.signal = read_signal(item.at("signal"), context);
+    term.gain = read_quantity(item.at("gain"), parameters);
+    if (const auto reference = item.find("reference")) term.reference = read_reference(*reference, parameters, context.loader);
+    controller->feedback.push_back(term);
+  }
+}
+
+void read_basis_controller(const YamlValue& value, const Context& context, ControllerDescription* controller) {
+  value.require_keys({"type", "output", "coefficients"}, {"shape", "duration"});
+  controller->basis = read_basis(controller->name, value, context.study);
+}
+
+ControllerDescription read_controller(const std::string& name, const YamlValue& value, const Context& context) {
+  struct Law {
+    ControllerKind kind;
+    void (*read)(const YamlValue&, const Context&, ControllerDescription*);
+  };
+  static const std::map<std::string, Law> laws{{"basis", {ControllerKind::kBasis, read_basis_controller}},
+                                               {"computed_torque", {ControllerKind::kComputedTorque, read_model_based}},
+                                               {"pd_gravity", {ControllerKind::kPdGravity, read_model_based}},
+                                               {"pid", {ControllerKind::kPid, read_pid}},
+                                               {"state_feedback", {ControllerKind::kStateFeedback, read_state_feedback}}};
+  std::vector<std::string> types;
+  for (const auto& law : laws) types.push_back(law.first);
+  refuse_taken_name(name, value, context.robot);
+  ControllerDescription controller;
+  controller.name = name;
+  controller.where = value.where();
+  const Law& law = laws.at(value.at("type").choice("controller type", types));
+  controller.kind = law.kind;
+  const YamlValue output = value.at("output");
+  controller.output = scalar_joint(output.text(), context.robot, output).name;
+  law.read(value, context, &controller);
+  return controller;
+}
+
+}  // namespace
+
+void read_controllers(const YamlValue& study_value, const RobotDescription& robot, const TrajectoryLoader& loader, Study* study) {
+  const auto controllers = study_value.find("controllers");
+  if (!controllers) return;
+  for (const auto& [name, value] : controllers->entries())
+    study->controllers.push_back(read_controller(name, value, Context{robot, loader, *study}));
+}
+
+}  // namespace codesign

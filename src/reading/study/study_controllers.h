@@ -1,0 +1,16 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_CONTROLLERS_H_
+#define MECHANISM_CODESIGN_READING_STUDY_STUDY_CONTROLLERS_H_
+
+#include "description/robot.h"
+#include "description/study.h"
+#include "yaml_reader.h"
+
+namespace codesign {
+
+/// Reads `controllers:`; needs Study::duration and Study::parameters, the coefficients of basis controllers among them.
+void read_controllers(const YamlValue& study_value, const RobotDescription& robot, const TrajectoryLoader& loader, Study* study);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_CONTROLLERS_H_

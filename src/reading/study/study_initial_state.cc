@@ -1,0 +1,104 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "study_initial_state.h"
+
+#include <algorithm>
+
+#include "math/scalar.h"
+#include "mechanism/signal_catalog.h"
+#include "study_values.h"
+#include "text/decimal.h"
+#include "text/unknown_name.h"
+
+namespace codesign {
+namespace {
+
+using Names = std::vector<std::string>;
+
+const Names& scalar_keys() {
+  static const Names kKeys{"position", "velocity", "guess"};
+  return kKeys;
+}
+const Names& pose_keys() {
+  static const Names kKeys{"translation", "rotation", "linear_velocity", "angular_velocity"};
+  return kKeys;
+}
+
+bool has_pose(const JointDescription& joint) { return joint.type == JointType::kPlanar || joint.type == JointType::kFloating; }
+
+/// The joint of the tree, or the loop, whose start is given.
+const JointDescription& starting_joint(const std::string& name, const RobotDescription& robot, const YamlValue& value) {
+  Names known;
+  for (const JointDescription& joint : robot.joints) {
+    const bool free = !joint.is_loop && has_pose(joint);
+    if (joint.name == name && (free || has_scalar_position(joint))) return joint;
+    if (joint.name == name)
+      value.fail("this joint has neither a coordinate nor a pose of its own",
+                 "a revolute, continuous, prismatic, planar or floating joint");
+    if (free || has_scalar_position(joint)) known.push_back(joint.name);
+  }
+  throw unknown_name(value.where(), value.path(), "joint", name, known);
+}
+
+void read_scalar_start(const YamlValue& value, const Study& study, InitialJointState* state) {
+  if (const auto position = value.find("position")) state->position = read_quantity(*position, study.parameters);
+  if (const auto velocity = value.find("velocity")) state->velocity = read_quantity(*velocity, study.parameters);
+  const auto guess = value.find("guess");
+  if (guess && state->position) guess->fail("a joint has either a position or a guess of it");
+  if (guess) state->guess = guess->number();
+}
+
+/// A vector in a planar joint's plane, as far as its numbers at the start tell.
+void check_in_plane(const YamlValue& value, const QuantityVector& vector, const JointDescription& joint) {
+  const auto nominal = [](const QuantityVector& q) { return Vector3<double>(q[0].nominal(), q[1].nominal(), q[2].nominal()); };
+  const Vector3<double> x = nominal(vector), normal = nominal(joint.axis).normalized();
+  if (std::abs(x.dot(normal)) > 1e-9 * (1.0 + x.norm()))
+    value.fail("the vector leads out of the plane of the joint by " + to_decimal(x.dot(normal)), "a vector normal to the joint's <axis>");
+}
+
+void read_pose_start(const YamlValue& value, const JointDescription& joint, const Study& study, InitialJointState* state) {
+  const bool planar = joint.type == JointType::kPlanar;
+  const auto slide = [&](const char* key, std::optional<QuantityVector>* result) {
+    const auto found = value.find(key);
+    if (!found) return;
+    *result = read_vector(*found, study.parameters);
+    if (planar) check_in_plane(*found, **result, joint);
+  };
+  const auto turn = [&](const char* key, std::optional<QuantityVector>* result) {
+    const auto found = value.find(key);
+    if (!found) return;
+    if (planar && found->is_list()) found->fail("a planar joint turns about its normal alone", "one number");
+    *result = planar ? QuantityVector{0.0, 0.0, read_quantity(*found, study.parameters)} : read_vector(*found, study.parameters);
+  };
+  slide("translation", &state->translation);
+  slide("linear_velocity", &state->linear_velocity);
+  turn("rotation", &state->rotation);
+  turn("angular_velocity", &state->angular_velocity);
+  // Angular velocities are measured where the rotation is known.
+  if (state->angular_velocity && !state->rotation) state->rotation.emplace();
+}
+
+InitialJointState read_joint_start(const std::string& name, const YamlValue& value, const RobotDescription& robot, const Study& study) {
+  const JointDescription& joint = starting_joint(name, robot, value);
+  const Names& keys = has_pose(joint) ? pose_keys() : scalar_keys();
+  const Names& others = has_pose(joint) ? scalar_keys() : pose_keys();
+  if (value.is_map())
+    for (const auto& [key, at] : value.entries())
+      if (std::find(others.begin(), others.end(), key) != others.end()) at.fail("this joint's start has no " + key, list_names(keys));
+  value.require_keys({}, keys);
+  if (value.entries().empty()) value.fail("nothing is said of this joint", list_names(keys));
+  InitialJointState state;
+  state.joint = joint.name;
+  state.where = value.where();
+  has_pose(joint) ? read_pose_start(value, joint, study, &state) : read_scalar_start(value, study, &state);
+  return state;
+}
+
+}  // namespace
+
+void read_initial_state(const YamlValue& study_value, const RobotDescription& robot, Study* study) {
+  const auto initial_state = study_value.find("initial_state");
+  if (!initial_state) return;
+  for (const auto& [name, value] : initial_state->entries()) study->initial_state.push_back(read_joint_start(name, value, robot, *study));
+}
+
+}  // namespace codesign

@@ -1,0 +1,16 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_LOADS_H_
+#define MECHANISM_CODESIGN_READING_STUDY_STUDY_LOADS_H_
+
+#include "description/robot.h"
+#include "description/study.h"
+#include "yaml_reader.h"
+
+namespace codesign {
+
+/// Reads `loads`, the constant efforts and wrenches; the parameters must have been read. @throws InputError
+void read_loads(const YamlValue& study_value, const RobotDescription& robot, Study* study);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_LOADS_H_

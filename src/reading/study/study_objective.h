@@ -1,0 +1,16 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_OBJECTIVE_H_
+#define MECHANISM_CODESIGN_READING_STUDY_STUDY_OBJECTIVE_H_
+
+#include "description/robot.h"
+#include "description/study.h"
+#include "yaml_reader.h"
+
+namespace codesign {
+
+/// Reads `objective:`, which may be left out or empty; needs Study::parameters and Study::controllers.
+void read_objective(const YamlValue& study_value, const RobotDescription& robot, const TrajectoryLoader& loader, Study* study);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_OBJECTIVE_H_

@@ -1,0 +1,101 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "study_options.h"
+
+#include "text/decimal.h"
+
+namespace codesign {
+namespace {
+
+// Below these a tolerance asks for more than double precision holds: a relative error test cannot see under some hundred roundings
+// of 1.1e-16, an absolute one not under a rounding of a position of 1 m, an objective not under a few roundings of its own.
+constexpr double kLeastRelative = 1e-13, kLeastAbsolute = 1e-16, kLeastOfObjective = 1e-15;
+
+void read_tolerance(const YamlValue& parent, const std::string& key, double least, double* tolerance) {
+  const auto value = parent.find(key);
+  if (!value) return;
+  *tolerance = value->number();
+  if (*tolerance < least || *tolerance >= 1.0) value->fail("tolerance out of range", "from " + to_decimal(least) + " to less than 1");
+}
+
+void read_positive_or_zero(const YamlValue& parent, const std::string& key, const char* allowed, double* number) {
+  const auto value = parent.find(key);
+  if (!value) return;
+  *number = value->number();
+  if (*number < 0.0) value->fail("number out of range", allowed);
+}
+
+void read_step(const YamlValue& parent, const std::string& key, double* step) {
+  read_positive_or_zero(parent, key, "a positive number of seconds, or 0 for none", step);
+}
+
+void read_count(const YamlValue& parent, const std::string& key, int* count) {
+  const auto value = parent.find(key);
+  if (!value) return;
+  *count = value->integer();
+  if (*count < 1) value->fail("count out of range", "1 or more");
+}
+
+void read_positive(const YamlValue& parent, const std::string& key, bool zero_allowed, double* number) {
+  const auto value = parent.find(key);
+  if (!value) return;
+  *number = value->number();
+  if (*number < 0.0 || (*number == 0.0 && !zero_allowed)) value->fail(key + " out of range", zero_allowed ? "0 or more" : "more than 0");
+}
+
+/// The adjoint follows steps that were taken without it.
+void read_gradient(const YamlValue& solver, SolverOptions* options) {
+  const auto value = solver.find("gradient");
+  if (!value) return;
+  options->gradient = value->choice("gradient", {"auto", "direct", "adjoint"});
+  if (options->gradient != "adjoint") return;
+  if (options->integrator != "rosenbrock") value->fail("there is an adjoint of the Rosenbrock steps alone", "auto or direct with idas");
+  if (options->sensitivity_tolerance > 0.0)
+    value->fail("the adjoint has no sensitivities that could take part in the error test", "auto or direct with sensitivity_tolerance");
+}
+
+}  // namespace
+
+LimitOptions read_limit_options(const YamlValue& limits) {
+  limits.require_keys({}, {"effort", "position", "stiffness", "dissipation", "width"});
+  LimitOptions options;
+  if (const auto effort = limits.find("effort")) options.effort = effort->boolean();
+  if (const auto position = limits.find("position")) options.position = position->boolean();
+  read_positive(limits, "stiffness", false, &options.stiffness);
+  read_positive(limits, "dissipation", true, &options.dissipation);
+  read_positive(limits, "width", false, &options.width);
+  return options;
+}
+
+SolverOptions read_solver_options(const YamlValue& solver) {
+  solver.require_keys({}, {"integrator", "method", "gradient", "relative_tolerance", "absolute_tolerance", "sensitivity_tolerance",
+                           "initial_step", "maximum_step", "maximum_steps", "maximum_speed", "closure_tolerance"});
+  SolverOptions options;
+  if (const auto integrator = solver.find("integrator")) options.integrator = integrator->choice("integrator", {"rosenbrock", "idas"});
+  if (const auto method = solver.find("method")) options.method = method->choice("method", {"rodas4", "rodas4p2", "rodas5p"});
+  read_tolerance(solver, "relative_tolerance", kLeastRelative, &options.relative_tolerance);
+  read_tolerance(solver, "absolute_tolerance", kLeastAbsolute, &options.absolute_tolerance);
+  read_tolerance(solver, "sensitivity_tolerance", kLeastRelative, &options.sensitivity_tolerance);
+  read_step(solver, "initial_step", &options.initial_step);
+  read_step(solver, "maximum_step", &options.maximum_step);
+  read_count(solver, "maximum_steps", &options.maximum_steps);
+  read_positive_or_zero(solver, "maximum_speed", "a positive speed in m/s and rad/s, or 0: chosen", &options.maximum_speed);
+  read_positive(solver, "closure_tolerance", true, &options.closure_tolerance);
+  read_gradient(solver, &options);
+  return options;
+}
+
+OptimizerOptions read_optimizer_options(const YamlValue& optimizer) {
+  optimizer.require_keys({}, {"algorithm", "max_evaluations", "relative_tolerance"});
+  OptimizerOptions options;
+  options.where = optimizer.where();
+  if (const auto algorithm = optimizer.find("algorithm")) {
+    options.where = algorithm->where();
+    options.algorithm =
+        algorithm->choice("algorithm", {"lbfgs", "var1", "var2", "tnewton", "mma", "ccsaq", "slsqp", "cobyla", "bobyqa", "auglag_lbfgs"});
+  }
+  read_count(optimizer, "max_evaluations", &options.max_evaluations);
+  read_tolerance(optimizer, "relative_tolerance", kLeastOfObjective, &options.relative_tolerance);
+  return options;
+}
+
+}  // namespace codesign

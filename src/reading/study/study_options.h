@@ -1,0 +1,21 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_OPTIONS_H_
+#define MECHANISM_CODESIGN_READING_STUDY_STUDY_OPTIONS_H_
+
+#include "description/study.h"
+#include "yaml_reader.h"
+
+namespace codesign {
+
+/// Reads the map `limits:`.
+LimitOptions read_limit_options(const YamlValue& limits);
+
+/// Reads the map `solver:`.
+SolverOptions read_solver_options(const YamlValue& solver);
+
+/// Reads the map `optimizer:`.
+OptimizerOptions read_optimizer_options(const YamlValue& optimizer);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_OPTIONS_H_

@@ -1,0 +1,23 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_PARAMETERS_H_
+#define MECHANISM_CODESIGN_READING_STUDY_STUDY_PARAMETERS_H_
+
+#include "description/robot.h"
+#include "description/study.h"
+#include "yaml_reader.h"
+
+namespace codesign {
+
+/// Reads `parameters:` into Study::parameters (the model's, then the study's own) and Study::tuned (in the order written).
+/// Start and bounds default to the model's; a parameter of the study alone needs `initial`.
+void read_parameters(const YamlValue& study_value, const RobotDescription& robot, Study* study);
+
+/// Replaces a parameter's bounds by `lower` and `upper` of a map, where given, and checks that its value lies within them.
+void read_bounds(const YamlValue& value, Parameter* parameter);
+
+/// Reads the list `constraints:`; needs Study::parameters.
+void read_constraints(const YamlValue& study_value, Study* study);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_PARAMETERS_H_

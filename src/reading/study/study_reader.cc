@@ -1,0 +1,56 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/study/study_reader.h"
+
+#include "study_basis.h"
+#include "study_controllers.h"
+#include "study_initial_state.h"
+#include "study_loads.h"
+#include "study_objective.h"
+#include "study_options.h"
+#include "study_parameters.h"
+#include "yaml_reader.h"
+
+namespace codesign {
+namespace {
+
+double read_duration(const YamlValue& value) {
+  const double duration = value.number();
+  if (duration <= 0.0) value.fail("the duration must be positive", "more than 0 s");
+  return duration;
+}
+
+std::array<double, 3> read_gravity(const YamlValue& value) {
+  const std::vector<YamlValue> items = value.items();
+  if (items.size() != 3) value.fail("gravity needs three components, found " + std::to_string(items.size()), "[x, y, z] in m/s^2");
+  return {items[0].number(), items[1].number(), items[2].number()};
+}
+
+}  // namespace
+
+Study read_study(const SourceText& yaml, const RobotDescription& robot, const TrajectoryLoader& loader) {
+  const YamlValue root = YamlValue::parse(yaml);
+  root.require_keys({"duration"}, {"gravity", "initial_state", "controllers", "loads", "parameters", "objective", "constraints", "limits",
+                                   "solver", "optimizer"});
+  Study study;
+  study.file = yaml.name;
+  study.duration = read_duration(root.at("duration"));
+  if (const auto gravity = root.find("gravity")) study.gravity = read_gravity(*gravity);
+  read_parameters(root, robot, &study);
+  declare_coefficients(root, &study);
+  constexpr std::size_t kMostTuned = 10000;
+  if (study.tuned.size() > kMostTuned) {
+    const YamlValue at = root.find("parameters").value_or(root);
+    at.fail("too many parameters to tune: " + std::to_string(study.tuned.size()), "at most " + std::to_string(kMostTuned));
+  }
+  read_constraints(root, &study);
+  read_initial_state(root, robot, &study);
+  read_controllers(root, robot, loader, &study);
+  read_loads(root, robot, &study);
+  read_objective(root, robot, loader, &study);
+  if (const auto limits = root.find("limits")) study.limits = read_limit_options(*limits);
+  if (const auto solver = root.find("solver")) study.solver = read_solver_options(*solver);
+  if (const auto optimizer = root.find("optimizer")) study.optimizer = read_optimizer_options(*optimizer);
+  return study;
+}
+
+}  // namespace codesign

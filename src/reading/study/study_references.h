@@ -1,0 +1,18 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_REFERENCES_H_
+#define MECHANISM_CODESIGN_READING_STUDY_STUDY_REFERENCES_H_
+
+#include <vector>
+
+#include "description/parameter.h"
+#include "description/reference.h"
+#include "yaml_reader.h"
+
+namespace codesign {
+
+/// A quantity, or a map whose `type` is sine, waypoints or trajectory.
+ReferenceDescription read_reference(const YamlValue& value, const std::vector<Parameter>& parameters, const TrajectoryLoader& loader);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_REFERENCES_H_

@@ -1,0 +1,15 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_URDF_FRICTION_READER_H_
+#define MECHANISM_CODESIGN_READING_URDF_FRICTION_READER_H_
+
+#include "description/robot.h"
+#include "twin.h"
+
+namespace codesign {
+
+/// One `<codesign:friction>`; `axis` is the joint's, from which the transverse axis must differ. @throws InputError
+FrictionDescription read_friction(const XmlElement& element, const QuantityVector& axis, const ParameterTable& table);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_URDF_FRICTION_READER_H_

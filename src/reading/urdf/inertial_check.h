@@ -1,0 +1,22 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_URDF_INERTIAL_CHECK_H_
+#define MECHANISM_CODESIGN_READING_URDF_INERTIAL_CHECK_H_
+
+#include <string>
+
+#include "description/robot.h"
+#include "twin.h"
+
+namespace codesign {
+
+/// The values written must be those of the shapes, to relative 1e-6.
+void check_agreement(const XmlElement& element, const InertialDescription& written, const InertialDescription& from_shapes,
+                     const ParameterTable& table);
+
+/// Fails with the computed values as XML, to be pasted.
+[[noreturn]] void fail_with_computed(const XmlElement& element, const InertialDescription& from_shapes, const ParameterTable& table,
+                                     const std::string& message);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_URDF_INERTIAL_CHECK_H_

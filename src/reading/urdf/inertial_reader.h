@@ -1,0 +1,19 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_URDF_INERTIAL_READER_H_
+#define MECHANISM_CODESIGN_READING_URDF_INERTIAL_READER_H_
+
+#include <optional>
+
+#include "description/robot.h"
+#include "twin.h"
+
+namespace codesign {
+
+/// A link's `<inertial>`; nothing if there is none, or if mass and inertia are all zero, as some exporters write massless links.
+/// Numbers are judged later, when it is known which links make a body (check_bodies()).
+/// @throws InputError for plain values that disagree with the shapes.
+std::optional<InertialDescription> read_inertial(const XmlElement& link, const ParameterTable& table);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_URDF_INERTIAL_READER_H_

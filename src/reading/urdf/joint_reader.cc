@@ -1,0 +1,162 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "joint_reader.h"
+
+#include <map>
+
+#include "friction_reader.h"
+#include "quantity_reader.h"
+#include "text/decimal.h"
+#include "text/unknown_name.h"
+
+namespace codesign {
+namespace {
+
+JointType read_type(const XmlElement& element) {
+  static const std::map<std::string, JointType> kTypes = {{"fixed", JointType::kFixed},           {"revolute", JointType::kRevolute},
+                                                          {"continuous", JointType::kContinuous}, {"prismatic", JointType::kPrismatic},
+                                                          {"planar", JointType::kPlanar},         {"floating", JointType::kFloating}};
+  const std::string name = element.text("type");
+  const auto found = kTypes.find(name);
+  if (found != kTypes.end()) return found->second;
+  std::vector<std::string> known;
+  known.reserve(kTypes.size());
+  for (const auto& type : kTypes) known.push_back(type.first);
+  throw unknown_name(element.where("type"), element.label(), "joint type", name, known);
+}
+
+bool has_one_coordinate(JointType type) {
+  return type == JointType::kRevolute || type == JointType::kContinuous || type == JointType::kPrismatic;
+}
+
+/// A figure that must not be negative: an overlay's is refused, a vendor's is taken as zero, which URDF's exporters write for "not known".
+Quantity read_magnitude(const XmlElement& element, const std::string& attribute, const ReadContext& context) {
+  const Quantity value =
+      read_quantity(element, attribute, element.in_overlay(attribute) ? Range::kNonNegative : Range::kAny, context.table);
+  if (value.nominal() >= 0.0) return value;
+  context.warnings->push_back(
+      element.warning_at("negative_value", attribute, attribute + " is negative and is taken as zero", "write 0 or a positive number"));
+  return 0.0;
+}
+
+Quantity read_magnitude_or_zero(const XmlElement& element, const std::string& attribute, const ReadContext& context) {
+  return element.has(attribute) ? read_magnitude(element, attribute, context) : Quantity(0.0);
+}
+
+void check_bounds(const XmlElement& element, JointType type, const ReadContext& context, LimitDescription* limit) {
+  if (!limit->bounds_position()) return;
+  if (type == JointType::kContinuous) {
+    context.warnings->push_back(element.warning("limit_ignored", "lower and upper are ignored, since a continuous joint turns without end",
+                                                element.find("lower").value_or("0") + " ... " + element.find("upper").value_or("0"),
+                                                "leave them out, or write type=\"revolute\""));
+    return;
+  }
+  if (limit->lower.nominal() <= limit->upper.nominal()) return;
+  const std::string attribute = element.has("lower") ? "lower" : "upper";
+  const std::string message = "the lower limit is above the upper limit";
+  if (element.in_overlay(attribute)) element.fail_at(attribute, message, "lower <= upper=" + to_decimal(limit->upper.nominal()));
+  context.warnings->push_back(element.warning_at("limits_reversed", attribute,
+                                                 message + " (" + to_decimal(limit->upper.nominal()) + "): the joint has no stops",
+                                                 "exchange the two, or leave them out"));
+  limit->lower = limit->upper = 0.0;
+}
+
+LimitDescription read_limit(const XmlElement& element, JointType type, const ReadContext& context) {
+  LimitDescription limit;
+  limit.lower = read_quantity_or(0.0, element, "lower", Range::kAny, context.table);
+  limit.upper = read_quantity_or(0.0, element, "upper", Range::kAny, context.table);
+  limit.effort = read_magnitude(element, "effort", context);
+  limit.velocity = read_magnitude(element, "velocity", context);
+  check_bounds(element, type, context, &limit);
+  return limit;
+}
+
+MimicDescription read_mimic(const XmlElement& element, const ParameterTable& table) {
+  MimicDescription mimic;
+  mimic.joint = element.text("joint");
+  mimic.multiplier = read_quantity_or(1.0, element, "multiplier", Range::kAny, table);
+  mimic.offset = read_quantity_or(0.0, element, "offset", Range::kAny, table);
+  mimic.where = element.where();
+  return mimic;
+}
+
+ActuatorDescription read_actuator(const XmlElement& element, JointType type, const ParameterTable& table) {
+  if (!has_one_coordinate(type))
+    element.fail("a joint of this type has no coordinate that a rotor could turn with", "", "revolute, continuous or prismatic");
+  ActuatorDescription actuator;
+  actuator.where = element.where();
+  actuator.gear_ratio = read_quantity_or(1.0, element, "gear_ratio", Range::kAny, table);
+  if (actuator.gear_ratio.nominal() == 0.0) element.fail_at("gear_ratio", "the gear ratio is zero", "any other number");
+  actuator.rotor_inertia = read_quantity(element, "rotor_inertia", Range::kNonNegative, table);
+  return actuator;
+}
+
+void read_limit_of_joint(const XmlElement& element, const ReadContext& context, JointDescription* joint) {
+  const std::optional<XmlElement> limit = element.child("limit");
+  const bool bounded = joint->type == JointType::kRevolute || joint->type == JointType::kPrismatic;
+  if (bounded && !limit) element.fail("a joint of this type needs a <limit>", element.text("type"));
+  if (limit && has_one_coordinate(joint->type)) joint->limit = read_limit(*limit, joint->type, context);
+}
+
+void read_mimic_of_joint(const XmlElement& element, const ReadContext& context, JointDescription* joint) {
+  const std::optional<XmlElement> mimic = element.child("mimic");
+  if (!mimic) return;
+  if (has_one_coordinate(joint->type)) {
+    joint->mimic = read_mimic(*mimic, context.table);
+    return;
+  }
+  const std::string message = "a joint of this type cannot mimic";
+  if (mimic->in_overlay()) mimic->fail(message, element.text("type"), "revolute, continuous or prismatic");
+  context.warnings->push_back(
+      mimic->warning("mimic_ignored", message + ": the element is ignored", element.text("type"), "remove it, or write another type"));
+}
+
+/// Damping and dry friction of a joint. URDF gives them no meaning on planar and floating joints, where other readers pass over them.
+void read_dynamics(const XmlElement& dynamics, const ReadContext& context, JointDescription* joint) {
+  if (!dynamics.has("damping") && !dynamics.has("friction")) dynamics.fail("neither damping nor friction is given");
+  joint->damping = read_magnitude_or_zero(dynamics, "damping", context);
+  joint->dry_friction = read_magnitude_or_zero(dynamics, "friction", context);
+  const bool several = joint->type == JointType::kPlanar || joint->type == JointType::kFloating;
+  if (!several || joint->is_loop || dynamics.in_overlay()) return;
+  if (LimitDescription::given(joint->damping) || LimitDescription::given(joint->dry_friction))
+    context.warnings->push_back(dynamics.warning("dynamics_ignored", "a joint with several coordinates takes no damping: it moves freely",
+                                                 "", "remove the element"));
+  joint->damping = joint->dry_friction = 0.0;
+}
+
+}  // namespace
+
+void read_joint_parts(const XmlElement& element, const ReadContext& context, JointDescription* joint) {
+  const ParameterTable& table = context.table;
+  const bool welded = joint->type == JointType::kFixed && !joint->is_loop;  // URDF's readers look no further
+  const std::optional<XmlElement> axis = element.child("axis"), dynamics = element.child("dynamics");
+  if (axis && !welded && (joint->type != JointType::kFloating || joint->is_loop)) joint->axis = read_axis(*axis, table);
+  if (dynamics && !welded) read_dynamics(*dynamics, context, joint);
+  const std::optional<XmlElement> friction = element.child("codesign:friction"), spring = element.child("codesign:torsion_spring");
+  const std::optional<XmlElement> actuator = element.child("codesign:actuator");
+  if (friction) joint->friction = read_friction(*friction, joint->axis, table);
+  if (actuator) joint->actuator = read_actuator(*actuator, joint->type, table);
+  if (!spring) return;
+  if (!has_one_coordinate(joint->type))
+    spring->fail("a joint of this type has no coordinate for a spring", "", "revolute, continuous or prismatic");
+  joint->spring = TorsionSpringDescription{read_quantity(*spring, "stiffness", Range::kNonNegative, table),
+                                           read_quantity_or(0.0, *spring, "damping", Range::kNonNegative, table),
+                                           read_quantity_or(0.0, *spring, "free_position", Range::kAny, table)};
+}
+
+JointDescription read_joint(const XmlElement& element, const ReadContext& context) {
+  JointDescription joint;
+  joint.where = element.where();
+  joint.name = element.text("name");
+  joint.type = read_type(element);
+  const XmlElement child = element.only("child");
+  joint.parent = context.link(element.only("parent"), "link");
+  joint.child = context.link(child, "link");
+  if (joint.parent == joint.child) child.fail_at("link", "parent and child are the same link", "two links");
+  joint.origin = read_origin(element, context.table);
+  read_joint_parts(element, context, &joint);
+  read_limit_of_joint(element, context, &joint);
+  read_mimic_of_joint(element, context, &joint);
+  return joint;
+}
+
+}  // namespace codesign

@@ -1,0 +1,122 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "overlay.h"
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "text/unknown_name.h"
+#include "twin.h"
+#include "xml_element.h"
+
+namespace codesign {
+namespace {
+
+using tinyxml2::XMLElement;
+
+/// The first child of `parent` with the tag of `like`, and its name if it has one.
+XMLElement* find_like(XMLElement* parent, const XMLElement* like) {
+  const char* name = like->Attribute("name");
+  for (XMLElement* child = parent->FirstChildElement(like->Name()); child != nullptr; child = child->NextSiblingElement(like->Name())) {
+    if (name == nullptr || child->Attribute("name", name) != nullptr) return child;
+  }
+  return nullptr;
+}
+
+void merge_element(const XMLElement* patch, const XmlDocument& overlay, XMLElement* target, XmlDocument* base) {
+  base->copy_attributes(target, patch, overlay);
+  for (const XMLElement* child = patch->FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    XMLElement* like = find_like(target, child);
+    const bool replaces = std::string(child->Name()).rfind(kPrefix, 0) == 0;
+    if (like != nullptr && replaces) target->DeleteChild(like);
+    if (like != nullptr && !replaces) {
+      merge_element(child, overlay, like, base);
+    } else {
+      base->append_copy(target, child, overlay);
+    }
+  }
+}
+
+std::vector<std::string> names_of(const XMLElement* robot, const char* tag) {
+  std::vector<std::string> names;
+  for (const XMLElement* child = robot->FirstChildElement(tag); child != nullptr; child = child->NextSiblingElement(tag)) {
+    const char* name = child->Attribute("name");
+    if (name != nullptr) names.emplace_back(name);
+  }
+  return names;
+}
+
+bool is_annotation(const std::string& tag) { return tag.rfind(kPrefix, 0) == 0 || tag == "loop" || tag == "coupling"; }
+
+/// A link is new if a joint of the model or of the overlay names it; a joint if it says its type.
+bool is_new(const XmlElement& patch, const XmlDocument& overlay, const XmlDocument& base) {
+  if (patch.tag() == "joint") return patch.has("type");
+  const std::string name = patch.text("name");
+  for (const XmlDocument* document : {&overlay, &base}) {
+    const XmlElement robot(document->robot(), document);
+    for (const XmlElement& joint : robot.children("joint"))
+      for (const char* end : {"parent", "child"})
+        if (const std::optional<XmlElement> side = joint.child(end); side && side->find("link") == name) return true;
+  }
+  return false;
+}
+
+/// An overlay's elements by tag and name, so that one that stands there twice is not merged into itself.
+class Merger {
+ public:
+  Merger(const XmlDocument& overlay, XmlDocument* base) : overlay_(overlay), base_(base) {}
+
+  void merge(const XmlElement& patch) {
+    const std::string tag = patch.tag();
+    const bool known = is_annotation(tag) || tag == "link" || tag == "joint";
+    if (!known)
+      patch.fail("an overlay cannot hold this element", "<" + tag + ">",
+                 "link, joint, loop, coupling, codesign:parameter, codesign:spring_damper");
+    const std::string name = patch.text("name");
+    XMLElement* like = find_like(base_->robot(), patch.node());
+    const bool merged_already = !seen_.insert(tag + " " + name).second;
+    if (merged_already && (is_annotation(tag) || added_.count(like) != 0))
+      patch.fail("a second <" + tag + "> of this name in one overlay", name, "one of each name");
+    if (like != nullptr) {
+      note_parts(patch, tag + " " + name);
+      merge_element(patch.node(), overlay_, like, base_);
+    } else if (!is_annotation(tag) && !is_new(patch, overlay_, *base_)) {
+      throw unknown_name(patch.where("name"), patch.label(), tag + " of " + base_->file(), name, names_of(base_->robot(), tag.c_str()));
+    } else {
+      added_.insert(base_->append_copy(base_->robot(), patch.node(), overlay_));
+    }
+  }
+
+ private:
+  // What is merged by tag takes the place of its like, so that of two the first would be lost.
+  void note_parts(const XmlElement& element, const std::string& path) {
+    for (const std::string& attribute : element.attributes()) {
+      if (attribute == "name" || seen_.insert(path + "@" + attribute).second) continue;
+      element.fail_at(attribute, "the overlay sets " + attribute + " a second time", "once");
+    }
+    for (const XmlElement& child : element.children()) {
+      const std::string below = path + "/" + child.tag() + " " + child.find("name").value_or("");
+      if (child.tag().rfind(kPrefix, 0) == 0 && !seen_.insert(below).second)
+        child.fail("a second <" + child.tag() + "> in one overlay", "", "one at most");
+      note_parts(child, below);
+    }
+  }
+
+  const XmlDocument& overlay_;
+  XmlDocument* base_;
+  std::set<std::string> seen_;
+  std::set<const XMLElement*> added_;
+};
+
+}  // namespace
+
+void merge_overlay(const XmlDocument& overlay, XmlDocument* base) {
+  const XmlElement robot(overlay.robot(), &overlay);
+  const std::string declaration = "xmlns:codesign";
+  if (robot.has(declaration) && base->robot()->Attribute(declaration.c_str()) == nullptr)
+    base->robot()->SetAttribute(declaration.c_str(), robot.text(declaration).c_str());
+  Merger merger(overlay, base);
+  for (const XmlElement& patch : robot.children()) merger.merge(patch);
+}
+
+}  // namespace codesign

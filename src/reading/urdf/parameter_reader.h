@@ -1,0 +1,17 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_URDF_PARAMETER_READER_H_
+#define MECHANISM_CODESIGN_READING_URDF_PARAMETER_READER_H_
+
+#include <vector>
+
+#include "description/parameter.h"
+#include "xml_element.h"
+
+namespace codesign {
+
+/// The `<codesign:parameter>` elements in file order. @throws InputError for bad or repeated names and values outside their bounds.
+std::vector<Parameter> read_parameters(const XmlElement& robot);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_URDF_PARAMETER_READER_H_

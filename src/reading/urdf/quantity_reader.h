@@ -1,0 +1,32 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_URDF_QUANTITY_READER_H_
+#define MECHANISM_CODESIGN_READING_URDF_QUANTITY_READER_H_
+
+#include <string>
+
+#include "description/robot.h"
+#include "twin.h"
+
+namespace codesign {
+
+enum class Range { kAny, kNonNegative, kPositive };
+
+/// One number, or its twin; the range is checked at the default parameters. @throws InputError
+Quantity read_quantity(const XmlElement& element, const std::string& attribute, Range range, const ParameterTable& table);
+Quantity read_quantity_or(const Quantity& fallback, const XmlElement& element, const std::string& attribute, Range range,
+                          const ParameterTable& table);
+
+/// Three numbers.
+QuantityVector read_vector(const XmlElement& element, const std::string& attribute, const ParameterTable& table);
+QuantityVector read_axis(const XmlElement& element, const ParameterTable& table);
+
+/// The `<origin>` of an element, the identity if there is none.
+PoseDescription read_origin(const XmlElement& parent, const ParameterTable& table);
+
+/// One number that cannot depend on parameters.
+double read_number(const XmlElement& element, const std::string& attribute, Range range);
+double read_number_or(double fallback, const XmlElement& element, const std::string& attribute, Range range);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_URDF_QUANTITY_READER_H_

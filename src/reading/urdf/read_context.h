@@ -1,0 +1,28 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_URDF_READ_CONTEXT_H_
+#define MECHANISM_CODESIGN_READING_URDF_READ_CONTEXT_H_
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "description/robot.h"
+#include "twin.h"
+
+namespace codesign {
+
+/// What readers of joints, loops and springs look names up in.
+struct ReadContext {
+  std::vector<std::string> links;
+  ParameterTable table;
+  Warnings* warnings = nullptr;  ///< where readers tell of what is doubtful; never null while a robot is read
+
+  /// Index of the link that `attribute` names. @throws InputError naming the nearest link.
+  int link(const XmlElement& element, const std::string& attribute) const;
+  /// The links of `<predecessor link>` and `<successor link>`. @throws InputError if they are the same.
+  std::pair<int, int> ends(const XmlElement& element) const;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_URDF_READ_CONTEXT_H_

@@ -1,0 +1,18 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_URDF_SHAPE_READER_H_
+#define MECHANISM_CODESIGN_READING_URDF_SHAPE_READER_H_
+
+#include <string>
+#include <vector>
+
+#include "description/robot.h"
+#include "twin.h"
+
+namespace codesign {
+
+/// The solids of a link's `<visual>` or `<collision>` elements. @throws InputError if there are none, or one has no volume (mesh).
+std::vector<ShapeDescription> read_solids(const XmlElement& link, const std::string& tag, const ParameterTable& table);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_URDF_SHAPE_READER_H_

@@ -1,0 +1,147 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "tree_check.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "mechanism/friction_geometry.h"
+#include "text/unknown_name.h"
+
+namespace codesign {
+namespace {
+
+std::string label(const JointDescription& joint) {
+  return std::string(joint.is_loop ? "<loop" : "<joint") + " name=\"" + joint.name + "\">";
+}
+std::string label(const LinkDescription& link) { return "<link name=\"" + link.name + "\">"; }
+
+void insert_unique(const std::string& name, const SourceLocation& where, const std::string& kind, std::set<std::string>* names) {
+  if (!names->insert(name).second) throw InputError({where, "<" + kind + ">", "a second " + kind + " of this name", name, "unique names"});
+}
+
+/// The tree joint above each link, null for roots.
+std::vector<const JointDescription*> joints_above(const RobotDescription& robot) {
+  std::vector<const JointDescription*> above(robot.links.size(), nullptr);
+  for (const JointDescription& joint : robot.joints) {
+    if (joint.is_loop) continue;
+    const JointDescription*& slot = above[static_cast<std::size_t>(joint.child)];
+    const std::string& link = robot.links[static_cast<std::size_t>(joint.child)].name;
+    if (slot != nullptr)
+      throw InputError({joint.where, label(joint), "its child " + link + " already hangs on the joint " + slot->name, link,
+                        "one joint above each link; close the ring with a <loop>"});
+    slot = &joint;
+  }
+  return above;
+}
+
+/// The joints by which a walk from the root comes to a link first.
+std::vector<bool> reached_first(const RobotDescription& robot, const std::vector<int>& parents) {
+  std::vector<bool> reached(robot.links.size()), first(robot.joints.size(), false);
+  for (std::size_t link = 0; link < parents.size(); ++link) reached[link] = parents[link] == 0;
+  for (bool progress = true; progress;) {
+    progress = false;
+    for (std::size_t k = 0; k < robot.joints.size(); ++k) {
+      const auto parent = static_cast<std::size_t>(robot.joints[k].parent), child = static_cast<std::size_t>(robot.joints[k].child);
+      if (!reached[parent] || reached[child]) continue;
+      first[k] = reached[child] = progress = true;
+    }
+  }
+  return first;
+}
+
+/// What is wrong with the joint that a joint mimics, directly or by way of others.
+std::optional<InputError> mimic_fault(const JointDescription& joint, const std::map<std::string, const JointDescription*>& targets,
+                                      const std::vector<std::string>& names) {
+  std::size_t steps = 0;
+  for (const JointDescription* at = &joint; at->mimic; at = targets.at(at->mimic->joint)) {
+    const std::string element = label(*at) + " <mimic>";
+    if (targets.count(at->mimic->joint) == 0) return unknown_name(at->mimic->where, element, "joint to mimic", at->mimic->joint, names);
+    if (++steps > names.size())
+      return InputError({joint.mimic->where, label(joint) + " <mimic>", "the joints mimic each other in a ring", joint.mimic->joint, ""});
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void check_names(const RobotDescription& robot) {
+  std::set<std::string> links, joints, couplings, springs;
+  for (const LinkDescription& link : robot.links) insert_unique(link.name, link.where, "link", &links);
+  for (const JointDescription& joint : robot.joints) insert_unique(joint.name, joint.where, joint.is_loop ? "loop" : "joint", &joints);
+  for (const CouplingDescription& coupling : robot.couplings) insert_unique(coupling.name, coupling.where, "coupling", &couplings);
+  for (const SpringDamperDescription& spring : robot.spring_dampers)
+    insert_unique(spring.name, spring.where, "codesign:spring_damper", &springs);
+}
+
+void close_with_second_parents(RobotDescription* robot) {
+  std::vector<int> parents(robot->links.size(), 0);
+  for (const JointDescription& joint : robot->joints) ++parents[static_cast<std::size_t>(joint.child)];
+  if (std::none_of(parents.begin(), parents.end(), [](int count) { return count > 1; })) return;
+  const std::vector<bool> in_tree = reached_first(*robot, parents);
+  for (std::size_t k = 0; k < robot->joints.size(); ++k) {
+    JointDescription& joint = robot->joints[k];
+    if (in_tree[k] || parents[static_cast<std::size_t>(joint.child)] < 2 || joint.where.file != robot->file) continue;
+    const std::string& child = robot->links[static_cast<std::size_t>(joint.child)].name;
+    robot->warnings.push_back(warn("second_parent", {joint.where, label(joint),
+                                                     "its child hangs on another joint already, so that it is read as a loop; to silence "
+                                                     "this: write a <loop> with predecessor and successor",
+                                                     child, ""}));
+    joint.is_loop = true;
+    joint.limit.reset();
+    joint.mimic.reset();
+  }
+  std::stable_partition(robot->joints.begin(), robot->joints.end(), [](const JointDescription& joint) { return !joint.is_loop; });
+}
+
+int find_root(const RobotDescription& robot) {
+  const std::vector<const JointDescription*> above = joints_above(robot);
+  int root = -1;
+  for (std::size_t k = 0; k < robot.links.size(); ++k) {
+    if (above[k] != nullptr) continue;
+    if (root >= 0)
+      throw InputError({robot.links[k].where, label(robot.links[k]), "a second root: no joint has this link as its child",
+                        robot.links[static_cast<std::size_t>(root)].name + ", " + robot.links[k].name, "one root link"});
+    root = static_cast<int>(k);
+  }
+  for (std::size_t k = 0; k < robot.links.size(); ++k) {
+    std::size_t link = k, steps = 0;
+    while (above[link] != nullptr && steps++ <= robot.links.size()) link = static_cast<std::size_t>(above[link]->parent);
+    if (above[link] != nullptr)
+      throw InputError({above[k]->where, label(*above[k]), "the joints form a ring that hangs on nothing", robot.links[k].name,
+                        "a tree from one root link; close rings with <loop>"});
+  }
+  return root;
+}
+
+void check_mimics(RobotDescription* robot) {
+  std::map<std::string, const JointDescription*> targets;
+  std::vector<std::string> names;
+  for (const JointDescription& joint : robot->joints) {
+    const bool several = joint.type == JointType::kPlanar || joint.type == JointType::kFloating;
+    if (joint.is_loop || several) continue;
+    targets[joint.name] = &joint;
+    names.push_back(joint.name);
+  }
+  for (JointDescription& joint : robot->joints) {
+    const std::optional<InputError> fault = mimic_fault(joint, targets, names);
+    if (!fault) continue;
+    if (joint.mimic->where.file != robot->file) throw *fault;
+    InputFault told = fault->fault();
+    told.message += "; the element is ignored and the joint moves freely. Name the joint that it follows, or remove the element";
+    robot->warnings.push_back(warn("mimic_ignored", told));
+    joint.mimic.reset();
+  }
+}
+
+void check_friction(const RobotDescription& robot) {
+  const auto is_body = [&](int link) { return link == robot.root || robot.links[static_cast<std::size_t>(link)].inertial.has_value(); };
+  for (const JointDescription& joint : robot.joints) {
+    if (!joint.friction) continue;
+    const bool ordinary = joint.is_loop || (is_body(joint.parent) && is_body(joint.child));
+    if (ordinary) check_friction_geometry(*joint.friction, joint.type, label(joint) + " <codesign:friction>");
+  }
+}
+
+}  // namespace codesign

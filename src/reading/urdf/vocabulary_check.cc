@@ -1,0 +1,172 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "vocabulary_check.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "annotation_rules.h"
+#include "text/nearest_name.h"
+#include "text/unknown_name.h"
+#include "twin.h"
+#include "vocabulary.h"
+#include "xml_element.h"
+
+namespace codesign {
+namespace {
+
+using Names = std::vector<std::string>;
+
+bool contains(const Names& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+bool has_prefix(const std::string& name) { return name.find(':') != std::string::npos; }
+bool is_ours(const std::string& name) { return name.rfind(kPrefix, 0) == 0; }
+
+/// The annotation that `tag` would be with its prefix, in this place.
+std::string forgotten_prefix(const std::string& tag, const ElementRule* rule) {
+  const std::string prefixed = kPrefix + tag;
+  return rule != nullptr && contains(rule->children, prefixed) ? prefixed : "";
+}
+
+class Check {
+ public:
+  explicit Check(Warnings* warnings) : warnings_(warnings) {}
+
+  void visit(const XmlElement& element, const std::string& path) const {
+    const ElementRule* rule = find_rule(path);
+    const Vocabulary* words = find_vocabulary(path);
+    check_repeats(element, rule, words);
+    if (words != nullptr) {
+      for (const std::string& attribute : element.attributes()) check_attribute(element, attribute, *words);
+      for (const XmlElement& child : element.children()) check_child(child, rule, *words);
+    }
+    for (const XmlElement& child : element.children()) visit(child, path + "/" + child.tag());
+  }
+
+ private:
+  void check_attribute(const XmlElement& element, const std::string& attribute, const Vocabulary& words) const {
+    if (contains(words.attributes, attribute) || has_prefix(attribute)) return;
+    if (element.in_overlay(attribute))
+      throw unknown_name(element.where(attribute), element.label(), "attribute " + attribute, attribute, words.attributes);
+    if (contains(words.other_attributes, attribute)) return;
+    const std::string near = nearest_name(attribute, words.attributes);
+    warnings_->push_back(element.warning_at("unknown_attribute", attribute,
+                                            "no reader of URDF knows the attribute " + attribute + did_you_mean(near) + " It is ignored",
+                                            near.empty() ? "remove it" : "write " + near + ", or remove it"));
+  }
+
+  void check_child(const XmlElement& child, const ElementRule* rule, const Vocabulary& words) const {
+    const std::string tag = child.tag();
+    if (contains(words.children, tag) || is_ours(tag)) return;
+    Names known = words.children;
+    if (rule != nullptr) known.insert(known.end(), rule->children.begin(), rule->children.end());
+    std::string near = forgotten_prefix(tag, rule);
+    if (near.empty()) near = nearest_name(tag, known);
+    if (child.in_overlay())
+      throw InputError({child.where(), child.label(), "unknown element <" + tag + ">" + did_you_mean(near), tag, list_names(known)});
+    if (has_prefix(tag) || contains(words.other_children, tag)) return;
+    if (const Names places = elements_with(tag); !places.empty()) {
+      warnings_->push_back(child.warning("unknown_element", "the element does not belong here and is ignored", "<" + tag + ">",
+                                         "move it into " + list_names(places) + ", or remove it"));
+      return;
+    }
+    if (near.empty()) return;
+    warnings_->push_back(child.warning("unknown_element",
+                                       "no reader of URDF knows the element, did you mean \"" + near + "\"? It is ignored", "<" + tag + ">",
+                                       "write <" + near + ">, or remove it"));
+  }
+
+  void check_repeats(const XmlElement& element, const ElementRule* rule, const Vocabulary* words) const {
+    std::map<std::string, int> count;
+    for (const XmlElement& child : element.children()) {
+      const std::string tag = child.tag();
+      if (++count[tag] != 2) continue;
+      const bool strict = (rule != nullptr && rule->strict) || (is_ours(tag) && element.tag() != "robot");
+      const bool single = words != nullptr && !words->repeats_children && contains(words->children, tag);
+      const bool inertial = tag == "inertial" && element.tag() == "link";
+      if (strict || ((single || inertial) && child.in_overlay())) child.fail("a second <" + tag + ">", "", "one at most");
+      if (single || inertial)
+        warnings_->push_back(
+            child.warning("repeated_element", "a second <" + tag + ">; the first one counts, as for other readers", "", "remove one"));
+    }
+  }
+
+  Warnings* warnings_;
+};
+
+/// The part of a name before its colon, that of a declaration `xmlns:x` being x.
+std::string prefix_of(const std::string& name) {
+  const std::size_t colon = name.find(':');
+  if (colon == std::string::npos) return "";
+  return name.substr(0, colon) == "xmlns" ? name.substr(colon + 1) : name.substr(0, colon);
+}
+
+void check_prefix(const std::string& name, const SourceLocation& where, const XmlElement& element) {
+  const std::string prefix = prefix_of(name), ours = "codesign";
+  if (prefix.empty() || prefix == ours || nearest_name(prefix, {ours}).empty()) return;
+  throw InputError({where, element.label(), "unknown prefix, did you mean \"codesign\"?", name, "codesign:"});
+}
+
+void check_prefixes_in(const XmlElement& element) {
+  check_prefix(element.tag(), element.where(), element);
+  for (const std::string& attribute : element.attributes()) {
+    check_prefix(attribute, element.where(attribute), element);
+    const bool declares = attribute.rfind("xmlns", 0) == 0 && attribute != "xmlns:codesign";
+    if (declares && element.find(attribute) == "urn:mechanism_codesign")
+      element.fail_at(attribute, "our names carry the prefix codesign: and no other", "xmlns:codesign=\"urn:mechanism_codesign\"");
+  }
+  for (const XmlElement& child : element.children()) check_prefixes_in(child);
+}
+
+Warning after_robot(const SourceLocation& where, const std::string& what, const std::string& value) {
+  return warn("after_robot",
+              {where, "", what + " stands after </robot>; it is ignored, as other readers do; to silence this: remove it", value, ""});
+}
+
+void refuse_text_in(const tinyxml2::XMLElement& element, const XmlDocument& document) {
+  for (const tinyxml2::XMLNode* node = element.FirstChild(); node != nullptr; node = node->NextSibling()) {
+    if (node->ToText() != nullptr)
+      throw InputError({{document.file(), node->GetLineNum()},
+                        XmlElement(&element, &document).label(),
+                        "text stands between elements, where nobody reads it",
+                        std::string(node->Value()).substr(0, 40),
+                        "elements and comments"});
+    if (node->ToElement() != nullptr) refuse_text_in(*node->ToElement(), document);
+  }
+}
+
+}  // namespace
+
+void refuse_text(const XmlDocument& overlay) { refuse_text_in(*overlay.robot(), overlay); }
+
+void check_vocabulary(const XmlDocument& document, Warnings* warnings) {
+  Check(warnings).visit(XmlElement(document.robot(), &document), "robot");
+}
+
+void check_prefixes(const XmlDocument& document) { check_prefixes_in(XmlElement(document.robot(), &document)); }
+
+Warnings check_surroundings(const XmlDocument& document) {
+  Warnings warnings;
+  for (const tinyxml2::XMLNode* node = document.robot()->NextSibling(); node != nullptr; node = node->NextSibling()) {
+    const std::string what = node->ToElement() != nullptr ? "a second root element" : "text";
+    if (node->ToElement() == nullptr && node->ToText() == nullptr) continue;
+    const std::string value =
+        node->ToElement() != nullptr ? std::string("<") + node->Value() + ">" : std::string(node->Value()).substr(0, 40);
+    warnings.push_back(after_robot({document.file(), node->GetLineNum()}, what, value));
+  }
+  return warnings;
+}
+
+Warnings cut_trailing_text(SourceText* source) {
+  const std::string end = "</robot>";
+  std::size_t at = source->text.rfind(end);
+  if (at == std::string::npos) return {};
+  at += end.size();
+  const std::string rest = source->text.substr(at);
+  const std::size_t first = rest.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos || rest.find_first_of("<>") != std::string::npos) return {};
+  const auto lines = std::count(source->text.begin(), source->text.begin() + static_cast<std::ptrdiff_t>(at + first), '\n');
+  source->text.resize(at);
+  return {after_robot({source->name, static_cast<int>(lines) + 1}, "text", rest.substr(first, 40))};
+}
+
+}  // namespace codesign

@@ -1,0 +1,181 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "yaml_reader.h"
+
+#include <yaml-cpp/depthguard.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "number_text.h"
+#include "text/unknown_name.h"
+
+namespace codesign {
+namespace {
+
+constexpr const char* kRoot = "study";
+
+const char* kind_of(const YAML::Node& node) {
+  switch (node.Type()) {
+    case YAML::NodeType::Map:
+      return "a map";
+    case YAML::NodeType::Sequence:
+      return "a list";
+    case YAML::NodeType::Scalar:
+      return "a scalar";
+    default:
+      return "nothing";
+  }
+}
+
+/// Counts values as a reader meets them, those behind an alias each time anew: a few lines can say more than a machine holds.
+void count_values(const YAML::Node& node, int depth, const std::string& file, int* count) {
+  constexpr int kMost = 2000000, kDeepest = 50;
+  const SourceLocation where{file, node.Mark().line + 1};
+  if (depth > kDeepest) throw InputError({where, kRoot, "values are nested too deeply, or an alias holds itself", "", "50 levels"});
+  if (++*count > kMost) throw InputError({where, kRoot, "aliases multiply the values beyond all use", "", "two million values"});
+  for (const auto& part : node) {
+    if (node.IsMap()) count_values(part.second, depth + 1, file, count);
+    if (node.IsSequence()) count_values(part, depth + 1, file, count);
+  }
+}
+
+void check_extent(const YAML::Node& root, const std::string& file) {
+  int count = 0;
+  count_values(root, 0, file, &count);
+}
+
+/// A number that floating point does not hold, rather than none.
+bool is_out_of_range(const std::string& text) { return !text.empty() && text.find_first_not_of("+-.eE0123456789") == std::string::npos; }
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+std::optional<double> number_in(const std::string& text) {
+  if (text == ".inf" || text == "+.inf" || text == "-.inf") return std::copysign(HUGE_VAL, text[0] == '-' ? -1.0 : 1.0);
+  if (text == ".nan") return std::nan("");
+  return parse_number(text);
+}
+
+YamlValue YamlValue::parse(const SourceText& source) {
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(source.text);
+    if (documents.empty() || documents.front().IsNull()) throw InputError({{source.name, 1}, kRoot, "the file holds no YAML", "", ""});
+    if (documents.size() > 1)
+      throw InputError({{source.name, documents[1].Mark().line + 1}, kRoot, "more than one YAML document", "", "one"});
+    check_extent(documents.front(), source.name);
+    return YamlValue(documents.front(), std::make_shared<const std::string>(source.name), "");
+  } catch (const YAML::DeepRecursion& error) {
+    throw InputError({{source.name, error.mark.line + 1}, kRoot, "lists and maps are nested too deeply", "", ""});
+  } catch (const YAML::Exception& error) {
+    const std::string column = "column " + std::to_string(error.mark.column + 1);
+    throw InputError({{source.name, std::max(1, error.mark.line + 1)}, column, "not YAML: " + error.msg, "", ""});
+  }
+}
+
+SourceLocation YamlValue::where() const { return {*file_, node_.Mark().line + 1}; }
+
+void YamlValue::fail(const std::string& message, const std::string& allowed) const {
+  throw InputError({where(), path_.empty() ? kRoot : path_, message, shown_value(), allowed});
+}
+
+std::string YamlValue::shown_value() const {
+  constexpr std::size_t kMost = 100;
+  if (!node_.IsScalar()) return "";
+  return node_.Scalar().size() <= kMost ? node_.Scalar() : node_.Scalar().substr(0, kMost) + "...";
+}
+
+YamlValue YamlValue::child(const YAML::Node& node, const std::string& key) const {
+  return YamlValue(node, file_, path_.empty() ? key : path_ + "." + key);
+}
+
+void YamlValue::require_map() const {
+  if (!node_.IsMap()) fail("expected a map of keys and values, found " + std::string(kind_of(node_)));
+}
+
+SourceLocation YamlValue::key_place(const std::string& key) const {
+  for (const auto& entry : node_)
+    if (entry.first.Scalar() == key) return {*file_, entry.first.Mark().line + 1};
+  return where();
+}
+
+std::vector<std::pair<std::string, YamlValue>> YamlValue::entries() const {
+  require_map();
+  std::vector<std::pair<std::string, YamlValue>> result;
+  std::set<std::string> seen;
+  for (const auto& entry : node_) {
+    const YAML::Node& key_node = entry.first;
+    if (!key_node.IsScalar()) fail("a key must be a plain word, found " + std::string(kind_of(key_node)));
+    const std::string key = key_node.Scalar();
+    if (!seen.insert(key).second) child(key_node, key).fail("repeated key");
+    result.emplace_back(key, child(entry.second, key));
+  }
+  return result;
+}
+
+void YamlValue::require_keys(const std::vector<std::string>& required, const std::vector<std::string>& optional) const {
+  std::vector<std::string> known = required;
+  known.insert(known.end(), optional.begin(), optional.end());
+  for (const auto& [key, value] : entries())
+    if (!contains(known, key)) throw unknown_name(key_place(key), value.path(), "key", key, known);
+  for (const std::string& key : required)
+    if (!find(key)) throw InputError({where(), child(node_, key).path(), "required key is missing", "", ""});
+}
+
+std::optional<YamlValue> YamlValue::find(const std::string& key) const {
+  require_map();
+  const YAML::Node node = node_[key];
+  if (!node.IsDefined()) return std::nullopt;
+  return child(node, key);
+}
+
+YamlValue YamlValue::at(const std::string& key) const {
+  std::optional<YamlValue> value = find(key);
+  if (!value) throw InputError({where(), child(node_, key).path(), "required key is missing", "", ""});
+  return *value;
+}
+
+std::vector<YamlValue> YamlValue::items() const {
+  if (!node_.IsSequence()) fail("expected a list, found " + std::string(kind_of(node_)));
+  std::vector<YamlValue> result;
+  for (std::size_t i = 0; i < node_.size(); ++i) result.push_back(YamlValue(node_[i], file_, path_ + "[" + std::to_string(i) + "]"));
+  return result;
+}
+
+std::string YamlValue::text() const {
+  if (!node_.IsScalar()) fail("expected text, found " + std::string(kind_of(node_)));
+  if (node_.Scalar().empty()) fail("the text is empty");
+  return node_.Scalar();
+}
+
+double YamlValue::number() const {
+  if (!node_.IsScalar()) fail("expected a number, found " + std::string(kind_of(node_)), "a finite number");
+  const std::optional<double> value = number_in(node_.Scalar());
+  if (!value && is_out_of_range(node_.Scalar())) fail("no number that floating point holds", "a finite number");
+  if (!value) fail("not a number", "a finite number");
+  if (!std::isfinite(*value)) fail("not finite", "a finite number");
+  return *value;
+}
+
+int YamlValue::integer() const {
+  const double value = number();
+  if (value != std::floor(value) || std::abs(value) > 1e9) fail("not an integer", "an integer");
+  return static_cast<int>(value);
+}
+
+bool YamlValue::boolean() const {
+  bool value = false;
+  if (!YAML::convert<bool>::decode(node_, value)) fail("not a truth value", "true or false");
+  return value;
+}
+
+std::string YamlValue::choice(const std::string& kind, const std::vector<std::string>& allowed) const {
+  std::string name = text();
+  if (!contains(allowed, name)) throw unknown_name(where(), path_, kind, name, allowed);
+  return name;
+}
+
+}  // namespace codesign

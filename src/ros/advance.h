@@ -1,0 +1,25 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_ADVANCE_H_
+#define MECHANISM_CODESIGN_ROS_ADVANCE_H_
+
+#include "integration/simulation.h"
+
+namespace codesign {
+
+/// Advances a run from time `from` to `to` [s], asking `stop()` on the way, which may be long. It changes no step of the run.
+/// Returns kCancelled if `stop` said so.
+template <class Stop>
+Status advance(Simulation* simulation, double from, double to, Stop&& stop) {
+  constexpr int kSlices = 16;
+  Status status;
+  for (int k = 1; k <= kSlices && status.ok(); ++k) {
+    const double time = k == kSlices ? to : from + (to - from) * k / kSlices;
+    if (stop()) return {StatusCode::kCancelled, time, "cancelled"};
+    status = simulation->advance(time);
+  }
+  return status;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_ADVANCE_H_

@@ -1,0 +1,63 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_CONVERSIONS_H_
+#define MECHANISM_CODESIGN_ROS_CONVERSIONS_H_
+
+#include <mechanism_codesign/ControllerStates.h>
+#include <mechanism_codesign/JointFriction.h>
+#include <mechanism_codesign/LoopErrors.h>
+#include <mechanism_codesign/OptimizationProgress.h>
+#include <mechanism_codesign/Signals.h>
+#include <mechanism_codesign/Warning.h>
+#include <ros/time.h>
+#include <sensor_msgs/JointState.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <string>
+#include <vector>
+
+#include "mechanism_codesign/frame.h"
+#include "mechanism_codesign/warning.h"
+#include "optimization/optimizer.h"
+
+// From what the core computes to ROS messages. Nothing here needs a master.
+
+namespace codesign {
+
+/// When and where a message holds: the stamp, and the TF frame of the root link.
+struct MessageContext {
+  ros::Time stamp;
+  std::string root_frame;
+};
+
+/// Every scalar joint of the tree; loops have no place in the URDF tree and are left out.
+sensor_msgs::JointState joint_states(const FrameNames& names, const Frame& frame, const MessageContext& context);
+
+mechanism_codesign::JointFriction joint_friction(const FrameNames& names, const Frame& frame, const MessageContext& context);
+
+mechanism_codesign::ControllerStates controller_states(const FrameNames& names, const Frame& frame, const MessageContext& context);
+
+mechanism_codesign::LoopErrors loop_errors(const FrameNames& names, const Frame& frame, const MessageContext& context);
+mechanism_codesign::Signals signals(const FrameNames& names, const Frame& frame, const MessageContext& context);
+
+/// Poses of the links that robot_state_publisher cannot place, each relative to its parent link.
+tf2_msgs::TFMessage free_link_transforms(const FrameNames& names, const Frame& frame, const MessageContext& context);
+
+/// Poses of all links but the root, relative to the root link; `prefix` stands before every frame.
+tf2_msgs::TFMessage link_transforms(const FrameNames& names, const Frame& frame, const ros::Time& stamp, const std::string& prefix);
+
+/// Poses of all links relative to the root link, whose TF frame is `prefix` + its name; `prefix` stands before every frame.
+/// The root itself is placed at the origin of the frame called `prefix` without its trailing slash.
+tf2_msgs::TFMessage all_link_transforms(const FrameNames& names, const Frame& frame, const ros::Time& stamp, const std::string& prefix);
+
+mechanism_codesign::OptimizationProgress optimization_progress(const Trial& trial, const std::vector<std::string>& parameters,
+                                                               const ros::Time& stamp);
+
+/// The values of an Eigen vector as ROS holds them.
+std::vector<double> to_array(const Eigen::VectorXd& values);
+
+/// The warnings of the files, then those of a job.
+std::vector<mechanism_codesign::Warning> warning_messages(const Warnings& of_files, const Warnings& of_job);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_CONVERSIONS_H_

@@ -1,0 +1,26 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_FRICTION_MARKERS_H_
+#define MECHANISM_CODESIGN_ROS_FRICTION_MARKERS_H_
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include "mechanism_codesign/frame.h"
+#include "ros/conversions.h"
+
+namespace codesign {
+
+/// How friction is drawn.
+struct MarkerStyle {
+  double metres_per_newton = 0.01;       ///< length of a force arrow
+  double metres_per_newton_metre = 0.1;  ///< length of a torque arrow
+  double shaft_diameter = 0.006;         ///< [m]
+};
+
+/// One arrow for each joint and loop with friction, from the joint along the friction force (red) or torque (cyan) on the child link.
+/// An arrow shorter than its shaft is thick is taken away instead of drawn.
+visualization_msgs::MarkerArray friction_markers(const FrameNames& names, const Frame& frame, const MessageContext& context,
+                                                 const MarkerStyle& style);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_FRICTION_MARKERS_H_

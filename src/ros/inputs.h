@@ -1,0 +1,43 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_INPUTS_H_
+#define MECHANISM_CODESIGN_ROS_INPUTS_H_
+
+#include <ros/node_handle.h>
+
+#include <string>
+#include <vector>
+
+#include "problem/problem.h"
+
+namespace codesign {
+
+/// What a node was told to work on, not yet read.
+struct Inputs {
+  SourceText urdf;
+  std::vector<SourceText> overlays;
+  SourceText study;
+  bool study_is_tree = false;  ///< from the parameter server, not from a file
+  ParameterSettings settings;
+};
+
+/// Reads the private parameters of a node:
+/// - `~model`: path of the URDF; without it the text in `robot_description`;
+/// - `~overlays`: a path or a list of paths;
+/// - `~study`: a path, or the study itself as a tree of parameters (`<rosparam ns="study" file=...>`);
+/// - `~set`: parameter values that replace those of model and study, by name.
+/// @throws InputError for a missing or ill-typed parameter or a file that cannot be read.
+Inputs read_inputs(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+
+/// Makes sure that a study tunes what its author wrote.
+///
+/// The parameter server keeps no empty mapping: of `crank_length: {}`, "tune it between the model's bounds", nothing arrives. A study that
+/// comes as a tree must therefore name each parameter of the model, with `{tune: false}` those that stay as they are.
+/// @throws InputError for a parameter of the model that a tree does not name.
+void require_every_parameter(const Inputs& inputs, const RobotDescription& robot);
+
+/// The names of the parameters that read_inputs() knows.
+const std::vector<std::string>& input_parameters();
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_INPUTS_H_

@@ -1,0 +1,21 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_TRAJECTORY_BAG_H_
+#define MECHANISM_CODESIGN_ROS_TRAJECTORY_BAG_H_
+
+#include <string>
+
+#include "description/reference.h"
+#include "ros/inputs.h"
+
+namespace codesign {
+
+/// Reads the way-points of one joint from the only trajectory_msgs/JointTrajectory of a topic that names it.
+/// @param folder what a relative path of a bag starts from; empty: only absolute ones are taken.
+TrajectoryLoader bag_trajectory_loader(const std::string& folder);
+
+/// The folder of a node's study file; empty for a study on the parameter server.
+std::string study_folder(const Inputs& inputs);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_TRAJECTORY_BAG_H_

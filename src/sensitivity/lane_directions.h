@@ -1,0 +1,46 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_LANE_DIRECTIONS_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_LANE_DIRECTIONS_H_
+
+#include <Eigen/Core>
+#include <new>
+
+#include "math/lanes.h"
+#include "math/line_vector.h"
+
+namespace codesign {
+
+/// N directional derivatives of a vector, one column per component; a matrix over memory of its own that begins with a cache line.
+template <int N>
+class Directions : public Eigen::Map<Eigen::Matrix<double, N, Eigen::Dynamic>> {
+ public:
+  using Map = Eigen::Map<Eigen::Matrix<double, N, Eigen::Dynamic>>;
+  using Vector = typename Lanes<N>::Vector;
+
+  /// All zero.
+  explicit Directions(Eigen::Index columns = 0) : Map(nullptr, N, 0) { resize(columns); }
+  Directions(const Directions& other) : Map(nullptr, N, 0) { *this = other; }
+  Directions& operator=(const Directions& other) {
+    resize(other.cols());
+    Map::operator=(other);
+    return *this;
+  }
+
+  /// Keeps nothing if the size changes.
+  void resize(Eigen::Index columns) {
+    if (columns == this->cols()) return;
+    numbers_.assign(static_cast<std::size_t>(N * columns), 0.0);
+    new (static_cast<Map*>(this)) Map(numbers_.data(), N, columns);
+  }
+
+  /// One component's derivatives as the processor holds them.
+  Vector& vector(int column) { return *reinterpret_cast<Vector*>(this->data() + N * column); }
+  const Vector& vector(int column) const { return *reinterpret_cast<const Vector*>(this->data() + N * column); }
+
+ private:
+  LineVector numbers_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_LANE_DIRECTIONS_H_

@@ -1,0 +1,63 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_LANE_GROUPS_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_LANE_GROUPS_H_
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "equations/system.h"
+#include "math/lanes.h"
+
+namespace codesign {
+
+/// The tuned parameters rho_first, rho_first+1, ... whose derivatives N lanes carry.
+template <int N>
+struct LaneRange {
+  int first = 0, count = 0;
+
+  /// All named parameters, lane k seeded with the direction of rho_(first+k).
+  std::vector<Lanes<N>> seed(const System& system, const std::vector<double>& parameters) const {
+    std::vector<Lanes<N>> lanes(parameters.begin(), parameters.end());
+    for (int k = 0; k < count; ++k) lanes[static_cast<std::size_t>(system.study().tuned[static_cast<std::size_t>(first + k)])].v[k] = 1.0;
+    return lanes;
+  }
+};
+
+/// Which lanes to group, where it is not one per tuned parameter: so many from `first` on. Each group keeps `reserved` more for itself.
+struct LaneCount {
+  int value = 0, reserved = 0, first = 0;
+};
+
+/// All tuned parameters in groups: eight at a time; a last group of four or fewer takes the narrower kind.
+/// Group<N> is made from (system, LaneRange<N>, further arguments).
+template <template <int> class Group>
+class LaneGroups {
+ public:
+  template <class... Arguments>
+  explicit LaneGroups(const System& system, const Arguments&... arguments)
+      : LaneGroups(LaneCount{static_cast<int>(system.study().tuned.size())}, system, arguments...) {}
+  template <class... Arguments>
+  LaneGroups(LaneCount lanes, const System& system, const Arguments&... arguments) {
+    const int end = lanes.first + lanes.value;
+    int first = lanes.first;
+    const int wide = 8 - lanes.reserved;
+    for (; end - first > 4 - lanes.reserved; first += wide)
+      wide_.push_back(std::make_unique<Group<8>>(system, LaneRange<8>{first, std::min(wide, end - first)}, arguments...));
+    if (first < end) narrow_.push_back(std::make_unique<Group<4>>(system, LaneRange<4>{first, end - first}, arguments...));
+  }
+
+  template <class Action>
+  void for_each(const Action& action) {
+    for (auto& group : wide_) action(group.get());
+    for (auto& group : narrow_) action(group.get());
+  }
+
+ private:
+  std::vector<std::unique_ptr<Group<8>>> wide_;
+  std::vector<std::unique_ptr<Group<4>>> narrow_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_LANE_GROUPS_H_

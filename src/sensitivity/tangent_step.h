@@ -1,0 +1,68 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_TANGENT_STEP_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_TANGENT_STEP_H_
+
+#include <vector>
+
+#include "assembly/assembly.h"
+#include "integration/rosenbrock_step.h"
+#include "sensitivity/tangent_equations.h"
+
+namespace codesign {
+
+/// The exact tangent of RosenbrockStep for N parameters at once, the step sizes held fixed; doc/theory.md (18).
+///
+/// The stage equation E u = -(G + G_q w_q + G_s w_s + G_v w_v) is differentiated as it stands, the derivative of E included:
+///   E u' = -(G' + G_q w_q' + G_s w_s' + G_v w_v' + (dG_q) u_q + (dG_s) u_s + (dG_v) u_v + (dG_z) u_z),
+/// with dG_x the change of G_x along (y', e_k). E is the factorization that the step itself used.
+template <int N>
+class TangentStep {
+ public:
+  TangentStep(const System& system, const RosenbrockTableau& tableau);
+
+  /// Begins at the start of a solution. @param parameters all named parameters, lanes seeded with the directions wanted.
+  void start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly, const State<double>& initial,
+             const RosenbrockStep<double>& step);
+
+  /// Tangent of the stages of the step's last attempt.
+  void attempt(const RosenbrockStep<double>& step);
+  /// Scaled error of the last attempt: the largest over the parameters of |u_last| / (tolerance |y'|), norms over positions or velocities,
+  /// with the largest |y'| so far.
+  double error(double relative_tolerance) const;
+  /// Takes the last attempt: tangent of its sum and projection, after RosenbrockStep::accept().
+  void accept(const RosenbrockStep<double>& step);
+
+  /// Derivatives of the objective: its integral so far, and with the terminal terms at the present state.
+  Eigen::Matrix<double, N, 1> psi() const { return y_.col(at_.psi()); }
+  Eigen::Matrix<double, N, 1> terminal(const State<double>& state);
+
+  /// Derivatives of the state, as IncrementLayout lays it out.
+  const Directions<N>& directions() const { return y_; }
+
+ private:
+  using Vector = typename Lanes<N>::Vector;
+  /// to = from + sum over j < count of factors[j] u'_j, of `size` components from the `first` of u' on.
+  void combine(const double* from, const double* factors, std::size_t count, int first, int size, double* to) const;
+  /// For as many stages at a time as divide their number.
+  template <std::size_t together>
+  void change_matrices(const RosenbrockStep<double>& step);
+  void stage_start(std::size_t i, double h);
+  void stage_tangent(std::size_t i, const RosenbrockStep<double>& step);
+  void measure();
+  void project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu, double* target);
+
+  const System& system_;
+  const Layout& layout_;
+  const IncrementLayout at_;
+  const RosenbrockTableau& tableau_;
+  TangentEquations<N> equations_;
+  State<double> projected_;
+  Directions<N> y_, stage_y_, residual_, rows_, errors_, rates_;
+  std::vector<Directions<N>> stages_;                 ///< u' of each stage
+  std::vector<Directions<N>> matrix_changes_;         ///< dG u of each stage, row by row
+  Eigen::Array<double, N, 1> largest_x_, largest_v_;  ///< squared norms
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_TANGENT_STEP_H_

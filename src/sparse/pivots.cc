@@ -1,0 +1,150 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sparse/pivots.h"
+
+#include <suitesparse/klu.h>
+
+#include <algorithm>
+#include <functional>
+#include <queue>
+#include <utility>
+
+namespace codesign {
+namespace {
+
+constexpr int kAmd = 0, kColamd = 1;
+
+/// What KLU is asked for. With `blocks` it first permutes the matrix to block triangular form, which also puts entries on a diagonal of
+/// zeros.
+struct Proposal {
+  bool blocks;
+  int ordering;
+  int preference;  ///< the lower one is taken of two that cost the same
+};
+
+// In the order in which they are tried. With COLAMD fill stays bounded whatever the pivots turn out to be. AMD supposes pivots on the
+// diagonal, and where these are zero, as in saddle points of thousands of rows, it may fill the matrix: without blocks still more than
+// with.
+constexpr Proposal kProposals[] = {{false, kColamd, 2}, {true, kColamd, 3}, {true, kAmd, 1}, {false, kAmd, 0}};
+constexpr double kHopeless = 4.0;  // times the operations of the best: AMD without blocks is not tried
+// A pivot on the diagonal may be this much smaller than the largest of its column. KLU's own choice, 1e-3, saves little fill, and pivots
+// that were small to begin with serve for a few steps only.
+constexpr double kThreshold = 0.1;
+
+/// One run of KLU with what it leaves behind.
+class Run {
+ public:
+  Run(const Proposal& proposal, const std::vector<int>& column_start, const std::vector<int>& row_index, const double* values)
+      : n_(static_cast<int>(column_start.size()) - 1) {
+    klu_defaults(&common_);
+    common_.btf = proposal.blocks ? 1 : 0;
+    common_.ordering = proposal.ordering;
+    common_.tol = kThreshold;
+    // KLU only reads the pattern and the values.
+    int *const starts = const_cast<int*>(column_start.data()), *const rows = const_cast<int*>(row_index.data());
+    symbolic_ = klu_analyze(n_, starts, rows, &common_);
+    if (symbolic_) numeric_ = klu_factor(starts, rows, const_cast<double*>(values), symbolic_, &common_);
+  }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+  ~Run() {
+    klu_free_numeric(&numeric_, &common_);
+    klu_free_symbolic(&symbolic_, &common_);
+  }
+
+  bool ok() const { return numeric_ && common_.status == KLU_OK; }
+
+  double operations() {
+    klu_flops(symbolic_, numeric_, &common_);
+    return common_.flops;
+  }
+
+  Pivots pivots() {
+    const auto size = static_cast<std::size_t>(n_);
+    Pivots pivots{std::vector<int>(size), std::vector<int>(size), std::vector<double>(size)};
+    klu_extract(numeric_, symbolic_, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, pivots.row_of.data(),
+                pivots.column_of.data(), pivots.row_scale.data(), nullptr, &common_);
+    return pivots;
+  }
+
+ private:
+  int n_;
+  klu_common common_{};
+  klu_symbolic* symbolic_ = nullptr;
+  klu_numeric* numeric_ = nullptr;
+};
+
+}  // namespace
+
+// Row by row: what stands left of the diagonal brings in the row of U with that number, whose entries lie further right.
+LuPattern eliminate_pattern(const Pivots& pivots, const std::vector<int>& column_start, const std::vector<int>& row_index) {
+  const std::size_t n = pivots.row_of.size();
+  LuPattern pattern{pivots.row_of, pivots.column_of, pivots.row_scale, {}, {}};
+  pattern.U.resize(n);
+  pattern.L.resize(n);
+  std::vector<int> pivot_of_row(n);
+  for (std::size_t k = 0; k < n; ++k) pivot_of_row[static_cast<std::size_t>(pivots.row_of[k])] = static_cast<int>(k);
+  std::vector<std::vector<int>> rows(n);  // their columns; of rows that are done those right of the diagonal, ascending
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto column = static_cast<std::size_t>(pivots.column_of[k]);
+    for (int e = column_start[column]; e < column_start[column + 1]; ++e)
+      rows[static_cast<std::size_t>(pivot_of_row[static_cast<std::size_t>(row_index[static_cast<std::size_t>(e)])])].push_back(
+          static_cast<int>(k));
+  }
+  std::vector<std::size_t> seen(n, n);  // the row that a column was seen in last
+  for (std::size_t k = 0; k < n; ++k) {
+    const int diagonal = static_cast<int>(k);
+    std::vector<int>& row = rows[k];
+    std::priority_queue<int, std::vector<int>, std::greater<>> left;  // of the diagonal, still to be eliminated
+    for (int column : row) {
+      seen[static_cast<std::size_t>(column)] = k;
+      if (column < diagonal) left.push(column);
+    }
+    for (; !left.empty(); left.pop()) {
+      for (int column : rows[static_cast<std::size_t>(left.top())]) {
+        if (seen[static_cast<std::size_t>(column)] == k) continue;
+        seen[static_cast<std::size_t>(column)] = k;
+        row.push_back(column);
+        if (column < diagonal) left.push(column);
+      }
+    }
+    std::sort(row.begin(), row.end());
+    for (int column : row)
+      if (column != diagonal) (column < diagonal ? pattern.L : pattern.U)[static_cast<std::size_t>(column)].push_back(diagonal);
+    row.erase(row.begin(), std::upper_bound(row.begin(), row.end(), diagonal));
+  }
+  return pattern;
+}
+
+std::int64_t count_products(const LuPattern& pattern) {
+  std::vector<std::int64_t> length(pattern.row_of.size(), 0);  // of the rows of U
+  for (const std::vector<int>& column : pattern.U)
+    for (int row : column) ++length[static_cast<std::size_t>(row)];
+  std::int64_t products = 0;
+  for (std::size_t k = 0; k < length.size(); ++k) products += length[k] * static_cast<std::int64_t>(pattern.L[k].size());
+  return products;
+}
+
+std::optional<LuPattern> choose_pivots(const std::vector<int>& column_start, const std::vector<int>& row_index, const double* values) {
+  std::optional<LuPattern> best;
+  std::pair<std::int64_t, int> least;  // products, preference
+  double fewest = 0.0;
+  bool hopeless = false;
+  for (const Proposal& proposal : kProposals) {
+    if (hopeless && proposal.ordering == kAmd) continue;
+    Run run(proposal, column_start, row_index, values);
+    if (!run.ok()) continue;
+    // KLU's own count is near enough to leave out what cannot be the cheapest.
+    const double operations = run.operations();
+    if (proposal.ordering == kAmd) hopeless = best && operations > kHopeless * fewest;
+    if (best && operations > 2.0 * fewest) continue;
+    fewest = best ? std::min(fewest, operations) : operations;
+    LuPattern pattern = eliminate_pattern(run.pivots(), column_start, row_index);
+    const std::pair<std::int64_t, int> cost{count_products(pattern), proposal.preference};
+    if (best && cost >= least) continue;
+    least = cost;
+    best = std::move(pattern);
+  }
+  return best;
+}
+
+}  // namespace codesign

@@ -1,0 +1,48 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SPARSE_ROW_PRODUCT_H_
+#define MECHANISM_CODESIGN_SPARSE_ROW_PRODUCT_H_
+
+#include <cstddef>
+#include <vector>
+
+#include "sparse/sparsity.h"
+
+namespace codesign {
+
+/// One row of a sparse matrix times a vector.
+template <class T>
+T row_product(const Sparsity& pattern, const std::vector<T>& values, int row, const T* x) {
+  T sum(0.0);
+  const int* const column = pattern.column_index.data();
+  for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) sum += values[static_cast<std::size_t>(e)] * x[column[e]];
+  return sum;
+}
+
+/// One row of a real sparse matrix times N vectors, stored row by row: sum_k += sum over the row of values x[N column + k].
+template <int N>
+void add_row_product(const Sparsity& pattern, const std::vector<double>& values, int row, const double* x, typename Lanes<N>::Vector* sum) {
+  using Vector = typename Lanes<N>::Vector;
+  const int* const column = pattern.column_index.data();
+  for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
+    *sum += values[static_cast<std::size_t>(e)] * *reinterpret_cast<const Vector*>(x + std::ptrdiff_t{N} * column[e]);
+}
+
+/// One row of the directional derivatives of a sparse matrix times M real vectors, each from its entry `offset` on:
+/// sums[m]_k += sum over the row of dvalues_k x[m][offset + column], with the derivatives of each entry side by side.
+template <int N, std::size_t M>
+void add_row_tangents(const Sparsity& pattern, const double* derivatives, int row, const double* const (&x)[M], int offset,
+                      typename Lanes<N>::Vector (&sums)[M]) {
+  const int* const column = pattern.column_index.data();
+  typename Lanes<N>::Vector total[M];
+  for (std::size_t m = 0; m < M; ++m) total[m] = sums[m];
+  for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) {
+    const auto& change = *reinterpret_cast<const typename Lanes<N>::Vector*>(derivatives + std::ptrdiff_t{N} * e);
+    const int k = offset + column[e];
+    for (std::size_t m = 0; m < M; ++m) total[m] += x[m][k] * change;
+  }
+  for (std::size_t m = 0; m < M; ++m) sums[m] = total[m];
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SPARSE_ROW_PRODUCT_H_

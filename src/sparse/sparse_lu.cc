@@ -1,0 +1,81 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sparse/sparse_lu.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "sparse/lu_schedule.h"
+#include "sparse/pivots.h"
+
+namespace codesign {
+namespace {
+
+constexpr double kLargestMultiplier = 1e6;
+// Ratio of pivots below which the matrix is singular to working precision.
+constexpr double kSingular = 1e-17;
+constexpr std::size_t kMostSchedules = 4;
+
+}  // namespace
+
+struct SparseLu::Implementation {
+  std::vector<int> starts, rows;
+  std::vector<LuSchedule> schedules;  ///< the one in use last
+  std::int64_t full_factorizations = 0;
+
+  LuSchedule& schedule() { return schedules.back(); }
+
+  // A mechanism that moves to and fro comes back to pivots that once served.
+  bool refactor(const double* values) {
+    for (std::size_t tried = 0; tried < schedules.size(); ++tried) {
+      const LuSchedule::Quality quality = schedule().refactor(values);
+      if (quality.growth <= kLargestMultiplier && quality.pivot_ratio > kSingular) return true;
+      std::rotate(schedules.begin(), schedules.end() - 1, schedules.end());
+    }
+    return false;
+  }
+
+  bool factor(const double* values) {
+    ++full_factorizations;
+    const std::optional<LuPattern> pattern = choose_pivots(starts, rows, values);
+    if (!pattern) return false;
+    if (schedules.size() == kMostSchedules) schedules.erase(schedules.begin());
+    schedules.emplace_back(*pattern, starts, rows);
+    const double ratio = schedule().refactor(values).pivot_ratio;
+    return std::isfinite(ratio) && ratio > kSingular;
+  }
+};
+
+SparseLu::SparseLu(const std::vector<int>& column_start, const std::vector<int>& row_index)
+    : implementation_(std::make_unique<Implementation>()) {
+  implementation_->starts = column_start;
+  implementation_->rows = row_index;
+}
+
+SparseLu::~SparseLu() = default;
+SparseLu::SparseLu(SparseLu&&) noexcept = default;
+SparseLu& SparseLu::operator=(SparseLu&&) noexcept = default;
+
+bool SparseLu::factor(const double* values) { return implementation_->refactor(values) || implementation_->factor(values); }
+
+template <int N>
+void SparseLu::solve_rows(double* x) const {
+  implementation_->schedule().solve<N>(x);
+}
+
+template <int N>
+void SparseLu::solve_transposed_rows(double* x) const {
+  implementation_->schedule().solve_transposed<N>(x);
+}
+
+std::int64_t SparseLu::full_factorizations() const { return implementation_->full_factorizations; }
+
+#define CODESIGN_INSTANTIATE(N)                         \
+  template void SparseLu::solve_rows<N>(double*) const; \
+  template void SparseLu::solve_transposed_rows<N>(double*) const;
+CODESIGN_INSTANTIATE(1)
+CODESIGN_INSTANTIATE(4)
+CODESIGN_INSTANTIATE(8)
+#undef CODESIGN_INSTANTIATE
+
+}  // namespace codesign

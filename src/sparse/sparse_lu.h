@@ -1,0 +1,46 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SPARSE_SPARSE_LU_H_
+#define MECHANISM_CODESIGN_SPARSE_SPARSE_LU_H_
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace codesign {
+
+/// LU factorization of square sparse matrices that share one pattern: ordered and pivoted once, refactored numerically afterwards.
+///
+/// KLU proposes orders and pivots, of which the cheapest is taken. A refactorization follows a list of its operations, without any search;
+/// when a multiplier grows beyond 1e6 or a pivot vanishes, pivots that served earlier are tried, and then they are chosen anew. Not
+/// thread-safe.
+class SparseLu {
+ public:
+  /// @param column_start, row_index compressed-column pattern of an n x n matrix.
+  SparseLu(const std::vector<int>& column_start, const std::vector<int>& row_index);
+  ~SparseLu();
+  SparseLu(SparseLu&&) noexcept;
+  SparseLu& operator=(SparseLu&&) noexcept;
+
+  /// Factors the matrix with these nonzeros. False if it is singular to working precision.
+  bool factor(const double* values);
+
+  /// Solves in place.
+  void solve(double* x) const { solve_rows<1>(x); }
+  /// Solves in place for N right-hand sides, stored row by row: x[N row + k]. N is 1, 4 or 8.
+  template <int N>
+  void solve_rows(double* x) const;
+  /// Solves with the transpose in place.
+  template <int N>
+  void solve_transposed_rows(double* x) const;
+
+  /// How often pivots had to be chosen since construction.
+  std::int64_t full_factorizations() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SPARSE_SPARSE_LU_H_

@@ -1,0 +1,145 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SPARSE_SPARSITY_H_
+#define MECHANISM_CODESIGN_SPARSE_SPARSITY_H_
+
+#include <utility>
+#include <vector>
+
+#include "math/scalar.h"
+
+namespace codesign {
+
+/// A fixed pattern in compressed-row form; columns ascend within each row.
+struct Sparsity {
+  int rows = 0, columns = 0;
+  std::vector<int> row_start, column_index;
+
+  int nonzeros() const { return static_cast<int>(column_index.size()); }
+  int first(int row) const { return row_start[static_cast<std::size_t>(row)]; }
+  int column(int entry) const { return column_index[static_cast<std::size_t>(entry)]; }
+};
+
+/// One object for each of the things that the equations are differentiated by: positions (q, s), velocities v, rates z = (a, lambda,
+/// sigma).
+template <class X>
+struct ByVariable {
+  X position, velocity, rate;
+};
+
+/// Notes which entries an assembly touches, in its order.
+class PatternRecorder {
+ public:
+  template <class T>
+  void position(int row, int column, const T&) {
+    calls_.position.emplace_back(row, column);
+  }
+  template <class T>
+  void velocity(int row, int column, const T&) {
+    calls_.velocity.emplace_back(row, column);
+  }
+  template <class T>
+  void rate(int row, int column, const T&) {
+    calls_.rate.emplace_back(row, column);
+  }
+  template <class T>
+  void time(int, const T&) {}
+
+  using Calls = std::vector<std::pair<int, int>>;
+  const ByVariable<Calls>& calls() const { return calls_; }
+
+  /// The pattern of one matrix, and for each call in order the slot it adds to; the complement of the slot for the first that touches it.
+  static Sparsity build(const Calls& calls, int rows, int columns, std::vector<int>* slots);
+
+ private:
+  ByVariable<Calls> calls_;
+};
+
+/// The derivatives of the equations as three sparse matrices G_q (with G_s), G_v, G_z, and the explicit one by time; theory (14).
+template <class T>
+struct Linearization : ByVariable<std::vector<T>> {
+  VectorX<T> time;  ///< dG/dt and dg/dt [1/s]
+
+  void resize(const ByVariable<Sparsity>& patterns) {
+    this->position.resize(patterns.position.column_index.size());
+    this->velocity.resize(patterns.velocity.column_index.size());
+    this->rate.resize(patterns.rate.column_index.size());
+    time.setZero(patterns.rate.rows);
+  }
+};
+
+/// Adds values to the slots that a PatternRecorder found for the same sequence of calls.
+template <class T>
+class AssemblySink {
+ public:
+  AssemblySink(const ByVariable<std::vector<int>>& slots, Linearization<T>* values)
+      : slot_{slots.position.data(), slots.velocity.data(), slots.rate.data()}, values_(values) {
+    values->time.setZero();
+  }
+
+  void position(int, int, const T& x) { add(*slot_.position++, x, &values_->position); }
+  void velocity(int, int, const T& x) { add(*slot_.velocity++, x, &values_->velocity); }
+  void rate(int, int, const T& x) { add(*slot_.rate++, x, &values_->rate); }
+  void time(int row, const T& x) { values_->time[row] += x; }
+
+ private:
+  // The first to touch a slot sets it, so that nothing need be cleared beforehand.
+  static void add(int slot, const T& x, std::vector<T>* values) {
+    if (slot < 0)
+      (*values)[static_cast<std::size_t>(~slot)] = x;
+    else
+      (*values)[static_cast<std::size_t>(slot)] += x;
+  }
+
+  ByVariable<const int*> slot_;
+  Linearization<T>* values_;
+};
+
+/// A sparse gradient of a scalar by positions, velocities, rates and time; clear() keeps its memory.
+template <class T>
+struct SparseGradient {
+  struct Entry {
+    int column;
+    T value;
+  };
+  using Entries = std::vector<Entry>;
+  Entries position, velocity, rate;
+  T time{0.0};
+
+  void clear() {
+    for (Entries* entries : {&position, &velocity, &rate}) entries->clear();
+    time = T(0.0);
+  }
+
+  /// A place between entries.
+  struct Mark {
+    std::size_t position, velocity, rate;
+    T time;
+  };
+  Mark mark() const { return {position.size(), velocity.size(), rate.size(), time}; }
+
+  /// Multiplies what was added after a mark.
+  void scale_from(const Mark& mark, const T& factor) {
+    scale(mark.position, factor, &position);
+    scale(mark.velocity, factor, &velocity);
+    scale(mark.rate, factor, &rate);
+    time = mark.time + factor * (time - mark.time);
+  }
+
+ private:
+  static void scale(std::size_t first, const T& factor, Entries* entries) {
+    for (std::size_t k = first; k < entries->size(); ++k) (*entries)[k].value = (*entries)[k].value * factor;
+  }
+};
+
+/// Adds factor times a gradient to one row of the equations.
+template <class T, class Sink>
+void add_row(int row, const T& factor, const SparseGradient<T>& gradient, Sink* sink) {
+  for (const auto& e : gradient.position) sink->position(row, e.column, T(factor * e.value));
+  for (const auto& e : gradient.velocity) sink->velocity(row, e.column, T(factor * e.value));
+  for (const auto& e : gradient.rate) sink->rate(row, e.column, T(factor * e.value));
+  sink->time(row, T(factor * gradient.time));
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SPARSE_SPARSITY_H_

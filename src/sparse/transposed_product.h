@@ -1,0 +1,30 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SPARSE_TRANSPOSED_PRODUCT_H_
+#define MECHANISM_CODESIGN_SPARSE_TRANSPOSED_PRODUCT_H_
+
+#include <cstddef>
+#include <vector>
+
+#include "sparse/sparsity.h"
+
+namespace codesign {
+
+/// A run of rows of a sparse matrix, [first, last).
+struct RowRange {
+  int first, last;
+};
+
+/// x += factor A^T y over these rows of A. `y` is indexed by rows, `x` by columns.
+inline void add_transposed_product(const Sparsity& pattern, const std::vector<double>& values, RowRange rows, double factor,
+                                   const double* y, double* x) {
+  const int* const column = pattern.column_index.data();
+  for (int row = rows.first; row < rows.last; ++row) {
+    const double scaled = factor * y[row];
+    if (scaled == 0.0) continue;
+    for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) x[column[e]] += scaled * values[static_cast<std::size_t>(e)];
+  }
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SPARSE_TRANSPOSED_PRODUCT_H_

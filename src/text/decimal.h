@@ -1,0 +1,14 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEXT_DECIMAL_H_
+#define MECHANISM_CODESIGN_TEXT_DECIMAL_H_
+
+#include <string>
+
+namespace codesign {
+
+/// The shortest text that reads back as the same double, whatever the locale: `0.07`, `1e-06`, `inf`, `nan`.
+std::string to_decimal(double value);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_TEXT_DECIMAL_H_

@@ -1,0 +1,56 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "number_text.h"
+
+#include <charconv>
+#include <locale>
+#include <sstream>
+#include <system_error>
+
+#include "text/decimal.h"
+
+namespace codesign {
+
+namespace {
+
+/// What is too small for a double is zero, as URDF's readers have it; what is too large is no number.
+std::optional<double> underflow(const std::string& text) {
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  double value = 0.0;
+  stream >> value;
+  if (stream.fail()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+std::optional<double> parse_number(const std::string& text) {
+  const char* begin = text.data();
+  const char* const end = begin + text.size();
+  if (text.size() > 1 && *begin == '+' && text[1] != '-') ++begin;  // URDF's readers accept it, from_chars does not
+  double value = 0.0;
+  const std::from_chars_result result = std::from_chars(begin, end, value);
+  if (result.ptr != end) return std::nullopt;
+  if (result.ec == std::errc::result_out_of_range) return underflow(text);
+  if (result.ec != std::errc()) return std::nullopt;
+  return value;
+}
+
+std::string format_numbers(const std::vector<double>& values) {
+  std::string text;
+  for (double value : values) text += (text.empty() ? "" : " ") + to_decimal(value);
+  return text;
+}
+
+std::vector<std::string> split_words(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+bool ends_with(const std::string& text, const std::string& tail) {
+  return text.size() >= tail.size() && text.compare(text.size() - tail.size(), tail.size(), tail) == 0;
+}
+
+}  // namespace codesign

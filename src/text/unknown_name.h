@@ -1,0 +1,22 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEXT_UNKNOWN_NAME_H_
+#define MECHANISM_CODESIGN_TEXT_UNKNOWN_NAME_H_
+
+#include <string>
+#include <vector>
+
+#include "mechanism_codesign/error.h"
+
+namespace codesign {
+
+/// `a, b, c`, cut short after two dozen names.
+std::string list_names(const std::vector<std::string>& names);
+
+/// The error for a name that is none of `known`: `unknown joint, did you mean "crank_joint"?`
+/// @param kind what the name should have been: "joint", "key", ...
+InputError unknown_name(const SourceLocation& where, const std::string& element, const std::string& kind, const std::string& name,
+                        const std::vector<std::string>& known);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_TEXT_UNKNOWN_NAME_H_

@@ -1,0 +1,109 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "assembly/assembly.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "equations/compiled.h"
+
+namespace codesign {
+namespace {
+
+using C = std::complex<double>;
+constexpr double kCompliance = 1e-9;
+
+/// Two links of length 1 hinged to the ground 1.2 apart; their tips meet in a loop. `length` is that of the right one.
+std::string triangle(const std::string& distance = "1.2") {
+  return "<robot name='t' xmlns:codesign='urn:t'><codesign:parameter name='length' value='1' lower='0.5' upper='2'/><link name='ground'/>" +
+         bar("left") + bar("right") + hinge("left_hinge", "ground", "left", "0 0 0") +
+         hinge("right_hinge", "ground", "right", distance + " 0 0") +
+         "<loop name='tip' type='continuous'><predecessor link='left'><origin xyz='0 0 -1'/></predecessor>"
+         "<successor link='right'><origin xyz='0 0 -1' codesign:xyz='0 0 ${-length}'/></successor><axis xyz='0 1 0'/></loop></robot>";
+}
+
+TEST(Assembly, GivenPositionsStayAndTheLoopIsClosed) {
+  Compiled c(four_bar(), let_go("{left_hinge: {position: 0.6, velocity: 2.0}}", "left_hinge/velocity"), kCompliance);
+  ASSERT_TRUE(c.start().ok());
+  // A parallelogram: the other bar turns along, the coupler stays level.
+  EXPECT_NEAR(c.assembly.theta()[0], 0.6, 1e-15);
+  EXPECT_NEAR(c.assembly.theta()[1], 0.6, 1e-12);
+  EXPECT_NEAR(c.assembly.theta()[2], -0.6, 1e-12);
+  Eigen::VectorXd errors, rates;
+  c.equations.constraint_errors(c.state.q, c.state.v, &errors, &rates);
+  EXPECT_LT(errors.cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_LT(rates.cwiseAbs().maxCoeff(), 1e-13);
+}
+
+TEST(Assembly, AGuessChoosesTheBranch) {
+  // The tips meet below the hinges or above them, half way between.
+  const double below = std::asin(0.6), above = 3.141592653589793 - below;
+  for (double angle : {below, above}) {
+    const std::string guess = angle == below ? "0.5" : "2.6";
+    Compiled c(triangle(), let_go("{left_hinge: {guess: -" + guess + "}, right_hinge: {guess: " + guess + "}}", "left_hinge/velocity"),
+               kCompliance);
+    ASSERT_TRUE(c.start().ok());
+    EXPECT_NEAR(c.assembly.theta()[0], -angle, 1e-12);
+    EXPECT_NEAR(c.assembly.theta()[1], angle, 1e-12);
+  }
+}
+
+TEST(Assembly, ALoopThatCannotBeClosedIsAStatusThatNamesIt) {
+  Compiled c(triangle("2.5"), let_go("{left_hinge: {guess: -0.5}}", "left_hinge/velocity"));
+  const Status status = c.start();
+  EXPECT_EQ(status.code, StatusCode::kAssemblyFailed);
+  EXPECT_NE(status.cause.find("'tip'"), std::string::npos);
+  EXPECT_EQ(c.assembly.worst_miss().owner, "tip");
+}
+
+TEST(Assembly, ObeysACancel) {
+  Compiled c(triangle(), let_go("{left_hinge: {guess: -0.5}, right_hinge: {guess: 0.5}}", "left_hinge/velocity"), kCompliance);
+  const std::atomic<bool> cancel{true};
+  c.assembly.obey(&cancel);
+  EXPECT_EQ(c.start().code, StatusCode::kCancelled);
+  c.assembly.obey(nullptr);
+  ASSERT_TRUE(c.start().ok());
+  c.assembly.obey(&cancel);
+  EXPECT_EQ(c.assembly.solve_rates(&c.equations, &c.state).code, StatusCode::kCancelled);
+}
+
+TEST(Assembly, VelocitiesThatContradictEachOtherAreAStatus) {
+  Compiled c(four_bar(), let_go("{left_hinge: {position: 0.6, velocity: 1.0}, right_hinge: {velocity: 2.0}, left_pin: {velocity: 0.0}}",
+                                "left_hinge/velocity"));
+  EXPECT_EQ(c.start().code, StatusCode::kInitialVelocityFailed);
+}
+
+TEST(Assembly, AccelerationsAndReactionsBalance) {
+  Compiled c(pendulum(), let_go("{hinge: {position: 0.4, velocity: 3.0}}", "hinge/velocity"));
+  ASSERT_TRUE(c.start().ok());
+  Eigen::VectorXd G;
+  double g = 0.0;
+  c.equations.residual(c.state, &G, &g);
+  EXPECT_LT(G.cwiseAbs().maxCoeff(), 1e-12);
+  // (I + m c^2) theta'' = -m g c sin(theta) about y, with the centre at -c z.
+  const double angular = -9.81 * 0.5 * std::sin(0.4) / (0.0834 + 0.25);
+  EXPECT_NEAR(c.state.z[0], -0.5 * (angular * std::cos(0.4) - 9.0 * std::sin(0.4)), 1e-12);
+}
+
+TEST(Assembly, InitialSensitivitiesAreThoseOfTheAssembledStart) {
+  const std::string study = let_go("{left_hinge: {guess: -0.6}, right_hinge: {guess: 0.6}}", "left_hinge/velocity");
+  Compiled c(triangle(), study, kCompliance);
+  ASSERT_TRUE(c.start().ok());
+  Equations<C> extended(c.system);
+  const double step = 1e-30, h = 1e-5;
+  const std::vector<C> parameters{C(1.0, step)};
+  extended.set_design(parameters);
+  extended.turn_references() = c.equations.turn_references();
+  State<C> moved;
+  c.assembly.extend(parameters, c.state, &extended, &moved);
+  Compiled plus(triangle(), study, kCompliance), minus(triangle(), study, kCompliance);
+  ASSERT_TRUE(plus.start({1.0 + h}).ok() && minus.start({1.0 - h}).ok());
+  const Eigen::VectorXd q_rho = moved.q.imag() / step;
+  EXPECT_GT(q_rho.norm(), 0.1) << "a length changes the assembly";
+  EXPECT_LT((q_rho - (plus.state.q - minus.state.q) / (2.0 * h)).norm(), 1e-8);
+  const Eigen::VectorXd z_rho = moved.z.imag() / step;
+  EXPECT_LT((z_rho - (plus.state.z - minus.state.z) / (2.0 * h)).norm(), 1e-6 * (1.0 + z_rho.norm()));
+}
+
+}  // namespace
+}  // namespace codesign

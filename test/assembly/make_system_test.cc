@@ -1,0 +1,96 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "equations/compiled.h"
+#include "integration/simulation.h"
+
+namespace codesign {
+namespace {
+
+std::shared_ptr<const System> make(const std::string& urdf, const std::string& study) {
+  const RobotDescription robot = read_urdf({"test.urdf", urdf});
+  return make_system(robot, read_study({"test.yaml", study}, robot));
+}
+
+InputFault fault(const std::string& urdf, const std::string& study) {
+  try {
+    make(urdf, study);
+  } catch (const InputError& error) {
+    return error.fault();
+  }
+  ADD_FAILURE() << "accepted";
+  return {};
+}
+
+std::string loop_at(double x) {
+  return robot(bar("left") + bar("right") + hinge("left_hinge", "ground", "left", "0 0 0") +
+               hinge("right_hinge", "ground", "right", std::to_string(x) + " 0 0") +
+               "\n<loop name='tip' type='continuous'><predecessor link='left'><origin xyz='0 0 -1'/></predecessor>"
+               "<successor link='right'><origin xyz='0 0 -1'/></successor><axis xyz='0 1 0'/></loop>");
+}
+
+const std::string kApart = "{left_hinge: {guess: -0.5}, right_hinge: {guess: 0.5}}";
+
+TEST(MakeSystem, OnlyRedundantConstraintsMakeItCompliant) {
+  EXPECT_EQ(make(double_pendulum(), let_go("{}", "elbow/velocity"))->compliance(), 0.0);
+  EXPECT_GT(make(four_bar(), let_go("{left_hinge: {position: 0.6}}", "left_hinge/velocity"))->compliance(), 0.0);
+}
+
+TEST(MakeSystem, ALoopThatCannotBeClosedIsNamedWithItsPlace) {
+  EXPECT_NO_THROW(make(loop_at(1.2), let_go(kApart, "left_hinge/velocity")));
+  const InputFault refused = fault(loop_at(2.5), let_go(kApart, "left_hinge/velocity"));
+  EXPECT_EQ(refused.where.file, "test.urdf");
+  EXPECT_EQ(refused.where.line, 2);
+  EXPECT_EQ(refused.element, "<loop name=\"tip\">");
+  // Two bars of 1 m over 2.5 m: the nearest point of the search lies a little off the stretched position.
+  const std::string label = "misses by ";
+  ASSERT_EQ(refused.value.substr(0, label.size()), label);
+  EXPECT_NEAR(std::stod(refused.value.substr(label.size())), 500.0, 10.0) << "mm";
+  EXPECT_NE(refused.allowed.find("closure_tolerance"), std::string::npos);
+}
+
+TEST(MakeSystem, SomethingMustMove) {
+  const std::string study = let_go("{}", "ground/position/x");
+  for (const char* content :
+       {"", "<link name='frame'/><joint name='j' type='continuous'><parent link='ground'/><child link='frame'/></joint>"})
+    EXPECT_NE(fault(robot(content), study).message.find("nothing moves"), std::string::npos);
+}
+
+TEST(MakeSystem, ContradictingVelocitiesAreBadInput) {
+  const std::string study = let_go("{left_hinge: {position: 0.6, velocity: 1.0}, right_hinge: {velocity: 2.0}, left_pin: {velocity: 0.0}}",
+                                   "left_hinge/velocity");
+  EXPECT_EQ(fault(four_bar(), study).element, "initial_state");
+}
+
+TEST(CountEquations, OfAFourBarDrawnInThePlane) {
+  const auto system = make(four_bar(), let_go("{left_hinge: {position: 0.6}}", "left_hinge/velocity"));
+  Status status;
+  const Counts counts = count_equations(system, {}, &status);
+  ASSERT_TRUE(status.ok()) << status.cause;
+  EXPECT_EQ(counts.bodies, 3);
+  EXPECT_EQ(counts.coordinates, 21);
+  EXPECT_EQ(counts.constraints, 23);
+  EXPECT_EQ(counts.redundant_constraints, 3);
+  EXPECT_EQ(counts.redundant_rows.size(), 3U);
+  EXPECT_EQ(counts.degrees_of_freedom, 1);
+  EXPECT_EQ(counts.dynamic_equations, 42 + 23);
+  EXPECT_EQ(counts.total_equations, counts.dynamic_equations);
+}
+
+TEST(CountEquations, EachParameterHasItsSensitivities) {
+  const std::string study =
+      "duration: 1.0\ncontrollers: {hold: {type: pid, input: hinge/position, setpoint: 0.0, output: hinge, gains: {p: \"${Kp}\", i: "
+      "1.0}}}\n"
+      "parameters: {Kp: {initial: 1.0}}\nobjective: {integral: [{signal: hinge/velocity}]}\n";
+  Status status;
+  const Counts counts = count_equations(make(pendulum(), study), {1.0}, &status);
+  EXPECT_EQ(counts.controller_states, 1);
+  EXPECT_EQ(counts.parameters, 1);
+  EXPECT_EQ(counts.dynamic_equations, 14 + 6);
+  EXPECT_EQ(counts.sensitivities, 20);
+  EXPECT_EQ(counts.total_equations, 40);
+  EXPECT_EQ(counts.degrees_of_freedom, 1);
+}
+
+}  // namespace
+}  // namespace codesign

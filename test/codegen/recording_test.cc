@@ -1,0 +1,56 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "codegen/recording.h"
+
+#include <gtest/gtest.h>
+
+namespace codesign {
+namespace {
+
+TEST(Recording, EveryLeafLiteralAndOperationIsThereOnce) {
+  Recording r;
+  const int x = r.leaf(0, 3, true), y = r.leaf(1, 3, false);
+  EXPECT_NE(x, y);
+  EXPECT_EQ(r.leaf(0, 3, true), x);
+  EXPECT_EQ(r.literal(0.1), r.literal(0.1));
+  EXPECT_NE(r.literal(0.0), r.literal(-0.0)) << "one over each differs";
+  const int sum = r.operate(Operation::kAdd, x, y), difference = r.operate(Operation::kSubtract, x, y);
+  EXPECT_EQ(r.operate(Operation::kAdd, y, x), sum) << "the order of a sum's parts does not count";
+  EXPECT_NE(r.operate(Operation::kSubtract, y, x), difference);
+  EXPECT_EQ(r.operate(Operation::kSin, sum), r.operate(Operation::kSin, sum));
+  EXPECT_NE(r.operate(Operation::kSin, sum), r.operate(Operation::kCos, sum));
+}
+
+TEST(Recording, WhatDependsOnAVaryingLeafVaries) {
+  Recording r;
+  const int x = r.leaf(0, 0, true), design = r.leaf(1, 0, false), two = r.literal(2.0);
+  EXPECT_FALSE(r.node(r.operate(Operation::kMultiply, design, two)).varies);
+  EXPECT_TRUE(r.node(r.operate(Operation::kMultiply, design, x)).varies);
+  EXPECT_TRUE(r.node(r.operate(Operation::kExp, x)).varies);
+}
+
+TEST(Recording, OriginsAreNumberedAsTheyCome) {
+  Recording r;
+  const int a = 0, b = 0;
+  const int from_b = r.supplied(&b), from_a = r.supplied(&a);
+  EXPECT_EQ(r.supplied(&b), from_b);
+  EXPECT_EQ(r.node(from_a).b, 1);
+  EXPECT_FALSE(r.node(from_a).varies);
+  EXPECT_EQ(r.supplied_origins(), (std::vector<const void*>{&b, &a}));
+  r.timed(&a, 0);
+  const int rate = r.timed(&b, 2);
+  EXPECT_EQ(r.node(rate).b, Recording::kFunctionOrders + 2);
+  EXPECT_TRUE(r.node(rate).varies);
+}
+
+TEST(Recording, RemembersDecisions) {
+  Recording r;
+  EXPECT_FALSE(r.refused());
+  r.guard(1, 2, true);
+  ASSERT_EQ(r.guards().size(), 1u);
+  EXPECT_TRUE(r.guards()[0].outcome);
+  r.refuse();
+  EXPECT_TRUE(r.refused());
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,86 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "control/controller.h"
+
+#include <gtest/gtest.h>
+
+#include "equations/compiled.h"
+
+namespace codesign {
+namespace {
+
+struct Resolved {
+  explicit Resolved(const std::string& laws, const std::string& signal = "shoulder/velocity")
+      : robot(read_urdf({"test.urdf", double_pendulum()})),
+        study(read_study({"test.yaml", "duration: 1.0\ncontrollers:\n" + laws + "objective: {integral: [{signal: " + signal + "}]}\n"},
+                         robot)),
+        topology(derive_topology(robot)),
+        controllers(resolve_controllers(study, robot, topology,
+                                        {resolve_signal(study.integral[0].signal, robot, topology, study.controllers)}, &states)) {}
+
+  RobotDescription robot;
+  Study study;
+  Topology topology;
+  int states = 0;
+  std::vector<Controller> controllers;
+};
+
+constexpr const char* kInner = "  inner: {type: pid, input: shoulder/position, setpoint: 0.0, output: shoulder, gains: {p: 1.0}}\n";
+
+TEST(Controller, ALaterControllerMakesAnEarlierOneProvideItsRate) {
+  EXPECT_TRUE(Resolved(kInner).controllers.at(0).input_rate.empty());
+  const Resolved cascade(std::string(kInner) + "  outer: {type: pid, input: inner/error, setpoint: 0.0, output: elbow, gains: {d: 1.0}}\n" +
+                         "  last: {type: pid, input: outer/error, setpoint: 0.0, output: elbow, gains: {d: 1.0}}\n");
+  EXPECT_EQ(cascade.controllers.at(1).input_rate.at(0).kind, SignalKind::kControllerErrorRate);
+  EXPECT_EQ(cascade.controllers.at(0).input_rate.at(0).kind, SignalKind::kJointVelocity);
+}
+
+TEST(Controller, ALaterControllerMakesAnEarlierOneIntegrate) {
+  EXPECT_EQ(Resolved(kInner).states, 0);
+  EXPECT_EQ(Resolved(kInner, "inner/integral").states, 1);
+  const Resolved by_input(std::string(kInner) +
+                          "  outer: {type: pid, input: inner/integral, setpoint: 0.0, output: elbow, gains: {p: 1.0}}\n");
+  EXPECT_EQ(by_input.controllers.at(0).state, 0);
+  EXPECT_EQ(by_input.controllers.at(1).state, -1);
+  const Resolved by_feedback(std::string(kInner) +
+                             "  outer: {type: state_feedback, output: elbow, feedback: [{signal: inner/integral, gain: 1.0}]}\n");
+  EXPECT_EQ(by_feedback.states, 1);
+}
+
+TEST(Controller, FeedbackReadsEarlierControllersOnly) {
+  EXPECT_THROW(Resolved("  a: {type: state_feedback, output: elbow, feedback: [{signal: elbow/effort, gain: 1.0}]}\n"), InputError);
+  EXPECT_NO_THROW(
+      Resolved(std::string(kInner) + "  a: {type: state_feedback, output: elbow, feedback: [{signal: inner/output, gain: 1.0}]}\n"));
+}
+
+// A reaction or a power that holds a controller's own output would have to be known before it.
+TEST(Controller, NothingReadsItsOwnEffort) {
+  const auto feedback = [](const std::string& signal) {
+    return "  a: {type: state_feedback, output: elbow, feedback: [{signal: " + signal + ", gain: 1.0}]}\n";
+  };
+  for (const char* signal : {"elbow/reaction_force/x", "elbow/reaction_torque/y", "elbow/actuator_power", "mechanism/actuator_power"})
+    EXPECT_THROW(Resolved(feedback(signal)), InputError) << signal;
+  EXPECT_NO_THROW(Resolved(feedback("shoulder/reaction_force/x")));
+  EXPECT_NO_THROW(Resolved(kInner + feedback("shoulder/reaction_torque/y"))) << "an earlier controller drives the shoulder";
+  EXPECT_THROW(Resolved(feedback("shoulder/reaction_torque/y") + kInner), InputError);
+}
+
+TEST(Controller, ComputedTorquesKnowOfEachOther) {
+  const std::string servo = ": {type: computed_torque, setpoint: 0.0, gains: {p: 1.0}, output: ";
+  const Resolved both("  a" + servo + "shoulder}\n  b" + servo + "elbow}\n");
+  for (const Controller& controller : both.controllers) {
+    ASSERT_EQ(controller.tree.nodes.size(), 2U);
+    EXPECT_EQ(controller.tree.nodes[0].controller, 0);
+    EXPECT_EQ(controller.tree.nodes[1].controller, 1);
+  }
+  const Resolved one("  a" + servo + "shoulder}\n  b: {type: pd_gravity, setpoint: 0.0, gains: {p: 1.0}, output: elbow}\n");
+  EXPECT_EQ(one.controllers.at(0).tree.nodes[1].controller, -1);
+}
+
+// Two laws for one joint would each ask for its own acceleration.
+TEST(Controller, AJointHasOneComputedTorqueAtMost) {
+  const std::string servo = ": {type: computed_torque, setpoint: 0.0, gains: {p: 1.0}, output: shoulder}\n";
+  EXPECT_THROW(Resolved("  a" + servo + "  b" + servo), InputError);
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,69 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "description/study.h"
+
+namespace codesign {
+namespace {
+
+SignalDescription parse(const std::string& text) { return parse_signal(text, {"study.yaml", 7}, "objective.integral[0].signal"); }
+
+void expect_term(const SignalTerm& term, double factor, const char* object, const char* quantity, const char* component) {
+  EXPECT_EQ(term.factor, factor);
+  EXPECT_EQ(term.object, object);
+  EXPECT_EQ(term.quantity, quantity);
+  EXPECT_EQ(term.component, component);
+}
+
+TEST(Signal, SplitsNameQuantityAndComponent) {
+  const SignalDescription joint = parse("crank_joint/velocity");
+  ASSERT_EQ(joint.terms.size(), 1U);
+  expect_term(joint.terms[0], 1.0, "crank_joint", "velocity", "");
+  EXPECT_EQ(joint.text, "crank_joint/velocity");
+  EXPECT_EQ(joint.where.line, 7);
+  expect_term(parse("plate/angular_velocity/z").terms.at(0), 1.0, "plate", "angular_velocity", "z");
+}
+
+TEST(Signal, ReadsSumsAndDifferences) {
+  const auto terms = parse(" - plate/position/x + ball/position/x-crank_speed/error").terms;
+  ASSERT_EQ(terms.size(), 3U);
+  expect_term(terms[0], -1.0, "plate", "position", "x");
+  expect_term(terms[1], 1.0, "ball", "position", "x");
+  expect_term(terms[2], -1.0, "crank_speed", "error", "");
+}
+
+TEST(Signal, NamesMayHoldSignsAndBlanks) {
+  const auto terms = parse("a-b/velocity-c-d/velocity + left arm/position").terms;
+  ASSERT_EQ(terms.size(), 3U);
+  expect_term(terms[0], 1.0, "a-b", "velocity", "");
+  expect_term(terms[1], -1.0, "c-d", "velocity", "");
+  expect_term(terms[2], 1.0, "left arm", "position", "");
+}
+
+TEST(Signal, NamesMayHoldSlashes) {
+  const auto terms = parse("arm/1/position - left/elbow/velocity + base/tool/position/x-position/x/velocity/y").terms;
+  ASSERT_EQ(terms.size(), 4U);
+  expect_term(terms[0], 1.0, "arm/1", "position", "");
+  expect_term(terms[1], -1.0, "left/elbow", "velocity", "");
+  expect_term(terms[2], 1.0, "base/tool", "position", "x");
+  expect_term(terms[3], -1.0, "position/x", "velocity", "y");
+}
+
+TEST(Signal, RefusesWhatIsNoSignal) {
+  for (const char* text : {"", "crank_joint", "crank_joint/", "/velocity", "a/velocity +", "a/velocity b/velocity", "a/velocity/",
+                           "a/velocity/x/y", "a/velocity - - b/velocity", "a/velocity * 2", "2", "a/9"}) {
+    try {
+      parse(text);
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.fault().where.file, "study.yaml");
+      EXPECT_EQ(error.fault().where.line, 7);
+      EXPECT_EQ(error.fault().element, "objective.integral[0].signal");
+      EXPECT_EQ(error.fault().value, text);
+      EXPECT_NE(error.fault().allowed.find("<joint>/<quantity>"), std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,42 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_EQUATIONS_COMPILED_H_
+#define MECHANISM_CODESIGN_TEST_EQUATIONS_COMPILED_H_
+
+#include <string>
+
+#include "assembly/assembly.h"
+#include "equations/equations.h"
+#include "equations/system.h"
+#include "integration/mechanisms.h"
+
+namespace codesign {
+
+/// A model and a study compiled, and what is needed to start one design.
+struct Compiled {
+  System system;
+  Equations<double> equations;
+  Assembly assembly;
+  State<double> state;
+
+  /// @param sharing of redundant constraints, see System; planar loops need some, or at least compliance.
+  Compiled(const std::string& urdf, const std::string& study, const ReactionSharing& sharing = {})
+      : Compiled(read_urdf({"test.urdf", urdf}), study, sharing) {}
+  Compiled(const RobotDescription& robot, const std::string& study, const ReactionSharing& sharing)
+      : system(robot, read_study({"test.yaml", study}, robot), sharing), equations(system), assembly(system) {}
+
+  /// Assembles the start of a design.
+  Status start(const std::vector<double>& parameters) {
+    equations.set_design(parameters);
+    return assembly.solve(parameters, &equations, &state);
+  }
+  Status start() { return start(system.parameters()); }
+};
+
+/// A study that only sets the mechanism going.
+inline std::string let_go(const std::string& initial, const std::string& signal, const std::string& more = "") {
+  return "duration: 1.0\ninitial_state: " + initial + "\nobjective: {integral: [{signal: " + signal + "}]}\n" + more;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_TEST_EQUATIONS_COMPILED_H_

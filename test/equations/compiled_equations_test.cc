@@ -1,0 +1,296 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// What was compiled against the formulas themselves, which complex numbers and lanes without code run through. Derivatives of every load
+// and controller are checked both ways by the tests of Equations.
+#include "equations/compiled_equations.h"
+
+#include <gtest/gtest.h>
+
+#include "equations/equation_code.h"
+#include "equations/generic_state.h"
+#include "equations/joint_cases.h"
+#include "integration/servo.h"
+#include "math/directions.h"
+
+namespace codesign {
+namespace {
+
+#define SKIP_WITHOUT_CODE() \
+  if (!ValueCode::is_available()) GTEST_SKIP() << "no machine code on this processor"
+
+double largest_difference(const VectorX<double>& x, const VectorX<double>& y) {
+  return (x - y).lpNorm<Eigen::Infinity>() / (1.0 + y.lpNorm<Eigen::Infinity>());
+}
+
+template <int N>
+double largest_difference(const VectorX<Lanes<N>>& x, const VectorX<Lanes<N>>& y) {
+  double largest = 0.0;
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    const double size = 1.0 + std::abs(y[k].a) + y[k].directions().norm();
+    largest = std::max({largest, std::abs(x[k].a - y[k].a) / size, (x[k].directions() - y[k].directions()).norm() / size});
+  }
+  return largest;
+}
+
+template <class T>
+VectorX<T> as_vector(const std::vector<T>& x) {
+  return Eigen::Map<const VectorX<T>>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
+/// The same equations twice, one of them without code.
+template <class T>
+struct Twins {
+  explicit Twins(const System& mechanism) : system(mechanism), with(system), without(system) { without.compiled().allow(false); }
+
+  void set_design(const std::vector<T>& parameters) {
+    with.set_design(parameters);
+    without.set_design(parameters);
+  }
+
+  void expect_same(const State<T>& state) {
+    VectorX<T> G, expected;
+    T g(0.0), expected_g(0.0);
+    EXPECT_TRUE(with.compiled().residual(state, with.turn_references(), &G, &g));
+    without.residual(state, &expected, &expected_g);
+    EXPECT_LT(largest_difference(G, expected), 1e-12);
+    EXPECT_LT(largest_difference(VectorX<T>(VectorX<T>::Constant(1, g)), VectorX<T>(VectorX<T>::Constant(1, expected_g))), 1e-12);
+    Linearization<T> d, expected_d;
+    d.resize(system.patterns()), expected_d.resize(system.patterns());
+    EXPECT_TRUE(with.compiled().linearize(state, with.turn_references(), &d));
+    without.linearize(state, &expected_d);
+    EXPECT_LT(largest_difference(as_vector(d.position), as_vector(expected_d.position)), 1e-12);
+    EXPECT_LT(largest_difference(as_vector(d.velocity), as_vector(expected_d.velocity)), 1e-12);
+    EXPECT_LT(largest_difference(as_vector(d.rate), as_vector(expected_d.rate)), 1e-12);
+    EXPECT_LT(largest_difference(d.time, expected_d.time), 1e-12);
+    VectorX<T> Phi, Phi_rate, expected_Phi, expected_rate;
+    EXPECT_TRUE(with.compiled().constraint_errors(state.q, state.v, with.turn_references(), &Phi, &Phi_rate));
+    without.constraint_errors(state.q, state.v, &expected_Phi, &expected_rate);
+    EXPECT_LT(largest_difference(Phi, expected_Phi), 1e-12);
+    EXPECT_LT(largest_difference(Phi_rate, expected_rate), 1e-12);
+  }
+
+  const System& system;
+  Equations<T> with, without;
+};
+
+/// A state in general, with directions in general.
+template <class T>
+State<T> some_state(const Layout& layout) {
+  State<T> state;
+  state.resize(layout);
+  state.t = 0.37;
+  const auto fill = [](VectorX<T>* x, double phase) {
+    const Eigen::VectorXd values = waves(x->size(), phase);
+    for (Eigen::Index k = 0; k < x->size(); ++k) {
+      (*x)[k] = T(values[k]);
+      if constexpr (!std::is_same_v<T, double>)
+        for (int lane = 0; lane < (*x)[k].directions().size(); ++lane)
+          (*x)[k].v[lane] = std::sin(phase + 0.3 * lane + static_cast<double>(k));
+    }
+  };
+  fill(&state.q, 0.3), fill(&state.v, 1.1), fill(&state.s, 2.0), fill(&state.z, 0.7);
+  return state;
+}
+
+template <class T>
+std::vector<T> some_design(const System& system) {
+  const std::vector<double> values = system.parameters();
+  std::vector<T> parameters(values.begin(), values.end());
+  if constexpr (!std::is_same_v<T, double>)
+    for (std::size_t k = 0; k < parameters.size(); ++k) parameters[k].v[static_cast<int>(k) % 4] = 1.0;
+  return parameters;
+}
+
+template <class T>
+void expect_same(const System& system) {
+  SKIP_WITHOUT_CODE();
+  Twins<T> twins(system);
+  twins.set_design(some_design<T>(system));
+  twins.expect_same(some_state<T>(system.layout()));
+}
+
+class CompiledJoints : public ::testing::TestWithParam<JointCase> {
+ protected:
+  const std::shared_ptr<const System> system =
+      compile(joint_cases::model(GetParam()), "duration: 1.0\nobjective: {integral: [{signal: tip/position/x}]}\n");
+};
+
+TEST_P(CompiledJoints, GiveTheSameValues) { expect_same<double>(*system); }
+TEST_P(CompiledJoints, GiveTheSameFourDerivatives) { expect_same<Lanes<4>>(*system); }
+TEST_P(CompiledJoints, GiveTheSameEightDerivatives) { expect_same<Lanes<8>>(*system); }
+
+INSTANTIATE_TEST_SUITE_P(AllJoints, CompiledJoints, ::testing::ValuesIn(joint_cases::all()), [](const auto& c) { return c.param.name; });
+
+/// Setpoints in motion, a shaped input with parameters, positions that turn, springs.
+const char* const kDriven =
+    "duration: 1.0\n"
+    "parameters: {Kp: {initial: 3.0}, amplitude: {initial: 0.7}}\n"
+    "controllers:\n"
+    "  a: {type: pid, input: shoulder/position, output: shoulder, gains: {p: \"${Kp}\", i: 2.0, d: 0.5},\n"
+    "    setpoint: {type: sine, amplitude: \"${amplitude}\", period: 1.3, phase: 0.4}}\n"
+    "  b: {type: basis, output: elbow, shape: linear, coefficients: {count: 3, initial: [0.0, -0.4, 1.0], lower: -5.0, upper: 5.0}}\n"
+    "objective: {integral: [{signal: a/output + b/output, reference: {type: waypoints, times: [0.1, 0.5, 0.9], positions: [0.2, -0.5, "
+    "1.0]}}]}\n";
+
+template <class T>
+void expect_same_at_all_times(const System& system) {
+  SKIP_WITHOUT_CODE();
+  Twins<T> twins(system);
+  twins.set_design(some_design<T>(system));
+  State<T> state = some_state<T>(system.layout());
+  for (double t : {0.37, 0.05, 0.95}) {
+    state.t = t;
+    twins.expect_same(state);
+  }
+}
+
+TEST(CompiledEquations, FollowFunctionsOfTimeAndTheirParameters) {
+  const std::shared_ptr<const System> system = compile(double_pendulum(pin_friction()), kDriven);
+  expect_same_at_all_times<double>(*system);
+  expect_same_at_all_times<Lanes<8>>(*system);
+}
+
+TEST(CompiledEquations, GoBackToTheFormulasForADesignThatDecidesOtherwise) {
+  SKIP_WITHOUT_CODE();
+  const std::string friction =
+      "<codesign:friction mu_static='0.6' mu_dynamic='0.4' transition_velocity='0.1' joint_length='0.2' friction_arm='0.02' "
+      "pin_radius='0.05' "
+      "codesign:pin_radius='${radius}'/>";
+  const std::shared_ptr<const System> system = compile(
+      robot("<codesign:parameter name='radius' value='0.05'/>" + bar("arm") + hinge("shoulder", "ground", "arm", "0 0 0", friction)),
+      motion_study(1.0, "{}", "shoulder/velocity", "{}"));
+  Twins<double> twins(*system);
+  const State<double> state = some_state<double>(system->layout());
+  VectorX<double> G, expected;
+  double g = 0.0;
+  for (double radius : {0.05, 0.0, 0.03}) {
+    twins.set_design({radius});
+    EXPECT_EQ(twins.with.compiled().residual(state, twins.with.turn_references(), &G, &g), radius > 0.0);
+    twins.with.residual(state, &G, &g);
+    twins.without.residual(state, &expected, &g);
+    EXPECT_LT(largest_difference(G, expected), 1e-13) << radius;
+  }
+}
+
+/// A cylindrical joint has two coordinates whatever its chain.
+TEST(CompiledEquations, CountTheTurnsOfEveryCoordinate) {
+  SKIP_WITHOUT_CODE();
+  const std::string loop = joint_cases::free("tip") + joint_cases::loop("codesign:cylindrical", "base");
+  const std::shared_ptr<const System> system =
+      compile(joint_cases::model({"", loop + bar("arm") + joint_cases::tree("swing", "continuous", "base", "arm", "1 0 0.5")}),
+              "duration: 1.0\nobjective: {integral: [{signal: swing/position}]}\n");
+  Twins<double> twins(*system);
+  twins.set_design(system->parameters());
+  double turns = 1.0;
+  for (std::size_t pair = 0; pair < twins.with.turn_references().size(); ++pair)
+    for (std::size_t element = 0; element < twins.with.turn_references()[pair].size(); ++element, turns += 1.0)
+      for (Equations<double>* equations : {&twins.with, &twins.without}) equations->turn_references()[pair][element] = 2.0 * M_PI * turns;
+  twins.expect_same(some_state<double>(system->layout()));
+}
+
+/// Half a turn from its reference an angle is continued the same way.
+TEST(CompiledEquations, RoundHalfATurnAsTheFormulasDo) {
+  SKIP_WITHOUT_CODE();
+  const std::shared_ptr<const System> system = compile(pendulum(), motion_study(1.0, "{}", "hinge/position", "{}"));
+  for (double sign : {1.0, -1.0}) {
+    Twins<double> twins(*system);
+    twins.set_design(system->parameters());
+    State<double> state;
+    state.resize(system->layout());
+    state.q[5] = sign;  // turned by pi about y
+    twins.expect_same(state);
+  }
+}
+
+TEST(CompiledEquations, FollowTheDesign) {
+  SKIP_WITHOUT_CODE();
+  const std::shared_ptr<const System> system = servo("{}");
+  Twins<double> twins(*system);
+  for (double Kp : {40.0, -3.0}) {
+    std::vector<double> parameters = system->parameters();
+    parameters[0] = Kp;
+    twins.set_design(parameters);
+    twins.expect_same(some_state<double>(system->layout()));
+  }
+}
+
+TEST(CompiledEquations, CountTurns) {
+  SKIP_WITHOUT_CODE();
+  const std::shared_ptr<const System> system = servo("{}");
+  Twins<double> twins(*system);
+  twins.set_design(system->parameters());
+  for (Equations<double>* equations : {&twins.with, &twins.without})
+    for (auto& pair : equations->turn_references()) pair.assign(pair.size(), 4.0 * M_PI);
+  twins.expect_same(some_state<double>(system->layout()));
+}
+
+TEST(CompiledEquations, LeaveABranchThatWasNotRecordedToTheFormulas) {
+  SKIP_WITHOUT_CODE();
+  const std::string narrow = "<limit lower='-0.05' upper='0.04' effort='2' velocity='1'/>";
+  const std::shared_ptr<const System> system =
+      compile(robot(bar("arm") + "<joint name='hinge' type='revolute'><parent link='ground'/><child link='arm'/><axis xyz='0 1 0'/>" +
+                    narrow + "</joint>"),
+              motion_study(1.0, "{}", "hinge/velocity", "{}") + "limits: {position: true, stiffness: 20.0, width: 0.01}\n");
+  Twins<double> twins(*system);
+  twins.set_design(system->parameters());
+  State<double> state = some_state<double>(system->layout());
+  VectorX<double> G, expected;
+  double g = 0.0;
+  state.q.setZero();
+  state.q[3] = 1.0;
+  EXPECT_TRUE(twins.with.compiled().residual(state, twins.with.turn_references(), &G, &g)) << "between the stops";
+  state.q[3] = std::cos(0.05), state.q[5] = std::sin(0.05);
+  EXPECT_FALSE(twins.with.compiled().residual(state, twins.with.turn_references(), &G, &g)) << "in the upper one";
+  twins.with.residual(state, &G, &g);
+  twins.without.residual(state, &expected, &g);
+  EXPECT_EQ(G, expected);
+  for (int k = 0; k < 10; ++k) EXPECT_FALSE(twins.with.compiled().residual(state, twins.with.turn_references(), &G, &g));
+  twins.set_design(system->parameters());
+  state.q[3] = 1.0, state.q[5] = 0.0;
+  EXPECT_TRUE(twins.with.compiled().residual(state, twins.with.turn_references(), &G, &g)) << "a new design begins anew";
+}
+
+TEST(CompiledEquations, GiveDerivativesAloneFromArraysOfTheirOwn) {
+  SKIP_WITHOUT_CODE();
+  const std::shared_ptr<const System> system = servo("{}");
+  Twins<Lanes<4>> twins(*system);
+  twins.set_design(some_design<Lanes<4>>(*system));
+  const State<Lanes<4>> state = some_state<Lanes<4>>(system->layout());
+  std::vector<double> values[4], directions[4];
+  const VectorX<Lanes<4>>* const parts[] = {&state.q, &state.v, &state.s, &state.z};
+  for (std::size_t k = 0; k < 4; ++k)
+    for (const Lanes<4>& x : *parts[k]) {
+      values[k].push_back(x.a);
+      for (int lane = 0; lane < 4; ++lane) directions[k].push_back(x.v[lane]);
+    }
+  Eigen::Matrix<double, 4, Eigen::Dynamic> result(4, system->layout().columns());
+  Eigen::Vector4d g_result;
+  ASSERT_TRUE(twins.with.compiled().tangents(EquationFunction::kResidual, state.t, twins.with.turn_references(),
+                                             {values[0].data(), values[1].data(), values[2].data(), values[3].data()},
+                                             {directions[0].data(), directions[1].data(), directions[2].data(), directions[3].data()},
+                                             {result.data(), g_result.data(), nullptr, nullptr}));
+  VectorX<Lanes<4>> expected;
+  Lanes<4> g;
+  twins.without.residual(state, &expected, &g);
+  for (Eigen::Index row = 0; row < expected.size(); ++row)
+    EXPECT_LT((result.col(row) - expected[row].directions()).norm(), 1e-11 * (1.0 + expected[row].directions().norm())) << row;
+  EXPECT_LT((g_result - g.directions()).norm(), 1e-11 * (1.0 + g.directions().norm()));
+}
+
+TEST(CompiledEquations, OfDoublesHaveNoTangents) {
+  const std::shared_ptr<const System> system = servo("{}");
+  CompiledEquations<double> equations(*system);
+  equations.set_design(system->parameters());
+  EXPECT_FALSE(equations.tangents(EquationFunction::kResidual, 0.0, {}, {}, {}, {}));
+}
+
+TEST(CompiledEquations, DoNothingUnlessAllowed) {
+  const std::shared_ptr<const System> system = servo("{}");
+  Twins<double> twins(*system);
+  twins.set_design(system->parameters());
+  VectorX<double> G;
+  double g = 0.0;
+  EXPECT_FALSE(twins.without.compiled().residual(some_state<double>(system->layout()), twins.without.turn_references(), &G, &g));
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,91 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "equations/inverse_dynamics.h"
+
+#include <gtest/gtest.h>
+
+#include "equations/compiled.h"
+
+namespace codesign {
+namespace {
+
+/// The double pendulum at a start, with the tree of its shoulder.
+struct Shoulder : Compiled {
+  explicit Shoulder(bool accelerations, const std::string& actuator = "")
+      : Compiled(double_pendulum(actuator),
+                 let_go("{shoulder: {position: 0.3, velocity: 2.0}, elbow: {position: 0.5, velocity: -1.0}}", "elbow/position")),
+        tree(driven_tree(system.topology(), system.topology().joint_pair[0], accelerations, {}, "")),
+        inverse(tree) {
+    EXPECT_TRUE(start().ok());
+    equations.load(state);
+    bodies = {equations.body(0), equations.body(1), equations.body(-1)};
+  }
+
+  double load(const double* accelerations, const double* rates = nullptr) {
+    return inverse.load(equations.constants(), bodies, {0.0, 0.0, -9.81}, accelerations, rates);
+  }
+
+  DrivenTree tree;
+  InverseDynamics<double> inverse;
+  std::vector<BodyKinematics<double>> bodies;
+};
+
+TEST(InverseDynamics, AtRestItIsTheMomentOfTheWeights) {
+  Shoulder s(false);
+  EXPECT_NEAR(s.load(nullptr), 9.81 * (0.5 * std::sin(0.3) + std::sin(0.3) + 0.5 * std::sin(0.8)), 1e-12);
+}
+
+// Textbook double pendulum, bars of 1 kg, 1 m, J = 0.0834 about their centres, relative angles.
+TEST(InverseDynamics, InMotionItIsTheTextbooks) {
+  Shoulder s(true);
+  const double w1 = 2.0, w2 = -1.0, J = 0.0834, c = std::cos(0.5), half = 0.5 * std::sin(0.5);
+  const double gravity = 9.81 * (0.5 * std::sin(0.3) + std::sin(0.3) + 0.5 * std::sin(0.8));
+  const double velocity_terms = -half * w2 * w2 - 2.0 * half * w1 * w2;
+  const double none[2] = {0.0, 0.0}, some[2] = {3.0, -4.0};
+  EXPECT_NEAR(s.load(none), gravity + velocity_terms, 1e-12);
+  const double M11 = 2.0 * J + 0.25 + 1.0 + 0.25 + c, M12 = J + 0.25 + 0.5 * c;
+  EXPECT_NEAR(s.load(some), gravity + velocity_terms + 3.0 * M11 - 4.0 * M12, 1e-12);
+}
+
+TEST(InverseDynamics, ItsDerivativeByAccelerationsIsTheMassMatrix) {
+  Shoulder s(true);
+  SparseGradient<double> gradient;
+  const double some[2] = {3.0, -4.0};
+  double by_acceleration[2] = {0.0, 0.0};
+  s.load(some);
+  s.inverse.append_gradient(1.0, &gradient, by_acceleration);
+  const double c = std::cos(0.5);
+  EXPECT_NEAR(by_acceleration[0], 2.0 * 0.0834 + 1.5 + c, 1e-12);
+  EXPECT_NEAR(by_acceleration[1], 0.0834 + 0.25 + 0.5 * c, 1e-12);
+}
+
+// About parallel axes J_r (n theta'' + w') of each rotor: of the shoulder's own n^2 J_r, of the elbow's n J_r on the upper bar.
+TEST(InverseDynamics, RotorsAddTheirShareOfTheMassMatrix) {
+  Shoulder plain(true), geared(true, "<codesign:actuator gear_ratio='5' rotor_inertia='0.004'/>");
+  for (DrivenTree::Node& node : geared.tree.nodes) node.rotor = true;
+  const double some[2] = {3.0, -4.0}, rates[2] = {2.0, -1.0};
+  const double expected = plain.load(some) + 25.0 * 0.004 * 3.0 + 5.0 * 0.004 * -4.0;
+  EXPECT_NEAR(geared.load(some, rates), expected, 1e-12);
+  SparseGradient<double> gradient;
+  double by_acceleration[2] = {0.0, 0.0}, by_rate[2] = {1.0, 1.0};
+  geared.inverse.append_gradient(1.0, &gradient, by_acceleration, by_rate);
+  const double c = std::cos(0.5);
+  EXPECT_NEAR(by_acceleration[0], 2.0 * 0.0834 + 1.5 + c + 25.0 * 0.004, 1e-12);
+  EXPECT_NEAR(by_acceleration[1], 0.0834 + 0.25 + 0.5 * c + 5.0 * 0.004, 1e-12);
+  for (double x : by_rate) EXPECT_NEAR(x, 0.0, 1e-14) << "the axes do not swing";
+}
+
+// Along r -> r + e, p unchanged, the load does not change: only differences of positions matter.
+TEST(InverseDynamics, MovingEverythingChangesNothing) {
+  Shoulder s(false);
+  SparseGradient<double> gradient;
+  s.load(nullptr);
+  s.inverse.append_gradient(2.0, &gradient, nullptr);
+  double along_x = 0.0;
+  for (const auto& e : gradient.position)
+    if (e.column % kBodySize == 0) along_x += e.value;
+  EXPECT_NEAR(along_x, -2.0 * 2.0 * 9.81, 1e-12) << "the bodies' share; the hinge is fixed in the ground";
+  EXPECT_TRUE(gradient.velocity.empty());
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,92 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "equations/tree_kinematics.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <complex>
+
+#include "equations/compiled.h"
+#include "reading/urdf/urdf_fixture.h"
+
+namespace codesign {
+namespace {
+
+using C = std::complex<double>;
+
+/// Every kind of tree joint one after the other, written in the wrong order.
+const RobotDescription& robot() {
+  static const RobotDescription robot =
+      read_urdf(robot_text(kGround + link_with("e") + link_with("d") + link_with("c") + link_with("b") + link_with("a") +
+                           joint_with("floating", "floating", "d", "e", "<origin xyz='0.1 0 0'/>") +
+                           joint_with("planar", "planar", "c", "d", "<origin xyz='0 0.1 0'/><axis xyz='0 0 1'/>") +
+                           joint_with("fixed", "fixed", "b", "c", "<origin xyz='0 0 0.2' codesign:xyz='0 0 ${length}' rpy='0.3 0 0'/>") +
+                           joint_with("slide", "prismatic", "a", "b", "<axis xyz='0 2 0'/><limit effort='1' velocity='1'/>") +
+                           joint_with("hinge", "continuous", "ground", "a", "<origin xyz='1 0 0'/><axis xyz='0 0 1'/>")));
+  return robot;
+}
+
+template <class T>
+std::vector<LinkMotion<T>> motions(const VectorX<T>& theta, const VectorX<T>& rate) {
+  return link_motions<T>(robot(), TreeLayout(robot()), {T(0.2)}, theta, rate);
+}
+
+Eigen::VectorXd generic(double phase) {
+  Eigen::VectorXd x(11);
+  for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = 0.7 * std::sin(2.0 * static_cast<double>(k) + phase);
+  return x;
+}
+
+TEST(TreeLayout, ParentsComeFirstAndEachJointHasItsCoordinates) {
+  const TreeLayout layout(robot());
+  EXPECT_EQ(layout.size, 1 + 1 + 3 + 6);
+  EXPECT_EQ(layout.joint_order, (std::vector<int>{4, 3, 2, 1, 0}));
+  EXPECT_EQ(layout.offset[4], 0);
+  EXPECT_EQ(layout.offset[3], 1);
+  EXPECT_EQ(layout.offset[1], 2);
+  EXPECT_EQ(layout.offset[0], 5);
+}
+
+TEST(LinkMotions, AHingeAndASlideByHand) {
+  Eigen::VectorXd theta = Eigen::VectorXd::Zero(11), rate = theta;
+  theta[0] = 1.5707963267948966;
+  theta[1] = 0.5;
+  rate[0] = 2.0;
+  rate[1] = 3.0;
+  const auto links = motions<double>(theta, rate);
+  // Link b has slid by 0.5 along a's y, which the hinge has turned to the ground's -x; the turn carries it towards -y.
+  const LinkMotion<double>& b = links[4];
+  EXPECT_LT((b.X.t - Eigen::Vector3d(0.5, 0.0, 0.0)).norm(), 1e-15);
+  EXPECT_LT((b.omega - Eigen::Vector3d(0.0, 0.0, 2.0)).norm(), 1e-15);
+  EXPECT_LT((b.velocity - Eigen::Vector3d(-3.0, -1.0, 0.0)).norm(), 1e-15);
+}
+
+TEST(LinkMotions, VelocitiesAreTheDerivativesOfThePoses) {
+  const double step = 1e-30;
+  const Eigen::VectorXd theta = generic(0.3), rate = generic(1.1);
+  const auto real = motions<double>(theta, rate);
+  const auto moved = motions<C>(theta.cast<C>() + C(0.0, step) * rate.cast<C>(), rate.cast<C>());
+  for (std::size_t k = 0; k < real.size(); ++k) {
+    const Eigen::Vector3d velocity = moved[k].X.t.imag() / step;
+    const Eigen::Matrix3d spin = moved[k].X.R.imag() / step * real[k].X.R.transpose();
+    EXPECT_LT((velocity - real[k].velocity).norm(), 1e-14);
+    EXPECT_LT((Eigen::Vector3d(spin(2, 1), spin(0, 2), spin(1, 0)) - real[k].omega).norm(), 1e-14);
+  }
+}
+
+TEST(BodyCoordinates, AreThoseOfTheCentreOfMass) {
+  Compiled bar(pendulum(), let_go("{hinge: {position: 0.4}}", "hinge/velocity"));
+  bar.equations.set_design({});
+  const auto links = link_motions<double>(bar.system.robot(), TreeLayout(bar.system.robot()), {}, Eigen::VectorXd::Constant(1, 0.4),
+                                          Eigen::VectorXd::Constant(1, 3.0));
+  Eigen::VectorXd q, v;
+  body_coordinates(bar.system, bar.equations.constants(), links, &q, &v);
+  EXPECT_LT((q.head<3>() - 0.5 * Eigen::Vector3d(-std::sin(0.4), 0.0, -std::cos(0.4))).norm(), 1e-15);
+  EXPECT_LT((q.tail<4>() - Eigen::Vector4d(std::cos(0.2), 0.0, std::sin(0.2), 0.0)).norm(), 1e-15);
+  EXPECT_LT((v.head<3>() - 1.5 * Eigen::Vector3d(-std::cos(0.4), 0.0, std::sin(0.4))).norm(), 1e-15);
+  EXPECT_LT((v.tail<4>() - 1.5 * Eigen::Vector4d(-std::sin(0.2), 0.0, std::cos(0.2), 0.0)).norm(), 1e-15);
+}
+
+}  // namespace
+}  // namespace codesign

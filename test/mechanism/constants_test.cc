@@ -1,0 +1,101 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism/constants.h"
+
+#include <gtest/gtest.h>
+
+#include <complex>
+
+#include "reading/urdf/urdf_fixture.h"
+
+namespace codesign {
+namespace {
+
+struct Mechanism {
+  RobotDescription robot;
+  Topology topology;
+
+  explicit Mechanism(const std::string& content) : robot(read_urdf(robot_text(kGround + content))), topology(derive_topology(robot)) {}
+  template <class T>
+  Constants<T> at(const T& length) const {
+    return evaluate_constants<T>(robot, topology, {length});
+  }
+};
+
+std::string ball(const std::string& name, const std::string& mass, const std::string& twin = "") {
+  return link_with(name, "<inertial><mass value='" + mass + "' " + twin +
+                             "/><inertia ixx='0.1' ixy='0' ixz='0' iyy='0.1' iyz='0' izz='0.1'/></inertial>");
+}
+
+/// Two balls of 1 and 3 kg, fixed to each other at the distance `length` along x.
+Mechanism dumbbell() {
+  return Mechanism(ball("near", "1") + ball("far", "3") +
+                   joint_with("hinge", "continuous", "ground", "near", "<origin xyz='0 0 1'/><axis xyz='0 0 1'/>") +
+                   joint_with("bar", "fixed", "near", "far", "<origin xyz='0.2 0 0' codesign:xyz='${length} 0 0'/>"));
+}
+
+TEST(Constants, FixedLinksAreOneBodyAboutItsCentreOfMass) {
+  const Constants<double> c = dumbbell().at(0.4);
+  ASSERT_EQ(c.bodies.size(), 1U);
+  EXPECT_DOUBLE_EQ(c.bodies[0].mass, 4.0);
+  EXPECT_LT((c.bodies[0].centre - Eigen::Vector3d(0.3, 0.0, 0.0)).norm(), 1e-15);
+  // Steiner: 1 kg at 0.3 m and 3 kg at 0.1 m across the bar.
+  const Eigen::Vector3d moments(0.2, 0.2 + 0.09 + 0.03, 0.2 + 0.09 + 0.03);
+  EXPECT_LT((c.bodies[0].J - Eigen::Matrix3d(moments.asDiagonal())).norm(), 1e-15);
+}
+
+TEST(Constants, LinksAndJointPointsAreSeenFromTheCentreOfMass) {
+  const Constants<double> c = dumbbell().at(0.4);
+  EXPECT_LT(c.links[0].s.norm(), 1e-15) << "the ground's origin is its own";
+  EXPECT_LT((c.links[1].s - Eigen::Vector3d(-0.3, 0.0, 0.0)).norm(), 1e-15);
+  EXPECT_LT((c.links[2].s - Eigen::Vector3d(0.1, 0.0, 0.0)).norm(), 1e-15);
+  EXPECT_LT((c.pairs.at(0).s_i - Eigen::Vector3d(0.0, 0.0, 1.0)).norm(), 1e-15);
+  EXPECT_LT((c.pairs[0].s_j - Eigen::Vector3d(-0.3, 0.0, 0.0)).norm(), 1e-15);
+}
+
+TEST(Constants, EveryScalarCarriesTheSameDerivatives) {
+  const Mechanism mechanism = dumbbell();
+  const double step = 1e-30;
+  const auto complex = mechanism.at<std::complex<double>>({0.4, step});
+  Lanes<4> length(0.4);
+  length.v[1] = 1.0;
+  const auto lanes = mechanism.at<Lanes<4>>(length);
+  // The centre is 3/4 of the length away, the moment of inertia grows as 3/4 length^2.
+  EXPECT_NEAR(complex.bodies[0].centre[0].imag() / step, 0.75, 1e-15);
+  EXPECT_NEAR(lanes.bodies[0].centre[0].v[1], 0.75, 1e-15);
+  EXPECT_NEAR(complex.bodies[0].J(2, 2).imag() / step, 1.5 * 0.4, 1e-14);
+  EXPECT_NEAR(lanes.bodies[0].J(2, 2).v[1], 1.5 * 0.4, 1e-14);
+  EXPECT_EQ(lanes.bodies[0].J(2, 2).v[0], 0.0);
+}
+
+std::string fault(const std::string& content, double length) {
+  const Mechanism mechanism(content + joint_with("hinge", "continuous", "ground", "arm", "<axis xyz='0 1 0'/>"));
+  return find_impossible(mechanism.robot, mechanism.topology, mechanism.at(length));
+}
+
+TEST(FindImpossible, ADesignMayBeImpossibleThoughTheDefaultIsNot) {
+  const std::string light = ball("arm", "0.2", "codesign:value='${length}'");
+  EXPECT_EQ(fault(light, 0.1), "");
+  EXPECT_NE(fault(light, -0.1).find("body 'arm': the mass is negative"), std::string::npos);
+  const auto disc = [](const std::string& ixx, const std::string& twin) {
+    return link_with("arm", "<inertial><mass value='1'/><inertia ixx='" + ixx + "' codesign:ixx='" + twin +
+                                "' ixy='0' ixz='0' iyy='0.1' iyz='0' izz='0.1'/></inertial>");
+  };
+  EXPECT_EQ(fault(disc("0.2", "${length}"), 0.15), "");
+  EXPECT_NE(fault(disc("0.2", "${length}"), 0.21).find("triangle inequality"), std::string::npos);
+  EXPECT_NE(fault(disc("0.1", "${length-0.1}"), 0.05).find("negative principal moment"), std::string::npos);
+}
+
+TEST(FindImpossible, NamesTheJointOfABadFriction) {
+  Mechanism mechanism(
+      link_with("arm") +
+      joint_with(
+          "hinge", "continuous", "ground", "arm",
+          "<axis xyz='0 1 0'/><codesign:friction mu_static='0.3' mu_dynamic='0.2' codesign:mu_dynamic='${length}' joint_length='0.1' "
+          "pin_radius='0.01'/>"));
+  const auto verdict = [&](double length) { return find_impossible(mechanism.robot, mechanism.topology, mechanism.at(length)); };
+  EXPECT_EQ(verdict(0.25), "");
+  EXPECT_NE(verdict(0.35).find("joint 'hinge'"), std::string::npos) << "mu_dynamic above mu_static";
+}
+
+}  // namespace
+}  // namespace codesign

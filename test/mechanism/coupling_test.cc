@@ -1,0 +1,111 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism/coupling.h"
+
+#include "mechanism/constants.h"
+#include "mechanism/topology.h"
+#include "urdf_fixture.h"
+
+namespace codesign {
+namespace {
+
+/// ground - shoulder - upper - elbow - lower, and ground - motor - rotor.
+std::string arm(const std::string& more, const std::string& elbow = "") {
+  return kGround + link_with("upper") + link_with("lower") + link_with("rotor") + joint_with("shoulder", "continuous", "ground", "upper") +
+         joint_with("elbow", "continuous", "upper", "lower", elbow) + joint_with("motor", "continuous", "ground", "rotor") + "\n" + more;
+}
+
+std::string coupling(const std::string& predecessor, const std::string& successor) {
+  return "<coupling name=\"belt\"><predecessor link=\"" + predecessor + "\"/><successor link=\"" + successor +
+         "\"/><ratio value=\"0.4\" codesign:value=\"${2*length}\"/></coupling>";
+}
+
+std::string fault_of(const SourceText& urdf) {
+  try {
+    derive_topology(read_urdf(urdf));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "accepted";
+  return "";
+}
+
+TEST(Coupling, AMimicFollowsWithItsMultiplierAndOffset) {
+  const RobotDescription robot =
+      read_urdf(robot_text(arm("", "<mimic joint=\"shoulder\" multiplier=\"-0.2\" codesign:multiplier=\"${-length}\" offset=\"0.3\"/>")));
+  const Topology topology = derive_topology(robot);
+  ASSERT_EQ(topology.couplings.size(), 1U);
+  const Coupling& c = topology.couplings[0];
+  EXPECT_EQ(c.element(), "<joint name=\"elbow\"> <mimic>");
+  ASSERT_EQ(c.terms.size(), 2U);
+  EXPECT_EQ(robot.joints[static_cast<std::size_t>(c.terms[0].joint)].name, "elbow");
+  EXPECT_EQ(robot.joints[static_cast<std::size_t>(c.terms[1].joint)].name, "shoulder");
+  const auto constants = evaluate_constants<double>(robot, topology, {0.25}).couplings.at(0);
+  EXPECT_EQ(constants.coefficients, (std::vector<double>{1.0, 0.25}));
+  EXPECT_EQ(constants.offset, 0.3);
+}
+
+TEST(Coupling, SumsTheJointsFromTheNearestCommonAncestor) {
+  const RobotDescription robot = read_urdf(robot_text(arm(coupling("lower", "rotor"))));
+  const Topology topology = derive_topology(robot);
+  ASSERT_EQ(topology.couplings.size(), 1U);
+  std::vector<std::string> joints;
+  for (const CouplingTerm& term : topology.couplings[0].terms) joints.push_back(robot.joints[static_cast<std::size_t>(term.joint)].name);
+  EXPECT_EQ(joints, (std::vector<std::string>{"motor", "elbow", "shoulder"}));
+  // theta_motor - ratio (theta_elbow + theta_shoulder) = 0
+  EXPECT_EQ(evaluate_constants<double>(robot, topology, {0.3}).couplings.at(0).coefficients, (std::vector<double>{1.0, -0.6, -0.6}));
+}
+
+TEST(Coupling, OfALinkAndOneBelowItTakesTheJointsBetween) {
+  const RobotDescription robot = read_urdf(robot_text(arm(coupling("upper", "lower"))));
+  const Topology topology = derive_topology(robot);
+  ASSERT_EQ(topology.couplings.size(), 1U);
+  ASSERT_EQ(topology.couplings[0].terms.size(), 1U) << "the predecessor is the nearest common ancestor";
+  EXPECT_EQ(robot.joints[static_cast<std::size_t>(topology.couplings[0].terms[0].joint)].name, "elbow");
+}
+
+TEST(Coupling, WhatCannotBeCoupledIsNamedWithItsPlace) {
+  EXPECT_NE(
+      fault_of(robot_text(arm(coupling("lower", "upper")))).find("test.urdf:3: <coupling name=\"belt\">: no joint moves the successor"),
+      std::string::npos);
+  const std::string floating = link_with("base") + joint_with("free", "floating", "ground", "base");
+  EXPECT_NE(fault_of(robot_text(arm(coupling("upper", "base") + floating))).find("more than one coordinate (value: free"),
+            std::string::npos);
+}
+
+TEST(Coupling, ALinkWithoutMassThatIsCoupledIsABody) {
+  const std::string frame = link_with("frame", "") + joint_with("sensor", "continuous", "lower", "frame");
+  const RobotDescription robot = read_urdf(robot_text(arm(coupling("upper", "frame") + frame)));
+  const Topology topology = derive_topology(robot);
+  EXPECT_EQ(topology.couplings.at(0).terms.size(), 2U);
+  EXPECT_EQ(topology.bodies.back().name, "frame");
+}
+
+TEST(Coupling, WhatFollowsAJointWithoutMassKeepsIt) {
+  // The finger that drives has no inertial, the one that follows has: the row says what both do.
+  const std::string fingers = link_with("driver", "") + joint_with("drive", "continuous", "lower", "driver") + link_with("follower") +
+                              joint_with("follow", "continuous", "lower", "follower", "<mimic joint=\"drive\" multiplier=\"-1\"/>");
+  const Topology topology = derive_topology(read_urdf(robot_text(arm(fingers))));
+  ASSERT_EQ(topology.couplings.size(), 1U);
+  EXPECT_EQ(topology.couplings[0].terms.size(), 2U);
+  const std::string light = link_with("driver", "") + joint_with("drive", "continuous", "lower", "driver") + link_with("follower", "") +
+                            joint_with("follow", "continuous", "lower", "follower", "<mimic joint=\"drive\"/>");
+  EXPECT_TRUE(derive_topology(read_urdf(robot_text(arm(light)))).couplings.empty()) << "nobody has mass";
+}
+
+TEST(Coupling, AMimicOfAFixedJointStandsAtItsOffset) {
+  const std::string more = link_with("plate") + joint_with("weld", "fixed", "lower", "plate") + link_with("tip") +
+                           joint_with("wrist", "continuous", "lower", "tip", "<mimic joint=\"weld\" offset=\"0.4\"/>");
+  const RobotDescription robot = read_urdf(robot_text(arm(more)));
+  const Topology topology = derive_topology(robot);
+  ASSERT_EQ(topology.couplings.size(), 1U);
+  EXPECT_EQ(topology.couplings[0].terms.size(), 1U);
+  EXPECT_EQ(evaluate_constants<double>(robot, topology, {0.2}).couplings.at(0).offset, 0.4);
+}
+
+TEST(Coupling, AMimicThatMovesNoMassNeedsNoRow) {
+  const std::string frame = link_with("frame", "") + joint_with("sensor", "continuous", "lower", "frame", "<mimic joint=\"elbow\"/>");
+  EXPECT_TRUE(derive_topology(read_urdf(robot_text(arm(frame)))).couplings.empty());
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,82 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "problem/problem.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "mechanism_codesign/error.h"
+
+namespace codesign {
+namespace {
+
+const SourceText kPendulum{"pendulum.urdf", R"(<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
+  <codesign:parameter name="length" value="1" lower="0.5" upper="2" unit="m"/>
+  <codesign:parameter name="weight" value="3"/>
+  <link name="ground"/>
+  <link name="arm">
+    <inertial>
+      <origin xyz="0 0 -1" codesign:xyz="0 0 ${-length}"/>
+      <mass value="3" codesign:value="${weight}"/>
+      <inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/>
+    </inertial>
+  </link>
+  <joint name="hinge" type="continuous"><parent link="ground"/><child link="arm"/><axis xyz="1 0 0"/></joint>
+</robot>)"};
+
+const SourceText kStudy{"swing.yaml", R"(
+duration: 1.0
+controllers: {hold: {type: pid, input: hinge/position, setpoint: 0, output: hinge, gains: {p: "${Kp}"}}}
+parameters: {Kp: {initial: 2.0, lower: 0.0, upper: 9.0}, length: {}}
+objective: {integral: [{signal: hinge/position}]}
+)"};
+
+TEST(Problem, HoldsAllParametersAndTheStart) {
+  const Problem problem = load_problem(kPendulum, {}, kStudy);
+  EXPECT_EQ(problem.robot.name, "pendulum");
+  EXPECT_EQ(problem.parameters(), (std::vector<double>{1.0, 3.0, 2.0}));
+  EXPECT_EQ(problem.start(), Eigen::Vector2d(2.0, 1.0));
+  EXPECT_EQ(problem.tuned_names(), (std::vector<std::string>{"Kp", "length"}));
+  EXPECT_EQ(problem.parameters(Eigen::Vector2d(5.0, 0.7)), (std::vector<double>{0.7, 3.0, 5.0}));
+  EXPECT_NE(problem.system, nullptr);
+}
+
+TEST(Problem, SettingsReplaceStartsAndDefaults) {
+  const Problem problem = load_problem(kPendulum, {}, kStudy, {{"Kp", 4.0}, {"weight", 5.0}, {"Kp", 6.0}});
+  EXPECT_EQ(problem.parameters(), (std::vector<double>{1.0, 5.0, 6.0}));
+  EXPECT_EQ(problem.start(), Eigen::Vector2d(6.0, 1.0));
+}
+
+TEST(Problem, AMechanismAloneTunesNothing) {
+  const Problem problem = load_mechanism(kPendulum, {}, {{"length", 1.5}});
+  EXPECT_EQ(problem.parameters(), (std::vector<double>{1.5, 3.0}));
+  EXPECT_EQ(problem.start().size(), 0);
+  EXPECT_TRUE(problem.tuned_names().empty());
+}
+
+TEST(Problem, OverlaysAreMerged) {
+  const SourceText overlay{"overlay.urdf", R"(<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
+    <joint name="hinge"><codesign:friction model="brown_mcphee" mu_static="0.4" mu_dynamic="0.3" joint_length="0.02" pin_radius="0.01"/></joint></robot>)"};
+  EXPECT_TRUE(load_mechanism(kPendulum, {overlay}).robot.joints.at(0).friction.has_value());
+}
+
+void expect_refused(const ParameterSettings& settings, const std::string& message, const std::string& allowed) {
+  try {
+    load_problem(kPendulum, {}, kStudy, settings);
+    ADD_FAILURE() << message;
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.fault().element, settings.back().first);
+    EXPECT_NE(error.fault().message.find(message), std::string::npos) << error.what();
+    EXPECT_EQ(error.fault().allowed, allowed);
+  }
+}
+
+TEST(Problem, SettingsMustNameAParameterAndKeepItsBounds) {
+  expect_refused({{"lenght", 1.0}}, "did you mean \"length\"", "length, weight, Kp");
+  expect_refused({{"Kp", 9.5}}, "outside", "[0, 9]");
+  expect_refused({{"length", 0.4}}, "outside", "[0.5, 2]");
+  expect_refused({{"weight", std::numeric_limits<double>::quiet_NaN()}}, "outside", "[-inf, inf]");
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,86 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/study/study_parameters.h"
+
+#include <cmath>
+
+#include "reading/study/study_fixture.h"
+
+namespace codesign {
+namespace {
+
+Study with(const std::string& parameters) { return read_text(kLeastStudy + "parameters: " + parameters + "\n"); }
+
+void expect_refused(const std::string& parameters, const std::string& element, const std::string& message) {
+  expect_fault(kLeastStudy + "parameters: " + parameters + "\n", element, message, 3);
+}
+
+TEST(StudyParameters, BoundsAndStartDefaultToTheModels) {
+  const Parameter parameter = with("{crank_length: {}}").parameters.at(0);
+  EXPECT_EQ(parameter.value, 0.08);
+  EXPECT_EQ(parameter.lower, 0.06);
+  EXPECT_EQ(parameter.upper, 0.1);
+  EXPECT_EQ(parameter.unit, "m");
+}
+
+TEST(StudyParameters, TheStudyMayMoveBoundsAndStart) {
+  const Parameter parameter = with("{crank_length: {initial: 0.11, lower: 0.05, upper: 0.12}}").parameters.at(0);
+  EXPECT_EQ(parameter.value, 0.11);
+  EXPECT_EQ(parameter.lower, 0.05);
+  EXPECT_EQ(parameter.upper, 0.12);
+}
+
+TEST(StudyParameters, AListedOneIsTunedUnlessItSaysOtherwise) {
+  const Study study = with("{rod_length: {tune: true}, crank_length: {initial: 0.07, tune: false}, Kp: {initial: 2, tune: false}}");
+  EXPECT_EQ(study.tuned, std::vector<int>{1});
+  EXPECT_EQ(study.parameters[0].value, 0.07);
+  EXPECT_EQ(study.parameters.at(2).value, 2.0);
+}
+
+TEST(StudyParameters, AStudysOwnFollowTheModelsAndMayBeUnbounded) {
+  const Study study = with("{Kp: {initial: 750}, rod_length: {}, Ki: {initial: 2, lower: 0}}");
+  ASSERT_EQ(study.parameters.size(), 4U);
+  EXPECT_EQ(study.tuned, (std::vector<int>{2, 1, 3}));
+  EXPECT_EQ(study.parameters[2].name, "Kp");
+  EXPECT_EQ(study.parameters[2].value, 750.0);
+  EXPECT_EQ(study.parameters[2].unit, "");
+  EXPECT_TRUE(std::isinf(study.parameters[2].lower) && study.parameters[2].lower < 0.0);
+  EXPECT_EQ(study.parameters[3].lower, 0.0);
+  EXPECT_TRUE(std::isinf(study.parameters[3].upper));
+}
+
+TEST(StudyParameters, RefusesBadRanges) {
+  expect_refused("{crank_length: {lower: 0.2}}", "parameters.crank_length.lower", "below the upper bound");
+  expect_refused("{Kp: {initial: 1, lower: 2, upper: 1}}", "parameters.Kp.lower", "below the upper bound");
+  expect_refused("{Kp: {initial: 1, lower: 1, upper: 1}}", "parameters.Kp.lower", "below the upper bound");
+  expect_refused("{Kp: {initial: 9, lower: -5, upper: 5}}", "parameters.Kp.initial", "outside the bounds");
+  expect_refused("{crank_length: {lower: 0.09}}", "parameters.crank_length", "outside the bounds");
+  EXPECT_EQ(fault_in(kLeastStudy + "parameters: {Kp: {initial: 9, lower: -5, upper: 5}}").allowed, "[-5, 5]");
+}
+
+TEST(StudyParameters, RefusesBadEntries) {
+  expect_refused("{crank_lenght: {}}", "parameters.crank_lenght.initial", "did you mean \"crank_length\"");
+  expect_refused("{Kp: {start: 1}}", "parameters.Kp.start", "unknown key");
+  expect_refused("{2Kp: {initial: 1}}", "parameters.2Kp", "");
+  expect_refused("{sqrt: {initial: 1}}", "parameters.sqrt", "");
+  expect_refused("{crank_length: {tune: maybe}}", "parameters.crank_length.tune", "not a truth value");
+  expect_refused("{crank_length: {tune: [true]}}", "parameters.crank_length.tune", "not a truth value");
+  expect_refused("{Kp: 1}", "parameters.Kp", "expected a map");
+  expect_refused("{Kp: {initial: .inf}}", "parameters.Kp.initial", "not finite");
+  expect_refused("{Kp: {initial: \"${rod_length}\"}}", "parameters.Kp.initial", "not a number");
+  expect_refused("{rod_length: {}, rod_length: {}}", "parameters.rod_length", "repeated key");
+  expect_refused("[crank_length]", "parameters", "expected a map");
+}
+
+TEST(StudyParameters, ConstraintsMayUseTheStudysOwn) {
+  const Study study = read_text(kLeastStudy + "parameters: {Kp: {initial: 1}}\nconstraints: [\"Kp >= 10*rod_length\"]\n");
+  EXPECT_DOUBLE_EQ(study.constraints.at(0).margin->value(std::vector<double>{0.08, 0.3, 5.0}), 2.0);
+  EXPECT_EQ(study.constraints[0].where.line, 4);
+}
+
+TEST(StudyParameters, ConstraintsAreChecked) {
+  expect_fault(kLeastStudy + "constraints:\n  - rod_length >= 0.1\n  - Kp >= 1\n", "constraints[1]", "Kp", 5);
+  expect_fault(kLeastStudy + "constraints: rod_length >= 0.1\n", "constraints", "expected a list", 3);
+}
+
+}  // namespace
+}  // namespace codesign

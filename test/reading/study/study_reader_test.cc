@@ -1,0 +1,98 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/study/study_reader.h"
+
+#include "reading/study/study_fixture.h"
+
+namespace codesign {
+namespace {
+
+TEST(StudyReader, ReadsAWholeStudy) {
+  const Study study = read_text(R"(
+duration: 2.0
+gravity: [0, 0, -1.62]
+initial_state:
+  crank_joint: {position: "${crank_length/8}", velocity: -10.0}
+  slider_joint: {guess: 0.2}
+controllers:
+  crank_speed: {type: pid, input: crank_joint/velocity, setpoint: -10.0, output: crank_joint, gains: {p: "${Kp}"}}
+parameters:
+  Kp: {initial: 1.5, lower: -5.0, upper: 5.0}
+  crank_length: {}
+objective:
+  integral: [{signal: crank_joint/velocity, reference: -10.0}, {signal: crank_speed/output, weight: 0.01}]
+  terminal: []
+constraints: ["rod_length - crank_length >= 0.165"]
+solver: {integrator: rosenbrock, relative_tolerance: 1.0e-8}
+optimizer: {algorithm: slsqp}
+)");
+  EXPECT_EQ(study.file, "study.yaml");
+  EXPECT_EQ(study.duration, 2.0);
+  EXPECT_EQ(study.gravity[2], -1.62);
+  ASSERT_EQ(study.initial_state.size(), 2U);
+  EXPECT_DOUBLE_EQ(study.initial_state[0].position->nominal(), 0.01);
+  EXPECT_EQ(study.initial_state[0].velocity->nominal(), -10.0);
+  EXPECT_FALSE(study.initial_state[0].guess.has_value());
+  EXPECT_EQ(study.initial_state[1].guess, 0.2);
+  EXPECT_EQ(study.initial_state[1].where.line, 6);
+  EXPECT_EQ(study.controllers.size(), 1U);
+  EXPECT_EQ(study.parameters.size(), 3U);
+  EXPECT_EQ(study.tuned, (std::vector<int>{2, 0}));
+  EXPECT_EQ(study.integral.size(), 2U);
+  EXPECT_TRUE(study.terminal.empty());
+  EXPECT_EQ(study.constraints.size(), 1U);
+  EXPECT_EQ(study.solver.relative_tolerance, 1e-8);
+  EXPECT_EQ(study.solver.absolute_tolerance, 1e-7);
+  EXPECT_EQ(study.optimizer.algorithm, "slsqp");
+}
+
+TEST(StudyReader, TheRestHasDefaults) {
+  const Study study = read_text(kLeastStudy);
+  EXPECT_EQ(study.gravity, (std::array<double, 3>{0.0, 0.0, -9.81}));
+  EXPECT_TRUE(study.initial_state.empty());
+  EXPECT_TRUE(study.controllers.empty());
+  EXPECT_TRUE(study.tuned.empty());
+  ASSERT_EQ(study.parameters.size(), 2U);
+  EXPECT_EQ(study.parameters[1].name, "rod_length");
+  EXPECT_EQ(study.solver.integrator, "rosenbrock");
+  EXPECT_EQ(study.optimizer.algorithm, "lbfgs");
+}
+
+TEST(StudyReader, RefusesUnknownMissingAndRepeatedKeys) {
+  expect_fault(kLeastStudy + "solvr: {}\n", "solvr", "did you mean \"solver\"", 3);
+  expect_fault("objective: {integral: [{signal: crank_joint/velocity}]}\n", "duration", "required key is missing", 1);
+  expect_fault(kLeastStudy + "duration: 3\n", "duration", "repeated key", 3);
+  expect_fault("- duration\n", "study", "expected a map", 1);
+}
+
+TEST(StudyReader, RefusesADurationThatIsNone) {
+  const std::string objective = "\nobjective: {integral: [{signal: crank_joint/velocity}]}\n";
+  expect_fault("duration: 0" + objective, "duration", "must be positive", 1);
+  expect_fault("duration: -1" + objective, "duration", "must be positive", 1);
+  expect_fault("duration: .inf" + objective, "duration", "not finite", 1);
+  expect_fault("duration: .nan" + objective, "duration", "not finite", 1);
+  expect_fault("duration: long" + objective, "duration", "not a number", 1);
+  expect_fault("duration: [1]" + objective, "duration", "expected a number, found a list", 1);
+  EXPECT_EQ(fault_in("duration: -1" + objective).value, "-1");
+  EXPECT_EQ(fault_in("duration: -1" + objective).allowed, "more than 0 s");
+}
+
+TEST(StudyReader, RefusesGravityThatIsNoVector) {
+  expect_fault(kLeastStudy + "gravity: [0, 0]\n", "gravity", "three components, found 2", 3);
+  expect_fault(kLeastStudy + "gravity: -9.81\n", "gravity", "expected a list", 3);
+  expect_fault(kLeastStudy + "gravity: [0, 0, down]\n", "gravity[2]", "not a number", 3);
+}
+
+TEST(StudyReader, ChecksTheInitialState) {
+  const std::string start = kLeastStudy + "initial_state: ";
+  expect_fault(start + "{crank_jont: {position: 0}}\n", "initial_state.crank_jont", "did you mean \"crank_joint\"", 3);
+  expect_fault(start + "{ball_joint: {position: 0}}\n", "initial_state.ball_joint.position", "no position", 3);
+  expect_fault(start + "{crank_joint: {speed: 0}}\n", "initial_state.crank_joint.speed", "unknown key", 3);
+  expect_fault(start + "{crank_joint: {}}\n", "initial_state.crank_joint", "nothing is said", 3);
+  expect_fault(start + "{crank_joint: 0.1}\n", "initial_state.crank_joint", "expected a map", 3);
+  expect_fault(start + "{crank_joint: {position: 0, guess: 0}}\n", "initial_state.crank_joint.guess", "either", 3);
+  expect_fault(start + "{crank_joint: {position: fast}}\n", "initial_state.crank_joint.position", "not a number", 3);
+  expect_fault(start + "{crank_joint: {position: \"${crank_lenght}\"}}\n", "initial_state.crank_joint.position", "crank_length", 3);
+}
+
+}  // namespace
+}  // namespace codesign

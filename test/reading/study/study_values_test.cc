@@ -1,0 +1,36 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/study/study_values.h"
+
+#include "reading/study/study_fixture.h"
+
+namespace codesign {
+namespace {
+
+Quantity read(const std::string& yaml) { return read_quantity(YamlValue::parse({"study.yaml", yaml}).at("x"), study_robot().parameters); }
+
+TEST(StudyValues, AQuantityIsANumberOrAnExpression) {
+  EXPECT_EQ(read("x: -2.5").nominal(), -2.5);
+  EXPECT_TRUE(read("x: '1e-6'").is_constant());
+  const Quantity quantity = read("x: \"${rod_length - 2*crank_length}\"");
+  EXPECT_DOUBLE_EQ(quantity.nominal(), 0.14);
+  EXPECT_DOUBLE_EQ(quantity.at(std::vector<double>{0.1, 0.4}), 0.2);
+}
+
+TEST(StudyValues, RefusesOtherThings) {
+  for (const char* text : {"x: two", "x: rod_length", "x: \"${\"", "x: \"${}\"", "x: \"2*${rod_length}\"", "x: .inf", "x: \"${1/0}\"",
+                           "x: \"${rod_lenght}\"", "x: \"${2 +}\"", "x: []", "x: ''"})
+    EXPECT_THROW(read(text), InputError) << text;
+}
+
+TEST(StudyValues, SaysWhatAQuantityMayBe) {
+  try {
+    read("x: two");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.fault().value, "two");
+    EXPECT_EQ(error.fault().allowed, "a finite number or \"${expression}\" of the parameters");
+  }
+}
+
+}  // namespace
+}  // namespace codesign

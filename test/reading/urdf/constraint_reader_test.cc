@@ -1,0 +1,52 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/urdf/foreign_loops.h"
+#include "urdf_fixture.h"
+
+namespace codesign {
+namespace {
+
+/// Two arms on the ground, of which a constraint makes a closed linkage.
+SourceText arms(const std::string& constraint) {
+  return robot_text(kGround + link_with("a") + link_with("b") + joint_with("ja", "continuous", "ground", "a", "<axis xyz=\"0 0 1\"/>") +
+                    joint_with("jb", "continuous", "ground", "b", "<axis xyz=\"0 0 1\"/>") + "\n" + constraint);
+}
+
+std::string between(const std::string& attributes, const std::string& on_a, const std::string& on_b, const std::string& more = "") {
+  return "<constraint " + attributes + "><predecessor link=\"a\">" + on_a + "</predecessor><successor link=\"b\">" + on_b + "</successor>" +
+         more + "</constraint>";
+}
+
+TEST(ConstraintReader, APositionIsASphericalLoop) {
+  const RobotDescription robot =
+      read_urdf(arms(between("name=\"close\" type=\"position\"", "<origin xyz=\"0.3 0 0\"/>", "<origin xyz=\"0.1 0.2 0\"/>")));
+  EXPECT_TRUE(robot.warnings.empty());
+  ASSERT_EQ(robot.joints.size(), 3U);
+  const JointDescription& loop = robot.joints[2];
+  EXPECT_TRUE(loop.is_loop);
+  EXPECT_EQ(loop.type, JointType::kSpherical);
+  EXPECT_EQ(loop.name, "close");
+  EXPECT_EQ(loop.origin.xyz[0].nominal(), 0.3);
+  EXPECT_EQ(loop.child_origin.xyz[1].nominal(), 0.2);
+}
+
+TEST(ConstraintReader, ANameOfItsOwnWhereItHasNone) {
+  const RobotDescription robot = read_urdf(arms(between("type=\"position\"", "", "") + between("name=\"ja\" type=\"position\"", "", "")));
+  EXPECT_EQ(robot.joints.at(2).name, "constraint");
+  EXPECT_EQ(robot.joints.at(3).name, "ja_1");
+}
+
+TEST(ConstraintReader, RollingIsACoupling) {
+  const auto ratio = [](const std::string& constraint) { return read_urdf(arms(constraint)).couplings.at(0).ratio.nominal(); };
+  EXPECT_EQ(ratio(between("name=\"gear\" type=\"rolling\"", "", "", "<ratio value=\"6\"/>")), 6.0);
+  EXPECT_DOUBLE_EQ(ratio(between("name=\"gear\" type=\"rolling\"", "<origin xyz=\"0.3 0 0.7\"/>", "<origin xyz=\"-0.1 0 0\"/>")), 3.0);
+  EXPECT_EQ(ratio(between("name=\"gear\" type=\"rolling\"", "", "")), 1.0);
+}
+
+TEST(ConstraintReader, WhatCannotBeReadIsNotDroppedInSilence) {
+  expect_warning(arms(between("name=\"x\" type=\"magnetic\"", "", "")), "loop_ignored", {"test.urdf:3:", "magnetic", "write the <loop>"});
+  expect_warning(arms("<constraint name=\"x\" type=\"position\"><predecessor link=\"aa\"/><successor link=\"b\"/></constraint>"),
+                 "loop_ignored", {"unknown link, did you mean", "(value: aa"});
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,155 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/urdf/joint_reader.h"
+
+#include "urdf_fixture.h"
+
+namespace codesign {
+namespace {
+
+JointDescription hinge(const std::string& content) { return read_urdf(pendulum(content)).joints.at(0); }
+
+SourceText typed(const std::string& type, const std::string& content = "") {
+  return robot_text(kGround + link_with("arm") + "\n" + joint_with("j", type, "ground", "arm", content));
+}
+
+SourceText read_limits(const std::string& type, const std::string& numbers) { return typed(type, "<limit " + numbers + "/>"); }
+
+TEST(JointReader, DefaultsAreThoseOfUrdf) {
+  const JointDescription joint = hinge("");
+  EXPECT_EQ(joint.name, "hinge");
+  EXPECT_EQ(joint.type, JointType::kContinuous);
+  EXPECT_FALSE(joint.is_loop);
+  EXPECT_EQ(joint.parent, 0);
+  EXPECT_EQ(joint.child, 1);
+  EXPECT_EQ(joint.axis[0].nominal(), 1.0);
+  EXPECT_EQ(joint.origin.xyz[2].nominal(), 0.0);
+  EXPECT_EQ(joint.damping.nominal(), 0.0);
+  EXPECT_FALSE(joint.friction || joint.limit || joint.mimic || joint.spring);
+  EXPECT_EQ(joint.where.line, 2);
+}
+
+TEST(JointReader, ReadsAllTypes) {
+  const char* limit = R"(<limit lower="-1" upper="2" effort="3" velocity="4"/>)";
+  EXPECT_EQ(read_urdf(typed("fixed")).joints[0].type, JointType::kFixed);
+  EXPECT_EQ(read_urdf(typed("revolute", limit)).joints[0].type, JointType::kRevolute);
+  EXPECT_EQ(read_urdf(typed("prismatic", limit)).joints[0].type, JointType::kPrismatic);
+  EXPECT_EQ(read_urdf(typed("planar")).joints[0].type, JointType::kPlanar);
+  EXPECT_EQ(read_urdf(typed("floating")).joints[0].type, JointType::kFloating);
+  expect_error(typed("revolut"), {"test.urdf:3: <joint name=\"j\">: unknown joint type, did you mean \"revolute\"?"});
+}
+
+TEST(JointReader, AxisAndDynamicsMayHaveTwins) {
+  const JointDescription joint =
+      hinge(R"(<axis xyz="0 0.2 1" codesign:xyz="0 ${length} 1"/><dynamics damping="0.1" codesign:damping="${length/2}" friction="0.3"/>)");
+  const std::vector<double> at = {0.4};
+  EXPECT_DOUBLE_EQ(joint.axis[1].at(at), 0.4);
+  EXPECT_DOUBLE_EQ(joint.damping.at(at), 0.2);
+  EXPECT_DOUBLE_EQ(joint.dry_friction.at(at), 0.3);
+  expect_error(pendulum("<axis xyz=\"0 0 0\"/>"), {"<axis>: the axis has no direction"});
+  expect_error(pendulum("<axis/>"), {"the attribute xyz is missing"});
+  expect_error(pendulum("<dynamics/>"), {"neither damping nor friction"});
+  expect_warning(pendulum("<dynamics damping=\"-1\"/>"), "negative_value", {"test.urdf:2:", "damping is negative and is taken as zero"});
+  EXPECT_EQ(hinge("<dynamics damping=\"-1\"/>").damping.nominal(), 0.0);
+  expect_warning(pendulum("<origin/><origin/>"), "repeated_element", {"a second <origin>"});
+}
+
+TEST(JointReader, Limits) {
+  const JointDescription joint = hinge(R"(<limit lower="-1" upper="2" effort="3" velocity="4"/>)");
+  EXPECT_EQ(joint.limit->lower.nominal(), -1.0);
+  EXPECT_EQ(joint.limit->upper.nominal(), 2.0);
+  EXPECT_EQ(joint.limit->effort.nominal(), 3.0);
+  EXPECT_EQ(joint.limit->velocity.nominal(), 4.0);
+  expect_error(typed("prismatic"), {"needs a <limit>"});
+  const SourceText reversed = read_limits("revolute", R"(lower="2" upper="1" effort="1" velocity="1")");
+  expect_warning(reversed, "limits_reversed", {"test.urdf:", "the lower limit is above the upper limit (1): the joint has no stops"});
+  EXPECT_FALSE(has_stops(read_urdf(reversed).joints[0]));
+  expect_warning(pendulum(R"(<limit lower="-1" upper="1" effort="1" velocity="1"/>)"), "limit_ignored", {"turns without end", "-1 ... 1"});
+  expect_error(pendulum(R"(<limit velocity="1"/>)"), {"the attribute effort is missing"});
+  expect_warning(pendulum(R"(<limit effort="-1" velocity="1"/>)"), "negative_value", {"<limit>: effort is negative", "(value: -1)"});
+}
+
+TEST(JointReader, LimitsThatDependOnTheDesign) {
+  const JointDescription joint =
+      hinge(R"(<limit lower="-0.2" codesign:lower="${-length}" effort="2" codesign:effort="${10*length}" velocity="4"/>)");
+  EXPECT_EQ(joint.limit->lower.at(std::vector<double>{0.3}), -0.3);
+  EXPECT_EQ(joint.limit->effort.at(std::vector<double>{0.3}), 3.0);
+}
+
+TEST(JointReader, ZeroLimitsBoundNothing) {
+  const auto limit = [](const std::string& numbers) { return *read_urdf(typed("revolute", "<limit " + numbers + "/>")).joints[0].limit; };
+  const LimitDescription unknown = limit(R"(lower="0" upper="0" effort="0" velocity="0")");
+  EXPECT_FALSE(unknown.bounds_position() || unknown.bounds_effort() || unknown.bounds_velocity());
+  EXPECT_FALSE(limit(R"(effort="1" velocity="2")").bounds_position());
+  const LimitDescription known = limit(R"(upper="1" effort="1" velocity="2")");
+  EXPECT_TRUE(known.bounds_position() && known.bounds_effort() && known.bounds_velocity());
+  EXPECT_TRUE(has_stops(read_urdf(typed("revolute", R"(<limit upper="1" effort="1" velocity="2"/>)")).joints[0]));
+  EXPECT_FALSE(has_stops(read_urdf(typed("continuous", R"(<limit upper="1" effort="1" velocity="2"/>)")).joints[0]));
+}
+
+TEST(JointReader, Springs) {
+  const JointDescription joint =
+      hinge(R"(<codesign:torsion_spring stiffness="5" damping="1" free_position="0.2" codesign:free_position="${length}"/>)");
+  EXPECT_EQ(joint.spring->stiffness.nominal(), 5.0);
+  EXPECT_EQ(joint.spring->damping.nominal(), 1.0);
+  EXPECT_EQ(joint.spring->free_position.at(std::vector<double>{0.3}), 0.3);
+  expect_error(pendulum("<codesign:torsion_spring damping=\"1\"/>"), {"the attribute stiffness is missing"});
+  expect_error(typed("floating", "<codesign:torsion_spring stiffness=\"1\"/>"), {"no coordinate for a spring"});
+}
+
+TEST(JointReader, Actuators) {
+  const JointDescription joint = hinge(
+      R"(<codesign:actuator gear_ratio="-10" codesign:gear_ratio="${-50*length}" rotor_inertia="2e-5" codesign:rotor_inertia="${length/1e4}"/>)");
+  EXPECT_EQ(joint.actuator->gear_ratio.at(std::vector<double>{0.3}), -15.0);
+  EXPECT_DOUBLE_EQ(joint.actuator->rotor_inertia.at(std::vector<double>{0.3}), 3e-5);
+  EXPECT_EQ(hinge("<codesign:actuator rotor_inertia=\"1e-5\"/>").actuator->gear_ratio.nominal(), 1.0);
+  expect_error(pendulum("<codesign:actuator gear_ratio=\"3\"/>"), {"the attribute rotor_inertia is missing"});
+  expect_error(pendulum("<codesign:actuator gear_ratio=\"0\" rotor_inertia=\"1\"/>"), {"the gear ratio is zero"});
+  expect_error(pendulum("<codesign:actuator rotor_inertia=\"-1\"/>"), {"rotor_inertia is negative"});
+  expect_error(pendulum("<codesign:actuator rotor_inertia=\"1\" gear_ration=\"2\"/>"), {"did you mean \"gear_ratio\""});
+  expect_error(typed("floating", "<codesign:actuator rotor_inertia=\"1\"/>"), {"no coordinate that a rotor could turn with"});
+}
+
+TEST(JointReader, Mimics) {
+  const std::string second =
+      link_with("tip") + joint_with("wrist", "continuous", "arm", "tip", R"(<mimic joint="hinge" multiplier="-2" offset="1"/>)");
+  const MimicDescription mimic = *read_urdf(pendulum("", second)).joints[1].mimic;
+  EXPECT_EQ(mimic.joint, "hinge");
+  EXPECT_EQ(mimic.multiplier.nominal(), -2.0);
+  EXPECT_EQ(mimic.offset.nominal(), 1.0);
+  expect_warning(typed("planar", "<mimic joint=\"x\"/>"), "mimic_ignored", {"a joint of this type cannot mimic", "planar"});
+}
+
+TEST(JointReader, WhatReadersOfURDFPassOverIsNotJudged) {
+  const std::string nonsense =
+      "<axis xyz=\"0 0 0\"/><limit lower=\"3\" upper=\"1\" effort=\"1\" velocity=\"1\"/><dynamics damping=\"-1\"/>";
+  expect_no_warning(typed("fixed", nonsense));
+  expect_no_warning(typed("floating", "<axis xyz=\"0 0 0\"/><limit effort=\"1\" velocity=\"1\"/>"));
+  expect_warning(typed("fixed", "<mimic joint=\"other\"/>"), "mimic_ignored", {"cannot mimic", "fixed"});
+  const SourceText damped = typed("planar", "<dynamics damping=\"0.1\"/>");
+  expect_warning(damped, "dynamics_ignored", {"it moves freely"});
+  EXPECT_EQ(read_urdf(damped).joints[0].damping.nominal(), 0.0);
+}
+
+TEST(JointReader, AnOverlayMeansWhatItSays) {
+  const auto refused = [](const std::string& joint, const char* fault) {
+    expect_error(pendulum("<limit lower=\"0\" upper=\"1\" effort=\"1\" velocity=\"1\"/>"), {"notes.urdf:2:", fault},
+                 {overlay_text("<joint name=\"hinge\" type=\"revolute\">" + joint + "</joint>")});
+  };
+  refused("<dynamics damping=\"-1\"/>", "damping is negative (value: -1, allowed: >= 0)");
+  refused("<limit lower=\"2\"/>", "the lower limit is above the upper limit");
+  refused("<mimic joint=\"hing\"/>", "unknown joint to mimic");
+}
+
+TEST(JointReader, Links) {
+  expect_error(robot_text(kGround + link_with("arm") + joint_with("j", "fixed", "ground", "amr")),
+               {"<joint name=\"j\"> <child>: unknown link, did you mean \"arm\"? (value: amr"});
+  expect_error(robot_text(kGround + joint_with("j", "fixed", "grund", "ground")), {"did you mean \"ground\"?"});
+  expect_error(robot_text(kGround + joint_with("j", "fixed", "ground", "ground")), {"parent and child are the same link"});
+  expect_error(robot_text("<link name=\"a\"/><joint name=\"j\" type=\"fixed\"><parent link=\"a\"/></joint>"),
+               {"the element <child> is missing"});
+  expect_error(robot_text("<link name=\"a\"/><joint name=\"j\"/>"), {"the attribute type is missing"});
+  expect_error(robot_text("<link name=\"a\"/><joint type=\"fixed\"/>"), {"the attribute name is missing"});
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,125 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/urdf/overlay.h"
+
+#include "urdf_fixture.h"
+
+namespace codesign {
+namespace {
+
+/// A vendor's file, which knows nothing of us.
+SourceText vendor() {
+  return {"vendor.urdf", std::string("<robot name=\"vendor\">\n") + kGround + link_with("arm") + "\n" +
+                             joint_with("hinge", "continuous", "ground", "arm", "<origin xyz=\"0 0 0.2\" rpy=\"0 0 1\"/>") + "\n</robot>"};
+}
+
+SourceText overlay(const std::string& body) {
+  return {"notes.urdf", "<robot name=\"notes\" xmlns:codesign=\"urn:x\">\n" + body + "\n</robot>"};
+}
+
+const char kParameter[] = "<codesign:parameter name=\"length\" value=\"0.2\"/>";
+
+TEST(Overlay, AddsParametersAndMergesAttributes) {
+  const RobotDescription robot =
+      read_urdf(vendor(), {overlay(std::string(kParameter) + "<joint name=\"hinge\"><origin codesign:xyz=\"0 0 ${length}\"/></joint>")});
+  EXPECT_EQ(robot.name, "vendor");
+  ASSERT_EQ(robot.parameters.size(), 1u);
+  const PoseDescription& origin = robot.joints[0].origin;
+  EXPECT_DOUBLE_EQ(origin.xyz[2].at(std::vector<double>{0.3}), 0.3);
+  EXPECT_DOUBLE_EQ(origin.rpy[2].nominal(), 1.0) << "what the overlay does not name stays";
+}
+
+TEST(Overlay, ItsAttributesWin) {
+  const RobotDescription robot =
+      read_urdf(vendor(), {overlay("<joint name=\"hinge\"><origin xyz=\"0 0 0.5\"/><dynamics damping=\"2\"/></joint>"
+                                   "<link name=\"arm\"><inertial><mass value=\"7\"/></inertial></link>")});
+  EXPECT_DOUBLE_EQ(robot.joints[0].origin.xyz[2].nominal(), 0.5);
+  EXPECT_DOUBLE_EQ(robot.joints[0].damping.nominal(), 2.0);
+  EXPECT_DOUBLE_EQ(robot.links[1].inertial->mass.nominal(), 7.0);
+  EXPECT_DOUBLE_EQ(robot.links[1].inertial->inertia[0].nominal(), 0.1);
+}
+
+TEST(Overlay, AnAnnotationTakesThePlaceOfItsLike) {
+  const auto friction = [](const char* mu) {
+    return overlay(std::string("<joint name=\"hinge\"><codesign:friction mu_static=\"") + mu +
+                   "\" mu_dynamic=\"0.1\" joint_length=\"0.1\" pin_radius=\"0.1\"/></joint>");
+  };
+  const RobotDescription robot = read_urdf(vendor(), {friction("0.5"), friction("0.9")});
+  EXPECT_DOUBLE_EQ(robot.joints[0].friction->mu_static.nominal(), 0.9);
+}
+
+TEST(Overlay, AddsLoopsAndSpringsOrMergesThemByName) {
+  const char* spring =
+      "<codesign:spring_damper name=\"s\" stiffness=\"5\" damping=\"1\" free_length=\"0.1\"><predecessor link=\"ground\"/>"
+      "<successor link=\"arm\"/></codesign:spring_damper>";
+  const char* loop = "<loop name=\"l\" type=\"planar\"><predecessor link=\"ground\"/><successor link=\"arm\"/></loop>";
+  const SourceText first = overlay(std::string(spring) + loop);
+  const SourceText second = overlay("<codesign:spring_damper name=\"s\" stiffness=\"6\"/><loop name=\"l\" type=\"revolute\"/>");
+  const RobotDescription robot = read_urdf(vendor(), {first, second});
+  ASSERT_EQ(robot.spring_dampers.size(), 1u);
+  EXPECT_DOUBLE_EQ(robot.spring_dampers[0].stiffness.nominal(), 6.0);
+  EXPECT_DOUBLE_EQ(robot.spring_dampers[0].damping.nominal(), 1.0);
+  ASSERT_EQ(robot.joints.size(), 2u);
+  EXPECT_EQ(robot.joints[1].type, JointType::kRevolute);
+}
+
+TEST(Overlay, NamesMustExist) {
+  expect_error(vendor(), {"notes.urdf:2: <joint name=\"hing\">: unknown joint of vendor.urdf, did you mean \"hinge\"?"},
+               {overlay("<joint name=\"hing\"/>")});
+  expect_error(vendor(), {"notes.urdf:3: <link name=\"arn\">", "did you mean \"arm\"?"}, {overlay("\n<link name=\"arn\"/>")});
+}
+
+TEST(Overlay, AddsLinksAndJoints) {
+  // A base that floats, between the ground and the vendor's root.
+  const RobotDescription floating =
+      read_urdf(vendor(), {overlay("<link name=\"world\"/>" + joint_with("free", "floating", "world", "ground") + "<link name=\"ground\">" +
+                                   kInertial + "</link>")});
+  EXPECT_EQ(floating.links[static_cast<std::size_t>(floating.root)].name, "world");
+  // A rotor between hinge and arm: the vendor's joint gets another child.
+  const RobotDescription elastic =
+      read_urdf(vendor(), {overlay("<joint name=\"hinge\"><child link=\"rotor\"/></joint>" + link_with("rotor") +
+                                   joint_with("flex", "continuous", "rotor", "arm", "<codesign:torsion_spring stiffness=\"50\"/>"))});
+  ASSERT_EQ(elastic.joints.size(), 2U);
+  EXPECT_EQ(elastic.links[static_cast<std::size_t>(elastic.joints[0].child)].name, "rotor");
+  EXPECT_EQ(elastic.joints[1].spring->stiffness.nominal(), 50.0);
+  expect_error(vendor(), {"notes.urdf:2: <link name=\"world\">: a second root"},
+               {overlay("<link name=\"world\"/><link name=\"other\"/>" + joint_with("j", "fixed", "world", "other"))});
+  expect_error(vendor(), {"notes.urdf:2:", "<child>: unknown link, did you mean \"arm\"?"},
+               {overlay(joint_with("j", "fixed", "ground", "armm"))});
+}
+
+TEST(Overlay, SaysNothingTwice) {
+  const std::string friction = "<codesign:friction mu_static=\"1\" mu_dynamic=\"1\" joint_length=\"1\" pin_radius=\"1\"/>";
+  const auto refused = [](const std::string& body, const std::string& fault) {
+    expect_error(vendor(), {"notes.urdf:3:", fault}, {overlay(body)});
+  };
+  refused("<joint name=\"hinge\">" + friction + "\n" + friction + "</joint>", "a second <codesign:friction>");
+  refused("<joint name=\"hinge\">" + friction + "</joint>\n<joint name=\"hinge\">" + friction + "</joint>", "a second <codesign:friction>");
+  refused(std::string(kParameter) + "\n" + kParameter, "a second <codesign:parameter> of this name");
+  refused("<joint name=\"hinge\"><dynamics damping=\"1\"/></joint>\n<joint name=\"hinge\"><dynamics damping=\"2\"/></joint>",
+          "sets damping a second time");
+  refused("<link name=\"tip\"/>" + joint_with("j", "fixed", "arm", "tip") + "\n<link name=\"tip\"/>", "a second <link> of this name");
+  EXPECT_NO_THROW(read_urdf(vendor(), {overlay("<joint name=\"hinge\">" + friction +
+                                               "</joint>\n<joint name=\"hinge\"><dynamics damping=\"2\"/>"
+                                               "</joint>")}));
+}
+
+TEST(Overlay, HoldsAnnotatedElementsOnly) {
+  expect_error(vendor(), {"notes.urdf:2: <material name=\"x\">: an overlay cannot hold this element"}, {overlay("<material name=\"x\"/>")});
+  expect_error(vendor(), {"notes.urdf:2:", "the attribute name is missing"}, {overlay("<joint/>")});
+}
+
+TEST(Overlay, FaultsNameTheOverlayAndItsLine) {
+  expect_error(vendor(), {"notes.urdf:4: <joint name=\"hinge\"> <origin>: codesign:xyz is 0 0 0.3"},
+               {overlay("<codesign:parameter name=\"length\" value=\"0.3\"/>\n<joint name=\"hinge\">\n<origin codesign:xyz=\"0 0 "
+                        "${length}\"/></joint>")});
+  expect_error(vendor(), {"notes.urdf:3: <joint name=\"hinge\"> <dynamics>", "damping is negative"},
+               {overlay("<joint name=\"hinge\">\n<dynamics damping=\"-1\"/></joint>")});
+  expect_error(vendor(), {"notes.urdf:2:", "did you mean \"codesign:friction\"?"},
+               {overlay("<joint name=\"hinge\"><codesign:frction/></joint>")});
+  expect_error(vendor(), {"notes.urdf:1:", "the text is not XML"}, {{"notes.urdf", "<robot><joint></robot>"}});
+  expect_error(vendor(), {"notes.urdf:1:", "the prefix codesign is not declared"},
+               {{"notes.urdf", "<robot><codesign:parameter name=\"x\" value=\"1\"/></robot>"}});
+}
+
+}  // namespace
+}  // namespace codesign

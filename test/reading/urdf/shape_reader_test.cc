@@ -1,0 +1,39 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/urdf/shape_reader.h"
+
+#include "mechanism/mass_properties.h"
+#include "urdf_fixture.h"
+
+namespace codesign {
+namespace {
+
+SourceText with_inertial(const std::string& inertial, const std::string& visual = "") {
+  return robot_text("<link name=\"a\">\n" + inertial + visual + "</link>");
+}
+
+const char kBox[] = R"(<visual><origin xyz="0 0 0.1" codesign:xyz="0 0 ${length/2}"/>
+    <geometry><box size="0.1 0.1 0.2" codesign:size="0.1 0.1 ${length}"/></geometry></visual>)";
+
+std::string from_shape(const std::string& density, const std::string& mass, const std::string& ixx = "0.0083333333333333332") {
+  return "<inertial codesign:density=\"" + density + "\" codesign:from=\"visual\"><origin xyz=\"0 0 0.1\"/><mass value=\"" + mass +
+         "\"/><inertia ixx=\"" + ixx +
+         "\" ixy=\"0\" ixz=\"0\" iyy=\"0.0083333333333333332\" iyz=\"0\" izz=\"0.0033333333333333335\"/></inertial>";
+}
+
+TEST(ShapeReader, ShapesWithoutMass) {
+  const auto with_shape = [](const std::string& shape) {
+    return with_inertial(from_shape("1000", "2"), "<visual><geometry>" + shape + "</geometry></visual>");
+  };
+  expect_error(with_inertial(from_shape("1000", "2")), {"the link has no <visual>"});
+  expect_error(with_shape("<mesh filename=\"x.stl\"/>"), {"mass cannot be computed from this shape (value: <mesh>"});
+  expect_error(with_shape("<box size=\"1 0 1\"/>"), {"the box has no volume"});
+  expect_error(with_shape("<sphere radius=\"-1\"/>"), {"radius is not positive"});
+  expect_error(with_shape(""), {"exactly one shape"});
+  expect_error(with_inertial(from_shape("-1", "2"), kBox), {"the density is not positive"});
+  expect_error(with_inertial("<inertial codesign:density=\"1\" codesign:from=\"colision\"/>", kBox),
+               {"value: colision, allowed: visual or collision"});
+  expect_error(with_inertial("<inertial codesign:from=\"visual\"/>", kBox), {"shapes without codesign:density"});
+}
+
+}  // namespace
+}  // namespace codesign

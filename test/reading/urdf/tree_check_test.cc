@@ -1,0 +1,78 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/urdf/tree_check.h"
+
+#include "urdf_fixture.h"
+
+namespace codesign {
+namespace {
+
+TEST(TreeCheck, TheRootIsFoundWhereverItStands) {
+  EXPECT_EQ(read_urdf(robot_text(link_with("arm") + kGround + joint_with("j", "continuous", "ground", "arm"))).root, 1);
+}
+
+TEST(TreeCheck, TwoRoots) {
+  expect_error(robot_text("<link name=\"a\"/>\n<link name=\"b\"/>"),
+               {"test.urdf:3: <link name=\"b\">: a second root", "value: a, b", "one root link"});
+}
+
+TEST(TreeCheck, Rings) {
+  const std::string ab = "<link name=\"a\"/><link name=\"b\"/>" + joint_with("ab", "fixed", "a", "b") + joint_with("ba", "fixed", "b", "a");
+  expect_error(robot_text(ab), {"the joints form a ring that hangs on nothing"});
+  expect_error(robot_text(kGround + ab), {"<joint name=\"ba\">: the joints form a ring that hangs on nothing (value: a"});
+}
+
+TEST(TreeCheck, ASecondParentClosesALoop) {
+  // b hangs on a, and is named once more by a hinge on the ground, which stands first in the file.
+  const SourceText text = robot_text(kGround + link_with("a") + link_with("b") + "\n" + joint_with("ring", "continuous", "b", "a") + "\n" +
+                                     joint_with("ga", "continuous", "ground", "a") + "\n" + joint_with("ab", "continuous", "a", "b"));
+  expect_warning(text, "second_parent", {"test.urdf:3: <joint name=\"ring\">", "read as a loop", "(value: a)"});
+  const RobotDescription robot = read_urdf(text);
+  ASSERT_EQ(robot.joints.size(), 3U);
+  EXPECT_EQ(robot.joints[0].name, "ga");
+  EXPECT_EQ(robot.joints[2].name, "ring");
+  EXPECT_TRUE(robot.joints[2].is_loop);
+}
+
+TEST(TreeCheck, InAnOverlayALinkHangsOnOneJoint) {
+  expect_error(pendulum(""), {"notes.urdf:2: <joint name=\"two\">: its child arm already hangs on the joint hinge", "<loop>"},
+               {overlay_text(joint_with("two", "continuous", "ground", "arm"))});
+}
+
+TEST(TreeCheck, NoLinks) { expect_error(robot_text(""), {"the robot has no links"}); }
+
+TEST(TreeCheck, NamesAreUnique) {
+  expect_error(robot_text("<link name=\"a\"/>\n<link name=\"a\"/>"), {"test.urdf:3: <link>: a second link of this name (value: a"});
+  expect_error(pendulum("", link_with("b") + joint_with("hinge", "fixed", "arm", "b")), {"a second joint of this name (value: hinge"});
+  const std::string coupling =
+      "<coupling name=\"c\"><predecessor link=\"arm\"/><successor link=\"ground\"/><ratio value=\"2\"/></coupling>";
+  expect_error(pendulum("", coupling + coupling), {"a second coupling of this name"});
+  const std::string spring =
+      "<codesign:spring_damper name=\"s\" stiffness=\"1\"><predecessor link=\"arm\"/><successor link=\"ground\"/></codesign:spring_damper>";
+  expect_error(pendulum("", spring + spring), {"a second codesign:spring_damper of this name"});
+}
+
+TEST(TreeCheck, Mimics) {
+  const auto second = [](const std::string& joint) {
+    return link_with("tip") + joint_with("wrist", "continuous", "arm", "tip", "<mimic joint=\"" + joint + "\"/>");
+  };
+  const SourceText unknown = pendulum("", second("hing"));
+  expect_warning(unknown, "mimic_ignored",
+                 {"<joint name=\"wrist\"> <mimic>: unknown joint to mimic, did you mean \"hinge\"?", "moves freely"});
+  EXPECT_FALSE(read_urdf(unknown).joints[1].mimic);
+  expect_warning(pendulum("", second("wrist")), "mimic_ignored", {"mimic each other in a ring"});
+  const RobotDescription ring = read_urdf(pendulum("<mimic joint=\"wrist\"/>", second("hinge")));
+  EXPECT_EQ(ring.warnings.size(), 1U);
+  EXPECT_TRUE(ring.joints[1].mimic) << "without the first the second makes sense";
+}
+
+TEST(TreeCheck, FrictionOfOrdinaryJointsNeedsItsDimensions) {
+  const char* friction = "<codesign:friction mu_static=\"0.4\" mu_dynamic=\"0.3\"/>";
+  expect_error(pendulum(friction), {"<joint name=\"hinge\"> <codesign:friction>", "joint_length"});
+  const std::string chain = kGround + link_with("massless", "") + link_with("arm");
+  EXPECT_NO_THROW(read_urdf(robot_text(chain + joint_with("x", "continuous", "ground", "massless", friction) +
+                                       joint_with("y", "continuous", "massless", "arm", friction))))
+      << "they will be one universal joint, whose needs are another's to check";
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,89 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "mechanism/mass_properties.h"
+#include "paths.h"
+#include "urdf_fixture.h"
+
+namespace codesign {
+namespace {
+
+SourceText slider_crank() { return read_source(source_dir() + "/urdf/slider_crank.urdf"); }
+
+SourceText tuned(const SourceText& urdf, const std::vector<double>& at, const std::vector<SourceText>& overlays = {}) {
+  return {"tuned.urdf", write_tuned_urdf(urdf, overlays, at)};
+}
+
+TEST(UrdfWriter, ReadsBackAsTheSameDesignAtItsNewDefaults) {
+  const std::vector<double> at = {0.0612345678901234, 0.22358, 0.04, 0.02, 5.0};
+  const RobotDescription before = read_urdf(slider_crank()), after = read_urdf(tuned(slider_crank(), at));
+  ASSERT_EQ(after.parameters.size(), before.parameters.size());
+  for (std::size_t k = 0; k < after.parameters.size(); ++k) {
+    EXPECT_EQ(after.parameters[k].value, at[k]);
+    EXPECT_EQ(after.parameters[k].lower, before.parameters[k].lower);
+    EXPECT_EQ(after.parameters[k].upper, before.parameters[k].upper);
+  }
+  const std::vector<double> elsewhere = {0.09, 0.35, 0.05, 0.03};
+  for (std::size_t k = 0; k < after.links.size(); ++k) {
+    if (!before.links[k].inertial) continue;
+    const auto a = mass_properties(*before.links[k].inertial, elsewhere), b = mass_properties(*after.links[k].inertial, elsewhere);
+    EXPECT_DOUBLE_EQ(a.mass, b.mass);
+    EXPECT_EQ((a.inertia - b.inertia).norm(), 0.0);
+  }
+  EXPECT_EQ(after.joints[1].origin.xyz[1].nominal(), at[0]);
+  EXPECT_EQ(after.joints[4].friction->joint_length.nominal(), 0.04);
+}
+
+TEST(UrdfWriter, WritesWhatReadersOfPlainUrdfSee) {
+  const std::string text = tuned(slider_crank(), {0.06, 0.2, 0.04, 0.02}).text;
+  for (const char* part :
+       {"size=\"0.04 0.02 0.02\"", "<mass value=\"1.024", "xyz=\"0.1 0 0\"", "SPDX-License-Identifier", "codesign:size=\"${slider_length}"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
+TEST(UrdfWriter, ItsDefaultsChangeNothing) {
+  const SourceText once = tuned(slider_crank(), {0.08, 0.3, 0.05, 0.025});
+  EXPECT_EQ(tuned(once, {0.08, 0.3, 0.05, 0.025}).text, once.text);
+}
+
+TEST(UrdfWriter, InertialsFromShapesFollow) {
+  const SourceText urdf = robot_text(link_with("a", R"(<inertial codesign:density="1000"><mass value="2"/>
+      <origin xyz="0 0 0.1" rpy="0 0 1.5707963267948966"/>
+      <inertia ixx="0.0083333333333333332" ixy="0" ixz="0" iyy="0.0083333333333333332" iyz="0" izz="0.0033333333333333335"/></inertial>
+      <visual><origin xyz="0 0 0.1" codesign:xyz="0 0 ${length/2}"/><geometry><box size="0.1 0.1 0.2" codesign:size="0.1 0.1 ${length}"/></geometry></visual>)"));
+  const SourceText written = tuned(urdf, {0.3});
+  EXPECT_NE(written.text.find("<mass value=\"3"), std::string::npos) << written.text;
+  const RobotDescription robot = read_urdf(written);
+  EXPECT_DOUBLE_EQ(mass_properties(*robot.links[0].inertial, std::vector<double>{0.3}).centre[2], 0.15);
+}
+
+TEST(UrdfWriter, OverlaysAreMergedIn) {
+  const SourceText vendor = {"vendor.urdf", std::string("<robot name=\"vendor\">") + kGround + link_with("arm") +
+                                                joint_with("hinge", "continuous", "ground", "arm", "<origin xyz=\"0 0 0.2\"/>") +
+                                                "</robot>"};
+  const SourceText overlay = {"notes.urdf",
+                              "<robot xmlns:codesign=\"urn:x\"><codesign:parameter name=\"height\" value=\"0.2\"/>"
+                              "<joint name=\"hinge\"><origin codesign:xyz=\"0 0 ${height}\"/></joint></robot>"};
+  const RobotDescription robot = read_urdf(tuned(vendor, {0.5}, {overlay}));
+  EXPECT_EQ(robot.name, "vendor");
+  EXPECT_EQ(robot.parameters.at(0).value, 0.5);
+  EXPECT_EQ(robot.joints.at(0).origin.xyz[2].nominal(), 0.5);
+}
+
+TEST(UrdfWriter, BoundsThatAStudyWidenedFollow) {
+  const RobotDescription robot = read_urdf(tuned(pendulum(""), {0.7}));
+  EXPECT_EQ(robot.parameters.at(0).value, 0.7);
+  EXPECT_EQ(robot.parameters.at(0).upper, 0.7);
+  EXPECT_EQ(robot.parameters.at(0).lower, 0.1);
+}
+
+TEST(UrdfWriter, Faults) {
+  EXPECT_THROW(write_tuned_urdf(pendulum(""), {}, {}), InputError);
+  EXPECT_THROW(write_tuned_urdf(pendulum(""), {}, {std::nan("")}), InputError);
+  const SourceText root = pendulum(R"(<origin xyz="0 0 0.31622776601683794" codesign:xyz="0 0 ${sqrt(length - 0.1)}"/>)");
+  EXPECT_NO_THROW(write_tuned_urdf(root, {}, {0.3}));
+  EXPECT_THROW(write_tuned_urdf(root, {}, {0.05}), InputError) << "not finite there";
+}
+
+}  // namespace
+}  // namespace codesign

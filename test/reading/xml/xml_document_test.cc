@@ -1,0 +1,43 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/xml/xml_document.h"
+
+#include "urdf_fixture.h"
+
+namespace codesign {
+namespace {
+
+TEST(XmlDocument, WhatIsNoRobotIsRefusedWithItsLine) {
+  expect_error({"a.urdf", "<robot name=\"x\">\n<link>\n</robot>"}, {"a.urdf:2: the text is not XML", "does not end"});
+  expect_error({"a.urdf", "<robot name=\"x\"\n name=\"y\"/>"}, {"a.urdf:2: the text is not XML"});
+  expect_error({"a.urdf", "plain words"}, {"a.urdf"});
+  expect_error({"a.urdf", ""}, {"a.urdf"});
+  expect_error({"a.urdf", "<!-- nothing -->"}, {"a.urdf:1: the text holds no XML element"});
+  expect_error({"a.urdf", "\n<model/>"}, {"a.urdf:2: the root element is not a robot", "value: <model>, allowed: <robot>"});
+}
+
+TEST(XmlDocument, CopiesKeepTheirPlaceOfOrigin) {
+  XmlDocument base({"base.urdf", "<robot>\n<link/>\n</robot>"});
+  const XmlDocument other({"other.urdf", "<robot>\n\n<link\n a=\"1\"><mass\n b=\"2\"/></link>\n</robot>"});
+  const tinyxml2::XMLElement* own = base.robot()->FirstChildElement();
+  const tinyxml2::XMLElement* copy = base.append_copy(base.robot(), other.robot()->FirstChildElement(), other);
+  EXPECT_EQ(base.location(own).file, "base.urdf");
+  EXPECT_EQ(base.location(own).line, 2);
+  EXPECT_EQ(base.location(copy).file, "other.urdf");
+  EXPECT_EQ(base.location(copy).line, 3);
+  EXPECT_EQ(base.location(copy->FirstChildElement(), "b").line, 5);
+  EXPECT_EQ(base.location(copy, "missing").line, 3);
+}
+
+TEST(XmlDocument, AttributesRememberWhoSetThem) {
+  XmlDocument base({"base.urdf", "<robot>\n<link a=\"1\" c=\"3\"/>\n</robot>"});
+  const XmlDocument other({"other.urdf", "<robot>\n\n\n<link a=\"2\"/>\n</robot>"});
+  tinyxml2::XMLElement* own = base.robot()->FirstChildElement();
+  base.copy_attributes(own, other.robot()->FirstChildElement(), other);
+  EXPECT_STREQ(own->Attribute("a"), "2");
+  EXPECT_EQ(base.location(own, "a").file, "other.urdf");
+  EXPECT_EQ(base.location(own, "a").line, 4);
+  EXPECT_EQ(base.location(own, "c").file, "base.urdf");
+}
+
+}  // namespace
+}  // namespace codesign

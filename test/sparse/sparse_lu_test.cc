@@ -1,0 +1,64 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sparse/sparse_lu.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+namespace codesign {
+namespace {
+
+// A full 4 x 4 pattern, column by column.
+const std::vector<int> kStart{0, 4, 8, 12, 16}, kRows{0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+
+Eigen::Matrix4d matrix(double corner) {
+  Eigen::Matrix4d m;
+  m << corner, 2, 0, 1, 2, 5, 1, 0, 0, 1, 3, 4, 1, 0, 4, 0;
+  return m;
+}
+
+TEST(SparseLu, SolvesAndRefactors) {
+  SparseLu lu(kStart, kRows);
+  for (double corner : {4.0, 3.0, -2.0}) {
+    const Eigen::Matrix4d m = matrix(corner);
+    ASSERT_TRUE(lu.factor(m.data()));
+    const Eigen::Vector4d b(1, 2, 3, 4);
+    Eigen::Vector4d x = b, y = b;
+    lu.solve(x.data());
+    lu.solve_transposed_rows<1>(y.data());
+    EXPECT_LT((m * x - b).norm(), 1e-13);
+    EXPECT_LT((m.transpose() * y - b).norm(), 1e-13);
+  }
+  EXPECT_EQ(lu.full_factorizations(), 1);
+}
+
+TEST(SparseLu, FallsBackWhenOldPivotsVanish) {
+  SparseLu lu(kStart, kRows);
+  ASSERT_TRUE(lu.factor(matrix(1e8).data()));
+  Eigen::Matrix4d m = matrix(0.0);
+  m(1, 1) = 0.0;
+  ASSERT_TRUE(lu.factor(m.data()));
+  Eigen::Vector4d x(1, 2, 3, 4);
+  const Eigen::Vector4d b = x;
+  lu.solve(x.data());
+  EXPECT_LT((m * x - b).norm(), 1e-12);
+  EXPECT_EQ(lu.full_factorizations(), 2);
+
+  // Both sets of pivots are known now.
+  for (double corner : {1e8, 4.0}) {
+    ASSERT_TRUE(lu.factor(matrix(corner).data()));
+    ASSERT_TRUE(lu.factor(m.data()));
+  }
+  EXPECT_EQ(lu.full_factorizations(), 2);
+}
+
+TEST(SparseLu, ReportsSingularMatrices) {
+  SparseLu lu(kStart, kRows);
+  Eigen::Matrix4d m = matrix(4.0);
+  m.col(3) = m.col(2);
+  EXPECT_FALSE(lu.factor(m.data()));
+  EXPECT_TRUE(lu.factor(matrix(4.0).data()));
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,43 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "text/number_text.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace codesign {
+namespace {
+
+TEST(NumberText, ReadsWholeNumbersOnly) {
+  EXPECT_EQ(parse_number("0.25"), 0.25);
+  EXPECT_EQ(parse_number("-1e-3"), -1e-3);
+  EXPECT_EQ(parse_number("+2"), 2.0);
+  EXPECT_EQ(parse_number(".5"), 0.5);
+  for (const char* text : {"", "1,5", "1.5m", " 1", "1 ", "+-1", "--1", "0x1", "one", "+", "1e"}) EXPECT_FALSE(parse_number(text)) << text;
+}
+
+TEST(NumberText, WhatIsTooSmallIsZero) {
+  EXPECT_EQ(parse_number("1e-400"), 0.0);
+  EXPECT_FALSE(parse_number("1e400"));
+  EXPECT_FALSE(parse_number("1e-400m"));
+}
+
+TEST(NumberText, LeavesFinitenessToTheCaller) {
+  EXPECT_TRUE(std::isnan(*parse_number("nan")));
+  EXPECT_TRUE(std::isinf(*parse_number("-inf")));
+}
+
+TEST(NumberText, FormatsAndSplits) {
+  EXPECT_EQ(format_numbers({0.1, -2.0, 1e-20}), "0.1 -2 1e-20");
+  EXPECT_EQ(split_words("  a\tb\n c "), (std::vector<std::string>{"a", "b", "c"}));
+}
+
+TEST(NumberText, EndsAreComparedWhole) {
+  EXPECT_TRUE(ends_with("drake:ball_constraint", "_constraint"));
+  EXPECT_TRUE(ends_with("same", "same"));
+  EXPECT_FALSE(ends_with("straint", "constraint"));
+  EXPECT_FALSE(ends_with("constraints", "constraint"));
+}
+
+}  // namespace
+}  // namespace codesign
