@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "description/solver_names.h"
 #include "mechanism_codesign/error.h"
 
 namespace codesign {
@@ -33,8 +34,8 @@ Problem load_slider_crank() { return load_problem(read_source(kUrdf), {}, read_s
 
 std::optional<Problem> with_solver(const Problem& problem, const std::string& name, double relative_tolerance) {
   Problem changed = problem;
-  changed.study.solver.integrator = name == "idas" ? "idas" : "rosenbrock";
-  if (name != "idas") changed.study.solver.method = name == kControlled ? "rodas5p" : name;
+  changed.study.solver.integrator = name == "idas" ? IntegratorKind::kIdas : IntegratorKind::kRosenbrock;
+  if (name != "idas") changed.study.solver.method = method_named(name == kControlled ? "rodas5p" : name);
   changed.study.solver.sensitivity_tolerance = name == kControlled ? relative_tolerance : 0.0;
   changed.study.solver.relative_tolerance = relative_tolerance;
   changed.study.solver.absolute_tolerance = 0.1 * relative_tolerance;

@@ -11,8 +11,9 @@ add_library(codesign_test_paths OBJECT EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/te
 target_compile_definitions(codesign_test_paths PRIVATE CODESIGN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" CODESIGN_EXECUTABLE="$<TARGET_FILE:codesign>")
 codesign_warnings(codesign_test_paths)
 
-foreach(folder math model joints forces control dynamics integration sensitivity optimization jobs cli ros benchmark system allocation)
-  file(GLOB test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${folder}/*.cc)
+foreach(folder text math codegen sparse description mechanism reading joints forces control equations assembly observation problem integration sensitivity
+    optimization jobs cli ros benchmark system allocation)
+  file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${folder}/*.cc)
   if(NOT test_sources OR (folder STREQUAL ros AND NOT TARGET codesign_ros))
     continue()
   endif()
@@ -52,7 +53,7 @@ endforeach()
 
 # What several threads do at once, compiled for the thread sanitizer with the tests themselves: tools/sanitize thread.
 if(CODESIGN_SANITIZE MATCHES thread)
-  set(thread_tests dynamics/equation_code integration/simulation model/expression model/urdfdom_check ros/worker sensitivity/threads)
+  set(thread_tests equations/equation_code integration/simulation description/expression reading/urdf/urdfdom_check ros/worker sensitivity/threads)
   list(TRANSFORM thread_tests REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/test/\\1_test.cc")
   add_executable(test_threads EXCLUDE_FROM_ALL ${thread_tests} ${PROJECT_SOURCE_DIR}/src/ros/worker.cc ${PROJECT_SOURCE_DIR}/benchmark/mechanisms.cc)
   target_include_directories(test_threads PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/test ${PROJECT_SOURCE_DIR}/include)

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "assembly/given_start.h"
+#include "equations/given_start.h"
 #include "math/directions.h"
 
 namespace codesign {

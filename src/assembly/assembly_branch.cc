@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "assembly/assembly.h"
-#include "assembly/given_start.h"
+#include "equations/given_start.h"
 
 namespace codesign {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "determined_motion.h"
+#include "assembly/determined_motion.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>

@@ -1,14 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "assembly/make_system.h"
+
 #include <algorithm>
 
-#include "assembly/assembly.h"
 #include "assembly/determined_motion.h"
-#include "assembly/mobility.h"
 #include "assembly/redundancy.h"
 #include "assembly/signal_warnings.h"
-#include "equations/system.h"
-#include "integration/simulation.h"
-#include "integration/tableau.h"
+#include "assembly/start_workspace.h"
 #include "mechanism/signal_catalog.h"
 #include "text/decimal.h"
 
@@ -92,80 +90,38 @@ bool must_drop(const LoopMiss& miss, const Redundancy& redundancy) {
   return std::max(miss.length, miss.angle) > kExact || !redundancy.friction_chosen.empty();
 }
 
-/// The system with what its redundant constraints need. A design that cannot start is bad input; later ones are trial points.
+/// The system with its redundant constraints handled. A design that cannot start is bad input; later designs are trial points.
 std::shared_ptr<const System> with_sharing(std::shared_ptr<const System> system, Warnings* warnings) {
-  Equations<double> equations(*system);
-  equations.compiled().allow(false);  // once is not worth the compiling
-  const std::vector<double> parameters = system->parameters();
-  equations.set_design(parameters);
-  Assembly assembly(*system);
-  State<double> state;
-  const Status status = assembly.solve_positions(parameters, &equations, &state);
-  if (!status.ok()) refuse_start(*system, assembly, status);
-  require_determined_motion(*system, parameters, assembly, &equations);
-  warn_of_miss(*system, assembly.worst_miss(), warnings);
-  Redundancy redundancy = analyse_redundancy(*system, &equations, assembly, parameters, state);
+  StartWorkspace start(*system, system->parameters());
+  const Status status = start.solve_positions();
+  if (!status.ok()) refuse_start(*system, start.assembly, status);
+  require_determined_motion(*system, start.parameters, start.assembly, &start.equations);
+  const LoopMiss& miss = start.assembly.worst_miss();
+  warn_of_miss(*system, miss, warnings);
+  Redundancy redundancy = analyse_redundancy(*system, &start.equations, start.assembly, start.parameters, start.state);
   if (redundancy.rows.empty()) return system;
   warn_of_friction(*system, redundancy, warnings);
-  append(warn_of_open_reactions(*system, redundancy, state, signals_of(system->study()), &equations), warnings);
-  if (!must_drop(assembly.worst_miss(), redundancy)) redundancy.sharing = ReactionSharing();
-  redundancy.sharing.compliance = compliance_of(equations);
+  append(warn_of_open_reactions(*system, redundancy, start.state, signals_of(system->study()), &start.equations), warnings);
+  if (!must_drop(miss, redundancy)) redundancy.sharing = ReactionSharing();
+  redundancy.sharing.compliance = compliance_of(start.equations);
   return std::make_shared<const System>(system->robot(), system->study(), redundancy.sharing);
 }
 
 void check_start(const System& system) {
-  Equations<double> equations(system);
-  equations.compiled().allow(false);
-  equations.set_design(system.parameters());
-  Assembly assembly(system);
-  State<double> state;
-  const Status status = assembly.solve_motion(system.parameters(), &equations, &state);
+  StartWorkspace start(system, system.parameters());
+  const Status status = start.solve_motion();
   if (status.code == StatusCode::kAssemblyFailed || status.code == StatusCode::kInitialVelocityFailed)
-    refuse_start(system, assembly, status);
+    refuse_start(system, start.assembly, status);
 }
 
 }  // namespace
 
 std::shared_ptr<const System> make_system(const RobotDescription& robot, const Study& study, Warnings* warnings) {
-  if (!rosenbrock_tableau(study.solver.method))
-    throw InputError({{study.file, 0}, "solver.method", "no such Rosenbrock method", study.solver.method, "rodas4, rodas4p2, rodas5p"});
-  if (study.solver.integrator != "rosenbrock" && study.solver.integrator != "idas")
-    throw InputError({{study.file, 0}, "solver.integrator", "no such integrator", study.solver.integrator, "rosenbrock, idas"});
   Warnings found;
   std::shared_ptr<const System> system = with_sharing(std::make_shared<const System>(robot, study), &found);
   check_start(*system);
   if (warnings) append(found, warnings);
   return system;
-}
-
-Counts count_equations(const std::shared_ptr<const System>& system, const std::vector<double>& parameters, Status* status) {
-  const Layout& layout = system->layout();
-  Counts counts;
-  counts.bodies = layout.bodies;
-  counts.coordinates = layout.n;
-  counts.first_order_equations = 2 * layout.n;
-  counts.controller_states = layout.states;
-  counts.constraints = layout.constraints();
-  counts.parameters = static_cast<int>(system->study().tuned.size());
-  Equations<double> equations(*system);
-  equations.compiled().allow(false);
-  equations.set_design(parameters);
-  Assembly assembly(*system);
-  State<double> state;
-  *status = assembly.solve(parameters, &equations, &state);
-  if (status->code == StatusCode::kAssemblyFailed) return counts;
-  const Redundancy redundancy = analyse_redundancy(*system, &equations, assembly, parameters, state);
-  counts.redundant_rows = redundancy.rows;
-  counts.undetermined_reactions = redundancy.undetermined;
-  counts.chosen_friction = redundancy.friction_chosen;
-  counts.redundant_constraints = static_cast<int>(counts.redundant_rows.size());
-  counts.degrees_of_freedom = layout.n - (counts.constraints - counts.redundant_constraints);
-  if (redundancy.rows.size() > redundancy.sharing.dropped.size())
-    counts.degrees_of_freedom -= motions_lost_to_curvature(parameters, assembly, equations);
-  counts.dynamic_equations = counts.first_order_equations + counts.constraints;
-  counts.sensitivities = counts.parameters * counts.dynamic_equations;
-  counts.total_equations = counts.dynamic_equations + counts.sensitivities;
-  return counts;
 }
 
 }  // namespace codesign

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mobility.h"
+#include "assembly/mobility.h"
 
 #include <Eigen/QR>
 #include <Eigen/SVD>

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "assembly/assembly.h"
+#include "assembly/start_workspace.h"
 #include "mechanism/signal_catalog.h"
 
 namespace codesign {
@@ -31,15 +31,10 @@ Warnings warn_of_open_reactions(const System& system, const std::vector<SignalDe
     return std::any_of(signal.terms.begin(), signal.terms.end(), [](const SignalTerm& term) { return is_reaction(term); });
   };
   if (std::none_of(signals.begin(), signals.end(), reads_one)) return {};
-  Equations<double> equations(system);
-  equations.compiled().allow(false);
-  const std::vector<double> parameters = system.parameters();
-  equations.set_design(parameters);
-  Assembly assembly(system);
-  State<double> state;
-  if (!assembly.solve_positions(parameters, &equations, &state).ok()) return {};
-  const Redundancy redundancy = analyse_redundancy(system, &equations, assembly, parameters, state);
-  return warn_of_open_reactions(system, redundancy, state, signals, &equations);
+  StartWorkspace start(system, system.parameters());
+  if (!start.solve_positions().ok()) return {};
+  const Redundancy redundancy = analyse_redundancy(system, &start.equations, start.assembly, start.parameters, start.state);
+  return warn_of_open_reactions(system, redundancy, start.state, signals, &start.equations);
 }
 
 }  // namespace codesign

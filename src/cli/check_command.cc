@@ -1,4 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "assembly/count_equations.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/limit_watch.h"
@@ -57,7 +58,7 @@ int check(const Arguments& arguments, const Console& console) {
   const Problem problem = load(arguments, &console);
   const std::vector<double> parameters = problem.parameters();
   Status status;
-  const Counts counts = count_equations(problem.system, parameters, &status);
+  const Counts counts = count_equations(*problem.system, parameters, &status);
   const std::vector<LimitCrossing> crossings = crossings_at_start(problem, parameters);
   if (!arguments.json && status.ok()) {
     print_table(counts, console.out);

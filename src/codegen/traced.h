@@ -55,6 +55,8 @@ Traced tanh(const Traced& x);
 Traced exp(const Traced& x);
 Traced atan2(const Traced& y, const Traced& x);
 Traced round(const Traced& x);
+inline Traced arc_tangent(const Traced& y, const Traced& x) { return atan2(y, x); }
+inline Traced nearest_turns(const Traced& reference, const Traced& angle) { return 2.0 * M_PI * round((reference - angle) / (2.0 * M_PI)); }
 
 /// Traces have no value: whatever is decided with it, the recording refuses to be compiled. Decisions that may be recorded are is_less().
 double value_of(const Traced& x);

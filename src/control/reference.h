@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "codegen/traced.h"
 #include "description/reference.h"
 #include "math/scalar.h"
 

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "codegen/traced.h"
 #include "control/reference.h"
 #include "description/basis.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "expression_syntax.h"
+#include "description/expression_syntax.h"
 
 namespace codesign {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "expression_functions.h"
+#include "description/expression_functions.h"
 
 #include <cmath>
 

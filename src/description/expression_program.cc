@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "expression_program.h"
+#include "description/expression_program.h"
 
 #include <algorithm>
 
-#include "expression_functions.h"
+#include "description/expression_functions.h"
 
 namespace codesign {
 namespace {

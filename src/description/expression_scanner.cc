@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "expression_scanner.h"
+#include "description/expression_scanner.h"
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "number_text.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

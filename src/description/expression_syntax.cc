@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "expression_syntax.h"
+#include "description/expression_syntax.h"
 
 #include <algorithm>
 #include <map>
 #include <stdexcept>
 
-#include "expression_functions.h"
-#include "expression_scanner.h"
+#include "description/expression_functions.h"
+#include "description/expression_scanner.h"
 #include "text/nearest_name.h"
 #include "text/unknown_name.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "description/expression.h"
-#include "expression_program.h"
+#include "description/expression_program.h"
 
 namespace codesign {
 

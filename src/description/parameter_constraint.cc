@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "parameter_constraint.h"
+#include "description/parameter_constraint.h"
 
 #include <stdexcept>
 

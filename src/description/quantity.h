@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "codegen/traced.h"
 #include "description/expression.h"
 #include "math/scalar.h"
 

@@ -12,6 +12,7 @@
 #include "description/parameter.h"
 #include "description/quantity.h"
 #include "description/reference.h"
+#include "description/solver_options.h"
 #include "mechanism_codesign/error.h"
 
 namespace codesign {
@@ -115,20 +116,6 @@ struct LimitOptions {
   double stiffness = 1e4;    ///< of a stop [N/m or N m/rad]
   double dissipation = 1.0;  ///< of a stop: relative growth of its force per speed [s/m or s/rad]
   double width = 1e-3;       ///< over which a stop takes hold [m or rad]
-};
-
-struct SolverOptions {
-  std::string integrator = "rosenbrock";  ///< or "idas"
-  std::string method = "rodas4";          ///< rosenbrock: rodas4, rodas4p2, rodas5p
-  double relative_tolerance = 1e-6;
-  double absolute_tolerance = 1e-7;
-  std::string gradient = "auto";       ///< rosenbrock: "direct", "adjoint", or the cheaper
-  double sensitivity_tolerance = 0.0;  ///< rosenbrock: relative, of each parameter's sensitivities; 0: they stay out of the error test
-  double initial_step = 0.0;           ///< [s]; 0: chosen
-  double maximum_step = 0.0;           ///< [s]; 0: none
-  int maximum_steps = 200000;
-  double maximum_speed = 0.0;       ///< of any body [m/s] and [rad/s]; 0: chosen, see MotionWatch
-  double closure_tolerance = 1e-3;  ///< by how much a loop may miss at the start and still count as closed [m and rad]
 };
 
 struct OptimizerOptions {

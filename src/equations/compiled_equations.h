@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "codegen/traced.h"
 #include "control/reference.h"
 #include "control/shaped_input.h"
 #include "equations/state.h"

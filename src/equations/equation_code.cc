@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "codegen/traced.h"
 #include "equations/equations.h"
 
 namespace codesign {

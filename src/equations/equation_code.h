@@ -11,6 +11,7 @@
 
 #include "codegen/straight_line.h"
 #include "codegen/tangent_program.h"
+#include "codegen/traced.h"
 #include "codegen/value_code.h"
 #include "equations/compiled_equations.h"
 

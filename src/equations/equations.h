@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "codegen/traced.h"
 #include "control/controller_constants.h"
 #include "equations/compiled_equations.h"
 #include "equations/contact_friction.h"

@@ -3,7 +3,7 @@
 #define MECHANISM_CODESIGN_EQUATIONS_EQUATIONS_POWER_H_
 
 #include "equations/equations.h"
-#include "equations_springs.h"
+#include "equations/equations_springs.h"
 
 namespace codesign {
 

@@ -2,22 +2,22 @@
 #ifndef MECHANISM_CODESIGN_EQUATIONS_EQUATIONS_SCALAR_H_
 #define MECHANISM_CODESIGN_EQUATIONS_EQUATIONS_SCALAR_H_
 
-#include "equations_assembly.h"
-#include "equations_bristles.h"
-#include "equations_constant_loads.h"
-#include "equations_contacts.h"
-#include "equations_controllers.h"
-#include "equations_couplings.h"
-#include "equations_energy.h"
-#include "equations_limits.h"
-#include "equations_loads.h"
-#include "equations_power.h"
-#include "equations_reactions.h"
-#include "equations_residual.h"
-#include "equations_rotors.h"
-#include "equations_sharing.h"
-#include "equations_signals.h"
-#include "equations_springs.h"
+#include "equations/equations_assembly.h"
+#include "equations/equations_bristles.h"
+#include "equations/equations_constant_loads.h"
+#include "equations/equations_contacts.h"
+#include "equations/equations_controllers.h"
+#include "equations/equations_couplings.h"
+#include "equations/equations_energy.h"
+#include "equations/equations_limits.h"
+#include "equations/equations_loads.h"
+#include "equations/equations_power.h"
+#include "equations/equations_reactions.h"
+#include "equations/equations_residual.h"
+#include "equations/equations_rotors.h"
+#include "equations/equations_sharing.h"
+#include "equations/equations_signals.h"
+#include "equations/equations_springs.h"
 
 /// One source file per scalar, so that they compile side by side.
 #define CODESIGN_INSTANTIATE_EQUATIONS(T) template class Equations<T>;

@@ -2,7 +2,7 @@
 #ifndef MECHANISM_CODESIGN_EQUATIONS_EQUATIONS_SHARING_H_
 #define MECHANISM_CODESIGN_EQUATIONS_EQUATIONS_SHARING_H_
 
-#include "equations_assembly.h"
+#include "equations/equations_assembly.h"
 
 namespace codesign {
 

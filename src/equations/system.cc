@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "assembly/given_start.h"
+#include "equations/given_start.h"
 #include "equations/equation_code.h"
 #include "equations/equations.h"
 

@@ -7,7 +7,7 @@
 namespace codesign {
 
 std::unique_ptr<Integrator> make_integrator(const System& system) {
-  if (system.study().solver.integrator == "idas") return std::make_unique<IdasIntegrator>(system);
+  if (system.study().solver.integrator == IntegratorKind::kIdas) return std::make_unique<IdasIntegrator>(system);
   return std::make_unique<RosenbrockIntegrator>(system);
 }
 

@@ -13,7 +13,7 @@ RosenbrockIntegrator::RosenbrockIntegrator(const System& system)
     : system_(system),
       options_(system.study().solver),
       breaks_(system.study()),
-      step_(system, *rosenbrock_tableau(options_.method)),
+      step_(system, rosenbrock_tableau(options_.method)),
       assembly_(system),
       controller_(step_.tableau().order),
       watch_(system),

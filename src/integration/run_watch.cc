@@ -25,7 +25,7 @@ std::string rounded(double value) {
 }
 
 std::string advice(const SolverOptions& options) {
-  const std::string other = options.integrator == "idas" ? "rosenbrock" : "idas";
+  const std::string other = options.integrator == IntegratorKind::kIdas ? "rosenbrock" : "idas";
   return "Lower solver.relative_tolerance (" + to_decimal(options.relative_tolerance) + "), or compare with solver.integrator: " + other;
 }
 

@@ -11,19 +11,12 @@
 
 #include "description/robot.h"
 #include "description/study.h"
-#include "mechanism_codesign/counts.h"
 #include "mechanism_codesign/frame.h"
 #include "mechanism_codesign/status.h"
 
 namespace codesign {
 
 class System;  // the immutable equations of motion, equations/system.h
-
-/// Compiles a mechanism and a study into equations of motion.
-/// @throws InputError for a mechanism that cannot be (two masses on one loop end, a massless chain that cannot be folded, an unknown
-/// signal, ...).
-/// @param warnings what is doubtful is appended: loops that close only nearly, friction that rests on a reaction nothing determines.
-std::shared_ptr<const System> make_system(const RobotDescription& robot, const Study& study, Warnings* warnings = nullptr);
 
 /// What an integration cost.
 struct Statistics {
@@ -74,9 +67,6 @@ using FrameObserver = std::function<bool(const Frame&)>;
 /// @returns kNonFinite at the first sample that is not finite throughout, which the observer does not get to see.
 Status simulate(Simulation* simulation, double duration, int count, const FrameObserver& observer,
                 const std::atomic<bool>* cancel = nullptr);
-
-/// The equations' table at the assembled start; `status` tells if the start could not be assembled.
-Counts count_equations(const std::shared_ptr<const System>& system, const std::vector<double>& parameters, Status* status);
 
 }  // namespace codesign
 

@@ -103,10 +103,16 @@ const RosenbrockTableau& rodas5p() {
   return tableau;
 }
 
-const RosenbrockTableau* rosenbrock_tableau(const std::string& name) {
-  for (const RosenbrockTableau* tableau : {&rodas4(), &rodas4p2(), &rodas5p()})
-    if (name == tableau->name) return tableau;
-  return nullptr;
+const RosenbrockTableau& rosenbrock_tableau(RosenbrockMethod method) {
+  switch (method) {
+    case RosenbrockMethod::kRodas4P2:
+      return rodas4p2();
+    case RosenbrockMethod::kRodas5P:
+      return rodas5p();
+    case RosenbrockMethod::kRodas4:
+      break;
+  }
+  return rodas4();
 }
 
 }  // namespace codesign

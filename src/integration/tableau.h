@@ -3,7 +3,8 @@
 #define MECHANISM_CODESIGN_INTEGRATION_TABLEAU_H_
 
 #include <array>
-#include <string>
+
+#include "description/solver_options.h"
 
 namespace codesign {
 
@@ -32,8 +33,8 @@ const RosenbrockTableau& rodas4p2();
 /// Rodas5P (Steinebach 2023), order 5, 8 stages.
 const RosenbrockTableau& rodas5p();
 
-/// By the name in a study: "rodas4", "rodas4p2", "rodas5p"; nullptr for another.
-const RosenbrockTableau* rosenbrock_tableau(const std::string& name);
+/// The coefficients of a method.
+const RosenbrockTableau& rosenbrock_tableau(RosenbrockMethod method);
 
 }  // namespace codesign
 

@@ -25,7 +25,6 @@ template <int N>
 Lanes<N> arc_tangent(const Lanes<N>& y, const Lanes<N>& x) {
   return atan2(y, x);
 }
-inline Traced arc_tangent(const Traced& y, const Traced& x) { return atan2(y, x); }
 
 /// The whole turns [rad] to add to an angle so that it lies nearest to a reference; they have no derivative. Half a turn is rounded to
 /// even, as compiled code does.
@@ -33,7 +32,6 @@ template <class T>
 T nearest_turns(double reference, const T& angle) {
   return T(2.0 * M_PI * std::nearbyint((reference - value_of(angle)) / (2.0 * M_PI)));
 }
-inline Traced nearest_turns(const Traced& reference, const Traced& angle) { return 2.0 * M_PI * round((reference - angle) / (2.0 * M_PI)); }
 
 }  // namespace codesign
 

@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 #include <complex>
 
-#include "codegen/traced.h"
 #include "math/lanes.h"
 
 namespace codesign {

@@ -1,13 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "body_check.h"
+#include "mechanism/body_check.h"
 
 #include <Eigen/Eigenvalues>
 #include <map>
 
-#include "default_values.h"
-#include "number_text.h"
-#include "rigid_groups.h"
+#include "mechanism/default_values.h"
+#include "mechanism/rigid_groups.h"
 #include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

@@ -3,12 +3,13 @@
 
 #include <cmath>
 
-#include "body_check.h"
-#include "default_values.h"
+#include "codegen/traced.h"
+#include "mechanism/body_check.h"
+#include "mechanism/default_values.h"
 #include "mechanism/mass_properties.h"
+#include "mechanism/pair_geometry.h"
 #include "mechanism/pose.h"
-#include "pair_geometry.h"
-#include "rigid_groups.h"
+#include "mechanism/rigid_groups.h"
 
 namespace codesign {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "joints_between.h"
+#include "mechanism/joints_between.h"
 #include "mechanism/topology.h"
 
 namespace codesign {

@@ -1,14 +1,14 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "fold_chain.h"
+#include "mechanism/fold_chain.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "default_values.h"
-#include "joints_between.h"
 #include "mechanism/chain_geometry.h"
-#include "pair_geometry.h"
+#include "mechanism/default_values.h"
+#include "mechanism/joints_between.h"
+#include "mechanism/pair_geometry.h"
 
 namespace codesign {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "joints_between.h"
+#include "mechanism/joints_between.h"
 
 #include <algorithm>
 

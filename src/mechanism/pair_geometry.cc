@@ -1,8 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "pair_geometry.h"
+#include "mechanism/pair_geometry.h"
 
 #include <cmath>
 
+#include "codegen/traced.h"
 #include "mechanism/chain_geometry.h"
 
 namespace codesign {

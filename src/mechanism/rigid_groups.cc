@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "rigid_groups.h"
+#include "mechanism/rigid_groups.h"
 
 namespace codesign {
 

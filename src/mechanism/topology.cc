@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <map>
 
-#include "fold_chain.h"
-#include "joints_between.h"
+#include "mechanism/fold_chain.h"
 #include "mechanism/friction_geometry.h"
-#include "rigid_groups.h"
+#include "mechanism/joints_between.h"
+#include "mechanism/rigid_groups.h"
 
 namespace codesign {
 namespace {

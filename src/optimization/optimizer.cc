@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "algorithm.h"
 #include "equations/system.h"
-#include "margins.h"
 #include "math/cpu_timer.h"
-#include "scaling.h"
-#include "search_warnings.h"
+#include "optimization/algorithm.h"
+#include "optimization/scaling.h"
+#include "optimization/search_warnings.h"
+#include "problem/margins.h"
 
 namespace codesign {
 namespace {

@@ -3,13 +3,14 @@
 
 #include <cmath>
 
+#include "assembly/make_system.h"
 #include "equations/system.h"
-#include "margins.h"
 #include "math/cpu_timer.h"
+#include "problem/margins.h"
+#include "problem/unused_parameters.h"
 #include "reading/study/study_reader.h"
 #include "text/decimal.h"
 #include "text/unknown_name.h"
-#include "unused_parameters.h"
 
 namespace codesign {
 namespace {

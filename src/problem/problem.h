@@ -8,9 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "assembly/make_system.h"
 #include "description/robot.h"
 #include "description/study.h"
-#include "integration/simulation.h"
+#include "assembly/make_system.h"
 #include "reading/urdf/urdf_reader.h"
 
 namespace codesign {

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "unused_parameters.h"
+#include "problem/unused_parameters.h"
 
 #include <algorithm>
 #include <cctype>

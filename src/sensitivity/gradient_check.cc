@@ -87,8 +87,8 @@ void check_by_differences(const System& system, const Eigen::VectorXd& rho, cons
   Study study = system.study();
   study.solver.relative_tolerance = std::min(study.solver.relative_tolerance, 1e-10);
   study.solver.absolute_tolerance = std::min(study.solver.absolute_tolerance, 1e-11);
-  study.solver.integrator = "rosenbrock";
-  study.solver.method = "rodas5p";
+  study.solver.integrator = IntegratorKind::kRosenbrock;
+  study.solver.method = RosenbrockMethod::kRodas5P;
   study.solver.maximum_steps = std::max(study.solver.maximum_steps, 2000000);
   Evaluator evaluator(std::make_shared<const System>(system.robot(), study, system.sharing()));
   for (Eigen::Index k = 0; check->status.ok() && k < rho.size(); ++k) {
@@ -110,7 +110,7 @@ void check_by_differences(const System& system, const Eigen::VectorXd& rho, cons
 GradientCheck check_gradient(const std::shared_ptr<const System>& system, const Eigen::VectorXd& rho, CheckMethod method,
                              const std::atomic<bool>* cancel) {
   GradientCheck check;
-  check.method = system->study().solver.integrator == "idas" ? CheckMethod::kRidders : method;
+  check.method = system->study().solver.integrator == IntegratorKind::kIdas ? CheckMethod::kRidders : method;
   check.reference.setZero(rho.size());
   check.reference_error.setZero(rho.size());
   check.evaluation = Evaluator(system).evaluate(rho, true, cancel);

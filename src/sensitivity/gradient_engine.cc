@@ -13,8 +13,8 @@ namespace {
 /// The lanes that parameters share, if the gradient is to be made backwards.
 std::optional<LanePlan> backward_plan(const System& system, const std::atomic<bool>* cancel) {
   const SolverOptions& options = system.study().solver;
-  if (options.integrator != "rosenbrock" || options.gradient == "direct") return std::nullopt;
-  if (options.gradient == "adjoint") return plan_lanes(system, cancel);
+  if (options.integrator != IntegratorKind::kRosenbrock || options.gradient == GradientMethod::kDirect) return std::nullopt;
+  if (options.gradient == GradientMethod::kAdjoint) return plan_lanes(system, cancel);
   // Without sensitivities on the way forward there is no error of theirs to test.
   if (options.sensitivity_tolerance > 0.0) return std::nullopt;
   const int parameters = static_cast<int>(system.study().tuned.size());
@@ -29,7 +29,7 @@ std::optional<LanePlan> backward_plan(const System& system, const std::atomic<bo
 bool prefers_adjoint(const System& system) { return backward_plan(system, nullptr).has_value(); }
 
 std::unique_ptr<GradientEngine> make_gradient_engine(const System& system, const std::atomic<bool>* cancel) {
-  if (system.study().solver.integrator == "idas") return std::make_unique<IdasGradient>(system);
+  if (system.study().solver.integrator == IntegratorKind::kIdas) return std::make_unique<IdasGradient>(system);
   std::optional<LanePlan> plan = backward_plan(system, cancel);
   if (cancel != nullptr && *cancel) return nullptr;
   if (plan) return std::make_unique<AdjointGradient>(system, std::move(*plan));

@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "assembly/count_equations.h"
+#include "assembly/make_system.h"
 #include "equations/compiled.h"
 #include "integration/simulation.h"
 
@@ -65,7 +67,7 @@ TEST(MakeSystem, ContradictingVelocitiesAreBadInput) {
 TEST(CountEquations, OfAFourBarDrawnInThePlane) {
   const auto system = make(four_bar(), let_go("{left_hinge: {position: 0.6}}", "left_hinge/velocity"));
   Status status;
-  const Counts counts = count_equations(system, {}, &status);
+  const Counts counts = count_equations(*system, {}, &status);
   ASSERT_TRUE(status.ok()) << status.cause;
   EXPECT_EQ(counts.bodies, 3);
   EXPECT_EQ(counts.coordinates, 21);
@@ -83,7 +85,7 @@ TEST(CountEquations, EachParameterHasItsSensitivities) {
       "1.0}}}\n"
       "parameters: {Kp: {initial: 1.0}}\nobjective: {integral: [{signal: hinge/velocity}]}\n";
   Status status;
-  const Counts counts = count_equations(make(pendulum(), study), {1.0}, &status);
+  const Counts counts = count_equations(*make(pendulum(), study), {1.0}, &status);
   EXPECT_EQ(counts.controller_states, 1);
   EXPECT_EQ(counts.parameters, 1);
   EXPECT_EQ(counts.dynamic_equations, 14 + 6);

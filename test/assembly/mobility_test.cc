@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "compiled.h"
+#include "equations/compiled.h"
 
 namespace codesign {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "assembly/count_equations.h"
 #include "equations/system.h"
 #include "problem/problem.h"
 #include "sensitivity/evaluation.h"
@@ -14,7 +15,7 @@ Problem load(const GeneratedCase& generated) { return load_problem(generated.urd
 
 Counts counts_of(const Problem& problem) {
   Status status;
-  const Counts counts = count_equations(problem.system, problem.parameters(), &status);
+  const Counts counts = count_equations(*problem.system, problem.parameters(), &status);
   EXPECT_TRUE(status.ok()) << status.cause;
   return counts;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "codegen/some_recording.h"
+#include "codegen/traced.h"
 
 namespace codesign {
 namespace {

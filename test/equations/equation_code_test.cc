@@ -5,6 +5,7 @@
 
 #include <thread>
 
+#include "assembly/make_system.h"
 #include "equations/compiled.h"
 #include "integration/servo.h"
 #include "system/shipped.h"

@@ -6,7 +6,7 @@
 
 #include "equations/arm.h"
 #include "equations/compiled.h"
-#include "equations_fixture.h"
+#include "equations/equations_fixture.h"
 
 namespace codesign {
 namespace {

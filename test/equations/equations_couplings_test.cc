@@ -1,6 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "equations/compiled.h"
-#include "equations_fixture.h"
+#include "equations/equations_fixture.h"
 
 namespace codesign {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bristle_fixture.h"
+#include "forces/bristle_fixture.h"
 
 namespace codesign {
 namespace {

@@ -2,6 +2,7 @@
 // Rotors, poses at the start and constant loads over time, against closed forms and conserved quantities, with both integrators.
 #include <gtest/gtest.h>
 
+#include "assembly/make_system.h"
 #include "integration/energy_balance.h"
 #include "integration/simulation.h"
 #include "mechanism/signal_catalog.h"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "assembly/count_equations.h"
 #include "integration/servo.h"
 
 namespace codesign {
@@ -55,7 +56,7 @@ TEST(Couplings, StayInStepOverManyTurnsAndMoveAsOneInertia) {
 
 TEST(Couplings, AreCountedAndTakeTheirFreedoms) {
   Status status;
-  const Counts counts = count_equations(compile(geared(), motion_study(1.0, "{}", "out/velocity", "{}")), {}, &status);
+  const Counts counts = count_equations(*compile(geared(), motion_study(1.0, "{}", "out/velocity", "{}")), {}, &status);
   ASSERT_TRUE(status.ok()) << status.cause;
   EXPECT_EQ(counts.constraints, 5 + 5 + 5 + 2 + 3);
   EXPECT_EQ(counts.degrees_of_freedom, 1);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "assembly/make_system.h"
 #include "equations/energy.h"
 #include "integration/mechanisms.h"
 #include "integration/rosenbrock_integrator.h"

@@ -2,6 +2,7 @@
 // Equations that depend on time through setpoints and references: order, both integrators, gradients.
 #include <gtest/gtest.h>
 
+#include "description/solver_names.h"
 #include "integration/equal_steps.h"
 #include "integration/rosenbrock_step.h"
 #include "integration/servo.h"
@@ -51,7 +52,7 @@ class ForcedStep : public ::testing::TestWithParam<const char*> {
   }
 
   const std::shared_ptr<const System> system = smoothly_forced();
-  RosenbrockStep<double> step{*system, *rosenbrock_tableau(GetParam())};
+  RosenbrockStep<double> step{*system, rosenbrock_tableau(method_named(GetParam()))};
 };
 
 // Without G_t and g_t the order is lost.

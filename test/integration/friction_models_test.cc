@@ -5,8 +5,9 @@
 #include <regex>
 #include <tuple>
 
+#include "assembly/make_system.h"
+#include "integration/mechanisms.h"
 #include "integration/simulation.h"
-#include "mechanisms.h"
 
 namespace codesign {
 namespace {

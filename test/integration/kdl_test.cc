@@ -15,6 +15,7 @@
 #include <kdl/treeidsolver_recursive_newton_euler.hpp>
 #include <random>
 
+#include "assembly/make_system.h"
 #include "equations/system.h"
 #include "integration/simulation.h"
 #include "mechanism/topology.h"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "description/solver_names.h"
 #include "integration/equal_steps.h"
 #include "integration/servo.h"
 
@@ -12,7 +13,7 @@ namespace {
 class RosenbrockStepTest : public ::testing::TestWithParam<const char*> {
  protected:
   const std::shared_ptr<const System> system = servo("{integrator: rosenbrock}");
-  RosenbrockStep<double> step{*system, *rosenbrock_tableau(GetParam())};
+  RosenbrockStep<double> step{*system, rosenbrock_tableau(method_named(GetParam()))};
 
   /// The state after a span in `count` equal steps.
   State<double> run(double span, int count) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "assembly/make_system.h"
 #include "integration/mechanisms.h"
 #include "integration/simulation.h"
 

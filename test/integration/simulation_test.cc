@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "assembly/make_system.h"
 #include "equations/compiled.h"
 
 namespace codesign {

@@ -22,9 +22,9 @@ ROWS = [
     ["equations"],
     ["assembly"],
     ["observation"],
+    ["problem"],
     ["integration"],
     ["sensitivity"],
-    ["problem"],
     ["optimization"],
     ["jobs"],
     ["cli", "ros"],
@@ -32,7 +32,7 @@ ROWS = [
 ROW_OF = {room: row for row, rooms in enumerate(ROWS) for room in rooms}
 # The room whose types each public header speaks of: who may include it follows from that.
 PUBLIC = {
-    "counts.h": "integration",
+    "counts.h": "assembly",
     "error.h": "text",
     "frame.h": "observation",
     "status.h": "text",

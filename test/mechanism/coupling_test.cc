@@ -3,7 +3,7 @@
 
 #include "mechanism/constants.h"
 #include "mechanism/topology.h"
-#include "urdf_fixture.h"
+#include "reading/urdf/urdf_fixture.h"
 
 namespace codesign {
 namespace {

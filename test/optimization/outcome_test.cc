@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "assembly/make_system.h"
 #include "optimization/optimizer.h"
 #include "problem/problem.h"
 

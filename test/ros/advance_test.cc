@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pendulum.h"
+#include "ros/pendulum.h"
 
 namespace codesign {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sample_frame.h"
+#include "ros/sample_frame.h"
 
 namespace codesign {
 namespace {

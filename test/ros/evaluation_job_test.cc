@@ -1,8 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "pendulum.h"
 #include "ros/job.h"
+#include "ros/pendulum.h"
 
 namespace codesign {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "jobs/output_error.h"
 #include "ros/conversions.h"
-#include "sample_frame.h"
+#include "ros/sample_frame.h"
 #include "temporary_directory.h"
 
 namespace codesign {

@@ -12,8 +12,8 @@
 #include <csignal>
 #include <set>
 
-#include "pendulum.h"
 #include "ros/job.h"
+#include "ros/pendulum.h"
 #include "temporary_directory.h"
 
 namespace codesign {

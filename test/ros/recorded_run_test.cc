@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "mechanism_codesign/error.h"
-#include "pendulum.h"
-#include "sample_frame.h"
+#include "ros/pendulum.h"
+#include "ros/sample_frame.h"
 
 namespace codesign {
 namespace {

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "mechanism_codesign/error.h"
-#include "pendulum.h"
+#include "ros/pendulum.h"
 
 namespace codesign {
 namespace {

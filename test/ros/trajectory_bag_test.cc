@@ -6,7 +6,7 @@
 #include <std_msgs/String.h>
 #include <trajectory_msgs/JointTrajectory.h>
 
-#include "pendulum.h"
+#include "ros/pendulum.h"
 #include "temporary_directory.h"
 
 namespace codesign {

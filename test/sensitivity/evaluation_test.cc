@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "assembly/make_system.h"
+#include "description/solver_names.h"
 #include "paths.h"
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"
@@ -30,7 +32,7 @@ Case shipped(const std::string& name) {
 /// References: an independent solution of the same data by other formulations and tolerances down to 1e-12.
 void expect_reference(const std::string& name, const std::string& integrator, double objective, const std::vector<double>& gradient) {
   Case c = shipped(name);
-  c.study.solver.integrator = integrator;
+  c.study.solver.integrator = integrator_named(integrator);
   const Evaluation evaluation = Evaluator(make_system(c.robot, c.study)).evaluate(c.rho, true);
   ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
   EXPECT_NEAR(evaluation.objective, objective, 1e-7 * objective);
@@ -52,7 +54,7 @@ TEST(Evaluation, HaugsSliderCrankMeetsTheReference) {
 TEST(Evaluation, TangentIsExactForEveryMethod) {
   for (const char* method : {"rodas4", "rodas4p2", "rodas5p"}) {
     Case c = shipped("slider_crank");
-    c.study.solver.method = method;
+    c.study.solver.method = method_named(method);
     c.study.solver.relative_tolerance = 1e-5;
     c.study.solver.absolute_tolerance = 1e-6;
     c.study.duration = 0.4;
@@ -74,7 +76,7 @@ TEST(Evaluation, RiddersDifferencesAgree) {
 TEST(Evaluation, AGradientByIdasIsCheckedByTheOtherIntegrator) {
   Case c = shipped("slider_crank");
   c.study.duration = 0.3;
-  c.study.solver.integrator = "idas";
+  c.study.solver.integrator = IntegratorKind::kIdas;
   for (CheckMethod method : {CheckMethod::kComplexStep, CheckMethod::kRidders}) {
     const GradientCheck check = check_gradient(make_system(c.robot, c.study), c.rho, method);
     ASSERT_TRUE(check.status.ok()) << check.status.cause;
@@ -89,7 +91,7 @@ TEST(Evaluation, AJammedDesignHasTheSameValueWithBothIntegrators) {
   double objective[2];
   for (int k = 0; k < 2; ++k) {
     Case c = shipped("slider_crank_haug");
-    c.study.solver.integrator = k ? "idas" : "rosenbrock";
+    c.study.solver.integrator = k ? IntegratorKind::kIdas : IntegratorKind::kRosenbrock;
     c.rho[1] = 0.24;
     const Evaluation evaluation = Evaluator(make_system(c.robot, c.study)).evaluate(c.rho, false);
     ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
@@ -102,7 +104,7 @@ TEST(Evaluation, AJammedDesignHasTheSameValueWithBothIntegrators) {
 void expect_failures_are_statuses(const std::string& integrator) {
   Case c = shipped("slider_crank_haug");
   c.study.duration = 0.02;
-  c.study.solver.integrator = integrator;
+  c.study.solver.integrator = integrator_named(integrator);
   Evaluator evaluator(make_system(c.robot, c.study));
   Eigen::VectorXd rho = c.rho;
   // The rod does not reach the slider's rail.

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "assembly/make_system.h"
 #include "benchmark/mechanisms.h"
+#include "description/solver_names.h"
 #include "integration/servo.h"
 #include "sensitivity/gradient_engine.h"
 #include "system/shipped.h"
@@ -21,8 +23,8 @@ struct GradientCase {
 
   std::shared_ptr<const System> compile(const std::string& method, const std::string& gradient) const {
     Study changed = study;
-    changed.solver.method = method;
-    changed.solver.gradient = gradient;
+    changed.solver.method = method_named(method);
+    changed.solver.gradient = gradient_named(gradient);
     return make_system(robot, changed);
   }
 };

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "assembly/make_system.h"
 #include "integration/mechanisms.h"
 #include "sensitivity/evaluation.h"
 

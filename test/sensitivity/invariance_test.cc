@@ -3,6 +3,7 @@
 
 #include <regex>
 
+#include "assembly/make_system.h"
 #include "paths.h"
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"
@@ -24,7 +25,7 @@ Evaluation evaluate(const std::string& urdf, const std::string& study_text) {
   const RobotDescription robot = read_urdf({"variant.urdf", urdf});
   Study study = read_study({"variant.yaml", study_text}, robot);
   study.duration = 0.5;
-  study.solver.method = "rodas5p";
+  study.solver.method = RosenbrockMethod::kRodas5P;
   study.solver.relative_tolerance = 1e-8;
   study.solver.absolute_tolerance = 1e-9;
   const auto system = make_system(robot, study);

@@ -2,6 +2,7 @@
 // Gradients of objectives that hold what joints exert, over the integral and at the end.
 #include <gtest/gtest.h>
 
+#include "assembly/make_system.h"
 #include "equations/system.h"
 #include "integration/linkages.h"
 #include "integration/servo.h"

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "description/solver_names.h"
 #include "integration/servo.h"
 #include "sensitivity/adjoint_step.h"
 
@@ -17,7 +18,7 @@ struct ServoSteps {
   static constexpr double kSize = 2e-3;
 
   explicit ServoSteps(const std::string& method)
-      : tableau(*rosenbrock_tableau(method)),
+      : tableau(rosenbrock_tableau(method_named(method))),
         step(*system, tableau),
         tangent(*system, tableau),
         adjoint(*system, tableau),

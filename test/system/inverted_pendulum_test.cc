@@ -2,6 +2,7 @@
 // References: an independent solution of the same data at tolerances down to 1e-12 (psi converged to 1e-13 relative).
 #include <algorithm>
 
+#include "assembly/make_system.h"
 #include "optimization/optimizer.h"
 #include "system/shipped.h"
 

@@ -2,6 +2,7 @@
 // The paper's model mismatch: gains tuned with and without friction, run without friction and on a surface of another law and coefficients.
 #include <cmath>
 
+#include "assembly/make_system.h"
 #include "sensitivity/evaluation.h"
 #include "system/shipped.h"
 

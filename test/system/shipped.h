@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "assembly/count_equations.h"
+#include "assembly/make_system.h"
 #include "integration/simulation.h"
 #include "paths.h"
 #include "reading/study/study_reader.h"
@@ -46,7 +48,7 @@ struct Shipped {
 /// Counts of the paper's table.
 inline void expect_counts(const Shipped& shipped, const std::vector<int>& table) {
   Status status;
-  const Counts c = count_equations(make_system(shipped.robot, shipped.study), shipped.parameters(), &status);
+  const Counts c = count_equations(*make_system(shipped.robot, shipped.study), shipped.parameters(), &status);
   ASSERT_TRUE(status.ok()) << status.cause;
   EXPECT_EQ((std::vector<int>{c.coordinates, c.first_order_equations, c.degrees_of_freedom, c.constraints, c.dynamic_equations,
                               c.parameters, c.sensitivities, c.total_equations}),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "assembly/make_system.h"
 #include "mechanism/signal_catalog.h"
 #include "paths.h"
 #include "system/shipped.h"
@@ -61,7 +62,7 @@ TEST_P(ShippedStudies, BothIntegratorsAgree) {
   solver.absolute_tolerance = 0.1 * kTolerance;
   solver.maximum_steps = 200000;
   const Evaluation rosenbrock = Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), false);
-  solver.integrator = "idas";
+  solver.integrator = IntegratorKind::kIdas;
   const Evaluation idas = Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), false);
   ASSERT_TRUE(rosenbrock.status.ok() && idas.status.ok()) << rosenbrock.status.cause << idas.status.cause;
   EXPECT_NEAR(idas.objective, rosenbrock.objective, 100.0 * kTolerance * std::abs(rosenbrock.objective));

@@ -2,6 +2,7 @@
 // Haug's slider-crank where it is hard: gains of the wrong sign, a stuck slider, a stiff controller. Counts of steps, no times.
 #include <algorithm>
 
+#include "assembly/make_system.h"
 #include "optimization/optimizer.h"
 #include "system/shipped.h"
 
@@ -22,7 +23,7 @@ class HardSliderCrank : public ::testing::Test {
 
   static Shipped by_rodas4() {
     Shipped shipped("slider_crank_haug");
-    shipped.study.solver.method = "rodas4";
+    shipped.study.solver.method = RosenbrockMethod::kRodas4;
     shipped.study.solver.relative_tolerance = 1e-8;
     shipped.study.solver.absolute_tolerance = 1e-9;
     shipped.study.solver.sensitivity_tolerance = 0.0;
@@ -43,7 +44,7 @@ TEST_F(HardSliderCrank, RunsAwayOnlyBriefly) {
 }
 
 TEST_F(HardSliderCrank, RunsAwayOnlyBrieflyWithIdas) {
-  shipped.study.solver.integrator = "idas";
+  shipped.study.solver.integrator = IntegratorKind::kIdas;
   for (const double Kp : {-0.1, -5.0}) {
     const Evaluation evaluation = evaluate(Kp);
     EXPECT_EQ(evaluation.status.code, StatusCode::kUnstableMotion) << Kp << ": " << evaluation.status.cause;

@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "study_basis.h"
+#include "reading/study/study_basis.h"
 
 #include <unordered_set>
 
 #include "description/expression.h"
-#include "parameter_constraint.h"
-#include "study_parameters.h"
-#include "study_values.h"
+#include "description/parameter_constraint.h"
+#include "reading/study/study_parameters.h"
+#include "reading/study/study_values.h"
 
 namespace codesign {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "description/study.h"
-#include "yaml_reader.h"
+#include "reading/yaml/yaml_reader.h"
 
 namespace codesign {
 

@@ -1,13 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "study_controllers.h"
+#include "reading/study/study_controllers.h"
 
 #include <algorithm>
 #include <map>
 
 #include "mechanism/signal_catalog.h"
-#include "study_basis.h"
-#include "study_references.h"
-#include "study_values.h"
+#include "reading/study/study_basis.h"
+#include "reading/study/study_references.h"
+#include "reading/study/study_values.h"
 
 namespace codesign {
 namespace {

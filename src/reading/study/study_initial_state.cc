@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "study_initial_state.h"
+#include "reading/study/study_initial_state.h"
 
 #include <algorithm>
 
 #include "math/scalar.h"
 #include "mechanism/signal_catalog.h"
-#include "study_values.h"
+#include "reading/study/study_values.h"
 #include "text/decimal.h"
 #include "text/unknown_name.h"
 

@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "study_objective.h"
+#include "reading/study/study_objective.h"
 
 #include "mechanism/signal_catalog.h"
-#include "study_references.h"
-#include "study_values.h"
+#include "reading/study/study_references.h"
+#include "reading/study/study_values.h"
 
 namespace codesign {
 namespace {

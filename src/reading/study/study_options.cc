@@ -1,5 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "study_options.h"
+#include "reading/study/study_options.h"
+
+#include <algorithm>
 
 #include "text/decimal.h"
 
@@ -42,13 +44,23 @@ void read_positive(const YamlValue& parent, const std::string& key, bool zero_al
   if (*number < 0.0 || (*number == 0.0 && !zero_allowed)) value->fail(key + " out of range", zero_allowed ? "0 or more" : "more than 0");
 }
 
+/// Replaces `*option` by the enumerator whose name is found at `key`; `names` are in the order of the enumerators.
+template <class Enumeration, std::size_t N>
+void read_choice(const YamlValue& parent, const std::string& key, const std::array<const char*, N>& names, Enumeration* option) {
+  const auto value = parent.find(key);
+  if (!value) return;
+  const std::string name = value->choice(key, {names.begin(), names.end()});
+  *option = static_cast<Enumeration>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
 /// The adjoint follows steps that were taken without it.
 void read_gradient(const YamlValue& solver, SolverOptions* options) {
   const auto value = solver.find("gradient");
   if (!value) return;
-  options->gradient = value->choice("gradient", {"auto", "direct", "adjoint"});
-  if (options->gradient != "adjoint") return;
-  if (options->integrator != "rosenbrock") value->fail("there is an adjoint of the Rosenbrock steps alone", "auto or direct with idas");
+  read_choice(solver, "gradient", kGradientMethodNames, &options->gradient);
+  if (options->gradient != GradientMethod::kAdjoint) return;
+  if (options->integrator != IntegratorKind::kRosenbrock)
+    value->fail("there is an adjoint of the Rosenbrock steps alone", "auto or direct with idas");
   if (options->sensitivity_tolerance > 0.0)
     value->fail("the adjoint has no sensitivities that could take part in the error test", "auto or direct with sensitivity_tolerance");
 }
@@ -70,8 +82,8 @@ SolverOptions read_solver_options(const YamlValue& solver) {
   solver.require_keys({}, {"integrator", "method", "gradient", "relative_tolerance", "absolute_tolerance", "sensitivity_tolerance",
                            "initial_step", "maximum_step", "maximum_steps", "maximum_speed", "closure_tolerance"});
   SolverOptions options;
-  if (const auto integrator = solver.find("integrator")) options.integrator = integrator->choice("integrator", {"rosenbrock", "idas"});
-  if (const auto method = solver.find("method")) options.method = method->choice("method", {"rodas4", "rodas4p2", "rodas5p"});
+  read_choice(solver, "integrator", kIntegratorNames, &options.integrator);
+  read_choice(solver, "method", kRosenbrockMethodNames, &options.method);
   read_tolerance(solver, "relative_tolerance", kLeastRelative, &options.relative_tolerance);
   read_tolerance(solver, "absolute_tolerance", kLeastAbsolute, &options.absolute_tolerance);
   read_tolerance(solver, "sensitivity_tolerance", kLeastRelative, &options.sensitivity_tolerance);

@@ -3,7 +3,7 @@
 #define MECHANISM_CODESIGN_READING_STUDY_STUDY_OPTIONS_H_
 
 #include "description/study.h"
-#include "yaml_reader.h"
+#include "reading/yaml/yaml_reader.h"
 
 namespace codesign {
 

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "study_parameters.h"
+#include "reading/study/study_parameters.h"
 
 #include <unordered_map>
 
 #include "description/expression.h"
-#include "parameter_constraint.h"
-#include "study_values.h"
+#include "description/parameter_constraint.h"
+#include "reading/study/study_values.h"
 #include "text/decimal.h"
 #include "text/nearest_name.h"
 

@@ -1,14 +1,14 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/study/study_reader.h"
 
-#include "study_basis.h"
-#include "study_controllers.h"
-#include "study_initial_state.h"
-#include "study_loads.h"
-#include "study_objective.h"
-#include "study_options.h"
-#include "study_parameters.h"
-#include "yaml_reader.h"
+#include "reading/study/study_basis.h"
+#include "reading/study/study_controllers.h"
+#include "reading/study/study_initial_state.h"
+#include "reading/study/study_loads.h"
+#include "reading/study/study_objective.h"
+#include "reading/study/study_options.h"
+#include "reading/study/study_parameters.h"
+#include "reading/yaml/yaml_reader.h"
 
 namespace codesign {
 namespace {

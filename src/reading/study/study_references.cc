@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "study_references.h"
+#include "reading/study/study_references.h"
 
-#include "study_values.h"
+#include "reading/study/study_values.h"
 
 namespace codesign {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "description/parameter.h"
 #include "description/reference.h"
-#include "yaml_reader.h"
+#include "reading/yaml/yaml_reader.h"
 
 namespace codesign {
 

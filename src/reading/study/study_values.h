@@ -7,7 +7,7 @@
 
 #include "description/robot.h"
 #include "description/study.h"
-#include "yaml_reader.h"
+#include "reading/yaml/yaml_reader.h"
 
 namespace codesign {
 

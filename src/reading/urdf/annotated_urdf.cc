@@ -1,22 +1,22 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "annotated_urdf.h"
+#include "reading/urdf/annotated_urdf.h"
 
 #include <algorithm>
 #include <tuple>
 
-#include "annotation_rules.h"
-#include "annotation_schema.h"
-#include "body_check.h"
-#include "foreign_loops.h"
-#include "inertial_reader.h"
-#include "joint_reader.h"
-#include "overlay.h"
-#include "parameter_reader.h"
-#include "quantity_reader.h"
-#include "transmission_reader.h"
-#include "tree_check.h"
-#include "urdfdom_check.h"
-#include "vocabulary_check.h"
+#include "mechanism/body_check.h"
+#include "reading/urdf/annotation_rules.h"
+#include "reading/urdf/annotation_schema.h"
+#include "reading/urdf/foreign_loops.h"
+#include "reading/urdf/inertial_reader.h"
+#include "reading/urdf/joint_reader.h"
+#include "reading/urdf/overlay.h"
+#include "reading/urdf/parameter_reader.h"
+#include "reading/urdf/quantity_reader.h"
+#include "reading/urdf/transmission_reader.h"
+#include "reading/urdf/tree_check.h"
+#include "reading/urdf/urdfdom_check.h"
+#include "reading/urdf/vocabulary_check.h"
 
 namespace codesign {
 namespace {

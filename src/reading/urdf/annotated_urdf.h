@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "description/robot.h"
-#include "xml_document.h"
+#include "reading/xml/xml_document.h"
 
 namespace codesign {
 

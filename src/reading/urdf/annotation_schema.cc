@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "annotation_schema.h"
+#include "reading/urdf/annotation_schema.h"
 
 #include <algorithm>
 
-#include "annotation_rules.h"
+#include "reading/urdf/annotation_rules.h"
+#include "reading/urdf/twin.h"
+#include "reading/xml/xml_element.h"
 #include "text/unknown_name.h"
-#include "twin.h"
-#include "xml_element.h"
 
 namespace codesign {
 namespace {

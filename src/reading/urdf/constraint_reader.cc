@@ -3,9 +3,9 @@
 #include <cmath>
 #include <tuple>
 
-#include "foreign_loops.h"
 #include "mechanism/pose.h"
-#include "quantity_reader.h"
+#include "reading/urdf/foreign_loops.h"
+#include "reading/urdf/quantity_reader.h"
 
 namespace codesign {
 namespace {

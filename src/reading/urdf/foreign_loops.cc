@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "foreign_loops.h"
+#include "reading/urdf/foreign_loops.h"
 
 #include <algorithm>
 #include <map>
 
-#include "default_values.h"
+#include "mechanism/default_values.h"
 #include "mechanism/pose.h"
-#include "number_text.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

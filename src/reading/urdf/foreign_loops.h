@@ -2,7 +2,7 @@
 #ifndef MECHANISM_CODESIGN_READING_URDF_FOREIGN_LOOPS_H_
 #define MECHANISM_CODESIGN_READING_URDF_FOREIGN_LOOPS_H_
 
-#include "read_context.h"
+#include "reading/urdf/read_context.h"
 
 namespace codesign {
 

@@ -3,7 +3,7 @@
 #define MECHANISM_CODESIGN_READING_URDF_FRICTION_READER_H_
 
 #include "description/robot.h"
-#include "twin.h"
+#include "reading/urdf/twin.h"
 
 namespace codesign {
 

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "inertial_check.h"
+#include "reading/urdf/inertial_check.h"
 
 #include <cmath>
 
 #include "mechanism/mass_properties.h"
-#include "number_text.h"
 #include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "description/robot.h"
-#include "twin.h"
+#include "reading/urdf/twin.h"
 
 namespace codesign {
 

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "inertial_reader.h"
+#include "reading/urdf/inertial_reader.h"
 
 #include <algorithm>
 
-#include "inertial_check.h"
-#include "quantity_reader.h"
-#include "shape_reader.h"
+#include "reading/urdf/inertial_check.h"
+#include "reading/urdf/quantity_reader.h"
+#include "reading/urdf/shape_reader.h"
 
 namespace codesign {
 namespace {

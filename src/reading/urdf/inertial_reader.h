@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "description/robot.h"
-#include "twin.h"
+#include "reading/urdf/twin.h"
 
 namespace codesign {
 

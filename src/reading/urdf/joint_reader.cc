@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "joint_reader.h"
+#include "reading/urdf/joint_reader.h"
 
 #include <map>
 
-#include "friction_reader.h"
-#include "quantity_reader.h"
+#include "reading/urdf/friction_reader.h"
+#include "reading/urdf/quantity_reader.h"
 #include "text/decimal.h"
 #include "text/unknown_name.h"
 

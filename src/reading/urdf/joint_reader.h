@@ -3,7 +3,7 @@
 #define MECHANISM_CODESIGN_READING_URDF_JOINT_READER_H_
 
 #include "description/robot.h"
-#include "read_context.h"
+#include "reading/urdf/read_context.h"
 
 namespace codesign {
 

@@ -2,8 +2,8 @@
 #include <map>
 #include <tuple>
 
-#include "joint_reader.h"
-#include "quantity_reader.h"
+#include "reading/urdf/joint_reader.h"
+#include "reading/urdf/quantity_reader.h"
 #include "text/unknown_name.h"
 
 namespace codesign {

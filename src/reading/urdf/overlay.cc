@@ -1,13 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "overlay.h"
+#include "reading/urdf/overlay.h"
 
 #include <set>
 #include <string>
 #include <vector>
 
+#include "reading/urdf/twin.h"
+#include "reading/xml/xml_element.h"
 #include "text/unknown_name.h"
-#include "twin.h"
-#include "xml_element.h"
 
 namespace codesign {
 namespace {

@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "parameter_reader.h"
+#include "reading/urdf/parameter_reader.h"
 
 #include <set>
 
 #include "description/expression.h"
-#include "quantity_reader.h"
+#include "reading/urdf/quantity_reader.h"
 #include "text/decimal.h"
 
 namespace codesign {

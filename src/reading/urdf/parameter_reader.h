@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "description/parameter.h"
-#include "xml_element.h"
+#include "reading/xml/xml_element.h"
 
 namespace codesign {
 

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "quantity_reader.h"
+#include "reading/urdf/quantity_reader.h"
 
 namespace codesign {
 namespace {

@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "shape_reader.h"
+#include "reading/urdf/shape_reader.h"
 
-#include "quantity_reader.h"
+#include "reading/urdf/quantity_reader.h"
 
 namespace codesign {
 namespace {

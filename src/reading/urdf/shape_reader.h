@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "description/robot.h"
-#include "twin.h"
+#include "reading/urdf/twin.h"
 
 namespace codesign {
 

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "transmission_reader.h"
+#include "reading/urdf/transmission_reader.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "number_text.h"
 #include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

@@ -3,7 +3,7 @@
 #define MECHANISM_CODESIGN_READING_URDF_TRANSMISSION_READER_H_
 
 #include "description/robot.h"
-#include "xml_element.h"
+#include "reading/xml/xml_element.h"
 
 namespace codesign {
 

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "twin.h"
+#include "reading/urdf/twin.h"
 
 #include <cmath>
 #include <memory>
 #include <stdexcept>
 
-#include "number_text.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

@@ -10,7 +10,7 @@
 #include "description/expression.h"
 #include "description/parameter.h"
 #include "description/quantity.h"
-#include "xml_element.h"
+#include "reading/xml/xml_element.h"
 
 namespace codesign {
 

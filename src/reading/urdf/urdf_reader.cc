@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "annotated_urdf.h"
+#include "reading/urdf/annotated_urdf.h"
 
 namespace codesign {
 

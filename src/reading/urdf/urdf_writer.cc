@@ -2,12 +2,12 @@
 #include <array>
 #include <cmath>
 
-#include "annotated_urdf.h"
-#include "annotation_rules.h"
 #include "mechanism/mass_properties.h"
-#include "number_text.h"
+#include "reading/urdf/annotated_urdf.h"
+#include "reading/urdf/annotation_rules.h"
+#include "reading/urdf/twin.h"
 #include "text/decimal.h"
-#include "twin.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

@@ -2,7 +2,7 @@
 #ifndef MECHANISM_CODESIGN_READING_URDF_URDFDOM_CHECK_H_
 #define MECHANISM_CODESIGN_READING_URDF_URDFDOM_CHECK_H_
 
-#include "xml_document.h"
+#include "reading/xml/xml_document.h"
 
 namespace codesign {
 

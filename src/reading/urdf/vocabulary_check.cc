@@ -1,16 +1,16 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "vocabulary_check.h"
+#include "reading/urdf/vocabulary_check.h"
 
 #include <algorithm>
 #include <map>
 #include <optional>
 
-#include "annotation_rules.h"
+#include "reading/urdf/annotation_rules.h"
+#include "reading/urdf/twin.h"
+#include "reading/urdf/vocabulary.h"
+#include "reading/xml/xml_element.h"
 #include "text/nearest_name.h"
 #include "text/unknown_name.h"
-#include "twin.h"
-#include "vocabulary.h"
-#include "xml_element.h"
 
 namespace codesign {
 namespace {

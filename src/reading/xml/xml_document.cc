@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "xml_document.h"
+#include "reading/xml/xml_document.h"
 
 #include <algorithm>
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mechanism_codesign/warning.h"
-#include "xml_document.h"
+#include "reading/xml/xml_document.h"
 
 namespace codesign {
 

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "yaml_reader.h"
+#include "reading/yaml/yaml_reader.h"
 
 #include <yaml-cpp/depthguard.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "number_text.h"
+#include "text/number_text.h"
 #include "text/unknown_name.h"
 
 namespace codesign {

@@ -13,16 +13,16 @@ TEST(StudyOptions, ReadsTheSolver) {
       read_text(with("solver: {integrator: idas, method: rodas5p, relative_tolerance: 1e-9, absolute_tolerance: 1e-10, "
                      "initial_step: 1e-5, maximum_step: 0.01, maximum_steps: 500, maximum_speed: 50, gradient: direct}"))
           .solver;
-  EXPECT_EQ(solver.integrator, "idas");
-  EXPECT_EQ(solver.method, "rodas5p");
+  EXPECT_EQ(solver.integrator, IntegratorKind::kIdas);
+  EXPECT_EQ(solver.method, RosenbrockMethod::kRodas5P);
   EXPECT_EQ(solver.relative_tolerance, 1e-9);
   EXPECT_EQ(solver.absolute_tolerance, 1e-10);
   EXPECT_EQ(solver.initial_step, 1e-5);
   EXPECT_EQ(solver.maximum_step, 0.01);
   EXPECT_EQ(solver.maximum_steps, 500);
   EXPECT_EQ(solver.maximum_speed, 50.0);
-  EXPECT_EQ(solver.gradient, "direct");
-  EXPECT_EQ(read_text(kLeastStudy).solver.gradient, "auto");
+  EXPECT_EQ(solver.gradient, GradientMethod::kDirect);
+  EXPECT_EQ(read_text(kLeastStudy).solver.gradient, GradientMethod::kAuto);
 }
 
 TEST(StudyOptions, ReadsTheOptimizer) {

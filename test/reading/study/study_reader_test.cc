@@ -53,7 +53,7 @@ TEST(StudyReader, TheRestHasDefaults) {
   EXPECT_TRUE(study.tuned.empty());
   ASSERT_EQ(study.parameters.size(), 2U);
   EXPECT_EQ(study.parameters[1].name, "rod_length");
-  EXPECT_EQ(study.solver.integrator, "rosenbrock");
+  EXPECT_EQ(study.solver.integrator, IntegratorKind::kRosenbrock);
   EXPECT_EQ(study.optimizer.algorithm, "lbfgs");
 }
 

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "urdf_fixture.h"
+#include "reading/urdf/urdf_fixture.h"
 
 namespace codesign {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "urdf_fixture.h"
+#include "reading/urdf/urdf_fixture.h"
 
 namespace codesign {
 namespace {

@@ -2,7 +2,7 @@
 #include "reading/urdf/shape_reader.h"
 
 #include "mechanism/mass_properties.h"
-#include "urdf_fixture.h"
+#include "reading/urdf/urdf_fixture.h"
 
 namespace codesign {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "mechanism/mass_properties.h"
 #include "paths.h"
-#include "urdf_fixture.h"
+#include "reading/urdf/urdf_fixture.h"
 
 namespace codesign {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <thread>
 
-#include "urdf_fixture.h"
+#include "reading/urdf/urdf_fixture.h"
 
 namespace codesign {
 namespace {

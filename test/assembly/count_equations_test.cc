@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "assembly/count_equations.h"
+#include "assembly/make_system.h"
 #include "equations/compiled.h"
 #include "integration/simulation.h"
 
@@ -13,7 +15,7 @@ Counts counts_of(const std::string& urdf, const std::string& study) {
   const RobotDescription robot = read_urdf({"test.urdf", urdf});
   const auto system = make_system(robot, read_study({"test.yaml", study}, robot));
   Status status;
-  const Counts counts = count_equations(system, system->parameters(), &status);
+  const Counts counts = count_equations(*system, system->parameters(), &status);
   EXPECT_TRUE(status.ok()) << status.cause;
   return counts;
 }

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "given_start.h"
+#include "equations/given_start.h"
 
 namespace codesign {
 namespace {

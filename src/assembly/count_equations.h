@@ -1,0 +1,20 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ASSEMBLY_COUNT_EQUATIONS_H_
+#define MECHANISM_CODESIGN_ASSEMBLY_COUNT_EQUATIONS_H_
+
+#include <vector>
+
+#include "equations/system.h"
+#include "mechanism_codesign/counts.h"
+#include "mechanism_codesign/status.h"
+
+namespace codesign {
+
+/// Counts coordinates, constraints and equations at the assembled start, as the paper's table "number of equations" does.
+/// @param parameters all named parameters (Study::parameters order).
+/// @param status receives the status of the assembly. After kAssemblyFailed the counts that need the start's rank are zero.
+Counts count_equations(const System& system, const std::vector<double>& parameters, Status* status);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ASSEMBLY_COUNT_EQUATIONS_H_

@@ -1,0 +1,22 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ASSEMBLY_MAKE_SYSTEM_H_
+#define MECHANISM_CODESIGN_ASSEMBLY_MAKE_SYSTEM_H_
+
+#include <memory>
+
+#include "description/robot.h"
+#include "description/study.h"
+#include "equations/system.h"
+#include "mechanism_codesign/warning.h"
+
+namespace codesign {
+
+/// Compiles a mechanism and a study into equations of motion.
+/// @param warnings receives what is doubtful: loops that close only nearly, friction on a reaction that nothing determines.
+/// @throws InputError for a mechanism without equations of motion: two masses on one loop end, a massless chain that cannot be folded, an
+/// unknown signal, a start that cannot be assembled, a motion without inertia.
+std::shared_ptr<const System> make_system(const RobotDescription& robot, const Study& study, Warnings* warnings = nullptr);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ASSEMBLY_MAKE_SYSTEM_H_

@@ -1,0 +1,33 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ASSEMBLY_START_WORKSPACE_H_
+#define MECHANISM_CODESIGN_ASSEMBLY_START_WORKSPACE_H_
+
+#include <utility>
+#include <vector>
+
+#include "assembly/assembly.h"
+
+namespace codesign {
+
+/// The workspace of one analysis at t = 0: a design, its equations, the assembly and the state that the assembly finds.
+struct StartWorkspace {
+  /// @param system must outlive the workspace.
+  /// @param design all named parameters (Study::parameters order).
+  StartWorkspace(const System& system, std::vector<double> design) : parameters(std::move(design)), equations(system), assembly(system) {
+    equations.compiled().allow(false);  // a single evaluation does not pay for compilation
+    equations.set_design(parameters);
+  }
+
+  Status solve_positions() { return assembly.solve_positions(parameters, &equations, &state); }
+  Status solve_motion() { return assembly.solve_motion(parameters, &equations, &state); }
+  Status solve() { return assembly.solve(parameters, &equations, &state); }
+
+  const std::vector<double> parameters;
+  Equations<double> equations;
+  Assembly assembly;
+  State<double> state;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ASSEMBLY_START_WORKSPACE_H_
