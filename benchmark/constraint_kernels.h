@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "joints/body_kinematics.h"
 #include "joints/pair_rows.h"
 
@@ -21,7 +21,7 @@ namespace codesign {
 template <class T>
 class ConstraintKernels {
  public:
-  ConstraintKernels(const System& system, const Constants<double>& constants);
+  ConstraintKernels(const CompiledSystem& system, const Constants<double>& constants);
 
   int rows() const { return layout_.m; }
   int columns() const { return layout_.n; }
@@ -110,7 +110,7 @@ Vector4<T> gradient_on_p(const Vector4<T>& p, const Vector3<T>& s, const Vector3
 }  // namespace internal
 
 template <class T>
-ConstraintKernels<T>::ConstraintKernels(const System& system, const Constants<double>& constants) : layout_(system.layout()) {
+ConstraintKernels<T>::ConstraintKernels(const CompiledSystem& system, const Constants<double>& constants) : layout_(system.layout()) {
   bodies_.resize(static_cast<std::size_t>(layout_.bodies) + 1);
   loads_.resize(bodies_.size());
   for (std::size_t k = 0; k < constants.pairs.size(); ++k) add_joint(system.topology().pairs[k], constants.pairs[k], layout_.pair_row[k]);

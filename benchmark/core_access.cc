@@ -6,7 +6,7 @@
 namespace codesign {
 
 struct StepProbe::Parts {
-  Parts(std::shared_ptr<const System> given, double step_size)
+  Parts(std::shared_ptr<const CompiledSystem> given, double step_size)
       : system(std::move(given)),
         h(step_size),
         integrator(*system),
@@ -14,7 +14,7 @@ struct StepProbe::Parts {
         matrix(*system),
         equations(*system) {}
 
-  std::shared_ptr<const System> system;
+  std::shared_ptr<const CompiledSystem> system;
   double h;
   RosenbrockIntegrator integrator;
   RosenbrockStep<double> step;
@@ -27,7 +27,8 @@ struct StepProbe::Parts {
   Status status;
 };
 
-StepProbe::StepProbe(std::shared_ptr<const System> system, double time, double h) : parts_(std::make_unique<Parts>(std::move(system), h)) {
+StepProbe::StepProbe(std::shared_ptr<const CompiledSystem> system, double time, double h)
+    : parts_(std::make_unique<Parts>(std::move(system), h)) {
   Parts& p = *parts_;
   p.status = p.integrator.start(p.system->parameters());
   while (p.status.ok() && p.integrator.step().state().t < time) p.status = p.integrator.advance(time);

@@ -18,7 +18,7 @@ enum class Variable { kPosition, kVelocity, kRate };
 /// Calls visit(variable, row, column, value) for every stored derivative of the equations; the integrand g is the row below them. Columns
 /// are those of (q, s), of v, or of z.
 template <class Visit>
-void for_each_derivative(const System& system, const Linearization<double>& derivatives, const Visit& visit) {
+void for_each_derivative(const CompiledSystem& system, const Linearization<double>& derivatives, const Visit& visit) {
   const auto matrix = [&visit](Variable variable, const Sparsity& pattern, const std::vector<double>& values) {
     for (int row = 0; row < pattern.rows; ++row)
       for (int k = pattern.first(row); k < pattern.first(row + 1); ++k)
@@ -32,7 +32,7 @@ void for_each_derivative(const System& system, const Linearization<double>& deri
 /// Derivatives of the equations with the memory to hold them.
 class Derivatives {
  public:
-  explicit Derivatives(const System& system) : system_(system) { values_.resize(system.patterns()); }
+  explicit Derivatives(const CompiledSystem& system) : system_(system) { values_.resize(system.patterns()); }
 
   void evaluate(Equations<double>* equations, const State<double>& state) { equations->linearize(state, &values_); }
   template <class Visit>
@@ -41,7 +41,7 @@ class Derivatives {
   }
 
  private:
-  const System& system_;
+  const CompiledSystem& system_;
   Linearization<double> values_;
 };
 
@@ -49,7 +49,7 @@ class Derivatives {
 class StepProbe {
  public:
   /// Runs `system` at its start values up to `time` [s].
-  StepProbe(std::shared_ptr<const System> system, double time, double h);
+  StepProbe(std::shared_ptr<const CompiledSystem> system, double time, double h);
   ~StepProbe();
 
   const Status& status() const;

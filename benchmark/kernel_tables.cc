@@ -25,7 +25,7 @@ double& derivative(Wide* x, int lane) { return x->v[lane]; }
 /// Phi with numbers that carry derivatives, and the memory for it.
 template <class T>
 struct ForwardMode {
-  ForwardMode(const System& system, const Constants<double>& constants)
+  ForwardMode(const CompiledSystem& system, const Constants<double>& constants)
       : kernels(system, constants),
         q(static_cast<std::size_t>(kernels.columns())),
         v(q.size()),
@@ -55,7 +55,7 @@ struct ForwardMode {
 /// numbers.
 class KernelBench {
  public:
-  KernelBench(const System& system, const State<double>& state)
+  KernelBench(const CompiledSystem& system, const State<double>& state)
       : by_hand_(system, constants(system)),
         wide_(system, constants(system)),
         dual_(system, constants(system)),
@@ -132,7 +132,7 @@ class KernelBench {
  private:
   static constexpr double kStep = 1e-6, kLongStep = 1e-4;
 
-  static Constants<double> constants(const System& system) {
+  static Constants<double> constants(const CompiledSystem& system) {
     return evaluate_constants(system.robot(), system.topology(), system.parameters());
   }
   std::size_t index(int row, int column) const { return static_cast<std::size_t>(row * n_ + column); }

@@ -5,7 +5,7 @@
 #include "benchmark/mechanisms.h"
 #include "benchmark/report.h"
 #include "benchmark/timing.h"
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "problem/problem.h"
 
 namespace codesign {

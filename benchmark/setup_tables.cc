@@ -4,7 +4,7 @@
 
 #include "benchmark/mechanisms.h"
 #include "benchmark/report.h"
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "integration/simulation.h"
 #include "math/cpu_timer.h"
 #include "problem/problem.h"

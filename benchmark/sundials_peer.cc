@@ -39,7 +39,7 @@ struct Places {
 
 class SundialsPeer::Implementation {
  public:
-  Implementation(std::shared_ptr<const System> system, SundialsMatrix kind)
+  Implementation(std::shared_ptr<const CompiledSystem> system, SundialsMatrix kind)
       : system_(std::move(system)),
         at_(system_->layout()),
         kind_(kind),
@@ -286,7 +286,7 @@ class SundialsPeer::Implementation {
     for (std::size_t p = 0; p < S.size(); ++p) result->gradient[static_cast<Eigen::Index>(p)] = NV_Ith_S(S[p], at_.psi);
   }
 
-  std::shared_ptr<const System> system_;
+  std::shared_ptr<const CompiledSystem> system_;
   Places at_;
   SundialsMatrix kind_;
   SUNContext context_ = nullptr;
@@ -303,7 +303,7 @@ class SundialsPeer::Implementation {
   std::vector<int> calls_;
 };
 
-SundialsPeer::SundialsPeer(std::shared_ptr<const System> system, SundialsMatrix matrix)
+SundialsPeer::SundialsPeer(std::shared_ptr<const CompiledSystem> system, SundialsMatrix matrix)
     : implementation_(std::make_unique<Implementation>(std::move(system), matrix)) {}
 SundialsPeer::~SundialsPeer() = default;
 

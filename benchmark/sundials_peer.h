@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 
 namespace codesign {
 
@@ -27,7 +27,7 @@ struct SundialsResult {
 /// pass for up to eight parameters.
 class SundialsPeer {
  public:
-  SundialsPeer(std::shared_ptr<const System> system, SundialsMatrix matrix);
+  SundialsPeer(std::shared_ptr<const CompiledSystem> system, SundialsMatrix matrix);
   ~SundialsPeer();
 
   /// psi and, if asked for, its gradient at the start values. The absolute tolerance is a hundredth of the relative one: of 0.1, 0.01 and

@@ -11,8 +11,8 @@ add_library(codesign_test_paths OBJECT EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/te
 target_compile_definitions(codesign_test_paths PRIVATE CODESIGN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" CODESIGN_EXECUTABLE="$<TARGET_FILE:codesign>")
 codesign_warnings(codesign_test_paths)
 
-foreach(folder text math codegen sparse description mechanism reading joints forces control equations assembly observation problem integration sensitivity
-    optimization jobs cli ros benchmark system allocation)
+foreach(folder text math codegen sparse description mechanism reading joints forces control system elements equations assembly observation problem integration sensitivity
+    optimization jobs cli ros benchmark cases allocation)
   file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${folder}/*.cc)
   if(NOT test_sources OR (folder STREQUAL ros AND NOT TARGET codesign_ros))
     continue()

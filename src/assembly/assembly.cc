@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "equations/given_start.h"
+#include "assembly/given_start.h"
 #include "math/directions.h"
 
 namespace codesign {
@@ -24,7 +24,7 @@ double size_of(const LoopMiss& miss) { return std::max(miss.length, miss.angle);
 
 }  // namespace
 
-Assembly::Assembly(const System& system)
+Assembly::Assembly(const CompiledSystem& system)
     : system_(system),
       tree_(system.robot()),
       loops_(system, tree_),

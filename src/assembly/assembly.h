@@ -8,9 +8,9 @@
 
 #include "assembly/loop_jacobian.h"
 #include "assembly/singular_start.h"
+#include "assembly/tree_kinematics.h"
 #include "equations/equations.h"
 #include "equations/iteration_matrix.h"
-#include "equations/tree_kinematics.h"
 #include "mechanism_codesign/status.h"
 
 namespace codesign {
@@ -23,7 +23,7 @@ namespace codesign {
 /// Newton on G(z) = 0 from z = 0, where friction has no normal force to act on.
 class Assembly {
  public:
-  explicit Assembly(const System& system);
+  explicit Assembly(const CompiledSystem& system);
 
   /// Solves for `state` (at t = 0, extra states zero). `equations` must hold the design at `parameters`; its turn references are set too.
   Status solve(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
@@ -96,7 +96,7 @@ class Assembly {
   template <class T>
   void correct(const Dependents& dependents, const VectorX<T>& rows, VectorX<T>* coordinates) const;
 
-  const System& system_;
+  const CompiledSystem& system_;
   TreeLayout tree_;
   LoopJacobian loops_;
   std::vector<bool> drops_;     ///< per row of the loops

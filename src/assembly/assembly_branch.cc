@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "assembly/assembly.h"
-#include "equations/given_start.h"
+#include "assembly/given_start.h"
 
 namespace codesign {
 namespace {

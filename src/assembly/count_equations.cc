@@ -7,7 +7,7 @@
 
 namespace codesign {
 
-Counts count_equations(const System& system, const std::vector<double>& parameters, Status* status) {
+Counts count_equations(const CompiledSystem& system, const std::vector<double>& parameters, Status* status) {
   const Layout& layout = system.layout();
   Counts counts;
   counts.bodies = layout.bodies;

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "mechanism_codesign/counts.h"
 #include "mechanism_codesign/status.h"
 
@@ -13,7 +13,7 @@ namespace codesign {
 /// Counts coordinates, constraints and equations at the assembled start, as the paper's table "number of equations" does.
 /// @param parameters all named parameters (Study::parameters order).
 /// @param status receives the status of the assembly. After kAssemblyFailed the counts that need the start's rank are zero.
-Counts count_equations(const System& system, const std::vector<double>& parameters, Status* status);
+Counts count_equations(const CompiledSystem& system, const std::vector<double>& parameters, Status* status);
 
 }  // namespace codesign
 

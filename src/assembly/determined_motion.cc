@@ -29,7 +29,7 @@ bool lacks_inertia(const BodyConstants<double>& body) {
 /// The motions that the tree's coordinates make one at a time.
 class Motions {
  public:
-  Motions(const System& system, const std::vector<double>& parameters, const Assembly& assembly, Equations<double>* equations)
+  Motions(const CompiledSystem& system, const std::vector<double>& parameters, const Assembly& assembly, Equations<double>* equations)
       : system_(system), tree_(assembly.tree()), parameters_(parameters), theta_(assembly.theta()), equations_(equations) {
     find_independent();
     find_mass_matrix();
@@ -169,7 +169,7 @@ class Motions {
     return std::string(turn.norm() > 0.5 ? "turning about" : "sliding along") + " the axis (" + text + ") of joint '" + joint.name + "'";
   }
 
-  const System& system_;
+  const CompiledSystem& system_;
   const TreeLayout& tree_;
   const std::vector<double>& parameters_;
   VectorX<double> theta_;
@@ -184,7 +184,7 @@ class Motions {
 
 }  // namespace
 
-void require_determined_motion(const System& system, const std::vector<double>& parameters, const Assembly& assembly,
+void require_determined_motion(const CompiledSystem& system, const std::vector<double>& parameters, const Assembly& assembly,
                                Equations<double>* equations) {
   const std::vector<BodyConstants<double>>& bodies = equations->constants().bodies;
   if (std::none_of(bodies.begin(), bodies.end(), lacks_inertia)) return;

@@ -11,7 +11,7 @@ namespace codesign {
 /// something.
 /// @param equations hold the design at `parameters`.
 /// @throws InputError naming the link and the direction of a motion without inertia.
-void require_determined_motion(const System& system, const std::vector<double>& parameters, const Assembly& assembly,
+void require_determined_motion(const CompiledSystem& system, const std::vector<double>& parameters, const Assembly& assembly,
                                Equations<double>* equations);
 
 }  // namespace codesign

@@ -45,7 +45,7 @@ BodyKinematics<double> standing(const VectorX<double>& q, int body) {
 
 }  // namespace
 
-LoopJacobian::LoopJacobian(const System& system, const TreeLayout& tree)
+LoopJacobian::LoopJacobian(const CompiledSystem& system, const TreeLayout& tree)
     : system_(system), tree_(tree), joint_of_(at(tree.size), -1), slides_(at(tree.size), false) {
   for (int joint : tree.joint_order) {
     const JointType type = system.robot().joints[at(joint)].type;
@@ -121,7 +121,7 @@ SparseMatrix LoopJacobian::evaluate(const std::vector<double>& parameters, const
     for (const Mover& mover : loop.movers) {
       BodyKinematics<double> moved = mover.moves_j ? j : i;
       move(twists[at(mover.coordinate)], &moved);
-      equations.pair_errors(loop.pair, mover.moves_j ? i : moved, mover.moves_j ? moved : j, errors, rates);
+      equations.formulas().pair_errors(loop.pair, mover.moves_j ? i : moved, mover.moves_j ? moved : j, errors, rates);
       for (int k = 0; k < equations.rows(loop.pair).size(); ++k) entries.emplace_back(loop.first_row + k, mover.coordinate, rates[k]);
     }
   }

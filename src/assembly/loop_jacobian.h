@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "assembly/tree_kinematics.h"
 #include "equations/equations.h"
-#include "equations/tree_kinematics.h"
 #include "sparse/least_squares.h"
 
 namespace codesign {
@@ -28,7 +28,7 @@ struct LoopMiss {
 /// lengths of the loops: only coordinates on the way around a loop have entries in its rows.
 class LoopJacobian {
  public:
-  LoopJacobian(const System& system, const TreeLayout& tree);
+  LoopJacobian(const CompiledSystem& system, const TreeLayout& tree);
 
   int rows() const { return static_cast<int>(constraint_rows_.size()); }
   /// Rows of Phi that the tree does not satisfy by itself: of loops in order, then of couplings.
@@ -72,7 +72,7 @@ class LoopJacobian {
   void add_row(int row, const std::string& owner);
   bool slides(int coordinate) const { return slides_[static_cast<std::size_t>(coordinate)]; }
 
-  const System& system_;
+  const CompiledSystem& system_;
   const TreeLayout& tree_;
   std::vector<int> constraint_rows_, coordinates_;
   std::vector<std::string> owners_;

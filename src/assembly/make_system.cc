@@ -18,7 +18,7 @@ std::string miss_text(const LoopMiss& miss) {
 }
 
 /// The loop or coupling of a name, with its place.
-InputFault fault_of(const System& system, const std::string& name) {
+InputFault fault_of(const CompiledSystem& system, const std::string& name) {
   for (const Coupling& coupling : system.topology().couplings)
     if (coupling.name == name) return {coupling.where, coupling.element(), "", "", ""};
   for (const Pair& pair : system.topology().pairs)
@@ -30,7 +30,7 @@ InputFault fault_of(const System& system, const std::string& name) {
 }
 
 /// The start values contradict a loop or a coupling.
-[[noreturn]] void refuse_start(const System& system, const Assembly& assembly, const Status& status) {
+[[noreturn]] void refuse_start(const CompiledSystem& system, const Assembly& assembly, const Status& status) {
   InputFault fault = fault_of(system, status.code == StatusCode::kAssemblyFailed ? assembly.worst_miss().owner : "");
   fault.message = status.cause;
   const std::vector<InitialJointState>& given = system.study().initial_state;
@@ -47,7 +47,7 @@ InputFault fault_of(const System& system, const std::string& name) {
 }
 
 /// A loop that closes only nearly, as one with rounded angles does.
-void warn_of_miss(const System& system, const LoopMiss& miss, Warnings* warnings) {
+void warn_of_miss(const CompiledSystem& system, const LoopMiss& miss, Warnings* warnings) {
   constexpr double kRounding = 1e-9;
   if (!(std::max(miss.length, miss.angle) > kRounding)) return;
   InputFault fault = fault_of(system, miss.owner);
@@ -59,7 +59,7 @@ void warn_of_miss(const System& system, const LoopMiss& miss, Warnings* warnings
   append({warn("inexact_loop", fault)}, warnings);
 }
 
-void warn_of_friction(const System& system, const Redundancy& redundancy, Warnings* warnings) {
+void warn_of_friction(const CompiledSystem& system, const Redundancy& redundancy, Warnings* warnings) {
   for (int joint : redundancy.chosen_joints) {
     const JointDescription& description = system.robot().joints[static_cast<std::size_t>(joint)];
     append(
@@ -91,7 +91,7 @@ bool must_drop(const LoopMiss& miss, const Redundancy& redundancy) {
 }
 
 /// The system with its redundant constraints handled. A design that cannot start is bad input; later designs are trial points.
-std::shared_ptr<const System> with_sharing(std::shared_ptr<const System> system, Warnings* warnings) {
+std::shared_ptr<const CompiledSystem> with_sharing(std::shared_ptr<const CompiledSystem> system, Warnings* warnings) {
   StartWorkspace start(*system, system->parameters());
   const Status status = start.solve_positions();
   if (!status.ok()) refuse_start(*system, start.assembly, status);
@@ -104,10 +104,10 @@ std::shared_ptr<const System> with_sharing(std::shared_ptr<const System> system,
   append(warn_of_open_reactions(*system, redundancy, start.state, signals_of(system->study()), &start.equations), warnings);
   if (!must_drop(miss, redundancy)) redundancy.sharing = ReactionSharing();
   redundancy.sharing.compliance = compliance_of(start.equations);
-  return std::make_shared<const System>(system->robot(), system->study(), redundancy.sharing);
+  return std::make_shared<const CompiledSystem>(system->robot(), system->study(), redundancy.sharing);
 }
 
-void check_start(const System& system) {
+void check_start(const CompiledSystem& system) {
   StartWorkspace start(system, system.parameters());
   const Status status = start.solve_motion();
   if (status.code == StatusCode::kAssemblyFailed || status.code == StatusCode::kInitialVelocityFailed)
@@ -116,9 +116,9 @@ void check_start(const System& system) {
 
 }  // namespace
 
-std::shared_ptr<const System> make_system(const RobotDescription& robot, const Study& study, Warnings* warnings) {
+std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot, const Study& study, Warnings* warnings) {
   Warnings found;
-  std::shared_ptr<const System> system = with_sharing(std::make_shared<const System>(robot, study), &found);
+  std::shared_ptr<const CompiledSystem> system = with_sharing(std::make_shared<const CompiledSystem>(robot, study), &found);
   check_start(*system);
   if (warnings) append(found, warnings);
   return system;

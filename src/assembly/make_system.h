@@ -6,7 +6,7 @@
 
 #include "description/robot.h"
 #include "description/study.h"
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "mechanism_codesign/warning.h"
 
 namespace codesign {
@@ -15,7 +15,7 @@ namespace codesign {
 /// @param warnings receives what is doubtful: loops that close only nearly, friction on a reaction that nothing determines.
 /// @throws InputError for a mechanism without equations of motion: two masses on one loop end, a massless chain that cannot be folded, an
 /// unknown signal, a start that cannot be assembled, a motion without inertia.
-std::shared_ptr<const System> make_system(const RobotDescription& robot, const Study& study, Warnings* warnings = nullptr);
+std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot, const Study& study, Warnings* warnings = nullptr);
 
 }  // namespace codesign
 

@@ -56,7 +56,7 @@ SparseMatrix rows_as_columns(const Eigen::SparseMatrix<double, Eigen::RowMajor>&
 /// Which of the rows that seem to follow from the others do so wherever the mechanism goes.
 class TestMotion {
  public:
-  TestMotion(const System& system, Equations<double>* equations, const LoopJacobian& loops, const TreeLayout& tree,
+  TestMotion(const CompiledSystem& system, Equations<double>* equations, const LoopJacobian& loops, const TreeLayout& tree,
              const std::vector<double>& parameters)
       : system_(system), equations_(equations), loops_(loops), tree_(tree), parameters_(parameters) {}
 
@@ -135,7 +135,7 @@ class TestMotion {
     return true;
   }
 
-  const System& system_;
+  const CompiledSystem& system_;
   Equations<double>* equations_;
   const LoopJacobian& loops_;
   const TreeLayout& tree_;
@@ -146,7 +146,8 @@ class TestMotion {
 
 class Analysis {
  public:
-  Analysis(const System& system, const Equations<double>& equations) : system_(system), layout_(system.layout()), equations_(equations) {}
+  Analysis(const CompiledSystem& system, const Equations<double>& equations)
+      : system_(system), layout_(system.layout()), equations_(equations) {}
 
   ConstraintRow describe(int row) const {
     if (row >= layout_.norm_row(0)) return {system_.topology().bodies[index(row - layout_.norm_row(0))].name, 1, "unit Euler parameters"};
@@ -191,13 +192,14 @@ class Analysis {
     return product_kind(rows.products[index(within - (rows.coincident ? 3 : 0))]);
   }
 
-  const System& system_;
+  const CompiledSystem& system_;
   const Layout& layout_;
   const Equations<double>& equations_;
 };
 
 /// Constraint rows by the bodies' translations and turns, which the unit Euler parameters do not restrict; a column per row.
-SparseMatrix loads_of_rows(const System& system, const SparseMatrix& Phi_q, const VectorX<double>& q, const std::vector<int>& rows) {
+SparseMatrix loads_of_rows(const CompiledSystem& system, const SparseMatrix& Phi_q, const VectorX<double>& q,
+                           const std::vector<int>& rows) {
   const Eigen::SparseMatrix<double, Eigen::RowMajor> by_rows = Phi_q;
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t k = 0; k < rows.size(); ++k)
@@ -216,8 +218,8 @@ SparseMatrix loads_of_rows(const System& system, const SparseMatrix& Phi_q, cons
 }
 
 /// Self-stresses: any loads of the redundant rows, and those of the others that balance them.
-void find_undetermined(const System& system, Equations<double>* equations, const State<double>& state, const std::vector<int>& redundant,
-                       const ReactionSharing& sharing, Redundancy* result) {
+void find_undetermined(const CompiledSystem& system, Equations<double>* equations, const State<double>& state,
+                       const std::vector<int>& redundant, const ReactionSharing& sharing, Redundancy* result) {
   const Layout& layout = system.layout();
   std::vector<int> others;
   const auto add = [&](int first, int last) {
@@ -243,7 +245,7 @@ void find_undetermined(const System& system, Equations<double>* equations, const
 
 }  // namespace
 
-SparseMatrix constraint_jacobian(const System& system, Equations<double>* equations, const State<double>& state) {
+SparseMatrix constraint_jacobian(const CompiledSystem& system, Equations<double>* equations, const State<double>& state) {
   Linearization<double> d;
   d.resize(system.patterns());
   equations->linearize(state, &d);
@@ -258,7 +260,7 @@ SparseMatrix constraint_jacobian(const System& system, Equations<double>* equati
   return Phi_q;
 }
 
-Redundancy analyse_redundancy(const System& system, Equations<double>* equations, const Assembly& assembly,
+Redundancy analyse_redundancy(const CompiledSystem& system, Equations<double>* equations, const Assembly& assembly,
                               const std::vector<double>& parameters, const State<double>& state) {
   Redundancy result;
   const LoopJacobian& loops = assembly.loops();
@@ -287,19 +289,19 @@ Redundancy analyse_redundancy(const System& system, Equations<double>* equations
   return result;
 }
 
-std::vector<std::size_t> open_reactions(const System& system, const Redundancy& redundancy, State<double> state,
+std::vector<std::size_t> open_reactions(const CompiledSystem& system, const Redundancy& redundancy, State<double> state,
                                         const std::vector<Signal>& signals, Equations<double>* equations) {
   const Layout& layout = system.layout();
   std::vector<bool> open(signals.size(), false);
   state.z.setZero(layout.columns());
   for (Eigen::Index trial = 0; trial < redundancy.self_stress.cols(); ++trial) {
     state.z.segment(layout.n, layout.constraints()) = redundancy.self_stress.col(trial);
-    equations->load(state);
+    equations->formulas().load(state);
     for (std::size_t k = 0; k < signals.size(); ++k) {
       double moved = 0.0;
       for (const SignalReference& term : signals[k])
         if (term.kind == SignalKind::kReactionForce || term.kind == SignalKind::kReactionTorque)
-          moved += term.factor * equations->multiplier_reaction(term);
+          moved += term.factor * equations->formulas().multiplier_reaction(term);
       if (std::abs(moved) > redundancy.stress_threshold) open[k] = true;
     }
   }

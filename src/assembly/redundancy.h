@@ -23,18 +23,18 @@ struct Redundancy {
 };
 
 /// Phi_q at a state.
-SparseMatrix constraint_jacobian(const System& system, Equations<double>* equations, const State<double>& state);
+SparseMatrix constraint_jacobian(const CompiledSystem& system, Equations<double>* equations, const State<double>& state);
 
 /// Rank of what loops and couplings ask of the tree, by a pivoted QR factorization for each set of them that shares no coordinates with
 /// others. A row counts as redundant if less than 1e-3 of it is left (scaled as LoopScales says), and is dropped if it also holds after
 /// motions of 0.2 rad along which the other rows hold. Multipliers that are not unique are those of loads that balance each other.
 /// @param assembly at the positions of `state`, where the constraints hold.
-Redundancy analyse_redundancy(const System& system, Equations<double>* equations, const Assembly& assembly,
+Redundancy analyse_redundancy(const CompiledSystem& system, Equations<double>* equations, const Assembly& assembly,
                               const std::vector<double>& parameters, const State<double>& state);
 
 /// Which of some signals read a component of a reaction that self-stresses move, so that nothing determines it.
 /// @param state of the redundancy.
-std::vector<std::size_t> open_reactions(const System& system, const Redundancy& redundancy, State<double> state,
+std::vector<std::size_t> open_reactions(const CompiledSystem& system, const Redundancy& redundancy, State<double> state,
                                         const std::vector<Signal>& signals, Equations<double>* equations);
 
 }  // namespace codesign

@@ -8,7 +8,7 @@
 
 namespace codesign {
 
-Warnings warn_of_open_reactions(const System& system, const Redundancy& redundancy, const State<double>& state,
+Warnings warn_of_open_reactions(const CompiledSystem& system, const Redundancy& redundancy, const State<double>& state,
                                 const std::vector<SignalDescription>& signals, Equations<double>* equations) {
   std::vector<Signal> resolved;
   resolved.reserve(signals.size());
@@ -26,7 +26,7 @@ Warnings warn_of_open_reactions(const System& system, const Redundancy& redundan
   return warnings;
 }
 
-Warnings warn_of_open_reactions(const System& system, const std::vector<SignalDescription>& signals) {
+Warnings warn_of_open_reactions(const CompiledSystem& system, const std::vector<SignalDescription>& signals) {
   const auto reads_one = [](const SignalDescription& signal) {
     return std::any_of(signal.terms.begin(), signal.terms.end(), [](const SignalTerm& term) { return is_reaction(term); });
   };

@@ -10,11 +10,11 @@
 namespace codesign {
 
 /// Warns of each signal that reads a reaction which nothing determines. @param state of the redundancy.
-Warnings warn_of_open_reactions(const System& system, const Redundancy& redundancy, const State<double>& state,
+Warnings warn_of_open_reactions(const CompiledSystem& system, const Redundancy& redundancy, const State<double>& state,
                                 const std::vector<SignalDescription>& signals, Equations<double>* equations);
 
 /// The same at the start of a system that is compiled already, of signals beside the study's.
-Warnings warn_of_open_reactions(const System& system, const std::vector<SignalDescription>& signals);
+Warnings warn_of_open_reactions(const CompiledSystem& system, const std::vector<SignalDescription>& signals);
 
 }  // namespace codesign
 

@@ -16,7 +16,7 @@ constexpr Eigen::Index kLargest = 250000;  // entries of J; larger ones are not 
 
 }  // namespace
 
-SingularStart::SingularStart(const System& system, const TreeLayout& tree, const LoopJacobian& loops)
+SingularStart::SingularStart(const CompiledSystem& system, const TreeLayout& tree, const LoopJacobian& loops)
     : system_(system), tree_(tree), loops_(loops) {}
 
 VectorX<double> SingularStart::rates(const VectorX<double>& theta, const VectorX<double>& x) {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "assembly/loop_jacobian.h"
+#include "assembly/tree_kinematics.h"
 #include "equations/equations.h"
-#include "equations/tree_kinematics.h"
 
 namespace codesign {
 
@@ -18,7 +18,7 @@ namespace codesign {
 class SingularStart {
  public:
   /// @param tree, loops must outlive this.
-  SingularStart(const System& system, const TreeLayout& tree, const LoopJacobian& loops);
+  SingularStart(const CompiledSystem& system, const TreeLayout& tree, const LoopJacobian& loops);
 
   /// Makes the position present. @param theta tree coordinates.
   void load(const std::vector<double>& parameters, const VectorX<double>& theta, Equations<double>* equations);
@@ -40,7 +40,7 @@ class SingularStart {
   VectorX<double> violation(const VectorX<double>& x);
   bool solve(const std::vector<int>& free, VectorX<double>* x);
 
-  const System& system_;
+  const CompiledSystem& system_;
   const TreeLayout& tree_;
   const LoopJacobian& loops_;
   std::vector<double> parameters_;

@@ -13,7 +13,8 @@ namespace codesign {
 struct StartWorkspace {
   /// @param system must outlive the workspace.
   /// @param design all named parameters (Study::parameters order).
-  StartWorkspace(const System& system, std::vector<double> design) : parameters(std::move(design)), equations(system), assembly(system) {
+  StartWorkspace(const CompiledSystem& system, std::vector<double> design)
+      : parameters(std::move(design)), equations(system), assembly(system) {
     equations.compiled().allow(false);  // a single evaluation does not pay for compilation
     equations.set_design(parameters);
   }

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "control/pid.h"
 #include "control/reference.h"
 #include "control/shaped_input.h"
 #include "description/study.h"
@@ -14,7 +15,7 @@ namespace codesign {
 template <class T>
 struct ControllerConstants {
   Reference<T> setpoint, feedforward;
-  T p{0.0}, i{0.0}, d{0.0};
+  Pid<T> pid;
   std::vector<T> gains;                  ///< state feedback, one per term
   std::vector<Reference<T>> references;  ///< as `gains`
   ShapedInput<T> shape;                  ///< basis
@@ -26,9 +27,9 @@ ControllerConstants<T> controller_constants(const ControllerDescription& descrip
   ControllerConstants<T> c;
   c.setpoint = Reference<T>(description.setpoint, parameters);
   c.feedforward = Reference<T>(description.feedforward, parameters);
-  c.p = description.p.at(parameters);
-  c.i = description.i.at(parameters);
-  c.d = description.d.at(parameters);
+  c.pid.p = description.p.at(parameters);
+  c.pid.i = description.i.at(parameters);
+  c.pid.d = description.d.at(parameters);
   for (const FeedbackTerm& term : description.feedback) {
     c.gains.push_back(term.gain.at(parameters));
     c.references.emplace_back(term.reference, parameters);

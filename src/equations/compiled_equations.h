@@ -11,20 +11,15 @@
 #include "codegen/traced.h"
 #include "control/reference.h"
 #include "control/shaped_input.h"
-#include "equations/state.h"
-#include "equations/system.h"
+#include "equations/compiled_system.h"
+#include "equations/equation_function.h"
 #include "math/line_vector.h"
 #include "sparse/sparsity.h"
+#include "system/state.h"
 
 namespace codesign {
 
-/// The functions that are compiled, with the arrays of their results.
-enum class EquationFunction {
-  kResidual,         ///< G, g
-  kLinearization,    ///< G_q, G_v, G_z, G_t
-  kConstraintErrors  ///< Phi, Phi_q v
-};
-
+class EquationCode;
 struct CompiledFunction;
 struct NumberedRecording;
 
@@ -35,7 +30,7 @@ class CompiledEquations {
  public:
   using TurnReferences = std::vector<std::vector<double>>;
 
-  explicit CompiledEquations(const System& system) : system_(system) {}
+  explicit CompiledEquations(const CompiledSystem& system) : system_(system) {}
 
   void set_design(const std::vector<T>& parameters);
   /// False: leaves everything to Equations.
@@ -69,7 +64,7 @@ class CompiledEquations {
   const CompiledFunction* begin(EquationFunction function, bool split, double t, const TurnReferences& turns);
   bool run(EquationFunction function, double t, const TurnReferences& turns, const T* const (&state)[4], T* const (&results)[4]);
 
-  const System& system_;
+  const CompiledSystem& system_;
   std::vector<T> parameters_;
   bool allowed_ = true;
   bool known_ = false;  ///< whether code_ and numbers_ are those of parameters_
@@ -85,7 +80,7 @@ class CompiledEquations {
 template <class T>
 class NoCompiledEquations {
  public:
-  explicit NoCompiledEquations(const System&) {}
+  explicit NoCompiledEquations(const CompiledSystem&) {}
   void set_design(const std::vector<T>&) {}
   template <class... Arguments>
   bool residual(const Arguments&...) {

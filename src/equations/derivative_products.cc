@@ -5,7 +5,8 @@
 
 namespace codesign {
 
-void directional_derivative(const System& system, const Linearization<double>& d, const State<double>& direction, VectorX<double>* result) {
+void directional_derivative(const CompiledSystem& system, const Linearization<double>& d, const State<double>& direction,
+                            VectorX<double>* result) {
   const ByVariable<Sparsity>& patterns = system.patterns();
   const Layout& layout = system.layout();
   result->resize(patterns.rate.rows);
@@ -21,7 +22,8 @@ void directional_derivative(const System& system, const Linearization<double>& d
   }
 }
 
-void subtract_position_product(const System& system, const Linearization<double>& d, const double* q, double factor, double* result) {
+void subtract_position_product(const CompiledSystem& system, const Linearization<double>& d, const double* q, double factor,
+                               double* result) {
   const Sparsity& pattern = system.patterns().position;
   for (int row = 0; row < system.layout().columns(); ++row)
     for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)

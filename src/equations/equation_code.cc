@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "codegen/traced.h"
-#include "equations/equations.h"
+#include "equations/formulas.h"
 
 namespace codesign {
 namespace {
@@ -42,25 +42,25 @@ bool is_tangent_leaf(const Recording::Node& node) {
 
 }  // namespace
 
-EquationCode::EquationCode(const System& system) {
+EquationCode::EquationCode(const System& system, const AssemblyPlan& plan) {
   if (!ValueCode::is_available() || system.layout().columns() > kMostColumns) {
     values_.recording.refuse();
     return;
   }
-  record(system);
+  record(system, plan);
   if (usable()) values_.number_nodes(turn_owners_);
 }
 
-void EquationCode::record(const System& system) {
+void EquationCode::record(const System& system, const AssemblyPlan& plan) {
   Recording* const recording = &values_.recording;
-  Equations<Traced> equations(system);
+  Formulas<Traced> formulas(system);
   // One more than there are, so that a model without parameters finds the recording too.
   const int parameter = recording->leaf(Recording::kSupplied, -1, false);
   std::vector<Traced> parameters;
   for (double value : system.parameters()) parameters.emplace_back(recording, parameter, value);
   parameters.emplace_back(recording, parameter, 0.0);
-  equations.set_design(parameters);
-  std::vector<std::vector<Traced>>& turns = equations.turn_references();
+  formulas.set_design(parameters);
+  TurnReferences<Traced>& turns = formulas.view().turn_references;
   for (std::size_t pair = 0; pair < turns.size(); ++pair)
     for (std::size_t element = 0; element < turns[pair].size(); ++element) {
       turns[pair][element] = Traced(recording, recording->leaf(kTurns, static_cast<int>(turn_owners_.size()), true));
@@ -77,18 +77,18 @@ void EquationCode::record(const System& system) {
 
   std::size_t guards = recording->guards().size();
   VectorX<Traced> G, Phi, Phi_rate, g(1);
-  equations.residual(state, &G, g.data());
+  formulas.residual(state, &G, g.data());
   take(EquationFunction::kResidual, {&G, &g}, &guards);
   Linearization<Traced> derivatives;
-  derivatives.resize(system.patterns());
-  equations.linearize(state, &derivatives);
+  derivatives.resize(plan.patterns);
+  formulas.linearize(state, plan, &derivatives);
   const auto vector = [](const std::vector<Traced>& x) -> VectorX<Traced> {
     return Eigen::Map<const VectorX<Traced>>(x.data(), static_cast<Eigen::Index>(x.size()));
   };
   const VectorX<Traced> by_position = vector(derivatives.position), by_velocity = vector(derivatives.velocity),
                         by_rate = vector(derivatives.rate);
   take(EquationFunction::kLinearization, {&by_position, &by_velocity, &by_rate, &derivatives.time}, &guards);
-  equations.constraint_errors(state.q, state.v, &Phi, &Phi_rate);
+  formulas.constraint_errors(state.q, state.v, &Phi, &Phi_rate);
   take(EquationFunction::kConstraintErrors, {&Phi, &Phi_rate}, &guards);
 }
 

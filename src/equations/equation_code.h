@@ -13,7 +13,9 @@
 #include "codegen/tangent_program.h"
 #include "codegen/traced.h"
 #include "codegen/value_code.h"
-#include "equations/compiled_equations.h"
+#include "equations/equation_function.h"
+#include "sparse/sparsity.h"
+#include "system/system.h"
 
 namespace codesign {
 
@@ -56,7 +58,7 @@ class EquationCode {
   };
 
   /// Records the equations.
-  explicit EquationCode(const System& system);
+  EquationCode(const System& system, const AssemblyPlan& plan);
 
   /// Whether they could be recorded.
   bool usable() const { return !values_.recording.refused(); }
@@ -75,7 +77,7 @@ class EquationCode {
     std::vector<ValueTask::Output> outputs;
     std::vector<Recording::Guard> guards;
   };
-  void record(const System& system);
+  void record(const System& system, const AssemblyPlan& plan);
   void take_guards(std::size_t first, Recorded* function);
   /// Notes what a function gave, and the guards from the first that is not noted yet on.
   void take(EquationFunction function, const std::vector<const VectorX<Traced>*>& results, std::size_t* guards);
@@ -102,8 +104,8 @@ class EquationCode {
 /// Records when first asked.
 class LazyEquationCode {
  public:
-  const EquationCode* get(const System& system) {
-    std::call_once(once_, [&] { code_ = std::make_unique<EquationCode>(system); });
+  const EquationCode* get(const System& system, const AssemblyPlan& plan) {
+    std::call_once(once_, [&] { code_ = std::make_unique<EquationCode>(system, plan); });
     return code_->usable() ? code_.get() : nullptr;
   }
 

@@ -23,7 +23,7 @@ void collect(const Sparsity& pattern, int matrix, const Shift& shift, std::vecto
 
 }  // namespace
 
-IterationMatrix::Pattern::Pattern(const System& system) {
+IterationMatrix::Pattern::Pattern(const CompiledSystem& system) {
   const Layout& layout = system.layout();
   const auto same = [](int column) { return column; };
   const auto position = [&layout](int column) { return layout.rate_column(column); };
@@ -67,7 +67,7 @@ std::vector<Sum> sums(const IterationMatrix::Pattern& pattern) {
 
 }  // namespace
 
-IterationMatrix::IterationMatrix(const System& system, bool machine_code)
+IterationMatrix::IterationMatrix(const CompiledSystem& system, bool machine_code)
     : pattern_(system),
       values_(pattern_.row_index.size()),
       code_(std::make_unique<LazyStraightLine>(machine_code)),

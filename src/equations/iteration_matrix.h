@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "sparse/sparse_lu.h"
 #include "sparse/sparsity.h"
 
@@ -19,7 +19,7 @@ class LazyStraightLine;
 class IterationMatrix {
  public:
   /// @param machine_code whether to compile the sums where that is possible; loops form them otherwise.
-  explicit IterationMatrix(const System& system, bool machine_code = true);
+  explicit IterationMatrix(const CompiledSystem& system, bool machine_code = true);
   ~IterationMatrix();
   IterationMatrix(IterationMatrix&&) noexcept;
   IterationMatrix& operator=(IterationMatrix&&) noexcept;
@@ -37,7 +37,7 @@ class IterationMatrix {
     std::vector<int> column_start, row_index;
     std::vector<Source> q, s, v, z;
 
-    explicit Pattern(const System& system);
+    explicit Pattern(const CompiledSystem& system);
   };
 
  private:

@@ -16,7 +16,7 @@ Vector3d vector(const double* x) { return {x[0], x[1], x[2]}; }
 
 }  // namespace
 
-BodyMotion::BodyMotion(const System& system)
+BodyMotion::BodyMotion(const CompiledSystem& system)
     : gravity_(system.study().gravity.data()), bodies_(static_cast<std::size_t>(system.layout().bodies)) {}
 
 void BodyMotion::set_design(const Constants<double>& constants) {
@@ -50,7 +50,7 @@ double BodyMotion::power(const VectorX<double>& q, const VectorX<double>& v, con
 }
 
 // y(1/2) = (y_0 + y_1)/2 + (d_0 + d_1/2 + d_2/4)/4, all of it sums of the same u.
-StepWork::StepWork(const System& system, const RosenbrockTableau& tableau) {
+StepWork::StepWork(const CompiledSystem& system, const RosenbrockTableau& tableau) {
   for (std::size_t j = 0; j < static_cast<std::size_t>(tableau.stages); ++j) {
     double dense = 0.0;
     for (int k = tableau.dense_terms - 1; k >= 0; --k) dense = 0.5 * dense + tableau.dense[static_cast<std::size_t>(k)][j];

@@ -15,7 +15,7 @@ struct BodyEnergy {
 /// What the bodies' motion says of energy, whatever acts on them; doc/theory.md (17a). Inexpensive: no law of force is evaluated.
 class BodyMotion {
  public:
-  explicit BodyMotion(const System& system);
+  explicit BodyMotion(const CompiledSystem& system);
 
   void set_design(const Constants<double>& constants);
   BodyEnergy energy(const VectorX<double>& q, const VectorX<double>& v) const;
@@ -34,7 +34,7 @@ class BodyMotion {
 /// Work that everything but gravity does over one Rosenbrock step: Simpson's rule, with the method's dense output in the middle.
 class StepWork {
  public:
-  StepWork(const System& system, const RosenbrockTableau& tableau);
+  StepWork(const CompiledSystem& system, const RosenbrockTableau& tableau);
 
   void start(const State<double>& state, const BodyMotion& motion);
   /// [J] over the last step that was taken. Each step must be asked for.

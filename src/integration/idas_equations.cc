@@ -35,7 +35,7 @@ int guarded(std::string* failure, const Action& action) {
 
 }  // namespace
 
-IdasEquations::IdasEquations(const System& system, IdasNewton* newton)
+IdasEquations::IdasEquations(const CompiledSystem& system, IdasNewton* newton)
     : layout_(system.layout()),
       newton_(*newton),
       equations_(system),

@@ -18,7 +18,7 @@ namespace codesign {
 /// The static functions are IDAS's callbacks; their user data is an IdasEquations. No exception leaves them.
 class IdasEquations {
  public:
-  IdasEquations(const System& system, IdasNewton* newton);
+  IdasEquations(const CompiledSystem& system, IdasNewton* newton);
 
   int size() const { return 2 * layout_.n + layout_.states + layout_.m; }
   Equations<double>& equations() { return equations_; }

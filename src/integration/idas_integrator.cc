@@ -30,7 +30,7 @@ double restart_drift(double relative_tolerance) { return std::max(100.0, 0.03 / 
 
 class IdasIntegrator::Implementation {
  public:
-  Implementation(const System& system, Integrator* owner)
+  Implementation(const CompiledSystem& system, Integrator* owner)
       : system_(system),
         options_(system.study().solver),
         restart_drift_(restart_drift(options_.relative_tolerance)),
@@ -95,7 +95,7 @@ class IdasIntegrator::Implementation {
   Status check_run();
   void count_steps();
 
-  const System& system_;
+  const CompiledSystem& system_;
   const SolverOptions& options_;
   const double restart_drift_;
   const BreakTimes breaks_;
@@ -324,7 +324,7 @@ void IdasIntegrator::Implementation::interpolate(double time, State<double>* sta
   N_VGetArrayPointer(psi_.get())[1] = work_;
 }
 
-IdasIntegrator::IdasIntegrator(const System& system) : implementation_(std::make_unique<Implementation>(system, this)) {}
+IdasIntegrator::IdasIntegrator(const CompiledSystem& system) : implementation_(std::make_unique<Implementation>(system, this)) {}
 IdasIntegrator::~IdasIntegrator() = default;
 
 void IdasIntegrator::carry(IdasSensitivities* sensitivities) { implementation_->carry(sensitivities); }

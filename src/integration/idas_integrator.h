@@ -38,7 +38,7 @@ class IdasSensitivities {
 /// with time and cause.
 class IdasIntegrator final : public Integrator {
  public:
-  explicit IdasIntegrator(const System& system);
+  explicit IdasIntegrator(const CompiledSystem& system);
   ~IdasIntegrator() override;
 
   /// Sensitivities to integrate from the next start() on, staggered and in the error test; nullptr for none. Must outlive the integration.

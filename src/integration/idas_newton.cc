@@ -14,7 +14,7 @@ int free_shell(SUNLinearSolver solver) {
 
 }  // namespace
 
-IdasNewton::IdasNewton(const System& system, SUNContext context)
+IdasNewton::IdasNewton(const CompiledSystem& system, SUNContext context)
     : system_(system), reduced_(system), matrix_(SUNMatNewEmpty(context)), solver_(SUNLinSolNewEmpty(context)) {
   if (!matrix_ || !solver_) throw std::bad_alloc();
   derivatives_.resize(system.patterns());

@@ -17,7 +17,7 @@ namespace codesign {
 /// terms, of order kappa/c_j^2, is left to Newton's iteration.
 class IdasNewton {
  public:
-  IdasNewton(const System& system, SUNContext context);
+  IdasNewton(const CompiledSystem& system, SUNContext context);
 
   /// Forms and factors the reduced matrix at the next setup.
   Linearization<double>* derivatives() { return &derivatives_; }
@@ -40,7 +40,7 @@ class IdasNewton {
   static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b, sunrealtype tolerance);
   void solve(const double* b, double* x);
 
-  const System& system_;
+  const CompiledSystem& system_;
   IterationMatrix reduced_;
   Linearization<double> derivatives_;
   VectorX<double> u_;

@@ -5,9 +5,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "equations/state.h"
 #include "integration/tableau.h"
 #include "math/lanes.h"
+#include "system/state.h"
 
 namespace codesign {
 

@@ -6,12 +6,12 @@
 
 namespace codesign {
 
-std::unique_ptr<Integrator> make_integrator(const System& system) {
+std::unique_ptr<Integrator> make_integrator(const CompiledSystem& system) {
   if (system.study().solver.integrator == IntegratorKind::kIdas) return std::make_unique<IdasIntegrator>(system);
   return std::make_unique<RosenbrockIntegrator>(system);
 }
 
-Status assemble_start(const System& system, const std::vector<double>& parameters, Assembly* assembly, Equations<double>* equations,
+Status assemble_start(const CompiledSystem& system, const std::vector<double>& parameters, Assembly* assembly, Equations<double>* equations,
                       State<double>* initial) {
   equations->set_design(parameters);
   if (std::string fault = find_impossible(system.robot(), system.topology(), equations->constants()); !fault.empty())

@@ -51,10 +51,10 @@ class Integrator {
 };
 
 /// The integrator that the study asks for.
-std::unique_ptr<Integrator> make_integrator(const System& system);
+std::unique_ptr<Integrator> make_integrator(const CompiledSystem& system);
 
 /// The common beginning of every integration: constants of the design, then a consistent state at t = 0.
-Status assemble_start(const System& system, const std::vector<double>& parameters, Assembly* assembly, Equations<double>* equations,
+Status assemble_start(const CompiledSystem& system, const std::vector<double>& parameters, Assembly* assembly, Equations<double>* equations,
                       State<double>* initial);
 
 }  // namespace codesign

@@ -17,7 +17,7 @@ namespace codesign {
 /// Speeds are |r'| [m/s] and |omega| [rad/s].
 class MotionWatch {
  public:
-  explicit MotionWatch(const System& system) : system_(system) {}
+  explicit MotionWatch(const CompiledSystem& system) : system_(system) {}
 
   /// @param equations at the design; `initial` its start.
   void start(const Equations<double>& equations, const State<double>& initial);
@@ -34,7 +34,7 @@ class MotionWatch {
   double expected_work(double time, std::int64_t work) const;
   Status exceeded(const State<double>& state, const std::string& advice) const;
 
-  const System& system_;
+  const CompiledSystem& system_;
   double linear_bound_ = 0.0, angular_bound_ = 0.0;
   double mark_time_ = 0.0;
   std::int64_t mark_work_ = 0;

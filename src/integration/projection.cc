@@ -10,7 +10,7 @@ constexpr int kRounds = 2;
 
 }  // namespace
 
-Projection::Projection(const System& system) : layout_(system.layout()), matrix_(system) { derivatives_.resize(system.patterns()); }
+Projection::Projection(const CompiledSystem& system) : layout_(system.layout()), matrix_(system) { derivatives_.resize(system.patterns()); }
 
 void Projection::correct(const VectorX<double>& error, VectorX<double>* target) {
   correction_.setZero(layout_.columns());

@@ -10,7 +10,7 @@ namespace codesign {
 /// Takes a state's drift off the constraints away; doc/theory.md (17), in two rounds, since the drift may be more than that of one step.
 class Projection {
  public:
-  explicit Projection(const System& system);
+  explicit Projection(const CompiledSystem& system);
 
   /// Changes q and v so that Phi = 0 and Phi_q v = 0. False if the augmented matrix is singular.
   bool apply(Equations<double>* equations, State<double>* state);

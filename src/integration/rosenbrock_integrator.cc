@@ -9,7 +9,7 @@
 
 namespace codesign {
 
-RosenbrockIntegrator::RosenbrockIntegrator(const System& system)
+RosenbrockIntegrator::RosenbrockIntegrator(const CompiledSystem& system)
     : system_(system),
       options_(system.study().solver),
       breaks_(system.study()),

@@ -18,7 +18,7 @@ namespace codesign {
 /// An adaptive Rosenbrock-Wanner method; doc/theory.md (15)-(17). Once warm, steps do not allocate.
 class RosenbrockIntegrator final : public Integrator {
  public:
-  explicit RosenbrockIntegrator(const System& system);
+  explicit RosenbrockIntegrator(const CompiledSystem& system);
 
   Status start(const std::vector<double>& parameters) override;
   Status advance(double limit) override { return advance(limit, {}); }
@@ -43,7 +43,7 @@ class RosenbrockIntegrator final : public Integrator {
  private:
   double first_step() const;
 
-  const System& system_;
+  const CompiledSystem& system_;
   const SolverOptions& options_;
   const BreakTimes breaks_;
   RosenbrockStep<double> step_;

@@ -21,7 +21,7 @@ void copy_state(const State<T>& from, State<T>* to) {
 }  // namespace
 
 template <class T>
-RosenbrockStep<T>::RosenbrockStep(const System& system, const RosenbrockTableau& tableau)
+RosenbrockStep<T>::RosenbrockStep(const CompiledSystem& system, const RosenbrockTableau& tableau)
     : system_(system),
       layout_(system.layout()),
       at_(layout_),

@@ -21,7 +21,7 @@ namespace codesign {
 template <class T>
 class RosenbrockStep {
  public:
-  RosenbrockStep(const System& system, const RosenbrockTableau& tableau);
+  RosenbrockStep(const CompiledSystem& system, const RosenbrockTableau& tableau);
 
   Equations<T>& equations() { return equations_; }
   const Equations<T>& equations() const { return equations_; }
@@ -65,7 +65,7 @@ class RosenbrockStep {
   bool solve_stage(std::size_t i);
   bool project();
 
-  const System& system_;
+  const CompiledSystem& system_;
   const Layout& layout_;
   const IncrementLayout at_;
   const RosenbrockTableau& tableau_;

@@ -50,7 +50,7 @@ RunLimit energy_limit(double relative_tolerance) {
           std::max(std::clamp(1e4 * relative_tolerance, 1e-3, 2e-2), 50.0 * relative_tolerance)};
 }
 
-RunWatch::RunWatch(const System& system)
+RunWatch::RunWatch(const CompiledSystem& system)
     : system_(system),
       options_(system.study().solver),
       drift_limit_(drift_limit(options_.relative_tolerance)),

@@ -20,7 +20,7 @@ RunLimit energy_limit(double relative_tolerance);
 /// Watches how well a run keeps to the constraints and to the balance of energy; doc/theory.md (17a). No allocation.
 class RunWatch {
  public:
-  explicit RunWatch(const System& system);
+  explicit RunWatch(const CompiledSystem& system);
 
   void start(const Constants<double>& constants, const State<double>& initial);
   const BodyMotion& motion() const { return motion_; }
@@ -38,7 +38,7 @@ class RunWatch {
  private:
   double smallest_scale(const Constants<double>& constants, const State<double>& initial) const;
 
-  const System& system_;
+  const CompiledSystem& system_;
   const SolverOptions& options_;
   const RunLimit drift_limit_, energy_limit_;
   BodyMotion motion_;

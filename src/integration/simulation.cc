@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "integration/finite_frame.h"
 #include "integration/integrator.h"
 #include "math/cpu_timer.h"
@@ -14,7 +14,8 @@ namespace codesign {
 
 class Simulation::Implementation {
  public:
-  Implementation(std::shared_ptr<const System> system, const std::vector<double>& parameters, const std::vector<SignalDescription>& signals)
+  Implementation(std::shared_ptr<const CompiledSystem> system, const std::vector<double>& parameters,
+                 const std::vector<SignalDescription>& signals)
       : system_(std::move(system)), parameters_(parameters), observer_(*system_, signals), integrator_(make_integrator(*system_)) {
     sample_.resize(system_->layout());
   }
@@ -56,7 +57,7 @@ class Simulation::Implementation {
   const Warnings& warnings() const { return warnings_ = integrator_->warnings(); }
 
  private:
-  std::shared_ptr<const System> system_;
+  std::shared_ptr<const CompiledSystem> system_;
   std::vector<double> parameters_;
   Observer observer_;
   std::unique_ptr<Integrator> integrator_;
@@ -65,7 +66,7 @@ class Simulation::Implementation {
   mutable Warnings warnings_;
 };
 
-Simulation::Simulation(std::shared_ptr<const System> system, const std::vector<double>& parameters,
+Simulation::Simulation(std::shared_ptr<const CompiledSystem> system, const std::vector<double>& parameters,
                        const std::vector<SignalDescription>& signals)
     : implementation_(std::make_unique<Implementation>(std::move(system), parameters, signals)) {}
 Simulation::~Simulation() = default;

@@ -16,7 +16,7 @@
 
 namespace codesign {
 
-class System;  // the immutable equations of motion, equations/system.h
+class CompiledSystem;  // the immutable equations of motion, equations/system.h
 
 /// What an integration cost.
 struct Statistics {
@@ -26,12 +26,12 @@ struct Statistics {
   double energy_error = 0.0;      ///< largest |E - E(0) - work done| over the run, relative to the largest energy that took part [-]
 };
 
-/// One design of one mechanism, stepped forward in time. Not thread-safe; several may share one System.
+/// One design of one mechanism, stepped forward in time. Not thread-safe; several may share one CompiledSystem.
 class Simulation {
  public:
   /// @param parameters all named parameters (Study::parameters order).
   /// @param signals extra signals to sample into Frame::signals. @throws InputError for one that does not exist.
-  Simulation(std::shared_ptr<const System> system, const std::vector<double>& parameters,
+  Simulation(std::shared_ptr<const CompiledSystem> system, const std::vector<double>& parameters,
              const std::vector<SignalDescription>& signals = {});
   ~Simulation();
   Simulation(Simulation&&) noexcept;

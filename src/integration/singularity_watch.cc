@@ -22,7 +22,7 @@ constexpr int kLargest = 400;          // coordinates, whose rank is still decid
 
 }  // namespace
 
-SingularityWatch::SingularityWatch(const System& system) : system_(system) {
+SingularityWatch::SingularityWatch(const CompiledSystem& system) : system_(system) {
   derivatives_.resize(system.patterns());
   for (Point& point : points_) point.state.resize(system.layout());
   initial_.resize(system.layout());

@@ -16,7 +16,7 @@ namespace codesign {
 /// three ends of steps, is the response of the augmented matrix looked at.
 class SingularityWatch {
  public:
-  explicit SingularityWatch(const System& system);
+  explicit SingularityWatch(const CompiledSystem& system);
 
   /// @param enabled whether to look at all.
   void start(bool enabled, const State<double>& initial);
@@ -37,7 +37,7 @@ class SingularityWatch {
   double stiffness(Equations<double>* equations);
   int rank(Equations<double>* equations, const State<double>& state) const;
 
-  const System& system_;
+  const CompiledSystem& system_;
   std::unique_ptr<IterationMatrix> matrix_;  ///< made when a peak is first looked at: few runs have one
   Linearization<double> derivatives_;
   VectorX<double> response_;

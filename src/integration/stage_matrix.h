@@ -15,7 +15,7 @@ class StageMatrix;
 template <>
 class StageMatrix<double> {
  public:
-  explicit StageMatrix(const System& system) : matrix_(system) {}
+  explicit StageMatrix(const CompiledSystem& system) : matrix_(system) {}
   bool factor(const Linearization<double>& d, double c_v, double c_q, double c_s) { return matrix_.factor(d, c_v, c_q, c_s); }
   void solve(VectorX<double>* x) const { matrix_.lu().solve(x->data()); }
   const SparseLu& lu() const { return matrix_.lu(); }
@@ -28,7 +28,7 @@ template <>
 class StageMatrix<std::complex<double>> {
  public:
   using Scalar = std::complex<double>;
-  explicit StageMatrix(const System& system) : system_(system) {}
+  explicit StageMatrix(const CompiledSystem& system) : system_(system) {}
 
   bool factor(const Linearization<Scalar>& d, double c_v, double c_q, double c_s) {
     const Layout& layout = system_.layout();
@@ -52,7 +52,7 @@ class StageMatrix<std::complex<double>> {
   void solve(VectorX<Scalar>* x) const { *x = lu_.solve(*x).eval(); }
 
  private:
-  const System& system_;
+  const CompiledSystem& system_;
   Eigen::PartialPivLU<Eigen::MatrixXcd> lu_;
 };
 

@@ -29,7 +29,7 @@ std::vector<Sum> sums(const ByVariable<Sparsity>& patterns, int rows) {
 
 }  // namespace
 
-StageProduct::StageProduct(const System& system, bool machine_code)
+StageProduct::StageProduct(const CompiledSystem& system, bool machine_code)
     : patterns_(&system.patterns()), rows_(system.layout().columns()), code_(std::make_unique<LazyStraightLine>(machine_code)) {}
 
 StageProduct::~StageProduct() = default;

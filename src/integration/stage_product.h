@@ -5,7 +5,7 @@
 #include <complex>
 #include <memory>
 
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "sparse/sparsity.h"
 
 namespace codesign {
@@ -16,7 +16,7 @@ class LazyStraightLine;
 class StageProduct {
  public:
   /// @param machine_code whether to compile the products where that is possible; loops take them otherwise.
-  explicit StageProduct(const System& system, bool machine_code = true);
+  explicit StageProduct(const CompiledSystem& system, bool machine_code = true);
   ~StageProduct();
   StageProduct(StageProduct&&) noexcept;
   StageProduct& operator=(StageProduct&&) noexcept;

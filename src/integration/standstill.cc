@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "assembly/redundancy.h"
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 
 namespace codesign {
 namespace {
@@ -33,7 +33,7 @@ double size_of(const VectorX<double>& q, int bodies) {
   return size > 0.0 ? size : 1.0;
 }
 
-std::vector<int> enforced_rows(const System& system) {
+std::vector<int> enforced_rows(const CompiledSystem& system) {
   const std::vector<int>& dropped = system.sharing().dropped;
   std::vector<int> rows;
   for (int row = 0; row < system.layout().constraints(); ++row)
@@ -42,7 +42,7 @@ std::vector<int> enforced_rows(const System& system) {
 }
 
 /// Phi_q free of units: lengths by the mechanism's size, rows by their own.
-Eigen::MatrixXd scaled_jacobian(const System& system, const State<double>& state, Equations<double>* equations) {
+Eigen::MatrixXd scaled_jacobian(const CompiledSystem& system, const State<double>& state, Equations<double>* equations) {
   Eigen::MatrixXd rows = constraint_jacobian(system, equations, state);
   const double size = size_of(state.q, system.layout().bodies);
   for (Eigen::Index c = 0; c < rows.cols(); ++c)
@@ -51,7 +51,7 @@ Eigen::MatrixXd scaled_jacobian(const System& system, const State<double>& state
   return rows;
 }
 
-Eigen::MatrixXd enforced_part(const System& system, const Eigen::MatrixXd& all) {
+Eigen::MatrixXd enforced_part(const CompiledSystem& system, const Eigen::MatrixXd& all) {
   const std::vector<int> enforced = enforced_rows(system);
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(enforced.size()), all.cols());
   for (std::size_t k = 0; k < enforced.size(); ++k) rows.row(static_cast<Eigen::Index>(k)) = all.row(enforced[k]);
@@ -64,7 +64,7 @@ double singular_value(const Eigen::MatrixXd& rows, Eigen::Index rank) { return S
 void add_name(const std::string& name, std::string* list) { *list += (list->empty() ? "'" : ", '") + name + "'"; }
 
 /// Joints and loops that a self-stress (a number per enforced row) loads.
-std::string loaded_pairs(const System& system, const Eigen::VectorXd& stress) {
+std::string loaded_pairs(const CompiledSystem& system, const Eigen::VectorXd& stress) {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(system.layout().constraints());
   const std::vector<int> enforced = enforced_rows(system);
   for (std::size_t k = 0; k < enforced.size(); ++k) all[enforced[k]] = std::abs(stress[static_cast<Eigen::Index>(k)]);
@@ -81,7 +81,7 @@ std::string loaded_pairs(const System& system, const Eigen::VectorXd& stress) {
   return names;
 }
 
-std::string frictions_in_loops(const System& system) {
+std::string frictions_in_loops(const CompiledSystem& system) {
   std::string names;
   for (int p : system.sharing().pairs)
     if (const int joint = system.topology().pairs[static_cast<std::size_t>(p)].friction_joint; joint >= 0)
@@ -89,7 +89,7 @@ std::string frictions_in_loops(const System& system) {
   return names;
 }
 
-std::string cause(const System& system, const Eigen::MatrixXd& rows, bool all_lose_rank) {
+std::string cause(const CompiledSystem& system, const Eigen::MatrixXd& rows, bool all_lose_rank) {
   const Svd svd(rows, Eigen::ComputeThinU);
   const std::string names = loaded_pairs(system, svd.matrixU().col(svd.singularValues().size() - 1)),
                     frictions = frictions_in_loops(system);
@@ -106,7 +106,7 @@ std::string cause(const System& system, const Eigen::MatrixXd& rows, bool all_lo
 
 }  // namespace
 
-Status judge_standstill(const Status& status, const System& system, const State<double>& initial, const State<double>& state,
+Status judge_standstill(const Status& status, const CompiledSystem& system, const State<double>& initial, const State<double>& state,
                         double step_size, const Statistics& statistics, Equations<double>* equations) {
   if (!system.sharing().drops() || system.layout().n > kLargest) return status;
   const bool slow = statistics.steps % kWindow == 0 && system.study().duration - state.t > kNever * step_size;

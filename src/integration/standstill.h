@@ -16,7 +16,7 @@ namespace codesign {
 /// @param initial where the run began. @param state at the end of the last step, which was `step_size` [s] long.
 /// @returns `status`, or kSingularConfiguration in place of a failure at a singular position, and of success where the steps get so short
 /// before one that the study would never end.
-Status judge_standstill(const Status& status, const System& system, const State<double>& initial, const State<double>& state,
+Status judge_standstill(const Status& status, const CompiledSystem& system, const State<double>& initial, const State<double>& state,
                         double step_size, const Statistics& statistics, Equations<double>* equations);
 
 }  // namespace codesign

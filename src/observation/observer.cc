@@ -7,7 +7,7 @@
 
 namespace codesign {
 
-Observer::Observer(const System& system, const std::vector<SignalDescription>& signals) : system_(system), tree_(system.robot()) {
+Observer::Observer(const CompiledSystem& system, const std::vector<SignalDescription>& signals) : system_(system), tree_(system.robot()) {
   for (const SignalDescription& signal : signals) {
     signals_.push_back(resolve_signal(signal, system.robot(), system.topology(), system.study().controllers));
     system.check_readable(signals_.back(), signal);
@@ -81,7 +81,7 @@ void Observer::observe(const State<double>& state, double objective, const Vecto
   frame->time = state.t;
   frame->objective = objective;
   observe_loops(state, equations, frame);
-  equations->load(state);
+  equations->formulas().load(state);
   frame->joints.resize(joints_.size());
   VectorX<double> positions = theta;
   for (std::size_t k = 0; k < joints_.size(); ++k) {
@@ -92,8 +92,8 @@ void Observer::observe(const State<double>& state, double objective, const Vecto
       sample = {theta[c], 0.0, 0.0, 0.0};
       continue;
     }
-    const CoordinateMotion<double> motion = equations->coordinate(source.pair, source.element);
-    sample = {motion.position, motion.rate, motion.acceleration, equations->effort(source.pair, source.element)};
+    const CoordinateMotion<double> motion = equations->formulas().coordinate(source.pair, source.element);
+    sample = {motion.position, motion.rate, motion.acceleration, equations->formulas().effort(source.pair, source.element)};
     if (k < names_.tree_joints) positions[c] = motion.position;
   }
   follow_mimics(equations->parameters(), &positions, frame);
@@ -101,7 +101,7 @@ void Observer::observe(const State<double>& state, double objective, const Vecto
   observe_controllers(state, equations, frame);
   observe_links(positions, equations, frame);
   frame->signals.resize(signals_.size());
-  for (std::size_t k = 0; k < signals_.size(); ++k) frame->signals[k] = equations->signal(signals_[k], state);
+  for (std::size_t k = 0; k < signals_.size(); ++k) frame->signals[k] = equations->formulas().signal(signals_[k], state);
 }
 
 // A joint that moves nothing with mass has no equation, but follows what it mimics all the same.
@@ -130,14 +130,14 @@ void Observer::observe_frictions(Equations<double>* equations, Frame* frame) con
     const PairConstants<double>& c = equations->constants().pairs[static_cast<std::size_t>(source.pair)];
     FrictionSample& sample = frame->frictions[k];
     sample = {};
-    sample.position = equations->body(pair.body_j).r + equations->body(pair.body_j).A * c.s_j;
+    sample.position = equations->formulas().body(pair.body_j).r + equations->formulas().body(pair.body_j).A * c.s_j;
     if (source.element == kContact) {
       observe_contact(source.pair, equations, &sample);
       continue;
     }
-    const FrictionState<double> friction = equations->friction(source.pair, source.element);
+    const FrictionState<double> friction = equations->formulas().friction(source.pair, source.element);
     const double sign = c.coordinates[static_cast<std::size_t>(source.element)].sign;
-    const Eigen::Vector3d axis = equations->body(pair.body_i).A * c.C_i.col(2);
+    const Eigen::Vector3d axis = equations->formulas().body(pair.body_i).A * c.C_i.col(2);
     sample.friction = -friction.load;
     sample.normal_force = friction.normal;
     sample.sliding_velocity = friction.velocity;
@@ -148,7 +148,7 @@ void Observer::observe_frictions(Equations<double>* equations, Frame* frame) con
 void Observer::observe_contact(int index, Equations<double>* equations, FrictionSample* sample) const {
   const Pair& pair = system_.topology().pairs[static_cast<std::size_t>(index)];
   const PairConstants<double>& c = equations->constants().pairs[static_cast<std::size_t>(index)];
-  const ContactFriction<double> contact = equations->contact(index);
+  const ContactFriction<double> contact = equations->formulas().contact(index);
   sample->friction = -contact.magnitude();
   sample->normal_force = contact.normal.value;
   sample->sliding_velocity = contact.speed();
@@ -160,7 +160,7 @@ void Observer::observe_contact(int index, Equations<double>* equations, Friction
     sample->torque = on_child;
     return;
   }
-  const Eigen::Matrix3d axes = equations->body(pair.body_i).A * c.C_i;
+  const Eigen::Matrix3d axes = equations->formulas().body(pair.body_i).A * c.C_i;
   sample->force = axes.leftCols<2>() * on_child.head<2>();
   sample->torque = axes.col(2) * on_child[2];
 }
@@ -170,11 +170,11 @@ void Observer::observe_controllers(const State<double>& state, Equations<double>
   for (std::size_t k = 0; k < frame->controllers.size(); ++k) {
     const int controller = static_cast<int>(k), s = system_.controllers()[k].state;
     ControllerSample& sample = frame->controllers[k];
-    sample.setpoint = equations->setpoint(controller);
-    sample.error = equations->controller_error(controller, nullptr);
+    sample.setpoint = equations->formulas().setpoint(controller);
+    sample.error = equations->formulas().controller_error(controller, nullptr);
     sample.input = sample.setpoint - sample.error;
     sample.integral = s >= 0 ? state.s[s] : 0.0;
-    sample.output = equations->controller_output(controller, nullptr);
+    sample.output = equations->formulas().controller_output(controller, nullptr);
   }
 }
 
@@ -186,7 +186,7 @@ void Observer::observe_links(const VectorX<double>& theta, Equations<double>* eq
   for (std::size_t k = 0; k < links.size(); ++k) {
     const int body = system_.topology().link_body[k];
     if (body == Topology::kMassless) continue;
-    const BodyKinematics<double>& b = equations->body(body);
+    const BodyKinematics<double>& b = equations->formulas().body(body);
     frame->links[k] = {b.r + b.A * links[k].s, Eigen::Quaterniond(Eigen::Matrix3d(b.A * links[k].R)).normalized()};
   }
   const std::vector<LinkMotion<double>> motions =

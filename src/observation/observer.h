@@ -14,7 +14,7 @@ namespace codesign {
 class Observer {
  public:
   /// @throws InputError for a signal that does not exist.
-  Observer(const System& system, const std::vector<SignalDescription>& signals);
+  Observer(const CompiledSystem& system, const std::vector<SignalDescription>& signals);
 
   const FrameNames& names() const { return names_; }
 
@@ -41,7 +41,7 @@ class Observer {
   void observe_links(const VectorX<double>& theta, Equations<double>* equations, Frame* frame) const;
   void observe_loops(const State<double>& state, Equations<double>* equations, Frame* frame);
 
-  const System& system_;
+  const CompiledSystem& system_;
   TreeLayout tree_;
   std::vector<Signal> signals_;
   FrameNames names_;

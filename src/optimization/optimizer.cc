@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "math/cpu_timer.h"
 #include "optimization/algorithm.h"
 #include "optimization/scaling.h"
@@ -19,7 +19,7 @@ constexpr double kSlopeLeft = 1e-2;  // of the first gradient, at most, where a 
 /// One optimization: what NLopt's callbacks share.
 class Minimization {
  public:
-  Minimization(const std::shared_ptr<const System>& system, const Study& study, const TrialObserver& observer,
+  Minimization(const std::shared_ptr<const CompiledSystem>& system, const Study& study, const TrialObserver& observer,
                const std::atomic<bool>* cancel)
       : study_(study), observer_(observer), cancel_(cancel), evaluator_(system), scaling_(study) {}
 
@@ -234,7 +234,7 @@ class Minimization {
 
 }  // namespace
 
-OptimizationResult optimize(const std::shared_ptr<const System>& system, const Study& study, const TrialObserver& observer,
+OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system, const Study& study, const TrialObserver& observer,
                             const std::atomic<bool>* cancel) {
   if (study.tuned.empty()) throw InputError({{study.file, 1}, "parameters", "nothing to tune", "", "at least one parameter"});
   return Minimization(system, study, observer, cancel).run();

@@ -48,7 +48,7 @@ struct OptimizationResult {
 /// Minimizes psi(rho) within the bounds and the parameter constraints, from the parameters' start values.
 /// @param cancel if given and set (from any thread), ends soon with the best point so far.
 /// @throws InputError for options that contradict each other (e.g. constraints with an algorithm that takes none).
-OptimizationResult optimize(const std::shared_ptr<const System>& system, const Study& study, const TrialObserver& observer = {},
+OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system, const Study& study, const TrialObserver& observer = {},
                             const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "assembly/make_system.h"
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "math/cpu_timer.h"
 #include "problem/margins.h"
 #include "problem/unused_parameters.h"

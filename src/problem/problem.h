@@ -11,7 +11,6 @@
 #include "assembly/make_system.h"
 #include "description/robot.h"
 #include "description/study.h"
-#include "assembly/make_system.h"
 #include "reading/urdf/urdf_reader.h"
 
 namespace codesign {
@@ -26,7 +25,7 @@ struct Problem {
   SourceText study_text;  ///< empty where there is none
   RobotDescription robot;
   Study study;
-  std::shared_ptr<const System> system;
+  std::shared_ptr<const CompiledSystem> system;
   double setup_seconds = 0.0;  ///< of processor time, from the texts to `system`
   Warnings warnings;           ///< of the files and of the mechanism they make
 

@@ -6,13 +6,13 @@
 
 namespace codesign {
 
-AdjointGradient::Backward::Backward(const System& system, const RosenbrockTableau& tableau, int most_points)
+AdjointGradient::Backward::Backward(const CompiledSystem& system, const RosenbrockTableau& tableau, int most_points)
     : replay(system, tableau), adjoint(system, tableau), boundary(system), path(system.layout(), most_points) {
   point.state.resize(system.layout());
   final_adjoint.setZero(IncrementLayout(system.layout()).size());
 }
 
-AdjointGradient::AdjointGradient(const System& system, LanePlan plan, int most_points)
+AdjointGradient::AdjointGradient(const CompiledSystem& system, LanePlan plan, int most_points)
     : system_(system), most_points_(most_points), plan_(std::move(plan)), integrator_(system) {}
 
 // Memory for the way back is only taken by who asks for a gradient.
@@ -38,7 +38,9 @@ Status AdjointGradient::advance(double limit) {
   return status;
 }
 
-double AdjointGradient::objective() { return integrator_.psi() + integrator_.equations().terminal(integrator_.state(), nullptr); }
+double AdjointGradient::objective() {
+  return integrator_.psi() + integrator_.equations().formulas().terminal(integrator_.state(), nullptr);
+}
 
 // The adjoint of the last state is the terminal terms' gradient.
 void AdjointGradient::prepare() {
@@ -46,7 +48,7 @@ void AdjointGradient::prepare() {
   const IncrementLayout at(system_.layout());
   VectorX<double>& adjoint = back_->final_adjoint;
   back_->terminal.clear();
-  integrator_.equations().terminal(integrator_.state(), &back_->terminal);
+  integrator_.equations().formulas().terminal(integrator_.state(), &back_->terminal);
   adjoint.setZero();
   adjoint[at.psi()] = 1.0;
   for (const auto& e : back_->terminal.position) adjoint[at.x() + e.column] += e.value;
@@ -142,7 +144,7 @@ void AdjointGradient::add_boundaries(Eigen::VectorXd* gradient) {
     state.v = end.v.cast<Lanes<8>>();
     state.s = end.s.cast<Lanes<8>>();
     state.z = end.z.cast<Lanes<8>>();
-    sum += equations.terminal(state, nullptr).directions().head(range.count);
+    sum += equations.formulas().terminal(state, nullptr).directions().head(range.count);
   }
 }
 

@@ -17,7 +17,7 @@ namespace codesign {
 class AdjointGradient final : public GradientEngine {
  public:
   /// @param most_points of the way that are kept, see StepPath.
-  AdjointGradient(const System& system, LanePlan plan, int most_points = 0);
+  AdjointGradient(const CompiledSystem& system, LanePlan plan, int most_points = 0);
 
   Status start(const std::vector<double>& parameters, bool with_gradient) override;
   Status advance(double limit) override;
@@ -34,7 +34,7 @@ class AdjointGradient final : public GradientEngine {
  private:
   /// What only a gradient needs.
   struct Backward {
-    Backward(const System& system, const RosenbrockTableau& tableau, int most_points);
+    Backward(const CompiledSystem& system, const RosenbrockTableau& tableau, int most_points);
     RosenbrockStep<double> replay;
     AdjointStep adjoint;
     std::optional<LaneGroups<ParameterLanes>> parameters;
@@ -58,7 +58,7 @@ class AdjointGradient final : public GradientEngine {
   bool replay(int k);
   void add_boundaries(Eigen::VectorXd* gradient);
 
-  const System& system_;
+  const CompiledSystem& system_;
   const int most_points_;
   LanePlan plan_;
   RosenbrockIntegrator integrator_;

@@ -10,7 +10,7 @@ constexpr int kPositionPair = 0, kVelocityPair = 1;  // of Curvature, behind the
 
 }  // namespace
 
-AdjointStep::AdjointStep(const System& system, const RosenbrockTableau& tableau)
+AdjointStep::AdjointStep(const CompiledSystem& system, const RosenbrockTableau& tableau)
     : system_(system),
       layout_(system.layout()),
       at_(layout_),

@@ -23,7 +23,7 @@ struct WeightedPoint {
 /// projection, and the matrices, which the step takes from the equations at its unprojected start. What parameters need is left behind.
 class AdjointStep {
  public:
-  AdjointStep(const System& system, const RosenbrockTableau& tableau);
+  AdjointStep(const CompiledSystem& system, const RosenbrockTableau& tableau);
 
   /// @param parameters all named parameters; `adjoint` of the state where the last step ended, as IncrementLayout lays it out, 1 for psi.
   void start(const std::vector<double>& parameters, const VectorX<double>& adjoint);
@@ -61,7 +61,7 @@ class AdjointStep {
   void add_products(const Linearization<double>& derivatives, RowRange rows, const VectorX<double>& mu, VectorX<double>* adjoint) const;
   void add_pair(int k, const VectorX<double>& u, const VectorX<double>& mu);
 
-  const System& system_;
+  const CompiledSystem& system_;
   const Layout& layout_;
   const IncrementLayout at_;
   const RosenbrockTableau& tableau_;

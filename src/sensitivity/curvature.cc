@@ -8,7 +8,7 @@
 namespace codesign {
 
 template <int N>
-Curvature<N>::Curvature(const System& system)
+Curvature<N>::Curvature(const CompiledSystem& system)
     : system_(system), at_(system.layout()), equations_(system), u_(at_.size()), mu_(at_.z_size + 1), products_(u_), units_(u_) {
   derivatives_.resize(system.patterns());
   state_.resize(system.layout());

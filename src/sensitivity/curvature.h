@@ -16,7 +16,7 @@ namespace codesign {
 template <int N>
 class Curvature {
  public:
-  explicit Curvature(const System& system);
+  explicit Curvature(const CompiledSystem& system);
 
   /// @param parameters all named parameters.
   void set_design(const std::vector<double>& parameters);
@@ -37,7 +37,7 @@ class Curvature {
   void add_transposed(const Sparsity& pattern, const std::vector<Lanes<N>>& values, int first_column);
   void add_weights(const Sparsity& pattern, int first_column, std::vector<double>* weights) const;
 
-  const System& system_;
+  const CompiledSystem& system_;
   const IncrementLayout at_;
   Equations<Lanes<N>> equations_;
   Linearization<Lanes<N>> derivatives_;

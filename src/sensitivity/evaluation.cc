@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "math/cpu_timer.h"
 #include "sensitivity/gradient_engine.h"
 
@@ -11,7 +11,7 @@ namespace codesign {
 
 namespace {
 
-const std::string& tuned_name(const System& system, Eigen::Index k) {
+const std::string& tuned_name(const CompiledSystem& system, Eigen::Index k) {
   const Study& study = system.study();
   return study.parameters[static_cast<std::size_t>(study.tuned[static_cast<std::size_t>(k)])].name;
 }
@@ -20,7 +20,7 @@ const std::string& tuned_name(const System& system, Eigen::Index k) {
 
 class Evaluator::Implementation {
  public:
-  explicit Implementation(std::shared_ptr<const System> system) : system_(std::move(system)) {}
+  explicit Implementation(std::shared_ptr<const CompiledSystem> system) : system_(std::move(system)) {}
 
   Evaluation evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel) {
     Evaluation evaluation;
@@ -71,11 +71,11 @@ class Evaluator::Implementation {
     return status;
   }
 
-  std::shared_ptr<const System> system_;
+  std::shared_ptr<const CompiledSystem> system_;
   std::unique_ptr<GradientEngine> engine_;  // made by the first evaluation, which can be cancelled meanwhile
 };
 
-Evaluator::Evaluator(std::shared_ptr<const System> system) : implementation_(std::make_unique<Implementation>(std::move(system))) {}
+Evaluator::Evaluator(std::shared_ptr<const CompiledSystem> system) : implementation_(std::make_unique<Implementation>(std::move(system))) {}
 Evaluator::~Evaluator() = default;
 Evaluator::Evaluator(Evaluator&&) noexcept = default;
 Evaluator& Evaluator::operator=(Evaluator&&) noexcept = default;

@@ -23,7 +23,7 @@ struct Evaluation {
 /// Evaluates psi(rho) and its gradient by direct sensitivities. Holds a workspace that is reused from call to call: one per thread.
 class Evaluator {
  public:
-  explicit Evaluator(std::shared_ptr<const System> system);
+  explicit Evaluator(std::shared_ptr<const CompiledSystem> system);
   ~Evaluator();
   Evaluator(Evaluator&&) noexcept;
   Evaluator& operator=(Evaluator&&) noexcept;
@@ -55,7 +55,7 @@ struct GradientCheck {
 
 /// Computes a gradient twice. That of `idas` is always checked by differences, and they are of `rosenbrock`: each integrator is the other's
 /// check.
-GradientCheck check_gradient(const std::shared_ptr<const System>& system, const Eigen::VectorXd& rho, CheckMethod method,
+GradientCheck check_gradient(const std::shared_ptr<const CompiledSystem>& system, const Eigen::VectorXd& rho, CheckMethod method,
                              const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "integration/rosenbrock_integrator.h"
 #include "math/ridders.h"
 #include "sensitivity/evaluation.h"
@@ -15,7 +15,7 @@ using Complex = std::complex<double>;
 constexpr double kComplexStep = 1e-30;
 
 /// The sizes of the steps that an integration with sensitivities takes.
-Status record_steps(const System& system, const std::vector<double>& parameters, const std::atomic<bool>* cancel,
+Status record_steps(const CompiledSystem& system, const std::vector<double>& parameters, const std::atomic<bool>* cancel,
                     std::vector<double>* steps) {
   RosenbrockGradient run(system);
   run.obey(cancel);
@@ -28,7 +28,7 @@ Status record_steps(const System& system, const std::vector<double>& parameters,
 }
 
 /// psi after the same steps in complex arithmetic.
-Complex replay(const System& system, const std::vector<Complex>& parameters, const std::vector<double>& steps,
+Complex replay(const CompiledSystem& system, const std::vector<Complex>& parameters, const std::vector<double>& steps,
                RosenbrockIntegrator* integrator, const std::vector<double>& real_parameters, const std::atomic<bool>* cancel) {
   RosenbrockStep<Complex> step(system, integrator->step().tableau());
   step.equations().set_design(parameters);
@@ -43,7 +43,7 @@ Complex replay(const System& system, const std::vector<Complex>& parameters, con
     step.accept();
     step.equations().track_turns(step.state());
   }
-  return step.psi() + step.equations().terminal(step.state(), nullptr);
+  return step.psi() + step.equations().formulas().terminal(step.state(), nullptr);
 }
 
 void compare(GradientCheck* check) {
@@ -57,7 +57,7 @@ void compare(GradientCheck* check) {
 }
 
 /// A reference that is no number checks nothing.
-void refuse_non_finite(const System& system, GradientCheck* check) {
+void refuse_non_finite(const CompiledSystem& system, GradientCheck* check) {
   for (Eigen::Index k = 0; k < check->reference.size(); ++k) {
     if (std::isfinite(check->reference[k]) && std::isfinite(check->reference_error[k])) continue;
     const Study& study = system.study();
@@ -67,7 +67,8 @@ void refuse_non_finite(const System& system, GradientCheck* check) {
   }
 }
 
-void check_by_complex_step(const System& system, const Eigen::VectorXd& rho, const std::atomic<bool>* cancel, GradientCheck* check) {
+void check_by_complex_step(const CompiledSystem& system, const Eigen::VectorXd& rho, const std::atomic<bool>* cancel,
+                           GradientCheck* check) {
   RosenbrockIntegrator integrator(system);
   std::vector<double> steps;
   const std::vector<double> parameters = system.parameters(rho);
@@ -83,14 +84,14 @@ void check_by_complex_step(const System& system, const Eigen::VectorXd& rho, con
 }
 
 /// Differences need an objective that is smoother than they are small: tolerances far below the study's.
-void check_by_differences(const System& system, const Eigen::VectorXd& rho, const std::atomic<bool>* cancel, GradientCheck* check) {
+void check_by_differences(const CompiledSystem& system, const Eigen::VectorXd& rho, const std::atomic<bool>* cancel, GradientCheck* check) {
   Study study = system.study();
   study.solver.relative_tolerance = std::min(study.solver.relative_tolerance, 1e-10);
   study.solver.absolute_tolerance = std::min(study.solver.absolute_tolerance, 1e-11);
   study.solver.integrator = IntegratorKind::kRosenbrock;
   study.solver.method = RosenbrockMethod::kRodas5P;
   study.solver.maximum_steps = std::max(study.solver.maximum_steps, 2000000);
-  Evaluator evaluator(std::make_shared<const System>(system.robot(), study, system.sharing()));
+  Evaluator evaluator(std::make_shared<const CompiledSystem>(system.robot(), study, system.sharing()));
   for (Eigen::Index k = 0; check->status.ok() && k < rho.size(); ++k) {
     const auto objective = [&](double value) {
       Eigen::VectorXd moved = rho;
@@ -107,7 +108,7 @@ void check_by_differences(const System& system, const Eigen::VectorXd& rho, cons
 
 }  // namespace
 
-GradientCheck check_gradient(const std::shared_ptr<const System>& system, const Eigen::VectorXd& rho, CheckMethod method,
+GradientCheck check_gradient(const std::shared_ptr<const CompiledSystem>& system, const Eigen::VectorXd& rho, CheckMethod method,
                              const std::atomic<bool>* cancel) {
   GradientCheck check;
   check.method = system->study().solver.integrator == IntegratorKind::kIdas ? CheckMethod::kRidders : method;

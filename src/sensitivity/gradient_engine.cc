@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensitivity/gradient_engine.h"
 
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "sensitivity/adjoint_gradient.h"
 #include "sensitivity/gradient_cost.h"
 #include "sensitivity/idas_gradient.h"
@@ -11,7 +11,7 @@ namespace codesign {
 namespace {
 
 /// The lanes that parameters share, if the gradient is to be made backwards.
-std::optional<LanePlan> backward_plan(const System& system, const std::atomic<bool>* cancel) {
+std::optional<LanePlan> backward_plan(const CompiledSystem& system, const std::atomic<bool>* cancel) {
   const SolverOptions& options = system.study().solver;
   if (options.integrator != IntegratorKind::kRosenbrock || options.gradient == GradientMethod::kDirect) return std::nullopt;
   if (options.gradient == GradientMethod::kAdjoint) return plan_lanes(system, cancel);
@@ -26,9 +26,9 @@ std::optional<LanePlan> backward_plan(const System& system, const std::atomic<bo
 
 }  // namespace
 
-bool prefers_adjoint(const System& system) { return backward_plan(system, nullptr).has_value(); }
+bool prefers_adjoint(const CompiledSystem& system) { return backward_plan(system, nullptr).has_value(); }
 
-std::unique_ptr<GradientEngine> make_gradient_engine(const System& system, const std::atomic<bool>* cancel) {
+std::unique_ptr<GradientEngine> make_gradient_engine(const CompiledSystem& system, const std::atomic<bool>* cancel) {
   if (system.study().solver.integrator == IntegratorKind::kIdas) return std::make_unique<IdasGradient>(system);
   std::optional<LanePlan> plan = backward_plan(system, cancel);
   if (cancel != nullptr && *cancel) return nullptr;

@@ -36,10 +36,10 @@ class GradientEngine {
 
 /// Whether the study's gradient is made backwards: where it asks for the adjoint, or leaves the choice and the adjoint is expected to be
 /// cheaper; doc/decisions/0018-adjoint.md.
-bool prefers_adjoint(const System& system);
+bool prefers_adjoint(const CompiledSystem& system);
 
 /// The engine of the study's integrator. @param cancel if given and set, null comes soon.
-std::unique_ptr<GradientEngine> make_gradient_engine(const System& system, const std::atomic<bool>* cancel = nullptr);
+std::unique_ptr<GradientEngine> make_gradient_engine(const CompiledSystem& system, const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign
 

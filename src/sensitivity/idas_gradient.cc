@@ -3,7 +3,7 @@
 
 namespace codesign {
 
-IdasGradient::IdasGradient(const System& system) : system_(system), integrator_(system) {}
+IdasGradient::IdasGradient(const CompiledSystem& system) : system_(system), integrator_(system) {}
 
 // Memory for sensitivities is only taken by who asks for a gradient.
 Status IdasGradient::start(const std::vector<double>& parameters, bool with_gradient) {
@@ -19,7 +19,7 @@ const State<double>& IdasGradient::consistent_state() {
   return end_;
 }
 
-double IdasGradient::objective() { return integrator_.psi() + integrator_.equations().terminal(consistent_state(), nullptr); }
+double IdasGradient::objective() { return integrator_.psi() + integrator_.equations().formulas().terminal(consistent_state(), nullptr); }
 
 void IdasGradient::gradient(Eigen::VectorXd* gradient) {
   directions_.resize(static_cast<std::size_t>(tangent_->count()), integrator_.state());

@@ -13,7 +13,7 @@ namespace codesign {
 /// Gradient by IDAS's staggered forward sensitivities; doc/theory.md (27).
 class IdasGradient final : public GradientEngine {
  public:
-  explicit IdasGradient(const System& system);
+  explicit IdasGradient(const CompiledSystem& system);
 
   Status start(const std::vector<double>& parameters, bool with_gradient) override;
   Status advance(double limit) override { return integrator_.advance(limit); }
@@ -28,7 +28,7 @@ class IdasGradient final : public GradientEngine {
   /// The present state with rates that satisfy the equations at it.
   const State<double>& consistent_state();
 
-  const System& system_;
+  const CompiledSystem& system_;
   IdasIntegrator integrator_;
   std::unique_ptr<IdasTangent> tangent_;
   State<double> end_;

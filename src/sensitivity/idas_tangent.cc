@@ -6,7 +6,7 @@
 namespace codesign {
 
 template <int N>
-IdasTangent::Group<N>::Group(const System& system, LaneRange<N> lanes) : range(lanes), equations(system) {
+IdasTangent::Group<N>::Group(const CompiledSystem& system, LaneRange<N> lanes) : range(lanes), equations(system) {
   state.resize(system.layout());
 }
 
@@ -26,7 +26,7 @@ void IdasTangent::Group<N>::load(const State<double>& at, const std::vector<Stat
   }
 }
 
-IdasTangent::IdasTangent(const System& system)
+IdasTangent::IdasTangent(const CompiledSystem& system)
     : system_(system),
       groups_(system),
       partial_(system.layout().columns() + 1, static_cast<Eigen::Index>(system.study().tuned.size())),
@@ -143,7 +143,7 @@ void IdasTangent::terminal(const State<double>& state, Equations<double>* equati
   solve_rates(directions);
   groups_.for_each([&](auto* group) {
     group->load(state, directions);
-    const auto w = group->equations.terminal(group->state, nullptr);
+    const auto w = group->equations.formulas().terminal(group->state, nullptr);
     for (int k = 0; k < group->range.count; ++k) (*gradient)[group->range.first + k] += w.v[k];
   });
 }

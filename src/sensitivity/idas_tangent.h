@@ -15,7 +15,7 @@ namespace codesign {
 /// By states the derivatives are the hand-written ones, by parameters automatic: once per point, whatever the corrector then asks for.
 class IdasTangent final : public IdasSensitivities {
  public:
-  explicit IdasTangent(const System& system);
+  explicit IdasTangent(const CompiledSystem& system);
 
   int count() const override { return static_cast<int>(partial_.cols()); }
   void start(const std::vector<double>& parameters, const State<double>& initial, Integrator* integrator,
@@ -33,7 +33,7 @@ class IdasTangent final : public IdasSensitivities {
   template <int N>
   struct Group {
     using Scalar = Lanes<N>;
-    Group(const System& system, LaneRange<N> lanes);
+    Group(const CompiledSystem& system, LaneRange<N> lanes);
     /// Sets values, and the first-order parts of this group's parameters to their columns in `directions`, or to zero without.
     void load(const State<double>& at, const std::vector<State<double>>* directions);
 
@@ -50,7 +50,7 @@ class IdasTangent final : public IdasSensitivities {
   /// Adds the least change that satisfies the constraints' derivatives to q_rho, or to v_rho.
   void correct(const State<double>& state, VectorX<double> State<double>::*part, std::vector<State<double>>* directions);
 
-  const System& system_;
+  const CompiledSystem& system_;
   LaneGroups<Group> groups_;
   Linearization<double> derivatives_;
   Eigen::MatrixXd partial_;  ///< (G, g)_rho at the present point

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "math/lanes.h"
 
 namespace codesign {
@@ -17,7 +17,7 @@ struct LaneRange {
   int first = 0, count = 0;
 
   /// All named parameters, lane k seeded with the direction of rho_(first+k).
-  std::vector<Lanes<N>> seed(const System& system, const std::vector<double>& parameters) const {
+  std::vector<Lanes<N>> seed(const CompiledSystem& system, const std::vector<double>& parameters) const {
     std::vector<Lanes<N>> lanes(parameters.begin(), parameters.end());
     for (int k = 0; k < count; ++k) lanes[static_cast<std::size_t>(system.study().tuned[static_cast<std::size_t>(first + k)])].v[k] = 1.0;
     return lanes;
@@ -35,10 +35,10 @@ template <template <int> class Group>
 class LaneGroups {
  public:
   template <class... Arguments>
-  explicit LaneGroups(const System& system, const Arguments&... arguments)
+  explicit LaneGroups(const CompiledSystem& system, const Arguments&... arguments)
       : LaneGroups(LaneCount{static_cast<int>(system.study().tuned.size())}, system, arguments...) {}
   template <class... Arguments>
-  LaneGroups(LaneCount lanes, const System& system, const Arguments&... arguments) {
+  LaneGroups(LaneCount lanes, const CompiledSystem& system, const Arguments&... arguments) {
     const int end = lanes.first + lanes.value;
     int first = lanes.first;
     const int wide = 8 - lanes.reserved;

@@ -21,7 +21,7 @@ constexpr int kInstants = 64;  // at which parameters are looked for that act fo
 /// Rows whose derivatives along a lane are no numbers, for `kWidth` parameters at a time.
 class RowProbe {
  public:
-  explicit RowProbe(const System& system) : system_(system), layout_(system.layout()), equations_(system) {
+  explicit RowProbe(const CompiledSystem& system) : system_(system), layout_(system.layout()), equations_(system) {
     derivatives_.resize(system.patterns());
     state_.resize(layout_);
   }
@@ -62,7 +62,7 @@ class RowProbe {
       for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) touch(row, values[static_cast<std::size_t>(e)]);
   }
 
-  const System& system_;
+  const CompiledSystem& system_;
   const Layout& layout_;
   Equations<Scalar> equations_;
   Linearization<Scalar> derivatives_;
@@ -80,7 +80,7 @@ std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
 
 }  // namespace
 
-std::vector<std::vector<int>> dependent_rows(const System& system, const std::vector<double>& parameters, const State<double>& at,
+std::vector<std::vector<int>> dependent_rows(const CompiledSystem& system, const std::vector<double>& parameters, const State<double>& at,
                                              const std::atomic<bool>* cancel) {
   std::vector<std::vector<int>> rows;
   RowProbe probe(system);
@@ -120,7 +120,7 @@ LanePlan plan_lanes(std::vector<std::vector<int>> rows) {
   return plan;
 }
 
-LanePlan unshared_lanes(const System& system) {
+LanePlan unshared_lanes(const CompiledSystem& system) {
   LanePlan plan;
   std::vector<int> all(static_cast<std::size_t>(system.layout().columns()) + 1);
   std::iota(all.begin(), all.end(), 0);
@@ -130,7 +130,7 @@ LanePlan unshared_lanes(const System& system) {
   return plan;
 }
 
-LanePlan plan_lanes(const System& system, const std::atomic<bool>* cancel) {
+LanePlan plan_lanes(const CompiledSystem& system, const std::atomic<bool>* cancel) {
   const std::vector<double> parameters = system.parameters();
   Equations<double> equations(system);
   equations.set_design(parameters);

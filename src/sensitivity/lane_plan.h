@@ -21,18 +21,18 @@ struct LanePlan {
 /// derivatives. Found with NaN for the parameters' directions, which nothing cancels or multiplies away: what stays a number does not
 /// depend on them.
 /// @param cancel if given and set, the rest of the parameters has no rows.
-std::vector<std::vector<int>> dependent_rows(const System& system, const std::vector<double>& parameters, const State<double>& at,
+std::vector<std::vector<int>> dependent_rows(const CompiledSystem& system, const std::vector<double>& parameters, const State<double>& at,
                                              const std::atomic<bool>* cancel = nullptr);
 
 /// Greedy colouring, the parameters with most rows first.
 LanePlan plan_lanes(std::vector<std::vector<int>> rows);
 
 /// Every parameter in a lane of its own, whatever its rows: always right.
-LanePlan unshared_lanes(const System& system);
+LanePlan unshared_lanes(const CompiledSystem& system);
 
 /// For a system at its start values; a parameter's rows are the same for every design.
 /// @param cancel if given and set, it ends soon, with a plan that is good for nothing.
-LanePlan plan_lanes(const System& system, const std::atomic<bool>* cancel = nullptr);
+LanePlan plan_lanes(const CompiledSystem& system, const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign
 

@@ -2,9 +2,9 @@
 #ifndef MECHANISM_CODESIGN_SENSITIVITY_LANE_STATE_H_
 #define MECHANISM_CODESIGN_SENSITIVITY_LANE_STATE_H_
 
-#include "equations/state.h"
 #include "integration/increment.h"
 #include "sensitivity/lane_directions.h"
+#include "system/state.h"
 
 namespace codesign {
 

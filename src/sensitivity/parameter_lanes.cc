@@ -13,7 +13,7 @@ double xi(std::size_t parameter) { return 1.0 + std::fmod(0.6180339887498949 * s
 }  // namespace
 
 template <int N>
-ParameterLanes<N>::ParameterLanes(const System& system, LaneRange<N> lanes, const LanePlan& plan)
+ParameterLanes<N>::ParameterLanes(const CompiledSystem& system, LaneRange<N> lanes, const LanePlan& plan)
     : system_(system), layout_(system.layout()), lanes_(lanes), plan_(plan), equations_(system) {
   derivatives_.resize(system.patterns());
   state_.resize(layout_);

@@ -19,7 +19,7 @@ template <int N>
 class ParameterLanes {
  public:
   /// @param lanes N - 1 at most.
-  ParameterLanes(const System& system, LaneRange<N> lanes, const LanePlan& plan);
+  ParameterLanes(const CompiledSystem& system, LaneRange<N> lanes, const LanePlan& plan);
 
   /// @param parameters all named parameters.
   void start(const std::vector<double>& parameters);
@@ -39,7 +39,7 @@ class ParameterLanes {
   void add_errors(const VectorX<Scalar>& errors, const VectorX<double>& mu);
   void add_entries(const Sparsity& pattern, const std::vector<Scalar>& values, const std::vector<double>& weights);
 
-  const System& system_;
+  const CompiledSystem& system_;
   const Layout& layout_;
   const LaneRange<N> lanes_;
   const LanePlan& plan_;

@@ -8,7 +8,7 @@ namespace codesign {
 namespace {
 
 /// Lanes come eight at a time; where that is too much, four.
-int lanes_in_memory(const System& system) {
+int lanes_in_memory(const CompiledSystem& system) {
   constexpr int kMemory = 128000000, kPerNumber = 375;  // bytes; the second as measured on chains of 1000 and 3000 links
   const int lanes = kMemory / (kPerNumber * IncrementLayout(system.layout()).size());
   return std::max(4, lanes / 8 * 8);
@@ -16,7 +16,7 @@ int lanes_in_memory(const System& system) {
 
 }  // namespace
 
-RosenbrockGradient::RosenbrockGradient(const System& system, int most_lanes)
+RosenbrockGradient::RosenbrockGradient(const CompiledSystem& system, int most_lanes)
     : system_(system), integrator_(system), most_lanes_(most_lanes > 0 ? most_lanes : lanes_in_memory(system)) {
   const double tolerance = system.study().solver.sensitivity_tolerance;
   stages_ = [this, tolerance](const RosenbrockStep<double>& step) {
@@ -56,7 +56,9 @@ Status RosenbrockGradient::advance(double limit) {
   return status;
 }
 
-double RosenbrockGradient::objective() { return integrator_.psi() + integrator_.equations().terminal(integrator_.state(), nullptr); }
+double RosenbrockGradient::objective() {
+  return integrator_.psi() + integrator_.equations().formulas().terminal(integrator_.state(), nullptr);
+}
 
 void RosenbrockGradient::gradient(Eigen::VectorXd* gradient) {
   gradient->setConstant(count(), std::numeric_limits<double>::quiet_NaN());

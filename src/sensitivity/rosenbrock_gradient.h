@@ -17,7 +17,7 @@ namespace codesign {
 class RosenbrockGradient final : public GradientEngine {
  public:
   /// @param most_lanes tangents that are carried at a time; 0: what fits into 128 MB.
-  explicit RosenbrockGradient(const System& system, int most_lanes = 0);
+  explicit RosenbrockGradient(const CompiledSystem& system, int most_lanes = 0);
 
   Status start(const std::vector<double>& parameters, bool with_gradient) override;
   Status advance(double limit) override;
@@ -33,7 +33,7 @@ class RosenbrockGradient final : public GradientEngine {
  private:
   template <int N>
   struct Group {
-    Group(const System& system, LaneRange<N> lanes, const RosenbrockTableau& tableau) : range(lanes), step(system, tableau) {}
+    Group(const CompiledSystem& system, LaneRange<N> lanes, const RosenbrockTableau& tableau) : range(lanes), step(system, tableau) {}
     LaneRange<N> range;
     TangentStep<N> step;
   };
@@ -43,7 +43,7 @@ class RosenbrockGradient final : public GradientEngine {
   void carry(int first, const std::vector<double>& parameters);
   void collect(Eigen::VectorXd* gradient);
 
-  const System& system_;
+  const CompiledSystem& system_;
   RosenbrockIntegrator integrator_;
   const int most_lanes_;
   int first_ = -1;  ///< whose tangents `groups_` hold

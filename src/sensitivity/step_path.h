@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "equations/state.h"
+#include "system/state.h"
 
 namespace codesign {
 

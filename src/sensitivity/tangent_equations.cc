@@ -19,7 +19,7 @@ void take_directions(const std::vector<Lanes<N>>& from, LineVector* to) {
 }  // namespace
 
 template <int N>
-TangentEquations<N>::TangentEquations(const System& system) : layout_(system.layout()), at_(layout_), equations_(system) {
+TangentEquations<N>::TangentEquations(const CompiledSystem& system) : layout_(system.layout()), plan_(system.plan()), at_(layout_), equations_(system) {
   const ByVariable<Sparsity>& patterns = system.patterns();
   changes_.position.resize(N * patterns.position.column_index.size());
   changes_.velocity.resize(N * patterns.velocity.column_index.size());
@@ -51,7 +51,7 @@ void TangentEquations<N>::residual(const State<double>& state, const Directions<
   if (run_compiled(EquationFunction::kResidual, state, y, {result->data(), result->data() + std::ptrdiff_t{N} * last, nullptr, nullptr}))
     return;
   Lanes<N> g;
-  equations_.residual_by_formulas(lanes(state, y), &residual_, &g);
+  equations_.formulas().residual(lanes(state, y), &residual_, &g);
   take_directions<N>(residual_, result);
   result->vector(last) = g.v;
 }
@@ -61,7 +61,7 @@ void TangentEquations<N>::linearize(const State<double>& state, const Directions
   if (run_compiled(EquationFunction::kLinearization, state, y,
                    {changes_.position.data(), changes_.velocity.data(), changes_.rate.data(), time_changes_.data()}))
     return;
-  equations_.linearize_by_formulas(lanes(state, y), &derivatives_);
+  equations_.formulas().linearize(lanes(state, y), plan_, &derivatives_);
   take_directions<N>(derivatives_.position, &changes_.position);
   take_directions<N>(derivatives_.velocity, &changes_.velocity);
   take_directions<N>(derivatives_.rate, &changes_.rate);
@@ -75,7 +75,7 @@ void TangentEquations<N>::constraint_errors(const State<double>& state, const Di
   Phi_rate->resize(layout_.m);
   if (run_compiled(EquationFunction::kConstraintErrors, state, y, {Phi->data(), Phi_rate->data(), nullptr, nullptr})) return;
   const State<Lanes<N>>& both = lanes(state, y);
-  equations_.constraint_errors_by_formulas(both.q, both.v, &errors_, &rates_);
+  equations_.formulas().constraint_errors(both.q, both.v, &errors_, &rates_);
   take_directions<N>(errors_, Phi);
   take_directions<N>(rates_, Phi_rate);
 }

@@ -12,7 +12,7 @@ namespace codesign {
 template <int N>
 class TangentEquations {
  public:
-  explicit TangentEquations(const System& system);
+  explicit TangentEquations(const CompiledSystem& system);
 
   /// The design with its directions, whole turns, and everything else that is not asked for in every step.
   Equations<Lanes<N>>& equations() { return equations_; }
@@ -20,7 +20,7 @@ class TangentEquations {
   /// G' and, in the last column, g'. @param y directions of the state, as IncrementLayout lays them out.
   void residual(const State<double>& state, const Directions<N>& y, Directions<N>* result);
 
-  /// dG_q, dG_v and dG_z with the integrand's row, on System::patterns(), N numbers per entry; dG_t likewise.
+  /// dG_q, dG_v and dG_z with the integrand's row, on CompiledSystem::patterns(), N numbers per entry; dG_t likewise.
   void linearize(const State<double>& state, const Directions<N>& y);
   const ByVariable<LineVector>& changes() const { return changes_; }
   const Directions<N>& time_changes() const { return time_changes_; }
@@ -35,6 +35,7 @@ class TangentEquations {
   bool run_compiled(EquationFunction function, const State<double>& state, const Directions<N>& y, double* const (&results)[4]);
 
   const Layout& layout_;
+  const AssemblyPlan& plan_;
   const IncrementLayout at_;
   Equations<Lanes<N>> equations_;
   ByVariable<LineVector> changes_;

@@ -20,7 +20,7 @@ Eigen::Array<double, N, 1> squared_norms(const Directions<N>& x, int first, int 
 }  // namespace
 
 template <int N>
-TangentStep<N>::TangentStep(const System& system, const RosenbrockTableau& tableau)
+TangentStep<N>::TangentStep(const CompiledSystem& system, const RosenbrockTableau& tableau)
     : system_(system),
       layout_(system.layout()),
       at_(layout_),
@@ -196,7 +196,7 @@ void TangentStep<N>::accept(const RosenbrockStep<double>& step) {
 
 template <int N>
 Eigen::Matrix<double, N, 1> TangentStep<N>::terminal(const State<double>& state) {
-  return equations_.equations().terminal(equations_.lanes(state, y_), nullptr).directions();
+  return equations_.equations().formulas().terminal(equations_.lanes(state, y_), nullptr).directions();
 }
 
 template class TangentStep<4>;

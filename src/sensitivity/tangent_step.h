@@ -18,7 +18,7 @@ namespace codesign {
 template <int N>
 class TangentStep {
  public:
-  TangentStep(const System& system, const RosenbrockTableau& tableau);
+  TangentStep(const CompiledSystem& system, const RosenbrockTableau& tableau);
 
   /// Begins at the start of a solution. @param parameters all named parameters, lanes seeded with the directions wanted.
   void start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly, const State<double>& initial,
@@ -51,7 +51,7 @@ class TangentStep {
   void measure();
   void project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu, double* target);
 
-  const System& system_;
+  const CompiledSystem& system_;
   const Layout& layout_;
   const IncrementLayout at_;
   const RosenbrockTableau& tableau_;

@@ -2,6 +2,8 @@
 #ifndef MECHANISM_CODESIGN_SPARSE_SPARSITY_H_
 #define MECHANISM_CODESIGN_SPARSE_SPARSITY_H_
 
+#include <cassert>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -54,6 +56,14 @@ class PatternRecorder {
   ByVariable<Calls> calls_;
 };
 
+/// Where the derivatives of an assembly go.
+struct AssemblyPlan {
+  /// The patterns of the equations' derivatives (one row per equation) with the integrand g as one row below them.
+  ByVariable<Sparsity> patterns;
+  /// Slots of the assembly's calls in order, as PatternRecorder::build() gives them.
+  ByVariable<std::vector<int>> slots;
+};
+
 /// The derivatives of the equations as three sparse matrices G_q (with G_s), G_v, G_z, and the explicit one by time; theory (14).
 template <class T>
 struct Linearization : ByVariable<std::vector<T>> {
@@ -67,21 +77,44 @@ struct Linearization : ByVariable<std::vector<T>> {
   }
 };
 
-/// Adds values to the slots that a PatternRecorder found for the same sequence of calls.
+/// Adds values to the slots that a PatternRecorder found for the same sequence of calls. Debug builds assert that each call comes with the
+/// row and column that were recorded, and that there are as many calls.
 template <class T>
 class AssemblySink {
  public:
-  AssemblySink(const ByVariable<std::vector<int>>& slots, Linearization<T>* values)
-      : slot_{slots.position.data(), slots.velocity.data(), slots.rate.data()}, values_(values) {
+  AssemblySink(const AssemblyPlan& plan, Linearization<T>* values)
+      : plan_(plan), slot_{plan.slots.position.data(), plan.slots.velocity.data(), plan.slots.rate.data()}, values_(values) {
     values->time.setZero();
   }
+  ~AssemblySink() {
+    assert(slot_.position == plan_.slots.position.data() + plan_.slots.position.size());
+    assert(slot_.velocity == plan_.slots.velocity.data() + plan_.slots.velocity.size());
+    assert(slot_.rate == plan_.slots.rate.data() + plan_.slots.rate.size());
+  }
+  AssemblySink(const AssemblySink&) = delete;
+  AssemblySink& operator=(const AssemblySink&) = delete;
 
-  void position(int, int, const T& x) { add(*slot_.position++, x, &values_->position); }
-  void velocity(int, int, const T& x) { add(*slot_.velocity++, x, &values_->velocity); }
-  void rate(int, int, const T& x) { add(*slot_.rate++, x, &values_->rate); }
+  void position(int row, int column, const T& x) {
+    assert(is_recorded(slot_.position, plan_.slots.position, plan_.patterns.position, row, column));
+    add(*slot_.position++, x, &values_->position);
+  }
+  void velocity(int row, int column, const T& x) {
+    assert(is_recorded(slot_.velocity, plan_.slots.velocity, plan_.patterns.velocity, row, column));
+    add(*slot_.velocity++, x, &values_->velocity);
+  }
+  void rate(int row, int column, const T& x) {
+    assert(is_recorded(slot_.rate, plan_.slots.rate, plan_.patterns.rate, row, column));
+    add(*slot_.rate++, x, &values_->rate);
+  }
   void time(int row, const T& x) { values_->time[row] += x; }
 
  private:
+  static bool is_recorded(const int* next, const std::vector<int>& slots, const Sparsity& pattern, int row, int column) {
+    if (next == slots.data() + slots.size()) return false;
+    const int slot = *next < 0 ? ~*next : *next;
+    return pattern.first(row) <= slot && slot < pattern.first(row + 1) && pattern.column(slot) == column;
+  }
+
   // The first to touch a slot sets it, so that nothing need be cleared beforehand.
   static void add(int slot, const T& x, std::vector<T>* values) {
     if (slot < 0)
@@ -90,6 +123,7 @@ class AssemblySink {
       (*values)[static_cast<std::size_t>(slot)] += x;
   }
 
+  const AssemblyPlan& plan_;
   ByVariable<const int*> slot_;
   Linearization<T>* values_;
 };
@@ -130,6 +164,10 @@ struct SparseGradient {
     for (std::size_t k = first; k < entries->size(); ++k) (*entries)[k].value = (*entries)[k].value * factor;
   }
 };
+
+/// The gradient that a function appends to, or null where only the value is asked for. Never deduced, so that nullptr can be passed.
+template <class T>
+using OptionalGradient = std::common_type_t<SparseGradient<T>*>;
 
 /// Adds factor times a gradient to one row of the equations.
 template <class T, class Sink>

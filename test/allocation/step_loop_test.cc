@@ -55,7 +55,7 @@ TEST_P(StepLoop, OfAGradientAsksForNoMemory) {
 }
 
 /// Memory asked for by gradient() after a run that ended at `time`.
-std::int64_t allocations_of_way_back(GradientEngine* engine, const System& system, double time) {
+std::int64_t allocations_of_way_back(GradientEngine* engine, const CompiledSystem& system, double time) {
   Eigen::VectorXd result;
   EXPECT_TRUE(engine->start(system.parameters(), true).ok());
   allocations_of_steps(engine, time, [&] { return engine->time(); });

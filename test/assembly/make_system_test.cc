@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-std::shared_ptr<const System> make(const std::string& urdf, const std::string& study) {
+std::shared_ptr<const CompiledSystem> make(const std::string& urdf, const std::string& study) {
   const RobotDescription robot = read_urdf({"test.urdf", urdf});
   return make_system(robot, read_study({"test.yaml", study}, robot));
 }

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/count_equations.h"
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "problem/problem.h"
 #include "sensitivity/evaluation.h"
 

@@ -5,20 +5,20 @@
 #include <string>
 
 #include "assembly/assembly.h"
+#include "equations/compiled_system.h"
 #include "equations/equations.h"
-#include "equations/system.h"
 #include "integration/mechanisms.h"
 
 namespace codesign {
 
 /// A model and a study compiled, and what is needed to start one design.
 struct Compiled {
-  System system;
+  CompiledSystem system;
   Equations<double> equations;
   Assembly assembly;
   State<double> state;
 
-  /// @param sharing of redundant constraints, see System; planar loops need some, or at least compliance.
+  /// @param sharing of redundant constraints, see CompiledSystem; planar loops need some, or at least compliance.
   Compiled(const std::string& urdf, const std::string& study, const ReactionSharing& sharing = {})
       : Compiled(read_urdf({"test.urdf", urdf}), study, sharing) {}
   Compiled(const RobotDescription& robot, const std::string& study, const ReactionSharing& sharing)

@@ -39,7 +39,7 @@ VectorX<T> as_vector(const std::vector<T>& x) {
 /// The same equations twice, one of them without code.
 template <class T>
 struct Twins {
-  explicit Twins(const System& mechanism) : system(mechanism), with(system), without(system) { without.compiled().allow(false); }
+  explicit Twins(const CompiledSystem& mechanism) : system(mechanism), with(system), without(system) { without.compiled().allow(false); }
 
   void set_design(const std::vector<T>& parameters) {
     with.set_design(parameters);
@@ -68,7 +68,7 @@ struct Twins {
     EXPECT_LT(largest_difference(Phi_rate, expected_rate), 1e-12);
   }
 
-  const System& system;
+  const CompiledSystem& system;
   Equations<T> with, without;
 };
 
@@ -92,7 +92,7 @@ State<T> some_state(const Layout& layout) {
 }
 
 template <class T>
-std::vector<T> some_design(const System& system) {
+std::vector<T> some_design(const CompiledSystem& system) {
   const std::vector<double> values = system.parameters();
   std::vector<T> parameters(values.begin(), values.end());
   if constexpr (!std::is_same_v<T, double>)
@@ -101,7 +101,7 @@ std::vector<T> some_design(const System& system) {
 }
 
 template <class T>
-void expect_same(const System& system) {
+void expect_same(const CompiledSystem& system) {
   SKIP_WITHOUT_CODE();
   Twins<T> twins(system);
   twins.set_design(some_design<T>(system));
@@ -110,7 +110,7 @@ void expect_same(const System& system) {
 
 class CompiledJoints : public ::testing::TestWithParam<JointCase> {
  protected:
-  const std::shared_ptr<const System> system =
+  const std::shared_ptr<const CompiledSystem> system =
       compile(joint_cases::model(GetParam()), "duration: 1.0\nobjective: {integral: [{signal: tip/position/x}]}\n");
 };
 
@@ -132,7 +132,7 @@ const char* const kDriven =
     "1.0]}}]}\n";
 
 template <class T>
-void expect_same_at_all_times(const System& system) {
+void expect_same_at_all_times(const CompiledSystem& system) {
   SKIP_WITHOUT_CODE();
   Twins<T> twins(system);
   twins.set_design(some_design<T>(system));
@@ -144,7 +144,7 @@ void expect_same_at_all_times(const System& system) {
 }
 
 TEST(CompiledEquations, FollowFunctionsOfTimeAndTheirParameters) {
-  const std::shared_ptr<const System> system = compile(double_pendulum(pin_friction()), kDriven);
+  const std::shared_ptr<const CompiledSystem> system = compile(double_pendulum(pin_friction()), kDriven);
   expect_same_at_all_times<double>(*system);
   expect_same_at_all_times<Lanes<8>>(*system);
 }
@@ -155,7 +155,7 @@ TEST(CompiledEquations, GoBackToTheFormulasForADesignThatDecidesOtherwise) {
       "<codesign:friction mu_static='0.6' mu_dynamic='0.4' transition_velocity='0.1' joint_length='0.2' friction_arm='0.02' "
       "pin_radius='0.05' "
       "codesign:pin_radius='${radius}'/>";
-  const std::shared_ptr<const System> system = compile(
+  const std::shared_ptr<const CompiledSystem> system = compile(
       robot("<codesign:parameter name='radius' value='0.05'/>" + bar("arm") + hinge("shoulder", "ground", "arm", "0 0 0", friction)),
       motion_study(1.0, "{}", "shoulder/velocity", "{}"));
   Twins<double> twins(*system);
@@ -175,7 +175,7 @@ TEST(CompiledEquations, GoBackToTheFormulasForADesignThatDecidesOtherwise) {
 TEST(CompiledEquations, CountTheTurnsOfEveryCoordinate) {
   SKIP_WITHOUT_CODE();
   const std::string loop = joint_cases::free("tip") + joint_cases::loop("codesign:cylindrical", "base");
-  const std::shared_ptr<const System> system =
+  const std::shared_ptr<const CompiledSystem> system =
       compile(joint_cases::model({"", loop + bar("arm") + joint_cases::tree("swing", "continuous", "base", "arm", "1 0 0.5")}),
               "duration: 1.0\nobjective: {integral: [{signal: swing/position}]}\n");
   Twins<double> twins(*system);
@@ -190,7 +190,7 @@ TEST(CompiledEquations, CountTheTurnsOfEveryCoordinate) {
 /// Half a turn from its reference an angle is continued the same way.
 TEST(CompiledEquations, RoundHalfATurnAsTheFormulasDo) {
   SKIP_WITHOUT_CODE();
-  const std::shared_ptr<const System> system = compile(pendulum(), motion_study(1.0, "{}", "hinge/position", "{}"));
+  const std::shared_ptr<const CompiledSystem> system = compile(pendulum(), motion_study(1.0, "{}", "hinge/position", "{}"));
   for (double sign : {1.0, -1.0}) {
     Twins<double> twins(*system);
     twins.set_design(system->parameters());
@@ -203,7 +203,7 @@ TEST(CompiledEquations, RoundHalfATurnAsTheFormulasDo) {
 
 TEST(CompiledEquations, FollowTheDesign) {
   SKIP_WITHOUT_CODE();
-  const std::shared_ptr<const System> system = servo("{}");
+  const std::shared_ptr<const CompiledSystem> system = servo("{}");
   Twins<double> twins(*system);
   for (double Kp : {40.0, -3.0}) {
     std::vector<double> parameters = system->parameters();
@@ -215,7 +215,7 @@ TEST(CompiledEquations, FollowTheDesign) {
 
 TEST(CompiledEquations, CountTurns) {
   SKIP_WITHOUT_CODE();
-  const std::shared_ptr<const System> system = servo("{}");
+  const std::shared_ptr<const CompiledSystem> system = servo("{}");
   Twins<double> twins(*system);
   twins.set_design(system->parameters());
   for (Equations<double>* equations : {&twins.with, &twins.without})
@@ -226,7 +226,7 @@ TEST(CompiledEquations, CountTurns) {
 TEST(CompiledEquations, LeaveABranchThatWasNotRecordedToTheFormulas) {
   SKIP_WITHOUT_CODE();
   const std::string narrow = "<limit lower='-0.05' upper='0.04' effort='2' velocity='1'/>";
-  const std::shared_ptr<const System> system =
+  const std::shared_ptr<const CompiledSystem> system =
       compile(robot(bar("arm") + "<joint name='hinge' type='revolute'><parent link='ground'/><child link='arm'/><axis xyz='0 1 0'/>" +
                     narrow + "</joint>"),
               motion_study(1.0, "{}", "hinge/velocity", "{}") + "limits: {position: true, stiffness: 20.0, width: 0.01}\n");
@@ -251,7 +251,7 @@ TEST(CompiledEquations, LeaveABranchThatWasNotRecordedToTheFormulas) {
 
 TEST(CompiledEquations, GiveDerivativesAloneFromArraysOfTheirOwn) {
   SKIP_WITHOUT_CODE();
-  const std::shared_ptr<const System> system = servo("{}");
+  const std::shared_ptr<const CompiledSystem> system = servo("{}");
   Twins<Lanes<4>> twins(*system);
   twins.set_design(some_design<Lanes<4>>(*system));
   const State<Lanes<4>> state = some_state<Lanes<4>>(system->layout());
@@ -277,14 +277,14 @@ TEST(CompiledEquations, GiveDerivativesAloneFromArraysOfTheirOwn) {
 }
 
 TEST(CompiledEquations, OfDoublesHaveNoTangents) {
-  const std::shared_ptr<const System> system = servo("{}");
+  const std::shared_ptr<const CompiledSystem> system = servo("{}");
   CompiledEquations<double> equations(*system);
   equations.set_design(system->parameters());
   EXPECT_FALSE(equations.tangents(EquationFunction::kResidual, 0.0, {}, {}, {}, {}));
 }
 
 TEST(CompiledEquations, DoNothingUnlessAllowed) {
-  const std::shared_ptr<const System> system = servo("{}");
+  const std::shared_ptr<const CompiledSystem> system = servo("{}");
   Twins<double> twins(*system);
   twins.set_design(system->parameters());
   VectorX<double> G;

@@ -42,7 +42,7 @@ struct DerivativeProducts : ::testing::Test {
     return result;
   }
 
-  std::shared_ptr<const System> system;
+  std::shared_ptr<const CompiledSystem> system;
   Equations<double> equations;
   State<double> state, direction;
   Linearization<double> derivatives;

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "equations/energy.h"
+#include "observation/energy.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ TEST(Energy, OfABarThatSwings) {
   // 1 kg at 0.5 m, Iyy = 0.0834 about its centre, at 0.4 rad and 3 rad/s.
   Compiled bar(pendulum(), let_go("{hinge: {position: 0.4, velocity: 3.0}}", "hinge/velocity"));
   ASSERT_TRUE(bar.start().ok());
-  bar.equations.load(bar.state);
+  bar.equations.formulas().load(bar.state);
   const Energy energy = mechanical_energy(bar.equations);
   EXPECT_NEAR(energy.kinetic, 0.5 * (0.0834 + 0.25) * 9.0, 1e-13);
   EXPECT_NEAR(energy.potential, -9.81 * 0.5 * std::cos(0.4), 1e-13);
@@ -24,7 +24,7 @@ TEST(Energy, OfABarThatSwings) {
 TEST(Energy, GravityMayPointAnywhere) {
   Compiled bar(pendulum(), let_go("{hinge: {position: 0.4}}", "hinge/velocity", "gravity: [2.0, 5.0, 0.0]\n"));
   ASSERT_TRUE(bar.start().ok());
-  bar.equations.load(bar.state);
+  bar.equations.formulas().load(bar.state);
   // A turn about y by 0.4 takes the bar's end, at -z, towards -x.
   EXPECT_NEAR(mechanical_energy(bar.equations).potential, 2.0 * 0.5 * std::sin(0.4), 1e-14);
 }

@@ -6,9 +6,9 @@
 #include <thread>
 
 #include "assembly/make_system.h"
+#include "cases/shipped.h"
 #include "equations/compiled.h"
 #include "integration/servo.h"
-#include "system/shipped.h"
 
 namespace codesign {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 
 TEST(EquationCode, IsRecordedOnceForASystem) {
   SKIP_WITHOUT_CODE();
-  const std::shared_ptr<const System> system = servo("{}");
+  const std::shared_ptr<const CompiledSystem> system = servo("{}");
   const EquationCode* codes[4] = {};
   std::vector<std::thread> threads;
   for (const EquationCode*& code : codes) threads.emplace_back([&code, &system] { code = system->equation_code(); });
@@ -39,7 +39,7 @@ TEST(EquationCode, IsRecordedOnceForASystem) {
 
 TEST(EquationCode, OnlyWhatDependsOnTheDesignComesWithIt) {
   SKIP_WITHOUT_CODE();
-  const std::shared_ptr<const System> system = servo("{}");
+  const std::shared_ptr<const CompiledSystem> system = servo("{}");
   const EquationCode& code = *system->equation_code();
   std::size_t expressions = 0;
   for (int n : code.numbered(true).numbers) {
@@ -52,11 +52,11 @@ TEST(EquationCode, OnlyWhatDependsOnTheDesignComesWithIt) {
 
 TEST(EquationCode, KeepsTurnsAndFunctionsOfTimeThatAreUsed) {
   SKIP_WITHOUT_CODE();
-  const std::shared_ptr<const System> still = compile(double_pendulum(), motion_study(1.0, "{}", "elbow/velocity", "{}"));
+  const std::shared_ptr<const CompiledSystem> still = compile(double_pendulum(), motion_study(1.0, "{}", "elbow/velocity", "{}"));
   EXPECT_TRUE(still->equation_code()->numbered(false).turns.empty()) << "no position is read";
   EXPECT_TRUE(still->equation_code()->numbered(false).functions.empty()) << "constants are no functions of time";
   EXPECT_EQ(servo("{}")->equation_code()->numbered(false).turns.size(), 1U) << "the shoulder's position";
-  const std::shared_ptr<const System> moved =
+  const std::shared_ptr<const CompiledSystem> moved =
       compile(double_pendulum(),
               "duration: 1.0\nobjective: {integral: [{signal: elbow/velocity, reference: {type: sine, amplitude: 1.0, "
               "period: 2.0}}]}\n");
@@ -71,7 +71,7 @@ TEST(EquationCode, DecisionsByTheDesignAloneAreApart) {
   const std::string friction =
       "<codesign:friction mu_static='0.6' mu_dynamic='0.4' transition_velocity='0.1' joint_length='0.2' pin_radius='0.05' "
       "codesign:pin_radius='${radius}'/>";
-  const std::shared_ptr<const System> system = compile(
+  const std::shared_ptr<const CompiledSystem> system = compile(
       robot("<codesign:parameter name='radius' value='0.05'/>" + bar("arm") + hinge("shoulder", "ground", "arm", "0 0 0", friction)),
       motion_study(1.0, "{}", "shoulder/velocity", "{}"));
   EXPECT_EQ(system->equation_code()->design_guards().size(), 2U) << "whether the pin has a radius, for G and for its matrices";
@@ -82,7 +82,7 @@ TEST(EquationCode, EveryShippedCaseIsCompiled) {
   for (const char* name :
        {"slider_crank", "slider_crank_haug", "inverted_pendulum", "inverted_pendulum_frictionless", "governor", "two_link_arm", "gantry"}) {
     const Shipped shipped(name);
-    const std::shared_ptr<const System> system = make_system(shipped.robot, shipped.study);
+    const std::shared_ptr<const CompiledSystem> system = make_system(shipped.robot, shipped.study);
     const EquationCode* const code = system->equation_code();
     ASSERT_NE(code, nullptr) << name;
     for (EquationFunction function : {EquationFunction::kResidual, EquationFunction::kLinearization, EquationFunction::kConstraintErrors})

@@ -66,9 +66,9 @@ TEST(ConstantLoads, AnEffortIsALoadAlongTheJoint) {
   Compiled c(pendulum(),
              let_go("{}", "hinge/velocity", "gravity: [0, 0, 0]\nloads: [{joint: hinge, effort: 1.0}, {joint: hinge, effort: 0.5}]\n"));
   ASSERT_TRUE(c.start().ok());
-  c.equations.load(c.state);
-  EXPECT_NEAR(c.equations.coordinate(0, 0).acceleration, 1.5 / (0.0834 + 0.25), 1e-12);
-  EXPECT_EQ(c.equations.effort(0, 0), 0.0) << "controllers' alone";
+  c.equations.formulas().load(c.state);
+  EXPECT_NEAR(c.equations.formulas().coordinate(0, 0).acceleration, 1.5 / (0.0834 + 0.25), 1e-12);
+  EXPECT_EQ(c.equations.formulas().effort(0, 0), 0.0) << "controllers' alone";
 }
 
 TEST(ConstantLoads, RefuseWhatCannotBeLoaded) {

@@ -102,8 +102,8 @@ TEST(EquationsControllers, GravityCompensationOfABarIsItsMoment) {
   Compiled c(pendulum(), let_go("{hinge: {position: 0.4}}", "hinge/position",
                                 "controllers: {hold: {type: pd_gravity, output: hinge, setpoint: 0.5, gains: {p: 2.0, d: 1.0}}}\n"));
   ASSERT_TRUE(c.start().ok());
-  c.equations.load(c.state);
-  EXPECT_NEAR(c.equations.controller_output(0, nullptr), 2.0 * 0.1 + 9.81 * 0.5 * std::sin(0.4), 1e-12);
+  c.equations.formulas().load(c.state);
+  EXPECT_NEAR(c.equations.formulas().controller_output(0, nullptr), 2.0 * 0.1 + 9.81 * 0.5 * std::sin(0.4), 1e-12);
 }
 
 TEST(EquationsControllers, WhatIsHeldAgainstGravityStaysWhereItIs) {
@@ -125,10 +125,10 @@ TEST_P(ComputedTorque, GivesEachJointTheAccelerationAskedFor) {
              "wrist: {position: -0.6, velocity: 3.0}}",
              "turn/position", "controllers:\n" + torques({"travel", "turn", "reach", "wrist"})));
   ASSERT_TRUE(c.start().ok());
-  c.equations.load(c.state);
+  c.equations.formulas().load(c.state);
   const double w = 2.0 * M_PI / 1.3, s = 0.7 * std::sin(0.4), cosine = 0.7 * std::cos(0.4);
   for (const JointLoad& load : c.system.loads()) {
-    const CoordinateMotion<double> m = c.equations.coordinate(load.pair, load.element);
+    const CoordinateMotion<double> m = c.equations.formulas().coordinate(load.pair, load.element);
     EXPECT_NEAR(m.acceleration, -w * w * s + 0.5 * (w * cosine - m.rate) + 3.0 * (s - m.position), 1e-9);
   }
   EXPECT_EQ(c.system.loads().size(), 4U);
@@ -144,9 +144,9 @@ TEST(EquationsControllers, JointsWithoutComputedTorqueAreTakenToKeepTheirRates) 
       "duration: 1.0\ngravity: [0, 0, 0]\ncontrollers: {servo: {type: computed_torque, output: shoulder, setpoint: 1.0, gains: {p: 3.0}}}\n"
       "objective: {integral: [{signal: servo/output}]}\n");
   ASSERT_TRUE(c.start().ok());
-  c.equations.load(c.state);
+  c.equations.formulas().load(c.state);
   // Two bars of 1 kg, inertia 0.0834 about their centres, 0.5 m and 1.5 m below the shoulder.
-  EXPECT_NEAR(c.equations.controller_output(0, nullptr), 3.0 * (2.0 * 0.0834 + 0.25 + 2.25), 1e-12);
+  EXPECT_NEAR(c.equations.formulas().controller_output(0, nullptr), 3.0 * (2.0 * 0.0834 + 0.25 + 2.25), 1e-12);
 }
 
 TEST(EquationsControllers, StateFeedbackByHand) {
@@ -156,8 +156,8 @@ TEST(EquationsControllers, StateFeedbackByHand) {
              "controllers: {hold: {type: state_feedback, output: hinge, feedforward: 1.5, feedback: [{signal: hinge/position, gain: 3.0, "
              "reference: 0.1}, {signal: hinge/velocity, gain: 0.25}]}}\n"));
   ASSERT_TRUE(c.start().ok());
-  c.equations.load(c.state);
-  EXPECT_NEAR(c.equations.controller_output(0, nullptr), 1.5 - 3.0 * 0.3 + 0.25 * 2.0, 1e-13);
+  c.equations.formulas().load(c.state);
+  EXPECT_NEAR(c.equations.formulas().controller_output(0, nullptr), 1.5 - 3.0 * 0.3 + 0.25 * 2.0, 1e-13);
 }
 
 }  // namespace

@@ -72,9 +72,9 @@ TEST(Couplings, AGearCarriesTheRotorsInertiaAndItsTooth) {
     Compiled c(gear(kind), let_go("{out: {position: 9.0, velocity: 2.0}}", "out/velocity"));
     ASSERT_TRUE(c.start().ok());
     const double inertia = 0.8 + 400.0 * 0.001, acceleration = -3.0 * (9.0 - 0.5) / inertia;
-    c.equations.load(c.state);
-    EXPECT_NEAR(c.equations.coordinate(0, 0).acceleration, acceleration, 1e-12 * std::abs(acceleration));
-    EXPECT_NEAR(c.equations.coordinate(1, 0).acceleration, -20.0 * acceleration, 1e-12 * std::abs(20.0 * acceleration));
+    c.equations.formulas().load(c.state);
+    EXPECT_NEAR(c.equations.formulas().coordinate(0, 0).acceleration, acceleration, 1e-12 * std::abs(acceleration));
+    EXPECT_NEAR(c.equations.formulas().coordinate(1, 0).acceleration, -20.0 * acceleration, 1e-12 * std::abs(20.0 * acceleration));
     // The rotor's own equation, 0.001 theta'' + lambda = 0.
     const double lambda = c.state.z[c.system.layout().lambda_column(c.system.layout().coupling_row(0))];
     EXPECT_NEAR(lambda, 0.02 * acceleration, 1e-12 * std::abs(acceleration));
@@ -84,9 +84,9 @@ TEST(Couplings, AGearCarriesTheRotorsInertiaAndItsTooth) {
 TEST(Couplings, TheFollowerStartsWhereItBelongsManyTurnsAway) {
   Compiled c(gear("mimic"), let_go("{out: {position: 9.0, velocity: 2.0}}", "out/velocity"));
   ASSERT_TRUE(c.start().ok());
-  c.equations.load(c.state);
-  EXPECT_NEAR(c.equations.coordinate(1, 0).position, -180.0 + 0.4, 1e-12);
-  EXPECT_NEAR(c.equations.coordinate(1, 0).rate, -40.0, 1e-12);
+  c.equations.formulas().load(c.state);
+  EXPECT_NEAR(c.equations.formulas().coordinate(1, 0).position, -180.0 + 0.4, 1e-12);
+  EXPECT_NEAR(c.equations.formulas().coordinate(1, 0).rate, -40.0, 1e-12);
   Eigen::VectorXd Phi, Phi_rate;
   c.equations.constraint_errors(c.state.q, c.state.v, &Phi, &Phi_rate);
   EXPECT_LT(Phi.cwiseAbs().maxCoeff(), 1e-12);
@@ -96,9 +96,9 @@ TEST(Couplings, TheFollowerStartsWhereItBelongsManyTurnsAway) {
 TEST(Couplings, GivenTheFollowerTheOthersAreSolvedFor) {
   Compiled c(gear("mimic"), let_go("{motor: {position: 100.4, velocity: 40.0}}", "out/velocity"));
   ASSERT_TRUE(c.start().ok());
-  c.equations.load(c.state);
-  EXPECT_NEAR(c.equations.coordinate(0, 0).position, -5.0, 1e-12);
-  EXPECT_NEAR(c.equations.coordinate(0, 0).rate, -2.0, 1e-12);
+  c.equations.formulas().load(c.state);
+  EXPECT_NEAR(c.equations.formulas().coordinate(0, 0).position, -5.0, 1e-12);
+  EXPECT_NEAR(c.equations.formulas().coordinate(0, 0).rate, -2.0, 1e-12);
 }
 
 TEST(Couplings, StartValuesThatContradictOneAreAStatusThatNamesIt) {
@@ -115,8 +115,8 @@ TEST(Couplings, OfAChainWithoutAClosedFormKeepItsLinksAsBodies) {
   Compiled c(skew, let_go("{x: {position: 0.2, velocity: 1.0}}", "ball/position/x"));
   EXPECT_EQ(c.system.layout().bodies, 3);
   ASSERT_TRUE(c.start().ok());
-  c.equations.load(c.state);
-  EXPECT_NEAR(c.equations.coordinate(2, 0).rate, c.equations.coordinate(0, 0).rate, 1e-12);
+  c.equations.formulas().load(c.state);
+  EXPECT_NEAR(c.equations.formulas().coordinate(2, 0).rate, c.equations.formulas().coordinate(0, 0).rate, 1e-12);
 }
 
 }  // namespace

@@ -2,10 +2,10 @@
 // Energies and powers: their gradients, and that one is the other's rate along any motion.
 #include <gtest/gtest.h>
 
-#include "equations/energy.h"
 #include "equations/equations_fixture.h"
 #include "equations/generic_state.h"
 #include "equations/loaded_arm.h"
+#include "observation/energy.h"
 
 namespace codesign {
 namespace {
@@ -65,9 +65,9 @@ TEST_P(EnergyConformance, TheRateOfTheEnergyIsThePower) {
   Compiled c(GetParam().urdf, study_of(kEnergies, GetParam().study));
   ASSERT_TRUE(c.start().ok());
   ASSERT_TRUE(scramble(&c));
-  c.equations.load(c.state);
+  c.equations.formulas().load(c.state);
   SparseGradient<double> gradient;
-  const double kinetic = c.equations.kinetic_energy(&gradient), potential = c.equations.potential_energy(&gradient);
+  const double kinetic = c.equations.formulas().kinetic_energy(&gradient), potential = c.equations.formulas().potential_energy(&gradient);
   const Energy energy = mechanical_energy(c.equations);
   EXPECT_EQ(energy.kinetic, kinetic);
   EXPECT_EQ(energy.potential, potential);
@@ -87,7 +87,7 @@ TEST(EnergySignals, OfTheJointsAddUp) {
   const auto value = [](const std::string& text) {
     EquationsFixture e(loaded_arm(), study_of(kEnergies, kDriven));
     const SignalDescription description = parse_signal(text, {}, "test");
-    return e.real.signal(resolve_signal(description, e.robot, e.system.topology(), e.system.study().controllers), e.state);
+    return e.real.formulas().signal(resolve_signal(description, e.robot, e.system.topology(), e.system.study().controllers), e.state);
   };
   for (const char* quantity : {"/friction_power", "/actuator_power"}) {
     const double all = value(std::string("mechanism") + quantity);
@@ -103,9 +103,9 @@ TEST(EnergySignals, OfAContactAndOfACylindricalLoop) {
   ASSERT_TRUE(c.start().ok());
   ASSERT_TRUE(scramble(&c));
   const Signal of_joint = resolve_signal(parse_signal("slope/friction_power", {}, "test"), c.system.robot(), c.system.topology(), {});
-  const double power = c.equations.signal(of_joint, c.state);
+  const double power = c.equations.formulas().signal(of_joint, c.state);
   EXPECT_LT(power, 0.0);
-  EXPECT_EQ(power, c.equations.power(PowerKind::kFriction, nullptr));
+  EXPECT_EQ(power, c.equations.formulas().power(PowerKind::kFriction, nullptr));
 }
 
 }  // namespace

@@ -179,7 +179,7 @@ class EquationsFixture {
   }
 
   RobotDescription robot;
-  System system;
+  CompiledSystem system;
   Equations<double> real;
   Equations<std::complex<double>> complex;
   State<double> state;

@@ -28,7 +28,7 @@ std::string study(const std::string& limits) {
          limits + "\n";
 }
 
-std::size_t stops(const System& system) {
+std::size_t stops(const CompiledSystem& system) {
   std::size_t count = 0;
   for (const JointLoad& load : system.loads()) count += load.stop ? 1 : 0;
   return count;
@@ -65,9 +65,9 @@ TEST(EquationsLimits, BoundWhatTheStudySays) {
 
 TEST(EquationsLimits, TheEffortIsTheDemandSaturated) {
   EquationsFixture f(bounded(), study("{effort: true}"));
-  f.real.load(f.state);
-  const double demand = f.real.controller_output(0, nullptr);
-  EXPECT_NEAR(f.real.effort(0, 0), demand / std::pow(1.0 + std::pow(demand / 2.0, 8), 0.125), 1e-12);
+  f.real.formulas().load(f.state);
+  const double demand = f.real.formulas().controller_output(0, nullptr);
+  EXPECT_NEAR(f.real.formulas().effort(0, 0), demand / std::pow(1.0 + std::pow(demand / 2.0, 8), 0.125), 1e-12);
 }
 
 }  // namespace

@@ -2,12 +2,12 @@
 // What joints exert on their children, theory (11a): by hand, against Newton and Euler for every body, and the gradients.
 #include <gtest/gtest.h>
 
+#include "cases/shipped.h"
 #include "equations/equations_fixture.h"
 #include "equations/generic_state.h"
 #include "equations/joint_cases.h"
 #include "equations/loaded_arm.h"
 #include "integration/linkages.h"
-#include "system/shipped.h"
 
 namespace codesign {
 namespace {
@@ -80,7 +80,7 @@ std::string study_of(const ReactionCase& c) {
 }
 
 double value(Compiled* c, const std::string& text) {
-  return c->equations.signal(
+  return c->equations.formulas().signal(
       resolve_signal(parse_signal(text, {}, "test"), c->system.robot(), c->system.topology(), c->system.study().controllers), c->state);
 }
 
@@ -109,7 +109,7 @@ std::vector<Wrench> exerted(Compiled* c) {
     const int child = c->system.topology().link_body[static_cast<std::size_t>(c->system.robot().joints[static_cast<std::size_t>(j)].child)];
     const int other = child == pair.body_j ? pair.body_i : pair.body_j;
     const LinkConstants<double>& frame = c->equations.constants().joint_frames[static_cast<std::size_t>(j)];
-    const BodyKinematics<double>& k = c->equations.body(child);
+    const BodyKinematics<double>& k = c->equations.formulas().body(child);
     const Eigen::Matrix3d axes = k.A * frame.R;
     const auto at = [&](int body) { return body < 0 ? bodies : static_cast<std::size_t>(body); };
     sums[at(child)].add(k.r + k.A * frame.s, axes * force, axes * torque);
@@ -124,22 +124,22 @@ std::vector<Wrench> demanded(Compiled* c) {
   const Eigen::Vector3d gravity(c->system.study().gravity.data());
   for (std::size_t b = 0; b < sums.size(); ++b) {
     const BodyConstants<double>& constants = c->equations.constants().bodies[b];
-    const BodyKinematics<double>& k = c->equations.body(static_cast<int>(b));
+    const BodyKinematics<double>& k = c->equations.formulas().body(static_cast<int>(b));
     const Eigen::Vector3d omega = 2.0 * body_rate(k.p, k.pd), alpha = 2.0 * body_rate(k.p, k.pdd);
     sums[b].add(k.r, constants.mass * (k.rdd - gravity), k.A * (constants.J * alpha + omega.cross(constants.J * omega)));
   }
   for (const Rotor& rotor : c->system.rotors()) {
     if (rotor.body < 0) continue;
     const auto& d = c->equations.constants().pairs[static_cast<std::size_t>(rotor.pair)].dynamics[static_cast<std::size_t>(rotor.element)];
-    const BodyKinematics<double>& k = c->equations.body(rotor.body);
-    const CoordinateMotion<double> m = c->equations.coordinate(rotor.pair, rotor.element);
+    const BodyKinematics<double>& k = c->equations.formulas().body(rotor.body);
+    const CoordinateMotion<double> m = c->equations.formulas().coordinate(rotor.pair, rotor.element);
     const Eigen::Vector3d u = k.A * d.rotor_axis, omega = 2.0 * (k.A * body_rate(k.p, k.pd));
     sums[static_cast<std::size_t>(rotor.body)].moment += d.gear_ratio * d.rotor_inertia * (m.acceleration * u + m.rate * omega.cross(u));
   }
   for (const LinkLoad& on : c->system.link_loads()) {
     const LoadDescription& load = c->system.study().loads[static_cast<std::size_t>(on.load)];
     const LinkConstants<double>& link = c->equations.constants().links[static_cast<std::size_t>(on.link)];
-    const BodyKinematics<double>& k = c->equations.body(on.body);
+    const BodyKinematics<double>& k = c->equations.formulas().body(on.body);
     const Eigen::Matrix3d axes = on.turns ? Eigen::Matrix3d(k.A * link.R) : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
     const std::vector<double> none = c->system.parameters();
     const Eigen::Vector3d point = k.r + k.A * (link.s + link.R * vector_at(load.point, none));
@@ -147,9 +147,9 @@ std::vector<Wrench> demanded(Compiled* c) {
   }
   for (std::size_t s = 0; s < c->equations.constants().springs.size(); ++s) {
     const SpringDamperConstants<double>& spring = c->equations.constants().springs[s];
-    const Eigen::Vector3d pull = c->equations.spring(s).pull;
+    const Eigen::Vector3d pull = c->equations.formulas().spring(s).pull;
     const auto end = [&](int body, const Eigen::Vector3d& at, double sign) {
-      const BodyKinematics<double>& k = c->equations.body(body);
+      const BodyKinematics<double>& k = c->equations.formulas().body(body);
       if (body >= 0) sums[static_cast<std::size_t>(body)].add(k.r + k.A * at, pull, Eigen::Vector3d::Zero(), sign);
     };
     end(spring.body_i, spring.s_i, -1.0);
@@ -160,7 +160,7 @@ std::vector<Wrench> demanded(Compiled* c) {
 
 void expect_balance(Compiled* c, double tolerance, bool loaded = true) {
   const std::vector<Wrench> have = exerted(c);
-  c->equations.load(c->state);
+  c->equations.formulas().load(c->state);
   const std::vector<Wrench> need = demanded(c);
   for (std::size_t b = 0; b < need.size(); ++b) {
     EXPECT_EQ(need[b].force.norm() > 1e-3, loaded) << b;

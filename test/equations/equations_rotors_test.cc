@@ -123,7 +123,8 @@ TEST_P(ExplicitRotor, GivesTheSameAccelerationsReactionsAndEnergy) {
   ASSERT_TRUE(annotated.start().ok());
   ASSERT_TRUE(explicitly.start().ok());
   const auto signal = [](Compiled* c, const std::string& text) {
-    return c->equations.signal(resolve_signal(parse_signal(text, {}, "test"), c->system.robot(), c->system.topology(), {}), c->state);
+    return c->equations.formulas().signal(resolve_signal(parse_signal(text, {}, "test"), c->system.robot(), c->system.topology(), {}),
+                                          c->state);
   };
   const double acceleration = signal(&annotated, "drive/acceleration");
   EXPECT_GT(std::abs(acceleration), 0.1);

@@ -45,11 +45,12 @@ TEST_F(EquationsSpringsTest, PullsAreEqualAndOpposite) {
   real.residual(state, &G, &g);
   const double mass = real.constants().bodies[0].mass + real.constants().bodies[1].mass;
   const Eigen::Vector3d sum = G.segment<3>(0) + G.segment<3>(kBodySize) - Eigen::Vector3d(0.0, 0.0, 9.81 * mass);
-  real.load(state);
-  const SpringForce<double> hook = real.spring(1);
+  real.formulas().load(state);
+  const SpringForce<double> hook = real.formulas().spring(1);
   EXPECT_LT((sum - hook.pull).norm(), 1e-13);
   EXPECT_NEAR(hook.tension, 10.0 * (hook.length - 0.1), 1e-13);
-  const Eigen::Vector3d along = (real.body(0).r + real.body(0).A * real.constants().springs[1].s_j) - Eigen::Vector3d(0.0, 0.0, 1.0);
+  const Eigen::Vector3d along =
+      (real.formulas().body(0).r + real.formulas().body(0).A * real.constants().springs[1].s_j) - Eigen::Vector3d(0.0, 0.0, 1.0);
   EXPECT_NEAR(hook.length, along.norm(), 1e-13);
 }
 

@@ -70,10 +70,10 @@ TEST_F(EquationsTest, ConstraintRowsAreTheSecondDerivativeOfPhi) {
 }
 
 TEST_F(EquationsTest, FrictionIsTheForceOnTheChildAgainstItsMotion) {
-  real.load(state);
+  real.formulas().load(state);
   for (const JointLoad& load : system.loads()) {
     if (!load.reaction_friction) continue;
-    const FrictionState<double> friction = real.friction(load.pair, load.element);
+    const FrictionState<double> friction = real.formulas().friction(load.pair, load.element);
     EXPECT_GT(friction.load * friction.velocity, 0.0);
     EXPECT_GT(friction.normal, 0.0);
   }
@@ -81,7 +81,7 @@ TEST_F(EquationsTest, FrictionIsTheForceOnTheChildAgainstItsMotion) {
 
 TEST_F(EquationsTest, TerminalTermsHaveTheirGradient) {
   SparseGradient<double> gradient;
-  const double w = real.terminal(state, &gradient);
+  const double w = real.formulas().terminal(state, &gradient);
   EXPECT_GE(w, 0.0);
   Eigen::VectorXd by_q = Eigen::VectorXd::Zero(system.layout().n);
   for (const auto& e : gradient.position)
@@ -93,7 +93,7 @@ TEST_F(EquationsTest, TerminalTermsHaveTheirGradient) {
   const Eigen::MatrixXd expected = complex_step_jacobian(
       [&](const Eigen::VectorXcd& q) {
         point.q = q;
-        return Eigen::VectorXcd::Constant(1, complex.terminal(point, nullptr));
+        return Eigen::VectorXcd::Constant(1, complex.formulas().terminal(point, nullptr));
       },
       state.q);
   EXPECT_LT(compare_jacobians(by_q.transpose(), expected).largest, 1e-12);

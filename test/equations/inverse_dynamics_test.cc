@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "equations/inverse_dynamics.h"
+#include "system/inverse_dynamics.h"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@ struct Shoulder : Compiled {
         tree(driven_tree(system.topology(), system.topology().joint_pair[0], accelerations, {}, "")),
         inverse(tree) {
     EXPECT_TRUE(start().ok());
-    equations.load(state);
-    bodies = {equations.body(0), equations.body(1), equations.body(-1)};
+    equations.formulas().load(state);
+    bodies = {equations.formulas().body(0), equations.formulas().body(1), equations.formulas().body(-1)};
   }
 
   double load(const double* accelerations, const double* rates = nullptr) {

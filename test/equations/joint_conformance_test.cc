@@ -169,11 +169,12 @@ TEST_P(JointConformance, TheReactionInTheJointsAxesIsWhatTheTipFeels) {
   for (std::size_t k = 0; k < c.system.topology().pairs.size(); ++k) {
     const Pair& pair = c.system.topology().pairs[k];
     if (pair.kind == PairKind::kFree) continue;
-    c.equations.load(c.state);
+    c.equations.formulas().load(c.state);
     Eigen::Vector3d F, T;
-    c.equations.reaction(static_cast<int>(k), &F, &T);
+    c.equations.formulas().reaction(static_cast<int>(k), &F, &T);
     const PairConstants<double>& geometry = c.equations.constants().pairs[k];
-    const Eigen::Matrix3d A_j = c.equations.body(pair.body_j).A, axes = c.equations.body(pair.body_i).A * geometry.C_i;
+    const Eigen::Matrix3d A_j = c.equations.formulas().body(pair.body_j).A,
+                          axes = c.equations.formulas().body(pair.body_i).A * geometry.C_i;
     const Eigen::Vector3d force = -axes * F, torque = A_j.transpose() * ((A_j * geometry.s_j).cross(force) - axes * T);
     const Wrench need = demanded(c, pair.body_j);
     EXPECT_LT((force - need.force).norm(), 1e-10 * (1.0 + need.force.norm()));

@@ -114,17 +114,17 @@ TEST(Rotor, EnergyAndMomentumAreConserved) {
   ASSERT_TRUE(integrator.start(system->parameters()).ok());
   const auto momentum = [&] {
     Equations<double>& equations = integrator.step().equations();
-    equations.load(integrator.step().state());
+    equations.formulas().load(integrator.step().state());
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (int body = 0; body < 2; ++body) {
       const BodyConstants<double>& c = equations.constants().bodies[static_cast<std::size_t>(body)];
-      const BodyKinematics<double>& k = equations.body(body);
+      const BodyKinematics<double>& k = equations.formulas().body(body);
       sum += c.mass * k.r.cross(k.rd) + k.A * (c.J * (2.0 * body_rate(k.p, k.pd)));
     }
     const Rotor& rotor = system->rotors()[0];
     const auto& d = equations.constants().pairs[static_cast<std::size_t>(rotor.pair)].dynamics[0];
-    sum += d.gear_ratio * d.rotor_inertia * equations.coordinate(rotor.pair, rotor.element).rate *
-           (equations.body(rotor.body).A * d.rotor_axis);
+    sum += d.gear_ratio * d.rotor_inertia * equations.formulas().coordinate(rotor.pair, rotor.element).rate *
+           (equations.formulas().body(rotor.body).A * d.rotor_axis);
     return sum;
   };
   const Eigen::Vector3d start = momentum();

@@ -9,8 +9,8 @@
 namespace codesign {
 namespace {
 
-std::shared_ptr<const System> swinging(const std::string& urdf, const std::string& initial, const std::string& signal,
-                                       const std::string& solver) {
+std::shared_ptr<const CompiledSystem> swinging(const std::string& urdf, const std::string& initial, const std::string& signal,
+                                               const std::string& solver) {
   return compile(urdf, motion_study(1.0, initial, signal, solver));
 }
 
@@ -22,7 +22,7 @@ TEST(BodyMotion, EnergyIsThatOfTheState) {
   BodyMotion motion(*system);
   motion.set_design(integrator.equations().constants());
   const BodyEnergy energy = motion.energy(integrator.state().q, integrator.state().v);
-  integrator.equations().load(integrator.state());
+  integrator.equations().formulas().load(integrator.state());
   const Energy expected = mechanical_energy(integrator.equations());
   EXPECT_NEAR(energy.kinetic, expected.kinetic, 1e-13);
   EXPECT_NEAR(energy.potential, expected.potential, 1e-13);

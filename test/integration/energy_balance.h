@@ -7,9 +7,9 @@
 #include <string>
 
 #include "assembly/make_system.h"
-#include "equations/energy.h"
 #include "integration/mechanisms.h"
 #include "integration/rosenbrock_integrator.h"
+#include "observation/energy.h"
 
 namespace codesign {
 
@@ -30,7 +30,7 @@ inline Balance balance(const std::string& urdf, const std::string& study_text) {
   result.status = integrator.start(system->parameters());
   RosenbrockStep<double>& step = integrator.step();
   const auto energy = [&] {
-    step.equations().load(step.state());
+    step.equations().formulas().load(step.state());
     return mechanical_energy(step.equations()).total();
   };
   result.start = energy();
@@ -41,7 +41,7 @@ inline Balance balance(const std::string& urdf, const std::string& study_text) {
     for (double node : {-0.7745966692414834, 0.0, 0.7745966692414834}) {
       double psi = 0.0;
       step.interpolate(0.5 * (1.0 + node), &inner, &psi);
-      step.equations().load(inner);
+      step.equations().formulas().load(inner);
       const Power power = mechanical_power(&step.equations());
       const double weight = step.step_size() * (node == 0.0 ? 8.0 : 5.0) / 18.0;
       result.friction_work -= weight * power.friction;

@@ -30,10 +30,10 @@ std::string forced_study(const std::string& solver) {
          solver + "\n";
 }
 
-std::shared_ptr<const System> forced(const std::string& solver) { return compile(double_pendulum(), forced_study(solver)); }
+std::shared_ptr<const CompiledSystem> forced(const std::string& solver) { return compile(double_pendulum(), forced_study(solver)); }
 
 /// A smooth force, so that nothing but the method limits the order.
-std::shared_ptr<const System> smoothly_forced() {
+std::shared_ptr<const CompiledSystem> smoothly_forced() {
   return compile(double_pendulum(),
                  "duration: 1.0\ninitial_state: {elbow: {position: 0.5}}\ncontrollers:\n"
                  "  servo: {type: pid, input: shoulder/position, output: shoulder, gains: {p: 40.0, i: 10.0, d: 4.0},\n"
@@ -51,7 +51,7 @@ class ForcedStep : public ::testing::TestWithParam<const char*> {
     return end;
   }
 
-  const std::shared_ptr<const System> system = smoothly_forced();
+  const std::shared_ptr<const CompiledSystem> system = smoothly_forced();
   RosenbrockStep<double> step{*system, rosenbrock_tableau(method_named(GetParam()))};
 };
 

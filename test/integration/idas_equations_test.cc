@@ -38,7 +38,7 @@ struct IdasEquationsTest : ::testing::Test {
     return {data(F), equations.size()};
   }
 
-  std::shared_ptr<const System> system;
+  std::shared_ptr<const CompiledSystem> system;
   const Layout& layout;
   ContextHandle context;
   IdasNewton newton;

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "integration/rosenbrock_integrator.h"
 #include "integration/servo.h"
 
@@ -14,7 +14,7 @@ const char* const kIdas = "{integrator: idas, relative_tolerance: 1.0e-9, absolu
 const char* const kRosenbrock = "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}";
 
 /// Integrates to the end, taking dense output at each of `times` on the way.
-Status run(Integrator* integrator, const System& system, const std::vector<double>& times = {},
+Status run(Integrator* integrator, const CompiledSystem& system, const std::vector<double>& times = {},
            std::vector<State<double>>* samples = nullptr, std::vector<double>* psi = nullptr) {
   Status status = integrator->start(system.parameters());
   for (std::size_t next = 0; status.ok() && integrator->state().t < system.study().duration;) {

@@ -41,7 +41,7 @@ struct IdasNewtonTest : ::testing::Test {
     return result;
   }
 
-  std::shared_ptr<const System> system;
+  std::shared_ptr<const CompiledSystem> system;
   const Layout& layout;
   ContextHandle context;
   IdasNewton newton;

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "integration/idas_integrator.h"
 #include "integration/rosenbrock_integrator.h"
 #include "integration/servo.h"

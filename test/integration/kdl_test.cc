@@ -16,7 +16,7 @@
 #include <random>
 
 #include "assembly/make_system.h"
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "integration/simulation.h"
 #include "mechanism/topology.h"
 #include "paths.h"

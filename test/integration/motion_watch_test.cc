@@ -31,7 +31,7 @@ struct Watched {
     return watch.check(state, work);
   }
 
-  std::shared_ptr<const System> system;
+  std::shared_ptr<const CompiledSystem> system;
   Equations<double> equations;
   MotionWatch watch;
   State<double> start;

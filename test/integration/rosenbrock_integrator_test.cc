@@ -12,9 +12,10 @@
 namespace codesign {
 namespace {
 
-System swinging(const std::string& solver, const std::string& urdf = pendulum()) {
+CompiledSystem swinging(const std::string& solver, const std::string& urdf = pendulum()) {
   const RobotDescription robot = read_urdf({"test.urdf", urdf});
-  return System(robot, read_study({"test.yaml", let_go("{hinge: {position: 1.0}}", "hinge/velocity", "solver: " + solver + "\n")}, robot));
+  return CompiledSystem(robot,
+                        read_study({"test.yaml", let_go("{hinge: {position: 1.0}}", "hinge/velocity", "solver: " + solver + "\n")}, robot));
 }
 
 /// Steps to `time`; the largest step taken.
@@ -30,7 +31,7 @@ double run(RosenbrockIntegrator* integrator, double time) {
 }
 
 TEST(RosenbrockIntegrator, EndsOnItsLimitToTheLastDigit) {
-  const System system = swinging("{}");
+  const CompiledSystem system = swinging("{}");
   RosenbrockIntegrator integrator(system);
   ASSERT_TRUE(integrator.start({}).ok());
   run(&integrator, 0.7);
@@ -38,9 +39,9 @@ TEST(RosenbrockIntegrator, EndsOnItsLimitToTheLastDigit) {
 }
 
 TEST(RosenbrockIntegrator, TighterTolerancesTakeMoreStepsToABetterEnd) {
-  const System loose = swinging("{relative_tolerance: 1.0e-4, absolute_tolerance: 1.0e-5}"),
-               tight = swinging("{relative_tolerance: 1.0e-7, absolute_tolerance: 1.0e-8}"),
-               exact = swinging("{relative_tolerance: 1.0e-11, absolute_tolerance: 1.0e-12}");
+  const CompiledSystem loose = swinging("{relative_tolerance: 1.0e-4, absolute_tolerance: 1.0e-5}"),
+                       tight = swinging("{relative_tolerance: 1.0e-7, absolute_tolerance: 1.0e-8}"),
+                       exact = swinging("{relative_tolerance: 1.0e-11, absolute_tolerance: 1.0e-12}");
   RosenbrockIntegrator a(loose), b(tight), c(exact);
   for (RosenbrockIntegrator* integrator : {&a, &b, &c}) {
     ASSERT_TRUE(integrator->start({}).ok());
@@ -54,7 +55,7 @@ TEST(RosenbrockIntegrator, TighterTolerancesTakeMoreStepsToABetterEnd) {
 }
 
 TEST(RosenbrockIntegrator, StartsAnewWithTheSameDigits) {
-  const System system = swinging("{}");
+  const CompiledSystem system = swinging("{}");
   RosenbrockIntegrator integrator(system);
   ASSERT_TRUE(integrator.start({}).ok());
   run(&integrator, 1.0);
@@ -68,7 +69,7 @@ TEST(RosenbrockIntegrator, StartsAnewWithTheSameDigits) {
 }
 
 TEST(RosenbrockIntegrator, KeepsToTheStepsOfTheStudy) {
-  const System system = swinging("{initial_step: 1.0e-4, maximum_step: 0.01}");
+  const CompiledSystem system = swinging("{initial_step: 1.0e-4, maximum_step: 0.01}");
   RosenbrockIntegrator integrator(system);
   ASSERT_TRUE(integrator.start({}).ok());
   ASSERT_TRUE(integrator.advance(1.0).ok());
@@ -77,7 +78,7 @@ TEST(RosenbrockIntegrator, KeepsToTheStepsOfTheStudy) {
 }
 
 TEST(RosenbrockIntegrator, TheTangentIsCalledOncePerAcceptedStep) {
-  const System system = swinging("{}");
+  const CompiledSystem system = swinging("{}");
   RosenbrockIntegrator integrator(system);
   ASSERT_TRUE(integrator.start({}).ok());
   int calls = 0;
@@ -96,7 +97,7 @@ TEST(RosenbrockIntegrator, TheTangentIsCalledOncePerAcceptedStep) {
 }
 
 TEST(RosenbrockIntegrator, ATangentMayRefuseAStep) {
-  const System system = swinging("{}");
+  const CompiledSystem system = swinging("{}");
   RosenbrockIntegrator integrator(system);
   ASSERT_TRUE(integrator.start({}).ok());
   std::vector<double> sizes;
@@ -115,7 +116,7 @@ TEST(RosenbrockIntegrator, ATangentMayRefuseAStep) {
 }
 
 TEST(RosenbrockIntegrator, TooManyStepsAndAnImpossibleDesignAreStatuses) {
-  const System short_of_steps = swinging("{maximum_steps: 3}");
+  const CompiledSystem short_of_steps = swinging("{maximum_steps: 3}");
   RosenbrockIntegrator integrator(short_of_steps);
   ASSERT_TRUE(integrator.start({}).ok());
   Status status;
@@ -128,7 +129,7 @@ TEST(RosenbrockIntegrator, TooManyStepsAndAnImpossibleDesignAreStatuses) {
       "<link name='bar'><inertial><mass value='1' codesign:value='${m}'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' "
       "izz='1'/></inertial></link>" +
       hinge("hinge", "ground", "bar", "0 0 0") + "</robot>";
-  const System system = swinging("{}", urdf);
+  const CompiledSystem system = swinging("{}", urdf);
   RosenbrockIntegrator other(system);
   EXPECT_TRUE(other.start({1.0}).ok());
   EXPECT_TRUE(other.start({0.0}).ok()) << "a rotor without mass";

@@ -12,7 +12,7 @@ namespace {
 
 class RosenbrockStepTest : public ::testing::TestWithParam<const char*> {
  protected:
-  const std::shared_ptr<const System> system = servo("{integrator: rosenbrock}");
+  const std::shared_ptr<const CompiledSystem> system = servo("{integrator: rosenbrock}");
   RosenbrockStep<double> step{*system, rosenbrock_tableau(method_named(GetParam()))};
 
   /// The state after a span in `count` equal steps.

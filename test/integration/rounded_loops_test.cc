@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "equations/compiled.h"
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "integration/rounded_linkages.h"
 #include "problem/problem.h"
 #include "sensitivity/evaluation.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "integration/linkages.h"
 #include "integration/rosenbrock_integrator.h"
 #include "integration/servo.h"
@@ -29,7 +29,7 @@ class WatchedPendulum : public ::testing::Test {
     state_ = integrator_.state();
   }
 
-  std::shared_ptr<const System> system_;
+  std::shared_ptr<const CompiledSystem> system_;
   RosenbrockIntegrator integrator_;
   RunWatch watch_;
   State<double> state_;

@@ -23,12 +23,12 @@ inline std::string servo_study(const std::string& solver) {
          solver + "\n";
 }
 
-inline std::shared_ptr<const System> compile(const std::string& urdf, const std::string& study) {
+inline std::shared_ptr<const CompiledSystem> compile(const std::string& urdf, const std::string& study) {
   const RobotDescription description = read_urdf({"test.urdf", urdf});
   return make_system(description, read_study({"test.yaml", study}, description));
 }
 
-inline std::shared_ptr<const System> servo(const std::string& solver) {
+inline std::shared_ptr<const CompiledSystem> servo(const std::string& solver) {
   return compile(double_pendulum(pin_friction()), servo_study(solver));
 }
 

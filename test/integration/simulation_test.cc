@@ -17,13 +17,13 @@ namespace {
 
 const char* const kTight = "solver: {method: rodas5p, relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}\n";
 
-std::shared_ptr<const System> system_of(const std::string& urdf, const std::string& study) {
+std::shared_ptr<const CompiledSystem> system_of(const std::string& urdf, const std::string& study) {
   const RobotDescription robot = read_urdf({"test.urdf", urdf});
   return make_system(robot, read_study({"test.yaml", study}, robot));
 }
 
 /// A small swing of a bar, and its angular frequency: 9.81 * 0.5 over its moment of inertia about the hinge.
-std::shared_ptr<const System> small_swing() {
+std::shared_ptr<const CompiledSystem> small_swing() {
   return system_of(pendulum(), let_go("{hinge: {position: 1.0e-4}}", "hinge/position", kTight));
 }
 const double kFrequency = std::sqrt(9.81 * 0.5 / (0.0834 + 0.25));

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "integration/integrator.h"
 #include "integration/linkages.h"
 #include "integration/servo.h"

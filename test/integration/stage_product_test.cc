@@ -35,7 +35,7 @@ class StageProductTest : public ::testing::TestWithParam<bool> {
     EXPECT_LT((y - expected).cwiseAbs().maxCoeff(), 1e-13);
   }
 
-  const std::shared_ptr<const System> system = servo("{integrator: rosenbrock}");
+  const std::shared_ptr<const CompiledSystem> system = servo("{integrator: rosenbrock}");
   Linearization<double> derivatives;
 };
 

@@ -19,6 +19,8 @@ ROWS = [
     ["mechanism"],
     ["reading"],
     ["joints", "forces", "control"],
+    ["system"],
+    ["elements"],
     ["equations"],
     ["assembly"],
     ["observation"],

@@ -68,7 +68,7 @@ class CurvatureTest : public ::testing::Test {
     return theta(d).imag() / kStep;
   }
 
-  const std::shared_ptr<const System> system = servo("{}");
+  const std::shared_ptr<const CompiledSystem> system = servo("{}");
   const IncrementLayout at;
   Curvature<8> curvature;
   Equations<double> real;

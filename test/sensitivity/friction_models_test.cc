@@ -4,7 +4,7 @@
 
 #include <regex>
 
-#include "equations/system.h"
+#include "equations/compiled_system.h"
 #include "integration/servo.h"
 #include "sensitivity/evaluation.h"
 
@@ -27,7 +27,7 @@ std::string rubbing(const std::string& model) {
                                 parameter("sigma_1", "4") + parameter("tau", "0.5"));
 }
 
-std::shared_ptr<const System> rubbing_servo(const std::string& model, const std::string& solver) {
+std::shared_ptr<const CompiledSystem> rubbing_servo(const std::string& model, const std::string& solver) {
   std::string study = std::regex_replace(servo_study(solver), std::regex("duration: 0.6"), "duration: 0.25");
   study.replace(study.find("parameters: {"), 13,
                 std::string("parameters: {mu_s: {tune: true}, v_s: {tune: true}, sigma_0: {tune: true}, sigma_1: {tune: true}, ") +
@@ -35,7 +35,7 @@ std::shared_ptr<const System> rubbing_servo(const std::string& model, const std:
   return compile(rubbing(model), study);
 }
 
-Eigen::VectorXd start_of(const System& system) {
+Eigen::VectorXd start_of(const CompiledSystem& system) {
   const std::vector<double> all = system.parameters();
   Eigen::VectorXd rho(static_cast<Eigen::Index>(system.study().tuned.size()));
   for (std::size_t k = 0; k < system.study().tuned.size(); ++k)

@@ -8,10 +8,10 @@
 
 #include "assembly/make_system.h"
 #include "benchmark/mechanisms.h"
+#include "cases/shipped.h"
 #include "description/solver_names.h"
 #include "integration/servo.h"
 #include "sensitivity/gradient_engine.h"
-#include "system/shipped.h"
 
 namespace codesign {
 
@@ -21,7 +21,7 @@ struct GradientCase {
   RobotDescription robot;
   Study study;
 
-  std::shared_ptr<const System> compile(const std::string& method, const std::string& gradient) const {
+  std::shared_ptr<const CompiledSystem> compile(const std::string& method, const std::string& gradient) const {
     Study changed = study;
     changed.solver.method = method_named(method);
     changed.solver.gradient = gradient_named(gradient);
@@ -82,7 +82,7 @@ struct GradientRun {
   std::int64_t steps = 0;
 };
 
-inline GradientRun run_gradient(GradientEngine* engine, const System& system, const std::vector<double>& parameters,
+inline GradientRun run_gradient(GradientEngine* engine, const CompiledSystem& system, const std::vector<double>& parameters,
                                 bool with_gradient = true) {
   GradientRun run;
   run.status = engine->start(parameters, with_gradient);

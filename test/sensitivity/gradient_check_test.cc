@@ -11,7 +11,7 @@ namespace codesign {
 namespace {
 
 /// A bar that a spring-like controller turns; the objective is its angle at the end, a function of the gain.
-std::shared_ptr<const System> make(const std::string& initial_state) {
+std::shared_ptr<const CompiledSystem> make(const std::string& initial_state) {
   const RobotDescription robot = read_urdf({"test.urdf", pendulum()});
   const std::string study =
       "duration: 1.0\ngravity: [0.0, 0.0, 0.0]\ninitial_state: {hinge: " + initial_state +

@@ -12,7 +12,7 @@ namespace {
 
 template <int N>
 struct Probe {
-  Probe(const System&, LaneRange<N> lanes, int tag_given) : range(lanes), tag(tag_given) {}
+  Probe(const CompiledSystem&, LaneRange<N> lanes, int tag_given) : range(lanes), tag(tag_given) {}
   static constexpr int kWidth = N;
   LaneRange<N> range;
   int tag;

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "assembly/make_system.h"
-#include "equations/system.h"
+#include "cases/shipped.h"
+#include "equations/compiled_system.h"
 #include "integration/linkages.h"
 #include "integration/servo.h"
 #include "sensitivity/evaluation.h"
-#include "system/shipped.h"
 
 namespace codesign {
 namespace {
@@ -19,7 +19,7 @@ const char* const kTerminal =
     "terminal: [{signal: slider_pin/reaction_force/x, weight: 1e-4}, {signal: slider_pin/reaction_torque/y, weight: 0.1}]";
 
 /// The spatial slider-crank with friction, its motor's rotor and a reaction in its loop.
-std::shared_ptr<const System> slider_crank(const std::string& objective, const std::string& solver) {
+std::shared_ptr<const CompiledSystem> slider_crank(const std::string& objective, const std::string& solver) {
   const std::string root = source_dir();
   const RobotDescription robot =
       read_urdf(read_source(root + "/urdf/slider_crank.urdf"),
@@ -35,7 +35,7 @@ std::shared_ptr<const System> slider_crank(const std::string& objective, const s
   return make_system(robot, read_study({"study.yaml", study}, robot));
 }
 
-GradientCheck check(const std::shared_ptr<const System>& system, CheckMethod method) {
+GradientCheck check(const std::shared_ptr<const CompiledSystem>& system, CheckMethod method) {
   Eigen::VectorXd rho(static_cast<Eigen::Index>(system->study().tuned.size()));
   for (std::size_t k = 0; k < system->study().tuned.size(); ++k)
     rho[static_cast<Eigen::Index>(k)] = system->study().parameters[static_cast<std::size_t>(system->study().tuned[k])].value;

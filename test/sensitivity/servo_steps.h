@@ -63,7 +63,7 @@ struct ServoSteps {
     return adjoint.adjoint();
   }
 
-  const std::shared_ptr<const System> system = servo("{}");
+  const std::shared_ptr<const CompiledSystem> system = servo("{}");
   const std::vector<double> parameters = system->parameters();
   const RosenbrockTableau& tableau;
   RosenbrockStep<double> step;

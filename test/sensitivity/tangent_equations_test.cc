@@ -34,7 +34,7 @@ class TangentEquationsTest : public ::testing::TestWithParam<bool> {
       EXPECT_LT((actual.col(k) - expected[k].directions()).norm(), 1e-11 * (1.0 + expected[k].directions().norm())) << k;
   }
 
-  const std::shared_ptr<const System> system = servo("{}");
+  const std::shared_ptr<const CompiledSystem> system = servo("{}");
   TangentEquations<4> tangents{*system};
   Equations<Lanes<4>> equations{*system};
   State<double> state;
@@ -80,7 +80,7 @@ TEST_P(TangentEquationsTest, OfTheConstraintsAreOnePerRow) {
 /// In its stop a joint has a branch that is not recorded.
 TEST(TangentEquations, ComeFromTheFormulasWhereNothingWasRecorded) {
   const std::string narrow = "<limit lower='-0.05' upper='0.04' effort='2' velocity='1'/>";
-  const std::shared_ptr<const System> system =
+  const std::shared_ptr<const CompiledSystem> system =
       compile(robot(bar("arm") + "<joint name='hinge' type='revolute'><parent link='ground'/><child link='arm'/><axis xyz='0 1 0'/>" +
                     narrow + "</joint>"),
               motion_study(1.0, "{}", "hinge/velocity", "{}") + "limits: {position: true, stiffness: 20.0, width: 0.01}\n");
@@ -94,7 +94,7 @@ TEST(TangentEquations, ComeFromTheFormulasWhereNothingWasRecorded) {
   tangents.residual(state, y, &actual);
   VectorX<Lanes<4>> G;
   Lanes<4> g;
-  tangents.equations().residual_by_formulas(tangents.lanes(state, y), &G, &g);
+  tangents.equations().formulas().residual(tangents.lanes(state, y), &G, &g);
   for (Eigen::Index k = 0; k < G.size(); ++k) EXPECT_EQ((actual.col(k) - G[k].directions()).norm(), 0.0);
 }
 

@@ -47,7 +47,7 @@ class TangentStepTest : public ::testing::Test {
     return run;
   }
 
-  const std::shared_ptr<const System> system = servo("{integrator: rosenbrock}");
+  const std::shared_ptr<const CompiledSystem> system = servo("{integrator: rosenbrock}");
   RosenbrockStep<double> step;
   TangentStep<4> tangent;
   Assembly assembly;

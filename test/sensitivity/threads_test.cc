@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Several designs at once, each on a thread with a workspace of its own, all with one System.
+// Several designs at once, each on a thread with a workspace of its own, all with one CompiledSystem.
 #include <thread>
 
 #include "sensitivity/gradient_cases.h"
@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kThreads = 4;
 constexpr int kDesigns = 3;  // per thread
 
-std::vector<Evaluation> evaluate(const std::shared_ptr<const System>& system, std::size_t thread) {
+std::vector<Evaluation> evaluate(const std::shared_ptr<const CompiledSystem>& system, std::size_t thread) {
   std::vector<Evaluation> results;
   Evaluator evaluator(system);
   const std::vector<double> parameters = system->parameters();
@@ -24,7 +24,7 @@ std::vector<Evaluation> evaluate(const std::shared_ptr<const System>& system, st
   return results;
 }
 
-void expect_same(const std::shared_ptr<const System>& system) {
+void expect_same(const std::shared_ptr<const CompiledSystem>& system) {
   std::vector<std::vector<Evaluation>> together(kThreads);
   std::vector<std::thread> threads;
   for (std::size_t k = 0; k < kThreads; ++k) threads.emplace_back([&, k] { together[k] = evaluate(system, k); });

@@ -1,0 +1,178 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "assembly/tree_kinematics.h"
+#include "codegen/traced.h"
+
+#include <cmath>
+#include <functional>
+#include <queue>
+#include <utility>
+
+namespace codesign {
+
+int coordinates_of(JointType type) {
+  switch (type) {
+    case JointType::kRevolute:
+    case JointType::kContinuous:
+    case JointType::kPrismatic:
+      return 1;
+    case JointType::kPlanar:
+      return 3;
+    case JointType::kFloating:
+      return 6;
+    default:
+      return 0;
+  }
+}
+
+namespace {
+
+/// Rotation by `angle` about a unit axis (Rodrigues).
+template <class T>
+Matrix3<T> axis_rotation(const Vector3<T>& axis, const T& angle) {
+  using std::cos;
+  using std::sin;
+  const T c = cos(angle), s = sin(angle);
+  Matrix3<T> R = c * Matrix3<T>::Identity() + (T(1.0) - c) * (axis * axis.transpose());
+  Matrix3<T> skew;
+  skew << T(0.0), -axis[2], axis[1], axis[2], T(0.0), -axis[0], -axis[1], axis[0], T(0.0);
+  R += s * skew;
+  return R;
+}
+
+/// Motion of a joint's child frame relative to its frame at zero.
+template <class T>
+struct JointMotion {
+  Pose<T> X;
+  Vector3<T> omega = Vector3<T>::Zero(), velocity = Vector3<T>::Zero();  // in the joint frame
+};
+
+template <class T>
+JointMotion<T> joint_motion(const JointDescription& joint, const std::vector<T>& parameters, const T* theta, const T* rate) {
+  JointMotion<T> m;
+  const auto slide = [&m, theta, rate](const Vector3<T>& axis, int k) {
+    m.X.t += axis * theta[k];
+    m.velocity += axis * rate[k];
+  };
+  const auto turn = [&m, theta, rate](const Vector3<T>& axis, int k) {
+    m.omega += m.X.R * axis * rate[k];
+    m.X.R = m.X.R * axis_rotation(axis, theta[k]);
+  };
+  switch (joint.type) {
+    case JointType::kRevolute:
+    case JointType::kContinuous:
+      turn(axis_at(joint.axis, parameters), 0);
+      break;
+    case JointType::kPrismatic:
+      slide(axis_at(joint.axis, parameters), 0);
+      break;
+    case JointType::kPlanar: {
+      const PlaneAxes<T> plane = plane_axes(joint, parameters);
+      slide(plane.x, 0);
+      slide(plane.y, 1);
+      turn(axis_at(joint.axis, parameters), 2);
+      break;
+    }
+    case JointType::kFloating:
+      for (int k = 0; k < 3; ++k) slide(Vector3<T>(Vector3<T>::Unit(k)), k);
+      for (int k = 0; k < 3; ++k) turn(Vector3<T>(Vector3<T>::Unit(k)), 3 + k);
+      m.X.R = m.X.R * rotation_from_rpy<T>(vector_at(joint.start_rotation, parameters));
+      break;
+    default:
+      break;
+  }
+  return m;
+}
+
+}  // namespace
+
+// As passes over the joints would order them, but a file that lists children before parents does not cost a pass for each.
+TreeLayout::TreeLayout(const RobotDescription& robot) : offset(robot.joints.size(), 0) {
+  std::vector<std::vector<int>> children(robot.links.size());
+  for (std::size_t k = 0; k < robot.joints.size(); ++k)
+    if (!robot.joints[k].is_loop) children[static_cast<std::size_t>(robot.joints[k].parent)].push_back(static_cast<int>(k));
+  // In one pass a joint follows its parent's if it stands behind it in the file, else it waits for the next pass.
+  using Place = std::pair<int, int>;  // pass, joint
+  std::priority_queue<Place, std::vector<Place>, std::greater<>> next;
+  for (int k : children[static_cast<std::size_t>(robot.root)]) next.emplace(0, k);
+  while (!next.empty()) {
+    const auto [pass, joint] = next.top();
+    next.pop();
+    joint_order.push_back(joint);
+    for (int k : children[static_cast<std::size_t>(robot.joints[static_cast<std::size_t>(joint)].child)])
+      next.emplace(k > joint ? pass : pass + 1, k);
+  }
+  for (int k : joint_order) {
+    offset[static_cast<std::size_t>(k)] = size;
+    size += coordinates_of(robot.joints[static_cast<std::size_t>(k)].type);
+  }
+}
+
+template <class T>
+std::vector<LinkMotion<T>> link_motions(const RobotDescription& robot, const TreeLayout& layout, const std::vector<T>& parameters,
+                                        const VectorX<T>& theta, const VectorX<T>& theta_rate) {
+  std::vector<LinkMotion<T>> links(robot.links.size());
+  for (int k : layout.joint_order) {
+    const JointDescription& joint = robot.joints[static_cast<std::size_t>(k)];
+    const LinkMotion<T>& parent = links[static_cast<std::size_t>(joint.parent)];
+    LinkMotion<T>& child = links[static_cast<std::size_t>(joint.child)];
+    const int first = layout.offset[static_cast<std::size_t>(k)];
+    const Pose<T> X_GF = parent.X * pose_at(joint.origin, parameters);
+    const JointMotion<T> m = joint_motion(joint, parameters, theta.data() + first, theta_rate.data() + first);
+    child.X = X_GF * m.X;
+    child.omega = parent.omega + X_GF.R * m.omega;
+    child.velocity = parent.velocity + cross<T>(parent.omega, child.X.t - parent.X.t) + X_GF.R * m.velocity;
+  }
+  return links;
+}
+
+std::vector<CoordinateTwist> coordinate_twists(const RobotDescription& robot, const TreeLayout& layout,
+                                               const std::vector<double>& parameters, const VectorX<double>& theta,
+                                               const std::vector<LinkMotion<double>>& links) {
+  std::vector<CoordinateTwist> twists(static_cast<std::size_t>(layout.size));
+  for (int k : layout.joint_order) {
+    const JointDescription& joint = robot.joints[static_cast<std::size_t>(k)];
+    const int first = layout.offset[static_cast<std::size_t>(k)], count = coordinates_of(joint.type);
+    if (count == 0) continue;
+    const Matrix3<double> R =
+        links[static_cast<std::size_t>(joint.parent)].X.R * rotation_from_rpy<double>(vector_at(joint.origin.rpy, parameters));
+    double unit[6] = {};
+    for (int c = 0; c < count; ++c) {
+      unit[c] = 1.0;
+      const JointMotion<double> m = joint_motion(joint, parameters, theta.data() + first, unit);
+      twists[static_cast<std::size_t>(first + c)] = {R * m.omega, R * m.velocity, links[static_cast<std::size_t>(joint.child)].X.t};
+      unit[c] = 0.0;
+    }
+  }
+  return twists;
+}
+
+template <class T>
+void body_coordinates(const System& system, const Constants<T>& constants, const std::vector<LinkMotion<T>>& links, VectorX<T>* q,
+                      VectorX<T>* v) {
+  const Topology& topology = system.topology();
+  q->resize(system.layout().n);
+  v->resize(system.layout().n);
+  for (std::size_t b = 0; b < topology.bodies.size(); ++b) {
+    const LinkMotion<T>& link = links[static_cast<std::size_t>(topology.bodies[b].base_link)];
+    const auto c = static_cast<Eigen::Index>(kBodySize * b);
+    const Vector3<T> arm = link.X.R * constants.bodies[b].centre;
+    const Vector4<T> p = euler_parameters(link.X.R);
+    q->template segment<3>(c) = link.X.t + arm;
+    q->template segment<4>(c + 3) = p;
+    v->template segment<3>(c) = link.velocity + cross(link.omega, arm);
+    v->template segment<4>(c + 3) = T(0.5) * (ground_rate_matrix(p).transpose() * link.omega);
+  }
+}
+
+#define CODESIGN_INSTANTIATE(T)                                                                                                          \
+  template std::vector<LinkMotion<T>> link_motions(const RobotDescription&, const TreeLayout&, const std::vector<T>&, const VectorX<T>&, \
+                                                   const VectorX<T>&);                                                                   \
+  template void body_coordinates(const System&, const Constants<T>&, const std::vector<LinkMotion<T>>&, VectorX<T>*, VectorX<T>*);
+CODESIGN_INSTANTIATE(double)
+CODESIGN_INSTANTIATE(std::complex<double>)
+CODESIGN_INSTANTIATE(Lanes<4>)
+CODESIGN_INSTANTIATE(Lanes<8>)
+CODESIGN_INSTANTIATE(Traced)
+#undef CODESIGN_INSTANTIATE
+
+}  // namespace codesign

@@ -1,0 +1,18 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_CONTROL_PID_H_
+#define MECHANISM_CODESIGN_CONTROL_PID_H_
+
+namespace codesign {
+
+/// A PID law, theory (C1): u = p e + i s + d e', with the error e, its integral s and its rate e'. The gains are also the derivatives of u
+/// by e, s and e'.
+template <class T>
+struct Pid {
+  T p{0.0}, i{0.0}, d{0.0};
+
+  T output(const T& error, const T& integral, const T& error_rate) const { return p * error + i * integral + d * error_rate; }
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_CONTROL_PID_H_

@@ -1,0 +1,64 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ELEMENTS_BODY_H_
+#define MECHANISM_CODESIGN_ELEMENTS_BODY_H_
+
+#include "elements/rigid_body.h"
+#include "elements/state_view.h"
+#include "elements/workspace.h"
+
+namespace codesign {
+
+// Inertia of one body, the loads that the other elements put on it, and its row |p| = 1; theory (9).
+
+template <class T>
+void body_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_t b, VectorX<T>* G) {
+  const BodyKinematics<T>& k = view.kinematics[b];
+  const int c = kBodySize * static_cast<int>(b), norm = view.layout.lambda_column(view.layout.norm_row(static_cast<int>(b)));
+  Vector3<T> on_r;
+  Vector4<T> on_p;
+  inertia_force(view.design.constants.bodies[b], k, &on_r, &on_p);
+  G->template segment<3>(c) += on_r - view.design.constants.bodies[b].mass * view.design.gravity + workspace->loads[b].force;
+  G->template segment<4>(c + 3) += on_p + rotation_hessian_product(workspace->loads[b].W, k.p) + view.state->z[norm] * k.p;
+  T sum(0.0);
+  for (int e = 0; e < 4; ++e) sum += k.p[e] * k.pdd[e] + k.pd[e] * k.pd[e];
+  (*G)[norm] = sum;
+}
+
+template <class T, class Sink>
+void assemble_body(const StateView<T>& view, Workspace<T>* workspace, std::size_t b, Sink* sink) {
+  const BodyKinematics<T>& k = view.kinematics[b];
+  const int first = kBodySize * static_cast<int>(b), p = first + 3,
+            norm = view.layout.lambda_column(view.layout.norm_row(static_cast<int>(b)));
+  const InertiaGradient<T> inertia = inertia_gradient(view.design.constants.bodies[b], k);
+  Matrix4<T> by_p = inertia.by_p + rotation_hessian(workspace->loads[b].W);
+  for (int e = 0; e < 4; ++e) by_p(e, e) += view.state->z[norm];
+  for (int e = 0; e < 3; ++e) sink->rate(first + e, first + e, view.design.constants.bodies[b].mass);
+  for (int row = 0; row < 4; ++row) {
+    for (int c = 0; c < 4; ++c) {
+      sink->position(p + row, p + c, by_p(row, c));
+      sink->velocity(p + row, p + c, inertia.by_pd(row, c));
+      sink->rate(p + row, p + c, inertia.by_pdd(row, c));
+    }
+    sink->position(norm, p + row, k.pdd[row]);
+    sink->velocity(norm, p + row, T(2.0 * k.pd[row]));
+    sink->rate(norm, p + row, k.p[row]);
+    sink->rate(p + row, norm, k.p[row]);
+  }
+}
+
+/// |p| = 1: Phi = (p^T p - 1) / 2.
+template <class T>
+void norm_error(const StateView<T>& view, int b, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
+  const BodyKinematics<T>& k = view.body(b);
+  T square(0.0), rate(0.0);
+  for (int e = 0; e < 4; ++e) {
+    square += k.p[e] * k.p[e];
+    rate += k.p[e] * k.pd[e];
+  }
+  (*Phi)[view.layout.norm_row(b)] = 0.5 * (square - 1.0);
+  (*Phi_rate)[view.layout.norm_row(b)] = rate;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ELEMENTS_BODY_H_

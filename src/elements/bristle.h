@@ -1,0 +1,111 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ELEMENTS_BRISTLE_H_
+#define MECHANISM_CODESIGN_ELEMENTS_BRISTLE_H_
+
+#include "elements/contact_friction.h"
+#include "elements/gradient_rows.h"
+#include "elements/state_view.h"
+#include "elements/workspace.h"
+
+namespace codesign {
+
+// Rows of the states of friction laws, theory (13e), (13f): sigma - zeta' = 0 for each deflection, then sigma - s_dw' = 0.
+
+template <class T>
+bool slip_moves_r(const StateView<T>& view, int pair, std::size_t k) {
+  return view.design.constants.pairs[static_cast<std::size_t>(pair)].slip.coordinates[k].kind == CoordinateConstants<T>::Kind::kSlide;
+}
+
+// Rows of the states of friction laws, theory (13e), (13f): sigma - zeta' = 0 for each deflection, then sigma - s_dw' = 0.
+template <class T>
+ContactSlip<T> bristle_slip(const StateView<T>& view, const BristleContact& contact, CoordinateDetail detail) {
+  const auto p = static_cast<std::size_t>(contact.pair);
+  const Pair& pair = view.system.topology().pairs[p];
+  if (contact.element < 0) return contact_slip(view.design.constants.pairs[p], view.body(pair.body_i), view.body(pair.body_j), detail);
+  const bool turning =
+      view.design.constants.pairs[p].coordinates[static_cast<std::size_t>(contact.element)].kind == CoordinateConstants<T>::Kind::kTurn;
+  ContactSlip<T> slip;
+  slip.motion[0] = view.coordinate(contact.pair, contact.element, detail);
+  slip.arm[0] = turning ? view.design.constants.pairs[p].friction.pin_radius : T(1.0);
+  slip.u[0] = slip.arm[0] * slip.motion[0].rate;
+  return slip;
+}
+
+// The axes of slides and hinges are carried by body i; a ball's are the ground's, so that its deflections must be turned with its socket.
+template <class T>
+int bristle_carrier(const StateView<T>& view, const BristleContact& contact) {
+  const Pair& pair = view.system.topology().pairs[static_cast<std::size_t>(contact.pair)];
+  return contact.element < 0 && pair.kind == PairKind::kSpherical ? pair.body_i : -1;
+}
+
+template <class T>
+void append_bristle_slip(const StateView<T>& view, const BristleContact& contact, const ContactSlip<T>& slip, const Vector3<T>& by_u,
+                         OptionalGradient<T> gradient) {
+  for (int k = 0; k < contact.size; ++k) {
+    const CoordinateMotion<T>& motion = slip.motion[static_cast<std::size_t>(k)];
+    const T factor = by_u[k] * slip.arm[k];
+    const bool with_r = contact.element < 0 ? slip_moves_r(view, contact.pair, static_cast<std::size_t>(k))
+                                            : view.coordinate_moves_r(contact.pair, contact.element);
+    append_local(view, contact.pair, motion.rate_q, factor, with_r, &gradient->position);
+    append_local(view, contact.pair, motion.J, factor, with_r, &gradient->velocity);
+  }
+}
+
+template <class T>
+void append_bristle_states(const StateView<T>& view, const BristleContact& contact, const Vector3<T>& by_zeta, const T& by_dwell,
+                           OptionalGradient<T> gradient) {
+  for (int k = 0; k < contact.size; ++k) gradient->position.push_back({view.layout.position_column(contact.first + k), by_zeta[k]});
+  if (contact.dwells()) gradient->position.push_back({view.layout.position_column(contact.dwell_state()), by_dwell});
+}
+
+template <class T>
+Vector3<T> bristle_turn(const StateView<T>& view, const BristleContact& contact) {
+  const int carrier = bristle_carrier(view, contact);
+  if (carrier < 0) return Vector3<T>::Zero();
+  const Vector3<T> omega = T(2.0) * (ground_rate_matrix(view.body(carrier).p) * view.body(carrier).pd);
+  return cross<T>(omega, view.state->s.template segment<3>(contact.first));
+}
+
+template <class T>
+void bristle_residual(const StateView<T>& view, const BristleContact& contact, VectorX<T>* G) {
+  const ContactSlip<T> slip = bristle_slip(view, contact, CoordinateDetail::kRate);
+  const Bristle<T> law =
+      bristle_law<T>(contact, slip.u, view.state->s, view.design.constants.pairs[static_cast<std::size_t>(contact.pair)].friction);
+  const Vector3<T> rate = law.rate + bristle_turn(view, contact);
+  const auto set = [&](int s, const T& value) { (*G)[view.layout.state_column(s)] = view.state->z[view.layout.state_column(s)] - value; };
+  for (int k = 0; k < contact.size; ++k) set(contact.first + k, rate[k]);
+  if (contact.dwells()) set(contact.dwell_state(), law.dwell_rate);
+}
+
+template <class T, class Sink>
+void assemble_bristle(const StateView<T>& view, Workspace<T>* workspace, const BristleContact& contact, Sink* sink) {
+  const ContactSlip<T> slip = bristle_slip(view, contact, CoordinateDetail::kGradient);
+  const Bristle<T> law =
+      bristle_law<T>(contact, slip.u, view.state->s, view.design.constants.pairs[static_cast<std::size_t>(contact.pair)].friction);
+  const int carrier = bristle_carrier(view, contact);
+  Matrix3<T> by_zeta = law.rate_zeta, by_omega = Matrix3<T>::Zero();
+  if (carrier >= 0) {
+    const Vector3<T> omega = T(2.0) * (ground_rate_matrix(view.body(carrier).p) * view.body(carrier).pd);
+    const Vector3<T> zeta = view.state->s.template segment<3>(contact.first);
+    for (int k = 0; k < 3; ++k) {
+      by_zeta.col(k) += cross<T>(omega, Vector3<T>::Unit(k));
+      by_omega.col(k) = cross<T>(Vector3<T>::Unit(k), zeta);
+    }
+  }
+  const auto add = [&](int s, const Vector3<T>& by_u, const Vector3<T>& zeta, const T& by_dwell) {
+    const int row = view.layout.state_column(s);
+    workspace->gradient.clear();
+    append_bristle_slip(view, contact, slip, by_u, &workspace->gradient);
+    append_bristle_states(view, contact, zeta, by_dwell, &workspace->gradient);
+    if (carrier >= 0 && s != contact.dwell_state())
+      append_spin(view, carrier, Vector3<T>(by_omega.row(s - contact.first).transpose()), &workspace->gradient);
+    sink->rate(row, row, T(1.0));
+    add_row(row, T(-1.0), workspace->gradient, sink);
+  };
+  for (int k = 0; k < contact.size; ++k) add(contact.first + k, law.rate_u.row(k).transpose(), by_zeta.row(k).transpose(), T(0.0));
+  if (contact.dwells()) add(contact.dwell_state(), law.dwell_u, Vector3<T>(Vector3<T>::Zero()), law.dwell_dwell);
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ELEMENTS_BRISTLE_H_

@@ -1,0 +1,70 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ELEMENTS_CONTACT_H_
+#define MECHANISM_CODESIGN_ELEMENTS_CONTACT_H_
+
+#include "elements/bristle.h"
+#include "elements/contact_friction.h"
+#include "elements/gradient_rows.h"
+#include "elements/load_curvature.h"
+#include "elements/normal_force.h"
+#include "elements/state_view.h"
+#include "elements/workspace.h"
+
+namespace codesign {
+
+// Isotropic friction of tables, planar and spherical joints, theory (13a): the equations get + sum of J_k^T L_k over the slip coordinates.
+
+// Isotropic friction of tables, planar and spherical joints, theory (13a): the equations get + sum of J_k^T L_k over the slip coordinates.
+template <class T>
+ContactFriction<T> contact_at(const StateView<T>& view, int pair, CoordinateDetail detail = CoordinateDetail::kGradient) {
+  const Pair& p = view.system.topology().pairs[static_cast<std::size_t>(pair)];
+  return contact_friction(p.kind, view.design.constants.pairs[static_cast<std::size_t>(pair)], view.body(p.body_i), view.body(p.body_j),
+                          normal_force(view, pair), view.system.bristle(pair, -1), view.state->s, detail);
+}
+
+template <class T>
+void append_slip_rate(const StateView<T>& view, int pair, const ContactFriction<T>& contact, std::size_t k, const T& factor,
+                      OptionalGradient<T> gradient) {
+  append_local(view, pair, contact.motion[k].rate_q, factor, slip_moves_r(view, pair, k), &gradient->position);
+  append_local(view, pair, contact.motion[k].J, factor, slip_moves_r(view, pair, k), &gradient->velocity);
+}
+
+template <class T>
+void append_contact_load(const StateView<T>& view, int pair, const ContactFriction<T>& contact, std::size_t k, const T& factor,
+                         OptionalGradient<T> gradient) {
+  const auto row = static_cast<Eigen::Index>(k);
+  for (std::size_t l = 0; l < contact.size; ++l)
+    append_slip_rate(view, pair, contact, l, T(factor * contact.by_rate(row, static_cast<Eigen::Index>(l))), gradient);
+  append_normal_gradient(view, pair, contact.normal.F, contact.normal.torque, T(factor * contact.by_normal[row]), gradient);
+  if (const BristleContact* bristle = view.system.bristle(pair, -1))
+    append_bristle_states(view, *bristle, Vector3<T>(factor * contact.by_zeta.row(row).transpose()), T(factor * contact.by_dwell[row]),
+                          gradient);
+}
+
+template <class T>
+void contact_residual(const StateView<T>& view, int pair, VectorX<T>* G) {
+  const ContactFriction<T> c = contact_at(view, pair, CoordinateDetail::kRate);
+  for (std::size_t k = 0; k < c.size; ++k)
+    for (int local = 0; local < kLocalSize; ++local)
+      if (const int row = view.column(pair, local); row >= 0) (*G)[row] += c.motion[k].J[local] * c.load[static_cast<Eigen::Index>(k)];
+}
+
+template <class T, class Sink>
+void assemble_contact(const StateView<T>& view, Workspace<T>* workspace, int pair, Sink* sink) {
+  const auto& slip = view.design.constants.pairs[static_cast<std::size_t>(pair)].slip.coordinates;
+  const ContactFriction<T> c = contact_at(view, pair);
+  for (std::size_t k = 0; k < c.size; ++k) {
+    workspace->gradient.clear();
+    append_contact_load(view, pair, c, k, T(1.0), &workspace->gradient);
+    for (int local = 0; local < kLocalSize; ++local) {
+      const int row = view.column(pair, local);
+      if (row >= 0 && (local % kBodySize >= 3 || slip_moves_r(view, pair, k)))
+        add_row(row, c.motion[k].J[local], workspace->gradient, sink);
+    }
+    assemble_load_curvature(view, pair, slip[k], c.load[static_cast<Eigen::Index>(k)], sink);
+  }
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ELEMENTS_CONTACT_H_

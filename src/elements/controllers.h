@@ -1,0 +1,159 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ELEMENTS_CONTROLLERS_H_
+#define MECHANISM_CODESIGN_ELEMENTS_CONTROLLERS_H_
+
+#include "control/pid.h"
+#include "elements/gradient_rows.h"
+#include "elements/state_view.h"
+#include "elements/workspace.h"
+
+namespace codesign {
+
+// The laws of control, theory (C1)-(C8). Their gradients by time are what the setpoints' motion brings in.
+
+// Controllers read signals, and signals read controllers: elements/signals.h.
+template <class T>
+T signal_value(const StateView<T>& view, const Signal& signal, const T& factor, OptionalGradient<T> gradient);
+
+// The laws of control, theory (C1)-(C8). Their gradients by time are what the setpoints' motion brings in.
+template <class T>
+T controller_error(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
+  const auto c = static_cast<std::size_t>(controller);
+  if (!has_error(view.system.controllers()[c].kind)) return T(0.0);
+  const ReferenceMotion<T> setpoint = view.design.controllers[c].setpoint.at(view.state->t);
+  if (gradient) gradient->time += setpoint.rate;
+  return setpoint.value + signal_value(view, view.system.controllers()[c].input, T(-1.0), gradient);
+}
+
+template <class T>
+T controller_error_rate(const StateView<T>& view, int controller, const T& factor, OptionalGradient<T> gradient) {
+  const auto c = static_cast<std::size_t>(controller);
+  const ReferenceMotion<T> setpoint = view.design.controllers[c].setpoint.at(view.state->t);
+  if (gradient) gradient->time += factor * setpoint.acceleration;
+  return factor * setpoint.rate + signal_value(view, view.system.controllers()[c].input_rate, T(-factor), gradient);
+}
+
+template <class T>
+T pid_output(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
+  const Controller& resolved = view.system.controllers()[static_cast<std::size_t>(controller)];
+  const Pid<T>& law = view.design.controllers[static_cast<std::size_t>(controller)].pid;
+  auto before = mark(gradient);
+  const T error = controller_error(view, controller, gradient);
+  if (gradient) gradient->scale_from(before, law.p);
+  T integral(0.0), error_rate(0.0);
+  if (resolved.state >= 0) {
+    integral = view.state->s[resolved.state];
+    if (gradient) gradient->position.push_back({view.layout.position_column(resolved.state), law.i});
+  }
+  if (!resolved.input_rate.empty()) {
+    before = mark(gradient);
+    error_rate = controller_error_rate(view, controller, T(1.0), gradient);
+    if (gradient) gradient->scale_from(before, law.d);
+  }
+  return law.output(error, integral, error_rate);
+}
+
+template <class T>
+T inverse_dynamics_load(const StateView<T>& view, int controller, const T* accelerations, OptionalGradient<T> gradient) {
+  const auto c = static_cast<std::size_t>(controller);
+  const T load = view.control.inverse_dynamics[c].load(view.design.constants, view.kinematics, view.design.gravity, accelerations,
+                                                       view.control.rates.data());
+  if (gradient)
+    view.control.inverse_dynamics[c].append_gradient(T(1.0), gradient, view.control.by_acceleration.data(), view.control.by_rate.data());
+  return load;
+}
+
+template <class T>
+T wanted_acceleration(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
+  const ReferenceMotion<T> setpoint = view.design.controllers[static_cast<std::size_t>(controller)].setpoint.at(view.state->t);
+  if (gradient) gradient->time += setpoint.jerk;
+  return setpoint.acceleration + pid_output(view, controller, gradient);
+}
+
+// All controllers of this kind are one law: each joint gets what the tree needs to follow the accelerations that they ask for together.
+template <class T>
+T computed_torque(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
+  const std::vector<DrivenTree::Node>& nodes = view.system.controllers()[static_cast<std::size_t>(controller)].tree.nodes;
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    view.control.accelerations[k] = nodes[k].controller < 0 ? T(0.0) : wanted_acceleration(view, nodes[k].controller, nullptr);
+  const CoordinateDetail detail = gradient ? CoordinateDetail::kGradient : CoordinateDetail::kRate;
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    if (nodes[k].rotor) view.control.rates[k] = view.coordinate(nodes[k].pair, 0, detail).rate;
+  const T load = inverse_dynamics_load(view, controller, view.control.accelerations.data(), gradient);
+  for (std::size_t k = 0; gradient && k < nodes.size(); ++k) {
+    if (nodes[k].controller < 0) continue;
+    const auto before = mark(gradient);
+    wanted_acceleration(view, nodes[k].controller, gradient);
+    gradient->scale_from(before, view.control.by_acceleration[k]);
+  }
+  for (std::size_t k = 0; gradient && k < nodes.size(); ++k)
+    if (nodes[k].rotor) append_rate(view, nodes[k].pair, 0, view.coordinate(nodes[k].pair, 0, detail), view.control.by_rate[k], gradient);
+  return load;
+}
+
+template <class T>
+T state_feedback(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
+  const auto c = static_cast<std::size_t>(controller);
+  const ControllerConstants<T>& k = view.design.controllers[c];
+  const ReferenceMotion<T> feedforward = k.feedforward.at(view.state->t);
+  T output = feedforward.value;
+  if (gradient) gradient->time += feedforward.rate;
+  for (std::size_t term = 0; term < k.gains.size(); ++term) {
+    const ReferenceMotion<T> reference = k.references[term].at(view.state->t);
+    output +=
+        k.gains[term] * reference.value + signal_value(view, view.system.controllers()[c].feedback[term], T(-k.gains[term]), gradient);
+    if (gradient) gradient->time += k.gains[term] * reference.rate;
+  }
+  return output;
+}
+
+template <class T>
+T shaped_input(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
+  const ReferenceMotion<T> input = view.design.controllers[static_cast<std::size_t>(controller)].shape.at(view.state->t);
+  if (gradient) gradient->time += input.rate;
+  return input.value;
+}
+
+template <class T>
+T controller_output(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
+  switch (view.system.controllers()[static_cast<std::size_t>(controller)].kind) {
+    case ControllerKind::kPid:
+      return pid_output(view, controller, gradient);
+    case ControllerKind::kPdGravity: {
+      // In this order for every scalar, as the gradient's entries are found again by it.
+      const T feedback = pid_output(view, controller, gradient);
+      return feedback + inverse_dynamics_load(view, controller, static_cast<const T*>(nullptr), gradient);
+    }
+    case ControllerKind::kComputedTorque:
+      return computed_torque(view, controller, gradient);
+    case ControllerKind::kStateFeedback:
+      return state_feedback(view, controller, gradient);
+    case ControllerKind::kBasis:
+      break;
+  }
+  return shaped_input(view, controller, gradient);
+}
+
+/// Row of a controller's integral, sigma - e = 0.
+template <class T>
+void controller_residual(const StateView<T>& view, std::size_t c, VectorX<T>* G) {
+  const int s = view.system.controllers()[c].state;
+  if (s < 0) return;
+  const int row = view.layout.state_column(s);
+  (*G)[row] = view.state->z[row] - controller_error(view, static_cast<int>(c), nullptr);
+}
+
+template <class T, class Sink>
+void assemble_controller(const StateView<T>& view, Workspace<T>* workspace, std::size_t c, Sink* sink) {
+  const int s = view.system.controllers()[c].state;
+  if (s < 0) return;
+  const int row = view.layout.state_column(s);
+  sink->rate(row, row, T(1.0));
+  workspace->gradient.clear();
+  controller_error(view, static_cast<int>(c), &workspace->gradient);
+  add_row(row, T(-1.0), workspace->gradient, sink);
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ELEMENTS_CONTROLLERS_H_

@@ -1,0 +1,47 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ELEMENTS_JOINT_FRICTION_H_
+#define MECHANISM_CODESIGN_ELEMENTS_JOINT_FRICTION_H_
+
+#include "elements/bristle.h"
+#include "elements/friction_state.h"
+#include "elements/gradient_rows.h"
+#include "elements/normal_force.h"
+#include "elements/state_view.h"
+#include "forces/brown_mcphee.h"
+
+namespace codesign {
+
+template <class T>
+T reaction_friction(const StateView<T>& view, int pair, int element, const CoordinateMotion<T>& motion, OptionalGradient<T> gradient,
+                    std::common_type_t<FrictionState<T>*> state) {
+  const auto p = static_cast<std::size_t>(pair);
+  const FrictionConstants<T>& c = view.design.constants.pairs[p].friction;
+  const bool turning =
+      view.design.constants.pairs[p].coordinates[static_cast<std::size_t>(element)].kind == CoordinateConstants<T>::Kind::kTurn;
+  const NormalForce<T> N = normal_force(view, pair);
+  const T radius = turning ? c.pin_radius : T(1.0);
+  const BristleContact* const bristle = view.system.bristle(pair, element);
+  Bristle<T> law;
+  FrictionCoefficient<T> S;
+  if (bristle) {
+    law = bristle_law<T>(*bristle, Vector3<T>(radius * motion.rate, T(0.0), T(0.0)), view.state->s, c);
+    S = {law.mu[0], law.mu_u(0, 0)};
+  } else {
+    S = brown_mcphee<T>(radius * motion.rate, c.mu_static, c.mu_dynamic, c.transition_velocity);
+  }
+  if (state) *state = {motion.rate, N.value, T(radius * S.value * N.value + c.viscous * motion.rate)};
+  if (gradient) {
+    const T slope = radius * radius * S.slope * N.value + c.viscous;
+    append_rate(view, pair, element, motion, slope, gradient);
+    append_normal_gradient(view, pair, N.F, N.torque, T(radius * S.value), gradient);
+    const T per_coefficient = radius * N.value;
+    if (bristle)
+      append_bristle_states(view, *bristle, Vector3<T>(per_coefficient * law.mu_zeta.row(0).transpose()),
+                            T(per_coefficient * law.mu_dwell[0]), gradient);
+  }
+  return radius * S.value * N.value + c.viscous * motion.rate;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ELEMENTS_JOINT_FRICTION_H_

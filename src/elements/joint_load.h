@@ -1,0 +1,126 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ELEMENTS_JOINT_LOAD_H_
+#define MECHANISM_CODESIGN_ELEMENTS_JOINT_LOAD_H_
+
+#include "elements/controllers.h"
+#include "elements/gradient_rows.h"
+#include "elements/joint_friction.h"
+#include "elements/joint_stop_load.h"
+#include "elements/load_curvature.h"
+#include "elements/state_view.h"
+#include "elements/workspace.h"
+#include "forces/brown_mcphee.h"
+#include "forces/saturation.h"
+
+namespace codesign {
+
+// Loads along joint coordinates. A load L opposes the coordinate, so the equations get + J^T L; a controller's output counts as -L.
+
+template <class T>
+T constant_effort(const StateView<T>& view, const JointLoad& load) {
+  T sum(0.0);
+  for (int k : load.constant) sum += view.design.efforts[static_cast<std::size_t>(k)];
+  return sum;
+}
+
+template <class T>
+T passive_load(const StateView<T>& view, int pair, int element, const JointLoad& load, const CoordinateMotion<T>& motion,
+               OptionalGradient<T> gradient) {
+  constexpr double kDryTransitionVelocity = 1e-2;  // [m/s or rad/s]: URDF gives none
+  const JointDynamicsConstants<T>& d =
+      view.design.constants.pairs[static_cast<std::size_t>(pair)].dynamics[static_cast<std::size_t>(element)];
+  T value(0.0), slope(0.0);
+  if (load.passive) {
+    slope = d.damping + d.spring_damping;
+    value = slope * motion.rate;
+    if (load.spring) value += d.stiffness * (view.coordinate_value(pair, element) - d.free_position);
+  }
+  if (load.constant_friction) {
+    const FrictionCoefficient<T> S = brown_mcphee<T>(motion.rate, T(1.0), T(1.0), T(kDryTransitionVelocity));
+    value += d.dry_friction * S.value;
+    slope += d.dry_friction * S.slope;
+  }
+  if (gradient) {
+    append_rate(view, pair, element, motion, slope, gradient);
+    if (load.spring) append_local(view, pair, motion.position_q, d.stiffness, view.coordinate_moves_r(pair, element), &gradient->position);
+  }
+  return value;
+}
+
+// URDF's `<limit>` where the study enforces it, theory (13c), (13d).
+template <class T>
+T applied_effort(const StateView<T>& view, const JointLoad& load, OptionalGradient<T> gradient) {
+  const auto before = mark(gradient);
+  T demand(0.0);
+  for (int controller : load.controllers) demand += controller_output(view, controller, gradient);
+  if (!load.saturated) return demand;
+  const T& limit = view.design.constants.pairs[static_cast<std::size_t>(load.pair)].dynamics[static_cast<std::size_t>(load.element)].effort;
+  const SaturatedEffort<T> applied = saturate(demand, limit);
+  if (gradient) gradient->scale_from(before, applied.slope);
+  return applied.value;
+}
+
+template <class T>
+T joint_load(const StateView<T>& view, const JointLoad& load, const CoordinateMotion<T>& motion, OptionalGradient<T> gradient) {
+  T value(0.0);
+  if (load.reaction_friction) value += reaction_friction(view, load.pair, load.element, motion, gradient, nullptr);
+  if (load.passive || load.constant_friction) value += passive_load(view, load.pair, load.element, load, motion, gradient);
+  if (load.stop) value += stop_load(view, load, motion, view.system.study().limits.dissipation, gradient);
+  if (!load.constant.empty()) value -= constant_effort(view, load);
+  if (load.controllers.empty()) return value;
+  const auto before = mark(gradient);
+  value -= applied_effort(view, load, gradient);
+  if (gradient) gradient->scale_from(before, T(-1.0));
+  return value;
+}
+
+template <class T>
+void load_residual(const StateView<T>& view, const JointLoad& load, VectorX<T>* G) {
+  const CoordinateMotion<T>& motion = view.coordinate(load.pair, load.element, CoordinateDetail::kRate);
+  const T value = joint_load(view, load, motion, nullptr);
+  for (int local = 0; local < kLocalSize; ++local)
+    if (const int c = view.column(load.pair, local); c >= 0) (*G)[c] += motion.J[local] * value;
+}
+
+template <class T, class Sink>
+void assemble_load(const StateView<T>& view, Workspace<T>* workspace, const JointLoad& load, Sink* sink) {
+  const CoordinateMotion<T>& motion =
+      view.coordinate(load.pair, load.element, load.needs_position() ? CoordinateDetail::kAll : CoordinateDetail::kGradient);
+  workspace->gradient.clear();
+  const T value = joint_load(view, load, motion, &workspace->gradient);
+  const bool with_r = view.coordinate_moves_r(load.pair, load.element);
+  for (int local = 0; local < kLocalSize; ++local) {
+    const int row = view.column(load.pair, local);
+    if (row >= 0 && (local % kBodySize >= 3 || with_r)) add_row(row, motion.J[local], workspace->gradient, sink);
+  }
+  assemble_load_curvature(view, load.pair, view.coordinate_constants(load.pair, load.element), value, sink);
+}
+
+template <class T>
+FrictionState<T> joint_friction(const StateView<T>& view, int pair, int element) {
+  const CoordinateMotion<T>& motion = view.coordinate(pair, element);
+  FrictionState<T> state;
+  for (const JointLoad& load : view.system.loads()) {
+    if (load.pair != pair || load.element != element) continue;
+    state.velocity = motion.rate;
+    if (load.reaction_friction) reaction_friction(view, pair, element, motion, nullptr, &state);
+    if (load.constant_friction) {
+      JointLoad dry = load;
+      dry.passive = dry.spring = false;
+      state.load += passive_load(view, pair, element, dry, motion, nullptr);
+    }
+  }
+  return state;
+}
+
+template <class T>
+T joint_effort(const StateView<T>& view, int pair, int element) {
+  T sum(0.0);
+  for (const JointLoad& load : view.system.loads())
+    if (load.pair == pair && load.element == element) sum += applied_effort(view, load, nullptr);
+  return sum;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ELEMENTS_JOINT_LOAD_H_

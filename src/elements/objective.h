@@ -1,0 +1,35 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ELEMENTS_OBJECTIVE_H_
+#define MECHANISM_CODESIGN_ELEMENTS_OBJECTIVE_H_
+
+#include "elements/signals.h"
+
+namespace codesign {
+
+/// The sum of weight (signal - reference)^2 over some terms of the objective. Its gradient is appended if asked for.
+template <class T>
+T objective_terms(const StateView<T>& view, const std::vector<ResolvedTerm>& terms, const ObjectiveNumbers<T>& numbers,
+                  OptionalGradient<T> gradient) {
+  T sum(0.0);
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    const auto before = mark(gradient);
+    const ReferenceMotion<T> reference = numbers.references[k].at(view.state->t);
+    const T error = signal_value(view, terms[k].signal, T(1.0), gradient) - reference.value;
+    if (gradient) gradient->time -= reference.rate;
+    sum += numbers.weights[k] * error * error;
+    if (gradient) gradient->scale_from(before, T(2.0 * numbers.weights[k] * error));
+  }
+  return sum;
+}
+
+/// Assembles the gradient of the integrand g, the row below the equations.
+template <class T, class Sink>
+void assemble_objective(const StateView<T>& view, Workspace<T>* workspace, Sink* sink) {
+  workspace->gradient.clear();
+  objective_terms(view, view.system.integral(), view.design.integral, &workspace->gradient);
+  add_row(view.layout.columns(), T(1.0), workspace->gradient, sink);
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ELEMENTS_OBJECTIVE_H_

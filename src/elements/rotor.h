@@ -1,0 +1,123 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ELEMENTS_ROTOR_H_
+#define MECHANISM_CODESIGN_ELEMENTS_ROTOR_H_
+
+#include "elements/gradient_rows.h"
+#include "elements/load_curvature.h"
+#include "elements/state_view.h"
+#include "elements/workspace.h"
+
+namespace codesign {
+
+// Rotors of actuators, theory (9a): what their spin adds to the inertia of the bodies that carry them.
+
+/// How a rotor's carrier moves about the rotor's axis u; theory (9a).
+template <class T>
+struct RotorMotion {
+  Vector3<T> axis;                                 ///< u, in the carrier's axes
+  T ratio{1.0}, coupling{0.0};                     ///< n, n J_r
+  T carrier_rate{0.0}, carrier_acceleration{0.0};  ///< omega . u and omega' . u of the carrier
+  Vector3<T> swing = Vector3<T>::Zero();           ///< omega x u, in the carrier's axes
+};
+
+// Rotors of actuators, theory (9a): what their spin adds to the inertia of the bodies that carry them.
+template <class T>
+RotorMotion<T> rotor_motion(const StateView<T>& view, const Rotor& rotor) {
+  const JointDynamicsConstants<T>& d =
+      view.design.constants.pairs[static_cast<std::size_t>(rotor.pair)].dynamics[static_cast<std::size_t>(rotor.element)];
+  const BodyKinematics<T>& carrier = view.body(rotor.body);
+  RotorMotion<T> m;
+  m.axis = d.rotor_axis;
+  m.ratio = d.gear_ratio;
+  m.coupling = d.gear_ratio * d.rotor_inertia;
+  if (carrier.at_rest) return m;
+  m.carrier_rate = T(2.0) * dot<T>(m.axis, body_rate(carrier.p, carrier.pd));
+  m.carrier_acceleration = T(2.0) * dot<T>(m.axis, body_rate(carrier.p, carrier.pdd));
+  m.swing = T(2.0) * cross<T>(body_rate(carrier.p, carrier.pd), m.axis);
+  return m;
+}
+
+template <class T>
+T rotor_energy(const StateView<T>& view, const Rotor& rotor, OptionalGradient<T> gradient) {
+  const RotorMotion<T> m = rotor_motion(view, rotor);
+  const CoordinateMotion<T>& joint =
+      view.coordinate(rotor.pair, rotor.element, gradient ? CoordinateDetail::kGradient : CoordinateDetail::kRate);
+  if (gradient) {
+    append_rate(view, rotor.pair, rotor.element, joint, m.coupling * (m.ratio * joint.rate + m.carrier_rate), gradient);
+    if (rotor.body >= 0) append_body_rate(view, rotor.body, m.axis, m.coupling * joint.rate, gradient);
+  }
+  return m.coupling * joint.rate * (T(0.5) * m.ratio * joint.rate + m.carrier_rate);
+}
+
+template <class T>
+T rotor_load(const StateView<T>& view, const Rotor& rotor, OptionalGradient<T> gradient) {
+  const RotorMotion<T> m = rotor_motion(view, rotor);
+  const CoordinateMotion<T>& joint = view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kGradient);
+  if (gradient) append_acceleration(view, rotor.pair, rotor.element, joint, m.coupling * m.ratio, gradient);
+  if (gradient && rotor.body >= 0) {
+    const BodyKinematics<T>& carrier = view.body(rotor.body);
+    const Vector3<T> axis = (T(2.0) * m.coupling) * m.axis;
+    const Vector4<T> by_pdd = body_rate_transposed(carrier.p, axis), by_p = -body_rate_transposed(carrier.pdd, axis);
+    for (int e = 0; e < 4; ++e) {
+      gradient->rate.push_back({kBodySize * rotor.body + 3 + e, by_pdd[e]});
+      gradient->position.push_back({kBodySize * rotor.body + 3 + e, by_p[e]});
+    }
+  }
+  return m.coupling * (m.ratio * joint.acceleration + m.carrier_acceleration);
+}
+
+template <class T>
+void rotor_residual(const StateView<T>& view, const Rotor& rotor, VectorX<T>* G) {
+  const RotorMotion<T> m = rotor_motion(view, rotor);
+  const CoordinateMotion<T>& joint = view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kGradient);
+  const T load = rotor_load(view, rotor, nullptr);
+  for (int local = 0; local < kLocalSize; ++local)
+    if (const int c = view.column(rotor.pair, local); c >= 0) (*G)[c] += joint.J[local] * load;
+  if (rotor.body < 0) return;
+  const Vector3<T> moment = m.coupling * (joint.acceleration * m.axis + joint.rate * m.swing);
+  G->template segment<4>(kBodySize * rotor.body + 3) += T(2.0) * body_rate_transposed(view.body(rotor.body).p, moment);
+}
+
+// The moment on the carrier, coupling (theta'' u + theta' omega' x u) in its axes, on the rows 2 G^T.
+template <class T, class Sink>
+void assemble_rotor_moment(const StateView<T>& view, Workspace<T>* workspace, const Rotor& rotor, const RotorMotion<T>& m, Sink* sink) {
+  const BodyKinematics<T>& carrier = view.body(rotor.body);
+  const CoordinateMotion<T>& joint = view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kGradient);
+  const Matrix34<T> G = body_rate_matrix(carrier.p), Gd = body_rate_matrix(carrier.pd);
+  const int p = kBodySize * rotor.body + 3;
+  for (int k = 0; k < 3; ++k) {
+    workspace->gradient.clear();
+    append_acceleration(view, rotor.pair, rotor.element, joint, m.coupling * m.axis[k], &workspace->gradient);
+    append_rate(view, rotor.pair, rotor.element, joint, m.coupling * m.swing[k], &workspace->gradient);
+    // swing = -2 u x G p', and G(p) p' = -G(p') p.
+    const Vector3<T> across = (T(2.0) * m.coupling * joint.rate) * cross<T>(Vector3<T>(Vector3<T>::Unit(k)), m.axis);
+    for (int e = 0; e < 4; ++e) {
+      workspace->gradient.velocity.push_back({p + e, T(-dot<T>(across, G.col(e)))});
+      workspace->gradient.position.push_back({p + e, dot<T>(across, Gd.col(e))});
+    }
+    for (int e = 0; e < 4; ++e) add_row(p + e, T(2.0 * G(k, e)), workspace->gradient, sink);
+  }
+  const Vector3<T> moment = m.coupling * (joint.acceleration * m.axis + joint.rate * m.swing);
+  const Matrix4<T> Y = body_rate_hessian<T>(T(2.0) * moment);
+  for (int row = 0; row < 4; ++row)
+    for (int e = 0; e < 4; ++e) sink->position(p + row, p + e, Y(row, e));
+}
+
+template <class T, class Sink>
+void assemble_rotor(const StateView<T>& view, Workspace<T>* workspace, const Rotor& rotor, Sink* sink) {
+  const RotorMotion<T> m = rotor_motion(view, rotor);
+  const CoordinateMotion<T>& joint = view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kGradient);
+  const bool with_r = view.coordinate_moves_r(rotor.pair, rotor.element);
+  workspace->gradient.clear();
+  const T load = rotor_load(view, rotor, &workspace->gradient);
+  for (int local = 0; local < kLocalSize; ++local) {
+    const int row = view.column(rotor.pair, local);
+    if (row >= 0 && (local % kBodySize >= 3 || with_r)) add_row(row, joint.J[local], workspace->gradient, sink);
+  }
+  assemble_load_curvature(view, rotor.pair, view.coordinate_constants(rotor.pair, rotor.element), load, sink);
+  if (rotor.body >= 0) assemble_rotor_moment(view, workspace, rotor, m, sink);
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ELEMENTS_ROTOR_H_

@@ -1,0 +1,93 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ELEMENTS_SPRING_H_
+#define MECHANISM_CODESIGN_ELEMENTS_SPRING_H_
+
+#include <array>
+
+#include "elements/spring_end.h"
+#include "elements/state_view.h"
+#include "elements/workspace.h"
+#include "forces/spring_damper.h"
+
+namespace codesign {
+
+// Spring-dampers between two points, theory (13b). Their pull enters as the load of a multiplier does, theory (7), so that it must be added
+// before the bodies are assembled.
+
+// Spring-dampers between two points, theory (13b). Their pull enters as the load of a multiplier does, theory (7), so that it must be added
+// before the bodies are assembled.
+template <class T>
+SpringForce<T> spring_at(const StateView<T>& view, std::size_t k) {
+  const SpringDamperConstants<T>& c = view.design.constants.springs[k];
+  const VectorMotion<T> d = displacement_motion(view.body(c.body_i), c.s_i, view.body(c.body_j), c.s_j);
+  return spring_damper<T>(d.x, d.xd, c.stiffness, c.damping, c.free_length);
+}
+
+template <class T>
+void add_spring_load(const StateView<T>& view, Workspace<T>* workspace, std::size_t k, const SpringForce<T>& force) {
+  const SpringDamperConstants<T>& c = view.design.constants.springs[k];
+  add_vector_load(PairVector<T>::displacement(c.s_i, c.s_j), force.pull, workspace->load_on(c.body_i), workspace->load_on(c.body_j));
+}
+
+template <class T>
+std::array<internal::SpringEnd<T>, 2> spring_ends(const StateView<T>& view, std::size_t k) {
+  const SpringDamperConstants<T>& c = view.design.constants.springs[k];
+  return {internal::SpringEnd<T>{c.body_i, view.body(c.body_i), c.s_i, T(-1.0)}, {c.body_j, view.body(c.body_j), c.s_j, T(1.0)}};
+}
+
+template <class T, class Sink>
+void assemble_spring(const StateView<T>& view, Workspace<T>* workspace, std::size_t k, Sink* sink) {
+  const Quantity& damping = view.system.robot().spring_dampers[k].damping;
+  const bool damped = !damping.is_constant() || damping.nominal() != 0.0;
+  const SpringForce<T> force = spring_at(view, k);
+  add_spring_load(view, workspace, k, force);
+  const std::array<internal::SpringEnd<T>, 2> ends = spring_ends(view, k);
+  for (const internal::SpringEnd<T>& on : ends) {
+    for (const internal::SpringEnd<T>& by : ends) {
+      if (on.column < 0 || by.column < 0) continue;
+      const Eigen::Matrix<T, 3, kBodySize> pull_q = force.by_d * by.D + force.by_rate * by.Dd, pull_v = force.by_rate * by.D;
+      for (int row = 0; row < kBodySize; ++row) {
+        for (int column = 0; column < kBodySize; ++column) {
+          sink->position(on.column + row, by.column + column, dot<T>(on.D.col(row), pull_q.col(column)));
+          if (damped) sink->velocity(on.column + row, by.column + column, dot<T>(on.D.col(row), pull_v.col(column)));
+        }
+      }
+    }
+  }
+}
+
+template <class T>
+T spring_energy_at(const StateView<T>& view, std::size_t k, OptionalGradient<T> gradient) {
+  const SpringDamperConstants<T>& c = view.design.constants.springs[k];
+  const Vector3<T> d = displacement_motion(view.body(c.body_i), c.s_i, view.body(c.body_j), c.s_j).x;
+  if (gradient) {
+    const Vector3<T> pull = spring_damper<T>(d, Vector3<T>::Zero(), c.stiffness, T(0.0), c.free_length).pull;
+    for (const internal::SpringEnd<T>& end : spring_ends(view, k)) end.append(end.D, pull, &gradient->position);
+  }
+  return codesign::spring_energy<T>(d, c.stiffness, c.free_length);
+}
+
+// The damper alone: c l' against l'.
+template <class T>
+T spring_power(const StateView<T>& view, std::size_t k, OptionalGradient<T> gradient) {
+  using std::sqrt;
+  const SpringDamperConstants<T>& c = view.design.constants.springs[k];
+  const VectorMotion<T> d = displacement_motion(view.body(c.body_i), c.s_i, view.body(c.body_j), c.s_j);
+  const T inverse = T(1.0) / sqrt(dot<T>(d.x, d.x) + T(kSpringSmoothing * kSpringSmoothing));
+  const Vector3<T> e = inverse * d.x;
+  const T rate = dot<T>(e, d.xd);
+  if (gradient) {
+    const T factor = T(-2.0) * c.damping * rate;
+    const Vector3<T> by_d = (factor * inverse) * (d.xd - rate * e), by_rate = factor * e;
+    for (const internal::SpringEnd<T>& end : spring_ends(view, k)) {
+      end.append(end.D, by_d, &gradient->position);
+      end.append(end.Dd, by_rate, &gradient->position);
+      end.append(end.D, by_rate, &gradient->velocity);
+    }
+  }
+  return -c.damping * rate * rate;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ELEMENTS_SPRING_H_

@@ -1,0 +1,16 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_EQUATIONS_EQUATION_FUNCTION_H_
+#define MECHANISM_CODESIGN_EQUATIONS_EQUATION_FUNCTION_H_
+
+namespace codesign {
+
+/// The functions of the equations that are compiled, with the arrays of their results.
+enum class EquationFunction {
+  kResidual,         ///< G, g
+  kLinearization,    ///< G_q, G_v, G_z, G_t
+  kConstraintErrors  ///< Phi, Phi_q v
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_EQUATIONS_EQUATION_FUNCTION_H_

@@ -1,9 +1,0 @@
-// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "codegen/traced.h"
-#include "equations/equations_scalar.h"
-
-namespace codesign {
-
-CODESIGN_INSTANTIATE_EQUATIONS(Traced)
-
-}  // namespace codesign

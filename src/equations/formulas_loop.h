@@ -1,0 +1,105 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_EQUATIONS_FORMULAS_LOOP_H_
+#define MECHANISM_CODESIGN_EQUATIONS_FORMULAS_LOOP_H_
+
+#include "elements/body.h"
+#include "elements/coupling.h"
+#include "elements/objective.h"
+#include "elements/pair.h"
+#include "elements/sharing_derivatives.h"
+#include "equations/formulas.h"
+
+namespace codesign {
+
+// The loop over the elements. Pairs, springs and link loads come before the bodies, which turn the loads that these add into rows.
+
+template <class T>
+Formulas<T>::Formulas(const System& system) : view_(system), workspace_(system) {
+  constraint_state_.resize(system.layout());
+}
+
+template <class T>
+void Formulas<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
+  load(state);
+  const StateView<T>& view = view_;
+  const System& system = view.system;
+  G->setZero(view.layout.columns());
+  workspace_.clear_loads();
+  for (std::size_t k = 0; k < view.design.rows.size(); ++k) pair_residual(view, &workspace_, k, G);
+  for (std::size_t k = 0; k < view.design.constants.springs.size(); ++k) add_spring_load(view, &workspace_, k, spring_at(view, k));
+  for (std::size_t k = 0; k < view.design.wrenches.size(); ++k) add_link_load(view, &workspace_, k);
+  for (int b = 0; b < view.layout.bodies; ++b) body_residual(view, &workspace_, static_cast<std::size_t>(b), G);
+  for (std::size_t k = 0; k < view.design.wrenches.size(); ++k) link_load_residual(view, k, G);
+  for (const Rotor& rotor : system.rotors()) rotor_residual(view, rotor, G);
+  for (std::size_t k = 0; k < view.design.constants.couplings.size(); ++k) coupling_residual(view, k, G);
+  for (const JointLoad& load : system.loads()) load_residual(view, load, G);
+  for (int pair : system.contacts()) contact_residual(view, pair, G);
+  for (const BristleContact& contact : system.bristles()) bristle_residual(view, contact, G);
+  for (std::size_t c = 0; c < system.controllers().size(); ++c) controller_residual(view, c, G);
+  if (system.sharing().drops()) sharing_residual(view, &workspace_, G);
+  *g = objective_terms(view, system.integral(), view.design.integral, nullptr);
+}
+
+template <class T>
+template <class Sink>
+void Formulas<T>::assemble(Sink* sink) {
+  const StateView<T>& view = view_;
+  const System& system = view.system;
+  workspace_.clear_loads();
+  for (std::size_t k = 0; k < view.design.rows.size(); ++k) assemble_pair(view, &workspace_, k, sink);
+  for (std::size_t k = 0; k < view.design.constants.springs.size(); ++k) assemble_spring(view, &workspace_, k, sink);
+  for (std::size_t k = 0; k < view.design.wrenches.size(); ++k) add_link_load(view, &workspace_, k);
+  for (int b = 0; b < view.layout.bodies; ++b) assemble_body(view, &workspace_, static_cast<std::size_t>(b), sink);
+  for (std::size_t k = 0; k < view.design.wrenches.size(); ++k) assemble_link_load(view, k, sink);
+  for (const Rotor& rotor : system.rotors()) assemble_rotor(view, &workspace_, rotor, sink);
+  for (std::size_t k = 0; k < view.design.constants.couplings.size(); ++k) assemble_coupling(view, k, sink);
+  for (const JointLoad& load : system.loads()) assemble_load(view, &workspace_, load, sink);
+  for (int pair : system.contacts()) assemble_contact(view, &workspace_, pair, sink);
+  for (const BristleContact& contact : system.bristles()) assemble_bristle(view, &workspace_, contact, sink);
+  for (std::size_t c = 0; c < system.controllers().size(); ++c) assemble_controller(view, &workspace_, c, sink);
+  if (system.sharing().drops()) assemble_sharing(view, &workspace_, sink);
+  assemble_objective(view, &workspace_, sink);
+}
+
+template <class T>
+void Formulas<T>::linearize(const State<T>& state, const AssemblyPlan& plan, Linearization<T>* derivatives) {
+  load(state);
+  AssemblySink<T> sink(plan, derivatives);
+  assemble(&sink);
+}
+
+template <class T>
+void Formulas<T>::constraint_errors(const VectorX<T>& q, const VectorX<T>& v, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
+  constraint_state_.q = q;
+  constraint_state_.v = v;
+  load(constraint_state_);
+  const Layout& layout = view_.layout;
+  Phi->setZero(layout.m);
+  Phi_rate->setZero(layout.m);
+  for (std::size_t k = 0; k < view_.design.rows.size(); ++k) {
+    const Pair& pair = view_.system.topology().pairs[k];
+    const int row = layout.pair_row[k];
+    pair_errors(static_cast<int>(k), body(pair.body_i), body(pair.body_j), Phi->data() + row, Phi_rate->data() + row);
+  }
+  for (std::size_t k = 0; k < view_.design.constants.couplings.size(); ++k) coupling_error(view_, k, Phi, Phi_rate);
+  for (int b = 0; b < layout.bodies; ++b) norm_error(view_, b, Phi, Phi_rate);
+  view_.state = nullptr;
+}
+
+template <class T>
+void Formulas<T>::pair_errors(int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, T* errors, T* rates) const {
+  codesign::pair_errors(view_, pair, i, j, errors, rates);
+}
+
+template <class T>
+void Formulas<T>::track_turns(const State<T>& state) {
+  load(state);
+  for (std::size_t p = 0; p < view_.design.rows.size(); ++p)
+    for (std::size_t e = 0; e < view_.turn_references[p].size(); ++e)
+      view_.turn_references[p][e] = value_of(view_.coordinate_value(static_cast<int>(p), static_cast<int>(e)));
+  view_.forget_coordinates();
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_EQUATIONS_FORMULAS_LOOP_H_

@@ -1,0 +1,96 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_EQUATIONS_FORMULAS_SAMPLES_H_
+#define MECHANISM_CODESIGN_EQUATIONS_FORMULAS_SAMPLES_H_
+
+#include "elements/objective.h"
+#include "equations/formulas.h"
+
+namespace codesign {
+
+// What observers and objectives read of a state: one function of an element each.
+
+template <class T>
+T Formulas<T>::terminal(const State<T>& state, SparseGradient<T>* gradient) {
+  load(state);
+  return objective_terms(view_, view_.system.terminal(), view_.design.terminal, gradient);
+}
+
+template <class T>
+T Formulas<T>::signal(const Signal& signal, const State<T>& state, SparseGradient<T>* gradient) {
+  load(state);
+  return signal_value(view_, signal, T(1.0), gradient);
+}
+
+template <class T>
+const CoordinateMotion<T>& Formulas<T>::coordinate(int pair, int element, CoordinateDetail detail) const {
+  return view_.coordinate(pair, element, detail);
+}
+
+template <class T>
+FrictionState<T> Formulas<T>::friction(int pair, int element) const {
+  return joint_friction(view_, pair, element);
+}
+
+template <class T>
+ContactFriction<T> Formulas<T>::contact(int pair, CoordinateDetail detail) const {
+  return contact_at(view_, pair, detail);
+}
+
+template <class T>
+SpringForce<T> Formulas<T>::spring(std::size_t k) const {
+  return spring_at(view_, k);
+}
+
+template <class T>
+T Formulas<T>::effort(int pair, int element) const {
+  return joint_effort(view_, pair, element);
+}
+
+template <class T>
+T Formulas<T>::kinetic_energy(SparseGradient<T>* gradient) const {
+  return codesign::kinetic_energy(view_, gradient);
+}
+
+template <class T>
+T Formulas<T>::potential_energy(SparseGradient<T>* gradient) const {
+  return codesign::potential_energy(view_, gradient);
+}
+
+template <class T>
+T Formulas<T>::power(PowerKind kind, SparseGradient<T>* gradient) const {
+  return total_power(view_, kind, gradient);
+}
+
+template <class T>
+T Formulas<T>::joint_power(PowerKind kind, int pair, int element, SparseGradient<T>* gradient) const {
+  return codesign::joint_power(view_, kind, pair, element, gradient);
+}
+
+template <class T>
+T Formulas<T>::setpoint(int controller) const {
+  return view_.design.controllers[static_cast<std::size_t>(controller)].setpoint.at(view_.state->t).value;
+}
+
+template <class T>
+T Formulas<T>::controller_output(int controller, SparseGradient<T>* gradient) const {
+  return codesign::controller_output(view_, controller, gradient);
+}
+
+template <class T>
+T Formulas<T>::controller_error(int controller, SparseGradient<T>* gradient) const {
+  return codesign::controller_error(view_, controller, gradient);
+}
+
+template <class T>
+void Formulas<T>::reaction(int pair, Vector3<T>* F, Vector3<T>* torque) const {
+  pair_reaction(view_, pair, F, torque);
+}
+
+template <class T>
+T Formulas<T>::multiplier_reaction(const SignalReference& term) const {
+  return codesign::multiplier_reaction(view_, term);
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_EQUATIONS_FORMULAS_SAMPLES_H_

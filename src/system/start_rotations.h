@@ -1,0 +1,18 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SYSTEM_START_ROTATIONS_H_
+#define MECHANISM_CODESIGN_SYSTEM_START_ROTATIONS_H_
+
+#include "description/robot.h"
+#include "description/study.h"
+
+namespace codesign {
+
+/// The tree joint that an entry of `initial_state` names; -1 for a loop or an unknown name.
+int tree_joint(const RobotDescription& robot, const InitialJointState& initial);
+
+/// The robot with the study's start rotations of floating joints as their JointDescription::start_rotation.
+RobotDescription with_start_rotations(RobotDescription robot, const Study& study);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SYSTEM_START_ROTATIONS_H_

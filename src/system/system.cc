@@ -1,0 +1,252 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "system/system.h"
+
+#include <algorithm>
+
+#include "mechanism/constants.h"
+#include "system/start_rotations.h"
+
+namespace codesign {
+namespace {
+
+int constraint_rows(PairKind kind) {
+  switch (kind) {
+    case PairKind::kFixed:
+      return 6;
+    case PairKind::kRevolute:
+    case PairKind::kPrismatic:
+      return 5;
+    case PairKind::kCylindrical:
+    case PairKind::kUniversal:
+    case PairKind::kTable:
+      return 4;
+    case PairKind::kSpherical:
+    case PairKind::kPlanar:
+    case PairKind::kTranslational:
+      return 3;
+    case PairKind::kDistance:
+      return 1;
+    case PairKind::kFree:
+      return 0;
+  }
+  return 0;
+}
+
+bool zero(const Quantity& q) { return q.is_constant() && q.nominal() == 0.0; }
+
+}  // namespace
+
+System::System(const RobotDescription& robot, const Study& study, ReactionSharing sharing)
+    : robot_(with_start_rotations(robot, study)), study_(study), topology_(derive_topology(robot_)), sharing_(std::move(sharing)) {
+  refuse_unsupported();
+  lay_out();
+  find_coordinates();
+  check_couplings();
+  resolve_objective();
+  resolve_controllers();
+  check_signals();
+  collect_loads();
+  collect_link_loads();
+  collect_rotors();
+  collect_bristles();
+}
+
+std::vector<double> System::parameters() const {
+  std::vector<double> values;
+  for (const Parameter& parameter : study_.parameters) values.push_back(parameter.value);
+  return values;
+}
+
+std::vector<double> System::parameters(const Eigen::VectorXd& rho) const {
+  std::vector<double> values = parameters();
+  for (std::size_t k = 0; k < study_.tuned.size(); ++k)
+    values[static_cast<std::size_t>(study_.tuned[k])] = rho[static_cast<Eigen::Index>(k)];
+  return values;
+}
+
+void System::lay_out() {
+  layout_.bodies = static_cast<int>(topology_.bodies.size());
+  layout_.n = kBodySize * layout_.bodies;
+  for (const Pair& pair : topology_.pairs) {
+    layout_.pair_row.push_back(layout_.m);
+    layout_.m += constraint_rows(pair.kind);
+  }
+  layout_.couplings = static_cast<int>(topology_.couplings.size());
+  layout_.m += layout_.couplings + layout_.bodies;
+  sharing_layout_ = SharingLayout(sharing_, topology_, layout_);
+  layout_.sharing = sharing_layout_.size();
+  layout_.m += layout_.sharing;
+}
+
+void System::resolve_objective() {
+  const auto resolve = [this](const std::vector<ObjectiveTerm>& terms, std::vector<ResolvedTerm>* resolved) {
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      resolved->push_back({resolve_signal(terms[k].signal, robot_, topology_, study_.controllers), static_cast<int>(k)});
+    }
+  };
+  resolve(study_.integral, &integral_);
+  resolve(study_.terminal, &terminal_);
+}
+
+void System::resolve_controllers() {
+  std::vector<Signal> observed;
+  for (const std::vector<ResolvedTerm>* terms : {&integral_, &terminal_})
+    for (const ResolvedTerm& term : *terms) observed.push_back(term.signal);
+  controllers_ = codesign::resolve_controllers(study_, robot_, topology_, observed, &layout_.states);
+}
+
+void System::check_signals() const {
+  for (std::size_t k = 0; k < study_.controllers.size(); ++k) {
+    const ControllerDescription& description = study_.controllers[k];
+    check_readable(controllers_[k].input, description.input);
+    for (std::size_t term = 0; term < description.feedback.size(); ++term)
+      check_readable(controllers_[k].feedback[term], description.feedback[term].signal);
+  }
+  const auto check = [this](const std::vector<ResolvedTerm>& resolved, const std::vector<ObjectiveTerm>& terms) {
+    for (const ResolvedTerm& term : resolved) check_readable(term.signal, terms[static_cast<std::size_t>(term.description)].signal);
+  };
+  check(integral_, study_.integral);
+  check(terminal_, study_.terminal);
+}
+
+void System::collect_loads() {
+  for (std::size_t p = 0; p < topology_.pairs.size(); ++p) {
+    const Pair& pair = topology_.pairs[p];
+    const bool contact = pair.friction_joint >= 0 && slips_isotropically(pair.kind);
+    if (contact) contacts_.push_back(static_cast<int>(p));
+    const std::size_t elements = pair.kind == PairKind::kCylindrical ? 2 : pair.chain.size();
+    for (std::size_t e = 0; e < elements; ++e) {
+      JointLoad load;
+      load.pair = static_cast<int>(p);
+      load.element = static_cast<int>(e);
+      load.reaction_friction = pair.friction_joint >= 0 && !contact;
+      if (e < pair.chain.size()) {
+        const JointDescription& joint = robot_.joints[static_cast<std::size_t>(pair.chain[e].joint)];
+        load.constant_friction = !zero(joint.dry_friction);
+        load.spring = joint.spring.has_value();
+        load.passive = !zero(joint.damping) || load.spring;
+        load.stop = study_.limits.position && has_stops(joint);
+        load.saturated = study_.limits.effort && joint.limit && joint.limit->bounds_effort();
+        for (std::size_t k = 0; k < study_.loads.size(); ++k)
+          if (study_.loads[k].joint == joint.name) load.constant.push_back(static_cast<int>(k));
+      }
+      for (std::size_t c = 0; c < controllers_.size(); ++c)
+        if (controllers_[c].pair == load.pair && controllers_[c].element == load.element) load.controllers.push_back(static_cast<int>(c));
+      const bool driven = !load.controllers.empty() || !load.constant.empty();
+      if (!load.reaction_friction && !load.constant_friction && !load.passive && !load.stop && !driven) continue;
+      if (!has_coordinate_[p][e]) refuse_load(load.pair, load.element);
+      loads_.push_back(load);
+    }
+  }
+}
+
+void System::collect_link_loads() {
+  for (std::size_t k = 0; k < study_.loads.size(); ++k) {
+    const LoadDescription& load = study_.loads[k];
+    for (std::size_t joint = 0; joint < robot_.joints.size(); ++joint)
+      if (robot_.joints[joint].name == load.joint && topology_.joint_pair[joint] < 0)
+        throw InputError(
+            {load.where, "loads", "the joint moves only a link without <inertial>, so that nothing can load it", load.joint, ""});
+    for (std::size_t link = 0; link < robot_.links.size(); ++link) {
+      if (robot_.links[link].name != load.link) continue;
+      const int body = topology_.link_body[link];
+      if (body == Topology::kGround)
+        throw InputError({load.where, "loads", "the link is part of the ground, which no load moves", load.link, "a link that moves"});
+      if (body == Topology::kMassless)
+        throw InputError({load.where, "loads", "the link has no <inertial>, so it is folded into a joint and cannot be loaded", load.link,
+                          "a link with <inertial>"});
+      link_loads_.push_back({static_cast<int>(k), body, static_cast<int>(link), load.in_link_frame});
+    }
+  }
+}
+
+void System::collect_rotors() {
+  for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+    const JointDescription& joint = robot_.joints[j];
+    if (!joint.actuator || zero(joint.actuator->rotor_inertia)) continue;
+    const auto refuse = [&joint](const std::string& fault, const std::string& value) {
+      throw InputError({joint.actuator->where, "<joint name=\"" + joint.name + "\"> <codesign:actuator>", fault, value,
+                        "a link with <inertial>, which holds the rotor's mass and its inertia as if it did not spin"});
+    };
+    const int pair = topology_.joint_pair[j], body = topology_.link_body[static_cast<std::size_t>(joint.parent)];
+    if (pair < 0) refuse("the joint moves only a link without <inertial>", robot_.links[static_cast<std::size_t>(joint.child)].name);
+    if (body == Topology::kMassless)
+      refuse("the parent link, which carries the rotor, has no <inertial>", robot_.links[static_cast<std::size_t>(joint.parent)].name);
+    const std::vector<ChainElement>& chain = topology_.pairs[static_cast<std::size_t>(pair)].chain;
+    for (std::size_t e = 0; e < chain.size(); ++e) {
+      if (chain[e].joint != static_cast<int>(j)) continue;
+      if (!has_coordinate_[static_cast<std::size_t>(pair)][e]) refuse_load(pair, static_cast<int>(e));
+      rotors_.push_back({pair, static_cast<int>(e), body});
+    }
+  }
+}
+
+void System::add_bristle(int pair, int element, int size) {
+  const int joint = topology_.pairs[static_cast<std::size_t>(pair)].friction_joint;
+  const FrictionModel model = robot_.joints[static_cast<std::size_t>(joint)].friction->model;
+  if (model == FrictionModel::kBrownMcPhee) return;
+  bristles_.push_back({model, pair, element, layout_.states, size});
+  layout_.states += bristles_.back().states();
+}
+
+void System::collect_bristles() {
+  for (const JointLoad& load : loads_)
+    if (load.reaction_friction) add_bristle(load.pair, load.element, 1);
+  for (int contact : contacts_)
+    add_bristle(contact, -1, topology_.pairs[static_cast<std::size_t>(contact)].kind == PairKind::kTable ? 2 : 3);
+}
+
+const BristleContact* System::bristle(int pair, int element) const {
+  for (const BristleContact& contact : bristles_)
+    if (contact.pair == pair && contact.element == element) return &contact;
+  return nullptr;
+}
+
+void System::find_coordinates() {
+  for (const PairConstants<double>& pair : evaluate_constants(robot_, topology_, parameters()).pairs) {
+    has_coordinate_.emplace_back();
+    for (const CoordinateConstants<double>& c : pair.coordinates)
+      has_coordinate_.back().push_back(c.kind != CoordinateConstants<double>::Kind::kNone);
+  }
+}
+
+void System::refuse_load(int pair, int element) const {
+  const ChainElement& in_chain = topology_.pairs[static_cast<std::size_t>(pair)].chain[static_cast<std::size_t>(element)];
+  const JointDescription& joint = robot_.joints[static_cast<std::size_t>(in_chain.joint)];
+  throw InputError(
+      {joint.where, "<joint name=\"" + joint.name + "\">",
+       "a controller, load, actuator, spring, damping, stop or stock friction on a joint without a scalar coordinate of its own",
+       topology_.pairs[static_cast<std::size_t>(pair)].name,
+       "revolute, continuous and prismatic joints; in a ball joint of three hinges those at right angles to each other"});
+}
+
+void System::check_couplings() const {
+  for (const Coupling& coupling : topology_.couplings)
+    for (const CouplingTerm& term : coupling.terms)
+      if (!has_coordinate_[static_cast<std::size_t>(term.pair)][static_cast<std::size_t>(term.element)])
+        throw InputError({coupling.where, coupling.element(),
+                          "a joint of a chain of links without <inertial> has no coordinate in closed form",
+                          robot_.joints[static_cast<std::size_t>(term.joint)].name,
+                          "in a ball joint of three hinges, hinges at right angles to each other"});
+}
+
+void System::check_readable(const Signal& signal, const SignalDescription& description) const {
+  for (const SignalReference& term : signal) {
+    if (term.kind == SignalKind::kControllerIntegral && controllers_[static_cast<std::size_t>(term.controller)].state < 0)
+      throw InputError({description.where, "signal", "the controller has no i gain, so that its error is not integrated", description.text,
+                        "an i gain, or the signal in the objective or in a later controller"});
+    const bool coordinate = term.kind == SignalKind::kJointPosition || term.kind == SignalKind::kJointVelocity ||
+                            term.kind == SignalKind::kJointAcceleration || term.kind == SignalKind::kJointSlidingVelocity;
+    if (!coordinate || has_coordinate_[static_cast<std::size_t>(term.pair)][static_cast<std::size_t>(term.element)]) continue;
+    throw InputError({description.where, "signal", "a joint of this chain of links without <inertial> has no coordinate in closed form",
+                      description.text, "in a ball joint of three hinges, hinges at right angles to each other"});
+  }
+}
+
+void System::refuse_unsupported() const {
+  if (topology_.bodies.empty())
+    throw InputError({robot_.links[static_cast<std::size_t>(robot_.root)].where, "<robot name=\"" + robot_.name + "\">",
+                      "nothing moves: no link with an <inertial> hangs on a movable joint", "", ""});
+}
+
+}  // namespace codesign
