@@ -5,6 +5,7 @@
 #include "cli/limit_watch.h"
 #include "cli/report.h"
 #include "cli/table.h"
+#include "integration/simulation.h"
 
 namespace codesign::cli {
 namespace {

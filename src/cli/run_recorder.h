@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/limit_watch.h"
+#include "integration/simulation.h"
 #include "problem/problem.h"
 
 namespace codesign::cli {

@@ -12,6 +12,7 @@
 #include <functional>
 #include <string>
 
+#include "mechanism_codesign/status.h"
 #include "problem/problem.h"
 
 // What the optimization node computes, apart from how it is asked: none of it needs a master, none of it throws.

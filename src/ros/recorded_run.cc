@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/recorded_run.h"
+#include "integration/simulation.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

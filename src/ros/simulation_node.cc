@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/simulation_node.h"
+#include "integration/simulation.h"
 
 #include <rosgraph_msgs/Clock.h>
 #include <std_msgs/String.h>

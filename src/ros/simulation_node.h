@@ -13,6 +13,7 @@
 #include <string>
 #include <thread>
 
+#include "integration/simulation.h"
 #include "jobs/lock_file.h"
 #include "jobs/output_error.h"
 #include "problem/problem.h"

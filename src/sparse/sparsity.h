@@ -94,15 +94,15 @@ class AssemblySink {
   AssemblySink(const AssemblySink&) = delete;
   AssemblySink& operator=(const AssemblySink&) = delete;
 
-  void position(int row, int column, const T& x) {
+  void position([[maybe_unused]] int row, [[maybe_unused]] int column, const T& x) {
     assert(is_recorded(slot_.position, plan_.slots.position, plan_.patterns.position, row, column));
     add(*slot_.position++, x, &values_->position);
   }
-  void velocity(int row, int column, const T& x) {
+  void velocity([[maybe_unused]] int row, [[maybe_unused]] int column, const T& x) {
     assert(is_recorded(slot_.velocity, plan_.slots.velocity, plan_.patterns.velocity, row, column));
     add(*slot_.velocity++, x, &values_->velocity);
   }
-  void rate(int row, int column, const T& x) {
+  void rate([[maybe_unused]] int row, [[maybe_unused]] int column, const T& x) {
     assert(is_recorded(slot_.rate, plan_.slots.rate, plan_.patterns.rate, row, column));
     add(*slot_.rate++, x, &values_->rate);
   }

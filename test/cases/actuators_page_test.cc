@@ -2,6 +2,7 @@
 // The numbers of doc/actuators.md.
 #include <gtest/gtest.h>
 
+#include "integration/simulation.h"
 #include "paths.h"
 #include "problem/problem.h"
 

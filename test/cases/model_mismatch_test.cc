@@ -4,6 +4,7 @@
 
 #include "assembly/make_system.h"
 #include "cases/shipped.h"
+#include "integration/simulation.h"
 #include "sensitivity/evaluation.h"
 
 namespace codesign {

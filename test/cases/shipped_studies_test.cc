@@ -5,6 +5,7 @@
 
 #include "assembly/make_system.h"
 #include "cases/shipped.h"
+#include "integration/simulation.h"
 #include "mechanism/signal_catalog.h"
 #include "paths.h"
 

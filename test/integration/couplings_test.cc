@@ -6,6 +6,7 @@
 
 #include "assembly/count_equations.h"
 #include "integration/servo.h"
+#include "integration/simulation.h"
 
 namespace codesign {
 namespace {

@@ -6,6 +6,7 @@
 #include "integration/equal_steps.h"
 #include "integration/rosenbrock_step.h"
 #include "integration/servo.h"
+#include "integration/simulation.h"
 #include "sensitivity/evaluation.h"
 
 namespace codesign {

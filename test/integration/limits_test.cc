@@ -4,6 +4,7 @@
 
 #include "integration/energy_balance.h"
 #include "integration/servo.h"
+#include "integration/simulation.h"
 
 namespace codesign {
 namespace {

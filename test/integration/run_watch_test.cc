@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "integration/run_watch.h"
+#include "integration/simulation.h"
 
 #include <gtest/gtest.h>
 
