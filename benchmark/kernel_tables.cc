@@ -219,8 +219,8 @@ Job kernel_job(const std::string& name, KernelBench* bench, void (KernelBench::*
 
 void measure_kernels(Report* report) {
   const std::optional<Problem> problem = with_solver(load_slider_crank(), "rodas4", 1e-8);
-  StepProbe probe(problem->system, 0.3, 1e-3);
-  KernelBench bench(*problem->system, probe.state());
+  StepProbe probe(problem->system(), 0.3, 1e-3);
+  KernelBench bench(*problem->system(), probe.state());
   std::vector<Job> jobs;
   for (const Kernel& kernel : kKernels) {
     const std::string name = kernel.name;

@@ -4,7 +4,7 @@
 #include "benchmark/report.h"
 #include "benchmark/slider_crank.h"
 #include "benchmark/timing.h"
-#include "optimization/optimizer.h"
+#include "mechanism_codesign/optimization.h"
 
 namespace codesign {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 /// From the files to the answer.
 OptimizationResult whole_optimization(const std::string& solver, double tolerance) {
   const std::optional<Problem> problem = with_solver(load_slider_crank(), solver, tolerance);
-  return optimize(problem->system, problem->study);
+  return optimize(*problem);
 }
 
 struct Way {

@@ -6,8 +6,8 @@
 #include "benchmark/report.h"
 #include "benchmark/timing.h"
 #include "equations/compiled_system.h"
-#include "problem/problem.h"
-#include "sensitivity/evaluation.h"
+#include "mechanism_codesign/gradient.h"
+#include "problem/load_problem.h"
 #include "sensitivity/gradient_engine.h"
 
 namespace codesign {
@@ -18,7 +18,7 @@ const std::vector<int> kCounts = {1, 2, 4, 8, 16, 32, 64};
 
 /// The chain with so many tuned parameters, ready to be evaluated by one kind of gradient.
 struct Case {
-  Case(int count, const std::string& gradient) : problem(load(count, gradient)), evaluator(problem.system), rho(problem.start()) {}
+  Case(int count, const std::string& gradient) : problem(load(count, gradient)), evaluator(problem.system()), rho(problem.start()) {}
 
   static Problem load(int count, const std::string& gradient) {
     GeneratedCase chain = parametric_chain(kLinks, count);

@@ -6,7 +6,7 @@
 #include "benchmark/report.h"
 #include "benchmark/timing.h"
 #include "equations/compiled_system.h"
-#include "problem/problem.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -18,14 +18,14 @@ class Stepper {
  public:
   explicit Stepper(const GeneratedCase& generated) {
     Problem problem = load_problem(generated.urdf, {}, generated.study);
-    problem.study.solver.initial_step = problem.study.solver.maximum_step = kStep;
-    problem.study.solver.relative_tolerance = problem.study.solver.absolute_tolerance = 0.1;
+    problem.study().solver.initial_step = problem.study().solver.maximum_step = kStep;
+    problem.study().solver.relative_tolerance = problem.study().solver.absolute_tolerance = 0.1;
     problem_ = compile(std::move(problem), {});
-    simulation_ = std::make_unique<Simulation>(problem_.system, problem_.parameters());
+    simulation_ = std::make_unique<Simulation>(problem_.system(), problem_.parameters());
     restart();
   }
 
-  int bodies() const { return problem_.system->layout().bodies; }
+  int bodies() const { return problem_.system()->layout().bodies; }
   void restart() {
     time_ = 0.0;
     require(simulation_->start());

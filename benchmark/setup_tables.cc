@@ -5,9 +5,9 @@
 #include "benchmark/mechanisms.h"
 #include "benchmark/report.h"
 #include "equations/compiled_system.h"
-#include "integration/simulation.h"
 #include "math/cpu_timer.h"
-#include "problem/problem.h"
+#include "mechanism_codesign/simulation.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -23,9 +23,9 @@ SetupTime measure_once(const GeneratedCase& generated) {
   const CpuTimer setup;
   const Problem problem = load_problem(generated.urdf, {}, generated.study);
   time.setup = setup.seconds();
-  time.bodies = problem.system->layout().bodies;
+  time.bodies = problem.system()->layout().bodies;
   const CpuTimer step;
-  Simulation simulation(problem.system, problem.parameters());
+  Simulation simulation(problem.system(), problem.parameters());
   Status status = simulation.start();
   if (status.ok()) status = simulation.advance(1e-6);
   if (!status.ok()) throw std::runtime_error(status.cause);

@@ -6,7 +6,7 @@
 #include "benchmark/simbody_peer.h"
 #include "benchmark/slider_crank.h"
 #include "benchmark/work_precision.h"
-#include "sensitivity/evaluation.h"
+#include "mechanism_codesign/gradient.h"
 
 namespace codesign {
 namespace {

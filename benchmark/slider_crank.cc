@@ -49,15 +49,15 @@ std::optional<Problem> with_solver(const Problem& problem, const std::string& na
 Problem with_tuned(const Problem& problem, int tuned) {
   const SourceText study{kStudy, replaced(read_source(kStudy).text, "  Kp: {", "}\n",
                                           "  crank_mass: {}\n  rod_mass: {}\n  slider_mass: {}\n  Kp: {initial: 1.0}\n")};
-  Problem more = load_problem(problem.urdf, {{"masses", kMasses}}, study);
-  more.study.solver = problem.study.solver;
+  Problem more = load_problem(problem.urdf(), {{"masses", kMasses}}, study);
+  more.study.solver = problem.study().solver;
   more.study.tuned.resize(static_cast<std::size_t>(tuned));
   return compile(std::move(more), {});
 }
 
 Problem with_dry_friction(const Problem& problem) {
   const std::string friction = "<dynamics friction=\"" + std::to_string(kDryFriction) + "\"/>";
-  const SourceText urdf{kUrdf, replaced(problem.urdf.text, "<codesign:friction", "/>", friction)};
+  const SourceText urdf{kUrdf, replaced(problem.urdf().text, "<codesign:friction", "/>", friction)};
   return load_problem(urdf, {}, {kStudy, replaced(read_source(kStudy).text, "  slider_length: {", "  slider_width: {tune: true}\n", "")});
 }
 

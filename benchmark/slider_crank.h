@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "problem/problem.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 

@@ -5,7 +5,7 @@
 #include "benchmark/report.h"
 #include "benchmark/slider_crank.h"
 #include "benchmark/timing.h"
-#include "sensitivity/evaluation.h"
+#include "mechanism_codesign/gradient.h"
 
 namespace codesign {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 constexpr double kInstant = 0.3, kStepSize = 1e-3, kTolerance = 1e-6;
 
 void add_pieces(const Problem& problem, Report* report) {
-  StepProbe probe(problem.system, kInstant, kStepSize);
+  StepProbe probe(problem.system(), kInstant, kStepSize);
   if (!probe.status().ok()) throw std::runtime_error(probe.status().cause);
   const auto rewind = [&probe] { probe.rewind(); };
   const std::vector<double> seconds =

@@ -7,7 +7,7 @@
 
 #include "benchmark/slider_crank.h"
 #include "benchmark/timing.h"
-#include "sensitivity/evaluation.h"
+#include "mechanism_codesign/gradient.h"
 
 namespace codesign {
 namespace {

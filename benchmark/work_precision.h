@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "benchmark/report.h"
-#include "problem/problem.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 

@@ -24,7 +24,7 @@ double seconds_at(double tolerance, const Sweep& sweep) {
 
 Contestant sundials(const Problem& problem, const std::string& name, SundialsMatrix matrix, const Reference& reference) {
   return {name, [problem, matrix, reference](double tolerance, bool with_gradient) -> std::function<Outcome()> {
-            const auto peer = std::make_shared<SundialsPeer>(problem.system, matrix);
+            const auto peer = std::make_shared<SundialsPeer>(problem.system(), matrix);
             return [peer, reference, tolerance, with_gradient] {
               const SundialsResult r = peer->run(tolerance, with_gradient);
               return r.ok ? outcome_of(reference, with_gradient, r.psi, r.gradient, r.steps) : Outcome{};

@@ -22,9 +22,17 @@ set_target_properties(${codesign_libraries} PROPERTIES
   ARCHIVE_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_LIB_DESTINATION}
   INSTALL_RPATH "$ORIGIN")
-install(TARGETS ${codesign_libraries}
+set(library_destinations
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
+# Others link the target mechanism_codesign::codesign_core. The library behind the nodes is not for others.
+install(TARGETS codesign_core EXPORT mechanism_codesignTargets ${library_destinations})
+if(TARGET codesign_ros)
+  install(TARGETS codesign_ros ${library_destinations})
+endif()
+set(config_destination ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
+install(EXPORT mechanism_codesignTargets NAMESPACE mechanism_codesign:: DESTINATION ${config_destination})
+export(EXPORT mechanism_codesignTargets NAMESPACE mechanism_codesign:: FILE ${PROJECT_BINARY_DIR}/mechanism_codesignTargets.cmake)
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION} FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY config urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

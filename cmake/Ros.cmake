@@ -16,9 +16,10 @@ generate_messages(DEPENDENCIES ${message_dependencies})
 
 catkin_package(
   INCLUDE_DIRS include
-  LIBRARIES codesign_core codesign_ros
+  LIBRARIES codesign_core
   CATKIN_DEPENDS message_runtime ${ros_dependencies}
-  DEPENDS EIGEN3)
+  DEPENDS EIGEN3
+  CFG_EXTRAS mechanism_codesign-targets.cmake)
 
 file(GLOB ros_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/ros/*.cc)
 set(node_mains ${ros_sources})

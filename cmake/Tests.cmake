@@ -72,6 +72,14 @@ add_test(NAME layering_self_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_D
 add_test(NAME update_tables COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/benchmark/update_tables_test.py)
 add_test(NAME corpus_table COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/corpus_table_test.py $<TARGET_FILE:codesign>)
 
+# What doc/api.md prints builds outside the project. The configuration is where catkin, or WithoutRos.cmake, writes it.
+if(TARGET codesign_ros)
+  set(codesign_api_place ${CATKIN_DEVEL_PREFIX}/share/${PROJECT_NAME}/cmake $<TARGET_FILE:codesign> --catkin)
+else()
+  set(codesign_api_place ${PROJECT_BINARY_DIR} $<TARGET_FILE:codesign>)
+endif()
+add_test(NAME api_page COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/api/api_page_test.py ${PROJECT_SOURCE_DIR} ${codesign_api_place})
+
 foreach(tool build ci fresh packages)
   add_test(NAME tools_${tool} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/tools/${tool}_test.py)
 endforeach()

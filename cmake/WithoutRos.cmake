@@ -11,6 +11,13 @@ set(CATKIN_GLOBAL_BIN_DESTINATION ${CMAKE_INSTALL_BINDIR})
 set(CATKIN_PACKAGE_INCLUDE_DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${PROJECT_NAME})
 set(CATKIN_PACKAGE_SHARE_DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME})
 
+# catkin writes these files where it is there.
+set(DEVELSPACE TRUE)
+configure_file(cmake/mechanism_codesign-targets.cmake.in ${PROJECT_BINARY_DIR}/mechanism_codesignConfig.cmake @ONLY)
+set(DEVELSPACE FALSE)
+configure_file(cmake/mechanism_codesign-targets.cmake.in ${PROJECT_BINARY_DIR}/installed/mechanism_codesignConfig.cmake @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/installed/mechanism_codesignConfig.cmake DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
+
 option(CATKIN_ENABLE_TESTING "Build the tests" ON)
 if(CATKIN_ENABLE_TESTING)
   find_package(GTest QUIET)

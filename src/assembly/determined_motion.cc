@@ -1,14 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "assembly/determined_motion.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "math/dense.h"
 #include "text/decimal.h"
 
 namespace codesign {

@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "assembly/singular_start.h"
+#include "math/dense.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 

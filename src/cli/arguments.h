@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "problem/problem.h"
-#include "sensitivity/evaluation.h"
+#include "mechanism_codesign/gradient.h"
+#include "problem/load_problem.h"
 
 namespace codesign::cli {
 

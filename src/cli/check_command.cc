@@ -5,7 +5,7 @@
 #include "cli/limit_watch.h"
 #include "cli/report.h"
 #include "cli/table.h"
-#include "integration/simulation.h"
+#include "mechanism_codesign/simulation.h"
 
 namespace codesign::cli {
 namespace {
@@ -44,7 +44,7 @@ void print_table(const Counts& counts, std::ostream& out) {
 
 /// Limits that the start already exceeds.
 std::vector<LimitCrossing> crossings_at_start(const Problem& problem, const std::vector<double>& parameters) {
-  Simulation simulation(problem.system, parameters);
+  Simulation simulation(problem.system(), parameters);
   LimitWatch watch(problem, parameters, simulation.names());
   Frame frame;
   if (!simulation.start().ok()) return {};
@@ -59,14 +59,14 @@ int check(const Arguments& arguments, const Console& console) {
   const Problem problem = load(arguments, &console);
   const std::vector<double> parameters = problem.parameters();
   Status status;
-  const Counts counts = count_equations(*problem.system, parameters, &status);
+  const Counts counts = count_equations(*problem.system(), parameters, &status);
   const std::vector<LimitCrossing> crossings = crossings_at_start(problem, parameters);
   if (!arguments.json && status.ok()) {
     print_table(counts, console.out);
     for (const LimitCrossing& crossing : crossings) console.out << describe(crossing) << '\n';
   }
   Json object;
-  object["model"] = problem.robot.name;
+  object["model"] = problem.robot().name;
   object["parameters"] = parameters_json(problem, parameters);
   if (status.ok()) object["counts"] = to_json(counts);
   object["limits_exceeded"] = to_json(crossings);

@@ -10,9 +10,9 @@ namespace {
 const char* name_of(CheckMethod method) { return method == CheckMethod::kComplexStep ? "complex_step" : "ridders"; }
 
 GradientCheck compute(const Arguments& arguments, const Problem& problem, const Console& console) {
-  if (arguments.verify) return check_gradient(problem.system, problem.start(), arguments.method, &console.cancel);
+  if (arguments.verify) return check_gradient(problem.system(), problem.start(), arguments.method, &console.cancel);
   GradientCheck result;
-  result.evaluation = Evaluator(problem.system).evaluate(problem.start(), true, &console.cancel);
+  result.evaluation = Evaluator(problem.system()).evaluate(problem.start(), true, &console.cancel);
   result.status = result.evaluation.status;
   return result;
 }

@@ -17,19 +17,19 @@ Problem load(const Arguments& arguments, const Console* console) {
 
 Problem load_tunable(const Arguments& arguments, const Console* console) {
   Problem problem = load(arguments, console);
-  require_objective(problem.study);
-  if (problem.study.tuned.empty())
-    throw InputError({{problem.study.file, 1}, "parameters", "the study tunes no parameter", "", "at least one parameter to tune"});
+  require_objective(problem);
+  if (problem.study().tuned.empty())
+    throw InputError({{problem.study().file, 1}, "parameters", "the study tunes no parameter", "", "at least one parameter to tune"});
   return problem;
 }
 
 std::vector<SignalDescription> select_signals(const Arguments& arguments, const Problem& problem) {
-  const std::vector<ControllerDescription>& controllers = problem.study.controllers;
-  const std::vector<std::string> texts = arguments.signals.empty() ? default_signals(problem.robot, controllers) : arguments.signals;
+  const std::vector<ControllerDescription>& controllers = problem.study().controllers;
+  const std::vector<std::string> texts = arguments.signals.empty() ? default_signals(problem.robot(), controllers) : arguments.signals;
   std::vector<SignalDescription> signals;
   for (const std::string& text : texts) {
     signals.push_back(parse_signal(text, {"command line", 0}, "--signals"));
-    check_signal(signals.back(), problem.robot, controllers, "--signals");
+    check_signal(signals.back(), problem.robot(), controllers, "--signals");
   }
   return signals;
 }

@@ -6,7 +6,7 @@
 
 #include "cli/arguments.h"
 #include "cli/console.h"
-#include "problem/problem.h"
+#include "problem/load_problem.h"
 
 namespace codesign::cli {
 

@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/job_folder.h"
+#include "reading/urdf/urdf_reader.h"
 
 #include <unistd.h>
 
@@ -82,7 +83,7 @@ std::vector<Failure> JobFolder::finish(const Json& result, const Eigen::VectorXd
   const std::vector<double> tuned = problem_.parameters(rho);
   const std::size_t before = failures_.size();
   try_to([&] { write_whole_file(in_folder("result.json"), to_text(result)); });
-  try_to([&] { write_whole_file(in_folder("tuned.urdf"), write_tuned_urdf(problem_.urdf, problem_.overlays, tuned)); });
+  try_to([&] { write_whole_file(in_folder("tuned.urdf"), write_tuned_urdf(problem_.urdf(), problem_.overlays(), tuned)); });
   if (failures_.size() == before) best_.remove();
   try_to([&] { write_run("initial.csv", problem_.parameters(), watched); });
   try_to([&] { write_run("tuned.csv", tuned, watched); });

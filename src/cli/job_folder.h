@@ -14,8 +14,8 @@
 #include "cli/report.h"
 #include "jobs/best_record.h"
 #include "jobs/lock_file.h"
-#include "optimization/optimizer.h"
-#include "problem/problem.h"
+#include "mechanism_codesign/optimization.h"
+#include "problem/load_problem.h"
 
 namespace codesign::cli {
 

@@ -62,7 +62,7 @@ void add_statistics(const Statistics& statistics, Json* object) {
 
 void add_counts(const Problem& problem, const std::vector<double>& parameters, Json* object) {
   Status status;
-  const Counts counts = count_equations(*problem.system, parameters, &status);
+  const Counts counts = count_equations(*problem.system(), parameters, &status);
   if (status.ok()) (*object)["counts"] = to_json(counts);
 }
 

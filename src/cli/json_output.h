@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "cli/limit_watch.h"
-#include "integration/simulation.h"
 #include "jobs/json.h"
 #include "mechanism_codesign/counts.h"
 #include "mechanism_codesign/error.h"
+#include "mechanism_codesign/simulation.h"
 #include "mechanism_codesign/status.h"
-#include "problem/problem.h"
+#include "problem/load_problem.h"
 
 namespace codesign::cli {
 

@@ -9,9 +9,9 @@
 namespace codesign::cli {
 
 LimitWatch::LimitWatch(const Problem& problem, const std::vector<double>& parameters, const FrameNames& names)
-    : absolute_margin_(problem.study.solver.absolute_tolerance), relative_margin_(problem.study.solver.relative_tolerance) {
-  const LimitOptions& enforced = problem.study.limits;
-  for (const JointDescription& joint : problem.robot.joints) {
+    : absolute_margin_(problem.study().solver.absolute_tolerance), relative_margin_(problem.study().solver.relative_tolerance) {
+  const LimitOptions& enforced = problem.study().limits;
+  for (const JointDescription& joint : problem.robot().joints) {
     const auto found = std::find(names.joints.begin(), names.joints.end(), joint.name);
     if (!joint.limit || found == names.joints.end()) continue;
     const auto watch = [&](const char* limit, const Quantity& bound) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mechanism_codesign/frame.h"
-#include "problem/problem.h"
+#include "problem/load_problem.h"
 
 namespace codesign::cli {
 

@@ -6,7 +6,7 @@
 #include "cli/job_folder.h"
 #include "cli/report.h"
 #include "cli/table.h"
-#include "optimization/optimizer.h"
+#include "mechanism_codesign/optimization.h"
 
 namespace codesign::cli {
 namespace {
@@ -22,12 +22,12 @@ void print_trial(const Trial& trial, std::ostream& err) {
 
 /// Whether the best point has been evaluated, which one that was cancelled before the first evaluation, or whose start failed, has not.
 bool is_evaluated(const Problem& problem, const OptimizationResult& result) {
-  return result.gradient.size() == static_cast<Eigen::Index>(problem.study.tuned.size());
+  return result.gradient.size() == static_cast<Eigen::Index>(problem.study().tuned.size());
 }
 
 /// Whether there is a best point to show: a cancelled optimization has one too, at least its start.
 bool has_design(const Problem& problem, const OptimizationResult& result) {
-  const auto size = static_cast<Eigen::Index>(problem.study.tuned.size());
+  const auto size = static_cast<Eigen::Index>(problem.study().tuned.size());
   const bool is_complete = result.rho.size() == size && result.initial_rho.size() == size;
   return is_complete && (is_evaluated(problem, result) || result.status.code == StatusCode::kCancelled);
 }
@@ -37,14 +37,14 @@ void print_design(const Problem& problem, const OptimizationResult& result, std:
   Table table;
   table.add({"parameter", "initial", "tuned", "lower", "upper", "gradient"});
   for (std::size_t k = 0; k < names.size(); ++k) {
-    const Parameter& parameter = problem.study.parameters[static_cast<std::size_t>(problem.study.tuned[k])];
+    const Parameter& parameter = problem.study().parameters[static_cast<std::size_t>(problem.study().tuned[k])];
     const auto i = static_cast<Eigen::Index>(k);
     table.add({names[k], readable(result.initial_rho[i]), readable(result.rho[i]), readable(parameter.lower), readable(parameter.upper),
                is_evaluated(problem, result) ? readable(result.gradient[i]) : "not evaluated"});
   }
   table.print(out);
-  for (std::size_t k = 0; k < problem.study.constraints.size(); ++k)
-    out << problem.study.constraints[k].text << ": margin " << readable(result.margins[static_cast<Eigen::Index>(k)]) << '\n';
+  for (std::size_t k = 0; k < problem.study().constraints.size(); ++k)
+    out << problem.study().constraints[k].text << ": margin " << readable(result.margins[static_cast<Eigen::Index>(k)]) << '\n';
 }
 
 void print_result(const Problem& problem, const OptimizationResult& result, std::ostream& out) {
@@ -59,7 +59,7 @@ void print_result(const Problem& problem, const OptimizationResult& result, std:
 /// By the constraint's text.
 Json margins_json(const Problem& problem, const OptimizationResult& result) {
   std::vector<std::string> constraints;
-  for (const ParameterConstraint& constraint : problem.study.constraints) constraints.push_back(constraint.text);
+  for (const ParameterConstraint& constraint : problem.study().constraints) constraints.push_back(constraint.text);
   return by_name(constraints, result.margins);
 }
 
@@ -104,7 +104,7 @@ int optimize(const Arguments& arguments, const Console& console) {
     if (folder) folder->add(trial);
     return !console.cancel;
   };
-  const OptimizationResult result = codesign::optimize(problem.system, problem.study, observer, &console.cancel);
+  const OptimizationResult result = codesign::optimize(problem, observer, &console.cancel);
   const bool designed = has_design(problem, result);
   if (!arguments.json && designed) print_result(problem, result, console.out);
   Json object = result_json(problem, result);

@@ -10,11 +10,11 @@ std::string describe(const Status& status) {
 }
 
 void add_warnings(const Arguments& arguments, const Problem& problem, const Warnings& of_run, Json* object, const Console& console) {
-  Warnings warnings = problem.warnings;
+  Warnings warnings = problem.warnings();
   append(of_run, &warnings);
   for (const Warning& warning : warnings) console.err << "codesign " << arguments.command << ": warning: " << warning.message << '\n';
   console.err.flush();
-  (*object)["setup_seconds"] = problem.setup_seconds;
+  (*object)["setup_seconds"] = problem.setup_seconds();
   (*object)["warnings"] = to_json(warnings);
 }
 

@@ -5,7 +5,7 @@ namespace codesign::cli {
 
 RunSummary record_run(const Problem& problem, const std::vector<double>& parameters, const std::vector<SignalDescription>& signals,
                       int samples, const RowSink& sink, const std::atomic<bool>* cancel) {
-  Simulation simulation(problem.system, parameters, signals);
+  Simulation simulation(problem.system(), parameters, signals);
   LimitWatch watch(problem, parameters, simulation.names());
   std::vector<double> row;
   const auto observer = [&](const Frame& frame) {
@@ -16,7 +16,7 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
     return true;
   };
   RunSummary summary;
-  summary.status = codesign::simulate(&simulation, problem.study.duration, samples, observer, cancel);
+  summary.status = codesign::simulate(&simulation, problem.study().duration, samples, observer, cancel);
   summary.statistics = simulation.statistics();
   summary.warnings = simulation.warnings();
   summary.crossings = watch.crossings();

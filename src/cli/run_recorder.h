@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cli/limit_watch.h"
-#include "integration/simulation.h"
-#include "problem/problem.h"
+#include "mechanism_codesign/simulation.h"
+#include "problem/load_problem.h"
 
 namespace codesign::cli {
 

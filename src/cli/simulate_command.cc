@@ -46,9 +46,9 @@ void summarize(const RunSummary& run, double duration, double setup_seconds, std
 
 /// The objective needs its own quadrature beside the run, so it is computed only where it is shown. Cancelled meanwhile, the command is.
 void add_objective(const Problem& problem, const Console& console, Status* status, Json* object) {
-  const bool has_objective = !problem.study.integral.empty() || !problem.study.terminal.empty();
+  const bool has_objective = !problem.study().integral.empty() || !problem.study().terminal.empty();
   if (!status->ok() || !has_objective) return;
-  const Evaluation evaluation = Evaluator(problem.system).evaluate(problem.start(), false, &console.cancel);
+  const Evaluation evaluation = Evaluator(problem.system()).evaluate(problem.start(), false, &console.cancel);
   if (evaluation.status.ok()) (*object)["objective"] = evaluation.objective;
   if (evaluation.status.code == StatusCode::kCancelled) *status = evaluation.status;
 }
@@ -81,14 +81,14 @@ int simulate(const Arguments& arguments, const Console& console) {
   Json counts = Json::object();
   if (arguments.json) add_counts(problem, problem.parameters(), &counts);
   RunSummary run = record_run(problem, problem.parameters(), signals, arguments.samples, sink, &console.cancel);
-  if (run.status.ok()) summarize(run, problem.study.duration, problem.setup_seconds, console.err);
+  if (run.status.ok()) summarize(run, problem.study().duration, problem.setup_seconds(), console.err);
   Json object;
   if (arguments.json) {
     add_objective(problem, console, &run.status, &object);
     add_run(problem, run, counts, series_json(names, rows), &object);
   }
   Warnings warnings = run.warnings;
-  append(warn_of_open_reactions(*problem.system, signals), &warnings);
+  append(warn_of_open_reactions(*problem.system(), signals), &warnings);
   add_warnings(arguments, problem, warnings, &object, console);
   return finish(arguments, run.status, std::move(object), console);
 }

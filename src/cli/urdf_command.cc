@@ -2,15 +2,16 @@
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/report.h"
+#include "reading/urdf/urdf_reader.h"
 
 namespace codesign::cli {
 
 int urdf(const Arguments& arguments, const Console& console) {
   const Problem problem = load(arguments);
-  const std::string text = write_tuned_urdf(problem.urdf, problem.overlays, problem.parameters());
+  const std::string text = write_tuned_urdf(problem.urdf(), problem.overlays(), problem.parameters());
   if (!arguments.json) console.out << text;
   Json object;
-  object["model"] = problem.robot.name;
+  object["model"] = problem.robot().name;
   object["parameters"] = parameters_json(problem, problem.parameters());
   object["urdf"] = text;
   add_warnings(arguments, problem, {}, &object, console);

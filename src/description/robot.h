@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "description/parameter.h"
 #include "description/quantity.h"
 #include "mechanism_codesign/error.h"
+#include "mechanism_codesign/parameter.h"
 #include "mechanism_codesign/warning.h"
 
 namespace codesign {

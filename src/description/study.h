@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "description/basis.h"
-#include "description/parameter.h"
 #include "description/quantity.h"
 #include "description/reference.h"
 #include "description/solver_options.h"
 #include "mechanism_codesign/error.h"
+#include "mechanism_codesign/optimizer_options.h"
+#include "mechanism_codesign/parameter.h"
 
 namespace codesign {
 
@@ -116,13 +117,6 @@ struct LimitOptions {
   double stiffness = 1e4;    ///< of a stop [N/m or N m/rad]
   double dissipation = 1.0;  ///< of a stop: relative growth of its force per speed [s/m or s/rad]
   double width = 1e-3;       ///< over which a stop takes hold [m or rad]
-};
-
-struct OptimizerOptions {
-  std::string algorithm = "lbfgs";
-  int max_evaluations = 200;
-  double relative_tolerance = 1e-6;  ///< on the objective
-  SourceLocation where;              ///< of the algorithm
 };
 
 /// What to do with the model, as its author wrote it.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "assembly/assembly.h"
-#include "integration/simulation.h"
+#include "mechanism_codesign/simulation.h"
 
 namespace codesign {
 

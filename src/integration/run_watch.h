@@ -3,7 +3,7 @@
 #define MECHANISM_CODESIGN_INTEGRATION_RUN_WATCH_H_
 
 #include "integration/applied_work.h"
-#include "integration/simulation.h"
+#include "mechanism_codesign/simulation.h"
 
 namespace codesign {
 

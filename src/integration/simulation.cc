@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "integration/simulation.h"
+#include "mechanism_codesign/simulation.h"
 
 #include <algorithm>
 #include <limits>
@@ -11,6 +11,16 @@
 #include "observation/observer.h"
 
 namespace codesign {
+namespace {
+
+std::vector<SignalDescription> parse_signals(const std::vector<std::string>& texts) {
+  std::vector<SignalDescription> signals;
+  signals.reserve(texts.size());
+  for (const std::string& text : texts) signals.push_back(parse_signal(text, {}, "signal"));
+  return signals;
+}
+
+}  // namespace
 
 class Simulation::Implementation {
  public:
@@ -69,6 +79,10 @@ class Simulation::Implementation {
 Simulation::Simulation(std::shared_ptr<const CompiledSystem> system, const std::vector<double>& parameters,
                        const std::vector<SignalDescription>& signals)
     : implementation_(std::make_unique<Implementation>(std::move(system), parameters, signals)) {}
+Simulation::Simulation(std::shared_ptr<const CompiledSystem> system, const std::vector<double>& parameters)
+    : Simulation(std::move(system), parameters, std::vector<SignalDescription>()) {}
+Simulation::Simulation(const Problem& problem, const std::vector<double>& parameters, const std::vector<std::string>& signals)
+    : Simulation(problem.system(), parameters, parse_signals(signals)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;

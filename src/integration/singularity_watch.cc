@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "integration/singularity_watch.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "assembly/redundancy.h"
+#include "math/dense.h"
 #include "text/decimal.h"
 
 namespace codesign {

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "integration/standstill.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 
 #include "assembly/redundancy.h"
 #include "equations/compiled_system.h"
+#include "math/dense.h"
 
 namespace codesign {
 namespace {

@@ -3,7 +3,7 @@
 #define MECHANISM_CODESIGN_INTEGRATION_STANDSTILL_H_
 
 #include "equations/equations.h"
-#include "integration/simulation.h"
+#include "mechanism_codesign/simulation.h"
 #include "mechanism_codesign/status.h"
 
 namespace codesign {

@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/best_record.h"
+#include "reading/urdf/urdf_reader.h"
 
 #include <unistd.h>
 
@@ -14,7 +15,7 @@ void BestRecord::note(const Trial& trial) {
   if (iteration_ < 0) first_ = trial;
   iteration_ = trial.iteration;
   try {
-    write_whole_file(prefix_ + "best.urdf", write_tuned_urdf(problem_.urdf, problem_.overlays, problem_.parameters(trial.rho)));
+    write_whole_file(prefix_ + "best.urdf", write_tuned_urdf(problem_.urdf(), problem_.overlays(), problem_.parameters(trial.rho)));
     write_whole_file(prefix_ + "best.json", json(trial));
     failure_.clear();
   } catch (const std::exception& error) {
@@ -24,7 +25,7 @@ void BestRecord::note(const Trial& trial) {
 
 std::string BestRecord::json(const Trial& trial) const {
   Json object;
-  object["model"] = problem_.robot.name;
+  object["model"] = problem_.robot().name;
   object["objective"] = trial.objective;
   object["initial_objective"] = first_.objective;
   object["parameters"] = parameters_json(problem_, problem_.parameters(trial.rho));

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "optimization/optimizer.h"
-#include "problem/problem.h"
+#include "mechanism_codesign/optimization.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 

@@ -15,7 +15,7 @@ Json by_name(const std::vector<std::string>& names, const Eigen::VectorXd& value
 
 Json parameters_json(const Problem& problem, const std::vector<double>& values) {
   std::vector<std::string> names;
-  for (const Parameter& parameter : problem.study.parameters) names.push_back(parameter.name);
+  for (const Parameter& parameter : problem.study().parameters) names.push_back(parameter.name);
   return by_name(names, values);
 }
 

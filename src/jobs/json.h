@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "problem/problem.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 

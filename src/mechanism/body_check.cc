@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mechanism/body_check.h"
 
-#include <Eigen/Eigenvalues>
 #include <map>
 
+#include "math/dense.h"
 #include "mechanism/default_values.h"
 #include "mechanism/rigid_groups.h"
 #include "text/decimal.h"

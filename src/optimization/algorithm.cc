@@ -32,22 +32,22 @@ std::string names(bool constrained) {
 
 }  // namespace
 
-nlopt::opt make_optimizer(const Study& study, unsigned dimension) {
-  const auto found = algorithms().find(study.optimizer.algorithm);
-  const SourceLocation where = study.optimizer.where.file.empty() ? SourceLocation{study.file, 1} : study.optimizer.where;
-  const InputFault fault{where, "optimizer.algorithm", "", study.optimizer.algorithm, ""};
+nlopt::opt make_optimizer(const Study& study, const OptimizerOptions& options, unsigned dimension) {
+  const auto found = algorithms().find(options.algorithm);
+  const SourceLocation where = options.where.file.empty() ? SourceLocation{study.file, 1} : options.where;
+  const InputFault fault{where, "optimizer.algorithm", "", options.algorithm, ""};
   if (found == algorithms().end()) throw InputError({fault.where, fault.element, "no such algorithm", fault.value, names(false)});
   if (!study.constraints.empty() && !found->second.takes_constraints)
     throw InputError({fault.where, fault.element, "this algorithm takes no constraints among parameters", fault.value, names(true)});
   // Requests bring tolerances too; below this rounding decides.
   constexpr double kLeast = 1e-15;
-  if (!(study.optimizer.relative_tolerance >= kLeast && study.optimizer.relative_tolerance < 1.0))
-    throw InputError({where, "optimizer.relative_tolerance", "tolerance out of range", to_decimal(study.optimizer.relative_tolerance),
+  if (!(options.relative_tolerance >= kLeast && options.relative_tolerance < 1.0))
+    throw InputError({where, "optimizer.relative_tolerance", "tolerance out of range", to_decimal(options.relative_tolerance),
                       "from 1e-15 to less than 1"});
   nlopt::opt optimizer(found->second.id, dimension);
   if (found->second.id == nlopt::LD_AUGLAG) {
     nlopt::opt local(nlopt::LD_LBFGS, dimension);
-    local.set_ftol_rel(study.optimizer.relative_tolerance);
+    local.set_ftol_rel(options.relative_tolerance);
     // NLopt 2.7.1 reads the sub-optimizer's absolute tolerances whether they were set or not.
     local.set_xtol_abs(0.0);
     optimizer.set_local_optimizer(local);

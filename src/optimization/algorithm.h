@@ -10,7 +10,7 @@
 namespace codesign {
 
 /// The NLopt optimizer that a study names. @throws InputError for an unknown name, or constraints with an algorithm that takes none.
-nlopt::opt make_optimizer(const Study& study, unsigned dimension);
+nlopt::opt make_optimizer(const Study& study, const OptimizerOptions& options, unsigned dimension);
 
 /// Snake-case name of why NLopt stopped.
 std::string termination_name(nlopt::result result);

@@ -1,9 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "optimization/optimizer.h"
+#include "mechanism_codesign/optimization.h"
 
 #include <cmath>
 #include <limits>
 
+#include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
 #include "math/cpu_timer.h"
 #include "optimization/algorithm.h"
@@ -19,16 +20,16 @@ constexpr double kSlopeLeft = 1e-2;  // of the first gradient, at most, where a 
 /// One optimization: what NLopt's callbacks share.
 class Minimization {
  public:
-  Minimization(const std::shared_ptr<const CompiledSystem>& system, const Study& study, const TrialObserver& observer,
+  Minimization(const std::shared_ptr<const CompiledSystem>& system, const OptimizerOptions& options, const TrialObserver& observer,
                const std::atomic<bool>* cancel)
-      : study_(study), observer_(observer), cancel_(cancel), evaluator_(system), scaling_(study) {}
+      : study_(system->study()), options_(options), observer_(observer), cancel_(cancel), evaluator_(system), scaling_(system->study()) {}
 
   OptimizationResult run() {
-    nlopt::opt optimizer = make_optimizer(study_, static_cast<unsigned>(study_.tuned.size()));
+    nlopt::opt optimizer = make_optimizer(study_, options_, static_cast<unsigned>(study_.tuned.size()));
     configure(&optimizer);
     result_.initial_rho = result_.rho = scaling_.start();
     result_.influences.assign(study_.tuned.size(), false);
-    require_numbers_at_start(study_, scaling_.all_parameters(result_.initial_rho));
+    require_numbers_at_start(study_, parameters_at(study_, result_.initial_rho));
     std::vector<double> x = scaling_.to_scaled(result_.initial_rho);
     minimize(&optimizer, &x);
     conclude();
@@ -45,8 +46,8 @@ class Minimization {
     optimizer->set_lower_bounds(scaling_.lower());
     optimizer->set_upper_bounds(scaling_.upper());
     optimizer->set_min_objective(&Minimization::objective_callback, this);
-    optimizer->set_ftol_rel(study_.optimizer.relative_tolerance);
-    optimizer->set_maxeval(study_.optimizer.max_evaluations);
+    optimizer->set_ftol_rel(options_.relative_tolerance);
+    optimizer->set_maxeval(options_.max_evaluations);
     constraints_.reserve(study_.constraints.size());
     for (const ParameterConstraint& constraint : study_.constraints) {
       constraints_.push_back({this, &constraint});
@@ -70,8 +71,8 @@ class Minimization {
 
   /// Why the search ended, with margins and warnings of the best point.
   void conclude() {
-    result_.margins = constraint_margins(study_, scaling_.all_parameters(result_.rho));
-    if (have_best_) append(search_warnings(study_, result_), &result_.warnings);
+    result_.margins = constraint_margins(study_, parameters_at(study_, result_.rho));
+    if (have_best_) append(search_warnings(study_, options_, result_), &result_.warnings);
     result_.status = {StatusCode::kSuccess, study_.duration, ""};
     if (cancelled_) {
       result_.termination = "cancelled";
@@ -81,7 +82,7 @@ class Minimization {
       result_.termination = "start_failed";
     } else if (result_.termination == "algorithm_failed") {
       result_.status = {StatusCode::kAlgorithmFailed, study_.duration,
-                        "the algorithm \"" + study_.optimizer.algorithm + "\" gave up (" + failure_ +
+                        "the algorithm \"" + options_.algorithm + "\" gave up (" + failure_ +
                             "); the best point so far is kept; try another algorithm or another start"};
     } else if (!all_met(result_.margins)) {
       result_.status = {StatusCode::kInfeasible, study_.duration, describe_unmet(study_, result_.margins)};
@@ -92,8 +93,8 @@ class Minimization {
   /// by a constraint), has converged as far as it can.
   bool has_converged() const {
     const double difference = std::abs(last_.objective - result_.objective);
-    if (!last_.status.ok() || difference > study_.optimizer.relative_tolerance * std::abs(result_.objective)) return false;
-    const Eigen::VectorXd margins = constraint_margins(study_, scaling_.all_parameters(result_.rho));
+    if (!last_.status.ok() || difference > options_.relative_tolerance * std::abs(result_.objective)) return false;
+    const Eigen::VectorXd margins = constraint_margins(study_, parameters_at(study_, result_.rho));
     if ((margins.array() < 1e-6).any()) return all_met(margins);
     const double start = scaling_.gradient_norm(result_.initial_gradient);
     return scaling_.free_gradient_norm(result_.rho, result_.gradient) <= kSlopeLeft * start;
@@ -107,7 +108,7 @@ class Minimization {
   static double constraint_callback(const std::vector<double>& x, std::vector<double>& gradient, void* data) {
     const auto& constraint = *static_cast<Constraint*>(data);
     const Scaling& scaling = constraint.owner->scaling_;
-    const std::vector<double> parameters = scaling.all_parameters(scaling.from_scaled(x));
+    const std::vector<double> parameters = parameters_at(constraint.owner->study_, scaling.from_scaled(x));
     const Expression& margin = *constraint.constraint->margin;
     const double value = margin.value(parameters);
     if (!std::isfinite(value)) return constraint.owner->step_back_from_constraint(x, &gradient);
@@ -201,7 +202,7 @@ class Minimization {
 
   // A start outside the constraints is kept only until a point inside is seen.
   void take_best(const Evaluation& evaluation, const Eigen::VectorXd& rho) {
-    const bool inside = all_met(constraint_margins(study_, scaling_.all_parameters(rho))), first = !have_best_;
+    const bool inside = all_met(constraint_margins(study_, parameters_at(study_, rho))), first = !have_best_;
     if (first) {
       result_.initial_objective = evaluation.objective;
       result_.initial_gradient = evaluation.gradient;
@@ -218,6 +219,7 @@ class Minimization {
   }
 
   const Study& study_;
+  const OptimizerOptions options_;
   const TrialObserver& observer_;
   const std::atomic<bool>* cancel_;
   Evaluator evaluator_;
@@ -234,10 +236,20 @@ class Minimization {
 
 }  // namespace
 
-OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system, const Study& study, const TrialObserver& observer,
-                            const std::atomic<bool>* cancel) {
+OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system, const OptimizerOptions& options,
+                            const TrialObserver& observer, const std::atomic<bool>* cancel) {
+  const Study& study = system->study();
   if (study.tuned.empty()) throw InputError({{study.file, 1}, "parameters", "nothing to tune", "", "at least one parameter"});
-  return Minimization(system, study, observer, cancel).run();
+  return Minimization(system, options, observer, cancel).run();
+}
+
+OptimizationResult optimize(const Problem& problem, const TrialObserver& observer, const std::atomic<bool>* cancel) {
+  return optimize(problem.system(), problem.optimizer_options(), observer, cancel);
+}
+
+OptimizationResult optimize(const Problem& problem, const OptimizerOptions& options, const TrialObserver& observer,
+                            const std::atomic<bool>* cancel) {
+  return optimize(problem.system(), options, observer, cancel);
 }
 
 }  // namespace codesign

@@ -56,12 +56,4 @@ double Scaling::free_gradient_norm(const Eigen::VectorXd& rho, const Eigen::Vect
   return gradient_norm(free);
 }
 
-std::vector<double> Scaling::all_parameters(const Eigen::VectorXd& rho) const {
-  std::vector<double> parameters;
-  for (const Parameter& p : study_.parameters) parameters.push_back(p.value);
-  for (std::size_t k = 0; k < study_.tuned.size(); ++k)
-    parameters[static_cast<std::size_t>(study_.tuned[k])] = rho[static_cast<Eigen::Index>(k)];
-  return parameters;
-}
-
 }  // namespace codesign

@@ -28,8 +28,6 @@ class Scaling {
   double gradient_norm(const Eigen::VectorXd& gradient) const;
   /// The same without the components that a bound, on which `rho` stands, keeps from falling further.
   double free_gradient_norm(const Eigen::VectorXd& rho, const Eigen::VectorXd& gradient) const;
-  /// All named parameters, those tuned set to rho.
-  std::vector<double> all_parameters(const Eigen::VectorXd& rho) const;
 
  private:
   const Study& study_;

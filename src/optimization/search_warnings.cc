@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "description/study.h"
 #include "text/decimal.h"
 
 namespace codesign {
@@ -11,15 +12,15 @@ namespace {
 /// A parameter is on its bound within this part of its range.
 constexpr double kOnBound = 1e-6;
 
-void add_evaluations_warning(const Study& study, const OptimizationResult& result, Warnings* warnings) {
+void add_evaluations_warning(const Study& study, const OptimizerOptions& options, const OptimizationResult& result, Warnings* warnings) {
   if (result.termination != "max_evaluations_reached") return;
-  const SourceLocation where = study.optimizer.where.file.empty() ? SourceLocation{study.file, 1} : study.optimizer.where;
+  const SourceLocation where = options.where.file.empty() ? SourceLocation{study.file, 1} : options.where;
   warnings->push_back(
       warn("max_evaluations_reached",
            {where, "optimizer.max_evaluations",
             "the search ended at its last evaluation, not at an optimum; the best point so far is given; more evaluations, or a "
             "larger optimizer.relative_tolerance, let it end by itself",
-            std::to_string(study.optimizer.max_evaluations), ""}));
+            std::to_string(options.max_evaluations), ""}));
 }
 
 bool is_on(double value, double bound, const Parameter& parameter) {
@@ -42,9 +43,9 @@ void add_bound_warning(const Parameter& parameter, double value, double slope, W
 
 }  // namespace
 
-Warnings search_warnings(const Study& study, const OptimizationResult& result) {
+Warnings search_warnings(const Study& study, const OptimizerOptions& options, const OptimizationResult& result) {
   Warnings warnings;
-  add_evaluations_warning(study, result, &warnings);
+  add_evaluations_warning(study, options, result, &warnings);
   for (std::size_t k = 0; k < study.tuned.size(); ++k) {
     const Parameter& parameter = study.parameters[static_cast<std::size_t>(study.tuned[k])];
     const auto i = static_cast<Eigen::Index>(k);

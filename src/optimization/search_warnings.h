@@ -2,12 +2,12 @@
 #ifndef MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_WARNINGS_H_
 #define MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_WARNINGS_H_
 
-#include "optimization/optimizer.h"
+#include "mechanism_codesign/optimization.h"
 
 namespace codesign {
 
 /// What is doubtful about a search that has ended: `max_evaluations_reached`, `parameter_on_bound`, `parameter_without_influence`.
-Warnings search_warnings(const Study& study, const OptimizationResult& result);
+Warnings search_warnings(const Study& study, const OptimizerOptions& options, const OptimizationResult& result);
 
 }  // namespace codesign
 

@@ -1,14 +1,17 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "problem/problem.h"
+#include "mechanism_codesign/problem.h"
 
 #include <cmath>
 
 #include "assembly/make_system.h"
+#include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
 #include "math/cpu_timer.h"
+#include "problem/load_problem.h"
 #include "problem/margins.h"
 #include "problem/unused_parameters.h"
 #include "reading/study/study_reader.h"
+#include "reading/urdf/urdf_reader.h"
 #include "text/decimal.h"
 #include "text/unknown_name.h"
 
@@ -36,77 +39,72 @@ void apply_settings(const ParameterSettings& settings, Study* study) {
   }
 }
 
-std::vector<double> parameter_values(const Study& study) {
-  std::vector<double> values;
-  values.reserve(study.parameters.size());
-  for (const Parameter& parameter : study.parameters) values.push_back(parameter.value);
-  return values;
+/// Compiles the equations of motion of what `contents` and the study say.
+Problem compile(const RobotDescription& robot, Study study, const ParameterSettings& settings, Problem::Contents contents) {
+  apply_settings(settings, &study);
+  const CpuTimer timer;
+  require_numbers_at_start(study, start_parameters(study));
+  append(unused_parameters(contents, study), &contents.warnings);
+  contents.system = make_system(robot, study, &contents.warnings);
+  contents.setup_seconds += timer.seconds();
+  return Problem(std::make_shared<const Problem::Contents>(std::move(contents)));
 }
 
 }  // namespace
 
-std::vector<double> Problem::parameters() const { return system->parameters(); }
+const SourceText& Problem::urdf() const { return contents_->urdf; }
+const std::vector<SourceText>& Problem::overlays() const { return contents_->overlays; }
+const SourceText& Problem::study_text() const { return contents_->study_text; }
+const Warnings& Problem::warnings() const { return contents_->warnings; }
+double Problem::setup_seconds() const { return contents_->setup_seconds; }
+double Problem::duration() const { return study().duration; }
+const std::vector<Parameter>& Problem::all_parameters() const { return study().parameters; }
+std::vector<double> Problem::parameters() const { return start_parameters(study()); }
+std::vector<double> Problem::parameters(const Eigen::VectorXd& rho) const { return parameters_at(study(), rho); }
+std::vector<std::string> Problem::tuned_names() const { return codesign::tuned_names(study()); }
+Eigen::VectorXd Problem::start() const { return start_of(study()); }
+const OptimizerOptions& Problem::optimizer_options() const { return study().optimizer; }
+const RobotDescription& Problem::robot() const { return contents_->system->robot(); }
+const Study& Problem::study() const { return contents_->system->study(); }
+const std::shared_ptr<const CompiledSystem>& Problem::system() const { return contents_->system; }
 
-Eigen::VectorXd Problem::start() const {
-  Eigen::VectorXd rho(static_cast<Eigen::Index>(study.tuned.size()));
-  for (std::size_t k = 0; k < study.tuned.size(); ++k)
-    rho[static_cast<Eigen::Index>(k)] = study.parameters[static_cast<std::size_t>(study.tuned[k])].value;
-  return rho;
-}
-
-std::vector<double> Problem::parameters(const Eigen::VectorXd& rho) const { return system->parameters(rho); }
-
-std::vector<std::string> Problem::tuned_names() const {
-  std::vector<std::string> names;
-  names.reserve(study.tuned.size());
-  for (int index : study.tuned) names.push_back(study.parameters[static_cast<std::size_t>(index)].name);
-  return names;
-}
-
-Problem compile(Problem problem, const ParameterSettings& settings) {
-  apply_settings(settings, &problem.study);
-  const CpuTimer timer;
-  require_numbers_at_start(problem.study, parameter_values(problem.study));
-  append(unused_parameters(problem), &problem.warnings);
-  problem.system = make_system(problem.robot, problem.study, &problem.warnings);
-  problem.setup_seconds += timer.seconds();
-  return problem;
+Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
+                     const ParameterSettings& settings) {
+  return load_problem(urdf, overlays, study, settings, TrajectoryLoader());
 }
 
 Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
                      const ParameterSettings& settings, const TrajectoryLoader& loader) {
   const CpuTimer timer;
-  Problem problem;
-  problem.urdf = urdf;
-  problem.overlays = overlays;
-  problem.study_text = study;
-  problem.robot = read_urdf(urdf, overlays);
-  problem.study = read_study(study, problem.robot, loader);
-  append(problem.robot.warnings, &problem.warnings);
-  problem.setup_seconds = timer.seconds();
-  return compile(std::move(problem), settings);
+  const RobotDescription robot = read_urdf(urdf, overlays);
+  Study read = read_study(study, robot, loader);
+  return compile(robot, std::move(read), settings, {urdf, overlays, study, nullptr, timer.seconds(), robot.warnings});
 }
 
-void require_objective(const Study& study) {
+Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& overlays, const ParameterSettings& settings) {
+  const CpuTimer timer;
+  const RobotDescription robot = read_urdf(urdf, overlays);
+  Study study;
+  study.parameters = robot.parameters;
+  study.file = urdf.name;
+  return compile(robot, std::move(study), settings, {urdf, overlays, {}, nullptr, timer.seconds(), robot.warnings});
+}
+
+Problem with_settings(const Problem& problem, const ParameterSettings& settings) { return with_study(problem, problem.study(), settings); }
+
+Problem with_study(const Problem& problem, Study study, const ParameterSettings& settings) {
+  return compile(problem.robot(), std::move(study), settings,
+                 {problem.urdf(), problem.overlays(), problem.study_text(), nullptr, problem.setup_seconds(), problem.warnings()});
+}
+
+void require_objective(const Problem& problem) {
+  const Study& study = problem.study();
   if (study.integral.empty() && study.terminal.empty())
     throw InputError({{study.file, 1},
                       "objective",
                       "the study has no objective: it can be simulated and checked, but there is nothing to optimize",
                       "",
                       "at least one term under objective.integral or objective.terminal"});
-}
-
-Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& overlays, const ParameterSettings& settings) {
-  const CpuTimer timer;
-  Problem problem;
-  problem.urdf = urdf;
-  problem.overlays = overlays;
-  problem.robot = read_urdf(urdf, overlays);
-  append(problem.robot.warnings, &problem.warnings);
-  problem.setup_seconds = timer.seconds();
-  problem.study.parameters = problem.robot.parameters;
-  problem.study.file = urdf.name;
-  return compile(std::move(problem), settings);
 }
 
 }  // namespace codesign

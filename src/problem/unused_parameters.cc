@@ -35,15 +35,15 @@ std::set<int> coefficients_of(const Study& study) {
 
 }  // namespace
 
-Warnings unused_parameters(const Problem& problem) {
+Warnings unused_parameters(const Problem::Contents& texts, const Study& study) {
   std::set<std::string> words;
-  collect_words(problem.urdf.text, &words);
-  for (const SourceText& overlay : problem.overlays) collect_words(overlay.text, &words);
-  collect_words(problem.study_text.text, &words);
-  const std::set<int> coefficients = coefficients_of(problem.study);
+  collect_words(texts.urdf.text, &words);
+  for (const SourceText& overlay : texts.overlays) collect_words(overlay.text, &words);
+  collect_words(texts.study_text.text, &words);
+  const std::set<int> coefficients = coefficients_of(study);
   Warnings warnings;
-  for (int index : problem.study.tuned) {
-    const Parameter& parameter = problem.study.parameters[static_cast<std::size_t>(index)];
+  for (int index : study.tuned) {
+    const Parameter& parameter = study.parameters[static_cast<std::size_t>(index)];
     if (words.count(parameter.name) > 0 || coefficients.count(index) > 0) continue;
     warnings.push_back(
         warn("unused_parameter", {parameter.where, "parameter " + parameter.name,

@@ -2,12 +2,12 @@
 #ifndef MECHANISM_CODESIGN_PROBLEM_UNUSED_PARAMETERS_H_
 #define MECHANISM_CODESIGN_PROBLEM_UNUSED_PARAMETERS_H_
 
-#include "problem/problem.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 
 /// A warning `unused_parameter` for each tuned parameter that no `${...}` of model, overlays and study names.
-Warnings unused_parameters(const Problem& problem);
+Warnings unused_parameters(const Problem::Contents& texts, const Study& study);
 
 }  // namespace codesign
 

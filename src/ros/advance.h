@@ -2,7 +2,7 @@
 #ifndef MECHANISM_CODESIGN_ROS_ADVANCE_H_
 #define MECHANISM_CODESIGN_ROS_ADVANCE_H_
 
-#include "integration/simulation.h"
+#include "mechanism_codesign/simulation.h"
 
 namespace codesign {
 

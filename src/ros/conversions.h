@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "mechanism_codesign/frame.h"
+#include "mechanism_codesign/optimization.h"
 #include "mechanism_codesign/warning.h"
-#include "optimization/optimizer.h"
 
 // From what the core computes to ROS messages. Nothing here needs a master.
 

@@ -12,8 +12,8 @@ std::string trimmed(const std::string& text) {
 
 bool has_the_values_of_its_model(const Problem& problem) {
   const std::vector<double> values = problem.parameters();
-  for (std::size_t k = 0; k < problem.robot.parameters.size(); ++k)
-    if (values[k] != problem.robot.parameters[k].value) return false;
+  for (std::size_t k = 0; k < problem.robot().parameters.size(); ++k)
+    if (values[k] != problem.robot().parameters[k].value) return false;
   return true;
 }
 
@@ -21,7 +21,7 @@ bool has_the_values_of_its_model(const Problem& problem) {
 
 bool describes(const std::string& text, const Problem& problem, const std::string& effective) {
   if (trimmed(text) == trimmed(effective)) return true;
-  return problem.overlays.empty() && has_the_values_of_its_model(problem) && trimmed(text) == trimmed(problem.urdf.text);
+  return problem.overlays().empty() && has_the_values_of_its_model(problem) && trimmed(text) == trimmed(problem.urdf().text);
 }
 
 Warnings check_description(const ros::NodeHandle& node, const Problem& problem, const std::string& effective) {

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "problem/problem.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 

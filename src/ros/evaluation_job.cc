@@ -2,10 +2,10 @@
 #include <cstdint>
 
 #include "mechanism_codesign/error.h"
+#include "mechanism_codesign/gradient.h"
 #include "ros/conversions.h"
 #include "ros/job.h"
 #include "ros/request.h"
-#include "sensitivity/evaluation.h"
 #include "text/unknown_name.h"
 
 namespace codesign {
@@ -22,10 +22,10 @@ void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& 
   const Eigen::VectorXd rho = design_of(problem, request);
   GradientCheck check;
   if (request.check.empty()) {
-    check.evaluation = Evaluator(problem.system).evaluate(rho, !request.objective_only, &cancel);
+    check.evaluation = Evaluator(problem.system()).evaluate(rho, !request.objective_only, &cancel);
     check.status = check.evaluation.status;
   } else {
-    check = check_gradient(problem.system, rho, method_of(request.check), &cancel);
+    check = check_gradient(problem.system(), rho, method_of(request.check), &cancel);
   }
   set_status(check.status, reply);
   reply->parameters = problem.tuned_names();
@@ -40,7 +40,7 @@ void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& 
   reply->cpu_seconds = check.evaluation.statistics.cpu_seconds;
   reply->constraint_drift = check.evaluation.statistics.constraint_drift;
   reply->energy_error = check.evaluation.statistics.energy_error;
-  reply->warnings = warning_messages(problem.warnings, check.evaluation.warnings);
+  reply->warnings = warning_messages(problem.warnings(), check.evaluation.warnings);
 }
 
 }  // namespace

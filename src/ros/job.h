@@ -13,7 +13,7 @@
 #include <string>
 
 #include "mechanism_codesign/status.h"
-#include "problem/problem.h"
+#include "problem/load_problem.h"
 
 // What the optimization node computes, apart from how it is asked: none of it needs a master, none of it throws.
 

@@ -9,7 +9,8 @@
 #include "jobs/job_files.h"
 #include "jobs/output_error.h"
 #include "mechanism_codesign/error.h"
-#include "optimization/optimizer.h"
+#include "mechanism_codesign/optimization.h"
+#include "reading/urdf/urdf_reader.h"
 #include "ros/job.h"
 #include "ros/job_bag.h"
 #include "ros/progress_log.h"
@@ -22,7 +23,7 @@ mechanism_codesign::OptimizeResult to_message(const OptimizationResult& result, 
   mechanism_codesign::OptimizeResult message;
   set_status(result.status, &message);
   message.parameters = problem.tuned_names();
-  for (const ParameterConstraint& constraint : problem.study.constraints) message.constraints.push_back(constraint.text);
+  for (const ParameterConstraint& constraint : problem.study().constraints) message.constraints.push_back(constraint.text);
   message.margins = to_array(result.margins);
   message.initial = to_array(result.initial_rho);
   message.tuned = to_array(result.rho);
@@ -65,18 +66,19 @@ class Patience {
 };
 
 BagSide run_side(const Problem& problem, const std::vector<double>& parameters, double rate, Patience* patience) {
-  return {write_tuned_urdf(problem.urdf, problem.overlays, parameters),
+  return {write_tuned_urdf(problem.urdf(), problem.overlays(), parameters),
           record_run(problem, parameters, rate, [patience] { return (*patience)(); })};
 }
 
 /// One job from its request to its bag.
 class Job {
  public:
-  Job(const Problem& problem, const JobOptions& options, JobRecord* record, OptimizationOutcome* outcome)
-      : problem_(problem),
+  Job(const OptimizationRequest& request, const JobOptions& options, JobRecord* record, OptimizationOutcome* outcome)
+      : problem_(request.problem),
+        optimizer_options_(request.options),
         options_(options),
-        files_(options.output_directory, problem.robot.name),
-        best_(files_.stem() + ".", problem),
+        files_(options.output_directory, problem_.robot().name),
+        best_(files_.stem() + ".", problem_),
         record_(record),
         outcome_(outcome) {}
 
@@ -89,11 +91,11 @@ class Job {
       if (observer) observer(log.last());
       return true;
     };
-    result_ = codesign::optimize(problem_.system, problem_.study, observe, &cancel);
+    result_ = codesign::optimize(problem_, optimizer_options_, observe, &cancel);
     record_->progress = log.take();
     outcome_->result = to_message(result_, problem_);
-    outcome_->result.warnings = warning_messages(problem_.warnings, warnings());
-    outcome_->result.setup_seconds = problem_.setup_seconds;
+    outcome_->result.warnings = warning_messages(problem_.warnings(), warnings());
+    outcome_->result.setup_seconds = problem_.setup_seconds();
   }
 
   /// A cancelled job is recorded too, with its start if it was cancelled before the first evaluation.
@@ -105,7 +107,7 @@ class Job {
     record_->initial = run_side(problem_, problem_.parameters(result_.initial_rho), options_.rate, &patience);
     record_->tuned = run_side(problem_, problem_.parameters(result_.rho), options_.rate, &patience);
     outcome_->tuned_urdf = record_->tuned.urdf;
-    outcome_->result.warnings = warning_messages(problem_.warnings, warnings());
+    outcome_->result.warnings = warning_messages(problem_.warnings(), warnings());
     record_->result = outcome_->result;
     record_->result.bag = files_.bag();
     write_bag(files_.bag(), *record_);
@@ -128,7 +130,8 @@ class Job {
     return warnings;
   }
 
-  const Problem& problem_;
+  const Problem problem_;
+  const OptimizerOptions optimizer_options_;
   const JobOptions& options_;
   const JobFiles files_;
   BestRecord best_;
@@ -146,8 +149,7 @@ OptimizationOutcome run_optimization(const Problem& problem, const std::string& 
   record.study = study;
   OptimizationOutcome outcome;
   try {
-    const Problem changed = apply_request(problem, request);
-    Job job(changed, options, &record, &outcome);
+    Job job(apply_request(problem, request), options, &record, &outcome);
     job.optimize(observer, cancel);
     job.record(cancel);
   } catch (const InputError& error) {

@@ -76,15 +76,15 @@ void OptimizationNode::load() {
     study_ = inputs.study.text;
     Problem problem =
         load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings, bag_trajectory_loader(study_folder(inputs)));
-    require_every_parameter(inputs, problem.robot);
+    require_every_parameter(inputs, problem.robot());
     check_recording(problem, options_.rate, private_node_.resolveName("rate"));
     for (const std::string& sentence : remove_leftovers(options_.output_directory)) ROS_WARN_STREAM(sentence);
-    state_.warn("files", problem.warnings);
+    state_.warn("files", problem.warnings());
     problem_ = std::move(problem);
-    state_.show("robot", problem_->robot.name);
+    state_.show("robot", problem_->robot().name);
     state_.show("output directory", options_.output_directory);
     state_.set(NodeState::Level::kOk,
-               "ready: " + problem_->robot.name + ", " + std::to_string(problem_->study.tuned.size()) + " parameters to tune");
+               "ready: " + problem_->robot().name + ", " + std::to_string(problem_->study().tuned.size()) + " parameters to tune");
   } catch (const InputError& error) {
     fault_ = error.what();
     state_.set(NodeState::Level::kError, "bad input: " + fault_);
@@ -121,7 +121,7 @@ OptimizationNode::Result OptimizationNode::run(const mechanism_codesign::Optimiz
     description.data = outcome.tuned_urdf;
     tuned_.publish(description);
   }
-  state_.warn("last job", added_warnings(outcome.result, problem_->warnings.size()));
+  state_.warn("last job", added_warnings(outcome.result, problem_->warnings().size()));
   tell_result(outcome.result);
   return outcome.result;
 }

@@ -1,6 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/recorded_run.h"
-#include "integration/simulation.h"
+#include "mechanism_codesign/simulation.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -65,14 +65,14 @@ double bytes_of_a_frame(const RobotDescription& robot, const Study& study) {
 }  // namespace
 
 void check_recording(const Problem& problem, double rate, const std::string& element) {
-  const double duration = problem.study.duration;
+  const double duration = problem.study().duration;
   if (duration > kLongestRun)
-    throw InputError({{problem.study.file, 0},
+    throw InputError({{problem.study().file, 0},
                       "duration",
                       "the run is longer than ROS can count",
                       to_decimal(duration),
                       "at most " + to_decimal(kLongestRun) + " s"});
-  const double most = kMostMemory / (2.0 * bytes_of_a_frame(problem.robot, problem.study));
+  const double most = kMostMemory / (2.0 * bytes_of_a_frame(problem.robot(), problem.study()));
   if (!(duration * rate <= most))
     throw InputError({{element, 0},
                       "rate",
@@ -83,9 +83,9 @@ void check_recording(const Problem& problem, double rate, const std::string& ele
 
 RecordedRun record_run(const Problem& problem, const std::vector<double>& parameters, double rate, const std::function<bool()>& stop) {
   RecordedRun run;
-  Simulation simulation(problem.system, parameters, signals_of(problem.study));
+  Simulation simulation(problem.system(), parameters, signals_of(problem.study()));
   run.names = simulation.names();
-  const double duration = problem.study.duration;
+  const double duration = problem.study().duration;
   const auto count = std::max<std::int64_t>(std::llround(duration * rate), 1);
   const auto stopped = [&stop] { return stop && stop(); };
   run.status = simulation.start();

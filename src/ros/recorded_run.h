@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "problem/problem.h"
+#include "problem/load_problem.h"
 #include "ros/friction_markers.h"
 
 namespace codesign {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "description/tuned_parameters.h"
 #include "text/decimal.h"
 #include "text/unknown_name.h"
 
@@ -81,37 +82,36 @@ void choose_options(const mechanism_codesign::OptimizeGoal& request, OptimizerOp
 
 void check_size(const Problem& problem, const std::vector<std::string>& names, const std::vector<double>& values,
                 const std::string& values_field) {
-  const std::size_t known = problem.study.parameters.size();
+  const std::size_t known = problem.study().parameters.size();
   check_names(names, known);
   if (values.size() > known)
     fail(values_field, "more values than there are parameters", std::to_string(values.size()) + " values",
          "at most " + std::to_string(known) + " values");
 }
 
-Problem apply_request(const Problem& problem, const mechanism_codesign::OptimizeGoal& request) {
-  require_objective(problem.study);
-  Problem changed = problem;
-  choose_options(request, &changed.study.optimizer);
+OptimizationRequest apply_request(const Problem& problem, const mechanism_codesign::OptimizeGoal& request) {
+  require_objective(problem);
+  OptimizerOptions options = problem.optimizer_options();
+  choose_options(request, &options);
   check_size(problem, request.parameters, request.start, "start");
-  if (!request.parameters.empty()) {
-    pair_up(request.parameters, std::vector<double>(request.parameters.size()), "parameters");
-    choose_tuned(request.parameters, &changed.study);
-  }
-  if (request.parameters.empty() && request.start.empty()) return changed;
+  if (!request.parameters.empty()) pair_up(request.parameters, std::vector<double>(request.parameters.size()), "parameters");
+  if (request.parameters.empty() && request.start.empty()) return {problem, options};
+  Study study = problem.study();
+  if (!request.parameters.empty()) choose_tuned(request.parameters, &study);
   ParameterSettings starts;
-  if (!request.start.empty()) starts = pair_up(changed.tuned_names(), request.start, "start");
-  return compile(std::move(changed), starts);
+  if (!request.start.empty()) starts = pair_up(tuned_names(study), request.start, "start");
+  return {with_study(problem, std::move(study), starts), options};
 }
 
 Eigen::VectorXd design_of(const Problem& problem, const mechanism_codesign::EvaluateRequest& request) {
-  require_objective(problem.study);
+  require_objective(problem);
   const std::vector<std::string> tuned = problem.tuned_names();
   check_length("check", request.check);
   check_size(problem, request.parameters, request.values, "values");
   Eigen::VectorXd rho = problem.start();
   for (const auto& [name, value] : pair_up(request.parameters, request.values, "values")) {
     const std::size_t k = index_of(name, tuned);
-    const Parameter& parameter = problem.study.parameters[static_cast<std::size_t>(problem.study.tuned[k])];
+    const Parameter& parameter = problem.study().parameters[static_cast<std::size_t>(problem.study().tuned[k])];
     if (!(value >= parameter.lower && value <= parameter.upper))
       fail(name, "value outside the parameter's bounds", to_decimal(value),
            "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]");

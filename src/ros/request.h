@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "problem/problem.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 
@@ -18,9 +18,15 @@ namespace codesign {
 void check_size(const Problem& problem, const std::vector<std::string>& names, const std::vector<double>& values,
                 const std::string& values_field);
 
-/// The loaded problem as a request changes it: other parameters to tune, other starts, other options of the optimizer.
+/// What a request asks for: the loaded problem, with other parameters to tune or other starts where it names some, and the options of the
+/// optimizer.
+struct OptimizationRequest {
+  Problem problem;
+  OptimizerOptions options;
+};
+
 /// @throws InputError naming the field of the request.
-Problem apply_request(const Problem& problem, const mechanism_codesign::OptimizeGoal& request);
+OptimizationRequest apply_request(const Problem& problem, const mechanism_codesign::OptimizeGoal& request);
 
 /// The design an evaluation asks for: the study's start, with the parameters of the request at their values.
 /// @throws InputError naming the field of the request.

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/simulation_node.h"
-#include "integration/simulation.h"
+#include "mechanism_codesign/simulation.h"
+#include "reading/urdf/urdf_reader.h"
 
 #include <rosgraph_msgs/Clock.h>
 #include <std_msgs/String.h>
@@ -61,9 +62,9 @@ void SimulationNode::load() {
   pace_ = Pace(options_.publish_limit);
   const Inputs inputs = read_inputs(node_, private_node_);
   problem_ = load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings, bag_trajectory_loader(study_folder(inputs)));
-  check_duration(private_node_, options_, problem_.study.duration);
-  state_.show("robot", problem_.robot.name);
-  state_.warn("files", problem_.warnings);
+  check_duration(private_node_, options_, problem_->study().duration);
+  state_.show("robot", problem_->robot().name);
+  state_.warn("files", problem_->warnings());
   advertise();
   tell_description();
 }
@@ -82,13 +83,13 @@ void SimulationNode::advertise() {
 
 void SimulationNode::tell_description() {
   std_msgs::String message;
-  message.data = description_ = write_tuned_urdf(problem_.urdf, problem_.overlays, problem_.parameters());
+  message.data = description_ = write_tuned_urdf(problem_->urdf(), problem_->overlays(), problem_->parameters());
   description_publisher_.publish(message);
-  state_.warn("description", check_description(node_, problem_, description_));
+  state_.warn("description", check_description(node_, *problem_, description_));
 }
 
 void SimulationNode::place_root() {
-  const std::string root = options_.frame_prefix + problem_.robot.links[static_cast<std::size_t>(problem_.robot.root)].name;
+  const std::string root = options_.frame_prefix + problem_->robot().links[static_cast<std::size_t>(problem_->robot().root)].name;
   if (options_.world_frame.empty() || options_.world_frame == root) return;
   geometry_msgs::TransformStamped transform;
   transform.header.stamp = clock_.stamp(0.0);
@@ -109,10 +110,10 @@ void SimulationNode::run() {
 void SimulationNode::run_all() {
   double previous_duration = 0.0;
   wait_for_subscribers();
-  state_.set(NodeState::Level::kOk, "running " + problem_.robot.name);
+  state_.set(NodeState::Level::kOk, "running " + problem_->robot().name);
   open_bag();
   do {
-    if (!clock_.has_room_for(previous_duration + problem_.study.duration))
+    if (!clock_.has_room_for(previous_duration + problem_->study().duration))
       return state_.set(NodeState::Level::kWarning, "finished: /clock has come to the end of what ROS can count");
     clock_.start_run(previous_duration);
     if (previous_duration == 0.0) place_root();
@@ -120,15 +121,15 @@ void SimulationNode::run_all() {
     close_bag();
     if (stopping()) return;
     if (!status.ok()) return state_.set(NodeState::Level::kError, std::string(name_of(status.code)) + ": " + at_time(status));
-    previous_duration = problem_.study.duration + 1.0 / options_.rate;
+    previous_duration = problem_->study().duration + 1.0 / options_.rate;
   } while (options_.loop);
-  state_.set(NodeState::Level::kOk, "finished " + problem_.robot.name);
+  state_.set(NodeState::Level::kOk, "finished " + problem_->robot().name);
 }
 
 Status SimulationNode::run_once() {
-  Simulation simulation(problem_.system, problem_.parameters(), signals_of(problem_.study));
+  Simulation simulation(problem_->system(), problem_->parameters(), signals_of(problem_->study()));
   Status status = simulation.start();
-  const double duration = problem_.study.duration;
+  const double duration = problem_->study().duration;
   const auto instant = [&](std::int64_t k) { return std::min(static_cast<double>(k) / options_.rate, duration); };
   Frame frame;
   factor_.start(ros::WallTime::now());

@@ -13,10 +13,10 @@
 #include <string>
 #include <thread>
 
-#include "integration/simulation.h"
 #include "jobs/lock_file.h"
 #include "jobs/output_error.h"
-#include "problem/problem.h"
+#include "mechanism_codesign/simulation.h"
+#include "problem/load_problem.h"
 #include "ros/bag_writer.h"
 #include "ros/node_state.h"
 #include "ros/pace.h"
@@ -58,8 +58,8 @@ class SimulationNode {
   ros::NodeHandle node_, private_node_{"~"};
   NodeState state_;
   SimulationOptions options_;
-  Problem problem_;
-  std::string description_;  ///< URDF of the mechanism that runs
+  std::optional<Problem> problem_;  ///< empty after bad input
+  std::string description_;         ///< URDF of the mechanism that runs
   RunClock clock_{1.0};
   Pace pace_;
   RealTimeFactor factor_;

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "sensitivity/evaluation.h"
+#include "mechanism_codesign/gradient.h"
 
 #include <cmath>
 
@@ -76,6 +76,7 @@ class Evaluator::Implementation {
 };
 
 Evaluator::Evaluator(std::shared_ptr<const CompiledSystem> system) : implementation_(std::make_unique<Implementation>(std::move(system))) {}
+Evaluator::Evaluator(const Problem& problem) : Evaluator(problem.system()) {}
 Evaluator::~Evaluator() = default;
 Evaluator::Evaluator(Evaluator&&) noexcept = default;
 Evaluator& Evaluator::operator=(Evaluator&&) noexcept = default;

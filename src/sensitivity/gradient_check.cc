@@ -5,7 +5,7 @@
 #include "equations/compiled_system.h"
 #include "integration/rosenbrock_integrator.h"
 #include "math/ridders.h"
-#include "sensitivity/evaluation.h"
+#include "mechanism_codesign/gradient.h"
 #include "sensitivity/rosenbrock_gradient.h"
 
 namespace codesign {
@@ -107,6 +107,10 @@ void check_by_differences(const CompiledSystem& system, const Eigen::VectorXd& r
 }
 
 }  // namespace
+
+GradientCheck check_gradient(const Problem& problem, const Eigen::VectorXd& rho, CheckMethod method, const std::atomic<bool>* cancel) {
+  return check_gradient(problem.system(), rho, method, cancel);
+}
 
 GradientCheck check_gradient(const std::shared_ptr<const CompiledSystem>& system, const Eigen::VectorXd& rho, CheckMethod method,
                              const std::atomic<bool>* cancel) {

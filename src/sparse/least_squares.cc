@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sparse/least_squares.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <numeric>
 
+#include "math/dense.h"
 #include "sparse/sparse_qr.h"
 
 namespace codesign {

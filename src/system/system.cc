@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "description/tuned_parameters.h"
 #include "mechanism/constants.h"
 #include "system/start_rotations.h"
 
@@ -51,18 +52,9 @@ System::System(const RobotDescription& robot, const Study& study, ReactionSharin
   collect_bristles();
 }
 
-std::vector<double> System::parameters() const {
-  std::vector<double> values;
-  for (const Parameter& parameter : study_.parameters) values.push_back(parameter.value);
-  return values;
-}
+std::vector<double> System::parameters() const { return start_parameters(study_); }
 
-std::vector<double> System::parameters(const Eigen::VectorXd& rho) const {
-  std::vector<double> values = parameters();
-  for (std::size_t k = 0; k < study_.tuned.size(); ++k)
-    values[static_cast<std::size_t>(study_.tuned[k])] = rho[static_cast<Eigen::Index>(k)];
-  return values;
-}
+std::vector<double> System::parameters(const Eigen::VectorXd& rho) const { return parameters_at(study_, rho); }
 
 void System::lay_out() {
   layout_.bodies = static_cast<int>(topology_.bodies.size());

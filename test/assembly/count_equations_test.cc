@@ -6,7 +6,7 @@
 #include "assembly/count_equations.h"
 #include "assembly/make_system.h"
 #include "equations/compiled.h"
-#include "integration/simulation.h"
+#include "mechanism_codesign/simulation.h"
 
 namespace codesign {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "integration/simulation.h"
-#include "problem/problem.h"
+#include "mechanism_codesign/simulation.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -39,7 +39,7 @@ std::string fault_of(const std::string& content) {
 /// Acceleration of a joint at rest at the start.
 double acceleration(const std::string& content, const std::string& name) {
   const Problem problem = load(content);
-  Simulation simulation(problem.system, problem.parameters(), {parse_signal(name + "/acceleration", {}, "")});
+  Simulation simulation(problem.system(), problem.parameters(), {parse_signal(name + "/acceleration", {}, "")});
   EXPECT_TRUE(simulation.start().ok());
   Frame frame;
   simulation.sample(0.0, &frame);

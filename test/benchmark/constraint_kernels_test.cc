@@ -8,7 +8,7 @@
 #include "benchmark/mechanisms.h"
 #include "equations/equations.h"
 #include "paths.h"
-#include "problem/problem.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -18,7 +18,7 @@ class ConstraintKernelsTest : public testing::TestWithParam<std::string> {
  protected:
   ConstraintKernelsTest()
       : problem_(load()),
-        kernels_(*problem_.system, evaluate_constants(problem_.robot, problem_.system->topology(), problem_.parameters())),
+        kernels_(*problem_.system(), evaluate_constants(problem_.robot(), problem_.system()->topology(), problem_.parameters())),
         n_(kernels_.columns()),
         m_(kernels_.rows()),
         q_(n_),
@@ -41,7 +41,7 @@ class ConstraintKernelsTest : public testing::TestWithParam<std::string> {
   /// Phi and Phi_q v by the equations of motion.
   template <class T>
   std::pair<VectorX<T>, VectorX<T>> errors(const VectorX<T>& q, const VectorX<T>& v) const {
-    Equations<T> equations(*problem_.system);
+    Equations<T> equations(*problem_.system());
     const std::vector<double> parameters = problem_.parameters();
     equations.set_design(std::vector<T>(parameters.begin(), parameters.end()));
     VectorX<T> Phi, rate;

@@ -5,8 +5,8 @@
 
 #include "assembly/count_equations.h"
 #include "equations/compiled_system.h"
-#include "problem/problem.h"
-#include "sensitivity/evaluation.h"
+#include "mechanism_codesign/gradient.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -15,7 +15,7 @@ Problem load(const GeneratedCase& generated) { return load_problem(generated.urd
 
 Counts counts_of(const Problem& problem) {
   Status status;
-  const Counts counts = count_equations(*problem.system, problem.parameters(), &status);
+  const Counts counts = count_equations(*problem.system(), problem.parameters(), &status);
   EXPECT_TRUE(status.ok()) << status.cause;
   return counts;
 }
@@ -45,7 +45,7 @@ TEST(Mechanisms, StackedFourBarsHaveThreeRedundantConstraintsEach) {
     EXPECT_EQ(counts.bodies, 9);
     EXPECT_EQ(counts.degrees_of_freedom, 3);
     EXPECT_EQ(counts.redundant_constraints, 9);
-    EXPECT_EQ(problem.warnings.size(), with_friction ? 3U : 0U) << "undetermined_friction of each crank";
+    EXPECT_EQ(problem.warnings().size(), with_friction ? 3U : 0U) << "undetermined_friction of each crank";
   }
 }
 
@@ -53,7 +53,7 @@ TEST(Mechanisms, EveryParameterOfAChainMatters) {
   const Problem problem = load(parametric_chain(2, 8));
   EXPECT_EQ(problem.tuned_names(),
             (std::vector<std::string>{"length_0", "mass_0", "radius_0", "friction_0", "length_1", "mass_1", "radius_1", "friction_1"}));
-  const GradientCheck check = check_gradient(problem.system, problem.start(), CheckMethod::kComplexStep);
+  const GradientCheck check = check_gradient(problem.system(), problem.start(), CheckMethod::kComplexStep);
   ASSERT_TRUE(check.status.ok()) << check.status.cause;
   EXPECT_LT(check.largest_relative_difference, 1e-9);
   EXPECT_GT(check.evaluation.gradient.cwiseAbs().minCoeff(), 1e-6);

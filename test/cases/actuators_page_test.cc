@@ -2,9 +2,9 @@
 // The numbers of doc/actuators.md.
 #include <gtest/gtest.h>
 
-#include "integration/simulation.h"
+#include "mechanism_codesign/simulation.h"
 #include "paths.h"
-#include "problem/problem.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -17,7 +17,7 @@ std::string block(const std::string& page, const std::string& language) {
 TEST(ActuatorsPage, TheArmDoesWhatThePageSays) {
   const std::string page = read_source(source_dir() + "/doc/actuators.md").text;
   const Problem problem = load_problem({"arm.urdf", block(page, "xml")}, {}, {"arm.yaml", block(page, "yaml")});
-  Simulation simulation(problem.system, problem.parameters());
+  Simulation simulation(problem.system(), problem.parameters());
   Frame frame;
   ASSERT_TRUE(simulation.start().ok());
   simulation.sample(0.0, &frame);

@@ -4,7 +4,7 @@
 
 #include "assembly/make_system.h"
 #include "cases/shipped.h"
-#include "optimization/optimizer.h"
+#include "mechanism_codesign/optimization.h"
 
 namespace codesign {
 namespace {
@@ -40,7 +40,7 @@ TEST(Governor, TunesIntoItsFlatValley) {
   shipped.study.solver.relative_tolerance = 1e-6;
   shipped.study.solver.absolute_tolerance = 1e-7;
   shipped.study.solver.sensitivity_tolerance = 0.0;
-  const OptimizationResult result = optimize(make_system(shipped.robot, shipped.study), shipped.study);
+  const OptimizationResult result = optimize(make_system(shipped.robot, shipped.study), shipped.study.optimizer);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   EXPECT_LE(result.objective, 0.6198);
   EXPECT_LE(result.evaluations, 40);

@@ -4,8 +4,8 @@
 
 #include "assembly/make_system.h"
 #include "cases/shipped.h"
-#include "integration/simulation.h"
-#include "optimization/optimizer.h"
+#include "mechanism_codesign/optimization.h"
+#include "mechanism_codesign/simulation.h"
 
 namespace codesign {
 namespace {
@@ -77,7 +77,7 @@ void expect_tuned(const std::string& name, double objective, const Eigen::Vector
   // Coarser than shipped: the optimum needs no eight digits.
   shipped.study.solver.relative_tolerance = 1e-7;
   shipped.study.solver.absolute_tolerance = 1e-8;
-  const OptimizationResult result = optimize(make_system(shipped.robot, shipped.study), shipped.study);
+  const OptimizationResult result = optimize(make_system(shipped.robot, shipped.study), shipped.study.optimizer);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   EXPECT_LE(result.objective, objective);
   for (Eigen::Index k = 0; k < 3; ++k) EXPECT_NEAR(result.rho[k], optimum[k], 0.02 * optimum[k] + 1.0) << k;

@@ -4,8 +4,8 @@
 
 #include "assembly/make_system.h"
 #include "cases/shipped.h"
-#include "integration/simulation.h"
-#include "sensitivity/evaluation.h"
+#include "mechanism_codesign/gradient.h"
+#include "mechanism_codesign/simulation.h"
 
 namespace codesign {
 namespace {

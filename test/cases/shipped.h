@@ -10,11 +10,11 @@
 
 #include "assembly/count_equations.h"
 #include "assembly/make_system.h"
-#include "integration/simulation.h"
+#include "mechanism_codesign/gradient.h"
+#include "mechanism_codesign/simulation.h"
 #include "paths.h"
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"
-#include "sensitivity/evaluation.h"
 
 namespace codesign {
 

@@ -5,8 +5,8 @@
 
 #include "assembly/make_system.h"
 #include "cases/shipped.h"
-#include "integration/simulation.h"
 #include "mechanism/signal_catalog.h"
+#include "mechanism_codesign/simulation.h"
 #include "paths.h"
 
 namespace codesign {

@@ -4,7 +4,7 @@
 
 #include "assembly/make_system.h"
 #include "cases/shipped.h"
-#include "optimization/optimizer.h"
+#include "mechanism_codesign/optimization.h"
 
 namespace codesign {
 namespace {
@@ -62,7 +62,7 @@ TEST_F(HardSliderCrank, AnOptimizerThatStepsThereGoesOn) {
   shipped.study.optimizer.algorithm = "lbfgs";
   shipped.study.optimizer.max_evaluations = 15;
   std::vector<StatusCode> codes;
-  const OptimizationResult result = optimize(make_system(shipped.robot, shipped.study), shipped.study, [&](const Trial& trial) {
+  const OptimizationResult result = optimize(make_system(shipped.robot, shipped.study), shipped.study.optimizer, [&](const Trial& trial) {
     codes.push_back(trial.status.code);
     return true;
   });
@@ -76,7 +76,7 @@ TEST_F(HardSliderCrank, AnOptimizerThatStepsThereGoesOn) {
 
 TEST_F(HardSliderCrank, AnOptimizerThatStartsThereSaysWhy) {
   start_at(-1.0);
-  const OptimizationResult result = optimize(make_system(shipped.robot, shipped.study), shipped.study);
+  const OptimizationResult result = optimize(make_system(shipped.robot, shipped.study), shipped.study.optimizer);
   EXPECT_EQ(result.status.code, StatusCode::kUnstableMotion);
   EXPECT_EQ(result.evaluations, 1);
 }

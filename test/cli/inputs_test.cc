@@ -22,7 +22,7 @@ TEST(Inputs, ReadsModelStudyOverlaysAndSettings) {
   arguments.overlays = {folder.path("overlay.urdf")};
   arguments.settings = {{"Kp", 2.0}};
   const Problem problem = load(arguments);
-  EXPECT_EQ(problem.overlays.size(), 1U);
+  EXPECT_EQ(problem.overlays().size(), 1U);
   EXPECT_EQ(problem.start()[4], 2.0);
   EXPECT_EQ(load_tunable(arguments).study.tuned.size(), 5U);
 }

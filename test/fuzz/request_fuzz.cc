@@ -24,7 +24,7 @@ std::string odd_name(const std::string& usual, Dice* dice) {
 }
 
 void choose(const Problem& problem, Dice* dice, std::vector<std::string>* names, std::vector<double>* values) {
-  for (const Parameter& parameter : problem.study.parameters) {
+  for (const Parameter& parameter : problem.study().parameters) {
     if (dice->one_in(2)) continue;
     names->push_back(odd_name(parameter.name, dice));
     values->push_back(odd_number(parameter.value, dice));
@@ -77,7 +77,7 @@ std::string evaluate_once(const Problem& problem, const std::atomic<bool>& cance
 std::string run_request(const std::vector<Seed>& seeds, const Limits& limits, Dice* dice) {
   const Seed& seed = dice->pick(seeds);
   const Problem problem = load_problem({"model.urdf", seed.urdf}, {}, {"study.yaml", seed.study});
-  if (problem.study.tuned.empty()) return "";
+  if (problem.study().tuned.empty()) return "";
   const bool evaluates = dice->one_in(2);
   return run_isolated(
       [&](const std::atomic<bool>& cancel) {

@@ -4,8 +4,8 @@
 
 #include "assembly/make_system.h"
 #include "integration/energy_balance.h"
-#include "integration/simulation.h"
 #include "mechanism/signal_catalog.h"
+#include "mechanism_codesign/simulation.h"
 
 namespace codesign {
 namespace {

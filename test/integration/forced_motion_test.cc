@@ -6,8 +6,8 @@
 #include "integration/equal_steps.h"
 #include "integration/rosenbrock_step.h"
 #include "integration/servo.h"
-#include "integration/simulation.h"
-#include "sensitivity/evaluation.h"
+#include "mechanism_codesign/gradient.h"
+#include "mechanism_codesign/simulation.h"
 
 namespace codesign {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "assembly/make_system.h"
 #include "integration/mechanisms.h"
-#include "integration/simulation.h"
+#include "mechanism_codesign/simulation.h"
 
 namespace codesign {
 namespace {

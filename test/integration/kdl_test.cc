@@ -17,8 +17,8 @@
 
 #include "assembly/make_system.h"
 #include "equations/compiled_system.h"
-#include "integration/simulation.h"
 #include "mechanism/topology.h"
+#include "mechanism_codesign/simulation.h"
 #include "paths.h"
 #include "reading/urdf/urdf_reader.h"
 

@@ -4,7 +4,7 @@
 
 #include "integration/energy_balance.h"
 #include "integration/servo.h"
-#include "integration/simulation.h"
+#include "mechanism_codesign/simulation.h"
 
 namespace codesign {
 namespace {

@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 // Linkages whose constraints are redundant move as their closed forms say.
 #include "integration/linkages.h"
-#include "integration/simulation.h"
+#include "mechanism_codesign/simulation.h"
 
 #include <gtest/gtest.h>
 

@@ -13,8 +13,9 @@ const char* const kHold = "{hold: {type: pid, input: hinge/position, setpoint: 0
 /// A pendulum of one second, turning at `rate` [rad/s] at some time.
 struct Watched {
   explicit Watched(const std::string& solver, const std::string& controllers = kHold)
-      : system(compile(pendulum(), "duration: 1\ncontrollers: " + controllers +
-                                       "\nparameters: {}\nobjective: {integral: [{signal: hinge/position}]}\nsolver: " + solver + "\n")),
+      : system(with_settings(pendulum(), "duration: 1\ncontrollers: " + controllers +
+                                             "\nparameters: {}\nobjective: {integral: [{signal: hinge/position}]}\nsolver: " + solver +
+                                             "\n")),
         equations(*system),
         watch(*system) {
     equations.set_design({});

@@ -7,8 +7,8 @@
 #include "equations/compiled.h"
 #include "equations/compiled_system.h"
 #include "integration/rounded_linkages.h"
-#include "problem/problem.h"
-#include "sensitivity/evaluation.h"
+#include "mechanism_codesign/gradient.h"
+#include "problem/load_problem.h"
 #include "text/decimal.h"
 
 namespace codesign {
@@ -48,7 +48,7 @@ std::string study(double tolerance, const std::string& more = "") {
 
 Evaluation evaluate(const std::string& urdf, double tolerance, const std::string& more = "") {
   const Problem problem = load_problem({"four.urdf", urdf}, {}, {"four.yaml", study(tolerance, more)});
-  Evaluator evaluator(problem.system);
+  Evaluator evaluator(problem.system());
   return evaluator.evaluate(problem.start(), true);
 }
 
@@ -92,8 +92,8 @@ TEST(RoundedLoops, OtherLinkagesSettleAsTheToleranceFalls) {
     const auto at = [&c](double tolerance) {
       const Problem problem =
           load_problem({"rounded.urdf", c.urdf}, {}, {"rounded.yaml", rounded::study(c.start, c.signal, 0.2, tolerance)});
-      EXPECT_FALSE(problem.system->sharing().dropped.empty()) << c.name;
-      return Evaluator(problem.system).evaluate(problem.start(), true);
+      EXPECT_FALSE(problem.system()->sharing().dropped.empty()) << c.name;
+      return Evaluator(problem.system()).evaluate(problem.start(), true);
     };
     const Evaluation tight = at(1e-11);
     ASSERT_TRUE(tight.status.ok()) << c.name << ": " << tight.status.cause;

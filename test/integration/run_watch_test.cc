@@ -1,6 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "integration/run_watch.h"
-#include "integration/simulation.h"
+#include "mechanism_codesign/simulation.h"
 
 #include <gtest/gtest.h>
 
@@ -100,7 +100,8 @@ TEST_F(WatchedPendulum, EnergyFromNowhereAtTheEndFailsAtOnce) {
 
 // Rounding is all the motion there is.
 TEST(RunWatch, WhatHangsAtRestIsNotMeasuredByItsRounding) {
-  const auto system = compile(pendulum(), motion_study(2.0, "{hinge: {position: 0.0}}", "hinge/velocity", solver("rosenbrock", 1e-10)));
+  const auto system =
+      with_settings(pendulum(), motion_study(2.0, "{hinge: {position: 0.0}}", "hinge/velocity", solver("rosenbrock", 1e-10)));
   RosenbrockIntegrator integrator(*system);
   ASSERT_TRUE(integrator.start({}).ok());
   while (integrator.state().t < 2.0) ASSERT_TRUE(integrator.advance(2.0).ok());

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "integration/simulation.h"
+#include "mechanism_codesign/simulation.h"
 
 #include <gtest/gtest.h>
 

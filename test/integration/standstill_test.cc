@@ -6,7 +6,7 @@
 #include "equations/compiled_system.h"
 #include "integration/integrator.h"
 #include "integration/rounded_linkages.h"
-#include "problem/problem.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -18,9 +18,9 @@ struct End {
 
 End run(const std::string& urdf, const std::string& study) {
   const Problem problem = load_problem({"rounded.urdf", urdf}, {}, {"rounded.yaml", study});
-  const auto integrator = make_integrator(*problem.system);
+  const auto integrator = make_integrator(*problem.system());
   Status status = integrator->start(problem.parameters());
-  while (status.ok() && integrator->state().t < problem.study.duration) status = integrator->advance(problem.study.duration);
+  while (status.ok() && integrator->state().t < problem.study().duration) status = integrator->advance(problem.study().duration);
   return {status, integrator->statistics()};
 }
 

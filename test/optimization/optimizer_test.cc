@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "optimization/optimizer.h"
+#include "mechanism_codesign/optimization.h"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ Case shipped(const std::string& name) {
 
 TEST(Optimizer, TunesTheSliderCrank) {
   const Case c = shipped("slider_crank");
-  const OptimizationResult result = optimize(make_system(c.robot, c.study), c.study);
+  const OptimizationResult result = optimize(make_system(c.robot, c.study), c.study.optimizer);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   EXPECT_LE(result.objective, 8.80e-4);
   EXPECT_EQ(result.influences, std::vector<bool>(c.study.tuned.size(), true));
@@ -38,7 +38,7 @@ TEST(Optimizer, TunesTheSliderCrank) {
 
 TEST(Optimizer, KeepsToTheParameterConstraint) {
   const Case c = shipped("slider_crank_haug");
-  const OptimizationResult result = optimize(make_system(c.robot, c.study), c.study);
+  const OptimizationResult result = optimize(make_system(c.robot, c.study), c.study.optimizer);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   EXPECT_LE(result.objective, 0.02122);
   EXPECT_GE(result.rho[1] - result.rho[0], 0.165 - 1e-7);
@@ -47,13 +47,13 @@ TEST(Optimizer, KeepsToTheParameterConstraint) {
 TEST(Optimizer, RefusesConstraintsWhereTheyAreNotTaken) {
   Case c = shipped("slider_crank_haug");
   c.study.optimizer.algorithm = "lbfgs";
-  EXPECT_THROW(optimize(make_system(c.robot, c.study), c.study), InputError);
+  EXPECT_THROW(optimize(make_system(c.robot, c.study), c.study.optimizer), InputError);
 }
 
 TEST(Optimizer, CancelKeepsTheBestPoint) {
   const Case c = shipped("slider_crank");
   const OptimizationResult result =
-      optimize(make_system(c.robot, c.study), c.study, [](const Trial& trial) { return trial.evaluation < 2; });
+      optimize(make_system(c.robot, c.study), c.study.optimizer, [](const Trial& trial) { return trial.evaluation < 2; });
   EXPECT_EQ(result.status.code, StatusCode::kCancelled);
   EXPECT_EQ(result.evaluations, 2);
   EXPECT_LE(result.objective, result.initial_objective);
@@ -77,7 +77,7 @@ TEST(Optimizer, SurvivesPointsThatCannotBeAssembled) {
   c.study.integral.front().reference = Quantity(0.0);
   c.study.integral.resize(1);
   c.study.duration = 0.02;
-  const OptimizationResult result = optimize(make_system(c.robot, c.study), c.study);
+  const OptimizationResult result = optimize(make_system(c.robot, c.study), c.study.optimizer);
   EXPECT_TRUE(result.status.ok()) << result.status.cause;
   EXPECT_GT(result.failed_evaluations, 0);
   EXPECT_LT(result.objective, result.initial_objective);

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "assembly/make_system.h"
-#include "optimization/optimizer.h"
-#include "problem/problem.h"
+#include "mechanism_codesign/optimization.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -34,7 +34,7 @@ objective: {terminal: [{signal: hinge/position, reference: 0.1, weight: ")" +
 parameters: {)" + parameters + "}\n" + more});
 }
 
-OptimizationResult search(const Problem& problem) { return optimize(problem.system, problem.study); }
+OptimizationResult search(const Problem& problem) { return optimize(problem); }
 
 bool has_warning(const Warnings& warnings, const std::string& code, const std::string& part = "") {
   return std::any_of(warnings.begin(), warnings.end(),
@@ -80,26 +80,26 @@ TEST(Outcome, ASearchTurnsBackWhereAConstraintIsNoNumber) {
 
 TEST(Outcome, AGradientThatIsNotFiniteIsNoSuccess) {
   const Problem problem = problem_of("", "${sqrt(length - 1)}");
-  const Evaluation evaluation = Evaluator(problem.system).evaluate(problem.start(), true);
+  const Evaluation evaluation = Evaluator(problem.system()).evaluate(problem.start(), true);
   EXPECT_EQ(evaluation.status.code, StatusCode::kNonFiniteGradient);
   EXPECT_NE(evaluation.status.cause.find("\"length\""), std::string::npos) << evaluation.status.cause;
-  EXPECT_TRUE(Evaluator(problem.system).evaluate(problem.start(), false).status.ok());
+  EXPECT_TRUE(Evaluator(problem.system()).evaluate(problem.start(), false).status.ok());
   EXPECT_EQ(search(problem).status.code, StatusCode::kNonFiniteGradient);
   for (const CheckMethod method : {CheckMethod::kComplexStep, CheckMethod::kRidders})
-    EXPECT_EQ(check_gradient(problem.system, problem.start(), method).status.code, StatusCode::kNonFiniteGradient);
+    EXPECT_EQ(check_gradient(problem.system(), problem.start(), method).status.code, StatusCode::kNonFiniteGradient);
 }
 
 TEST(Outcome, AReferenceThatIsNotFiniteIsNoCheck) {
   // The objective exists to the right of the start alone, where the gradient is zero.
   const Problem problem = problem_of("", "${length >= 1 ? 1 : sqrt(length - 1)}");
-  EXPECT_TRUE(Evaluator(problem.system).evaluate(problem.start(), true).status.ok());
-  EXPECT_FALSE(check_gradient(problem.system, problem.start(), CheckMethod::kRidders).status.ok());
+  EXPECT_TRUE(Evaluator(problem.system()).evaluate(problem.start(), true).status.ok());
+  EXPECT_FALSE(check_gradient(problem.system(), problem.start(), CheckMethod::kRidders).status.ok());
 }
 
 TEST(Outcome, AnObjectiveThatIsNotFiniteIsNoSuccess) {
   Problem problem = problem_of("", "1e308");
-  problem.study.terminal.front().reference = Quantity(1e100);
-  problem.system = make_system(problem.robot, problem.study);
+  problem.study().terminal.front().reference = Quantity(1e100);
+  problem.system() = make_system(problem.robot(), problem.study());
   EXPECT_EQ(search(problem).status.code, StatusCode::kNonFinite);
 }
 
@@ -114,9 +114,9 @@ TEST(Outcome, WarnsOfParametersOnTheirBound) {
 
 TEST(Outcome, WarnsOfParametersThatDoNothing) {
   const Problem problem = problem_of("", "1", "length: {}, idle: {}, mine: {initial: 1}");
-  EXPECT_TRUE(has_warning(problem.warnings, "unused_parameter", "${idle}"));
-  EXPECT_TRUE(has_warning(problem.warnings, "unused_parameter", "${mine}"));
-  EXPECT_FALSE(has_warning(problem.warnings, "unused_parameter", "${length}"));
+  EXPECT_TRUE(has_warning(problem.warnings(), "unused_parameter", "${idle}"));
+  EXPECT_TRUE(has_warning(problem.warnings(), "unused_parameter", "${mine}"));
+  EXPECT_FALSE(has_warning(problem.warnings(), "unused_parameter", "${length}"));
   const OptimizationResult result = search(problem);
   EXPECT_TRUE(has_warning(result.warnings, "parameter_without_influence", "idle"));
   EXPECT_FALSE(has_warning(result.warnings, "parameter_without_influence", "length"));
@@ -125,8 +125,8 @@ TEST(Outcome, WarnsOfParametersThatDoNothing) {
 TEST(Outcome, ABasisUsesItsCoefficientsWithoutNamingThem) {
   const Problem problem =
       problem_of("controllers: {push: {type: basis, output: hinge, coefficients: {count: 3, lower: -1, upper: 1}}}\n", "1", "length: {}");
-  EXPECT_EQ(problem.study.tuned.size(), 4U);
-  EXPECT_FALSE(has_warning(problem.warnings, "unused_parameter"));
+  EXPECT_EQ(problem.study().tuned.size(), 4U);
+  EXPECT_FALSE(has_warning(problem.warnings(), "unused_parameter"));
 }
 
 TEST(Outcome, WarnsOfASearchThatRanOutOfEvaluations) {
@@ -141,7 +141,7 @@ TEST(Outcome, TolerancesBelowRoundingAreRefused) {
                            "solver: {sensitivity_tolerance: 1e-14}\n", "optimizer: {relative_tolerance: 1e-16}\n"})
     EXPECT_THROW(problem_of(more), InputError) << more;
   Problem problem = problem_of("");
-  problem.study.optimizer.relative_tolerance = 0.0;
+  problem.study().optimizer.relative_tolerance = 0.0;
   EXPECT_THROW(search(problem), InputError) << "requests bring tolerances too";
 }
 

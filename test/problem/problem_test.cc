@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "problem/problem.h"
+#include "problem/load_problem.h"
 
 #include <gtest/gtest.h>
 
@@ -33,12 +33,12 @@ objective: {integral: [{signal: hinge/position}]}
 
 TEST(Problem, HoldsAllParametersAndTheStart) {
   const Problem problem = load_problem(kPendulum, {}, kStudy);
-  EXPECT_EQ(problem.robot.name, "pendulum");
+  EXPECT_EQ(problem.robot().name, "pendulum");
   EXPECT_EQ(problem.parameters(), (std::vector<double>{1.0, 3.0, 2.0}));
   EXPECT_EQ(problem.start(), Eigen::Vector2d(2.0, 1.0));
   EXPECT_EQ(problem.tuned_names(), (std::vector<std::string>{"Kp", "length"}));
   EXPECT_EQ(problem.parameters(Eigen::Vector2d(5.0, 0.7)), (std::vector<double>{0.7, 3.0, 5.0}));
-  EXPECT_NE(problem.system, nullptr);
+  EXPECT_NE(problem.system(), nullptr);
 }
 
 TEST(Problem, SettingsReplaceStartsAndDefaults) {

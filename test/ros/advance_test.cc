@@ -1,6 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/advance.h"
-#include "integration/simulation.h"
+#include "mechanism_codesign/simulation.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 
 TEST(Advance, AsksOnTheWayAndStops) {
   const Problem problem = pendulum();
-  Simulation simulation(problem.system, problem.parameters());
+  Simulation simulation(problem.system(), problem.parameters());
   ASSERT_TRUE(simulation.start().ok());
   int asked = 0;
   EXPECT_EQ(advance(&simulation, 0.0, 0.5, [&] { return ++asked == 5; }).code, StatusCode::kCancelled);
@@ -20,7 +20,7 @@ TEST(Advance, AsksOnTheWayAndStops) {
 
 TEST(Advance, ChangesNoStepOfTheRun) {
   const Problem problem = pendulum();
-  Simulation sliced(problem.system, problem.parameters()), whole(problem.system, problem.parameters());
+  Simulation sliced(problem.system(), problem.parameters()), whole(problem.system(), problem.parameters());
   Frame from_sliced, from_whole;
   ASSERT_TRUE(sliced.start().ok() && whole.start().ok());
   ASSERT_TRUE(advance(&sliced, 0.0, 0.5, [] { return false; }).ok() && whole.advance(0.5).ok());

@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/description.h"
+#include "reading/urdf/urdf_reader.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +9,7 @@
 namespace codesign {
 namespace {
 
-std::string effective(const Problem& problem) { return write_tuned_urdf(problem.urdf, problem.overlays, problem.parameters()); }
+std::string effective(const Problem& problem) { return write_tuned_urdf(problem.urdf(), problem.overlays(), problem.parameters()); }
 
 TEST(Description, TheModelDescribesItselfAtItsOwnValues) {
   const Problem problem = pendulum();
@@ -18,7 +19,7 @@ TEST(Description, TheModelDescribesItselfAtItsOwnValues) {
 }
 
 TEST(Description, AValueMakesItAnotherMechanism) {
-  const Problem problem = compile(pendulum(), {{"length", 0.6}});
+  const Problem problem = with_settings(pendulum(), {{"length", 0.6}});
   EXPECT_FALSE(describes(kPendulumUrdf, problem, effective(problem)));
   EXPECT_TRUE(describes(effective(problem), problem, effective(problem)));
 }

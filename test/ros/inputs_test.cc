@@ -73,7 +73,7 @@ TEST(RequireEveryParameter, ATreeThatLostAnEmptyMappingIsRefused) {
   const Problem problem = load(inputs);
   EXPECT_EQ(problem.tuned_names(), std::vector<std::string>{"Kp"}) << "the study says {length: {}}, and that is what is lost";
   try {
-    require_every_parameter(inputs, problem.robot);
+    require_every_parameter(inputs, problem.robot());
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_EQ(error.fault().where.file, "/optimization/study");
@@ -95,7 +95,7 @@ TEST(RequireEveryParameter, TheShippedStudiesTuneTheSameAsATree) {
     const SourceText urdf = read_source(source_dir() + "/urdf/" + entry.path().stem().string() + ".urdf");
     const Inputs tree = as_tree(urdf.text, study.text);
     const Problem problem = load(tree);
-    EXPECT_NO_THROW(require_every_parameter(tree, problem.robot)) << entry.path();
+    EXPECT_NO_THROW(require_every_parameter(tree, problem.robot())) << entry.path();
     // XML-RPC sorts by name.
     std::vector<std::string> from_file = load_problem(urdf, {}, study).tuned_names(), from_tree = problem.tuned_names();
     std::sort(from_file.begin(), from_file.end());

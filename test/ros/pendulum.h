@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "problem/problem.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 

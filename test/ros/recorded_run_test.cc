@@ -43,7 +43,7 @@ TEST(LayOut, WithoutFramesItStaysFinite) {
 TEST(CheckRecording, RefusesWhatMemoryOrRosTimeCannotHold) {
   Problem problem = pendulum();
   const auto fault_of = [&problem](double duration, double rate) -> std::string {
-    problem.study.duration = duration;
+    problem.study().duration = duration;
     try {
       check_recording(problem, rate, "/optimization/rate");
       return "";

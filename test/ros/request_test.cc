@@ -37,11 +37,11 @@ std::string fault_of(const EvaluateRequest& request) {
 TEST(OptimizeRequest, AnEmptyOneChangesNothing) {
   const Problem problem = pendulum();
   const Problem changed = apply_request(problem, OptimizeGoal());
-  EXPECT_EQ(changed.system, problem.system);
+  EXPECT_EQ(changed.system, problem.system());
   EXPECT_EQ(changed.start(), problem.start());
   EXPECT_EQ(changed.study.optimizer.algorithm, "lbfgs");
   EXPECT_EQ(changed.study.optimizer.max_evaluations, 30);
-  EXPECT_EQ(changed.study.optimizer.relative_tolerance, problem.study.optimizer.relative_tolerance);
+  EXPECT_EQ(changed.study.optimizer.relative_tolerance, problem.study().optimizer.relative_tolerance);
 }
 
 TEST(OptimizeRequest, ChoosesParametersAndStarts) {

@@ -1,6 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/trajectory_bag.h"
-#include "integration/simulation.h"
+#include "mechanism_codesign/simulation.h"
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
@@ -90,7 +90,7 @@ TEST_F(TrajectoryBag, AStudyFollowsIt) {
   study.replace(study.find("setpoint: 0.0"), 13, "setpoint: {type: trajectory, bag: moves.bag, topic: arm, joint: hinge}");
   const Problem problem =
       load_problem({"pendulum.urdf", kPendulumUrdf}, {}, {"pendulum.yaml", study}, {}, bag_trajectory_loader(directory_.path().string()));
-  Simulation simulation(problem.system, problem.parameters());
+  Simulation simulation(problem.system(), problem.parameters());
   std::vector<double> setpoints;
   simulate(&simulation, 0.5, 3, [&setpoints](const Frame& frame) {
     setpoints.push_back(frame.controllers.at(0).setpoint);

@@ -6,7 +6,7 @@
 
 #include "equations/compiled_system.h"
 #include "integration/servo.h"
-#include "sensitivity/evaluation.h"
+#include "mechanism_codesign/gradient.h"
 
 namespace codesign {
 namespace {

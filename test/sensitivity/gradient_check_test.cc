@@ -5,7 +5,7 @@
 
 #include "assembly/make_system.h"
 #include "integration/mechanisms.h"
-#include "sensitivity/evaluation.h"
+#include "mechanism_codesign/gradient.h"
 
 namespace codesign {
 namespace {

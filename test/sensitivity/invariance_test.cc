@@ -4,10 +4,10 @@
 #include <regex>
 
 #include "assembly/make_system.h"
+#include "mechanism_codesign/gradient.h"
 #include "paths.h"
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"
-#include "sensitivity/evaluation.h"
 
 namespace codesign {
 namespace {

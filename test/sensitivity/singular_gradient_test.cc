@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "integration/linkages.h"
-#include "problem/problem.h"
-#include "sensitivity/evaluation.h"
+#include "mechanism_codesign/gradient.h"
+#include "problem/load_problem.h"
 #include "text/decimal.h"
 
 namespace codesign {
@@ -22,7 +22,7 @@ Evaluation evaluate(const std::string& integrator, double tolerance, double dura
       ", relative_tolerance: " + to_decimal(tolerance) + ", absolute_tolerance: " + to_decimal(tolerance) +
       "}\nobjective: {integral: [{signal: hinge0/velocity}]}\n";
   const Problem problem = load_problem({"row.urdf", urdf}, {}, {"row.yaml", study});
-  return Evaluator(problem.system).evaluate(problem.start(), true);
+  return Evaluator(problem.system()).evaluate(problem.start(), true);
 }
 
 TEST(SingularGradient, ADoubleParallelogramWarnsOrFailsByBothIntegrators) {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "integration/servo.h"
-#include "sensitivity/evaluation.h"
+#include "mechanism_codesign/gradient.h"
 
 namespace codesign {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "description/parameter.h"
 #include "description/reference.h"
+#include "mechanism_codesign/parameter.h"
 #include "reading/yaml/yaml_reader.h"
 
 namespace codesign {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "description/parameter.h"
+#include "mechanism_codesign/parameter.h"
 #include "reading/xml/xml_element.h"
 
 namespace codesign {

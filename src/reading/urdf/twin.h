@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "description/expression.h"
-#include "description/parameter.h"
 #include "description/quantity.h"
+#include "mechanism_codesign/parameter.h"
 #include "reading/xml/xml_element.h"
 
 namespace codesign {

@@ -6,17 +6,10 @@
 #include <vector>
 
 #include "description/robot.h"
+#include "mechanism_codesign/source_text.h"
+#include "reading/urdf/urdf_reader.h"
 
 namespace codesign {
-
-/// A text and the name it is reported under.
-struct SourceText {
-  std::string name;
-  std::string text;
-};
-
-/// Reads a whole file. @throws InputError if it cannot be read.
-SourceText read_source(const std::string& path);
 
 /// Reads an annotated URDF strictly, merged with overlays by element name (doc/annotations.md).
 /// @throws InputError naming file, line, element, value and allowed range.

@@ -6,6 +6,7 @@
 #include "reading/urdf/annotated_urdf.h"
 #include "reading/urdf/annotation_rules.h"
 #include "reading/urdf/twin.h"
+#include "reading/urdf/urdf_reader.h"
 #include "text/decimal.h"
 #include "text/number_text.h"
 

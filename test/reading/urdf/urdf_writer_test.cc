@@ -4,6 +4,7 @@
 #include "mechanism/mass_properties.h"
 #include "paths.h"
 #include "reading/urdf/urdf_fixture.h"
+#include "reading/urdf/urdf_reader.h"
 
 namespace codesign {
 namespace {

@@ -1,6 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_PARAMETER_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_PARAMETER_H_
+#ifndef MECHANISM_CODESIGN_PARAMETER_H_
+#define MECHANISM_CODESIGN_PARAMETER_H_
 
 #include <limits>
 #include <string>
@@ -21,4 +21,4 @@ struct Parameter {
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_PARAMETER_H_
+#endif  // MECHANISM_CODESIGN_PARAMETER_H_

@@ -1,38 +1,34 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_SIMULATION_H_
-#define MECHANISM_CODESIGN_INTEGRATION_SIMULATION_H_
+#ifndef MECHANISM_CODESIGN_SIMULATION_H_
+#define MECHANISM_CODESIGN_SIMULATION_H_
 
 #include <atomic>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "description/robot.h"
-#include "description/study.h"
 #include "mechanism_codesign/frame.h"
+#include "mechanism_codesign/problem.h"
+#include "mechanism_codesign/statistics.h"
 #include "mechanism_codesign/status.h"
+#include "mechanism_codesign/warning.h"
 
 namespace codesign {
 
-class CompiledSystem;  // the immutable equations of motion, equations/system.h
-
-/// What an integration cost.
-struct Statistics {
-  std::int64_t steps = 0, rejected_steps = 0;
-  double cpu_seconds = 0.0;       ///< of the run
-  double constraint_drift = 0.0;  ///< largest violation of Phi and of Phi_q v after a step, in the scale of the error test [-]
-  double energy_error = 0.0;      ///< largest |E - E(0) - work done| over the run, relative to the largest energy that took part [-]
-};
+struct SignalDescription;
 
 /// One design of one mechanism, stepped forward in time. Not thread-safe; several may share one CompiledSystem.
 class Simulation {
  public:
-  /// @param parameters all named parameters (Study::parameters order).
-  /// @param signals extra signals to sample into Frame::signals. @throws InputError for one that does not exist.
+  /// @param parameters all named parameters, in the order of Problem::all_parameters().
+  /// @param signals extra signals to sample into Frame::signals, as a study spells them: "crank_joint/velocity".
+  /// @throws InputError for a signal that does not exist.
+  Simulation(const Problem& problem, const std::vector<double>& parameters, const std::vector<std::string>& signals = {});
+  /// The same with a compiled system and signals that are parsed already.
   Simulation(std::shared_ptr<const CompiledSystem> system, const std::vector<double>& parameters,
-             const std::vector<SignalDescription>& signals = {});
+             const std::vector<SignalDescription>& signals);
+  Simulation(std::shared_ptr<const CompiledSystem> system, const std::vector<double>& parameters);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
@@ -70,4 +66,4 @@ Status simulate(Simulation* simulation, double duration, int count, const FrameO
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_INTEGRATION_SIMULATION_H_
+#endif  // MECHANISM_CODESIGN_SIMULATION_H_

@@ -1,12 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_OPTIMIZER_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_OPTIMIZER_H_
+#ifndef MECHANISM_CODESIGN_OPTIMIZATION_H_
+#define MECHANISM_CODESIGN_OPTIMIZATION_H_
 
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "sensitivity/evaluation.h"
+#include "mechanism_codesign/gradient.h"
+#include "mechanism_codesign/optimizer_options.h"
 
 namespace codesign {
 
@@ -46,11 +47,16 @@ struct OptimizationResult {
 };
 
 /// Minimizes psi(rho) within the bounds and the parameter constraints, from the parameters' start values.
-/// @param cancel if given and set (from any thread), ends soon with the best point so far.
+/// @param options in place of the study's; without them Problem::optimizer_options().
+/// @param cancel ends the search soon after it is set (from any thread), with the best point so far; null: never.
 /// @throws InputError for options that contradict each other (e.g. constraints with an algorithm that takes none).
-OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system, const Study& study, const TrialObserver& observer = {},
+OptimizationResult optimize(const Problem& problem, const TrialObserver& observer = {}, const std::atomic<bool>* cancel = nullptr);
+OptimizationResult optimize(const Problem& problem, const OptimizerOptions& options, const TrialObserver& observer = {},
                             const std::atomic<bool>* cancel = nullptr);
+/// The same of a compiled system.
+OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system, const OptimizerOptions& options,
+                            const TrialObserver& observer = {}, const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_OPTIMIZER_H_
+#endif  // MECHANISM_CODESIGN_OPTIMIZATION_H_

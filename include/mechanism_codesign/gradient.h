@@ -1,13 +1,16 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SENSITIVITY_EVALUATION_H_
-#define MECHANISM_CODESIGN_SENSITIVITY_EVALUATION_H_
+#ifndef MECHANISM_CODESIGN_GRADIENT_H_
+#define MECHANISM_CODESIGN_GRADIENT_H_
 
 #include <Eigen/Core>
 #include <atomic>
 #include <memory>
 #include <vector>
 
-#include "integration/simulation.h"
+#include "mechanism_codesign/problem.h"
+#include "mechanism_codesign/statistics.h"
+#include "mechanism_codesign/status.h"
+#include "mechanism_codesign/warning.h"
 
 namespace codesign {
 
@@ -23,6 +26,7 @@ struct Evaluation {
 /// Evaluates psi(rho) and its gradient by direct sensitivities. Holds a workspace that is reused from call to call: one per thread.
 class Evaluator {
  public:
+  explicit Evaluator(const Problem& problem);
   explicit Evaluator(std::shared_ptr<const CompiledSystem> system);
   ~Evaluator();
   Evaluator(Evaluator&&) noexcept;
@@ -55,9 +59,11 @@ struct GradientCheck {
 
 /// Computes a gradient twice. That of `idas` is always checked by differences, and they are of `rosenbrock`: each integrator is the other's
 /// check.
+GradientCheck check_gradient(const Problem& problem, const Eigen::VectorXd& rho, CheckMethod method,
+                             const std::atomic<bool>* cancel = nullptr);
 GradientCheck check_gradient(const std::shared_ptr<const CompiledSystem>& system, const Eigen::VectorXd& rho, CheckMethod method,
                              const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_SENSITIVITY_EVALUATION_H_
+#endif  // MECHANISM_CODESIGN_GRADIENT_H_

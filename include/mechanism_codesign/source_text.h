@@ -1,0 +1,20 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SOURCE_TEXT_H_
+#define MECHANISM_CODESIGN_SOURCE_TEXT_H_
+
+#include <string>
+
+namespace codesign {
+
+/// A text to be read, with the name that messages call it by: the path of its file, if it has one.
+struct SourceText {
+  std::string name;
+  std::string text;
+};
+
+/// Reads a file of at most 32 MB. @throws InputError for a file that is missing, empty, too large or unreadable.
+SourceText read_source(const std::string& path);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SOURCE_TEXT_H_

@@ -1,0 +1,33 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "description/tuned_parameters.h"
+
+namespace codesign {
+
+std::vector<double> start_parameters(const Study& study) {
+  std::vector<double> values;
+  values.reserve(study.parameters.size());
+  for (const Parameter& parameter : study.parameters) values.push_back(parameter.value);
+  return values;
+}
+
+std::vector<double> parameters_at(const Study& study, const Eigen::VectorXd& rho) {
+  std::vector<double> values = start_parameters(study);
+  for (std::size_t k = 0; k < study.tuned.size(); ++k) values[static_cast<std::size_t>(study.tuned[k])] = rho[static_cast<Eigen::Index>(k)];
+  return values;
+}
+
+Eigen::VectorXd start_of(const Study& study) {
+  Eigen::VectorXd rho(static_cast<Eigen::Index>(study.tuned.size()));
+  for (std::size_t k = 0; k < study.tuned.size(); ++k)
+    rho[static_cast<Eigen::Index>(k)] = study.parameters[static_cast<std::size_t>(study.tuned[k])].value;
+  return rho;
+}
+
+std::vector<std::string> tuned_names(const Study& study) {
+  std::vector<std::string> names;
+  names.reserve(study.tuned.size());
+  for (int index : study.tuned) names.push_back(study.parameters[static_cast<std::size_t>(index)].name);
+  return names;
+}
+
+}  // namespace codesign

@@ -1,0 +1,27 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_DESCRIPTION_TUNED_PARAMETERS_H_
+#define MECHANISM_CODESIGN_DESCRIPTION_TUNED_PARAMETERS_H_
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "description/study.h"
+
+namespace codesign {
+
+/// Start values of all named parameters, in the order of Study::parameters.
+std::vector<double> start_parameters(const Study& study);
+
+/// All named parameters: the tuned ones at `rho` (order of Study::tuned), the others at their start values.
+std::vector<double> parameters_at(const Study& study, const Eigen::VectorXd& rho);
+
+/// Start values of the tuned parameters, rho in the order of Study::tuned.
+Eigen::VectorXd start_of(const Study& study);
+
+/// Names of the tuned parameters, in the order of rho.
+std::vector<std::string> tuned_names(const Study& study);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_DESCRIPTION_TUNED_PARAMETERS_H_

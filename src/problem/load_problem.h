@@ -1,0 +1,33 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_PROBLEM_LOAD_PROBLEM_H_
+#define MECHANISM_CODESIGN_PROBLEM_LOAD_PROBLEM_H_
+
+#include <vector>
+
+#include "description/robot.h"
+#include "description/study.h"
+#include "equations/compiled_system.h"
+#include "mechanism_codesign/problem.h"
+
+namespace codesign {
+
+/// What a Problem holds. The robot and the study are those of the system.
+struct Problem::Contents {
+  SourceText urdf;
+  std::vector<SourceText> overlays;
+  SourceText study_text;
+  std::shared_ptr<const CompiledSystem> system;
+  double setup_seconds = 0.0;
+  Warnings warnings;
+};
+
+/// load_problem() with a loader of recorded trajectories: it reads those that the study names in a bag. Without one they are refused.
+Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
+                     const ParameterSettings& settings, const TrajectoryLoader& loader);
+
+/// The problem compiled anew with another study of the same model. @throws InputError as load_problem().
+Problem with_study(const Problem& problem, Study study, const ParameterSettings& settings = {});
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_PROBLEM_LOAD_PROBLEM_H_

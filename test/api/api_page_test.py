@@ -1,0 +1,79 @@
+#!/usr/bin/python3
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""Builds the program that doc/api.md prints, outside the project, as a plain CMake project and as a catkin package, and runs it.
+
+Usage: api_page_test.py SOURCE_DIRECTORY CONFIG_DIRECTORY CODESIGN_PROGRAM [--catkin]
+"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SOURCE, CONFIG, CODESIGN = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
+CATKIN = "--catkin" in sys.argv
+PACKAGE_XML = """<package format="2"><name>program_package</name><version>0.1.0</version><description>A test</description>
+<maintainer email="nobody@example.org">nobody</maintainer><license>BSD</license>
+<buildtool_depend>catkin</buildtool_depend><depend>mechanism_codesign</depend></package>
+"""
+
+
+def blocks(language):
+    """The fenced blocks of a language on the page."""
+    return re.findall(rf"^```{language}\n(.*?)^```", (SOURCE / "doc/api.md").read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+
+
+def run(*words, **options):
+    result = subprocess.run([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, **options)
+    if result.returncode != 0:
+        raise AssertionError(f"{' '.join(map(str, words))} exits with {result.returncode}:\n{result.stdout}")
+    return result.stdout
+
+
+class ThePage(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "program.cc").write_text(blocks("cpp")[0])
+
+    def expect_what_codesign_says(self, program):
+        case = [SOURCE / "urdf/slider_crank_haug.urdf", SOURCE / "config/slider_crank_haug.yaml"]
+        lines = dict(line.split(" ", 1) for line in run(program, *case).splitlines())
+        expected = json.loads(run(CODESIGN, "gradient", *case, "--json"))
+        self.assertEqual(float(lines["objective"]), expected["objective"])
+        self.assertEqual([float(word) for word in lines["gradient"].split()], list(expected["gradient"].values()))
+        self.assertLess(float(lines["optimum"].split()[0]), 0.5 * expected["objective"])
+
+    def test_a_plain_cmake_project_builds_it(self):
+        (self.folder / "CMakeLists.txt").write_text(blocks("cmake")[0])
+        run("cmake", "-S", self.folder, "-B", self.folder / "build", f"-Dmechanism_codesign_DIR={CONFIG}")
+        run("cmake", "--build", self.folder / "build")
+        self.expect_what_codesign_says(self.folder / "build/program")
+
+    @unittest.skipUnless(CATKIN, "no catkin here")
+    def test_a_catkin_package_builds_it(self):
+        (self.folder / "CMakeLists.txt").write_text(blocks("cmake")[1])
+        (self.folder / "package.xml").write_text(PACKAGE_XML)
+        run("cmake", "-S", self.folder, "-B", self.folder / "build", f"-Dmechanism_codesign_DIR={CONFIG}",
+            "-DPYTHON_EXECUTABLE=/usr/bin/python3", f"-DCATKIN_DEVEL_PREFIX={self.folder}/devel")
+        run("cmake", "--build", self.folder / "build", "--target", "program")
+        program = [path for path in self.folder.glob("**/program") if path.is_file()]
+        self.expect_what_codesign_says(program[0])
+
+    def test_public_headers_are_few_and_stand_alone(self):
+        headers = sorted((SOURCE / "include/mechanism_codesign").glob("*"))
+        self.assertLessEqual(len(headers), 15)
+        text = "\n".join(header.read_text(encoding="utf-8") for header in headers)
+        for word in ["Lanes", "Traced", "sundials", "SUNDIALS", "N_Vector"]:
+            self.assertNotIn(word, text)
+        page = (SOURCE / "doc/api.md").read_text(encoding="utf-8")
+        for header in headers:
+            self.assertIn(f"`{header.name}`", page)
+            run("c++", "-std=c++17", "-fsyntax-only", f"-I{SOURCE}/include", "-isystem", "/usr/include/eigen3", "-x", "c++", header)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
