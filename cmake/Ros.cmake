@@ -17,7 +17,8 @@ generate_messages(DEPENDENCIES ${message_dependencies})
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES codesign_core
-  CATKIN_DEPENDS message_runtime ${ros_dependencies}
+  # What the messages need. The library needs no ROS, and its nodes are not for others.
+  CATKIN_DEPENDS message_runtime ${message_dependencies}
   DEPENDS EIGEN3
   CFG_EXTRAS mechanism_codesign-targets.cmake)
 

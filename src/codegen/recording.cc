@@ -8,10 +8,10 @@
 namespace codesign {
 namespace {
 
-int find_or_append(const void* origin, std::vector<const void*>* origins) {
-  const auto known = std::find(origins->begin(), origins->end(), origin);
-  const auto index = static_cast<int>(known - origins->begin());
-  if (known == origins->end()) origins->push_back(origin);
+int find_or_append(const SourceId& source, std::vector<SourceId>* sources) {
+  const auto known = std::find(sources->begin(), sources->end(), source);
+  const auto index = static_cast<int>(known - sources->begin());
+  if (known == sources->end()) sources->push_back(source);
   return index;
 }
 
@@ -35,10 +35,10 @@ int Recording::literal(double x) {
   return is_new ? append({Operation::kLiteral, -1, -1, x, false}) : known->second;
 }
 
-int Recording::supplied(const void* origin) { return leaf(kSupplied, find_or_append(origin, &supplied_), false); }
+int Recording::supplied(const SourceId& source) { return leaf(kSupplied, find_or_append(source, &supplied_), false); }
 
-int Recording::timed(const void* origin, int order) {
-  return leaf(kTimed, kFunctionOrders * find_or_append(origin, &timed_) + order, true);
+int Recording::timed(const SourceId& source, int order) {
+  return leaf(kTimed, kFunctionOrders * find_or_append(source, &timed_) + order, true);
 }
 
 int Recording::operate(Operation operation, int a, int b) {

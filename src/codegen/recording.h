@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "codegen/source_id.h"
+
 namespace codesign {
 
 /// Elementary operations of a Recording.
@@ -50,10 +52,10 @@ class Recording {
   int leaf(int array, int index, bool varies);
   /// A number that is none refuses the recording: it stands for what must not be known while recording.
   int literal(double x);
-  /// A leaf of array kSupplied that does not vary: what `origin` computes from the parameters of a design.
-  int supplied(const void* origin);
-  /// A leaf of array kTimed that varies: the derivative of an order (0 to 3) of the function of time `origin`.
-  int timed(const void* origin, int order);
+  /// A leaf of array kSupplied that does not vary: the value of `source` at the parameters of a design.
+  int supplied(const SourceId& source);
+  /// A leaf of array kTimed that varies: the derivative of an order (0 to 3) of the function of time `source`.
+  int timed(const SourceId& source, int order);
   /// @param b -1 for functions of one operand.
   int operate(Operation operation, int a, int b = -1);
 
@@ -65,9 +67,10 @@ class Recording {
   const Node& node(int k) const { return nodes_[static_cast<std::size_t>(k)]; }
   const std::vector<Guard>& guards() const { return guards_; }
   bool refused() const { return refused_; }
-  /// Of the entries of kSupplied, and of each four of kTimed.
-  const std::vector<const void*>& supplied_origins() const { return supplied_; }
-  const std::vector<const void*>& timed_origins() const { return timed_; }
+  /// The source of each entry of array kSupplied.
+  const std::vector<SourceId>& supplied_sources() const { return supplied_; }
+  /// The source of each kFunctionOrders entries of array kTimed.
+  const std::vector<SourceId>& timed_sources() const { return timed_; }
 
   static constexpr int kSupplied = 100, kTimed = 101, kFunctionOrders = 4;
 
@@ -76,7 +79,7 @@ class Recording {
 
   std::vector<Node> nodes_;
   std::vector<Guard> guards_;
-  std::vector<const void*> supplied_, timed_;
+  std::vector<SourceId> supplied_, timed_;
   bool refused_ = false;
   std::unordered_map<std::uint64_t, int> operations_;  ///< what is known already
   std::map<std::pair<int, int>, int> leaves_;

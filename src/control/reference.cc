@@ -154,7 +154,7 @@ Reference<Traced>::Reference(const ReferenceDescription& description, const std:
     return;
   }
   Recording* const recording = parameters.front().recording();
-  const auto order = [&](int k) { return Traced(recording, recording->timed(&description, k)); };
+  const auto order = [&](int k) { return Traced(recording, recording->timed(SourceId(description), k)); };
   motion_ = {order(0), order(1), order(2), order(3)};
 }
 

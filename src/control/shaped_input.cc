@@ -23,8 +23,8 @@ ReferenceMotion<T> ShapedInput<T>::at(double t) const {
 
 ShapedInput<Traced>::ShapedInput(const BasisDescription& basis, const std::vector<Traced>& parameters) {
   Recording* const recording = parameters.front().recording();
-  motion_.value = Traced(recording, recording->timed(&basis, 0));
-  motion_.rate = Traced(recording, recording->timed(&basis, 1));
+  motion_.value = Traced(recording, recording->timed(SourceId(basis), 0));
+  motion_.rate = Traced(recording, recording->timed(SourceId(basis), 1));
 }
 
 template class ShapedInput<double>;

@@ -40,7 +40,7 @@ Lanes<N> value_at(const Expression& expression, const std::vector<Lanes<N>>& par
 inline Traced value_at(const Expression& expression, const std::vector<Traced>& parameters) {
   Recording* const recording = parameters.front().recording();
   const std::vector<double> values = values_used(expression, parameters, [](const Traced& parameter) { return parameter.value(); });
-  return {recording, recording->supplied(&expression), expression.value_of(values)};
+  return {recording, recording->supplied(SourceId(expression)), expression.value_of(values)};
 }
 
 /// A number of the model: a constant, or an expression of the parameters.

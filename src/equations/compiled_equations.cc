@@ -55,13 +55,11 @@ bool CompiledEquations<T>::prepare() {
   if (code_ && !fill_numbers()) code_ = nullptr;
   if (!code_) return false;
   functions_.clear();
-  const std::vector<ControllerDescription>& controllers = system_.study().controllers;
-  for (const void* origin : numbered_->recording.timed_origins()) {
-    const auto shaped = std::find_if(controllers.begin(), controllers.end(), [&](const auto& c) { return origin == &c.basis; });
-    if (shaped == controllers.end())
-      functions_.emplace_back(Reference<T>(*static_cast<const ReferenceDescription*>(origin), parameters_));
+  for (const SourceId& source : numbered_->recording.timed_sources()) {
+    if (const auto* basis = source.as<BasisDescription>())
+      functions_.emplace_back(ShapedInput<T>(*basis, parameters_));
     else
-      functions_.emplace_back(ShapedInput<T>(shaped->basis, parameters_));
+      functions_.emplace_back(Reference<T>(*source.as<ReferenceDescription>(), parameters_));
   }
   return true;
 }
@@ -80,7 +78,7 @@ bool CompiledEquations<T>::fill_numbers() {
     else if (node.operation != Operation::kLeaf)
       value = operate<T>(node.operation, values[at(node.a)], node.b < 0 ? T(0.0) : values[at(node.b)]);
     else if (node.a == Recording::kSupplied && node.b >= 0)
-      value = value_at(*static_cast<const Expression*>(recording.supplied_origins()[at(node.b)]), parameters_);
+      value = value_at(*recording.supplied_sources()[at(node.b)].as<Expression>(), parameters_);
     numbers_[k] = value;
   }
   const std::vector<Recording::Guard>& guards = code_->design_guards();

@@ -129,7 +129,7 @@ const NumberedRecording& EquationCode::numbered(bool with_derivatives) const {
 }
 
 void NumberedRecording::number_nodes(const std::vector<std::array<int, 2>>& turn_owners) {
-  functions.resize(recording.timed_origins().size());
+  functions.resize(recording.timed_sources().size());
   for (auto& orders : functions) orders.fill(-1);
   homes.resize(at(recording.size()));
   std::vector<bool> used(homes.size());

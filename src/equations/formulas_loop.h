@@ -66,6 +66,7 @@ void Formulas<T>::linearize(const State<T>& state, const AssemblyPlan& plan, Lin
   load(state);
   AssemblySink<T> sink(plan, derivatives);
   assemble(&sink);
+  sink.finish();
 }
 
 template <class T>

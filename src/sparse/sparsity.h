@@ -2,7 +2,8 @@
 #ifndef MECHANISM_CODESIGN_SPARSE_SPARSITY_H_
 #define MECHANISM_CODESIGN_SPARSE_SPARSITY_H_
 
-#include <cassert>
+#include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -77,42 +78,52 @@ struct Linearization : ByVariable<std::vector<T>> {
   }
 };
 
-/// Adds values to the slots that a PatternRecorder found for the same sequence of calls. Debug builds assert that each call comes with the
-/// row and column that were recorded, and that there are as many calls.
-template <class T>
+#ifdef NDEBUG
+constexpr bool kCheckAssembly = false;
+#else
+constexpr bool kCheckAssembly = true;
+#endif
+
+/// Adds values to the slots that a PatternRecorder found for the same sequence of calls.
+/// @tparam checked whether each call is compared with the recorded row and column, as Debug builds do.
+template <class T, bool checked = kCheckAssembly>
 class AssemblySink {
  public:
   AssemblySink(const AssemblyPlan& plan, Linearization<T>* values)
       : plan_(plan), slot_{plan.slots.position.data(), plan.slots.velocity.data(), plan.slots.rate.data()}, values_(values) {
     values->time.setZero();
   }
-  ~AssemblySink() {
-    assert(slot_.position == plan_.slots.position.data() + plan_.slots.position.size());
-    assert(slot_.velocity == plan_.slots.velocity.data() + plan_.slots.velocity.size());
-    assert(slot_.rate == plan_.slots.rate.data() + plan_.slots.rate.size());
-  }
-  AssemblySink(const AssemblySink&) = delete;
-  AssemblySink& operator=(const AssemblySink&) = delete;
 
-  void position([[maybe_unused]] int row, [[maybe_unused]] int column, const T& x) {
-    assert(is_recorded(slot_.position, plan_.slots.position, plan_.patterns.position, row, column));
+  // @throws std::logic_error if checked, for a call that was not recorded at this place of the sequence.
+  void position(int row, int column, const T& x) {
+    if constexpr (checked) check(slot_.position, plan_.slots.position, plan_.patterns.position, row, column);
     add(*slot_.position++, x, &values_->position);
   }
-  void velocity([[maybe_unused]] int row, [[maybe_unused]] int column, const T& x) {
-    assert(is_recorded(slot_.velocity, plan_.slots.velocity, plan_.patterns.velocity, row, column));
+  void velocity(int row, int column, const T& x) {
+    if constexpr (checked) check(slot_.velocity, plan_.slots.velocity, plan_.patterns.velocity, row, column);
     add(*slot_.velocity++, x, &values_->velocity);
   }
-  void rate([[maybe_unused]] int row, [[maybe_unused]] int column, const T& x) {
-    assert(is_recorded(slot_.rate, plan_.slots.rate, plan_.patterns.rate, row, column));
+  void rate(int row, int column, const T& x) {
+    if constexpr (checked) check(slot_.rate, plan_.slots.rate, plan_.patterns.rate, row, column);
     add(*slot_.rate++, x, &values_->rate);
   }
   void time(int row, const T& x) { values_->time[row] += x; }
 
+  /// To be called at the end of the sequence. @throws std::logic_error if checked and recorded calls are missing.
+  void finish() const {
+    if constexpr (checked)
+      if (slot_.position != end(plan_.slots.position) || slot_.velocity != end(plan_.slots.velocity) || slot_.rate != end(plan_.slots.rate))
+        throw std::logic_error("assembly: fewer entries than were recorded");
+  }
+
  private:
-  static bool is_recorded(const int* next, const std::vector<int>& slots, const Sparsity& pattern, int row, int column) {
-    if (next == slots.data() + slots.size()) return false;
+  static const int* end(const std::vector<int>& slots) { return slots.data() + slots.size(); }
+  static void check(const int* next, const std::vector<int>& slots, const Sparsity& pattern, int row, int column) {
+    if (next == end(slots)) throw std::logic_error("assembly: more entries than were recorded");
     const int slot = *next < 0 ? ~*next : *next;
-    return pattern.first(row) <= slot && slot < pattern.first(row + 1) && pattern.column(slot) == column;
+    if (slot < pattern.first(row) || slot >= pattern.first(row + 1) || pattern.column(slot) != column)
+      throw std::logic_error("assembly: entry (" + std::to_string(row) + ", " + std::to_string(column) +
+                             ") was not recorded at this place");
   }
 
   // The first to touch a slot sets it, so that nothing need be cleared beforehand.

@@ -5,6 +5,7 @@
 Usage: api_page_test.py SOURCE_DIRECTORY CONFIG_DIRECTORY CODESIGN_PROGRAM [--catkin]
 """
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -25,8 +26,11 @@ def blocks(language):
     return re.findall(rf"^```{language}\n(.*?)^```", (SOURCE / "doc/api.md").read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
 
 
-def run(*words, **options):
-    result = subprocess.run([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, **options)
+def run(*words):
+    # The system's Python first, as on a plain Debian: catkin takes the first in PATH.
+    environment = dict(os.environ, PATH="/usr/bin:" + os.environ["PATH"])
+    result = subprocess.run([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False,
+                            env=environment)
     if result.returncode != 0:
         raise AssertionError(f"{' '.join(map(str, words))} exits with {result.returncode}:\n{result.stdout}")
     return result.stdout
@@ -58,7 +62,7 @@ class ThePage(unittest.TestCase):
         (self.folder / "CMakeLists.txt").write_text(blocks("cmake")[1])
         (self.folder / "package.xml").write_text(PACKAGE_XML)
         run("cmake", "-S", self.folder, "-B", self.folder / "build", f"-Dmechanism_codesign_DIR={CONFIG}",
-            "-DPYTHON_EXECUTABLE=/usr/bin/python3", f"-DCATKIN_DEVEL_PREFIX={self.folder}/devel")
+            f"-DCATKIN_DEVEL_PREFIX={self.folder}/devel")
         run("cmake", "--build", self.folder / "build", "--target", "program")
         program = [path for path in self.folder.glob("**/program") if path.is_file()]
         self.expect_what_codesign_says(program[0])

@@ -31,13 +31,13 @@ TEST(Recording, WhatDependsOnAVaryingLeafVaries) {
 TEST(Recording, OriginsAreNumberedAsTheyCome) {
   Recording r;
   const int a = 0, b = 0;
-  const int from_b = r.supplied(&b), from_a = r.supplied(&a);
-  EXPECT_EQ(r.supplied(&b), from_b);
+  const int from_b = r.supplied(SourceId(b)), from_a = r.supplied(SourceId(a));
+  EXPECT_EQ(r.supplied(SourceId(b)), from_b);
   EXPECT_EQ(r.node(from_a).b, 1);
   EXPECT_FALSE(r.node(from_a).varies);
-  EXPECT_EQ(r.supplied_origins(), (std::vector<const void*>{&b, &a}));
-  r.timed(&a, 0);
-  const int rate = r.timed(&b, 2);
+  EXPECT_EQ(r.supplied_sources(), (std::vector<SourceId>{SourceId(b), SourceId(a)}));
+  r.timed(SourceId(a), 0);
+  const int rate = r.timed(SourceId(b), 2);
   EXPECT_EQ(r.node(rate).b, Recording::kFunctionOrders + 2);
   EXPECT_TRUE(r.node(rate).varies);
 }

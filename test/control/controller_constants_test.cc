@@ -21,9 +21,9 @@ TEST(ControllerConstants, EveryNumberOfALawIsEvaluatedAtTheDesign) {
   for (const Parameter& parameter : study.parameters) parameters.push_back(parameter.name == "k" ? 5.0 : parameter.value);
   const ControllerConstants<double> speed = controller_constants(study.controllers.at(0), parameters);
   EXPECT_EQ(speed.setpoint.at(0.0).value, 15.0);
-  EXPECT_EQ(speed.p, 5.0);
-  EXPECT_EQ(speed.i, 0.0);
-  EXPECT_EQ(speed.d, 0.5);
+  EXPECT_EQ(speed.pid.p, 5.0);
+  EXPECT_EQ(speed.pid.i, 0.0);
+  EXPECT_EQ(speed.pid.d, 0.5);
   const ControllerConstants<double> hold = controller_constants(study.controllers.at(1), parameters);
   EXPECT_EQ(hold.feedforward.at(0.0).value, 5.0);
   EXPECT_EQ(hold.gains, std::vector<double>{25.0});

@@ -190,7 +190,7 @@ TEST(CompiledEquations, CountTheTurnsOfEveryCoordinate) {
 /// Half a turn from its reference an angle is continued the same way.
 TEST(CompiledEquations, RoundHalfATurnAsTheFormulasDo) {
   SKIP_WITHOUT_CODE();
-  const std::shared_ptr<const CompiledSystem> system = with_settings(pendulum(), motion_study(1.0, "{}", "hinge/position", "{}"));
+  const std::shared_ptr<const CompiledSystem> system = compile(pendulum(), motion_study(1.0, "{}", "hinge/position", "{}"));
   for (double sign : {1.0, -1.0}) {
     Twins<double> twins(*system);
     twins.set_design(system->parameters());

@@ -13,7 +13,7 @@ const char* const kHold = "{hold: {type: pid, input: hinge/position, setpoint: 0
 /// A pendulum of one second, turning at `rate` [rad/s] at some time.
 struct Watched {
   explicit Watched(const std::string& solver, const std::string& controllers = kHold)
-      : system(with_settings(pendulum(), "duration: 1\ncontrollers: " + controllers +
+      : system(compile(pendulum(), "duration: 1\ncontrollers: " + controllers +
                                              "\nparameters: {}\nobjective: {integral: [{signal: hinge/position}]}\nsolver: " + solver +
                                              "\n")),
         equations(*system),

@@ -23,7 +23,7 @@ std::vector<std::array<int, 3>> groups_of(int count) {
   std::string parameters;
   for (int k = 0; k < count; ++k) parameters += (k ? ", p" : "p") + std::to_string(k) + ": {initial: " + std::to_string(k) + "}";
   const auto system =
-      with_settings(pendulum(), "duration: 1.0\nparameters: {" + parameters + "}\nobjective: {integral: [{signal: hinge/velocity}]}\n");
+      compile(pendulum(), "duration: 1.0\nparameters: {" + parameters + "}\nobjective: {integral: [{signal: hinge/velocity}]}\n");
   LaneGroups<Probe> groups(*system, 7);
   std::vector<std::array<int, 3>> found;
   groups.for_each([&](auto* group) {

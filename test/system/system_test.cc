@@ -15,9 +15,8 @@ CompiledSystem compile(const std::string& urdf, const std::string& study) {
 
 /// A hinged bar with a controller of these gains; `objective` is the list of integral terms.
 CompiledSystem controlled(const std::string& gains, const std::string& input, const std::string& objective) {
-  return with_settings(pendulum(), "duration: 1.0\ncontrollers: {hold: {type: pid, input: " + input +
-                                       ", setpoint: 0.0, output: hinge, gains: " + gains + "}}\nobjective: {integral: " + objective +
-                                       "}\n");
+  return compile(pendulum(), "duration: 1.0\ncontrollers: {hold: {type: pid, input: " + input +
+                                 ", setpoint: 0.0, output: hinge, gains: " + gains + "}}\nobjective: {integral: " + objective + "}\n");
 }
 
 const std::string kSwing = "[{signal: hinge/velocity}]";
@@ -52,7 +51,7 @@ TEST(CompiledSystem, AControllerCannotReadWhatItCauses) {
 }
 
 TEST(CompiledSystem, OnlyJointsWithALoadAreListed) {
-  EXPECT_TRUE(with_settings(pendulum(), let_go("{}", "hinge/velocity")).loads().empty());
+  EXPECT_TRUE(compile(pendulum(), let_go("{}", "hinge/velocity")).loads().empty());
   const CompiledSystem system = compile(double_pendulum(pin_friction()), let_go("{}", "elbow/velocity"));
   ASSERT_EQ(system.loads().size(), 2U);
   EXPECT_TRUE(system.loads()[0].reaction_friction);
@@ -63,7 +62,7 @@ TEST(CompiledSystem, OnlyJointsWithALoadAreListed) {
 }
 
 TEST(CompiledSystem, ThePatternHoldsTheIntegrandBelowTheEquations) {
-  const CompiledSystem system = with_settings(pendulum(), let_go("{}", "hinge/velocity"));
+  const CompiledSystem system = compile(pendulum(), let_go("{}", "hinge/velocity"));
   EXPECT_EQ(system.patterns().rate.columns, system.layout().columns());
   // The hinge's rate is read off p and p' of the bar alone.
   const Sparsity& velocity = system.patterns().velocity;

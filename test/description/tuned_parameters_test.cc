@@ -1,0 +1,20 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "description/tuned_parameters.h"
+
+#include <gtest/gtest.h>
+
+namespace codesign {
+namespace {
+
+TEST(TunedParameters, StandInTheOrderOfTheStudy) {
+  Study study;
+  study.parameters = {{"a", 1.0}, {"b", 2.0}, {"c", 3.0}};
+  study.tuned = {2, 0};
+  EXPECT_EQ(start_parameters(study), (std::vector<double>{1.0, 2.0, 3.0}));
+  EXPECT_EQ(start_of(study), Eigen::Vector2d(3.0, 1.0));
+  EXPECT_EQ(tuned_names(study), (std::vector<std::string>{"c", "a"}));
+  EXPECT_EQ(parameters_at(study, Eigen::Vector2d(30.0, 10.0)), (std::vector<double>{10.0, 2.0, 30.0}));
+}
+
+}  // namespace
+}  // namespace codesign
