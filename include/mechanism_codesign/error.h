@@ -7,13 +7,13 @@
 
 namespace codesign {
 
-/// A place in one of the user's files. Line 0: the file as a whole.
+/// A place in an input file.
 struct SourceLocation {
-  std::string file;
-  int line = 0;
+  std::string file;  ///< empty where no file is known
+  int line = 0;      ///< from 1; 0 means the file as a whole
 };
 
-/// Everything a user needs to mend a faulty input.
+/// What a user needs to know to correct an invalid input.
 struct InputFault {
   SourceLocation where;
   std::string element;  ///< e.g. `<joint name="crank_joint">` or `objective.integral[0].signal`
@@ -22,9 +22,10 @@ struct InputFault {
   std::string allowed;  ///< the allowed values or range; may be empty
 };
 
-/// Bad input, thrown where it enters. Never thrown by a numerical failure.
+/// Invalid input, thrown by the function that reads it. Numerical failures never throw it; they return a Status (status.h).
 ///
-/// `what()` reads `file:line: element: message (value: ..., allowed: ...)`.
+/// `what()` reads `file:line: element: message (value: ..., allowed: ...)` without the parts that are empty. Element and value are cut
+/// after 300 bytes, message and allowed values after 1000, there and in fault().
 class InputError : public std::runtime_error {
  public:
   explicit InputError(InputFault fault);

@@ -6,35 +6,35 @@
 
 namespace codesign {
 
-/// Why a computation ended. Numerical trouble is a value, never an exception.
+/// Why a computation ended. Numerical failures are returned as values of this type, never thrown.
 enum class StatusCode {
   kSuccess,
   kCancelled,
   kAssemblyFailed,          ///< no configuration satisfies Phi(q) = 0 near the start
   kInitialVelocityFailed,   ///< the given velocities contradict each other
   kInitialReactionsFailed,  ///< no (a, lambda) satisfies the equations of motion at the start
-  kSingularMatrix,          ///< the augmented matrix lost its rank (a dead point, a lock-up)
-  kStepSizeTooSmall,
-  kTooManySteps,
-  kUnstableMotion,         ///< a body became faster than it has reason to be
-  kNonFinite,              ///< a value overflowed or became NaN
-  kInvalidDesign,          ///< the parameters give a mass, inertia or dimension that cannot be
-  kSingularConfiguration,  ///< the start is a position where the mechanism may move in several ways at once, and none was chosen
-  kConstraintDrift,        ///< the constraints are violated by more than the tolerances explain
-  kEnergyError,            ///< the energy balance is violated by more than the tolerances explain
-  kInfeasible,             ///< an optimization ended outside its constraints
-  kAlgorithmFailed,        ///< the optimization algorithm gave up
-  kNonFiniteGradient,      ///< the objective is finite, its gradient is not
+  kSingularMatrix,          ///< the matrix of the equations of motion became singular (a dead point, a lock-up)
+  kStepSizeTooSmall,        ///< the error test asked for a step below the smallest one
+  kTooManySteps,            ///< the limit on the number of steps was reached before the end of the study
+  kUnstableMotion,          ///< a body's speed exceeded a bound far above what its loads can explain
+  kNonFinite,               ///< a value overflowed or became NaN
+  kInvalidDesign,           ///< the parameters give an impossible mass, inertia or dimension
+  kSingularConfiguration,   ///< several motions meet at this position (theory (19a)), or constraints lose rank on the way (theory (17c))
+  kConstraintDrift,         ///< the constraints are violated by more than the tolerances explain
+  kEnergyError,             ///< the energy balance is violated by more than the tolerances explain
+  kInfeasible,              ///< an optimization ended outside its constraints
+  kAlgorithmFailed,         ///< the optimization algorithm gave up
+  kNonFiniteGradient,       ///< the objective is finite, its gradient is not
 };
 
 /// Snake-case name, as sent over ROS and printed in JSON: "assembly_failed".
 const char* name_of(StatusCode code);
 
-/// Outcome of a computation, with the time [s] it was reached and its cause in a sentence.
+/// Outcome of a computation.
 struct Status {
   StatusCode code = StatusCode::kSuccess;
-  double time = 0.0;
-  std::string cause;
+  double time = 0.0;  ///< simulated time at which the computation ended [s]
+  std::string cause;  ///< one sentence for the user; may be empty on success
 
   bool ok() const { return code == StatusCode::kSuccess; }
 };

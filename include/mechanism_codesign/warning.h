@@ -12,17 +12,18 @@ namespace codesign {
 /// Something doubtful that does not stop the work. doc/warnings.md lists the codes.
 struct Warning {
   std::string code;      ///< snake case, stable: "undetermined_friction"
-  std::string message;   ///< the whole sentence for people, with file, line, value, what was done and how to silence it
-  SourceLocation where;  ///< line 0 and an empty file where no single place is to blame
+  std::string message;   ///< the sentence shown to the user: file, line, value, what was done and how to silence the warning
+  SourceLocation where;  ///< an empty file and line 0 where the warning has no single cause in a file
 };
 
 using Warnings = std::vector<Warning>;
 
-/// A warning about a place in a file. Its message reads `file:line: element: message (value: ..., allowed: ...)`, as that of an InputError.
-/// @param fault `message` says what was done and what to write to silence the warning.
+/// A warning about a place in a file. Its message has the form of InputError::what().
+/// @param code in snake case, listed in doc/warnings.md.
+/// @param fault its `message` says what was done and what to write to silence the warning.
 Warning warn(const std::string& code, const InputFault& fault);
 
-/// Appends the warnings of `more` that `warnings` does not hold yet (same code and message).
+/// Appends those warnings of `more` whose pair of code and message `warnings` does not contain yet.
 void append(const Warnings& more, Warnings* warnings);
 
 }  // namespace codesign

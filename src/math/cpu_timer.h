@@ -6,7 +6,7 @@
 
 namespace codesign {
 
-/// Processor time of the calling thread since construction [s].
+/// Processor time [s] of the constructing thread since construction; seconds() must be called in the same thread.
 class CpuTimer {
  public:
   double seconds() const { return now() - start_; }

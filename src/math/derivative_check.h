@@ -10,10 +10,10 @@
 
 namespace codesign {
 
-/// A Jacobian beside its reference: the worst entry and where it stands.
+/// The largest difference between the entries of a Jacobian J and of its reference R.
 struct JacobianDifference {
-  double largest = 0.0;  ///< |J - R| / (1 + |R|)
-  Eigen::Index row = -1, column = -1;
+  double largest = 0.0;                ///< |J - R| / (1 + |R|); infinite if an entry is NaN, 1e300 if the sizes differ
+  Eigen::Index row = -1, column = -1;  ///< of that entry; -1 if all entries agree or the sizes differ
 };
 
 inline JacobianDifference compare_jacobians(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& reference) {
@@ -22,7 +22,7 @@ inline JacobianDifference compare_jacobians(const Eigen::MatrixXd& jacobian, con
   for (Eigen::Index c = 0; c < reference.cols(); ++c) {
     for (Eigen::Index r = 0; r < reference.rows(); ++r) {
       const double d = std::abs(jacobian(r, c) - reference(r, c)) / (1.0 + std::abs(reference(r, c)));
-      // A NaN compares as equal to nothing and must not pass.
+      // Every comparison with NaN is false, so the test below would let it pass.
       if (std::isnan(d)) return {std::numeric_limits<double>::infinity(), r, c};
       if (d > difference.largest) difference = {d, r, c};
     }
@@ -31,7 +31,7 @@ inline JacobianDifference compare_jacobians(const Eigen::MatrixXd& jacobian, con
 }
 
 /// Jacobian of f at x by the complex step, exact to rounding for an analytic f: R^n -> R^m.
-/// @param f callable on Eigen::VectorXcd, returning Eigen::VectorXcd.
+/// @param f callable on Eigen::VectorXcd (n), returning Eigen::VectorXcd (m). @return m x n; empty if n is 0.
 template <class Function>
 Eigen::MatrixXd complex_step_jacobian(const Function& f, const Eigen::VectorXd& x) {
   constexpr double kStep = 1e-30;

@@ -6,9 +6,11 @@
 
 namespace codesign {
 
-// The first-order part of a vector of extended numbers: imaginary parts or lanes, as the columns of a real matrix. Linear solves act on it
-// with the real matrix, which is the implicit function theorem.
+// The derivatives that a vector of complex numbers (imaginary parts) or of lanes carries, as a real matrix: one row per component, one
+// column per direction. The derivatives of a solution of equations follow from a linear solve with this matrix on the right-hand side
+// (implicit function theorem).
 
+/// The derivatives of x: x.size() x 1 for complex numbers, x.size() x N for lanes.
 inline Eigen::MatrixXd directions_of(const VectorX<std::complex<double>>& x) { return x.imag(); }
 template <int N>
 Eigen::MatrixXd directions_of(const VectorX<Lanes<N>>& x) {
@@ -17,6 +19,7 @@ Eigen::MatrixXd directions_of(const VectorX<Lanes<N>>& x) {
   return d;
 }
 
+/// Adds d, of the shape of directions_of(*x), to the derivatives of x.
 inline void add_directions(const Eigen::MatrixXd& d, VectorX<std::complex<double>>* x) {
   for (Eigen::Index k = 0; k < x->size(); ++k) (*x)[k] += std::complex<double>(0.0, d(k, 0));
 }

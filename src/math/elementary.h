@@ -15,7 +15,7 @@ T smooth_abs(const T& x, const T& epsilon) {
   return sqrt(x * x + epsilon * epsilon);
 }
 
-/// Four-quadrant arc tangent with first-order accurate complex and dual extensions.
+/// atan2(y, x) [rad], in (-pi, pi]. For complex numbers and lanes the derivative is exact to first order.
 inline double arc_tangent(double y, double x) { return std::atan2(y, x); }
 inline std::complex<double> arc_tangent(const std::complex<double>& y, const std::complex<double>& x) {
   const double square = x.real() * x.real() + y.real() * y.real();
@@ -26,8 +26,8 @@ Lanes<N> arc_tangent(const Lanes<N>& y, const Lanes<N>& x) {
   return atan2(y, x);
 }
 
-/// The whole turns [rad] to add to an angle so that it lies nearest to a reference; they have no derivative. Half a turn is rounded to
-/// even, as compiled code does.
+/// The whole turns, a multiple of 2 pi [rad], that bring `angle` nearest to `reference` when added to it. They have no derivative. Ties
+/// round to an even number of turns, as in compiled code (Operation::kRound).
 template <class T>
 T nearest_turns(double reference, const T& angle) {
   return T(2.0 * M_PI * std::nearbyint((reference - value_of(angle)) / (2.0 * M_PI)));

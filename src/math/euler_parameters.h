@@ -8,8 +8,8 @@
 
 namespace codesign {
 
-// Euler parameters p = [e0, e] of a body-fixed frame, as in Haug (1989) and the paper's nomenclature. Every form below is homogeneous in p,
-// so its derivatives hold off the unit sphere too, and second derivatives are constant matrices. doc/theory.md (1)-(4).
+// Euler parameters p = [e0, e] of a body-fixed frame, as in Haug (1989) and the paper; doc/theory.md (1)-(4). Every function of p below is
+// homogeneous in p, so that its derivatives also hold where |p| differs from 1, and second derivatives are constant matrices.
 
 /// Rotation matrix A(p) = (e0^2 - e.e) I + 2 e e^T + 2 e0 e~, body to ground; theory (1). Orthogonal only for |p| = 1.
 template <class T>
@@ -91,13 +91,14 @@ Matrix34<T> body_rate_matrix(const Vector4<T>& p) {
   return G;
 }
 
-/// G(p) r and G(p)^T y without forming G.
+/// G(p) r without forming G; half the angular velocity in body axes for r = dp/dt.
 template <class T>
 Vector3<T> body_rate(const Vector4<T>& p, const Vector4<T>& r) {
   return Vector3<T>(p[0] * r[1] - p[1] * r[0] + p[3] * r[2] - p[2] * r[3],  //
                     p[0] * r[2] - p[2] * r[0] + p[1] * r[3] - p[3] * r[1],  //
                     p[0] * r[3] - p[3] * r[0] + p[2] * r[1] - p[1] * r[2]);
 }
+/// G(p)^T y without forming G.
 template <class T>
 Vector4<T> body_rate_transposed(const Vector4<T>& p, const Vector3<T>& y) {
   return Vector4<T>(-(p[1] * y[0] + p[2] * y[1] + p[3] * y[2]),  //
@@ -149,7 +150,7 @@ Vector4<T> quaternion_product(const Vector4<T>& p, const Vector4<T>& r) {
   return c;
 }
 
-/// Euler parameters of a rotation matrix (Shepperd's method: the largest component is taken from the diagonal).
+/// Euler parameters of a rotation matrix, by Shepperd's method: the largest component comes from the diagonal and is positive.
 template <class T>
 Vector4<T> euler_parameters(const Matrix3<T>& A) {
   using std::sqrt;

@@ -8,14 +8,14 @@
 
 namespace codesign {
 
-// Every operation is a few instructions: a call would cost more than it, and there are too many for the compiler's own judgement.
+// Every operation is a few instructions, fewer than a call takes; there are so many that the compiler would not inline them all by itself.
 #define CODESIGN_INLINE __attribute__((always_inline)) inline
 
 /// A value with N directional derivatives side by side in SIMD registers: forward-mode automatic differentiation of N parameters in one
 /// pass.
 ///
-/// Plain arithmetic on the compiler's vector type, all inlined; why not a library's dual number: doc/decisions/0003-lanes.md. As a double,
-/// it is left uninitialized by its default constructor.
+/// Plain arithmetic on the compiler's vector type, all inlined; doc/decisions/0003-lanes.md says why no library's dual number is used. Like
+/// a double, it is uninitialized after default construction. Comparisons are those of the values.
 template <int N>
 struct Lanes {
   static_assert(N % 4 == 0, "lanes come in fours");
@@ -24,7 +24,7 @@ struct Lanes {
   /// Four derivatives. Aligned as a double, so that containers need no special allocator.
   typedef double Four __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double))));
 
-  /// N derivatives as the processor holds them: one vector type of N numbers would be kept in memory.
+  /// N derivatives in blocks of four, each in one register; a single vector type of N numbers would be kept in memory.
   struct Vector {
     Four block[kBlocks];
 
@@ -96,7 +96,7 @@ struct Lanes {
     const double inverse = 1.0 / y.a, quotient = x.a * inverse;
     return {quotient, (x.v - quotient * y.v) * inverse};
   }
-  // Constants have no derivatives to multiply by.
+  // With a constant, the products by its derivatives, which are zero, are left out.
   CODESIGN_INLINE friend Lanes operator+(const Lanes& x, double y) { return {x.a + y, x.v}; }
   CODESIGN_INLINE friend Lanes operator+(double x, const Lanes& y) { return {x + y.a, y.v}; }
   CODESIGN_INLINE friend Lanes operator-(const Lanes& x, double y) { return {x.a - y, x.v}; }
@@ -139,7 +139,7 @@ struct Lanes {
 
 namespace Eigen {
 
-// Costs as a double's, so that small loops are unrolled alike.
+// The same costs as for double, so that Eigen unrolls the same small loops.
 template <int N>
 struct NumTraits<codesign::Lanes<N>> : GenericNumTraits<double> {
   using Real = codesign::Lanes<N>;

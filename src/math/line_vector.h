@@ -8,7 +8,7 @@
 
 namespace codesign {
 
-/// Memory that begins with a cache line, so that no vector register is read from two.
+/// Allocates memory aligned to a cache line (64 bytes), so that no load of a vector register touches two lines.
 template <class T>
 struct LineAllocator {
   using value_type = T;
@@ -31,6 +31,7 @@ struct LineAllocator {
   }
 };
 
+/// Numbers in such memory.
 using LineVector = std::vector<double, LineAllocator<double>>;
 
 }  // namespace codesign

@@ -9,14 +9,14 @@
 
 namespace codesign {
 
-/// A derivative and an estimate of its own error.
+/// A derivative with an estimate of its absolute error.
 struct RiddersDerivative {
   double value = 0.0;
-  double error = std::numeric_limits<double>::infinity();
+  double error = std::numeric_limits<double>::infinity();  ///< the change by the last extrapolation; infinite if f was never finite
 };
 
-/// Derivative of f at x by central differences extrapolated to step zero (Ridders 1982); f is called twice per level.
-/// @param step first step; it shrinks by a factor of 2 per level.
+/// Derivative of f at x by central differences extrapolated to step zero (Ridders, doc/theory.md [9]). Six steps, two calls of f each.
+/// @param step the first step; each further one is half as long.
 template <class Function>
 RiddersDerivative ridders_derivative(const Function& f, double x, double step) {
   constexpr int kLevels = 6;

@@ -22,7 +22,7 @@ using Matrix34 = Eigen::Matrix<T, 3, 4>;
 template <class T>
 using VectorX = Eigen::Matrix<T, Eigen::Dynamic, 1>;
 
-/// The value without its derivatives or imaginary part; for decisions, which must not depend on them.
+/// The value without derivatives or imaginary part. Branches use it, since they must not depend on the derivatives.
 inline double value_of(double x) { return x; }
 inline double value_of(const std::complex<double>& x) { return x.real(); }
 template <int N>
@@ -30,8 +30,9 @@ double value_of(const Lanes<N>& x) {
   return x.a;
 }
 
-/// Whether the value of x is below that of y. Formulas decide with this, so that they can be recorded.
-/// @param likely the outcome for which a recording is made; the others are left to the formula itself.
+/// Whether value_of(x) < value_of(y). Formulas branch by this function only, so that they can be recorded for compilation
+/// (codegen/traced.h).
+/// @param likely the outcome that a recording follows where it depends on the state; for the other outcome compiled code is not used.
 template <class T>
 bool is_less(const T& x, const T& y, bool likely) {
   static_cast<void>(likely);

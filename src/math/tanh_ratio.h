@@ -8,14 +8,14 @@
 
 namespace codesign {
 
-/// A function of one variable with its derivative.
+/// The value and the derivative of a function of one variable.
 template <class T>
 struct ValueAndSlope {
   T value{0.0}, slope{0.0};
 };
 
-/// tanh(sqrt x)/sqrt x, which is analytic in x, for x >= 0; 1 at zero. Near zero by the series of the hyperbolic tangent, elsewhere as
-/// written: relative errors of value and slope stay below 1e-14.
+/// tanh(sqrt x)/sqrt x and its derivative for x >= 0: analytic in x, 1 at zero; theory (13a). Below x = 0.05 the series of the hyperbolic
+/// tangent is used, so that the relative errors of value and slope stay below 1e-14.
 template <class T>
 ValueAndSlope<T> tanh_ratio(const T& x) {
   using std::sqrt;

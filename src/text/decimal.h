@@ -6,7 +6,7 @@
 
 namespace codesign {
 
-/// The shortest text that reads back as the same double, whatever the locale: `0.07`, `1e-06`, `inf`, `nan`.
+/// The shortest text that reads back as the same double, independent of the locale: `0.07`, `1e-06`, `inf`, `nan`.
 std::string to_decimal(double value);
 
 }  // namespace codesign

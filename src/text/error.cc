@@ -6,11 +6,11 @@
 namespace codesign {
 namespace {
 
-/// A message is for people: what is longer shows its beginning.
+/// A text longer than `most` bytes is cut and ends with "...", so that messages stay readable.
 std::string shortened(const std::string& text, std::size_t most) {
   if (text.size() <= most) return text;
   std::size_t end = most;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a letter
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // do not cut a UTF-8 character
   return text.substr(0, end) + "...";
 }
 

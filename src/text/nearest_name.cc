@@ -12,7 +12,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// Optimal string alignment distance; two rows behind the current one suffice.
+/// Optimal string alignment distance. A row of its table depends on the two rows before it only.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
@@ -32,7 +32,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known) {
-  // A message is no search engine: it may take milliseconds, whatever names a file or a request is full of.
+  // Bounds the time spent on one error message, however many and however long the names in a file or a request are.
   constexpr std::size_t kLongest = 100, kMostLetterPairs = 20000000;
   if (name.size() > kLongest) return "";
   const std::string wanted = lower_case(name);

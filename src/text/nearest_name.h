@@ -7,12 +7,14 @@
 
 namespace codesign {
 
-/// The known name a misspelt one most likely meant: the fewest letters inserted, dropped, replaced or swapped, whatever their case.
-/// Names over 100 letters, and names behind the first tens of thousands, are not compared, so that the search takes milliseconds.
-/// Returns "" if none is near (more than a third of the longer name differs, at least two letters allowed).
+/// The name in `known` that a misspelt `name` most likely stands for: the one with the fewest letters inserted, dropped, replaced or
+/// swapped with their neighbour, ignoring case; the first of several equally near ones.
+///
+/// Returns "" if every known name differs in more than two letters and in more than a third of the longer name. To bound the time, names of
+/// more than 100 letters are not compared, and the search stops after 2e7 pairs of letters.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
 
-/// `, did you mean "near"?`, or nothing where `near` is empty.
+/// `, did you mean "near"?`, or "" if `near` is empty.
 std::string did_you_mean(const std::string& near);
 
 }  // namespace codesign

@@ -12,7 +12,7 @@ namespace codesign {
 
 namespace {
 
-/// What is too small for a double is zero, as URDF's readers have it; what is too large is no number.
+/// A number out of the range of doubles: zero (or a denormal) if too small, as urdfdom reads it; std::nullopt if too large.
 std::optional<double> underflow(const std::string& text) {
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
@@ -27,7 +27,7 @@ std::optional<double> underflow(const std::string& text) {
 std::optional<double> parse_number(const std::string& text) {
   const char* begin = text.data();
   const char* const end = begin + text.size();
-  if (text.size() > 1 && *begin == '+' && text[1] != '-') ++begin;  // URDF's readers accept it, from_chars does not
+  if (text.size() > 1 && *begin == '+' && text[1] != '-') ++begin;  // urdfdom accepts a plus sign, from_chars does not
   double value = 0.0;
   const std::from_chars_result result = std::from_chars(begin, end, value);
   if (result.ptr != end) return std::nullopt;

@@ -8,13 +8,13 @@
 
 namespace codesign {
 
-/// The whole of `text` as a number, whatever the locale; nothing if it is none. `inf` and `nan` parse, and are left to the caller.
+/// The number that the whole of `text` spells, independent of the locale; std::nullopt if it is not a number or too large for a double.
+/// A number too small for a double is 0. `inf` and `nan` are accepted: callers that need a finite number must check.
 std::optional<double> parse_number(const std::string& text);
 
-/// Space-separated, each the shortest decimal that reads back as the same double.
+/// The values as to_decimal() writes them, separated by spaces.
 std::string format_numbers(const std::vector<double>& values);
 
-/// Whether `text` ends with `tail`.
 bool ends_with(const std::string& text, const std::string& tail);
 
 /// The words of `text` between white space.

@@ -9,11 +9,12 @@
 
 namespace codesign {
 
-/// `a, b, c`, cut short after two dozen names.
+/// `a, b, c`; only the first 24 names, followed by `...`, if there are more; `there are none` for an empty list.
 std::string list_names(const std::vector<std::string>& names);
 
-/// The error for a name that is none of `known`: `unknown joint, did you mean "crank_joint"?`
-/// @param kind what the name should have been: "joint", "key", ...
+/// The error for a name that is not in `known`. Its message is `unknown <kind>`, with the nearest known name if there is one:
+/// `unknown joint, did you mean "crank_joint"?`; its allowed values are list_names(known).
+/// @param kind what the name should denote: "joint", "key", ...
 InputError unknown_name(const SourceLocation& where, const std::string& element, const std::string& kind, const std::string& name,
                         const std::vector<std::string>& known);
 
