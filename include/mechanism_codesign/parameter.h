@@ -9,13 +9,13 @@
 
 namespace codesign {
 
-/// A named design or control parameter, one entry of rho.
+/// A named design or control parameter; an entry of rho if a study tunes it.
 struct Parameter {
   std::string name;
-  double value = 0.0;
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
-  std::string unit;
+  double value = 0.0;                                       ///< default, and start of an optimization
+  double lower = -std::numeric_limits<double>::infinity();  ///< bound of the optimization
+  double upper = std::numeric_limits<double>::infinity();   ///< bound of the optimization
+  std::string unit;                                         ///< for display only; may be empty
   SourceLocation where;
 };
 

@@ -4,14 +4,14 @@
 
 namespace codesign {
 
-/// A number in one of the arrays that compiled code works on; none if array < 0.
+/// Where a number is: an index into one of the arrays that compiled code works on. Absent if array < 0.
 struct Place {
   int array = -1, index = 0;
 
   friend bool operator==(const Place& x, const Place& y) { return x.array == y.array && x.index == y.index; }
 };
 
-/// How many arrays compiled code can work on.
+/// The number of arrays that compiled code can address.
 constexpr int kCodeArrays = 11;
 
 }  // namespace codesign
@@ -24,14 +24,14 @@ constexpr int kCodeArrays = 11;
 
 namespace codesign {
 
-/// Code without loops over numbers in arrays; a function int(double* const*) of the arrays' first numbers, which it finds in rbx. Its
-/// memory is writable only until finish(). System V calling convention.
+/// Base of the code generators: a function int(const double* const* arrays) of straight-line code on numbers in arrays, in the System V
+/// calling convention. rbx holds the argument. Its memory is writable until finish() only.
 class MachineCode : protected Xbyak::CodeGenerator {
  public:
   MachineCode(const MachineCode&) = delete;
   MachineCode& operator=(const MachineCode&) = delete;
 
-  /// Whether this processor has the instructions that are used, AVX2 and FMA.
+  /// Whether the processor has AVX2 and FMA, which the code uses.
   static bool can_run() {
     static const bool can = [] {
       const Xbyak::util::Cpu cpu;
@@ -43,13 +43,13 @@ class MachineCode : protected Xbyak::CodeGenerator {
  protected:
   explicit MachineCode(std::size_t bytes) : Xbyak::CodeGenerator((bytes + 4095) / 4096 * 4096, Xbyak::DontSetProtectRWE) {}
 
-  /// Saves registers and loads the arrays' addresses; the stack is then aligned for calls.
+  /// Saves registers and loads the addresses of the arrays. Afterwards the stack is aligned for calls.
   void enter() {
     push(rbx), push(rbp), push(r13);
     mov(rbx, rdi);
     load_bases();
   }
-  /// Again after a call, which may have changed them.
+  /// Loads the addresses of the arrays; needed again after each call, which may change these registers.
   void load_bases() {
     for (int k = 0; k < kCodeArrays; ++k) mov(base(k), ptr[rbx + 8 * k]);
   }

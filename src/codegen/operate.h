@@ -9,7 +9,8 @@
 
 namespace codesign {
 
-/// One operation of a Recording on numbers. @param b of operations with two operands. Leaves and literals are none.
+/// The result of one operation of a Recording. @param b ignored by operations with one operand. For kLeaf and kLiteral, which do not
+/// compute anything, the result is a.
 template <class T>
 T operate(Operation operation, const T& a, const T& b) {
   using std::asin, std::cos, std::exp, std::sin, std::sqrt, std::tanh;

@@ -14,8 +14,8 @@ namespace codesign {
 
 /// Elementary operations of a Recording.
 enum class Operation : std::uint8_t {
-  kLeaf,     ///< a number that is put in: entry b of array a
-  kLiteral,  ///< a number known while recording
+  kLeaf,     ///< an input: entry b of array a
+  kLiteral,  ///< a constant, known while recording
   kAdd,
   kSubtract,
   kMultiply,
@@ -31,45 +31,49 @@ enum class Operation : std::uint8_t {
   kArcTangent  ///< atan2(a, b)
 };
 
-/// The elementary operations of a computation, as they come, each once (a computational graph; Griewank and Walther, Evaluating
-/// Derivatives, 2008, section 2.2). Operands stand before what uses them.
+/// The elementary operations of a computation as a computational graph (Griewank and Walther, Evaluating Derivatives, 2008, section 2.2).
+/// The nodes stand in the order of computation, operands before the operations that use them; an operation that occurs again with the same
+/// operands gets no second node.
 class Recording {
  public:
   struct Node {
     Operation operation;
     int a = -1, b = -1;    ///< operands, -1 where there is none
     double literal = 0.0;  ///< of kLiteral
-    bool varies = false;   ///< depends on a leaf that was said to vary
+    bool varies = false;   ///< depends on a leaf that varies between evaluations of one design
   };
 
-  /// A decision: the recording holds where (a < b) == outcome.
+  /// A branch of the recorded computation: the recording is valid only where (a < b) == outcome.
   struct Guard {
     int a, b;
     bool outcome;
   };
 
-  /// Entry `index` of an array that is put in. @param varies between evaluations of one design.
+  // The next five functions return the index of a node.
+
+  /// The leaf for entry `index` of an input array. @param varies whether it changes between evaluations of one design.
   int leaf(int array, int index, bool varies);
-  /// A number that is none refuses the recording: it stands for what must not be known while recording.
+  /// A constant. NaN, which stands for a value that must not be used while recording, makes the recording refused().
   int literal(double x);
-  /// A leaf of array kSupplied that does not vary: the value of `source` at the parameters of a design.
+  /// A leaf of array kSupplied that does not vary: the value of `source`, an expression, for the parameters of a design.
   int supplied(const SourceId& source);
-  /// A leaf of array kTimed that varies: the derivative of an order (0 to 3) of the function of time `source`.
+  /// A leaf of array kTimed that varies: the derivative of the given order (0 to 3) of the function of time `source`.
   int timed(const SourceId& source, int order);
-  /// @param b -1 for functions of one operand.
+  /// @param b -1 for operations with one operand.
   int operate(Operation operation, int a, int b = -1);
 
   void guard(int a, int b, bool outcome) { guards_.push_back({a, b, outcome}); }
-  /// Says that a decision was asked for that no guard can stand for.
+  /// Makes the recording refused(): the computation branched in a way that no guard can check.
   void refuse() { refused_ = true; }
 
   int size() const { return static_cast<int>(nodes_.size()); }
   const Node& node(int k) const { return nodes_[static_cast<std::size_t>(k)]; }
   const std::vector<Guard>& guards() const { return guards_; }
+  /// Whether the recording must not be compiled.
   bool refused() const { return refused_; }
   /// The source of each entry of array kSupplied.
   const std::vector<SourceId>& supplied_sources() const { return supplied_; }
-  /// The source of each kFunctionOrders entries of array kTimed.
+  /// The source of each group of kFunctionOrders entries of array kTimed.
   const std::vector<SourceId>& timed_sources() const { return timed_; }
 
   static constexpr int kSupplied = 100, kTimed = 101, kFunctionOrders = 4;
@@ -81,7 +85,7 @@ class Recording {
   std::vector<Guard> guards_;
   std::vector<SourceId> supplied_, timed_;
   bool refused_ = false;
-  std::unordered_map<std::uint64_t, int> operations_;  ///< what is known already
+  std::unordered_map<std::uint64_t, int> operations_;  ///< the node of each operation recorded so far, by operation and operands
   std::map<std::pair<int, int>, int> leaves_;
   std::unordered_map<std::uint64_t, int> literals_;  ///< by their bits
 };

@@ -14,14 +14,14 @@ namespace codesign {
 #ifdef CODESIGN_MACHINE_CODE
 namespace {
 
-constexpr std::size_t kBytesPerOperation = 16;  // an instruction has fewer
-constexpr int kOne = 15;                        // the register that holds 1
-constexpr int kSecond = 14;                     // that holds the second part of a sum
-constexpr int kFactor = 15;                     // that holds a factor in all its parts
+constexpr std::size_t kBytesPerOperation = 16;  // upper bound
+constexpr int kOne = 15;                        // register of the number 1 (width 1)
+constexpr int kSecond = 14;                     // register of the second partial sum (width 1)
+constexpr int kFactor = 15;                     // register with four copies of a factor (widths 4 and 8)
 constexpr int kNone = -1;
 
-/// When each row is read, in the order of the sums; and which registers hold which rows, of which the one that is read again last is given
-/// away first (Belady's rule).
+/// Assigns registers to rows. It knows all reads in advance; the register that is freed is the one whose row is next read last (Belady's
+/// rule). Reads are numbered from 0 in the order of the sums.
 class RowRegisters {
  public:
   RowRegisters(const std::vector<Sum>& sums, int count) : held_(static_cast<std::size_t>(count)) {
@@ -32,7 +32,7 @@ class RowRegisters {
     }
   }
 
-  /// The present read is done.
+  /// Goes on to the next read.
   void pass() { ++now_; }
 
   int find(const Place& row) const {
@@ -41,7 +41,8 @@ class RowRegisters {
     return kNone;
   }
 
-  /// Whether a row that is read now had better be loaded: it is read twice again soon, and before what it would drive out.
+  /// Whether to load a row into a register now: if two more reads of it follow soon, the first before the row that it would replace is
+  /// read.
   bool is_worth_loading(const Place& row, int busy) const {
     constexpr int kSoon = 48;
     const auto [first, last] = later_reads(row);
@@ -50,14 +51,14 @@ class RowRegisters {
     return held_[static_cast<std::size_t>(victim)].array < 0 || next_read(held_[static_cast<std::size_t>(victim)]) > *first;
   }
 
-  /// A register to write to, other than a busy one.
+  /// Frees a register other than `busy` and returns it.
   int take(int busy) {
     const int r = farthest(busy);
     held_[static_cast<std::size_t>(r)] = {};
     return r;
   }
 
-  /// From now on a register holds this row, and no other does.
+  /// Notes that register r, and no other, holds this row from now on.
   void hold(const Place& row, int r) {
     if (const int before = find(row); before >= 0) held_[static_cast<std::size_t>(before)] = {};
     held_[static_cast<std::size_t>(r)] = row;
@@ -66,7 +67,7 @@ class RowRegisters {
  private:
   static std::int64_t key(const Place& row) { return (static_cast<std::int64_t>(row.array) << 32) | row.index; }
 
-  /// Those after the present one.
+  /// The reads of a row after the present one: [first, last).
   std::pair<const int*, const int*> later_reads(const Place& row) const {
     const auto known = reads_.find(key(row));
     if (known == reads_.end()) return {nullptr, nullptr};
@@ -79,7 +80,7 @@ class RowRegisters {
     return first == last ? std::numeric_limits<int>::max() : *first;
   }
 
-  /// One that is free, or the one whose row is read again last.
+  /// A free register, or else the one whose row is next read last.
   int farthest(int busy) const {
     int best = -1, best_read = -1;
     for (std::size_t r = 0; r < held_.size(); ++r) {
@@ -98,7 +99,7 @@ class RowRegisters {
   int now_ = 0;
 };
 
-/// A sum without a start begins with a product, if one is added.
+/// Uses the first added product of a sum without a start as its start, which saves setting the target to zero.
 std::vector<Sum> with_starts(std::vector<Sum> sums) {
   for (Sum& sum : sums) {
     const auto leading = std::find_if(sum.products.begin(), sum.products.end(), [](const Sum::Product& p) { return p.added; });
@@ -135,7 +136,7 @@ class SumsCode final : public StraightLine, private MachineCode {
     for (const Sum& sum : sums) emit_one(sum, &registers);
   }
 
-  // Long sums in two parts, since every addition waits for the one before it.
+  // Long sums are computed as two partial sums side by side, since each addition must wait for the one before it.
   void emit_one(const Sum& sum, RowRegisters* registers) {
     const int target = registers->take(kNone);
     const Xbyak::Xmm result(target), second(kSecond);
@@ -176,7 +177,7 @@ class SumsCode final : public StraightLine, private MachineCode {
     vzeroupper();
   }
 
-  /// One part of the row that a register holds.
+  /// The register of block `block` (four numbers) of the row held in position `held`.
   Xbyak::Ymm part(int held, int block) const { return Xbyak::Ymm(blocks_ * held + block); }
 
   void emit_start(const Sum& sum, int result, const RowRegisters& registers) {

@@ -11,52 +11,57 @@
 
 namespace codesign {
 
-/// target = (start * start_scale - sum of rows[i] * factors[i]) * scale, or one over that.
+/// target = (start * start_scale - sum_i row_i * factor_i) * scale, or the reciprocal of that.
 ///
-/// `target`, `start` and `row` are rows of so many numbers side by side as the StraightLine is wide, the rest are single numbers. No target
-/// is among the rows of its own sum.
+/// `target`, `start` and each `row` consist of `width` numbers side by side (the width of the StraightLine); `start_scale`, `scale` and
+/// each `factor` are single numbers. An absent start counts as 0, an absent scale as 1. The target must not be among the rows of its own
+/// sum.
 struct Sum {
   struct Product {
-    Place row, factor;   ///< a row without a factor counts as it is, if the StraightLine is wide
-    bool added = false;  ///< rather than subtracted; only if it is wide
+    Place row, factor;   ///< an absent factor counts as 1; only for widths above 1
+    bool added = false;  ///< the product is added instead of subtracted; only for widths above 1
   };
   Place target, start, start_scale, scale;
-  bool reciprocal = false;  ///< only of width 1  ///< only of width 1
+  bool reciprocal = false;  ///< only for width 1
   std::vector<Product> products;
 };
 
-/// Sums of products at fixed places, compiled into machine code without loops or branches: what a sparse factorization does with numbers
-/// does not change from one refactorization to the next. Rows that were computed or read last are kept in registers.
+/// Sums of products at fixed places, compiled into machine code without loops or branches. It serves sparse factorizations, whose sequence
+/// of operations is the same in every refactorization. Rows that are read again soon stay in registers.
 class StraightLine {
  public:
-  /// Row k of an array begins at its number stride * k + offset.
+  /// Row k of an array begins at index stride * k + offset [doubles].
   struct RowLayout {
     int stride, offset;
   };
   using RowLayouts = std::array<RowLayout, kCodeArrays>;
   using Arrays = std::array<const double*, kCodeArrays>;
 
-  /// More products than this never fit into half a megabyte of code: each takes four bytes at least.
+  /// With more products than this the code is certainly longer than half a megabyte, since each takes at least four bytes.
   static constexpr std::size_t kMostProducts = std::size_t{128} * 1024;
 
   virtual ~StraightLine() = default;
 
-  /// @param width of rows: 1, 4 or 8; they lie one behind the other. Null where that cannot be: other processors than x86-64 with AVX2 and
-  /// FMA, a system that lets no program write code, or more than half a megabyte of it, which loops would beat.
+  /// Compiles the sums, to be computed in the given order, for rows that lie one behind the other. Returns null if the processor is not an
+  /// x86-64 with AVX2 and FMA, if the system does not allow programs to make code, or if the code would take more than half a megabyte
+  /// (loops are faster then).
+  /// @param width numbers per row: 1, 4 or 8.
   static std::unique_ptr<StraightLine> compile(const std::vector<Sum>& sums, int width);
-  /// @param layouts where rows lie. @param most_bytes of code, by a generous estimate.
+  /// Likewise, with rows that lie as `layouts` says.
+  /// @param most_bytes null is returned if an upper estimate of the code's size exceeds this.
   static std::unique_ptr<StraightLine> compile(const std::vector<Sum>& sums, int width, const RowLayouts& layouts, std::size_t most_bytes);
 
-  /// @param arrays their first numbers; those that targets lie in are written to.
+  /// @param arrays the address of each array; null for arrays that no sum uses. The code writes to those that contain targets.
   virtual void run(const Arrays& arrays) const = 0;
 };
 
-/// The same sums for rows of every width, each compiled when it is first asked for.
+/// One list of sums for rows of width 1, 4 and 8. Each width is compiled when it is first needed.
 class LazyStraightLine {
  public:
-  /// @param allowed false to have none, so that loops do the work.
+  /// @param allowed false: get() always returns null, so that the caller uses its loops.
   explicit LazyStraightLine(bool allowed = true) : allowed_(allowed) {}
 
+  /// The compiled sums for rows of this width; null where StraightLine::compile() gives null.
   /// @param sums () -> std::vector<Sum>, the same at every call.
   template <class Sums>
   const StraightLine* get(const Sums& sums, int width) {

@@ -10,14 +10,14 @@ namespace {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-/// A derivative as a sum of other nodes' derivatives times factors.
+/// One term of a derivative: the derivative of `node` times `factor`.
 struct Part {
   int node;
   Traced factor;
 };
 using Parts = std::vector<Part>;
 
-/// The partial derivatives of one operation by its operands.
+/// The partial derivatives of node n by its operands.
 Parts partials(Recording* recording, int n) {
   const Recording::Node node = recording->node(n);
   const auto value = [recording](int k) { return Traced(recording, k); };
@@ -60,7 +60,7 @@ bool only_adds(Operation operation) {
   return operation == Operation::kAdd || operation == Operation::kSubtract || operation == Operation::kNegate;
 }
 
-/// Literal nodes as numbers again, so that products with them fold.
+/// x, as a literal if its node is one, so that products with it are simplified.
 Traced folded(Recording* recording, const Traced& x) {
   if (x.is_literal()) return x;
   const Recording::Node& node = recording->node(x.node_in(recording));
@@ -115,7 +115,7 @@ class Accumulation {
     }
   }
 
-  /// factor times the derivative of a node, by leaves and by nodes that have a sum.
+  /// The derivative of `node` times `factor`, in terms of derivatives of leaves and of nodes with a sum.
   Parts of(int node, const Traced& factor) const {
     if (!active_[at(node)]) return {};
     if (is_leaf_[at(node)] || program_->row[at(node)] >= 0) return {{node, factor}};
@@ -165,7 +165,7 @@ class Accumulation {
   Recording* recording_;
   const std::vector<ValueTask::Output>& outputs_;
   const std::vector<bool>& is_leaf_;
-  int size_;  ///< before there were factors
+  int size_;  ///< nodes of the recording before those for factors were appended
   TangentProgram* program_ = nullptr;
   std::vector<Parts> parts_;  ///< of nodes without a sum
   std::vector<int> uses_;

@@ -9,29 +9,29 @@
 
 namespace codesign {
 
-/// Directional derivatives of a recording as sums of products: of directions of leaves and of other sums (rows) with numbers that are nodes
-/// themselves (factors). Forward accumulation on the linearized graph (Griewank and Walther 2008, section 10.2): what is proportional to
-/// one other derivative, or is only added to another, has no sum of its own.
+/// Directional derivatives of a recording as sums of products. The rows are derivatives of leaves and of nodes with a sum of their own; the
+/// factors are values of nodes. By forward accumulation on the linearized graph (Griewank and Walther 2008, section 10.2): a node whose
+/// derivative has one term only, or is used once in a sum, gets no sum of its own; its terms are inserted where it is used.
 struct TangentProgram {
   struct Term {
-    int row;     ///< the node whose derivative it is: a leaf, or one that has a sum
-    int factor;  ///< node; -1 for one
-    bool added;  ///< rather than subtracted
+    int row;     ///< the node whose derivative is multiplied: a leaf, or a node with a sum
+    int factor;  ///< the node whose value it is multiplied by; -1 for the number 1
+    bool added;  ///< false: the product is subtracted
   };
   struct Sum {
-    int node;  ///< -1: of an output
-    ValueTask::Output output;
+    int node;                  ///< whose derivative the sum is; -1: it is the derivative of `output`
+    ValueTask::Output output;  ///< only if node is -1
     std::vector<Term> terms;
   };
 
-  /// @param recording gets nodes for the factors. @param outputs whose derivatives are wanted. @param is_leaf per node, whether its
-  /// derivative is given; nodes that do not vary and are not among them have none.
+  /// @param recording nodes for the factors are appended to it. @param outputs whose derivatives are wanted. @param is_leaf per node,
+  /// whether its derivative is given; all other leaves have the derivative zero.
   TangentProgram(Recording* recording, const std::vector<ValueTask::Output>& outputs, const std::vector<bool>& is_leaf);
 
-  std::vector<Sum> sums;     ///< in order
-  std::vector<int> row;      ///< per node: its place among the sums' own rows, -1 if it has none
+  std::vector<Sum> sums;     ///< in the order of computation
+  std::vector<int> row;      ///< per node: index of the derivative among the `rows` intermediate ones, -1 if it has none
   std::vector<int> factors;  ///< nodes whose values are needed, each once
-  int rows = 0;
+  int rows = 0;              ///< number of intermediate derivatives
 };
 
 }  // namespace codesign

@@ -22,7 +22,6 @@ bool is_negated(const Traced& x) { return !x.is_literal() && x.recording()->node
 
 Traced without_sign(const Traced& x) { return {x.recording(), x.recording()->node(x.node()).a, -x.value()}; }
 
-/// A function of one number.
 Traced apply(Operation operation, const Traced& x) {
   return x.is_literal() ? Traced(operate(operation, x.value(), 0.0)) : record(operation, x);
 }

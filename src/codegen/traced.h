@@ -8,23 +8,23 @@
 
 namespace codesign {
 
-/// A scalar that records what is done to it, so that a formula written once for every scalar can be compiled for one mechanism. It has a
-/// value only where that does not vary: at the design for which the recording is made. Numbers that are known while recording are computed
-/// with at once: products by zero and one, sums with zero and operations that were recorded before leave nothing behind.
+/// A scalar that records the operations applied to it, so that a formula written as a template over the scalar can be compiled for one
+/// mechanism. It is a literal (a constant known while recording) or a node of a Recording. Operations among literals, products by zero and
+/// one and sums with zero are simplified at once and record nothing.
 class Traced {
  public:
   Traced() = default;
   Traced(double literal) : value_(literal) {}  // NOLINT(google-explicit-constructor): numbers mix with traces in every formula
-  /// @param value at the present design, of nodes that do not vary.
+  /// @param value of a node that does not vary: its value for the design for which the recording is made.
   Traced(Recording* recording, int node, double value = 0.0) : recording_(recording), node_(node), value_(value) {}
 
   bool is_literal() const { return recording_ == nullptr; }
-  /// Of a literal, and of what does not vary.
+  /// Meaningful for literals and for nodes that do not vary only.
   double value() const { return value_; }
   Recording* recording() const { return recording_; }
-  /// Its node; -1 for a literal.
+  /// The node; -1 for a literal.
   int node() const { return node_; }
-  /// Its node in a recording; of a literal, one that is made for it.
+  /// The node; a literal gets one in `recording`.
   int node_in(Recording* recording) const { return is_literal() ? recording->literal(value_) : node_; }
 
   Traced& operator+=(const Traced& y) { return *this = *this + y; }
@@ -58,11 +58,11 @@ Traced round(const Traced& x);
 inline Traced arc_tangent(const Traced& y, const Traced& x) { return atan2(y, x); }
 inline Traced nearest_turns(const Traced& reference, const Traced& angle) { return 2.0 * M_PI * round((reference - angle) / (2.0 * M_PI)); }
 
-/// Traces have no value: whatever is decided with it, the recording refuses to be compiled. Decisions that may be recorded are is_less().
+/// The value of a literal. For a node it returns 0 and makes the recording refused(): a branch on the value of a node can only be recorded
+/// by is_less().
 double value_of(const Traced& x);
 
-/// x < y where it is known; else as it is at the present design, and where it varies the outcome that is `likely`, with a guard that asks
-/// for it.
+/// x < y for literals. Otherwise records a guard and returns its outcome: x < y at the present design if neither varies, else `likely`.
 bool is_less(const Traced& x, const Traced& y, bool likely);
 
 }  // namespace codesign

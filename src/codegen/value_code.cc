@@ -12,8 +12,8 @@ namespace codesign {
 #ifdef CODESIGN_MACHINE_CODE
 namespace {
 
-constexpr std::size_t kMostBytes = 16 * 1024 * 1024;  // by the estimate below, about four times what is used
-constexpr std::size_t kBytesPerInstruction = 64;      // with its loads, spills and stores
+constexpr std::size_t kMostBytes = 16 * 1024 * 1024;  // limit of the estimate, which is about four times the actual size
+constexpr std::size_t kBytesPerInstruction = 64;      // with loads, spills and stores
 constexpr std::size_t kBytesPerCall = 256;
 constexpr int kRegisters = 16;
 
@@ -22,7 +22,7 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 using Instruction = ValueProgram::Instruction;
 using Kind = ValueProgram::Kind;
 
-/// When each node is read, in the order of instructions.
+/// The instructions that read each node, in order.
 class Uses {
  public:
   Uses() = default;
@@ -32,7 +32,7 @@ class Uses {
         if (n >= 0) positions_[at(n)].push_back(static_cast<int>(k));
   }
 
-  /// The next instruction that reads it, after what was passed.
+  /// The next instruction that reads the node, after those passed.
   int next(int node) const {
     const std::vector<int>& positions = positions_[at(node)];
     return next_[at(node)] < positions.size() ? positions[next_[at(node)]] : std::numeric_limits<int>::max();
@@ -76,7 +76,7 @@ class Code final : public ValueCode, private MachineCode {
   using Xmm = Xbyak::Xmm;
   using Operand = Xbyak::Operand;
 
-  // Where values are.
+  // Places of values.
 
   Place memory_of(int node) const {
     const Place& home = task_->homes[at(node)];
@@ -97,7 +97,7 @@ class Code final : public ValueCode, private MachineCode {
     stored_[at(node)] = true;
   }
 
-  /// A register to write to; those in use by the present instruction are not taken from it.
+  /// A register to write to, not one that the present instruction uses. Its value is saved to memory if it is not there yet.
   int free_register() {
     int best = -1, farthest = -1;
     for (int r = 0; r < kRegisters; ++r) {
@@ -119,7 +119,7 @@ class Code final : public ValueCode, private MachineCode {
     register_of_[at(node)] = r;
   }
 
-  /// The operand in a register that stays as it is.
+  /// A register with the value of the node; it stays unchanged during the present instruction.
   Xmm in_some_register(int node) {
     if (!in_register(node)) {
       const int r = free_register();
@@ -130,7 +130,7 @@ class Code final : public ValueCode, private MachineCode {
     return register_of(node);
   }
 
-  /// The operand as an instruction may read it; what is read again soon is loaded.
+  /// The node as an operand to read: a register if it is in one or is read again later, else its address in memory.
   const Operand& operand(int node) {
     if (in_register(node) || uses_.is_read_again(node)) {
       operand_register_ = in_some_register(node);
@@ -140,7 +140,7 @@ class Code final : public ValueCode, private MachineCode {
     return operand_address_;
   }
 
-  /// Gives free the registers of operands that are not read again.
+  /// Frees the register of an operand that is not read again, for use as the result's.
   void drop(int node) {
     if (node >= 0 && in_register(node) && !uses_.is_read_again(node)) {
       const int r = register_of_[at(node)];
@@ -150,7 +150,7 @@ class Code final : public ValueCode, private MachineCode {
     }
   }
 
-  /// A register for the result; a dropped operand's if there is one.
+  /// A register for the result: that of a dropped operand if there is one.
   Xmm result_register() {
     const int r = last_dropped_ >= 0 ? last_dropped_ : free_register();
     busy_[at(r)] = true;
@@ -243,7 +243,7 @@ class Code final : public ValueCode, private MachineCode {
     const Xmm result = operation == Operation::kNegate ? Xmm(free_register()) : result_register();
     if (operation == Operation::kNegate) {
       vpcmpeqd(result, result, result);
-      vpsllq(result, result, 63);  // the sign alone
+      vpsllq(result, result, 63);  // only the sign bit set
       vxorpd(result, result, x);
       drop(i.a);
     } else if (operation == Operation::kSquareRoot) {
@@ -254,7 +254,7 @@ class Code final : public ValueCode, private MachineCode {
     hold(i.node, result.getIdx());
   }
 
-  // a b +- c. One operand of a fused instruction is overwritten: c if it is not read again, else a copy of it.
+  // a b + c, a b - c or c - a b. A fused instruction overwrites one operand: c if it is not read again, else a copy of c.
   void emit_product(const Instruction& i) {
     int first = i.a, second = i.b;
     if (!in_register(first) && in_register(second)) std::swap(first, second);
@@ -316,7 +316,7 @@ class Code final : public ValueCode, private MachineCode {
     hold(i.node, 0);
   }
 
-  /// What only making the code needs.
+  /// Releases the data that only code generation needs.
   void forget() {
     recording_ = nullptr, task_ = nullptr, program_ = nullptr;
     uses_ = Uses();
@@ -328,10 +328,10 @@ class Code final : public ValueCode, private MachineCode {
   const ValueProgram* program_;
   int slot_array_;
   Uses uses_;
-  std::vector<int> register_of_;         ///< per node, -1 if in none
-  std::vector<bool> stored_, kept_;      ///< per node
+  std::vector<int> register_of_;         ///< per node: the register that holds it, -1 if none
+  std::vector<bool> stored_, kept_;      ///< per node: its value is in its slot; it must be there at the end
   std::array<int, kRegisters> held_{};   ///< the node in each register, -1 if none
-  std::array<bool, kRegisters> busy_{};  ///< that the present instruction reads or writes
+  std::array<bool, kRegisters> busy_{};  ///< the present instruction reads or writes it
   int last_dropped_ = -1;
   Xmm operand_register_{0};
   Xbyak::Address operand_address_{0, false, Xbyak::RegExp()};

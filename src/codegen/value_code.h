@@ -9,22 +9,22 @@
 
 namespace codesign {
 
-/// A ValueProgram compiled into machine code without loops; of several values, that which is needed again last leaves its register
-/// (Belady's rule).
+/// A ValueProgram compiled into machine code without loops. If registers run out, the value whose next use is farthest away is moved to
+/// memory (Belady's rule).
 class ValueCode {
  public:
   using Arrays = std::array<const double*, kCodeArrays>;
 
   virtual ~ValueCode() = default;
 
-  /// Whether anything can be compiled here.
+  /// Whether this processor can run compiled code.
   static bool is_available();
 
-  /// @param slot_array where intermediate values may be left, ValueProgram::slots of them, the kept ones at their slots.
-  /// Null where code cannot be run (StraightLine::compile()), or would be longer than some megabytes by a generous estimate.
+  /// Returns null where compiled code cannot run (see StraightLine::compile()), or if an upper estimate of its size exceeds 16 MB.
+  /// @param slot_array the array for intermediate values, of ValueProgram::slots numbers; kept nodes are written to their slots in it.
   static std::unique_ptr<ValueCode> compile(const Recording& recording, const ValueTask& task, const ValueProgram& program, int slot_array);
 
-  /// False where a guard does not hold; outputs are then worth nothing.
+  /// @param arrays the address of each array. @return false if a guard does not hold; the outputs are then invalid.
   virtual bool run(const Arrays& arrays) const = 0;
 };
 

@@ -38,7 +38,7 @@ class Compiler {
   bool has_home(int n) const { return task_.homes[at(n)].array >= 0; }
   bool is_computed(int n) const { return uses_[at(n)] > 0 && !has_home(n); }
 
-  // Backwards, so that what is used by unused nodes does not count.
+  // From the last node to the first, so that uses by unused nodes are not counted.
   void count_uses() {
     const auto fix = [this](int n) {
       ++uses_[at(n)];
@@ -62,7 +62,7 @@ class Compiler {
     return recording_.node(n).operation == Operation::kMultiply && !has_home(n) && uses_[at(n)] == 1 && !fixed_[at(n)];
   }
 
-  /// Which operand of a sum becomes part of it: 1 the first, 2 the second, 0 none.
+  /// Which operand of a sum is a product to be fused with it: 1 the first, 2 the second, 0 none.
   int absorbed_operand(int n) const {
     const Recording::Node& node = recording_.node(n);
     if (node.operation != Operation::kAdd && node.operation != Operation::kSubtract) return 0;
@@ -70,7 +70,7 @@ class Compiler {
     return is_lone_product(node.a) ? 1 : 0;
   }
 
-  // Marked by its only user, which stands behind it; so it must be asked beforehand.
+  // A product is fused with its only user, which comes later in the recording.
   bool is_absorbed(int n) {
     if (!is_lone_product(n)) return false;
     if (user_.empty()) find_users();
@@ -118,9 +118,9 @@ class Compiler {
   const Recording& recording_;
   const ValueTask& task_;
   std::vector<int> uses_, user_;
-  std::vector<bool> fixed_;  ///< must be computed on its own
+  std::vector<bool> fixed_;  ///< must not be fused, since an output, the caller or a guard needs its value
   std::vector<std::vector<Place>> stores_;
-  std::multimap<int, Recording::Guard> guards_;  ///< behind the node that each can be checked after
+  std::multimap<int, Recording::Guard> guards_;  ///< by the later of its two nodes, after which it can be checked
 };
 
 }  // namespace

@@ -9,41 +9,42 @@
 
 namespace codesign {
 
-/// What a recording is to compute, and where it finds and leaves it.
+/// Which values of a recording to compute, where to read its leaves and where to write its outputs.
 struct ValueTask {
   struct Output {
     int node;
     Place place;
   };
   std::vector<Output> outputs;
-  std::vector<int> kept;     ///< nodes whose values must be found in their slots afterwards
-  std::vector<Place> homes;  ///< per node: where its value comes from; none if it is to be computed
-  std::vector<Recording::Guard> guards;
-  int reserved_slots = 0;  ///< before those of the program
+  std::vector<int> kept;                 ///< nodes whose values the caller reads from their slots afterwards
+  std::vector<Place> homes;              ///< per node: the place that already has its value; absent if it is to be computed
+  std::vector<Recording::Guard> guards;  ///< that must hold for the outputs to be valid
+  int reserved_slots = 0;                ///< slots in front of the program's own, which it leaves alone
 };
 
-/// A task as a list of instructions in order: what no output needs is left out, and products that only one sum uses are part of it.
+/// A task as a list of instructions in order. Nodes that no output, kept node or guard needs are left out; a product that is used once, in
+/// a sum, becomes one fused instruction with it.
 struct ValueProgram {
   enum class Kind {
-    kOperation,         ///< the node's own
+    kOperation,         ///< the operation of the recording's node on a and b
     kProductPlus,       ///< a b + c
     kProductMinus,      ///< a b - c
     kMinusProduct,      ///< c - a b
-    kCopy,              ///< an output that is not computed here: a
-    kGuardLess,         ///< leaves unless a < b
-    kGuardGreaterEqual  ///< leaves if a < b
+    kCopy,              ///< copies a, a node with a home that is also an output
+    kGuardLess,         ///< the program fails unless a < b
+    kGuardGreaterEqual  ///< the program fails if a < b
   };
   struct Instruction {
     Kind kind;
-    int node, a, b, c;  ///< -1 where there is none
+    int node, a, b, c;  ///< the result and the operands, as nodes of the recording; -1 if unused
   };
 
   ValueProgram(const Recording& recording, const ValueTask& task);
 
   std::vector<Instruction> instructions;
   std::vector<std::vector<Place>> stores;  ///< per instruction: where its result goes
-  std::vector<int> slot;                   ///< per node: its place in the array of intermediate values, -1 if not computed
-  int slots = 0;                           ///< with the reserved ones
+  std::vector<int> slot;                   ///< per node: its index in the array of intermediate values, -1 if not computed
+  int slots = 0;                           ///< size of that array, reserved slots included
 };
 
 }  // namespace codesign

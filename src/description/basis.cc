@@ -8,13 +8,13 @@
 namespace codesign {
 namespace {
 
-/// Knot i of the repeated-end sequence of a basis.
+/// Knot i [s]; the first and the last knot are repeated.
 double knot(const BasisDescription& basis, int i) {
   const int spans = basis.count() - basis.degree();
   return basis.duration * std::clamp(i - basis.degree(), 0, spans) / spans;
 }
 
-/// B-splines of `degree` on knot span `span`, by de Boor's recurrence. @param values degree + 1 of them.
+/// The degree + 1 B-splines of `degree` that are not zero on the knot span `span`, at t, by de Boor's recurrence.
 void spline_values(const BasisDescription& basis, int span, int degree, double t, double* values) {
   values[0] = 1.0;
   for (int d = 1; d <= degree; ++d) {
@@ -45,7 +45,7 @@ BasisWeights basis_weights(const BasisDescription& basis, double t) {
   const int span = weights.first + degree;
   spline_values(basis, span, degree, inside, weights.value.data());
   if (t > basis.duration) return weights;
-  // B_k' = p (B_k of lower degree / (t_k+p - t_k) - the next one's).
+  // B_k' = p (b_k / (t_(k+p) - t_k) - b_(k+1) / (t_(k+p+1) - t_(k+1))) with b_k of degree p - 1.
   double lower[4];
   spline_values(basis, span, degree - 1, inside, lower);
   for (int r = 0; r < degree; ++r) {

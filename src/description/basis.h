@@ -11,25 +11,27 @@ namespace codesign {
 
 enum class BasisShape { kLinear, kCubic };
 
-/// A shaped input u(t) = sum_k c_k B_k(t) over [0, duration], its last value held from there on; theory (C8).
+/// A shaped input u(t) = sum_k c_k B_k(t) for 0 <= t <= duration; afterwards the last value is held; theory (C8).
 /// B_k are B-splines on equal spans whose end knots are repeated, so that u starts at the first coefficient and ends at the last.
 struct BasisDescription {
   BasisShape shape = BasisShape::kLinear;
   double duration = 0.0;               ///< [s]
-  std::vector<Quantity> coefficients;  ///< more than degree() of them
+  std::vector<Quantity> coefficients;  ///< c_k, at least degree() + 1 [unit of u]
 
   int degree() const { return shape == BasisShape::kLinear ? 1 : 3; }
   int count() const { return static_cast<int>(coefficients.size()); }
 
-  /// The times [s] from first to second in which coefficient k has any influence; infinity where the last value is held.
+  /// The interval of time [s] in which coefficient k has influence; its end is infinite for the last one, which is held.
   std::array<double, 2> support(int k) const;
 };
 
-/// The B_k that do not vanish at an instant, and their rates [1/s].
+/// The B_k that are not zero at an instant.
 struct BasisWeights {
-  int first = 0, count = 0;  ///< B_first, ..., B_(first + count - 1)
-  std::array<double, 4> value{}, rate{};
+  int first = 0, count = 0;               ///< B_first, ..., B_(first + count - 1)
+  std::array<double, 4> value{}, rate{};  ///< B_k and its time derivative [1/s]; the first `count` entries
 };
+
+/// The weights at time t [s]; rates are zero after the duration.
 
 BasisWeights basis_weights(const BasisDescription& basis, double t);
 

@@ -10,13 +10,13 @@
 
 namespace codesign {
 
-/// The names that an expression may use, without a copy of them for each expression.
+/// The parameters that an expression may use, as functions, so that no expression needs a copy of all names.
 struct ExpressionScope {
   std::function<int(const std::string&)> find;      ///< index of a parameter, -1 if there is none
-  std::function<std::vector<std::string>()> names;  ///< all of them, for messages
+  std::function<std::vector<std::string>()> names;  ///< all names, for messages
 };
 
-/// An arithmetic expression of named parameters, as xacro writes them inside `${...}`.
+/// An arithmetic expression of named parameters, in xacro's syntax inside `${...}`.
 ///
 /// Operators + - * / ** ^ and parentheses, comparison with `?:`, the constant `pi`, and the usual functions (sqrt, sin, cos, tan, asin,
 /// acos, atan, atan2, sinh, cosh, tanh, exp, log, log10, pow, abs, sign, min, max, floor, ceil, radians, degrees). Immutable and safe to
@@ -45,8 +45,8 @@ class Expression {
   /// Partial derivative with respect to parameter `index`, by a complex step (exact to rounding).
   double derivative(int index, const std::vector<double>& parameters) const;
 
-  /// The same from the parameters that appear alone: `values[k]` is that of parameter dependencies()[k]. What a design costs then does not
-  /// grow with the number of parameters that an expression does not use.
+  /// Value, and derivative by parameter dependencies()[k], from the parameters that appear only: `values[k]` is the value of parameter
+  /// dependencies()[k]. The cost does not grow with the number of parameters that the expression does not use.
   double value_of(const std::vector<double>& values) const;
   double derivative_of(std::size_t k, const std::vector<double>& values) const;
 
@@ -57,7 +57,7 @@ class Expression {
   std::unique_ptr<const Program> program_;
 };
 
-/// Why `name` cannot name a parameter (no identifier, or a function's name), as a sentence; empty if it can.
+/// Why `name` cannot be the name of a parameter (not an identifier, `pi`, or a function's name), as a sentence; empty if it can.
 std::string identifier_fault(const std::string& name);
 
 }  // namespace codesign

@@ -16,8 +16,8 @@ Complex extreme(const Complex* z, int count, double sign) {
   return best;
 }
 
-/// value + i slope Im z: to first order what a law with this value and slope does to a complex step. Unlike the analytic continuation it
-/// has an infinite derivative where the law has one, at an end of its domain.
+/// value + i slope Im z: a function with this value and slope, applied to a complex step, to first order. Unlike the analytic continuation
+/// this gives an infinite derivative at an end of the domain where the slope is infinite.
 Complex first_order(const Complex& z, double value, double slope) { return {value, z.imag() == 0.0 ? 0.0 : slope * z.imag()}; }
 
 Complex square_root(const Complex* z, int) {
@@ -37,7 +37,7 @@ Complex arc_cosine(const Complex* z, int) {
 
 Complex arc_tangent2(const Complex* z, int) {
   const double y = z[0].real(), x = z[1].real();
-  if (z[0].imag() == 0.0 && z[1].imag() == 0.0) return std::atan2(y, x);  // at the origin too, where there is no derivative
+  if (z[0].imag() == 0.0 && z[1].imag() == 0.0) return std::atan2(y, x);  // defined at the origin too, where the derivative is not
   return {std::atan2(y, x), (x * z[0].imag() - y * z[1].imag()) / (x * x + y * y)};
 }
 

@@ -8,25 +8,25 @@
 
 namespace codesign {
 
-/// A function of an expression. All of them carry a complex step through to first order: those that are not analytic (abs, min, max, floor,
-/// ...) decide by the real part.
+/// A function that expressions may call. All functions propagate a complex step exactly to first order; those that are not analytic (abs,
+/// min, max, floor, ...) branch by the real part.
 struct ExpressionFunction {
   using Law = std::complex<double> (*)(const std::complex<double>* arguments, int count);
   const char* name;
-  int count;  ///< of arguments; -1: one or more
+  int count;  ///< number of arguments; -1: one or more
   Law law;
 };
 
-/// All functions; an index into them stays valid.
+/// All functions. The table never changes, so that indices into it stay valid.
 const std::vector<ExpressionFunction>& expression_function_table();
 
 /// Index of a function, -1 if there is none of this name.
 int find_expression_function(const std::string& name);
 
-/// base ^ exponent, z = {base, exponent}.
+/// z[0] to the power of z[1].
 std::complex<double> expression_power(const std::complex<double>* z, int count);
 
-/// a / b; of real numbers the same as for doubles.
+/// a / b. For real numbers the result is that of doubles, infinities and NaN included.
 std::complex<double> expression_quotient(std::complex<double> a, std::complex<double> b);
 
 }  // namespace codesign

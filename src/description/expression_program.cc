@@ -19,7 +19,7 @@ Complex combine(Code code, const Complex& a, const Complex& b) {
     case Code::kSubtract:
       return a - b;
     case Code::kMultiply:
-      return a.imag() == 0.0 && b.imag() == 0.0 ? Complex(a.real() * b.real()) : a * b;  // with the sign of a zero that doubles have
+      return a.imag() == 0.0 && b.imag() == 0.0 ? Complex(a.real() * b.real()) : a * b;  // complex products lose the sign of zero
     case Code::kDivide:
       return expression_quotient(a, b);
     case Code::kPower:
@@ -39,7 +39,7 @@ Complex combine(Code code, const Complex& a, const Complex& b) {
   }
 }
 
-/// By how much a step changes the number of numbers on the stack.
+/// The change of the stack's size by a step.
 int growth(const ExpressionStep& step) {
   switch (step.code) {
     case Code::kConstant:
@@ -57,7 +57,7 @@ int growth(const ExpressionStep& step) {
 
 }  // namespace
 
-// The two branches of `?:` are counted one behind the other, which asks for one number more than is needed.
+// The two branches of `?:` are counted as if both were executed, which gives one number more than is needed.
 int stack_size(const ExpressionSteps& steps) {
   int size = 0, largest = 0;
   for (const ExpressionStep& step : steps) {
@@ -68,7 +68,7 @@ int stack_size(const ExpressionSteps& steps) {
 }
 
 std::complex<double> run(const ExpressionSteps& steps, const std::complex<double>* variables, std::complex<double>* stack) {
-  Complex* top = stack;  // one behind the topmost
+  Complex* top = stack;  // past the topmost number
   for (std::size_t at = 0; at < steps.size(); ++at) {
     const ExpressionStep& step = steps[at];
     switch (step.code) {

@@ -7,7 +7,7 @@
 
 namespace codesign {
 
-/// One operation on a stack of numbers; a comparison leaves 1 or 0.
+/// One operation of a stack machine on numbers. Operators replace their operands on the stack by the result; comparisons give 1 or 0.
 struct ExpressionStep {
   enum class Code : unsigned char {
     kConstant,  ///< pushes `number`
@@ -18,15 +18,15 @@ struct ExpressionStep {
     kMultiply,
     kDivide,
     kPower,
-    kCall,  ///< function `index` of the topmost `count` numbers
+    kCall,  ///< replaces the topmost `count` numbers by function `index` of them
     kLess,
     kLessOrEqual,
     kGreater,
     kGreaterOrEqual,
     kEqual,
     kNotEqual,
-    kJumpUnless,  ///< to step `index` if the topmost number, which is taken away, is 0
-    kJump         ///< to step `index`
+    kJumpUnless,  ///< removes the topmost number and goes to step `index` if it is 0
+    kJump         ///< goes to step `index`
   };
   Code code = Code::kConstant;
   int index = 0;
@@ -36,10 +36,10 @@ struct ExpressionStep {
 
 using ExpressionSteps = std::vector<ExpressionStep>;
 
-/// Largest number of numbers that wait for their operation at the same time.
+/// An upper bound of the numbers on the stack at any time.
 int stack_size(const ExpressionSteps& steps);
 
-/// Carries out the steps. @param variables by index. @param stack room for stack_size() numbers.
+/// Executes the steps and returns the result. @param variables their values, by index. @param stack memory for stack_size() numbers.
 std::complex<double> run(const ExpressionSteps& steps, const std::complex<double>* variables, std::complex<double>* stack);
 
 }  // namespace codesign

@@ -63,7 +63,7 @@ void ExpressionScanner::read_number() {
 void ExpressionScanner::read_symbol() {
   static const std::string kAllowed = "+-*/^()<>=!?:,";
   const char c = peek();
-  // A letter beyond ASCII is several bytes long: they stay together.
+  // Show all bytes of a UTF-8 character.
   std::size_t length = 1;
   while (static_cast<unsigned char>(c) >= 0x80 && (static_cast<unsigned char>(peek(length)) & 0xC0) == 0x80) ++length;
   if (kAllowed.find(c) == std::string::npos) fail("unexpected character '" + text_.substr(at_, length) + "'", at_);

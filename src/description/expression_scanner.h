@@ -7,27 +7,28 @@
 
 namespace codesign {
 
-/// A piece of an expression: a number, a name, an operator or a bracket.
+/// A number, name, operator or bracket of an expression, or its end.
 struct ExpressionToken {
   enum class Kind { kNumber, kName, kSymbol, kEnd };
   Kind kind = Kind::kEnd;
   std::string text;  ///< as written; empty at the end
   double number = 0.0;
-  std::size_t at = 0;  ///< where it begins, from 0
+  std::size_t at = 0;  ///< byte where it begins, from 0
 };
 
-/// Splits an expression into tokens. White space, line breaks too, separates.
+/// Splits an expression into tokens. White space and line breaks separate tokens. It keeps a reference to the text.
 class ExpressionScanner {
  public:
-  /// @throws std::invalid_argument if the first token is none.
+  /// Reads the first token. @throws std::invalid_argument if it is invalid.
   explicit ExpressionScanner(const std::string& text) : text_(text) { next(); }
 
   const ExpressionToken& token() const { return token_; }
   bool is(const char* symbol) const { return token_.kind == ExpressionToken::Kind::kSymbol && token_.text == symbol; }
-  /// Goes on to the next token. @throws std::invalid_argument for what is no token.
+  /// Reads the next token. @throws std::invalid_argument if it is invalid.
   void next();
 
-  /// Throws std::invalid_argument: `what at position N of 'text'`, a long text being shown around the position only.
+  /// Throws std::invalid_argument with the sentence `what at position N of 'text'`; N counts from 1, and of a text of more than 120 bytes
+  /// only the part around the position is shown.
   [[noreturn]] void fail(const std::string& what, std::size_t at) const;
 
  private:

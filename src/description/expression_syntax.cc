@@ -17,7 +17,7 @@ using Code = ExpressionStep::Code;
 using Kind = ExpressionToken::Kind;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kDeepest = 200;  // calls of the parser within each other; nobody writes so many brackets
+constexpr int kDeepest = 200;  // recursive calls of the parser; bounds its use of the stack
 
 std::vector<std::string> function_names() {
   std::vector<std::string> names;
@@ -39,7 +39,7 @@ class Parser {
  private:
   enum class Type { kNumber, kTruth };
 
-  /// Counts calls within each other for as long as it lives.
+  /// Counts the depth of recursion during its lifetime; fails beyond kDeepest.
   class Level {
    public:
     explicit Level(Parser* parser) : parser_(parser) {
@@ -90,7 +90,7 @@ class Parser {
   Type sum() { return chain("+", Code::kAdd, "-", Code::kSubtract, &Parser::product); }
   Type product() { return chain("*", Code::kMultiply, "/", Code::kDivide, &Parser::signs); }
 
-  /// `part {symbol part}`, from the left.
+  /// `part {symbol part}`, left associative.
   Type chain(const char* first, Code first_code, const char* second, Code second_code, Type (Parser::*part)()) {
     const std::size_t begin = scanner_.token().at;
     const Type type = (this->*part)();
@@ -230,7 +230,7 @@ class Parser {
     return steps_.size() - 1;
   }
 
-  /// Variables are numbered by their place among the parameters used.
+  /// Renumbers the variables by their position among the parameters used.
   ParsedExpression finish() {
     ParsedExpression parsed;
     for (auto& [parameter, place] : used_) {
@@ -257,8 +257,9 @@ ParsedExpression parse_expression(const std::string& text, const ExpressionScope
 std::string identifier_fault(const std::string& name) {
   if (name.empty()) return "the name is empty";
   if (!starts_identifier(name[0]) || !std::all_of(name.begin(), name.end(), continues_identifier))
-    return "'" + name + "' is no identifier (letters, digits and _, not starting with a digit)";
-  if (name == "pi" || find_expression_function(name) >= 0) return "'" + name + "' has a meaning of its own in expressions";
+    return "'" + name + "' is not an identifier (letters, digits and _, not starting with a digit)";
+  if (name == "pi" || find_expression_function(name) >= 0)
+    return "'" + name + "' is a function or constant of expressions; choose another name";
   return "";
 }
 

@@ -10,15 +10,15 @@
 
 namespace codesign {
 
-/// An expression taken apart.
+/// A parsed expression as steps of a stack machine.
 struct ParsedExpression {
   std::vector<int> dependencies;  ///< the parameters used, ascending
   ExpressionSteps steps;          ///< variable k is parameter dependencies[k]
 };
 
-/// Grammar, from what binds least to what binds most; doc/decisions/0040-expressions-parsed-by-ourselves.md:
-/// `sum < sum ? conditional : conditional`, `+ -`, `* /`, signs, `** ^` (from the right), numbers, names, calls and parentheses.
-/// @throws std::invalid_argument with a sentence that ends with the position.
+/// Parses an expression. Operators by ascending precedence: `sum < sum ? conditional : conditional`, `+ -`, `* /`, signs, `** ^` (right
+/// associative), then numbers, names, calls and parentheses; doc/decisions/0040-expressions-parsed-by-ourselves.md.
+/// @throws std::invalid_argument with a sentence that names the error and its position.
 ParsedExpression parse_expression(const std::string& text, const ExpressionScope& scope);
 
 }  // namespace codesign

@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* kSpelling = "<expression> >= <expression> or <expression> <= <expression>";
 
-/// Positions of the `>=` and `<=` outside parentheses: those inside belong to conditional expressions.
+/// Positions of the `>=` and `<=` outside parentheses. Those inside belong to conditional expressions.
 std::vector<std::size_t> find_operators(const std::string& text) {
   std::vector<std::size_t> positions;
   int depth = 0;
@@ -30,7 +30,7 @@ ParameterConstraint parse_constraint(const std::string& text, const std::vector<
   const std::string left = text.substr(0, operators[0]);
   const std::string right = text.substr(operators[0] + 2);
   try {
-    // Each side alone first: an empty or unbalanced side could still make sense once both stand in one expression.
+    // Check each side by itself: an empty or unbalanced side could still give a valid expression together with the other side.
     const Expression left_alone(left, names);
     const Expression right_alone(right, names);
     const std::string margin = text[operators[0]] == '>' ? "(" + left + ") - (" + right + ")" : "(" + right + ") - (" + left + ")";

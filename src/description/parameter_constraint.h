@@ -9,8 +9,10 @@
 
 namespace codesign {
 
-/// Reads `left >= right` or `left <= right`, both sides expressions of the parameters, as a margin that must not be negative.
-/// @throws InputError if there is not exactly one such operator outside parentheses, or a side is no expression.
+/// Reads `left >= right` or `left <= right`, both sides expressions of the parameters `names`. The margin is left - right or right - left;
+/// the constraint holds where it is not negative.
+/// @throws InputError if there is not exactly one such operator outside parentheses, if a side is not a valid expression, or if no
+/// parameter appears.
 ParameterConstraint parse_constraint(const std::string& text, const std::vector<std::string>& names, const SourceLocation& where,
                                      const std::string& element);
 

@@ -19,7 +19,7 @@ inline double value_at(const Expression& expression, const std::vector<double>& 
 inline std::complex<double> value_at(const Expression& expression, const std::vector<std::complex<double>>& parameters) {
   return expression.value(parameters);
 }
-/// Values of the parameters that an expression uses, in the order of its dependencies().
+/// Values of the parameters that an expression uses, in the order of its dependencies(). @param number (T) -> the value as a double.
 template <class T, class Number>
 std::vector<double> values_used(const Expression& expression, const std::vector<T>& parameters, const Number& number) {
   std::vector<double> values;
@@ -27,7 +27,7 @@ std::vector<double> values_used(const Expression& expression, const std::vector<
   for (int index : expression.dependencies()) values.push_back(number(parameters[static_cast<std::size_t>(index)]));
   return values;
 }
-/// With the chain rule carried into every lane.
+/// The value with its derivatives, by the chain rule in each lane.
 template <int N>
 Lanes<N> value_at(const Expression& expression, const std::vector<Lanes<N>>& parameters) {
   const std::vector<double> values = values_used(expression, parameters, [](const Lanes<N>& parameter) { return parameter.a; });
@@ -36,7 +36,8 @@ Lanes<N> value_at(const Expression& expression, const std::vector<Lanes<N>>& par
     result.v += expression.derivative_of(k, values) * parameters[static_cast<std::size_t>(expression.dependencies()[k])].v;
   return result;
 }
-/// While equations are recorded an expression comes with each design. `parameters` are of the recording, and not empty.
+/// For recorded equations an expression is an input that is supplied with each design. `parameters` are nodes of the recording; at least
+/// one.
 inline Traced value_at(const Expression& expression, const std::vector<Traced>& parameters) {
   Recording* const recording = parameters.front().recording();
   const std::vector<double> values = values_used(expression, parameters, [](const Traced& parameter) { return parameter.value(); });
@@ -54,7 +55,7 @@ class Quantity {
   bool is_constant() const { return expression_ == nullptr; }
   const Expression* expression() const { return expression_.get(); }
 
-  /// The value at `parameters` (all named parameters, in the order of the model, then of the study).
+  /// The value at `parameters`: all named parameters in the order of Study::parameters (the model's first, then the study's own).
   template <class T>
   T at(const std::vector<T>& parameters) const {
     return expression_ ? value_at(*expression_, parameters) : T(nominal_);

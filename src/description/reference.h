@@ -12,31 +12,33 @@
 
 namespace codesign {
 
-/// What runs between way-points: a polynomial of the fifth, third or first degree.
+/// Degree of the polynomials between way-points: fifth, third or first.
 enum class Interpolation { kQuintic, kCubic, kLinear };
 
-/// offset + amplitude sin(2 pi f t + phase)
+/// offset + amplitude sin(2 pi f t + phase); theory (C1).
 struct SineDescription {
-  Quantity amplitude, phase, offset;  ///< phase [rad]
+  Quantity amplitude, phase, offset;  ///< phase [rad]; the others in the unit of the signal
   Quantity frequency{1.0};            ///< f [Hz], or 1/f [s] if `is_period`
   bool is_period = false;
 };
 
-/// Points that a function of time goes through; theory (C2).
+/// Way-points that a function of time passes through; theory (C2).
 struct WaypointsDescription {
   Interpolation interpolation = Interpolation::kQuintic;
   std::vector<double> times;            ///< [s], ascending
   std::vector<Quantity> positions;      ///< one per time
-  std::vector<Quantity> velocities;     ///< one per time, or none: chosen
+  std::vector<Quantity> velocities;     ///< one per time, or empty: chosen as theory (C2) says
   std::vector<Quantity> accelerations;  ///< likewise
 };
 
-/// A prescribed function of time: what a controller's setpoint or an objective's reference follows.
+/// A prescribed function of time: the setpoint of a controller or the reference of an objective's term. Of the three alternatives the one
+/// that `kind` names is used.
 struct ReferenceDescription {
   enum class Kind { kConstant, kSine, kWaypoints };
 
-  ReferenceDescription(Quantity value = 0.0) : constant(std::move(value)) {}  // NOLINT(google-explicit-constructor): a number is one
-  ReferenceDescription(double value) : constant(value) {}                     // NOLINT(google-explicit-constructor)
+  ReferenceDescription(Quantity value = 0.0)
+      : constant(std::move(value)) {}                      // NOLINT(google-explicit-constructor): a number is a constant reference
+  ReferenceDescription(double value) : constant(value) {}  // NOLINT(google-explicit-constructor)
 
   Kind kind = Kind::kConstant;
   Quantity constant;
@@ -44,19 +46,21 @@ struct ReferenceDescription {
   WaypointsDescription waypoints;
 };
 
-/// Where a trajectory_msgs/JointTrajectory lies.
+/// The address of a joint's trajectory in a trajectory_msgs/JointTrajectory message of a bag.
 struct TrajectoryAddress {
   std::string bag, topic, joint;
-  SourceLocation where;  ///< in the study
-  std::string element;   ///< in the study
+  SourceLocation where;  ///< the place in the study that names it, for messages
+  std::string element;   ///< likewise
 };
 
-/// The way-points of one joint of a recorded trajectory; velocities and accelerations may be missing.
+/// The way-points of one joint of a recorded trajectory: times [s], then one value per time in the joint's units. Velocities and
+/// accelerations may be empty.
 struct RecordedTrajectory {
   std::vector<double> times, positions, velocities, accelerations;
 };
 
-/// Reads a recorded trajectory; given by who knows how, since the core knows no bags. @throws InputError if it cannot be read.
+/// Callback that reads a recorded trajectory. The caller provides it, since this library does not depend on ROS, which reads bags.
+/// @throws InputError if the trajectory cannot be read.
 using TrajectoryLoader = std::function<RecordedTrajectory(const TrajectoryAddress&)>;
 
 }  // namespace codesign

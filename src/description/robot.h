@@ -14,13 +14,13 @@
 
 namespace codesign {
 
-/// A pose as URDF writes it: translation [m], then fixed-axis roll, pitch, yaw [rad].
+/// A pose in URDF's `<origin>`.
 struct PoseDescription {
-  QuantityVector xyz;
-  QuantityVector rpy;
+  QuantityVector xyz;  ///< translation [m]
+  QuantityVector rpy;  ///< fixed-axis roll, pitch, yaw [rad]
 };
 
-/// A visual (or collision) solid. Meshes have no volume here.
+/// A visual or collision solid. The volume of a mesh is not computed; it counts as zero.
 struct ShapeDescription {
   enum class Kind { kBox, kCylinder, kSphere, kMesh };
   Kind kind = Kind::kMesh;
@@ -33,7 +33,7 @@ struct InertialDescription {
   PoseDescription origin;           ///< centre of mass and axes of the inertia, in the link frame
   Quantity mass;                    ///< [kg]
   std::array<Quantity, 6> inertia;  ///< about `origin`: ixx ixy ixz iyy iyz izz [kg m^2]
-  /// Present: mass, centre and inertia follow from `shapes` at this density [kg/m^3], and the three fields above are unused.
+  /// If present, mass, centre and inertia are computed from `shapes` with this density [kg/m^3]; the three fields above are unused.
   std::optional<Quantity> density;
   std::vector<ShapeDescription> shapes;
   SourceLocation where;
@@ -45,45 +45,45 @@ struct LinkDescription {
   SourceLocation where;
 };
 
-/// Tree joints have URDF's types; `kSpherical` and those behind it exist as loops only.
+/// Tree joints have URDF's types, kFixed to kFloating; the types after kFloating exist for loops only.
 enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic, kPlanar, kFloating, kSpherical, kUniversal, kCylindrical, kDistance };
 
-/// Laws of the friction coefficient; Gonthier's and the LuGre model have states of their own.
+/// Laws of the friction coefficient: theory (10), (13e), (13f). Gonthier's and the LuGre model have states of their own.
 enum class FrictionModel { kBrownMcPhee, kGonthier, kLuGre };
 
 /// `<codesign:friction>`, see doc/annotations.md. SI units.
 struct FrictionDescription {
   FrictionModel model = FrictionModel::kBrownMcPhee;
-  Quantity mu_static;                  ///< mu_s [-]
-  Quantity mu_dynamic;                 ///< mu_d [-]
-  Quantity transition_velocity{1e-2};  ///< v_t [m/s]
-  Quantity joint_length;               ///< a [m]
-  Quantity joint_width;                ///< b [m]
-  Quantity pin_radius;                 ///< r_e [m], arm of the friction of the forces across the axis; of a ball its radius
-  Quantity friction_arm;               ///< [m], arm of the friction of the thrust along the axis; the reader's default is pin_radius
-  Quantity preload;                    ///< [N]
-  Quantity smoothing{1e-3};            ///< epsilon [N]
-  Quantity viscous;                    ///< [N s/m] or [N m s/rad]
-  Quantity bristle_stiffness{1e4};     ///< sigma_0 [1/m], per normal force; of the models with states
-  Quantity bristle_damping{10.0};      ///< sigma_1 [s/m], per normal force
-  Quantity dwell_time{2.0};            ///< tau_dw [s]; of Gonthier's model
+  Quantity mu_static;                                    ///< mu_s [-]
+  Quantity mu_dynamic;                                   ///< mu_d [-]
+  Quantity transition_velocity{1e-2};                    ///< v_t [m/s]
+  Quantity joint_length;                                 ///< a [m]
+  Quantity joint_width;                                  ///< b [m]
+  Quantity pin_radius;                                   ///< r_e [m], arm of the friction of forces across the axis; radius of a ball
+  Quantity friction_arm;                                 ///< r_z [m], arm of the friction of the axial force; pin_radius if not given
+  Quantity preload;                                      ///< N_0 [N], constant part of the normal force
+  Quantity smoothing{1e-3};                              ///< epsilon of the smooth absolute value [N]
+  Quantity viscous;                                      ///< c [N s/m] or [N m s/rad]
+  Quantity bristle_stiffness{1e4};                       ///< sigma_0 [1/m], per normal force; models with states only
+  Quantity bristle_damping{10.0};                        ///< sigma_1 [s/m], per normal force; models with states only
+  Quantity dwell_time{2.0};                              ///< tau_dw [s]; Gonthier's model only
   std::optional<std::array<double, 3>> transverse_axis;  ///< x'' in the joint frame
   SourceLocation where;
 };
 
-/// `<limit>`. What exporters write for "not known" is none: see the three functions.
+/// `<limit>`. Exporters write zeros for unknown limits; the three bounds_ functions tell which limits count.
 struct LimitDescription {
   Quantity lower, upper;      ///< position [rad or m]
   Quantity effort, velocity;  ///< [N m or N], [rad/s or m/s]
 
   static bool given(const Quantity& q) { return !q.is_constant() || q.nominal() != 0.0; }
-  /// Equal limits, as where neither is written, bound nothing.
+  /// False if both limits are zero or missing.
   bool bounds_position() const { return given(lower) || given(upper); }
   bool bounds_effort() const { return given(effort); }
   bool bounds_velocity() const { return given(velocity); }
 };
 
-/// `<mimic>`: theta = multiplier theta_joint + offset.
+/// `<mimic>`: theta = multiplier * theta_joint + offset, with theta_joint of the joint that is followed; theory (8a).
 struct MimicDescription {
   std::string joint;
   Quantity multiplier{1.0}, offset{0.0};
@@ -91,18 +91,18 @@ struct MimicDescription {
 };
 
 struct TorsionSpringDescription {
-  Quantity stiffness, damping, free_position;  ///< [N m/rad or N/m], [.. s], [rad or m]
+  Quantity stiffness, damping, free_position;  ///< [N m/rad or N/m], [N m s/rad or N s/m], [rad or m]
 };
 
-/// `<codesign:actuator>`: a motor whose rotor turns `gear_ratio` times as fast as the joint. The rotor is mounted on the parent link and
-/// turns about the joint's axis.
+/// `<codesign:actuator>`: a motor whose rotor turns `gear_ratio` times as fast as the joint; theory (9a). The rotor is carried by the
+/// parent link and turns about the joint's axis.
 struct ActuatorDescription {
   Quantity gear_ratio{1.0};  ///< n, rotor rate per joint rate [-, or rad/m on a prismatic joint]
-  Quantity rotor_inertia;    ///< J_r about the rotor's axis [kg m^2]; the joint feels n^2 J_r
+  Quantity rotor_inertia;    ///< J_r about the rotor's axis [kg m^2]; reflected to the joint as n^2 J_r
   SourceLocation where;
 };
 
-/// A joint of the tree, or a loop. The joint frame is carried by the child (of a loop: the successor).
+/// A joint of the tree, or a loop. The joint frame moves with the child (of a loop: the successor).
 struct JointDescription {
   std::string name;
   JointType type = JointType::kFixed;
@@ -119,33 +119,34 @@ struct JointDescription {
   std::optional<MimicDescription> mimic;
   std::optional<TorsionSpringDescription> spring;
   std::optional<ActuatorDescription> actuator;
-  /// kFloating: the child's orientation where the joint's turning coordinates are zero, as rpy in the joint frame: a study's start.
+  /// kFloating: the child's orientation at zero turning coordinates, as rpy in the joint frame [rad]; taken from the study's initial state.
   QuantityVector start_rotation;
   SourceLocation where;
 };
 
-/// Whether `<limit lower upper>` bounds a joint's position: URDF ignores both on a continuous joint.
+/// Whether `<limit lower upper>` bounds the joint's position. On a continuous joint URDF ignores both.
 inline bool has_stops(const JointDescription& joint) {
   return joint.limit && joint.limit->bounds_position() && joint.type != JointType::kContinuous;
 }
 
-/// URDF+ `<coupling>`: the successor's joint turns `ratio` times the predecessor's.
+/// URDF+ `<coupling>`: the joints up to the successor move `ratio` times as far as those up to the predecessor; theory (8a).
 struct CouplingDescription {
   std::string name;
-  int predecessor = -1, successor = -1;
+  int predecessor = -1, successor = -1;  ///< links
   Quantity ratio{1.0};
   SourceLocation where;
 };
 
+/// `<codesign:spring_damper>` between a point of each of two links; theory (13b).
 struct SpringDamperDescription {
   std::string name;
-  int predecessor = -1, successor = -1;
-  PoseDescription predecessor_origin, successor_origin;
-  Quantity stiffness, damping, free_length;  ///< [N/m], [N s/m], [m]
+  int predecessor = -1, successor = -1;                  ///< links
+  PoseDescription predecessor_origin, successor_origin;  ///< the points, in the frames of the links; rpy is unused
+  Quantity stiffness, damping, free_length;              ///< [N/m], [N s/m], [m]
   SourceLocation where;
 };
 
-/// A mechanism as its author wrote it: the annotated URDF, read strictly, nothing derived yet.
+/// A mechanism as the annotated URDF describes it; nothing is derived from it yet.
 struct RobotDescription {
   std::string name;
   std::vector<Parameter> parameters;
@@ -154,8 +155,8 @@ struct RobotDescription {
   std::vector<JointDescription> joints;  ///< tree joints in file order, then loops in file order
   std::vector<CouplingDescription> couplings;
   std::vector<SpringDamperDescription> spring_dampers;
-  std::string file;   ///< where it came from, for messages
-  Warnings warnings;  ///< what is doubtful in the files, in the order of the files
+  std::string file;   ///< the file it was read from, for messages
+  Warnings warnings;  ///< from reading the files, in the order of the files
 };
 
 }  // namespace codesign

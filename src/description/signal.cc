@@ -25,8 +25,8 @@ bool is_quantity(const std::string& word) {
   return kQuantities.count(word) != 0;
 }
 
-/// Reads left to right. An operator can only follow a quantity or a component, whose letters are a-z and _, so that
-/// `a-b/velocity-c-d/velocity` is the difference of two joints whose names hold a minus.
+/// Parses from left to right. An operator can only follow a quantity or a component, which consist of a-z and _, so that
+/// `a-b/velocity-c-d/velocity` is the difference of the velocities of joints `a-b` and `c-d`.
 class SignalParser {
  public:
   SignalParser(const std::string& text, const SourceLocation& where, const std::string& element)
@@ -64,7 +64,7 @@ class SignalParser {
     return text_.substr(first, position_ - first);
   }
 
-  // Names may hold slashes, as `left/elbow`: then the name ends at a later one, behind which stands a quantity that closes the term.
+  // Names may contain slashes, as `left/elbow`. The name then ends at the first slash after which a known quantity ends the term.
   std::size_t name_end() const {
     const std::size_t first = text_.find('/', position_);
     if (first == std::string::npos || closes(first, false) || std::isspace(static_cast<unsigned char>(behind_word(first))) != 0)
@@ -84,7 +84,7 @@ class SignalParser {
     return end < text_.size() ? text_[end] : ' ';
   }
 
-  /// Whether a quantity, with a component of one letter or none, and then an operator or nothing stand behind this slash.
+  /// Whether a quantity follows this slash, with a component of one letter or without, and then an operator or the end of the text.
   bool closes(std::size_t slash, bool known_only) const {
     std::size_t end = word_end(slash + 1);
     if (end == slash + 1 || (known_only && !is_quantity(text_.substr(slash + 1, end - slash - 1)))) return false;

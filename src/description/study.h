@@ -20,11 +20,10 @@ namespace codesign {
 
 /// One term of a signal: `+ crank_joint/velocity`, `- plate/position/x`.
 struct SignalTerm {
-  double factor = 1.0;  ///< +1 or -1
-  std::string object;   ///< name of a joint, loop, link or controller
-  std::string
-      quantity;  ///< position, velocity, acceleration, effort, friction, normal_force, sliding_velocity, angular_velocity, error, ...
-  std::string component;  ///< x, y or z for link signals, else empty
+  double factor = 1.0;    ///< +1 or -1
+  std::string object;     ///< name of a joint, loop, link or controller
+  std::string quantity;   ///< position, velocity, effort, friction, ...; the list is in doc/study.md
+  std::string component;  ///< x, y, z (of a link's orientation also w), or empty for scalar quantities
 };
 
 /// A sum or difference of named signals, see doc/study.md.
@@ -34,19 +33,20 @@ struct SignalDescription {
   SourceLocation where;
 };
 
-/// Splits `a/position/x - b/position/x` into terms. Names are resolved later, against a model.
-/// @throws InputError if the text is no signal.
+/// Splits `a/position/x - b/position/x` into terms. Names are not checked here; see check_signal().
+/// @throws InputError if the text does not have the form of a signal.
 SignalDescription parse_signal(const std::string& text, const SourceLocation& where, const std::string& element);
 
+/// The initial state of one joint; what is absent is found by the assembly, theory (19).
 struct InitialJointState {
   std::string joint;
-  std::optional<Quantity> position;  ///< an independent coordinate's value [rad or m]
+  std::optional<Quantity> position;  ///< value of an independent coordinate [rad or m]
   std::optional<Quantity> velocity;  ///< [rad/s or m/s]
-  std::optional<double> guess;       ///< start of the assembly for a dependent joint; chooses between its branches
-  // Of planar and floating joints; all in the joint frame that the parent carries. A planar joint turns about its normal alone: its
-  // rotation and angular_velocity have one number, the last.
+  std::optional<double> guess;       ///< start of the assembly for a dependent coordinate, which selects the branch [rad or m]
+  // For planar and floating joints only, in the joint frame at zero position, which is fixed in the parent. A planar joint turns about its
+  // normal only: its rotation and angular_velocity use the last component.
   std::optional<QuantityVector> translation;       ///< of the child's frame [m]
-  std::optional<QuantityVector> rotation;          ///< fixed-axis roll, pitch, yaw, as URDF's rpy [rad]
+  std::optional<QuantityVector> rotation;          ///< of the child: fixed-axis roll, pitch, yaw, as URDF's rpy [rad]
   std::optional<QuantityVector> linear_velocity;   ///< of the child's frame [m/s]
   std::optional<QuantityVector> angular_velocity;  ///< of the child [rad/s]
   SourceLocation where;
@@ -55,16 +55,16 @@ struct InitialJointState {
 /// The laws of control; doc/theory.md (C3)-(C8).
 enum class ControllerKind {
   kPid,             ///< p e + i int e dt + d de/dt, with e = setpoint - input
-  kPdGravity,       ///< p e + d de/dt + what holds the joint against gravity
+  kPdGravity,       ///< p e + d de/dt + the load that holds the joint against gravity
   kComputedTorque,  ///< inverse dynamics of the tree at the acceleration setpoint'' + d de/dt + p e
   kStateFeedback,   ///< feedforward - sum gain (signal - reference)
-  kBasis            ///< a shaped function of time
+  kBasis            ///< a shaped input, a function of time only
 };
 
-/// Whether a law compares an input with a setpoint.
+/// Whether a control law compares an input with a setpoint.
 constexpr bool has_error(ControllerKind kind) { return kind != ControllerKind::kStateFeedback && kind != ControllerKind::kBasis; }
 
-/// gain * (signal - reference)
+/// One term gain * (signal - reference) of state feedback; theory (C7).
 struct FeedbackTerm {
   SignalDescription signal;
   ReferenceDescription reference;
@@ -74,10 +74,10 @@ struct FeedbackTerm {
 struct ControllerDescription {
   std::string name;
   ControllerKind kind = ControllerKind::kPid;
-  SignalDescription input;        ///< where has_error()
-  ReferenceDescription setpoint;  ///< where has_error()
-  std::string output;             ///< the joint it drives [N m or N]
-  Quantity p, i, d;
+  SignalDescription input;             ///< only if has_error(kind)
+  ReferenceDescription setpoint;       ///< only if has_error(kind)
+  std::string output;                  ///< the joint it drives, by a torque [N m] or a force [N]
+  Quantity p, i, d;                    ///< gains; only if has_error(kind), i of kPid only
   ReferenceDescription feedforward;    ///< kStateFeedback
   std::vector<FeedbackTerm> feedback;  ///< kStateFeedback
   BasisDescription basis;              ///< kBasis
@@ -91,11 +91,11 @@ struct LoadDescription {
   Quantity effort;               ///< of a joint, along its coordinate [N m or N]
   QuantityVector force, torque;  ///< of a link [N], [N m]
   QuantityVector point;          ///< where the force acts, in the link's frame [m]
-  bool in_link_frame = false;    ///< the components of force and torque turn with the link; else they are the root link's
+  bool in_link_frame = false;    ///< components of force and torque in the link's axes, turning with it; else in the root link's axes
   SourceLocation where;
 };
 
-/// weight * (signal - reference)^2
+/// One term weight * (signal - reference)^2 of the objective; theory (21).
 struct ObjectiveTerm {
   SignalDescription signal;
   ReferenceDescription reference;
@@ -103,23 +103,23 @@ struct ObjectiveTerm {
   SourceLocation where;
 };
 
-/// A constraint among parameters, value(rho) >= 0.
+/// A constraint among parameters, margin(parameters) >= 0.
 struct ParameterConstraint {
-  std::string text;
+  std::string text;  ///< as written
   std::shared_ptr<const Expression> margin;
   SourceLocation where;
 };
 
-/// Which of URDF's `<limit>` are enforced, and what the stops are made of; doc/theory.md (13c), (13d).
+/// Which limits of URDF's `<limit>` are enforced, and the properties of the stops; theory (13c), (13d).
 struct LimitOptions {
-  bool effort = false;       ///< saturates what controllers apply
-  bool position = false;     ///< stops at lower and upper
-  double stiffness = 1e4;    ///< of a stop [N/m or N m/rad]
-  double dissipation = 1.0;  ///< of a stop: relative growth of its force per speed [s/m or s/rad]
-  double width = 1e-3;       ///< over which a stop takes hold [m or rad]
+  bool effort = false;       ///< saturates the controllers' output
+  bool position = false;     ///< adds stops at `lower` and `upper`
+  double stiffness = 1e4;    ///< k of a stop [N/m or N m/rad]
+  double dissipation = 1.0;  ///< c of a stop: relative increase of its force per speed [s/m or s/rad]
+  double width = 1e-3;       ///< w: depth over which the force sets in smoothly [m or rad]
 };
 
-/// What to do with the model, as its author wrote it.
+/// A study as its file describes it: what to simulate and to optimize with a mechanism.
 struct Study {
   double duration = 0.0;                           ///< [s]
   std::array<double, 3> gravity{0.0, 0.0, -9.81};  ///< [m/s^2], in the root link's frame
@@ -128,14 +128,14 @@ struct Study {
   std::vector<LoadDescription> loads;
   /// All named parameters: the model's in their order, then the study's own. `parameters[tuned[k]]` is rho_k.
   std::vector<Parameter> parameters;
-  std::vector<int> tuned;
-  std::vector<ObjectiveTerm> integral;
-  std::vector<ObjectiveTerm> terminal;
+  std::vector<int> tuned;               ///< indices of the tuned parameters; p of them
+  std::vector<ObjectiveTerm> integral;  ///< terms of the integrand g; theory (21)
+  std::vector<ObjectiveTerm> terminal;  ///< terms at the end of the study, w; theory (21)
   std::vector<ParameterConstraint> constraints;
   LimitOptions limits;
   SolverOptions solver;
   OptimizerOptions optimizer;
-  std::string file;
+  std::string file;  ///< the file it was read from, for messages
 };
 
 }  // namespace codesign

@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-constexpr Eigen::Index kDense = 256;  // columns up to which dense factors are the faster ones
+constexpr Eigen::Index kDense = 256;  // columns up to which dense factorizations are faster
 
 using DenseQr = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
 using DenseFactors = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
@@ -40,7 +40,7 @@ std::vector<int> independent_dense_columns(const SparseMatrix& A, const ColumnPr
   const Eigen::Index rank = qr.compute(Eigen::MatrixXd(A)).rank();
   std::vector<int> chosen;
   for (const std::vector<int>& candidates : preferences) {
-    // What the columns chosen so far do not reach, the best of the next candidates must.
+    // Choose by what is left of the candidates after projection onto the columns chosen so far.
     const auto missing = rank - static_cast<Eigen::Index>(chosen.size());
     if (missing <= 0 || candidates.empty()) continue;
     const Eigen::MatrixXd taken = dense_columns(A, chosen);

@@ -10,8 +10,8 @@ namespace codesign {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Minimizes |A x - b| for a sparse matrix of any rank. Up to 256 columns by a complete orthogonal decomposition, which gives the shortest
-/// x; more by a sparse QR factorization, which gives one with as many nonzeros as the rank.
+/// Minimizes |A x - b| (2-norm) for a sparse matrix of any rank. Up to 256 columns it uses a complete orthogonal decomposition and returns
+/// the x of least norm; beyond that a sparse QR factorization, whose x has at most as many nonzeros as the rank.
 class LeastSquares {
  public:
   LeastSquares();
@@ -19,9 +19,9 @@ class LeastSquares {
   LeastSquares(LeastSquares&&) noexcept;
   LeastSquares& operator=(LeastSquares&&) noexcept;
 
-  /// @param tolerance what is smaller than this, relative to the largest column, counts as zero.
+  /// @param tolerance pivots below this, relative to the largest column of A, count as zero.
   void factor(const SparseMatrix& A, double tolerance);
-  /// One x per column of b.
+  /// The solution for each column of b; A.cols() x b.cols(). After factor().
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
 
  private:
@@ -29,16 +29,16 @@ class LeastSquares {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Columns of a matrix in the order in which they are wanted. Each list holds indices of columns.
+/// Lists of column indices in order of preference: columns of an earlier list are preferred to those of a later one.
 using ColumnPreferences = std::vector<std::vector<int>>;
 
-/// As many independent columns as the matrix has, those of an earlier list before those of a later one; ascending.
-/// Up to 256 columns the best conditioned of a list are taken, of more those that come first.
-/// @param tolerance as for LeastSquares.
+/// A maximal set of independent columns that prefers earlier lists; indices in ascending order. Within a list, matrices of up to 256
+/// columns yield the best conditioned columns (pivoted QR), larger ones the first.
+/// @param tolerance as for LeastSquares::factor().
 std::vector<int> independent_columns(const SparseMatrix& A, const ColumnPreferences& preferences, double tolerance);
 
-/// The columns that follow from the others, as few and as well chosen as a pivoted QR factorization does; ascending.
-/// @param tolerance as an absolute length of what is left of a column.
+/// The columns that depend on the others according to a pivoted QR factorization (sparse beyond 512 columns); indices in ascending order.
+/// @param tolerance a column depends on the others if the norm of its remainder is not above this (absolute).
 std::vector<int> dependent_columns(const SparseMatrix& A, double tolerance);
 
 /// Some columns of a matrix, in the order given.

@@ -30,7 +30,7 @@ LuSchedule::LuSchedule(const LuPattern& pattern, const std::vector<int>& column_
   list_targets();
 }
 
-// Columns are visited in order, so that they ascend within each row.
+// Columns are visited in ascending order, so that column indices ascend within each row.
 void LuSchedule::lay_out(const LuPattern& pattern) {
   std::vector<std::vector<int>> lower(n_), upper(n_);
   for (std::size_t k = 0; k < n_; ++k) {
@@ -72,7 +72,7 @@ void LuSchedule::list_targets() {
   std::vector<int> slot(n_);
   std::size_t products = 0;
   for (int l : multiplier_) products += at(start_[at(column_[at(l)]) + 1] - diagonal_[at(column_[at(l)])] - 1);
-  // What surely does not fit is not even written down for the compiler.
+  // Lists that are certainly too long for machine code are not even generated.
   if (products > StraightLine::kMostProducts) elimination_ = LazyStraightLine(false);
   if (column_.size() > StraightLine::kMostProducts) solution_ = LazyStraightLine(false);
   if (products > kMostListed) {
@@ -91,12 +91,13 @@ void LuSchedule::list_targets() {
 
 namespace {
 
-// The arrays of the compiled code.
+// Indices of the arrays that the compiled code works on.
 constexpr int kValues = 0, kRightHandSides = 0, kFactors = 1, kScales = 2, kWork = 3;
 
 }  // namespace
 
-// Every entry of row k of L and U is an entry of A less the products of what stands left of it in the row with what stands above it.
+// Entry (k, c) of L or U is a scaled entry of A minus the products of the entries of L to its left in row k with the entries of U above it
+// in column c; entries of L are then divided by the pivot of their column.
 std::vector<Sum> LuSchedule::elimination_sums() const {
   std::vector<Sum> sums(factors_.size());
   for (std::size_t e = 0; e < source_slot_.size(); ++e) sums[at(source_slot_[e])].start = {kValues, static_cast<int>(e)};
@@ -126,7 +127,7 @@ std::vector<Sum> LuSchedule::solution_sums() const {
   }
   for (std::size_t k = n_; k-- > 0;) {
     Sum sum{{kRightHandSides, column_of_[k]}, {kWork, static_cast<int>(k)}, {}, {kFactors, diagonal_[k]}, false, {}};
-    // The nearest was computed last: it comes last.
+    // Descending: the component that was computed last is needed last, so that the sum need not wait for it.
     for (int e = start_[k + 1]; e-- > diagonal_[k] + 1;)
       sum.products.push_back({{kRightHandSides, column_of_[at(column_[at(e)])]}, {kFactors, e}});
     sums.push_back(std::move(sum));
@@ -148,7 +149,7 @@ LuSchedule::Quality LuSchedule::quality() const {
   for (int place : multiplier_) quality.growth = std::max(quality.growth, std::abs(factors_[at(place)]));
   for (int diagonal : diagonal_) {
     const double inverse = std::abs(factors_[at(diagonal)]);
-    // A vanished pivot has an infinite inverse; a product with NaN stays NaN.
+    // A vanished pivot has an infinite inverse; inf - inf and NaN - NaN make the growth NaN.
     smallest = std::min(smallest, inverse);
     largest = std::max(largest, inverse);
     quality.growth += inverse - inverse;
@@ -157,8 +158,9 @@ LuSchedule::Quality LuSchedule::quality() const {
   return quality;
 }
 
-// Row by row: each earlier row that stands to the left is subtracted with its multiplier.
-/// @param begin_row (row), before a row is eliminated. @param target (place in U) -> where its product is subtracted; called in order.
+/// Eliminates row by row: for each entry of L in a row, that multiple of the pivot's row of U is subtracted.
+/// @param begin_row (row), called before a row is eliminated. @param target (entry of U) -> the entry that its product is subtracted from;
+/// called in the order of the products.
 template <class BeginRow, class Target>
 void LuSchedule::eliminate_rows(const BeginRow& begin_row, Target target) {
   double* const w = factors_.data();
@@ -190,7 +192,7 @@ void LuSchedule::eliminate(const double* values) {
 
 namespace {
 
-/// N numbers side by side, in the registers' own type where there are several.
+/// N numbers side by side, in vector registers if N is above 1.
 template <int N>
 struct Row {
   using Block = typename Lanes<4>::Four;
@@ -227,7 +229,7 @@ void subtract_products(const double* factors, const int* column, int first, int 
   for (int e = first; e < last; ++e) x->subtract(factors[e], Row<N>(y + std::ptrdiff_t{N} * column[e]));
 }
 
-/// As above; two sums, because each addition would wait for the one before it.
+/// The same for N = 1, with two partial sums, since each addition must wait for the one before it.
 template <>
 void subtract_products<1>(const double* factors, const int* column, int first, int last, const double* y, Row<1>* x) {
   double odd = 0.0;
@@ -281,7 +283,7 @@ void LuSchedule::solve_by_lists(double* x) const {
   }
 }
 
-// A^T = Q U^T L^T P R^-T: the rows of the factors are the columns of their transposes.
+// R^-1 A = P^T L U Q^T, so A^T x = b is solved with U^T first, then L^T. Their columns are the rows of the stored factors.
 template <int N>
 void LuSchedule::solve_transposed(double* x) const {
   double* const y = work_.data();

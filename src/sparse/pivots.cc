@@ -13,24 +13,23 @@ namespace {
 
 constexpr int kAmd = 0, kColamd = 1;
 
-/// What KLU is asked for. With `blocks` it first permutes the matrix to block triangular form, which also puts entries on a diagonal of
-/// zeros.
+/// Options of one run of KLU. With `blocks` it first permutes the matrix to block triangular form, which also brings nonzeros to the
+/// diagonal.
 struct Proposal {
   bool blocks;
   int ordering;
-  int preference;  ///< the lower one is taken of two that cost the same
+  int preference;  ///< of two that cost the same, the lower one is taken
 };
 
-// In the order in which they are tried. With COLAMD fill stays bounded whatever the pivots turn out to be. AMD supposes pivots on the
-// diagonal, and where these are zero, as in saddle points of thousands of rows, it may fill the matrix: without blocks still more than
-// with.
+// In the order in which they are tried. With COLAMD the fill is bounded for any choice of pivots. AMD assumes pivots on the diagonal; where
+// these are zero, as in saddle-point matrices of thousands of rows, it may fill the matrix, without blocks even more than with them.
 constexpr Proposal kProposals[] = {{false, kColamd, 2}, {true, kColamd, 3}, {true, kAmd, 1}, {false, kAmd, 0}};
-constexpr double kHopeless = 4.0;  // times the operations of the best: AMD without blocks is not tried
-// A pivot on the diagonal may be this much smaller than the largest of its column. KLU's own choice, 1e-3, saves little fill, and pivots
-// that were small to begin with serve for a few steps only.
+constexpr double kHopeless = 4.0;  // AMD with blocks this much costlier than the best so far: AMD without blocks is not tried
+// A diagonal entry is taken as pivot if it is at least this fraction of the largest of its column. KLU's default, 1e-3, saves little fill,
+// and pivots that are small at the start become unusable after a few steps.
 constexpr double kThreshold = 0.1;
 
-/// One run of KLU with what it leaves behind.
+/// One run of KLU; owns its results.
 class Run {
  public:
   Run(const Proposal& proposal, const std::vector<int>& column_start, const std::vector<int>& row_index, const double* values)
@@ -39,7 +38,7 @@ class Run {
     common_.btf = proposal.blocks ? 1 : 0;
     common_.ordering = proposal.ordering;
     common_.tol = kThreshold;
-    // KLU only reads the pattern and the values.
+    // KLU does not write to the pattern and the values, although its pointers are not const.
     int *const starts = const_cast<int*>(column_start.data()), *const rows = const_cast<int*>(row_index.data());
     symbolic_ = klu_analyze(n_, starts, rows, &common_);
     if (symbolic_) numeric_ = klu_factor(starts, rows, const_cast<double*>(values), symbolic_, &common_);
@@ -75,7 +74,7 @@ class Run {
 
 }  // namespace
 
-// Row by row: what stands left of the diagonal brings in the row of U with that number, whose entries lie further right.
+// Row by row: eliminating entry (k, c) left of the diagonal adds the pattern of row c of U, all to the right of c, to row k.
 LuPattern eliminate_pattern(const Pivots& pivots, const std::vector<int>& column_start, const std::vector<int>& row_index) {
   const std::size_t n = pivots.row_of.size();
   LuPattern pattern{pivots.row_of, pivots.column_of, pivots.row_scale, {}, {}};
@@ -83,18 +82,18 @@ LuPattern eliminate_pattern(const Pivots& pivots, const std::vector<int>& column
   pattern.L.resize(n);
   std::vector<int> pivot_of_row(n);
   for (std::size_t k = 0; k < n; ++k) pivot_of_row[static_cast<std::size_t>(pivots.row_of[k])] = static_cast<int>(k);
-  std::vector<std::vector<int>> rows(n);  // their columns; of rows that are done those right of the diagonal, ascending
+  std::vector<std::vector<int>> rows(n);  // columns of each row; of eliminated rows only those right of the diagonal, ascending
   for (std::size_t k = 0; k < n; ++k) {
     const auto column = static_cast<std::size_t>(pivots.column_of[k]);
     for (int e = column_start[column]; e < column_start[column + 1]; ++e)
       rows[static_cast<std::size_t>(pivot_of_row[static_cast<std::size_t>(row_index[static_cast<std::size_t>(e)])])].push_back(
           static_cast<int>(k));
   }
-  std::vector<std::size_t> seen(n, n);  // the row that a column was seen in last
+  std::vector<std::size_t> seen(n, n);  // per column: the last row in which it was found
   for (std::size_t k = 0; k < n; ++k) {
     const int diagonal = static_cast<int>(k);
     std::vector<int>& row = rows[k];
-    std::priority_queue<int, std::vector<int>, std::greater<>> left;  // of the diagonal, still to be eliminated
+    std::priority_queue<int, std::vector<int>, std::greater<>> left;  // entries left of the diagonal that are still to be eliminated
     for (int column : row) {
       seen[static_cast<std::size_t>(column)] = k;
       if (column < diagonal) left.push(column);
@@ -116,7 +115,7 @@ LuPattern eliminate_pattern(const Pivots& pivots, const std::vector<int>& column
 }
 
 std::int64_t count_products(const LuPattern& pattern) {
-  std::vector<std::int64_t> length(pattern.row_of.size(), 0);  // of the rows of U
+  std::vector<std::int64_t> length(pattern.row_of.size(), 0);  // entries per row of U
   for (const std::vector<int>& column : pattern.U)
     for (int row : column) ++length[static_cast<std::size_t>(row)];
   std::int64_t products = 0;
@@ -133,7 +132,7 @@ std::optional<LuPattern> choose_pivots(const std::vector<int>& column_start, con
     if (hopeless && proposal.ordering == kAmd) continue;
     Run run(proposal, column_start, row_index, values);
     if (!run.ok()) continue;
-    // KLU's own count is near enough to leave out what cannot be the cheapest.
+    // KLU's own count is accurate enough to exclude proposals that cannot be the cheapest.
     const double operations = run.operations();
     if (proposal.ordering == kAmd) hopeless = best && operations > kHopeless * fewest;
     if (best && operations > 2.0 * fewest) continue;

@@ -10,20 +10,21 @@
 
 namespace codesign {
 
-/// Which row and column of a matrix each pivot takes, and the scales of the rows in pivot order.
+/// The row and column of each pivot of an n x n matrix, and the scales of the rows, all in pivot order.
 struct Pivots {
   std::vector<int> row_of, column_of;
   std::vector<double> row_scale;
 };
 
-/// The patterns of L and U with their fill for these pivots, by elimination without numbers.
-/// @param column_start, row_index pattern of the matrix, by columns.
+/// The patterns of L and U, fill included, for these pivots, by symbolic elimination.
+/// @param column_start, row_index pattern of the matrix in compressed-column form.
 LuPattern eliminate_pattern(const Pivots& pivots, const std::vector<int>& column_start, const std::vector<int>& row_index);
 
-/// How many products the elimination takes.
+/// The number of multiplications of the elimination.
 std::int64_t count_products(const LuPattern& pattern);
 
-/// The cheapest of what KLU proposes with several orderings for a matrix with these values; nothing if it is singular.
+/// Pivots for a matrix with these values: the cheapest (count_products()) of those that KLU finds with several orderings. std::nullopt if
+/// KLU finds the matrix singular with each.
 std::optional<LuPattern> choose_pivots(const std::vector<int>& column_start, const std::vector<int>& row_index, const double* values);
 
 }  // namespace codesign

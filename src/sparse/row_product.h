@@ -9,7 +9,7 @@
 
 namespace codesign {
 
-/// One row of a sparse matrix times a vector.
+/// One row of a sparse matrix times the vector x (pattern.columns).
 template <class T>
 T row_product(const Sparsity& pattern, const std::vector<T>& values, int row, const T* x) {
   T sum(0.0);
@@ -18,7 +18,7 @@ T row_product(const Sparsity& pattern, const std::vector<T>& values, int row, co
   return sum;
 }
 
-/// One row of a real sparse matrix times N vectors, stored row by row: sum_k += sum over the row of values x[N column + k].
+/// One row of a real sparse matrix A times N vectors that are stored row by row: sum_k += sum over columns c of A(row, c) x[N c + k].
 template <int N>
 void add_row_product(const Sparsity& pattern, const std::vector<double>& values, int row, const double* x, typename Lanes<N>::Vector* sum) {
   using Vector = typename Lanes<N>::Vector;
@@ -27,8 +27,9 @@ void add_row_product(const Sparsity& pattern, const std::vector<double>& values,
     *sum += values[static_cast<std::size_t>(e)] * *reinterpret_cast<const Vector*>(x + std::ptrdiff_t{N} * column[e]);
 }
 
-/// One row of the directional derivatives of a sparse matrix times M real vectors, each from its entry `offset` on:
-/// sums[m]_k += sum over the row of dvalues_k x[m][offset + column], with the derivatives of each entry side by side.
+/// One row of N directional derivatives d_k A of a sparse matrix times M real vectors, which are read from index `offset` on:
+/// sums[m]_k += sum over columns c of d_k A(row, c) x[m][offset + c].
+/// @param derivatives N numbers per entry of the pattern, side by side.
 template <int N, std::size_t M>
 void add_row_tangents(const Sparsity& pattern, const double* derivatives, int row, const double* const (&x)[M], int offset,
                       typename Lanes<N>::Vector (&sums)[M]) {

@@ -12,7 +12,7 @@ namespace codesign {
 namespace {
 
 constexpr double kLargestMultiplier = 1e6;
-// Ratio of pivots below which the matrix is singular to working precision.
+// Smallest over largest pivot at which the matrix counts as singular to working precision.
 constexpr double kSingular = 1e-17;
 constexpr std::size_t kMostSchedules = 4;
 
@@ -20,12 +20,12 @@ constexpr std::size_t kMostSchedules = 4;
 
 struct SparseLu::Implementation {
   std::vector<int> starts, rows;
-  std::vector<LuSchedule> schedules;  ///< the one in use last
+  std::vector<LuSchedule> schedules;  ///< the last one is in use
   std::int64_t full_factorizations = 0;
 
   LuSchedule& schedule() { return schedules.back(); }
 
-  // A mechanism that moves to and fro comes back to pivots that once served.
+  // Earlier pivots are kept since a mechanism that swings returns to positions for which they were chosen.
   bool refactor(const double* values) {
     for (std::size_t tried = 0; tried < schedules.size(); ++tried) {
       const LuSchedule::Quality quality = schedule().refactor(values);

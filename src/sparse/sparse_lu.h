@@ -8,11 +8,11 @@
 
 namespace codesign {
 
-/// LU factorization of square sparse matrices that share one pattern: ordered and pivoted once, refactored numerically afterwards.
+/// LU factorization of square sparse matrices that share one pattern. Pivots are chosen once (choose_pivots()); later matrices are
+/// refactored with the same pivots (LuSchedule).
 ///
-/// KLU proposes orders and pivots, of which the cheapest is taken. A refactorization follows a list of its operations, without any search;
-/// when a multiplier grows beyond 1e6 or a pivot vanishes, pivots that served earlier are tried, and then they are chosen anew. Not
-/// thread-safe.
+/// If an entry of L exceeds 1e6 or the ratio of the smallest to the largest pivot falls to 1e-17, up to three earlier choices of pivots are
+/// tried, then pivots are chosen anew. Not thread-safe.
 class SparseLu {
  public:
   /// @param column_start, row_index compressed-column pattern of an n x n matrix.
@@ -21,19 +21,19 @@ class SparseLu {
   SparseLu(SparseLu&&) noexcept;
   SparseLu& operator=(SparseLu&&) noexcept;
 
-  /// Factors the matrix with these nonzeros. False if it is singular to working precision.
+  /// Factors the matrix with these nonzeros, in the order of row_index. False if it is singular to working precision.
   bool factor(const double* values);
 
-  /// Solves in place.
+  /// Solves A x = b in place.
   void solve(double* x) const { solve_rows<1>(x); }
   /// Solves in place for N right-hand sides, stored row by row: x[N row + k]. N is 1, 4 or 8.
   template <int N>
   void solve_rows(double* x) const;
-  /// Solves with the transpose in place.
+  /// Solves A^T x = b likewise.
   template <int N>
   void solve_transposed_rows(double* x) const;
 
-  /// How often pivots had to be chosen since construction.
+  /// How often pivots were chosen since construction.
   std::int64_t full_factorizations() const;
 
  private:

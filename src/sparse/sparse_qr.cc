@@ -21,7 +21,7 @@ struct SparseQr::Implementation {
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
 
-  /// SPQR and CHOLMOD return null where memory is short.
+  /// SPQR and CHOLMOD return null if they run out of memory.
   template <class X>
   static X* require(X* x) {
     if (!x) throw std::bad_alloc();

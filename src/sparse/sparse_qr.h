@@ -9,9 +9,9 @@
 
 namespace codesign {
 
-/// A rank-revealing QR factorization A E = Q R of a sparse matrix by SuiteSparse's SPQR: multifrontal, with dense kernels, so that its cost
-/// grows with the fill of R. A column of which less than the tolerance is left, after the columns before it are taken off, counts as
-/// dependent (Heath).
+/// A rank-revealing QR factorization A E = Q R of a sparse matrix by SuiteSparse's SPQR (multifrontal, with dense kernels; its cost grows
+/// with the fill of R). A column whose remainder after projection onto the columns before it has a norm below the tolerance counts as
+/// dependent (Heath's method).
 class SparseQr {
  public:
   enum class Ordering {
@@ -24,13 +24,13 @@ class SparseQr {
   SparseQr(SparseQr&&) noexcept;
   SparseQr& operator=(SparseQr&&) noexcept;
 
-  /// @param tolerance the length below which what is left of a column counts as zero. @throws std::bad_alloc
+  /// @param tolerance on the norm of a column's remainder, absolute. @throws std::bad_alloc
   void factor(const SparseMatrix& A, double tolerance, Ordering ordering = Ordering::kFillReducing);
 
-  /// Columns that follow from the others; ascending.
+  /// Indices of the dependent columns, ascending.
   std::vector<int> dependent() const;
 
-  /// The x of least |A x - b| in which dependent columns have no part; one per column of b. @throws std::bad_alloc
+  /// For each column of b the x that minimizes |A x - b| with zeros for the dependent columns; A.cols() x b.cols(). @throws std::bad_alloc
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
 
  private:

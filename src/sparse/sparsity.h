@@ -12,7 +12,7 @@
 
 namespace codesign {
 
-/// A fixed pattern in compressed-row form; columns ascend within each row.
+/// The pattern of a sparse matrix in compressed-row form; column indices ascend within each row.
 struct Sparsity {
   int rows = 0, columns = 0;
   std::vector<int> row_start, column_index;
@@ -22,14 +22,14 @@ struct Sparsity {
   int column(int entry) const { return column_index[static_cast<std::size_t>(entry)]; }
 };
 
-/// One object for each of the things that the equations are differentiated by: positions (q, s), velocities v, rates z = (a, lambda,
-/// sigma).
+/// One object for each group of variables that the equations are differentiated by: positions (q, s), velocities v, rates
+/// z = (a, lambda, sigma); theory (14).
 template <class X>
 struct ByVariable {
   X position, velocity, rate;
 };
 
-/// Notes which entries an assembly touches, in its order.
+/// Records which entries of the three matrices an assembly adds to, in order. It has the interface of AssemblySink.
 class PatternRecorder {
  public:
   template <class T>
@@ -50,25 +50,27 @@ class PatternRecorder {
   using Calls = std::vector<std::pair<int, int>>;
   const ByVariable<Calls>& calls() const { return calls_; }
 
-  /// The pattern of one matrix, and for each call in order the slot it adds to; the complement of the slot for the first that touches it.
+  /// The pattern of one matrix from its recorded calls.
+  /// @param slots gets, per call, the index of the nonzero that it adds to; its bitwise complement for the first call that touches it.
   static Sparsity build(const Calls& calls, int rows, int columns, std::vector<int>* slots);
 
  private:
   ByVariable<Calls> calls_;
 };
 
-/// Where the derivatives of an assembly go.
+/// The patterns of an assembly's matrices and where each of its calls adds to them.
 struct AssemblyPlan {
-  /// The patterns of the equations' derivatives (one row per equation) with the integrand g as one row below them.
+  /// One row per equation of G, then one row for the integrand g of the objective.
   ByVariable<Sparsity> patterns;
-  /// Slots of the assembly's calls in order, as PatternRecorder::build() gives them.
+  /// Per call, in order: its slot as PatternRecorder::build() gives it.
   ByVariable<std::vector<int>> slots;
 };
 
-/// The derivatives of the equations as three sparse matrices G_q (with G_s), G_v, G_z, and the explicit one by time; theory (14).
+/// The derivatives of the equations, theory (14): the nonzeros of three sparse matrices (position: G_q and G_s, velocity: G_v, rate: G_z),
+/// and the partial derivative by time.
 template <class T>
 struct Linearization : ByVariable<std::vector<T>> {
-  VectorX<T> time;  ///< dG/dt and dg/dt [1/s]
+  VectorX<T> time;  ///< G_t, then g_t; units of the rows per second
 
   void resize(const ByVariable<Sparsity>& patterns) {
     this->position.resize(patterns.position.column_index.size());
@@ -84,8 +86,8 @@ constexpr bool kCheckAssembly = false;
 constexpr bool kCheckAssembly = true;
 #endif
 
-/// Adds values to the slots that a PatternRecorder found for the same sequence of calls.
-/// @tparam checked whether each call is compared with the recorded row and column, as Debug builds do.
+/// Adds the values of an assembly to a Linearization. The sequence of calls must be the one that was recorded for `plan`.
+/// @tparam checked whether each call is compared with the recorded row and column, as in debug builds.
 template <class T, bool checked = kCheckAssembly>
 class AssemblySink {
  public:
@@ -126,7 +128,7 @@ class AssemblySink {
                              ") was not recorded at this place");
   }
 
-  // The first to touch a slot sets it, so that nothing need be cleared beforehand.
+  // The first call that touches a slot sets it, so that the values need not be cleared before.
   static void add(int slot, const T& x, std::vector<T>* values) {
     if (slot < 0)
       (*values)[static_cast<std::size_t>(~slot)] = x;
@@ -139,7 +141,8 @@ class AssemblySink {
   Linearization<T>* values_;
 };
 
-/// A sparse gradient of a scalar by positions, velocities, rates and time; clear() keeps its memory.
+/// The sparse gradient of a scalar by positions, velocities, rates and time. A column may occur several times; its entries add up. clear()
+/// keeps the memory.
 template <class T>
 struct SparseGradient {
   struct Entry {
@@ -155,14 +158,14 @@ struct SparseGradient {
     time = T(0.0);
   }
 
-  /// A place between entries.
+  /// The entries up to a moment; see scale_from().
   struct Mark {
     std::size_t position, velocity, rate;
     T time;
   };
   Mark mark() const { return {position.size(), velocity.size(), rate.size(), time}; }
 
-  /// Multiplies what was added after a mark.
+  /// Multiplies what was added after the mark by a factor.
   void scale_from(const Mark& mark, const T& factor) {
     scale(mark.position, factor, &position);
     scale(mark.velocity, factor, &velocity);
@@ -176,11 +179,12 @@ struct SparseGradient {
   }
 };
 
-/// The gradient that a function appends to, or null where only the value is asked for. Never deduced, so that nullptr can be passed.
+/// The gradient that a function appends to, or null if only the value is needed. The type is not deduced from the argument, so that nullptr
+/// can be passed.
 template <class T>
 using OptionalGradient = std::common_type_t<SparseGradient<T>*>;
 
-/// Adds factor times a gradient to one row of the equations.
+/// Adds factor times a gradient to one row of a PatternRecorder or AssemblySink.
 template <class T, class Sink>
 void add_row(int row, const T& factor, const SparseGradient<T>& gradient, Sink* sink) {
   for (const auto& e : gradient.position) sink->position(row, e.column, T(factor * e.value));

@@ -9,12 +9,12 @@
 
 namespace codesign {
 
-/// A run of rows of a sparse matrix, [first, last).
+/// The rows first, ..., last - 1 of a sparse matrix.
 struct RowRange {
   int first, last;
 };
 
-/// x += factor A^T y over these rows of A. `y` is indexed by rows, `x` by columns.
+/// x += factor A^T y over these rows of A. `y` is indexed by the rows of A, `x` by its columns; other rows of y are not read.
 inline void add_transposed_product(const Sparsity& pattern, const std::vector<double>& values, RowRange rows, double factor,
                                    const double* y, double* x) {
   const int* const column = pattern.column_index.data();

@@ -37,8 +37,8 @@ TEST(ParameterReader, Faults) {
   expect_error(with_parameter(R"(value="1")"), {"the attribute name is missing"});
   expect_error(with_parameter(R"(name="k" value="inf")"), {"value is not finite"});
   expect_error(with_parameter(R"(name="k" value="one")"), {"'one' in value is not a number"});
-  expect_error(with_parameter(R"(name="2k" value="1")"), {"'2k' is no identifier"});
-  expect_error(with_parameter(R"(name="sin" value="1")"), {"'sin' has a meaning of its own"});
+  expect_error(with_parameter(R"(name="2k" value="1")"), {"'2k' is not an identifier"});
+  expect_error(with_parameter(R"(name="sin" value="1")"), {"'sin' is a function or constant of expressions"});
   expect_error(with_parameter(R"(name="k" value="1" min="0")"), {"unknown attribute min"});
   expect_error(with_parameter("name=\"k\" value=\"1\"/>\n<codesign:parameter name=\"k\" value=\"2\""),
                {"test.urdf:3:", "a second parameter of this name"});
