@@ -14,7 +14,7 @@ namespace {
 
 const LinkDescription& link_of(const RobotDescription& robot, int link) { return robot.links[static_cast<std::size_t>(link)]; }
 
-/// The links of the group that have an inertial, as a list for people.
+/// The names of the links with an inertial, separated by commas.
 std::string names_of(const RobotDescription& robot, const std::vector<int>& links) {
   std::string names;
   for (int link : links)
@@ -22,7 +22,7 @@ std::string names_of(const RobotDescription& robot, const std::vector<int>& link
   return names;
 }
 
-/// Where to look first: the inertial of the base link, or else of the first link that has one.
+/// A fault at the inertial of the base link or, if it has none, of the first link that has one.
 InputFault fault_at(const RobotDescription& robot, int base, const std::vector<int>& links) {
   int link = base;
   for (int other : links)
@@ -54,7 +54,7 @@ MassFault find_mass_fault(const MassProperties<double>& body) {
   const Eigen::SelfAdjointEigenSolver<Matrix3<double>> solver(body.inertia, Eigen::EigenvaluesOnly);
   const Vector3<double>& moments = solver.eigenvalues();
   const std::string text = "principal moments " + format_numbers({moments[0], moments[1], moments[2]});
-  // Below the square of a radius of gyration of a micrometre, numbers are the rounding of a file's transformations.
+  // Moments below those of a radius of gyration of a micrometre (1e-12 m^2 times the mass) come from rounding in the file.
   const double rounding = kRounding * std::max(std::abs(moments[0]), std::abs(moments[2])) + 1e-12 * body.mass;
   if (moments[0] < -rounding) return {"inertia_not_positive", "the inertia has a negative principal moment", text};
   if (moments[2] > (moments[0] + moments[1]) * (1.0 + kTriangle) + rounding)

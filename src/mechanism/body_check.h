@@ -10,20 +10,21 @@
 
 namespace codesign {
 
-/// What no solid body can have. `code` is empty if there is nothing.
+/// Mass properties that no solid body can have.
 struct MassFault {
-  std::string code;     ///< negative_mass, inertia_not_positive, triangle_inequality
-  std::string message;  ///< "the inertia breaks the triangle inequality"
-  std::string value;
+  std::string code;     ///< negative_mass, inertia_not_positive, triangle_inequality, or empty if there is no fault
+  std::string message;  ///< for example "the inertia breaks the triangle inequality"
+  std::string value;    ///< the offending numbers
 };
 
-/// A negative mass, a negative principal moment, or one above the sum of the other two (relative 1e-6, as files are rounded).
-/// No mass at all, points, rods and flat bodies are fine: whether their motion is determined is another question.
+/// Finds a negative mass, a negative principal moment of inertia, or a principal moment above the sum of the other two. The tolerances,
+/// 1e-9 and 1e-6 relative, allow for rounded files. Bodies without mass, points, rods and flat bodies have no fault; whether the equations
+/// determine their motion is checked elsewhere, theory (14a).
 MassFault find_mass_fault(const MassProperties<double>& body);
 
-/// Warns of such faults of each body at the default parameters: links joined by fixed joints are judged as one, and the root link, which is
-/// the ground, is not judged.
-/// @throws InputError for masses that cancel each other, since such a body has no centre.
+/// Warns of mass faults at the default parameters. Links joined by fixed joints count as one body; the root link, which is the ground, is
+/// not checked.
+/// @throws InputError if the masses of a body's links add up to zero, since it then has no centre of mass.
 void check_bodies(const RobotDescription& robot, Warnings* warnings);
 
 }  // namespace codesign

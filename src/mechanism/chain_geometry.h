@@ -9,15 +9,15 @@
 
 namespace codesign {
 
-/// A chain of joints at its zero configuration, seen from the base link of body i.
+/// A chain of joints from body i to body j with all joints at zero, in the frame of the base link of body i.
 template <class T>
 struct ChainGeometry {
-  Pose<T> X_ij;                  ///< base link of body j in the base link of body i
-  std::vector<Pose<T>> frames;   ///< each element's joint frame
-  std::vector<Vector3<T>> axes;  ///< each element's unit axis, in URDF's sense (not turned round for a reversed element)
+  Pose<T> X_ij;                  ///< pose of the base link of body j
+  std::vector<Pose<T>> frames;   ///< per element: its joint frame
+  std::vector<Vector3<T>> axes;  ///< per element: its unit axis, with URDF's sign also for reversed elements
 };
 
-/// Walks the chain through links and fixed offsets; all joints at zero.
+/// Multiplies the fixed offsets along the chain.
 template <class T>
 ChainGeometry<T> chain_geometry(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain,
                                 const std::vector<T>& parameters) {
@@ -36,7 +36,7 @@ ChainGeometry<T> chain_geometry(const RobotDescription& robot, const Topology& t
   return geometry;
 }
 
-/// The point of the line (o1, z1) nearest to the line (o2, z2); both axes of unit length and not parallel.
+/// The point on line 1 nearest to line 2. A line passes through o with the unit direction z; the lines must not be parallel.
 template <class T>
 Vector3<T> nearest_point(const Vector3<T>& o1, const Vector3<T>& z1, const Vector3<T>& o2, const Vector3<T>& z2) {
   const Vector3<T> offset = o2 - o1;

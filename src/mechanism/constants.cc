@@ -61,7 +61,7 @@ MassFault body_fault(const BodyConstants<double>& body) {
   return find_mass_fault({body.mass, body.centre, body.J});
 }
 
-/// What the file itself says is told as a warning when it is read; only what a design adds is impossible.
+/// The fault of body k in this design; empty if the body has the same fault at the default parameters, of which check_bodies() warned.
 std::string body_fault(const RobotDescription& robot, const Topology& topology, std::size_t k, const Constants<double>& constants) {
   const MassFault fault = body_fault(constants.bodies[k]);
   if (fault.code.empty()) return "";

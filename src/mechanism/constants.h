@@ -12,106 +12,111 @@
 
 namespace codesign {
 
-/// Mass properties of a body, and where its base link lies. The body frame has the base link's axes and its origin at the centre of mass.
+/// Mass properties of a body. The body frame has the axes of the base link and its origin at the centre of mass.
 template <class T>
 struct BodyConstants {
   T mass{0.0};                             ///< [kg]
-  Matrix3<T> J = Matrix3<T>::Zero();       ///< about the centre of mass, in body axes [kg m^2]
-  Vector3<T> centre = Vector3<T>::Zero();  ///< of mass, in the base link [m]
+  Matrix3<T> J = Matrix3<T>::Zero();       ///< inertia about the centre of mass, in body axes [kg m^2]
+  Vector3<T> centre = Vector3<T>::Zero();  ///< centre of mass in the base link's frame [m]
 };
 
-/// How one URDF joint of a pair is read off the bodies' coordinates.
+/// The constants from which a joint coordinate theta is computed from the bodies' coordinates; theory (8).
 template <class T>
 struct CoordinateConstants {
   enum class Kind {
-    kNone,   ///< not available (a joint without a scalar position, or a chain that has no closed form)
-    kTurn,   ///< about the common z axis: sign atan2(y_i . x_j, x_i . x_j)
-    kSlide,  ///< sign a . d with a fixed in `side`
-    kAngle,  ///< sign atan2(a_i . b_j, c_i . d_j)
-    kSine,   ///< sign asin(a_i . b_j)
-    kSpin    ///< a rate only: a . (omega_j - omega_i), a fixed in the ground
+    kNone,   ///< not available: the joint has no scalar position, or the folded chain no closed form for it
+    kTurn,   ///< turn about the common z axis: sign * atan2(y_i . x_j, x_i . x_j)
+    kSlide,  ///< sign * a . d, with a fixed in body i or j and d from the joint point of i to that of j
+    kAngle,  ///< sign * atan2(a_i . b_j, c_i . d_j)
+    kSine,   ///< sign * asin(a_i . b_j)
+    kSpin    ///< only a rate: a . (omega_j - omega_i), with a fixed in the ground
   };
   Kind kind = Kind::kNone;
-  double sign = 1.0;
-  bool fixed_in_j = false;  ///< kSlide: a is carried by j
+  double sign = 1.0;        ///< -1 where URDF's coordinate has the opposite direction
+  bool fixed_in_j = false;  ///< kSlide: a is fixed in body j, else in body i
   Vector3<T> a = Vector3<T>::Zero(), b = Vector3<T>::Zero(), c = Vector3<T>::Zero(), d = Vector3<T>::Zero();
 };
 
-/// How a contact may slip in several directions at once: its components, and the arm that makes a slip velocity of each rate; theory (13a).
+/// A contact that slips in several directions at once, theory (13a). Component k of its slip velocity is arm[k] times the rate of
+/// coordinates[k].
 template <class T>
 struct SlipConstants {
   std::vector<CoordinateConstants<T>> coordinates;   ///< empty, two (table) or three (planar, spherical)
   std::array<T, 3> arm{T(1.0), T(1.0), T(1.0)};      ///< 1 for a slide, r_e [m] for a turn
-  std::array<T, 3> viscous{T(0.0), T(0.0), T(0.0)};  ///< load per rate
+  std::array<T, 3> viscous{T(0.0), T(0.0), T(0.0)};  ///< viscous load per rate [N s/m or N m s/rad]
 };
 
-/// Friction coefficients and joint geometry; SI units, see FrictionDescription.
+/// The numbers of a FrictionDescription at one design, in its units.
 template <class T>
 struct FrictionConstants {
   T mu_static{0.0}, mu_dynamic{0.0}, transition_velocity{1.0}, joint_length{1.0}, joint_width{1.0}, pin_radius{0.0}, friction_arm{0.0},
       preload{0.0}, smoothing{1.0}, viscous{0.0}, bristle_stiffness{1.0}, bristle_damping{1.0}, dwell_time{1.0};
 };
 
-/// URDF's `<dynamics>` and `<limit>`, and our torsion spring on one joint.
+/// `<dynamics>`, `<limit>`, torsion spring and actuator of one joint. Units as in JointDescription.
 template <class T>
 struct JointDynamicsConstants {
-  T damping{0.0}, dry_friction{0.0}, stiffness{0.0}, spring_damping{0.0}, free_position{0.0};
-  T lower{0.0}, upper{0.0}, effort{0.0};       ///< meaningless where LimitDescription says that they bound nothing
-  T gear_ratio{1.0}, rotor_inertia{0.0};       ///< n and J_r of an actuator
-  Vector3<T> rotor_axis = Vector3<T>::Zero();  ///< in the axes of the body that carries the rotor, see Rotor
+  T damping{0.0}, dry_friction{0.0};                          ///< `<dynamics>`
+  T stiffness{0.0}, spring_damping{0.0}, free_position{0.0};  ///< torsion spring
+  T lower{0.0}, upper{0.0}, effort{0.0};                      ///< valid only where LimitDescription says that they bound something
+  T gear_ratio{1.0}, rotor_inertia{0.0};                      ///< n and J_r of an actuator
+  Vector3<T> rotor_axis = Vector3<T>::Zero();                 ///< unit vector in the axes of the body that carries the rotor
 };
 
 /// Geometry of a kinematic pair in body coordinates.
 template <class T>
 struct PairConstants {
   Vector3<T> s_i = Vector3<T>::Zero(), s_j = Vector3<T>::Zero();  ///< joint point on each body [m]
-  Matrix3<T> C_i = Matrix3<T>::Identity(),
-             C_j = Matrix3<T>::Identity();  ///< joint axes x'', y'', z'' on each body, aligned at zero position
-  T cosine{0.0};                            ///< universal: z_i . z_j
-  T distance{0.0};                          ///< kDistance [m]
-  FrictionConstants<T> friction;
-  SlipConstants<T> slip;                            ///< of isotropic friction
-  std::vector<CoordinateConstants<T>> coordinates;  ///< per chain element; of one cylindrical loop: turn, slide
-  std::vector<JointDynamicsConstants<T>> dynamics;  ///< as `coordinates`
+  /// Joint axes x'', y'', z'' on each body, as columns. They coincide at zero position, except for universal pairs.
+  Matrix3<T> C_i = Matrix3<T>::Identity(), C_j = Matrix3<T>::Identity();
+  T cosine{0.0};                                    ///< kUniversal: z_i . z_j
+  T distance{0.0};                                  ///< kDistance: the length [m]
+  FrictionConstants<T> friction;                    ///< valid if Pair::friction_joint is set
+  SlipConstants<T> slip;                            ///< isotropic friction; see slips_isotropically()
+  std::vector<CoordinateConstants<T>> coordinates;  ///< one per chain element; a single cylindrical loop has two: turn, slide
+  std::vector<JointDynamicsConstants<T>> dynamics;  ///< one per coordinate
 };
 
-/// Where a link frame lies in its body (or in the ground).
+/// The pose of a frame in the frame of its body, or in the ground.
 template <class T>
 struct LinkConstants {
-  Vector3<T> s = Vector3<T>::Zero();
-  Matrix3<T> R = Matrix3<T>::Identity();
+  Vector3<T> s = Vector3<T>::Zero();      ///< origin [m]
+  Matrix3<T> R = Matrix3<T>::Identity();  ///< frame axes to body axes
 };
 
+/// A spring-damper between two points; theory (13b).
 template <class T>
 struct SpringDamperConstants {
-  int body_i = -1, body_j = -1;
-  Vector3<T> s_i = Vector3<T>::Zero(), s_j = Vector3<T>::Zero();
-  T stiffness{0.0}, damping{0.0}, free_length{0.0};
+  int body_i = -1, body_j = -1;                                   ///< -1: the ground
+  Vector3<T> s_i = Vector3<T>::Zero(), s_j = Vector3<T>::Zero();  ///< the points on the bodies [m]
+  T stiffness{0.0}, damping{0.0}, free_length{0.0};               ///< [N/m], [N s/m], [m]
 };
 
-/// A row sum of coefficients_k theta_k = offset; terms as in Coupling.
+/// The row sum_k coefficients[k] theta_k - offset = 0; theory (8a). Terms in the order of Coupling::terms.
 template <class T>
 struct CouplingConstants {
   std::vector<T> coefficients;
-  T offset{0.0};
+  T offset{0.0};  ///< [rad or m]
 };
 
-/// Every number of a mechanism at one design rho.
+/// All numbers of a mechanism for one design. Indices as in Topology and RobotDescription.
 template <class T>
 struct Constants {
   std::vector<BodyConstants<T>> bodies;
   std::vector<PairConstants<T>> pairs;
-  std::vector<LinkConstants<T>> links;         ///< of links that belong to a body or the ground
-  std::vector<LinkConstants<T>> joint_frames;  ///< per joint: its frame as the child (of a loop: the successor) carries it, likewise
+  std::vector<LinkConstants<T>> links;         ///< per link; valid for links that belong to a body or the ground
+  std::vector<LinkConstants<T>> joint_frames;  ///< per joint: its frame, fixed in the child (of a loop: the successor); valid likewise
   std::vector<SpringDamperConstants<T>> springs;
   std::vector<CouplingConstants<T>> couplings;
 };
 
-/// Evaluates the description at `parameters` (all named parameters). T: double, std::complex<double>, Lanes<N>.
+/// Evaluates the description at `parameters`, all named parameters in the order of Study::parameters.
+/// @throws InputError for a spring-damper on a link without <inertial>.
 template <class T>
 Constants<T> evaluate_constants(const RobotDescription& robot, const Topology& topology, const std::vector<T>& parameters);
 
-/// Empty if every mass, inertia, length and coefficient of the design can be; else a sentence that names the first that cannot.
+/// A sentence that names the first impossible mass, inertia, length or coefficient of a design; empty if there is none. Faults that the
+/// default parameters have too do not count: check_bodies() warned of them.
 std::string find_impossible(const RobotDescription& robot, const Topology& topology, const Constants<double>& constants);
 
 }  // namespace codesign

@@ -38,7 +38,7 @@ Coupling mimic_coupling(const RobotDescription& robot, const Topology& topology,
   coupling.offset = joint.mimic->offset;
   coupling.terms.push_back(term_of(robot, topology, follower, coupling));
   const int leader = joint_named(robot, joint.mimic->joint);
-  if (robot.joints[index(leader)].type == JointType::kFixed) return coupling;  // it stands at zero
+  if (robot.joints[index(leader)].type == JointType::kFixed) return coupling;  // the fixed joint's coordinate is zero
   coupling.terms.push_back(term_of(robot, topology, leader, coupling));
   coupling.terms.back().sign = -1.0;
   coupling.terms.back().factor = joint.mimic->multiplier;
@@ -49,7 +49,7 @@ bool has_one_coordinate(JointType type) {
   return type == JointType::kRevolute || type == JointType::kContinuous || type == JointType::kPrismatic;
 }
 
-/// Joints that move between a link and an ancestor of it, the nearest to the link first.
+/// The joints that are not fixed between a link and one of its ancestors, starting at the link.
 std::vector<int> moving_joints(const RobotDescription& robot, const Topology& topology, int link, int ancestor, const Coupling& coupling) {
   std::vector<int> joints;
   for (int at = link; at != ancestor;) {
@@ -58,7 +58,7 @@ std::vector<int> moving_joints(const RobotDescription& robot, const Topology& to
     at = joint.parent;
     if (joint.type == JointType::kFixed) continue;
     if (!has_one_coordinate(joint.type))
-      throw InputError({coupling.where, coupling.element(), "a joint on the way between the links has more than one coordinate", joint.name,
+      throw InputError({coupling.where, coupling.element(), "a joint between the coupled links has more than one coordinate", joint.name,
                         "revolute, continuous, prismatic and fixed joints"});
     joints.push_back(k);
   }
@@ -74,7 +74,7 @@ Coupling plus_coupling(const RobotDescription& robot, const Topology& topology, 
   const int ancestor = *std::find_first_of(below.begin(), below.end(), above.begin(), above.end());
   const std::vector<int> driven = moving_joints(robot, topology, description.successor, ancestor, coupling);
   if (driven.empty())
-    throw InputError({coupling.where, coupling.element(), "no joint moves the successor against the links' nearest common ancestor",
+    throw InputError({coupling.where, coupling.element(), "no joint moves the successor relative to the links' nearest common ancestor",
                       robot.links[index(description.successor)].name, "swap predecessor and successor, and invert the ratio"});
   for (int joint : driven) coupling.terms.push_back(term_of(robot, topology, joint, coupling));
   for (int joint : moving_joints(robot, topology, description.predecessor, ancestor, coupling)) {

@@ -8,7 +8,7 @@
 
 namespace codesign {
 
-/// The model's parameters at their defaults, in the order of RobotDescription::parameters.
+/// The default values of the model's parameters, in the order of RobotDescription::parameters.
 inline std::vector<double> default_values(const RobotDescription& robot) {
   std::vector<double> values;
   for (const Parameter& parameter : robot.parameters) values.push_back(parameter.value);

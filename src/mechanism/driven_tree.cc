@@ -31,7 +31,7 @@ class TreeBuilder {
   }
 
  private:
-  // Of a chain that runs upwards, body j is the parent's.
+  // A pair whose chain runs from the child to the parent has the parent as body j.
   static bool upwards(const Pair& pair) { return pair.chain.front().reversed; }
   static int child(const Pair& pair) { return upwards(pair) ? pair.body_i : pair.body_j; }
   static int parent(const Pair& pair) { return upwards(pair) ? pair.body_j : pair.body_i; }
@@ -60,12 +60,13 @@ class TreeBuilder {
     tree_.nodes.push_back({child(p), node_of(parent(p)), index, p.kind == PairKind::kPrismatic, moved, -1});
   }
 
-  /// All that carry `body`, from the ground on.
+  /// Adds the bodies that carry `body`, from the ground on, and `body` itself.
   void add_path(int body) {
     if (body < 0) return;
     const int above = carrier_[static_cast<std::size_t>(body)];
     if (above < 0)
-      fail("a loop is the only joint of a body that carries the driven one", topology_.bodies[static_cast<std::size_t>(body)].name, "");
+      fail("a body that carries the driven joint is connected by a loop only, not by a joint of the tree",
+           topology_.bodies[static_cast<std::size_t>(body)].name, "");
     require_simple(above);
     add_path(pair(above).body_i);
     add_node(above, false);
@@ -86,8 +87,10 @@ class TreeBuilder {
     };
     for (const Pair& loop : topology_.pairs)
       if (loop.is_loop && moved(loop.body_i) != moved(loop.body_j))
-        fail("a loop ties what the joint moves to what it does not, so that its load is not the tree's alone", loop.name,
-             "joints that no loop closes over");
+        fail(
+            "a loop connects bodies that the joint moves with bodies that it does not move, so that the tree alone does not determine its "
+            "load",
+            loop.name, "a joint that is not part of a loop");
   }
 
   const Topology& topology_;

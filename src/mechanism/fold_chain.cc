@@ -14,8 +14,8 @@ namespace codesign {
 namespace {
 
 using Vector = Vector3<double>;
-constexpr double kParallel = 1e-9;    // of unit axes
-constexpr double kConcurrent = 1e-9;  // [m], plus as much of the mechanism's own size
+constexpr double kParallel = 1e-9;    // tolerance for unit axes to be parallel
+constexpr double kConcurrent = 1e-9;  // tolerance for axes to meet: absolute [m], and relative to the chain's size
 
 struct Axes {
   std::vector<Vector> turn, turn_point, slide;
@@ -30,7 +30,7 @@ bool meet(const Vector& p, const Vector& a, const Vector& q, const Vector& b) {
 
 bool on_line(const Vector& point, const Vector& origin, const Vector& axis) { return (point - origin).cross(axis).norm() < kConcurrent; }
 
-/// All turning axes through one point?
+/// Whether all turning axes pass through one point.
 bool concurrent(const Axes& axes) {
   const auto& z = axes.turn;
   const auto& o = axes.turn_point;

@@ -4,7 +4,7 @@
 namespace codesign {
 namespace {
 
-/// Dimensions are checked to be positive where they are given, so zero means absent.
+/// The reader accepts only positive dimensions, so zero means absent.
 bool is_missing(const Quantity& dimension) { return dimension.is_constant() && dimension.nominal() == 0.0; }
 
 }  // namespace

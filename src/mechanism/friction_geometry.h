@@ -8,10 +8,10 @@
 
 namespace codesign {
 
-/// Checks that a joint of `type` has the dimensions its normal forces are computed from: prismatic joints a joint_length and a joint_width,
-/// revolute, continuous and cylindrical ones a joint_length and a pin_radius, spherical ones a pin_radius, planar ones none.
-/// The reader calls it for ordinary joints; of a joint folded from a chain the type is known only to who folds it.
-/// @throws InputError if one is missing, or joints of this type have no friction law.
+/// Checks that a joint of `type` has the dimensions that its normal forces, theory (12), are computed from: joint_length and joint_width
+/// for prismatic joints; joint_length and pin_radius for revolute, continuous and cylindrical ones; pin_radius for spherical ones; none for
+/// planar ones. The URDF reader calls it for ordinary joints, derive_topology() for joints that it folds from a chain.
+/// @throws InputError if a dimension is missing, or if joints of this type have no friction law.
 void check_friction_geometry(const FrictionDescription& friction, JointType type, const std::string& element);
 
 }  // namespace codesign

@@ -8,11 +8,11 @@
 
 namespace codesign {
 
-/// Links from one up to the root, itself first.
-/// @param link_parent_joint per link the tree joint above it, -1 for the root.
+/// The links from `link`, included, up to the root.
+/// @param link_parent_joint per link: the tree joint above it, -1 for the root.
 std::vector<int> links_above(const RobotDescription& robot, const std::vector<int>& link_parent_joint, int link);
 
-/// Tree joints between two links, those on both ways up to their nearest common ancestor; fixed ones are left out.
+/// The tree joints that are not fixed on the path between two links, which passes through their nearest common ancestor.
 std::vector<int> joints_between(const RobotDescription& robot, const std::vector<int>& link_parent_joint, int predecessor, int successor);
 
 }  // namespace codesign

@@ -39,7 +39,7 @@ Vector3<T> values_at(const QuantityVector& vector, const std::vector<T>& paramet
   return {vector[0].at(parameters), vector[1].at(parameters), vector[2].at(parameters)};
 }
 
-/// R J R^T, without the conjugation Eigen's adjoint would bring for complex scalars.
+/// R J R^T. Transposed without conjugation, also for complex numbers.
 template <class T>
 Matrix3<T> turned(const Matrix3<T>& R, const Matrix3<T>& J) {
   return R * J * R.transpose();
@@ -52,7 +52,7 @@ Matrix3<T> point_inertia(const T& mass, const Vector3<T>& d) {
   return mass * (square * Matrix3<T>::Identity() - d * d.transpose());
 }
 
-/// A homogeneous solid about its own centre; a mesh has no volume here.
+/// A homogeneous solid about its own centre, in its own axes. A mesh counts as without volume.
 template <class T>
 MassProperties<T> solid(const ShapeDescription& shape, const T& density, const std::vector<T>& parameters) {
   const Vector3<T> size = values_at(shape.size, parameters);
@@ -109,8 +109,8 @@ MassProperties<T> from_shapes(const InertialDescription& inertial, const std::ve
 
 }  // namespace internal
 
-/// Mass properties at `parameters`, from the numbers given or from the link's solids (boxes, cylinders, spheres; parallel axes; solids that
-/// overlap count twice). T: double, std::complex<double> or Lanes<N>.
+/// Mass properties of a link at `parameters`: the numbers given or, with a density, those of its boxes, cylinders and spheres by the
+/// parallel-axis theorem; overlapping solids count twice.
 template <class T>
 MassProperties<T> mass_properties(const InertialDescription& inertial, const std::vector<T>& parameters) {
   if (inertial.density) return internal::from_shapes(inertial, parameters);

@@ -69,7 +69,7 @@ class PairBuilder {
     return sqrt(dot(x, x));
   }
 
-  // x'' is written in a joint frame: the one with the friction, else the one whose axis is z.
+  // x'' is given in the joint frame of the element with the friction, else in that of the only turning element (else of the first one).
   Matrix3<T> joint_axes() const {
     std::size_t frame = turns_.size() == 1 ? turns_[0] : 0;
     std::optional<std::array<double, 3>> preferred;
@@ -88,7 +88,7 @@ class PairBuilder {
     return C;
   }
 
-  // Each side's z is its own axis; x is the other's axis made normal to it, so that both angles start at zero.
+  // z of each side is its own axis. x is the other side's axis projected normal to z, so that both angles are zero at zero position.
   void place_universal(const Matrix3<T>& R_ji) {
     const Vector3<T> z_i = axis(0);
     const Vector3<T> z_j_in_i =
@@ -106,7 +106,7 @@ class PairBuilder {
     result_.C_j = frame(R_ji * z_j_in_i, R_ji * z_i);
   }
 
-  // Both ends are joint frames of their own; at zero position they need not coincide.
+  // The two points of a distance pair are independent of each other.
   void place_distance(const Vector3<T>& centre_j) {
     result_.s_j = vector_at(joint(0).child_origin.xyz, parameters_) - centre_j;
     result_.distance = joint(0).distance.at(parameters_);
@@ -121,7 +121,7 @@ class PairBuilder {
     return c;
   }
 
-  // One cylindrical loop has two coordinates: it turns, and it slides.
+  // A single cylindrical loop has two coordinates, a turn and a slide.
   void add_cylindrical_coordinates() {
     Coordinate turning, sliding;
     turning.kind = Coordinate::Kind::kTurn;
@@ -131,7 +131,7 @@ class PairBuilder {
     result_.dynamics.resize(2);
   }
 
-  // d = sum of slides along their axes: the coordinate is the product with the dual basis vector.
+  // d is the sum of the slides times their axes, so that each slide is the scalar product of d with a dual basis vector of the axes.
   Coordinate slide(std::size_t k, const Matrix3<T>& R_ji) const {
     Coordinate c;
     const bool before_turns = turns_.empty() || slides_.back() < turns_.front();
@@ -189,7 +189,7 @@ class PairBuilder {
     return normal(0, 1) && normal(1, 2) && normal(0, 2);
   }
 
-  // R_ij = R(z1) R(z2) R(z3) about mutually normal axes: z1 and z3 by arc tangents, z2 by an arc sine.
+  // R_ij = R(z1) R(z2) R(z3) about axes normal to each other: the angles about z1 and z3 are arc tangents, the one about z2 an arc sine.
   void tait_bryan_angle(std::size_t k, const Matrix3<T>& R_ji, Coordinate* c) const {
     const Vector3<T>&z1 = axis(turns_[0]), &z2 = axis(turns_[1]), &z3 = axis(turns_[2]);
     if (k == turns_[1]) {
@@ -208,7 +208,7 @@ class PairBuilder {
     c->d = R_ji * (first ? z3 : z1);
   }
 
-  // A plane slips along x'' and y'' of the parent's side, and turns; a ball turns about three ground axes.
+  // A plane slips along x'' and y'' of body i and turns about z''; a ball turns about the three ground axes.
   void place_slip() {
     SlipConstants<T>& slip = result_.slip;
     const auto add = [&slip](typename Coordinate::Kind kind, const Vector3<T>& a, const T& arm, const T& viscous) {
@@ -244,7 +244,7 @@ class PairBuilder {
     return d;
   }
 
-  // The parent link carries the rotor: body i, or body j where the chain runs from the child to the parent.
+  // The rotor is carried by the parent link: body i, or body j if the element is reversed.
   void place_rotor(std::size_t k, const Matrix3<T>& R_ji) {
     const ActuatorDescription& actuator = *joint(k).actuator;
     JointDynamicsConstants<T>& d = result_.dynamics[k];
@@ -253,7 +253,7 @@ class PairBuilder {
     d.rotor_axis = pair_.chain[k].reversed ? Vector3<T>(R_ji * axis(k)) : axis(k);
   }
 
-  // A dimension that the annotation leaves out does not enter the joint's law; 1 keeps the unused quotient finite.
+  // A dimension that is not given does not enter the joint's friction law; 1 keeps quotients with it finite.
   FrictionConstants<T> friction() const {
     const FrictionDescription& f = *robot_.joints[static_cast<std::size_t>(pair_.friction_joint)].friction;
     const auto length = [this](const Quantity& q) { return q.is_constant() && q.nominal() == 0.0 ? T(1.0) : q.at(parameters_); };

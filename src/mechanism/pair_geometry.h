@@ -8,8 +8,8 @@
 
 namespace codesign {
 
-/// Joint point, axes, coordinates and coefficients of a pair at `parameters`.
-/// @param centre_i, centre_j centres of mass in the base links, where the body frames have their origins.
+/// Joint points, axes, coordinates and coefficients of a pair at `parameters`.
+/// @param centre_i, centre_j centres of mass of the two bodies in the frames of their base links [m]; zero for the ground.
 template <class T>
 PairConstants<T> pair_constants(const RobotDescription& robot, const Topology& topology, const Pair& pair, const Vector3<T>& centre_i,
                                 const Vector3<T>& centre_j, const std::vector<T>& parameters);

@@ -10,7 +10,7 @@
 
 namespace codesign {
 
-/// Rigid displacement X_AB: a point s_B in frame B is R s_B + t in frame A.
+/// The pose X_AB of frame B in frame A: a point s_B in B is R s_B + t in A. t in [m].
 template <class T>
 struct Pose {
   Matrix3<T> R = Matrix3<T>::Identity();
@@ -30,14 +30,14 @@ Vector3<T> vector_at(const QuantityVector& vector, const std::vector<T>& paramet
   return Vector3<T>(vector[0].at(parameters), vector[1].at(parameters), vector[2].at(parameters));
 }
 
-/// The pose a URDF `<origin>` stands for.
+/// The pose of a URDF `<origin>`.
 template <class T>
 Pose<T> pose_at(const PoseDescription& origin, const std::vector<T>& parameters) {
   const Vector3<T> rpy = vector_at(origin.rpy, parameters);
   return {rotation_from_rpy<T>(rpy), vector_at(origin.xyz, parameters)};
 }
 
-/// The joint's unit axis in its joint frame.
+/// The axis at `parameters`, scaled to unit length.
 template <class T>
 Vector3<T> axis_at(const QuantityVector& axis, const std::vector<T>& parameters) {
   using std::sqrt;
@@ -58,8 +58,8 @@ Pose<T> link_in_base(const RobotDescription& robot, const std::vector<int>& link
   return pose;
 }
 
-/// A column of an orthonormal frame chosen across the joint axis z: the given direction, else the next axis in x, y, z, x order; made
-/// normal to z.
+/// The axis x'' normal to the unit vector z: the projection of the preferred direction or, without one, of the coordinate axis that follows
+/// the largest component of z in the order x, y, z, x.
 template <class T>
 Vector3<T> transverse_axis(const Vector3<T>& z, const std::optional<std::array<double, 3>>& preferred) {
   using std::sqrt;

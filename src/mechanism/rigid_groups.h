@@ -8,16 +8,16 @@
 
 namespace codesign {
 
-/// Links joined by fixed joints.
+/// Groups of links that are joined by fixed joints.
 struct RigidGroups {
   std::vector<int> link_parent_joint;  ///< per link: the tree joint above it, -1 for the root
-  std::vector<int> link_base;          ///< per link: the link of its group that is nearest to the root
+  std::vector<int> link_base;          ///< per link: the base link of its group, which is the nearest to the root
 
   explicit RigidGroups(const RobotDescription& robot);
 };
 
-/// Mass, centre and inertia about the centre of links that are rigidly joined, in the frame of their base link. Without mass the centre is
-/// the base link's origin.
+/// Mass, centre of mass and inertia about it of `links`, which form one group, in the frame of their base link. If the mass is zero, the
+/// centre is the origin of the base link.
 template <class T>
 MassProperties<T> merged_mass(const RobotDescription& robot, const std::vector<int>& link_base, const std::vector<int>& link_parent_joint,
                               const std::vector<int>& links, const std::vector<T>& parameters) {

@@ -13,13 +13,14 @@ using Names = std::vector<std::string>;
 
 bool contains(const Names& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
 
-/// What the object of a signal offers. A link may bear the name of a joint; the quantity then tells which is meant.
+/// The quantities of everything that has the name of a signal's object. A link and a joint may have the same name; the quantity then tells
+/// them apart.
 struct Offer {
   bool exists = false;
   Names scalars;        ///< of a joint, a controller or the mechanism
   Names vectors;        ///< of a joint or a link
   Names quaternions;    ///< of a link
-  Names ambiguous;      ///< of a joint that is called like the mechanism, and of the mechanism
+  Names ambiguous;      ///< quantities that both the mechanism and a joint named `mechanism` have
   bool welded = false;  ///< a fixed joint of the tree
 };
 
@@ -103,11 +104,11 @@ void check_term(const SignalTerm& term, const Offer& offer, const SourceLocation
   const bool good_component =
       term.component == "x" || term.component == "y" || term.component == "z" || (as_quaternion && term.component == "w");
   if (contains(offer.ambiguous, term.quantity))
-    throw InputError({where, element, "a joint bears the name of the whole mechanism, whose power this could be too", spelling(term),
-                      "another name of the joint"});
+    throw InputError({where, element, "a joint is named mechanism, so that this could also be the power of the whole mechanism",
+                      spelling(term), "rename the joint"});
   if (offer.welded && is_reaction(term))
-    throw InputError({where, element, "a fixed joint makes one body of its links, and what it transmits is not computed", spelling(term),
-                      "a movable joint; or a floating joint and a <loop type=\"fixed\"> in place of the fixed joint"});
+    throw InputError({where, element, "the links of a fixed joint form one body, so the reaction between them is not computed",
+                      spelling(term), "a movable joint; or a floating joint and a <loop type=\"fixed\"> in place of the fixed joint"});
   if (as_scalar && term.component.empty()) return;
   if (as_vector && good_component) return;
   const std::string allowed = list_names(spelled(term.object, offer));

@@ -10,29 +10,28 @@
 
 namespace codesign {
 
-/// Whether a joint has one coordinate, and so a scalar position, velocity, acceleration and effort.
+/// Whether a joint has exactly one coordinate, and with it a scalar position, velocity, acceleration and effort.
 bool has_scalar_position(const JointDescription& joint);
 
-/// Whether a joint or loop has friction, annotated or as `<dynamics friction>`.
+/// Whether a joint or loop has friction, from `<codesign:friction>` or `<dynamics friction>`.
 bool has_friction(const JointDescription& joint);
 
-/// Whether a term reads the whole mechanism, such as `mechanism/total_energy`. Joints, links and controllers may bear that name too: the
-/// quantity tells which is meant, and where it does not, check_signal() refuses the term.
+/// Whether a term is a quantity of the whole mechanism, such as `mechanism/total_energy`. A joint, link or controller named `mechanism` is
+/// told apart by the quantity; check_signal() rejects the terms that stay ambiguous.
 bool is_of_mechanism(const SignalTerm& term);
-
-/// Whether a term reads what a joint exerts on its child: the quantity tells it from a link of the same name.
+/// Whether a term is a reaction force or torque of a joint. The quantity tells the joint apart from a link of the same name.
 bool is_reaction(const SignalTerm& term);
 
-/// Checks that every term of a signal names something that exists and has that quantity.
-/// @throws InputError naming the term, what is allowed and the nearest known name.
+/// Checks that the object of each term exists and has the quantity and component.
+/// @throws InputError naming the term, the allowed ones and the nearest known name.
 void check_signal(const SignalDescription& signal, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers,
                   const std::string& element);
 
-/// What is worth plotting of any run: position and velocity of every joint that moves a mass, friction, normal force and sliding velocity
-/// where there is friction, and each controller's output.
+/// The signals recorded by default: position and velocity of every joint that moves a mass; friction, normal force and sliding velocity of
+/// every joint with friction; the output of each controller.
 std::vector<std::string> default_signals(const RobotDescription& robot, const std::vector<ControllerDescription>& controllers);
 
-/// The signals that a study itself reads, each once: those of its objective, then those of its controllers.
+/// The signals that a study uses, each once: those of its objective, then those of its controllers.
 std::vector<SignalDescription> signals_of(const Study& study);
 
 }  // namespace codesign

@@ -12,11 +12,11 @@
 namespace codesign {
 namespace {
 
-/// A vertex is a rigid group of links; an edge is a joint or loop, or a chain of them.
+/// The graph of the mechanism: its vertices are groups of rigidly joined links, its edges joints, loops, or chains of them.
 struct Edge {
   int from = -1, to = -1;  // groups
   std::vector<ChainElement> chain;
-  std::vector<int> inside;  // groups without mass between the elements of the chain
+  std::vector<int> inside;  // massless groups between the elements of the chain
 };
 
 bool has_mass(const LinkDescription& link) { return link.inertial.has_value(); }
@@ -25,7 +25,7 @@ std::string joint_element(const JointDescription& joint) {
   return (joint.is_loop ? "<loop name=\"" : "<joint name=\"") + joint.name + "\">";
 }
 
-/// The type of an ordinary joint with the same friction law. Joints without one are alike.
+/// The joint type whose friction law applies to pairs of this kind; kFloating, which has none, for all other kinds.
 JointType equivalent_type(PairKind kind) {
   switch (kind) {
     case PairKind::kRevolute:
@@ -79,7 +79,7 @@ class TopologyBuilder {
       if (has_mass(robot_.links[link])) is_body_[index(topology_.link_base[link])] = true;
   }
 
-  // Bodies are numbered in the order of the file, so that q is laid out as its reader expects.
+  // Bodies are numbered in the order of their base links in the file, which is the order of q.
   void number_bodies() {
     std::map<int, std::vector<int>> groups;
     for (std::size_t link = 0; link < robot_.links.size(); ++link) groups[topology_.link_base[link]].push_back(static_cast<int>(link));
@@ -120,7 +120,7 @@ class TopologyBuilder {
     return result;
   }
 
-  // A massless link at the end of a chain (a sensor frame) carries no load: its joint stays where it starts.
+  // A massless link at the end of a chain, such as a sensor frame, has no dynamics: its joint keeps its position.
   void drop_massless_ends() {
     for (bool changed = true; changed;) {
       changed = false;
@@ -135,7 +135,7 @@ class TopologyBuilder {
     }
   }
 
-  // The joint of a massless end feels a rotor, or others with mass that are coupled to it.
+  // Whether the joint of a massless end link must be kept: it has a rotor, other joints mimic it, or a coupling counts it.
   bool carries_load(int joint) const {
     const JointDescription& description = robot_.joints[index(joint)];
     if (description.actuator) return true;
@@ -153,7 +153,8 @@ class TopologyBuilder {
         in_coupling_[index(joint)] = true;
   }
 
-  // What stands between three joints or more cannot be folded: it is a body, if one without mass.
+  // A massless group between two joints is folded. Any other, with three joints or more or one that carries a load, becomes a body without
+  // mass.
   void contract_massless_chains() {
     for (std::size_t link = 0; link < robot_.links.size(); ++link) {
       const int group = static_cast<int>(link);
@@ -168,8 +169,8 @@ class TopologyBuilder {
     }
   }
 
-  // Links without mass of a chain that is no joint we know are bodies without mass. A chain that comes back to where it began
-  // moves nothing.
+  // The massless links of a chain that is not equivalent to one joint, or that returns to the body where it starts, become bodies without
+  // mass.
   void unfold_chains() {
     for (std::size_t k = 0; k < edges_.size();) {
       const Edge edge = edges_[k];
@@ -190,7 +191,7 @@ class TopologyBuilder {
     return std::min_element(edge.chain.begin(), edge.chain.end(), by_number)->joint;
   }
 
-  // The joined edge runs from the end of the one that arrives to the end of the one that leaves.
+  // Replaces two edges that meet in a massless group by one edge through it.
   void join(int group, std::size_t first, std::size_t second) {
     Edge a = edges_[first], b = edges_[second];
     if (a.to != group && b.to == group) std::swap(a, b);
@@ -238,7 +239,7 @@ class TopologyBuilder {
     pair->friction_joint = joint;
   }
 
-  // The reader has checked joints between links with mass, not those folded from a chain.
+  // The URDF reader checks ordinary joints only, not those folded from a chain.
   void check_friction(const Pair& pair) const {
     const JointDescription& joint = robot_.joints[index(pair.friction_joint)];
     check_friction_geometry(*joint.friction, equivalent_type(pair.kind), joint_element(joint) + " <codesign:friction>");
@@ -246,8 +247,8 @@ class TopologyBuilder {
 
   const RobotDescription& robot_;
   Topology topology_;
-  std::vector<bool> is_body_;      // per base link of a group: it has mass, is the ground, or cannot be folded away
-  std::vector<bool> in_coupling_;  // per joint: a `<coupling>` counts it
+  std::vector<bool> is_body_;      // per base link of a group: it has mass, is the ground, or cannot be folded
+  std::vector<bool> in_coupling_;  // per joint: it is part of a coupling
   std::vector<Edge> edges_;
 };
 

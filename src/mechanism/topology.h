@@ -10,20 +10,21 @@
 
 namespace codesign {
 
-/// Rigid body: a link with everything fixed to it.
+/// A rigid body: a link and all links joined to it by fixed joints.
 struct Body {
-  std::string name;        ///< of its base link
+  std::string name;        ///< name of the base link
   int base_link = -1;      ///< the link nearest to the root; its axes are the body's axes
-  std::vector<int> links;  ///< the base link first
+  std::vector<int> links;  ///< indices of its links, the base link first
 };
 
-/// What a pair of bodies may do relative to each other. `i` carries the parent's side, `j` the child's; z is the joint axis.
+/// The relative motion that a pair allows, with its number of constraint rows. Body i is on the parent's side, j on the child's; z is the
+/// joint axis.
 enum class PairKind {
   kFixed,          ///< 6 constraints
   kRevolute,       ///< 5: turn about z
   kPrismatic,      ///< 5: slide along z
   kCylindrical,    ///< 4: both
-  kUniversal,      ///< 4: turn about z_i and about z_j
+  kUniversal,      ///< 4: turn about z_i and z_j, which keep their angle
   kSpherical,      ///< 3
   kTable,          ///< 4: slide in the plane normal to z, no turn
   kPlanar,         ///< 3: slide in the plane normal to z and turn about z
@@ -32,44 +33,45 @@ enum class PairKind {
   kFree            ///< 0
 };
 
-/// One URDF joint (or loop) of a pair's chain; `reversed` where the chain runs from its child to its parent.
+/// A joint or loop in the chain of a pair. `reversed`: the chain runs from the joint's child to its parent.
 struct ChainElement {
   int joint = -1;
   bool reversed = false;
 };
 
-/// A kinematic pair: one joint or loop, or a chain of them across massless links, folded into one joint.
+/// A kinematic pair: one joint or loop, or a chain of them across massless links that is folded into one joint.
 struct Pair {
   std::string name;
   PairKind kind = PairKind::kFree;
   int body_i = -1, body_j = -1;     ///< -1: the ground
   std::vector<ChainElement> chain;  ///< from i to j
-  int friction_joint = -1;          ///< the joint of the chain whose friction annotation holds, or -1
-  bool is_loop = false;             ///< a loop is part of the chain
+  int friction_joint = -1;          ///< the joint of the chain with a `<codesign:friction>`, or -1
+  bool is_loop = false;             ///< the chain contains a loop
 };
 
-/// Whether the friction of such a pair acts in all directions of its slip by one law, instead of along each coordinate; doc/theory.md
-/// (13a).
+/// Whether the friction of such a pair follows one law for all directions of its slip, doc/theory.md (13a), instead of one law per
+/// coordinate, (13).
 constexpr bool slips_isotropically(PairKind kind) {
   return kind == PairKind::kTable || kind == PairKind::kPlanar || kind == PairKind::kSpherical;
 }
 
-/// What a mechanism consists of, derived from its description; immutable.
+/// The bodies, pairs and couplings of a mechanism, derived from its description. It does not depend on the design.
 struct Topology {
-  static constexpr int kGround = -1;
-  static constexpr int kMassless = -2;
+  static constexpr int kGround = -1;    ///< body index of links that are fixed to the root
+  static constexpr int kMassless = -2;  ///< body index of links without mass inside a folded chain or at its end
 
   std::vector<Body> bodies;
   std::vector<Pair> pairs;
   std::vector<int> link_body;          ///< per link: body index, kGround or kMassless
   std::vector<int> link_base;          ///< per link: base link of its rigid group
   std::vector<int> link_parent_joint;  ///< per link: the tree joint above it, -1 for the root
-  std::vector<int> joint_pair;         ///< per joint: its pair, or -1 (fixed inside a body; moves a massless end link)
+  std::vector<int> joint_pair;         ///< per joint: its pair; -1 if it is fixed inside a body or moves only massless links
   std::vector<Coupling> couplings;
 };
 
-/// Merges links joined by fixed joints and folds massless chains.
-/// @throws InputError for a chain that cannot be folded, or a massless link that would have to carry a load.
+/// Merges links joined by fixed joints into bodies and folds chains of massless links into pairs.
+/// @throws InputError for a chain that cannot be folded, for two friction annotations on one pair, for a loop within one body, and for
+/// couplings as derive_couplings() says.
 Topology derive_topology(const RobotDescription& robot);
 
 }  // namespace codesign

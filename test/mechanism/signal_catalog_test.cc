@@ -87,7 +87,7 @@ TEST(SignalCatalog, ReactionsOfJointsThatMove) {
     for (const char* quantity : {"/reaction_force/x", "/reaction_torque/z"}) check(std::string(joint) + quantity);
   expect_refused("hinge/reaction_force", "needs the component x, y or z", "hinge/reaction_force/{x,y,z}");
   expect_refused("hinge/reaction_force/w", "needs the component x, y or z", "hinge/reaction_force/{x,y,z}");
-  expect_refused("weld/reaction_torque/x", "makes one body of its links", "loop type=\"fixed\"");
+  expect_refused("weld/reaction_torque/x", "form one body", "loop type=\"fixed\"");
   expect_refused("arm/reaction_force/x", "unknown quantity", "arm/position/{x,y,z}");
 }
 
@@ -104,7 +104,7 @@ TEST(SignalCatalog, WhatIsCalledLikeTheMechanismKeepsItsSignals) {
     check_in(named, "mechanism/friction_power");
     ADD_FAILURE() << "of the joint or of all?";
   } catch (const InputError& error) {
-    EXPECT_NE(error.fault().message.find("the name of the whole mechanism"), std::string::npos) << error.what();
+    EXPECT_NE(error.fault().message.find("the power of the whole mechanism"), std::string::npos) << error.what();
   }
 }
 

@@ -20,7 +20,7 @@ std::size_t read_count(const YamlValue& coefficients) {
   return static_cast<std::size_t>(count.integer());
 }
 
-/// One number for all coefficients, or a list with one for each.
+/// The start of each coefficient: `initial` is one number for all or a list with one for each; 0 if it is missing.
 std::vector<double> read_starts(const YamlValue& coefficients, std::size_t count) {
   const auto initial = coefficients.find("initial");
   if (!initial) return std::vector<double>(count, 0.0);
@@ -46,7 +46,8 @@ void declare(const std::string& controller, const YamlValue& coefficients, Study
     parameter.value = starts[k];
     parameter.where = coefficients.where();
     const std::string fault = identifier_fault(parameter.name);
-    if (!fault.empty()) coefficients.fail("the controller's name makes no parameter name: " + fault, "a name that is an identifier");
+    if (!fault.empty())
+      coefficients.fail("the controller's name cannot be part of a parameter's name: " + fault, "a name that is an identifier");
     if (!taken.insert(parameter.name).second)
       coefficients.fail("there is a parameter \"" + parameter.name + "\" already", "another name for the controller");
     read_bounds(coefficients, &parameter);
@@ -79,7 +80,7 @@ BasisDescription read_basis(const std::string& controller, const YamlValue& valu
   if (duration && !(basis.duration > 0.0)) duration->fail("the duration must be positive", "more than 0 s");
   const YamlValue coefficients = value.at("coefficients");
   if (coefficients.is_map()) {
-    // They stand one behind the other.
+    // The coefficients of a controller have consecutive indices.
     const ExpressionScope scope = scope_of(study.parameters);
     const auto first = static_cast<std::size_t>(scope.find(coefficient_name(controller, 0)));
     for (std::size_t k = 0; k < read_count(coefficients); ++k) {

@@ -9,11 +9,12 @@
 
 namespace codesign {
 
-/// Declares the parameters that basis controllers ask for by `coefficients: {count, initial, lower, upper, tune}`: of a controller `push`
-/// they are push_c0, push_c1, ..., behind all others.
+/// Appends the parameters that basis controllers declare by `coefficients: {count, initial, lower, upper, tune}` to Study::parameters. For
+/// a controller `push` they are push_c0, push_c1, ... @throws InputError
 void declare_coefficients(const YamlValue& study_value, Study* study);
 
-/// Reads the keys of one basis controller; needs Study::duration and the parameters that declare_coefficients() made.
+/// Reads the keys of one basis controller, after declare_coefficients(). @param study its duration and parameters are used.
+/// @throws InputError
 BasisDescription read_basis(const std::string& controller, const YamlValue& value, const Study& study);
 
 }  // namespace codesign

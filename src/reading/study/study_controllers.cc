@@ -12,7 +12,7 @@
 namespace codesign {
 namespace {
 
-/// What reading one controller needs to know.
+/// What the readers of one controller use.
 struct Context {
   const RobotDescription& robot;
   const TrajectoryLoader& loader;
@@ -30,15 +30,15 @@ void read_gains(const YamlValue& gains, const std::vector<std::string>& known, c
   if (const auto d = gains.find("d")) controller->d = read_quantity(*d, parameters);
 }
 
-/// A signal could not tell a controller from a joint or link of the same name.
+/// A controller must not have the name of a joint or link, since signals would be ambiguous.
 void refuse_taken_name(const std::string& name, const YamlValue& value, const RobotDescription& robot) {
   const auto taken = [&name](const auto& item) { return item.name == name; };
   const bool joint = std::any_of(robot.joints.begin(), robot.joints.end(), taken);
   const bool link = std::any_of(robot.links.begin(), robot.links.end(), taken);
-  if (joint || link) throw InputError({value.where(), value.path(), "a joint or link has this name", name, "a name of its own"});
+  if (joint || link) throw InputError({value.where(), value.path(), "a joint or link has the same name", name, "another name"});
 }
 
-// Controllers written earlier may be read, so a cascade works and a circle cannot arise.
+// A signal may use the controllers before this one, which allows cascades and excludes cycles.
 SignalDescription read_signal(const YamlValue& value, const Context& context) {
   SignalDescription signal = parse_signal(value.text(), value.where(), value.path());
   check_signal(signal, context.robot, context.study.controllers, value.path());
@@ -57,7 +57,7 @@ void read_pid(const YamlValue& value, const Context& context, ControllerDescript
   read_gains(value.at("gains"), {"p", "i", "d"}, context.study.parameters, controller);
 }
 
-/// Laws that know the model, of the joint that they drive.
+/// Gravity compensation and computed torque; their input is the position of the joint that they drive.
 void read_model_based(const YamlValue& value, const Context& context, ControllerDescription* controller) {
   value.require_keys({"type", "setpoint", "output", "gains"}, {});
   controller->input = own_position(*controller);

@@ -8,7 +8,8 @@
 
 namespace codesign {
 
-/// Reads `controllers:`; needs Study::duration and Study::parameters, the coefficients of basis controllers among them.
+/// Reads `controllers:`. Study::duration and Study::parameters, with the coefficients of basis controllers, must have been read.
+/// @throws InputError
 void read_controllers(const YamlValue& study_value, const RobotDescription& robot, const TrajectoryLoader& loader, Study* study);
 
 }  // namespace codesign

@@ -25,15 +25,14 @@ const Names& pose_keys() {
 
 bool has_pose(const JointDescription& joint) { return joint.type == JointType::kPlanar || joint.type == JointType::kFloating; }
 
-/// The joint of the tree, or the loop, whose start is given.
+/// The joint or loop of this name, whose initial state may be given.
 const JointDescription& starting_joint(const std::string& name, const RobotDescription& robot, const YamlValue& value) {
   Names known;
   for (const JointDescription& joint : robot.joints) {
     const bool free = !joint.is_loop && has_pose(joint);
     if (joint.name == name && (free || has_scalar_position(joint))) return joint;
     if (joint.name == name)
-      value.fail("this joint has neither a coordinate nor a pose of its own",
-                 "a revolute, continuous, prismatic, planar or floating joint");
+      value.fail("this joint has neither a single coordinate nor a pose", "a revolute, continuous, prismatic, planar or floating joint");
     if (free || has_scalar_position(joint)) known.push_back(joint.name);
   }
   throw unknown_name(value.where(), value.path(), "joint", name, known);
@@ -47,12 +46,13 @@ void read_scalar_start(const YamlValue& value, const Study& study, InitialJointS
   if (guess) state->guess = guess->number();
 }
 
-/// A vector in a planar joint's plane, as far as its numbers at the start tell.
+/// Checks that a vector lies in the plane of a planar joint, at the parameters' start values.
 void check_in_plane(const YamlValue& value, const QuantityVector& vector, const JointDescription& joint) {
   const auto nominal = [](const QuantityVector& q) { return Vector3<double>(q[0].nominal(), q[1].nominal(), q[2].nominal()); };
   const Vector3<double> x = nominal(vector), normal = nominal(joint.axis).normalized();
   if (std::abs(x.dot(normal)) > 1e-9 * (1.0 + x.norm()))
-    value.fail("the vector leads out of the plane of the joint by " + to_decimal(x.dot(normal)), "a vector normal to the joint's <axis>");
+    value.fail("the vector does not lie in the plane of the joint; its component along the normal is " + to_decimal(x.dot(normal)),
+               "a vector normal to the joint's <axis>");
 }
 
 void read_pose_start(const YamlValue& value, const JointDescription& joint, const Study& study, InitialJointState* state) {
@@ -66,14 +66,14 @@ void read_pose_start(const YamlValue& value, const JointDescription& joint, cons
   const auto turn = [&](const char* key, std::optional<QuantityVector>* result) {
     const auto found = value.find(key);
     if (!found) return;
-    if (planar && found->is_list()) found->fail("a planar joint turns about its normal alone", "one number");
+    if (planar && found->is_list()) found->fail("a planar joint turns only about its normal", "one number");
     *result = planar ? QuantityVector{0.0, 0.0, read_quantity(*found, study.parameters)} : read_vector(*found, study.parameters);
   };
   slide("translation", &state->translation);
   slide("linear_velocity", &state->linear_velocity);
   turn("rotation", &state->rotation);
   turn("angular_velocity", &state->angular_velocity);
-  // Angular velocities are measured where the rotation is known.
+  // An angular velocity needs a known rotation: zero if it is not given.
   if (state->angular_velocity && !state->rotation) state->rotation.emplace();
 }
 
@@ -85,7 +85,7 @@ InitialJointState read_joint_start(const std::string& name, const YamlValue& val
     for (const auto& [key, at] : value.entries())
       if (std::find(others.begin(), others.end(), key) != others.end()) at.fail("this joint's start has no " + key, list_names(keys));
   value.require_keys({}, keys);
-  if (value.entries().empty()) value.fail("nothing is said of this joint", list_names(keys));
+  if (value.entries().empty()) value.fail("no initial state is given for this joint", list_names(keys));
   InitialJointState state;
   state.joint = joint.name;
   state.where = value.where();

@@ -8,7 +8,7 @@
 
 namespace codesign {
 
-/// Reads `initial_state`; the parameters must have been read. @throws InputError
+/// Reads `initial_state:`. Study::parameters must have been read. @throws InputError
 void read_initial_state(const YamlValue& study_value, const RobotDescription& robot, Study* study);
 
 }  // namespace codesign

@@ -22,7 +22,7 @@ void read_wrench(const YamlValue& value, const RobotDescription& robot, const St
   load->link = link.choice("link", known);
   const auto force = value.find("force"), torque = value.find("torque"), point = value.find("point"), frame = value.find("frame");
   if (!force && !torque) value.fail("a load on a link needs a force or a torque", "force: [x, y, z], torque: [x, y, z]");
-  if (point && !force) point->fail("a point says where a force acts, and there is none", "force: [x, y, z]");
+  if (point && !force) point->fail("a point without a force has no meaning: it is where the force acts", "force: [x, y, z]");
   if (force) load->force = read_vector(*force, study.parameters);
   if (torque) load->torque = read_vector(*torque, study.parameters);
   if (point) load->point = read_vector(*point, study.parameters);
@@ -37,7 +37,7 @@ void read_loads(const YamlValue& study_value, const RobotDescription& robot, Stu
   for (const YamlValue& value : loads->items()) {
     LoadDescription load;
     load.where = value.where();
-    if (!value.is_map()) value.fail("a load is a mapping", "{joint: NAME, effort: Q} or {link: NAME, force: [x, y, z]}");
+    if (!value.is_map()) value.fail("a load must be a map", "{joint: NAME, effort: Q} or {link: NAME, force: [x, y, z]}");
     const bool on_joint = value.find("joint").has_value(), on_link = value.find("link").has_value();
     if (on_joint == on_link)
       value.fail("a load acts on one joint or on one link", "{joint: NAME, effort: Q} or {link: NAME, force: [x, y, z]}");

@@ -8,7 +8,7 @@
 
 namespace codesign {
 
-/// Reads `loads`, the constant efforts and wrenches; the parameters must have been read. @throws InputError
+/// Reads `loads:`, the constant efforts and wrenches. Study::parameters must have been read. @throws InputError
 void read_loads(const YamlValue& study_value, const RobotDescription& robot, Study* study);
 
 }  // namespace codesign

@@ -8,7 +8,7 @@
 
 namespace codesign {
 
-/// Reads `objective:`, which may be left out or empty; needs Study::parameters and Study::controllers.
+/// Reads `objective:`, which may be missing or empty. Study::parameters and Study::controllers must have been read. @throws InputError
 void read_objective(const YamlValue& study_value, const RobotDescription& robot, const TrajectoryLoader& loader, Study* study);
 
 }  // namespace codesign

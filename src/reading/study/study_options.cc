@@ -8,8 +8,8 @@
 namespace codesign {
 namespace {
 
-// Below these a tolerance asks for more than double precision holds: a relative error test cannot see under some hundred roundings
-// of 1.1e-16, an absolute one not under a rounding of a position of 1 m, an objective not under a few roundings of its own.
+// Smallest tolerances that double precision (rounding 1.1e-16) can meet: a relative error test needs some hundred roundings, an absolute
+// one the rounding of a position of 1 m, the objective a few roundings of its own.
 constexpr double kLeastRelative = 1e-13, kLeastAbsolute = 1e-16, kLeastOfObjective = 1e-15;
 
 void read_tolerance(const YamlValue& parent, const std::string& key, double least, double* tolerance) {
@@ -44,7 +44,7 @@ void read_positive(const YamlValue& parent, const std::string& key, bool zero_al
   if (*number < 0.0 || (*number == 0.0 && !zero_allowed)) value->fail(key + " out of range", zero_allowed ? "0 or more" : "more than 0");
 }
 
-/// Replaces `*option` by the enumerator whose name is found at `key`; `names` are in the order of the enumerators.
+/// Sets `*option` to the enumerator named at `key`, if the key exists. @param names in the order of the enumerators.
 template <class Enumeration, std::size_t N>
 void read_choice(const YamlValue& parent, const std::string& key, const std::array<const char*, N>& names, Enumeration* option) {
   const auto value = parent.find(key);
@@ -53,16 +53,17 @@ void read_choice(const YamlValue& parent, const std::string& key, const std::arr
   *option = static_cast<Enumeration>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-/// The adjoint follows steps that were taken without it.
+/// Reads `gradient:`. The adjoint exists for the steps of the Rosenbrock integrator only, and cannot take part in their error test.
 void read_gradient(const YamlValue& solver, SolverOptions* options) {
   const auto value = solver.find("gradient");
   if (!value) return;
   read_choice(solver, "gradient", kGradientMethodNames, &options->gradient);
   if (options->gradient != GradientMethod::kAdjoint) return;
   if (options->integrator != IntegratorKind::kRosenbrock)
-    value->fail("there is an adjoint of the Rosenbrock steps alone", "auto or direct with idas");
+    value->fail("the adjoint exists for the integrator rosenbrock only", "auto or direct with idas");
   if (options->sensitivity_tolerance > 0.0)
-    value->fail("the adjoint has no sensitivities that could take part in the error test", "auto or direct with sensitivity_tolerance");
+    value->fail("the adjoint computes no sensitivities, which sensitivity_tolerance needs for the error test",
+                "auto or direct with sensitivity_tolerance");
 }
 
 }  // namespace

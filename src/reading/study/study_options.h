@@ -7,6 +7,8 @@
 
 namespace codesign {
 
+// All throw InputError for unknown keys and values out of range.
+
 /// Reads the map `limits:`.
 LimitOptions read_limit_options(const YamlValue& limits);
 

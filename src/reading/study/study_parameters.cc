@@ -14,10 +14,11 @@ namespace {
 
 std::string range_of(const Parameter& parameter) { return "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"; }
 
-/// A name the model does not know is a new parameter only if the study says where it starts; else it is most likely a slip.
+/// A name that the model does not have is a new parameter only if the study gives `initial`; otherwise it is most likely misspelt.
 Parameter new_parameter(const std::string& name, const YamlValue& value, const std::vector<Parameter>& model) {
   const std::string fault = identifier_fault(name);
-  if (!fault.empty()) throw InputError({value.where(), value.path(), fault, name, "an identifier that is no function's name"});
+  if (!fault.empty())
+    throw InputError({value.where(), value.path(), fault, name, "an identifier that is not the name of a function or constant"});
   if (value.find("initial")) return {name, 0.0, Parameter().lower, Parameter().upper, "", value.where()};
   const std::string hint = did_you_mean(nearest_name(name, names_of(model)));
   throw InputError({value.where(), value.path() + ".initial", "required key is missing: the model has no such parameter" + hint, "", ""});

@@ -8,14 +8,15 @@
 
 namespace codesign {
 
-/// Reads `parameters:` into Study::parameters (the model's, then the study's own) and Study::tuned (in the order written).
-/// Start and bounds default to the model's; a parameter of the study alone needs `initial`.
+/// Reads `parameters:` into Study::parameters (the model's, then the study's own) and Study::tuned (in the order written). Start and bounds
+/// default to the model's; a parameter that the model does not have needs `initial`. @throws InputError
 void read_parameters(const YamlValue& study_value, const RobotDescription& robot, Study* study);
 
-/// Replaces a parameter's bounds by `lower` and `upper` of a map, where given, and checks that its value lies within them.
+/// Sets a parameter's bounds to `lower` and `upper` of a map, where given.
+/// @throws InputError if lower is not below upper, or the parameter's value is not within them.
 void read_bounds(const YamlValue& value, Parameter* parameter);
 
-/// Reads the list `constraints:`; needs Study::parameters.
+/// Reads the list `constraints:`. Study::parameters must have been read. @throws InputError
 void read_constraints(const YamlValue& study_value, Study* study);
 
 }  // namespace codesign

@@ -8,9 +8,9 @@
 
 namespace codesign {
 
-/// Reads a study (YAML) strictly: an unknown, missing or repeated key is an error that names its path.
-/// The robot supplies parameter defaults and the names that may be referred to.
-/// @param loader reads trajectories that the study names in a bag; without one they are refused.
+/// Reads a study in YAML; doc/study.md. Unknown, missing or repeated keys are errors.
+/// @param robot supplies the default parameters and the names that the study may refer to.
+/// @param loader reads trajectories from bags; without it a study that names one is rejected.
 /// @throws InputError naming file, line, path, value and allowed range.
 Study read_study(const SourceText& yaml, const RobotDescription& robot, const TrajectoryLoader& loader = {});
 

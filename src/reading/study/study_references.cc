@@ -46,11 +46,13 @@ std::vector<Quantity> read_list(const YamlValue& value, const std::string& key, 
   return list;
 }
 
-/// What the interpolation does not look at must not be given.
+/// Velocities or accelerations that the interpolation does not use are an error.
 void refuse_unused(const YamlValue& value, Interpolation interpolation) {
   const auto velocities = value.find("velocities"), accelerations = value.find("accelerations");
-  if (velocities && interpolation == Interpolation::kLinear) velocities->fail("linear pieces have no use for velocities", "quintic, cubic");
-  if (accelerations && interpolation != Interpolation::kQuintic) accelerations->fail("only quintic pieces have accelerations", "quintic");
+  if (velocities && interpolation == Interpolation::kLinear)
+    velocities->fail("linear interpolation does not use velocities", "quintic, cubic");
+  if (accelerations && interpolation != Interpolation::kQuintic)
+    accelerations->fail("only quintic interpolation uses accelerations", "quintic");
 }
 
 ReferenceDescription read_waypoints(const YamlValue& value, const std::vector<Parameter>& parameters) {

@@ -10,7 +10,8 @@
 
 namespace codesign {
 
-/// A quantity, or a map whose `type` is sine, waypoints or trajectory.
+/// Reads a function of time: a quantity, or a map whose `type` is sine, waypoints or trajectory.
+/// @param loader for trajectories; may be empty. @throws InputError
 ReferenceDescription read_reference(const YamlValue& value, const std::vector<Parameter>& parameters, const TrajectoryLoader& loader);
 
 }  // namespace codesign

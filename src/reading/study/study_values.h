@@ -13,17 +13,16 @@ namespace codesign {
 
 std::vector<std::string> names_of(const std::vector<Parameter>& parameters);
 
-/// For expressions; it must not outlive `parameters`.
+/// The names, for parsing expressions. `parameters` must outlive the scope.
 ExpressionScope scope_of(const std::vector<Parameter>& parameters);
 
-/// A number, or `${expression}` of all named parameters, finite at their start.
+/// A number, or `${expression}` of all named parameters. @throws InputError if it is invalid or not finite at the parameters' start.
 Quantity read_quantity(const YamlValue& value, const std::vector<Parameter>& parameters);
 
-/// Three of them.
+/// A list of three quantities. @throws InputError
 QuantityVector read_vector(const YamlValue& value, const std::vector<Parameter>& parameters);
 
-/// The joint or loop called `name`, which must have one coordinate.
-/// @param at the place to report.
+/// The joint or loop named `name`. @throws InputError, located at `at`, if there is none or it does not have exactly one coordinate.
 const JointDescription& scalar_joint(const std::string& name, const RobotDescription& robot, const YamlValue& at);
 
 }  // namespace codesign

@@ -21,7 +21,7 @@
 namespace codesign {
 namespace {
 
-/// Every twin of the file, also where nothing of it is simulated (visuals): the tuned file will show its value.
+/// Checks every twin, also those of visuals, which are not simulated: write_tuned_urdf() writes their values.
 void check_twins(const XmlElement& element, const std::string& path, const ParameterTable& table) {
   const ElementRule* rule = find_rule(path);
   if (rule != nullptr) {
@@ -66,7 +66,7 @@ SpringDamperDescription read_spring_damper(const XmlElement& element, const Read
   return spring;
 }
 
-/// In an overlay everything is meant for us: what stands beside its <robot> is lost by mistake.
+/// Text or elements beside the `<robot>` of an overlay are an error, since they would be lost.
 XmlDocument load_overlay(SourceText source) {
   Warnings beside = cut_trailing_text(&source);
   XmlDocument overlay(source);
@@ -78,7 +78,7 @@ XmlDocument load_overlay(SourceText source) {
   return overlay;
 }
 
-/// In the order of the lines; the model's file before overlays.
+/// Sorts by file, the model's before overlays, and by line.
 void sort_by_place(const std::string& file, Warnings* warnings) {
   std::stable_sort(warnings->begin(), warnings->end(), [&file](const Warning& a, const Warning& b) {
     const bool a_first = a.where.file == file, b_first = b.where.file == file;

@@ -9,10 +9,10 @@
 
 namespace codesign {
 
-/// The URDF with its overlays merged in and its annotations known to be ours. @throws InputError
+/// Parses the URDF, merges the overlays and checks all element and attribute names. @throws InputError
 XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays);
 
-/// @throws InputError
+/// The mechanism that the document describes, with the document's warnings and those of reading it. @throws InputError
 RobotDescription read_robot(const XmlDocument& document);
 
 }  // namespace codesign

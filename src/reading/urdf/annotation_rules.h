@@ -7,23 +7,23 @@
 
 namespace codesign {
 
-/// What may stand in one kind of element, as doc/annotations.md tells users.
+/// The attributes and children that one kind of element may have; doc/annotations.md describes them for users.
 struct ElementRule {
-  std::string path;                   ///< tags from `robot` down
-  bool strict = false;                ///< nothing may stand here but what this rule lists; else only prefixed names are looked at
-  std::vector<std::string> plain;     ///< attributes without a twin
-  std::vector<std::string> twins;     ///< attributes that may have a twin
-  std::vector<std::string> own;       ///< our attributes that are no twins, without the prefix
-  std::vector<std::string> children;  ///< strict: all; else the prefixed ones
+  std::string path;                   ///< tags from `robot` down, separated by slashes
+  bool strict = false;                ///< only the listed names are allowed; else only names with the prefix `codesign:` are checked
+  std::vector<std::string> plain;     ///< attributes that cannot depend on parameters
+  std::vector<std::string> twins;     ///< attributes that may have a twin `codesign:...` with an expression
+  std::vector<std::string> own;       ///< attributes with the prefix that are not twins; listed without the prefix
+  std::vector<std::string> children;  ///< all allowed children if strict, else those with the prefix
 };
 
-/// The rule of a path such as `robot/joint/origin`; null for elements of others.
+/// The rule for a path such as `robot/joint/origin`; null if elements of this path have no annotations.
 const ElementRule* find_rule(const std::string& path);
 
-/// Every prefixed element name there is.
+/// The names of all elements with the prefix `codesign:`.
 std::vector<std::string> annotation_elements();
 
-/// The elements that an annotation may stand in: `<joint>`, `<loop>`.
+/// The elements that an annotation may be a child of, for example `<joint>`, `<loop>`.
 std::vector<std::string> places_of(const std::string& annotation);
 
 }  // namespace codesign

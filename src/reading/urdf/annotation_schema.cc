@@ -28,11 +28,11 @@ void check_prefixed_attribute(const XmlElement& element, const std::string& attr
   const Names known = prefixed_attributes(rule);
   const std::string plain = attribute.substr(sizeof(kPrefix) - 1);
   if (!contains(known, attribute)) {
-    if (element.has(plain) && known.empty()) element.fail_at(attribute, plain + " cannot depend on parameters: it takes no twin");
+    if (element.has(plain) && known.empty()) element.fail_at(attribute, plain + " cannot depend on parameters: it cannot have a twin");
     throw unknown_name(element.where(attribute), element.label(), "or misplaced attribute " + attribute, attribute, known);
   }
   if (rule != nullptr && contains(rule->twins, plain) && !element.has(plain))
-    element.fail_at(attribute, "the twin " + attribute + " lacks its plain attribute " + plain + ", which readers of plain URDF need");
+    element.fail_at(attribute, "the twin " + attribute + " lacks its plain attribute " + plain + ", which other readers of URDF need");
 }
 
 void check_attributes(const XmlElement& element, const ElementRule* rule) {

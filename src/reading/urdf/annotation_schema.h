@@ -6,11 +6,13 @@
 
 namespace codesign {
 
-/// Refuses prefixed names in a file whose `<robot>` does not declare `xmlns:codesign`. Made before overlays are merged.
+/// Checks that `<robot>` declares `xmlns:codesign` if the file has names with that prefix. Called for each file before they are merged.
+/// @throws InputError
 void check_namespace(const XmlDocument& document);
 
-/// Refuses every `codesign:` element or attribute that is unknown or misplaced, twins without their plain attribute, and
-/// anything unknown inside `<loop>`, `<coupling>` and our own elements. Elements and attributes of others are passed over.
+/// Checks the `codesign:` elements and attributes: names, places, and that each twin has its plain attribute. Inside `<loop>`, `<coupling>`
+/// and our own elements unknown names are errors too; other elements and attributes are ignored.
+/// @throws InputError with the nearest name or the allowed places
 void check_annotations(const XmlDocument& document);
 
 }  // namespace codesign

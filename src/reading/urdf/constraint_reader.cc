@@ -17,7 +17,7 @@ bool is_taken(const RobotDescription& robot, const std::string& name) {
   return std::any_of(robot.joints.begin(), robot.joints.end(), same) || std::any_of(robot.couplings.begin(), robot.couplings.end(), same);
 }
 
-/// The constraint's name; where it has none, or that of a joint, one of its own.
+/// The constraint's name. If it has none or the name is taken, a number is appended to it or to `constraint`.
 std::string name_of(const XmlElement& element, const RobotDescription& robot) {
   const std::string wanted = element.find("name").value_or("");
   const std::string base = wanted.empty() ? "constraint" : wanted;
@@ -38,7 +38,7 @@ JointDescription read_position(const XmlElement& element, const ReadContext& con
   return loop;
 }
 
-/// Distance of the contact point of one end from the axis of the joint above its link.
+/// Distance [m] of the contact point of one end from the axis of the joint above its link; 0 if there is no such joint.
 double radius_of(const XmlElement& end, int link, const RobotDescription& robot, const ParameterTable& table) {
   const Vector3<double> point = vector_at(read_origin(end, table).xyz, table.values);
   for (const JointDescription& joint : robot.joints)
@@ -76,8 +76,7 @@ void read_constraints(const XmlElement& robot, const ReadContext& context, Robot
       } else if (type == "rolling") {
         description->couplings.push_back(read_rolling(element, context, *description));
       } else {
-        context.warnings->push_back(
-            element.warning("loop_ignored", "a <constraint> of a type that is not known here is ignored", type, kRemedy));
+        context.warnings->push_back(element.warning("loop_ignored", "a <constraint> of an unknown type is ignored", type, kRemedy));
       }
     } catch (const InputError& error) {
       InputFault fault = error.fault();

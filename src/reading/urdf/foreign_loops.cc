@@ -11,11 +11,11 @@
 namespace codesign {
 namespace {
 
-/// One end of a loop, as far as the file says where it is.
+/// One end of a loop, with the values that the file gives.
 struct End {
   std::string link = "...";
   std::string xyz, rpy;
-  bool placed = false;  ///< xyz and rpy are what the file says, be it nothing at all
+  bool placed = false;  ///< the file gives the position; empty xyz and rpy then mean zero
 };
 
 struct Suggestion {
@@ -46,7 +46,7 @@ std::string mimic_text(const std::string& joint, const std::string& other, const
          attribute("offset", offset) + "/></joint>";
 }
 
-/// Other tools' names of joint types, as types of <loop>.
+/// The type of `<loop>` for another tool's joint type; `...` if there is none.
 std::string loop_type(const std::string& type) {
   static const std::map<std::string, std::string> kTypes = {{"ball", "codesign:spherical"},
                                                             {"spherical", "codesign:spherical"},
@@ -70,7 +70,7 @@ std::string trimmed(const char* text) {
   return joined;
 }
 
-/// The text inside a child such as SDF's <parent>arm</parent>.
+/// The text of a child, such as SDF's <parent>arm</parent>; empty if there is none.
 std::string child_text(const XmlElement& element, const std::string& tag) {
   const std::optional<XmlElement> child = element.child(tag);
   return child ? trimmed(child->node()->GetText()) : "";
@@ -99,11 +99,11 @@ class Finder {
 
  private:
   void report(const XmlElement& element, const std::string& remedy) {
-    warnings_->push_back(element.warning("loop_ignored", "this ties links or joints together in other tools and is ignored here",
+    warnings_->push_back(element.warning("loop_ignored", "this element connects links or couples joints in other tools and is ignored here",
                                          "<" + element.tag() + ">", "write, in an overlay, " + remedy + ", or remove the element"));
   }
 
-  // Gazebo knows no <mimic>; plugins couple joints there, as a rule what URDF's <mimic> says too.
+  // Gazebo does not read <mimic> and couples joints by plugins. Usually the file has the same <mimic> too; then there is no warning.
   void report_mimic_plugin(const XmlElement& plugin) {
     const std::string follower = child_text(plugin, "mimicJoint"), leader = child_text(plugin, "joint");
     if (follower.empty() || leader.empty()) return;
@@ -128,7 +128,7 @@ class Finder {
     return s;
   }
 
-  // SDF: the joint frame stands in the child link's.
+  // In SDF the pose of a joint is given in the child link's frame.
   Suggestion of_gazebo(const XmlElement& element) const {
     Suggestion s{element.find("name").value_or(""), loop_type(element.find("type").value_or("")), {}, {}, ""};
     const std::string parent = child_text(element, "parent"), child = child_text(element, "child");
@@ -156,7 +156,7 @@ class Finder {
     return s;
   }
 
-  // <drake:ball_constraint_body_A name/>, <drake:ball_constraint_p_AP value/> and their like.
+  // Its children are <drake:ball_constraint_body_A name/>, <drake:ball_constraint_p_AP value/> and similar ones.
   Suggestion of_drake_constraint(const XmlElement& element) const {
     Suggestion s{"", "codesign:spherical", {}, {}, ""};
     if (element.tag() == "drake:weld_constraint") s.type = "fixed";
@@ -204,7 +204,7 @@ class Finder {
     end->rpy = rpy.norm() > 1e-9 ? text(rpy) : "";
   }
 
-  /// Where link `b` stands in link `a` with all joints at zero.
+  /// The pose of link `b` in link `a` with all joints at zero; std::nullopt if a link is unknown.
   std::optional<Pose<double>> relative_at_zero(const std::string& a, const std::string& b) const {
     const auto X_Wa = at_zero(a), X_Wb = at_zero(b);
     if (!X_Wa || !X_Wb) return std::nullopt;

@@ -6,13 +6,15 @@
 
 namespace codesign {
 
-/// `<constraint>` of mit-biomimetics/URDF-Parser: `type="position"` makes two points coincide, a spherical loop; `type="rolling"` is a
-/// coupling, its ratio written, or that of the points' distances from the axes. One that cannot be read is a warning.
+/// Reads the `<constraint>` elements of mit-biomimetics/URDF-Parser. `type="position"`, where two points coincide, becomes a spherical
+/// loop; `type="rolling"` becomes a coupling with the ratio given or the ratio of the points' distances from the joint axes. A constraint
+/// that cannot be read is ignored with a warning (`loop_ignored`).
 void read_constraints(const XmlElement& robot, const ReadContext& context, RobotDescription* description);
 
-/// Warns of what closes loops or couples joints in other tools and is not read: `<loop_joint>`, `<gazebo><joint>`, `drake:*_constraint`,
-/// `drake:joint`, `drake:linear_bushing_rpy`, MuJoCo's `<equality>`. Each warning shows the element to write, as far as the file says it.
-/// @param description with its links and joints.
+/// Warns (`loop_ignored`) of elements that close loops or couple joints in other tools and are not read here: `<loop_joint>`,
+/// `<gazebo><joint>` and mimic plugins, `drake:*_constraint`, `drake:joint`, `drake:linear_bushing_rpy`, MuJoCo's `<equality>`. Each
+/// warning shows the element to write instead, with `...` for what the file does not say.
+/// @param description must already contain the links and joints.
 void warn_of_foreign_loops(const XmlElement& robot, const RobotDescription& description, Warnings* warnings);
 
 }  // namespace codesign

@@ -19,7 +19,7 @@ FrictionModel read_model(const XmlElement& element) {
   throw unknown_name(element.where("model"), element.label(), "friction model", name, {"brown_mcphee", "gonthier", "lugre"});
 }
 
-/// Attributes that only some models have, so that one which would do nothing is not passed over.
+/// Attributes that the model does not use are an error, since they would have no effect.
 void check_model_attributes(const XmlElement& element, FrictionModel model) {
   const auto refuse = [&](const char* attribute, const char* models) {
     if (element.has(attribute)) element.fail_at(attribute, std::string(attribute) + " has no meaning for this friction model", models);
@@ -34,7 +34,8 @@ std::array<double, 3> read_transverse_axis(const XmlElement& element, const Quan
   const std::array<double, 3> result = {given[0].nominal(), given[1].nominal(), given[2].nominal()};
   const Vector3<double> x(result[0], result[1], result[2]), z(axis[0].nominal(), axis[1].nominal(), axis[2].nominal());
   if (x.cross(z).norm() <= 1e-6 * x.norm() * z.norm())
-    element.fail_at("transverse_axis", "the transverse axis has no direction across the joint axis", "a vector not along the joint axis");
+    element.fail_at("transverse_axis", "the transverse axis is zero or parallel to the joint axis",
+                    "a vector that is not parallel to the joint axis");
   return result;
 }
 

@@ -7,7 +7,7 @@
 
 namespace codesign {
 
-/// One `<codesign:friction>`; `axis` is the joint's, from which the transverse axis must differ. @throws InputError
+/// Reads one `<codesign:friction>`. @param axis of the joint; the transverse axis must not be parallel to it. @throws InputError
 FrictionDescription read_friction(const XmlElement& element, const QuantityVector& axis, const ParameterTable& table);
 
 }  // namespace codesign

@@ -9,11 +9,11 @@
 
 namespace codesign {
 
-/// The values written must be those of the shapes, to relative 1e-6.
+/// Checks that the written values agree with those of the shapes to 1e-6 (relative). @throws InputError
 void check_agreement(const XmlElement& element, const InertialDescription& written, const InertialDescription& from_shapes,
                      const ParameterTable& table);
 
-/// Fails with the computed values as XML, to be pasted.
+/// Throws InputError; its allowed value is the computed inertial as XML, ready to be pasted.
 [[noreturn]] void fail_with_computed(const XmlElement& element, const InertialDescription& from_shapes, const ParameterTable& table,
                                      const std::string& message);
 

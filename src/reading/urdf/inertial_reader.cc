@@ -32,7 +32,7 @@ InertialDescription read_from_shapes(const XmlElement& link, const XmlElement& i
   InertialDescription result;
   result.where = inertial.where();
   const std::string from = inertial.find("codesign:from").value_or("visual");
-  if (from != "visual" && from != "collision") inertial.fail_at("codesign:from", "no such shapes", "visual or collision");
+  if (from != "visual" && from != "collision") inertial.fail_at("codesign:from", "unknown kind of shapes", "visual or collision");
   result.density = parse_quantities(inertial, "codesign:density", 1, table).front();
   if (result.density->nominal() <= 0.0) inertial.fail_at("codesign:density", "the density is not positive", "> 0");
   result.shapes = read_solids(link, from, table);
@@ -45,14 +45,15 @@ std::optional<InertialDescription> read_inertial(const XmlElement& link, const P
   const std::optional<XmlElement> inertial = link.child("inertial");
   if (!inertial) return std::nullopt;
   if (!inertial->has("codesign:density")) {
-    if (inertial->has("codesign:from")) inertial->fail_at("codesign:from", "shapes without codesign:density have no mass");
+    if (inertial->has("codesign:from"))
+      inertial->fail_at("codesign:from", "without codesign:density no mass can be computed from shapes; add it, or remove codesign:from");
     InertialDescription result = read_numbers(*inertial, table);
     if (is_massless(result)) return std::nullopt;
     return result;
   }
   InertialDescription result = read_from_shapes(link, *inertial, table);
   if (!inertial->child("mass") || !inertial->child("inertia"))
-    fail_with_computed(*inertial, result, table, "readers of plain URDF need the values");
+    fail_with_computed(*inertial, result, table, "mass or inertia is missing, which other readers of URDF need");
   check_agreement(*inertial, read_numbers(*inertial, table), result, table);
   return result;
 }

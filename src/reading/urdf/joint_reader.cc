@@ -28,7 +28,8 @@ bool has_one_coordinate(JointType type) {
   return type == JointType::kRevolute || type == JointType::kContinuous || type == JointType::kPrismatic;
 }
 
-/// A figure that must not be negative: an overlay's is refused, a vendor's is taken as zero, which URDF's exporters write for "not known".
+/// A number that must not be negative. A negative one is an error in an overlay; in a vendor's file it is taken as zero with a warning,
+/// since exporters write it for unknown values.
 Quantity read_magnitude(const XmlElement& element, const std::string& attribute, const ReadContext& context) {
   const Quantity value =
       read_quantity(element, attribute, element.in_overlay(attribute) ? Range::kNonNegative : Range::kAny, context.table);
@@ -81,7 +82,7 @@ MimicDescription read_mimic(const XmlElement& element, const ParameterTable& tab
 
 ActuatorDescription read_actuator(const XmlElement& element, JointType type, const ParameterTable& table) {
   if (!has_one_coordinate(type))
-    element.fail("a joint of this type has no coordinate that a rotor could turn with", "", "revolute, continuous or prismatic");
+    element.fail("a joint of this type has no single coordinate for a rotor", "", "revolute, continuous or prismatic");
   ActuatorDescription actuator;
   actuator.where = element.where();
   actuator.gear_ratio = read_quantity_or(1.0, element, "gear_ratio", Range::kAny, table);
@@ -110,7 +111,7 @@ void read_mimic_of_joint(const XmlElement& element, const ReadContext& context, 
       mimic->warning("mimic_ignored", message + ": the element is ignored", element.text("type"), "remove it, or write another type"));
 }
 
-/// Damping and dry friction of a joint. URDF gives them no meaning on planar and floating joints, where other readers pass over them.
+/// Damping and dry friction of a joint. On planar and floating joints URDF gives them no meaning, and they are ignored.
 void read_dynamics(const XmlElement& dynamics, const ReadContext& context, JointDescription* joint) {
   if (!dynamics.has("damping") && !dynamics.has("friction")) dynamics.fail("neither damping nor friction is given");
   joint->damping = read_magnitude_or_zero(dynamics, "damping", context);
@@ -118,7 +119,8 @@ void read_dynamics(const XmlElement& dynamics, const ReadContext& context, Joint
   const bool several = joint->type == JointType::kPlanar || joint->type == JointType::kFloating;
   if (!several || joint->is_loop || dynamics.in_overlay()) return;
   if (LimitDescription::given(joint->damping) || LimitDescription::given(joint->dry_friction))
-    context.warnings->push_back(dynamics.warning("dynamics_ignored", "a joint with several coordinates takes no damping: it moves freely",
+    context.warnings->push_back(dynamics.warning("dynamics_ignored",
+                                                 "damping and friction of a joint with several coordinates are ignored: it moves freely",
                                                  "", "remove the element"));
   joint->damping = joint->dry_friction = 0.0;
 }
@@ -127,7 +129,7 @@ void read_dynamics(const XmlElement& dynamics, const ReadContext& context, Joint
 
 void read_joint_parts(const XmlElement& element, const ReadContext& context, JointDescription* joint) {
   const ParameterTable& table = context.table;
-  const bool welded = joint->type == JointType::kFixed && !joint->is_loop;  // URDF's readers look no further
+  const bool welded = joint->type == JointType::kFixed && !joint->is_loop;  // other readers of URDF ignore the rest of a fixed joint
   const std::optional<XmlElement> axis = element.child("axis"), dynamics = element.child("dynamics");
   if (axis && !welded && (joint->type != JointType::kFloating || joint->is_loop)) joint->axis = read_axis(*axis, table);
   if (dynamics && !welded) read_dynamics(*dynamics, context, joint);
@@ -137,7 +139,7 @@ void read_joint_parts(const XmlElement& element, const ReadContext& context, Joi
   if (actuator) joint->actuator = read_actuator(*actuator, joint->type, table);
   if (!spring) return;
   if (!has_one_coordinate(joint->type))
-    spring->fail("a joint of this type has no coordinate for a spring", "", "revolute, continuous or prismatic");
+    spring->fail("a joint of this type has no single coordinate for a spring", "", "revolute, continuous or prismatic");
   joint->spring = TorsionSpringDescription{read_quantity(*spring, "stiffness", Range::kNonNegative, table),
                                            read_quantity_or(0.0, *spring, "damping", Range::kNonNegative, table),
                                            read_quantity_or(0.0, *spring, "free_position", Range::kAny, table)};

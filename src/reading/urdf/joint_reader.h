@@ -7,13 +7,13 @@
 
 namespace codesign {
 
-/// A `<joint>` of the tree. @throws InputError
+/// Reads a `<joint>` of the tree. @throws InputError
 JointDescription read_joint(const XmlElement& element, const ReadContext& context);
 
-/// A `<loop>`, of URDF+ or of ours. @throws InputError
+/// Reads a `<loop>`, of URDF+ or with one of our types. @throws InputError
 JointDescription read_loop(const XmlElement& element, const ReadContext& context);
-
-/// What joints and loops share: axis, dynamics, friction and torsion spring. `joint` has its type and links already.
+/// Reads the parts that joints and loops have in common: axis, dynamics, friction, actuator and torsion spring.
+/// @param joint its type and links must be set. @throws InputError
 void read_joint_parts(const XmlElement& element, const ReadContext& context, JointDescription* joint);
 
 }  // namespace codesign

@@ -14,7 +14,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// The first child of `parent` with the tag of `like`, and its name if it has one.
+/// The first child of `parent` with the tag of `like` and, if `like` has a name, with that name; null if there is none.
 XMLElement* find_like(XMLElement* parent, const XMLElement* like) {
   const char* name = like->Attribute("name");
   for (XMLElement* child = parent->FirstChildElement(like->Name()); child != nullptr; child = child->NextSiblingElement(like->Name())) {
@@ -48,7 +48,7 @@ std::vector<std::string> names_of(const XMLElement* robot, const char* tag) {
 
 bool is_annotation(const std::string& tag) { return tag.rfind(kPrefix, 0) == 0 || tag == "loop" || tag == "coupling"; }
 
-/// A link is new if a joint of the model or of the overlay names it; a joint if it says its type.
+/// Whether an unknown link or joint is to be added: a link if a joint of the model or the overlay names it, a joint if it has a type.
 bool is_new(const XmlElement& patch, const XmlDocument& overlay, const XmlDocument& base) {
   if (patch.tag() == "joint") return patch.has("type");
   const std::string name = patch.text("name");
@@ -61,7 +61,7 @@ bool is_new(const XmlElement& patch, const XmlDocument& overlay, const XmlDocume
   return false;
 }
 
-/// An overlay's elements by tag and name, so that one that stands there twice is not merged into itself.
+/// Merges the elements of one overlay and remembers their tags and names, so that an element that occurs twice is an error.
 class Merger {
  public:
   Merger(const XmlDocument& overlay, XmlDocument* base) : overlay_(overlay), base_(base) {}
@@ -70,7 +70,7 @@ class Merger {
     const std::string tag = patch.tag();
     const bool known = is_annotation(tag) || tag == "link" || tag == "joint";
     if (!known)
-      patch.fail("an overlay cannot hold this element", "<" + tag + ">",
+      patch.fail("an overlay cannot contain this element", "<" + tag + ">",
                  "link, joint, loop, coupling, codesign:parameter, codesign:spring_damper");
     const std::string name = patch.text("name");
     XMLElement* like = find_like(base_->robot(), patch.node());
@@ -88,7 +88,7 @@ class Merger {
   }
 
  private:
-  // What is merged by tag takes the place of its like, so that of two the first would be lost.
+  // A second attribute or annotation of the same name would replace the first one.
   void note_parts(const XmlElement& element, const std::string& path) {
     for (const std::string& attribute : element.attributes()) {
       if (attribute == "name" || seen_.insert(path + "@" + attribute).second) continue;

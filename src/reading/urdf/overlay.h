@@ -6,9 +6,9 @@
 
 namespace codesign {
 
-/// Merges an overlay into `base` by name. Loops, couplings, parameters and spring-dampers that are not there are added, so is a joint that
-/// says its type, and a link that a joint names. Inside, a `codesign:` child takes the place of its like; attributes of a plain child win
-/// over those of the first like child.
+/// Merges an overlay into `base`: its elements are merged with those of the same tag and name. New loops, couplings, parameters and
+/// spring-dampers are added, also new joints with a type and new links that a joint names. Within an element, a `codesign:` child replaces
+/// the child with the same tag and name; the attributes of a plain child replace those of the first such child.
 /// @throws InputError naming the overlay's file and line.
 void merge_overlay(const XmlDocument& overlay, XmlDocument* base);
 

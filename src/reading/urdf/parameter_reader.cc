@@ -15,7 +15,7 @@ Parameter read_parameter(const XmlElement& element) {
   parameter.where = element.where();
   parameter.name = element.text("name");
   const std::string fault = identifier_fault(parameter.name);
-  if (!fault.empty()) element.fail_at("name", fault, "an identifier that is no function's name");
+  if (!fault.empty()) element.fail_at("name", fault, "an identifier that is not the name of a function or constant");
   parameter.value = read_number(element, "value", Range::kAny);
   parameter.lower = read_number_or(parameter.lower, element, "lower", Range::kAny);
   parameter.upper = read_number_or(parameter.upper, element, "upper", Range::kAny);

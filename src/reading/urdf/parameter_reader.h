@@ -9,7 +9,7 @@
 
 namespace codesign {
 
-/// The `<codesign:parameter>` elements in file order. @throws InputError for bad or repeated names and values outside their bounds.
+/// The `<codesign:parameter>` elements in file order. @throws InputError for invalid or repeated names and for values outside their bounds.
 std::vector<Parameter> read_parameters(const XmlElement& robot);
 
 }  // namespace codesign

@@ -30,7 +30,7 @@ QuantityVector read_vector(const XmlElement& element, const std::string& attribu
 QuantityVector read_axis(const XmlElement& element, const ParameterTable& table) {
   QuantityVector axis = read_vector(element, "xyz", table);
   const double x = axis[0].nominal(), y = axis[1].nominal(), z = axis[2].nominal();
-  if (x * x + y * y + z * z < 1e-24) element.fail_at("xyz", "the axis has no direction", "a vector that is not zero");
+  if (x * x + y * y + z * z < 1e-24) element.fail_at("xyz", "the axis is zero", "a vector that is not zero");
   return axis;
 }
 

@@ -11,13 +11,13 @@
 
 namespace codesign {
 
-/// What readers of joints, loops and springs look names up in.
+/// The names that readers of joints, loops and springs refer to, and where they put warnings.
 struct ReadContext {
-  std::vector<std::string> links;
+  std::vector<std::string> links;  ///< names, in the order of RobotDescription::links
   ParameterTable table;
-  Warnings* warnings = nullptr;  ///< where readers tell of what is doubtful; never null while a robot is read
+  Warnings* warnings = nullptr;  ///< never null while a robot is read
 
-  /// Index of the link that `attribute` names. @throws InputError naming the nearest link.
+  /// Index of the link that `attribute` names. @throws InputError naming the link with the nearest name.
   int link(const XmlElement& element, const std::string& attribute) const;
   /// The links of `<predecessor link>` and `<successor link>`. @throws InputError if they are the same.
   std::pair<int, int> ends(const XmlElement& element) const;

@@ -10,7 +10,8 @@
 
 namespace codesign {
 
-/// The solids of a link's `<visual>` or `<collision>` elements. @throws InputError if there are none, or one has no volume (mesh).
+/// The solids of a link's `<visual>` or `<collision>` elements.
+/// @param tag "visual" or "collision". @throws InputError if there are none, or if one is a mesh, whose volume is not computed.
 std::vector<ShapeDescription> read_solids(const XmlElement& link, const std::string& tag, const ParameterTable& table);
 
 }  // namespace codesign

@@ -10,9 +10,9 @@
 namespace codesign {
 namespace {
 
-constexpr const char* kRemedy = "<codesign:actuator gear_ratio=\"...\"> says it without the transmission";
+constexpr const char* kRemedy = "<codesign:actuator gear_ratio=\"...\">, which makes the transmission irrelevant";
 
-/// `<type>NAME</type>`, or the attribute that PR2's files have.
+/// The type of a transmission: `<type>NAME</type>`, or the attribute `type` as in PR2's files.
 std::string type_of(const XmlElement& transmission) {
   const std::vector<XmlElement> types = transmission.children("type");
   const char* const text = types.empty() ? nullptr : types.front().node()->GetText();
@@ -24,7 +24,7 @@ bool is_simple(const XmlElement& transmission) {
          transmission.children("actuator").size() <= 1;
 }
 
-/// Where ros_control looks for a reduction first, then where other files have it.
+/// The reductions of a transmission in order of preference: of `<actuator>`, where ros_control reads it, of `<joint>`, then its own.
 std::vector<XmlElement> reductions(const XmlElement& transmission) {
   std::vector<XmlElement> found;
   for (const char* tag : {"actuator", "joint"})
@@ -48,7 +48,7 @@ class TransmissionReader {
       if (!is_simple(transmission)) {
         if (!found.empty())
           doubt("transmission_not_simple", transmission, type_of(transmission),
-                "its reduction is no gear ratio of joint \"" + joint->name + "\"");
+                "its reduction is not taken as the gear ratio of joint \"" + joint->name + "\"");
         continue;
       }
       for (const XmlElement& reduction : found) take(reduction, *joint, &ratio);
@@ -63,12 +63,12 @@ class TransmissionReader {
     const std::optional<double> number = words.size() == 1 ? parse_number(words[0]) : std::nullopt;
     if (!number || !std::isfinite(*number) || *number == 0.0) {
       doubt("transmission_not_read", reduction, text != nullptr ? text : "",
-            "the reduction is no number that a gear can have, and was left out");
+            "the reduction is not a finite number other than zero and is ignored");
     } else if (!*ratio) {
       *ratio = *number;
     } else if (**ratio != *number) {
       doubt("transmission_contradicts", reduction, text,
-            "joint \"" + joint.name + "\" has another reduction, " + to_decimal(**ratio) + ", before this one, which was left out");
+            "joint \"" + joint.name + "\" already has the reduction " + to_decimal(**ratio) + "; this one is ignored");
     }
   }
 

@@ -7,9 +7,10 @@
 
 namespace codesign {
 
-/// Gives every `<codesign:actuator>` without gear_ratio the mechanical reduction of the ROS `<transmission>` of its joint. What a
-/// transmission says that gives none is told as a warning; joints without an actuator are left alone.
-/// @param element the `<robot>`, whose joints have been read.
+/// Sets the gear ratio of every `<codesign:actuator>` without `gear_ratio` to the mechanical reduction in the ROS `<transmission>` of its
+/// joint. A reduction that cannot be used is ignored with a warning: `transmission_not_read`, `transmission_contradicts` or
+/// `transmission_not_simple`. Transmissions of joints without an actuator are not looked at.
+/// @param element the `<robot>`. @param robot its joints must have been read.
 void read_transmissions(const XmlElement& element, RobotDescription* robot);
 
 }  // namespace codesign

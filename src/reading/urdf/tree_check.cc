@@ -29,14 +29,14 @@ std::vector<const JointDescription*> joints_above(const RobotDescription& robot)
     const JointDescription*& slot = above[static_cast<std::size_t>(joint.child)];
     const std::string& link = robot.links[static_cast<std::size_t>(joint.child)].name;
     if (slot != nullptr)
-      throw InputError({joint.where, label(joint), "its child " + link + " already hangs on the joint " + slot->name, link,
+      throw InputError({joint.where, label(joint), "its child " + link + " is already the child of the joint " + slot->name, link,
                         "one joint above each link; close the ring with a <loop>"});
     slot = &joint;
   }
   return above;
 }
 
-/// The joints by which a walk from the root comes to a link first.
+/// Per joint: whether a walk from the roots reaches its child by this joint first.
 std::vector<bool> reached_first(const RobotDescription& robot, const std::vector<int>& parents) {
   std::vector<bool> reached(robot.links.size()), first(robot.joints.size(), false);
   for (std::size_t link = 0; link < parents.size(); ++link) reached[link] = parents[link] == 0;
@@ -51,7 +51,7 @@ std::vector<bool> reached_first(const RobotDescription& robot, const std::vector
   return first;
 }
 
-/// What is wrong with the joint that a joint mimics, directly or by way of others.
+/// The fault of the chain of joints that `joint` mimics, directly or through others: an unknown joint or a ring.
 std::optional<InputError> mimic_fault(const JointDescription& joint, const std::map<std::string, const JointDescription*>& targets,
                                       const std::vector<std::string>& names) {
   std::size_t steps = 0;
@@ -84,10 +84,11 @@ void close_with_second_parents(RobotDescription* robot) {
     JointDescription& joint = robot->joints[k];
     if (in_tree[k] || parents[static_cast<std::size_t>(joint.child)] < 2 || joint.where.file != robot->file) continue;
     const std::string& child = robot->links[static_cast<std::size_t>(joint.child)].name;
-    robot->warnings.push_back(warn("second_parent", {joint.where, label(joint),
-                                                     "its child hangs on another joint already, so that it is read as a loop; to silence "
-                                                     "this: write a <loop> with predecessor and successor",
-                                                     child, ""}));
+    robot->warnings.push_back(
+        warn("second_parent", {joint.where, label(joint),
+                               "its child is already the child of another joint, so this one is read as a loop; to silence "
+                               "this: write a <loop> with predecessor and successor",
+                               child, ""}));
     joint.is_loop = true;
     joint.limit.reset();
     joint.mimic.reset();
@@ -109,7 +110,7 @@ int find_root(const RobotDescription& robot) {
     std::size_t link = k, steps = 0;
     while (above[link] != nullptr && steps++ <= robot.links.size()) link = static_cast<std::size_t>(above[link]->parent);
     if (above[link] != nullptr)
-      throw InputError({above[k]->where, label(*above[k]), "the joints form a ring that hangs on nothing", robot.links[k].name,
+      throw InputError({above[k]->where, label(*above[k]), "the joints form a ring that is not connected to the root", robot.links[k].name,
                         "a tree from one root link; close rings with <loop>"});
   }
   return root;

@@ -6,21 +6,23 @@
 
 namespace codesign {
 
-/// Names must be unique (links; joints with loops; couplings; spring-dampers).
+/// Checks that names are unique: among links, among joints and loops, among couplings, among spring-dampers. @throws InputError
 void check_names(const RobotDescription& robot);
 
-/// A link that several joints name as their child hangs on the one by which the root reaches it first; in a vendor's file the others are
-/// read as loops, with a warning. Called before `<loop>` elements are added.
+/// For a link that is the child of several joints: keeps as tree joint the one by which a walk from the root reaches the link first, and in
+/// a vendor's file turns the others into loops, with a warning (`second_parent`). Called before `<loop>` elements are added.
 void close_with_second_parents(RobotDescription* robot);
 
-/// The tree's root. @throws InputError if a link hangs on two joints, no link or several could be the root, or links hang in a ring.
+/// Index of the tree's root link.
+/// @throws InputError if a link is the child of two joints, if there is no root or more than one, or if joints form a ring.
 int find_root(const RobotDescription& robot);
 
-/// `<mimic>` must name another joint with one coordinate or none, and not come back to where it started. In a vendor's file what does not
-/// is dropped with a warning. @throws InputError for an overlay's
+/// Checks that every `<mimic>` names another joint with one coordinate or none, and that joints do not mimic each other in a ring. In a
+/// vendor's file a wrong one is dropped with a warning (`mimic_ignored`). @throws InputError for one of an overlay
 void check_mimics(RobotDescription* robot);
 
-/// Friction dimensions of the joints that cannot become part of a compound joint: both links have inertia, or are the ground.
+/// Checks the friction dimensions of joints that cannot be folded with others, since both links have mass or are the ground.
+/// @throws InputError as check_friction_geometry().
 void check_friction(const RobotDescription& robot);
 
 }  // namespace codesign

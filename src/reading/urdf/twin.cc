@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-/// Words between white space, where `${...}` may hold some.
+/// Splits at white space outside `${...}`.
 std::vector<std::string> split_values(const XmlElement& element, const std::string& attribute) {
   const std::string text = element.text(attribute);
   std::vector<std::string> values;
@@ -31,7 +31,7 @@ std::vector<std::string> split_values(const XmlElement& element, const std::stri
   return values;
 }
 
-/// The inside of a `${...}` with at most a sign before it; empty if `word` is of another form.
+/// The expression inside `${...}`, `-${...}` or `+${...}`; empty if `word` has another form.
 std::string expression_inside(const std::string& word) {
   const std::size_t begin = word.find("${");
   const bool signed_only = begin == 0 || (begin == 1 && (word[0] == '-' || word[0] == '+'));
@@ -41,11 +41,11 @@ std::string expression_inside(const std::string& word) {
 
 Quantity parse_expression(const XmlElement& element, const std::string& attribute, const std::string& word, const ParameterTable& table) {
   const std::string inner = expression_inside(word);
-  if (inner.empty()) element.fail_at(attribute, "'" + word + "' is no expression", "a number, ${expression} or -${expression}");
+  if (inner.empty()) element.fail_at(attribute, "'" + word + "' is not an expression", "a number, ${expression} or -${expression}");
   const ExpressionScope scope = table.scope();
   std::shared_ptr<const Expression> expression;
   try {
-    // The inside alone first: with a sign and brackets around it, unbalanced ones could still make sense.
+    // Check the expression by itself: unbalanced brackets in it could be balanced by those that are put around it for the sign.
     expression = std::make_shared<const Expression>(inner, scope);
     if (word[0] == '-') expression = std::make_shared<const Expression>("-(" + inner + ")", scope);
   } catch (const std::invalid_argument& error) {
@@ -100,7 +100,7 @@ std::vector<Quantity> parse_quantities(const XmlElement& element, const std::str
     result.push_back(is_expression ? parse_expression(element, attribute, word, table) : parse_constant(element, attribute, word));
   }
   if (result.size() != count)
-    element.fail_at(attribute, attribute + " holds the wrong count of values (" + std::to_string(result.size()) + ")",
+    element.fail_at(attribute, attribute + " has the wrong number of values (" + std::to_string(result.size()) + ")",
                     std::to_string(count) + (count == 1 ? " value" : " values"));
   return result;
 }
@@ -108,7 +108,7 @@ std::vector<Quantity> parse_quantities(const XmlElement& element, const std::str
 std::vector<Quantity> read_quantities(const XmlElement& element, const std::string& attribute, std::size_t count,
                                       const ParameterTable& table) {
   if (element.text(attribute).find("${") != std::string::npos)
-    element.fail_at(attribute, "an expression stands in a plain attribute", "a number here, the expression in " + (kPrefix + attribute));
+    element.fail_at(attribute, "a plain attribute contains an expression", "a number here, the expression in " + (kPrefix + attribute));
   std::vector<Quantity> plain = parse_quantities(element, attribute, count, table);
   const std::string twin_name = kPrefix + attribute;
   if (!element.has(twin_name)) return plain;

@@ -14,28 +14,28 @@
 
 namespace codesign {
 
-/// The names expressions may use, and their default values.
+/// The parameters that expressions may use, with their default values.
 struct ParameterTable {
   ParameterTable() = default;
   explicit ParameterTable(const std::vector<Parameter>& parameters);
-  /// For expressions; it must not outlive the table.
+  /// The names, for parsing expressions. The table must outlive the scope.
   ExpressionScope scope() const;
 
   std::vector<std::string> names;
   std::vector<double> values;
-  std::unordered_map<std::string, int> index;  ///< of each name
+  std::unordered_map<std::string, int> index;  ///< from name to index in `names` and `values`
 };
 
 inline const char kPrefix[] = "codesign:";
 
-/// The space-separated values of one attribute that mixes numbers with `${...}`, e.g. `0 0 -${crank_length/2}`.
-/// Their nominal values are those at the parameters' defaults.
-/// @throws InputError if a value is no number, an expression does not parse, a value is not finite or the count differs.
+/// The `count` space-separated values of an attribute, each a number or `${expression}`, for example `0 0 -${crank_length/2}`. Nominal
+/// values are those at the default parameters.
+/// @throws InputError if a value is not a finite number, an expression is invalid or not finite at the defaults, or the count differs.
 std::vector<Quantity> parse_quantities(const XmlElement& element, const std::string& attribute, std::size_t count,
                                        const ParameterTable& table);
 
-/// The plain attribute `attribute`, or its twin `codesign:attribute` if there is one.
-/// @throws InputError as above, and if the twin disagrees with the plain value at the defaults (relative 1e-6).
+/// The values of `attribute`, or of its twin `codesign:attribute` if there is one.
+/// @throws InputError as above, and if at the default parameters the twin differs from the plain attribute by more than 1e-6 (relative).
 std::vector<Quantity> read_quantities(const XmlElement& element, const std::string& attribute, std::size_t count,
                                       const ParameterTable& table);
 

@@ -11,12 +11,14 @@
 
 namespace codesign {
 
-/// Reads an annotated URDF strictly, merged with overlays by element name (doc/annotations.md).
+/// Reads an annotated URDF merged with its overlays; doc/annotations.md. Annotations and overlays are read strictly; doubtful parts of a
+/// vendor's URDF become warnings.
 /// @throws InputError naming file, line, element, value and allowed range.
 RobotDescription read_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays = {});
 
-/// The same URDF with every twinned attribute, parameter default and shape-derived inertial set to its value at `parameters`
-/// (all named parameters; those beyond the model's are ignored). Reading it back gives the design at its new defaults.
+/// The merged URDF as XML for other parameter values: every attribute with a twin, every parameter's default and every inertial computed
+/// from shapes is set to its value at `parameters` (all named parameters; those after the model's are ignored). Reading it gives a model
+/// whose default design is this one. @throws InputError if values are missing or not finite.
 std::string write_tuned_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays, const std::vector<double>& parameters);
 
 }  // namespace codesign

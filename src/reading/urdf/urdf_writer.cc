@@ -15,7 +15,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// The design that is written: expressions see `values`, twins are parsed with `table`.
+/// The design that is written. `values` are those of the parameters in `table`.
 struct Design {
   const XmlDocument& document;
   ParameterTable table;
@@ -44,7 +44,8 @@ void write_twins(XMLElement* node, const std::string& path, const Design& design
     write_twins(child, path + "/" + child->Name(), design);
 }
 
-/// A study may have widened a bound; the file's bounds follow, so that it can be read back.
+/// Writes the new defaults. A bound that a value exceeds, since a study has wider ones, is moved to the value, so that the file stays
+/// valid.
 void write_parameters(XMLElement* robot, const std::vector<Parameter>& parameters, const std::vector<double>& values) {
   const char* tag = "codesign:parameter";
   std::size_t k = 0;

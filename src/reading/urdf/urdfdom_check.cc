@@ -11,7 +11,7 @@
 namespace codesign {
 namespace {
 
-/// Collects errors for as long as it lives; warnings (on a root link with inertia, say) are not ours to repeat.
+/// Collects urdfdom's errors during its lifetime. Warnings, for example of a root link with inertia, are dropped.
 class ErrorCollector : public console_bridge::OutputHandler {
  public:
   ErrorCollector() : previous_(console_bridge::getOutputHandler()) { console_bridge::useOutputHandler(this); }
@@ -26,8 +26,8 @@ class ErrorCollector : public console_bridge::OutputHandler {
   std::string errors_;
 };
 
-/// The last element below `above` whose name stands in `words` between brackets or quotation marks, as urdfdom writes names; of two with
-/// the same name the second is the one too many.
+/// The last child of `above` whose name occurs in `words` in brackets or quotation marks, as urdfdom writes names. The last one, since of
+/// two elements with the same name the second is the fault.
 const tinyxml2::XMLElement* find_named(const tinyxml2::XMLElement* above, const std::string& words) {
   const tinyxml2::XMLElement* found = nullptr;
   for (const tinyxml2::XMLElement* child = above->FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
@@ -44,7 +44,7 @@ const tinyxml2::XMLElement* find_named(const tinyxml2::XMLElement* above, const 
 
 void check_with_urdfdom(const XmlDocument& document) {
   const std::string text = document.text();
-  static std::mutex mutex;  // the output handler is one for the process
+  static std::mutex mutex;  // the output handler is global
   const std::lock_guard<std::mutex> lock(mutex);
   const ErrorCollector collector;
   if (urdf::parseURDF(text) != nullptr) return;

@@ -6,8 +6,8 @@
 
 namespace codesign {
 
-/// Lets urdfdom, the parser of robot_state_publisher and rviz, read the document.
-/// @throws InputError with urdfdom's own words if it refuses, at the element that they name, else at the root.
+/// Checks that urdfdom, the parser of robot_state_publisher and rviz, accepts the document.
+/// @throws InputError with urdfdom's message, located at the element that it names, else at the root.
 void check_with_urdfdom(const XmlDocument& document);
 
 }  // namespace codesign

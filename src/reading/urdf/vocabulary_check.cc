@@ -21,7 +21,7 @@ bool contains(const Names& names, const std::string& name) { return std::find(na
 bool has_prefix(const std::string& name) { return name.find(':') != std::string::npos; }
 bool is_ours(const std::string& name) { return name.rfind(kPrefix, 0) == 0; }
 
-/// The annotation that `tag` would be with its prefix, in this place.
+/// The annotation that is allowed here and whose name is `tag` with the prefix; empty if there is none.
 std::string forgotten_prefix(const std::string& tag, const ElementRule* rule) {
   const std::string prefixed = kPrefix + tag;
   return rule != nullptr && contains(rule->children, prefixed) ? prefixed : "";
@@ -49,9 +49,9 @@ class Check {
       throw unknown_name(element.where(attribute), element.label(), "attribute " + attribute, attribute, words.attributes);
     if (contains(words.other_attributes, attribute)) return;
     const std::string near = nearest_name(attribute, words.attributes);
-    warnings_->push_back(element.warning_at("unknown_attribute", attribute,
-                                            "no reader of URDF knows the attribute " + attribute + did_you_mean(near) + " It is ignored",
-                                            near.empty() ? "remove it" : "write " + near + ", or remove it"));
+    warnings_->push_back(element.warning_at(
+        "unknown_attribute", attribute, "the attribute " + attribute + " is ignored, since no reader of URDF knows it" + did_you_mean(near),
+        near.empty() ? "remove it" : "write " + near + ", or remove it"));
   }
 
   void check_child(const XmlElement& child, const ElementRule* rule, const Vocabulary& words) const {
@@ -71,8 +71,8 @@ class Check {
     }
     if (near.empty()) return;
     warnings_->push_back(child.warning("unknown_element",
-                                       "no reader of URDF knows the element, did you mean \"" + near + "\"? It is ignored", "<" + tag + ">",
-                                       "write <" + near + ">, or remove it"));
+                                       "the element is ignored, since no reader of URDF knows it, did you mean \"" + near + "\"?",
+                                       "<" + tag + ">", "write <" + near + ">, or remove it"));
   }
 
   void check_repeats(const XmlElement& element, const ElementRule* rule, const Vocabulary* words) const {
@@ -86,14 +86,14 @@ class Check {
       if (strict || ((single || inertial) && child.in_overlay())) child.fail("a second <" + tag + ">", "", "one at most");
       if (single || inertial)
         warnings_->push_back(
-            child.warning("repeated_element", "a second <" + tag + ">; the first one counts, as for other readers", "", "remove one"));
+            child.warning("repeated_element", "a second <" + tag + ">; the first one is used, as other readers do", "", "remove one"));
     }
   }
 
   Warnings* warnings_;
 };
 
-/// The part of a name before its colon, that of a declaration `xmlns:x` being x.
+/// The prefix of a name: the part before the colon; of a declaration `xmlns:x` the part after it.
 std::string prefix_of(const std::string& name) {
   const std::size_t colon = name.find(':');
   if (colon == std::string::npos) return "";
@@ -112,7 +112,8 @@ void check_prefixes_in(const XmlElement& element) {
     check_prefix(attribute, element.where(attribute), element);
     const bool declares = attribute.rfind("xmlns", 0) == 0 && attribute != "xmlns:codesign";
     if (declares && element.find(attribute) == "urn:mechanism_codesign")
-      element.fail_at(attribute, "our names carry the prefix codesign: and no other", "xmlns:codesign=\"urn:mechanism_codesign\"");
+      element.fail_at(attribute, "the namespace urn:mechanism_codesign must have the prefix codesign",
+                      "xmlns:codesign=\"urn:mechanism_codesign\"");
   }
   for (const XmlElement& child : element.children()) check_prefixes_in(child);
 }
@@ -127,7 +128,7 @@ void refuse_text_in(const tinyxml2::XMLElement& element, const XmlDocument& docu
     if (node->ToText() != nullptr)
       throw InputError({{document.file(), node->GetLineNum()},
                         XmlElement(&element, &document).label(),
-                        "text stands between elements, where nobody reads it",
+                        "text between elements is not read",
                         std::string(node->Value()).substr(0, 40),
                         "elements and comments"});
     if (node->ToElement() != nullptr) refuse_text_in(*node->ToElement(), document);

@@ -6,22 +6,22 @@
 
 namespace codesign {
 
-/// Names without our prefix. In a vendor's file those that no reader of URDF knows, and children of which readers take the first alone, are
-/// warnings; in an overlay, where everything is meant for us, they are errors, as repeated elements of ours are anywhere.
+/// Checks the names without our prefix and repeated elements. In a vendor's file, names that no reader of URDF knows and repeated elements
+/// of which readers use the first only give warnings. In an overlay they are errors; repeated annotations are errors anywhere.
 /// @throws InputError with the nearest name.
 void check_vocabulary(const XmlDocument& document, Warnings* warnings);
 
-/// A prefix that is nearly ours (`codesing:`), or another prefix for our namespace. @throws InputError
+/// Checks for a misspelt prefix (`codesing:`) and for another prefix that is declared for our namespace. @throws InputError
 void check_prefixes(const XmlDocument& document);
 
-/// What stands beside `<robot>`: a second element, or text, which URDF's readers pass over.
+/// Warnings (`after_robot`) of elements and text after `<robot>`, which readers of URDF ignore.
 Warnings check_surroundings(const XmlDocument& document);
 
-/// Text between the elements of an overlay, where it would be lost. @throws InputError
+/// Checks that an overlay has no text between its elements, since it would be lost. @throws InputError
 void refuse_text(const XmlDocument& overlay);
 
-/// Cuts text behind the last `</robot>`, which the XML parser would refuse and other readers of URDF do not look at. @returns a warning if
-/// there was some.
+/// Removes text after the last `</robot>`, which the XML parser would reject and other readers of URDF ignore. Returns a warning if there
+/// was any.
 Warnings cut_trailing_text(SourceText* source);
 
 }  // namespace codesign

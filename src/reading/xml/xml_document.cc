@@ -6,11 +6,11 @@
 namespace codesign {
 namespace {
 
-/// tinyxml2's names are for programmers.
+/// A sentence for the user in place of tinyxml2's name of the error.
 std::string parse_fault(tinyxml2::XMLError error) {
   switch (error) {
     case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
-      return "there is nothing in it";
+      return "it is empty";
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
       return "an element that begins here does not end, or another one ends in its place";
     case tinyxml2::XML_ERROR_PARSING_ELEMENT:
@@ -27,7 +27,7 @@ std::string parse_fault(tinyxml2::XMLError error) {
     case tinyxml2::XML_ERROR_PARSING_DECLARATION:
       return "the XML declaration is malformed or not at the beginning";
     case tinyxml2::XML_ERROR_PARSING_UNKNOWN:
-      return "what begins with <! does not end, or stands where it may not";
+      return "a declaration that begins with <! does not end, or is not allowed here";
     case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
       return "elements are nested too deeply";
     default:
@@ -40,7 +40,7 @@ std::string parse_fault(tinyxml2::XMLError error) {
 XmlDocument::XmlDocument(const SourceText& source) : file_(source.name), dom_(std::make_unique<tinyxml2::XMLDocument>()) {
   if (dom_->Parse(source.text.c_str(), source.text.size()) != tinyxml2::XML_SUCCESS)
     throw InputError({{file_, std::max(1, dom_->ErrorLineNum())}, "", "the text is not XML: " + parse_fault(dom_->ErrorID()), "", ""});
-  if (robot() == nullptr) throw InputError({{file_, 1}, "", "the text holds no XML element", "", "<robot>"});
+  if (robot() == nullptr) throw InputError({{file_, 1}, "", "the text contains no XML element", "", "<robot>"});
   if (std::string(robot()->Name()) != "robot")
     throw InputError({location(robot()), "", "the root element is not a robot", std::string("<") + robot()->Name() + ">", "<robot>"});
 }

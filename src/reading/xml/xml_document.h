@@ -14,27 +14,28 @@
 
 namespace codesign {
 
-/// A `<robot>` document that knows, for every element and attribute, the file and line it came from, also after overlays were merged in.
+/// A `<robot>` document that knows the file and line of every element and attribute, also of those merged in from overlays.
 class XmlDocument {
  public:
-  /// @throws InputError if the text is no XML or its root is not `<robot>`.
+  /// @throws InputError if the text is not XML or its root element is not `<robot>`.
   explicit XmlDocument(const SourceText& source);
 
   const std::string& file() const { return file_; }
   tinyxml2::XMLElement* robot() { return dom_->RootElement(); }
   const tinyxml2::XMLElement* robot() const { return dom_->RootElement(); }
+  /// The document as XML.
   std::string text() const;
 
-  /// What was doubtful while the document was made of its files.
+  /// Warnings from reading and merging the files.
   const Warnings& warnings() const { return warnings_; }
   void note(const Warnings& warnings) { append(warnings, &warnings_); }
 
   SourceLocation location(const tinyxml2::XMLElement* element) const;
   SourceLocation location(const tinyxml2::XMLElement* element, const std::string& attribute) const;
 
-  /// Appends to `parent` a copy of an element of another document, with its children and locations.
+  /// Appends to `parent` a copy of an element of another document, with its children and their locations; returns the copy.
   tinyxml2::XMLElement* append_copy(tinyxml2::XMLElement* parent, const tinyxml2::XMLElement* original, const XmlDocument& source);
-  /// Sets the attributes of `target` to those of `original`, and remembers where they came from.
+  /// Copies all attributes of `original`, an element of another document, to `target`, with their locations.
   void copy_attributes(tinyxml2::XMLElement* target, const tinyxml2::XMLElement* original, const XmlDocument& source);
 
  private:

@@ -28,12 +28,14 @@ const char* kind_of(const YAML::Node& node) {
   }
 }
 
-/// Counts values as a reader meets them, those behind an alias each time anew: a few lines can say more than a machine holds.
+/// Counts the values, those of an alias each time it is used. A few lines with nested aliases can stand for more values than fit into
+/// memory.
 void count_values(const YAML::Node& node, int depth, const std::string& file, int* count) {
   constexpr int kMost = 2000000, kDeepest = 50;
   const SourceLocation where{file, node.Mark().line + 1};
-  if (depth > kDeepest) throw InputError({where, kRoot, "values are nested too deeply, or an alias holds itself", "", "50 levels"});
-  if (++*count > kMost) throw InputError({where, kRoot, "aliases multiply the values beyond all use", "", "two million values"});
+  if (depth > kDeepest) throw InputError({where, kRoot, "values are nested too deeply, or an alias contains itself", "", "50 levels"});
+  if (++*count > kMost)
+    throw InputError({where, kRoot, "too many values, counting those of aliases each time they are used", "", "two million values"});
   for (const auto& part : node) {
     if (node.IsMap()) count_values(part.second, depth + 1, file, count);
     if (node.IsSequence()) count_values(part, depth + 1, file, count);
@@ -45,7 +47,7 @@ void check_extent(const YAML::Node& root, const std::string& file) {
   count_values(root, 0, file, &count);
 }
 
-/// A number that floating point does not hold, rather than none.
+/// Whether a text that parse_number() rejects looks like a number that is out of the range of doubles.
 bool is_out_of_range(const std::string& text) { return !text.empty() && text.find_first_not_of("+-.eE0123456789") == std::string::npos; }
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -63,7 +65,7 @@ std::optional<double> number_in(const std::string& text) {
 YamlValue YamlValue::parse(const SourceText& source) {
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(source.text);
-    if (documents.empty() || documents.front().IsNull()) throw InputError({{source.name, 1}, kRoot, "the file holds no YAML", "", ""});
+    if (documents.empty() || documents.front().IsNull()) throw InputError({{source.name, 1}, kRoot, "the file contains no YAML", "", ""});
     if (documents.size() > 1)
       throw InputError({{source.name, documents[1].Mark().line + 1}, kRoot, "more than one YAML document", "", "one"});
     check_extent(documents.front(), source.name);
@@ -154,7 +156,7 @@ std::string YamlValue::text() const {
 double YamlValue::number() const {
   if (!node_.IsScalar()) fail("expected a number, found " + std::string(kind_of(node_)), "a finite number");
   const std::optional<double> value = number_in(node_.Scalar());
-  if (!value && is_out_of_range(node_.Scalar())) fail("no number that floating point holds", "a finite number");
+  if (!value && is_out_of_range(node_.Scalar())) fail("the number is out of the range of floating point", "a finite number");
   if (!value) fail("not a number", "a finite number");
   if (!std::isfinite(*value)) fail("not finite", "a finite number");
   return *value;

@@ -15,12 +15,12 @@
 
 namespace codesign {
 
-/// A value of a YAML text that knows its place and its path, read strictly.
+/// A value of a YAML text with its line and path.
 ///
-/// Every reading function throws InputError, with file, line, path and value, if the value is not of the kind asked for.
+/// Every reading function throws InputError with file, line, path and value if the value does not have the expected type.
 class YamlValue {
  public:
-  /// The root of a text that holds one document.
+  /// The root of a text that consists of one document. @throws InputError if it is not YAML, empty or too deeply nested.
   static YamlValue parse(const SourceText& source);
 
   /// `objective.integral[0].signal`; empty for the root.
@@ -31,26 +31,27 @@ class YamlValue {
   bool is_list() const { return node_.IsSequence(); }
   bool is_scalar() const { return node_.IsScalar(); }
 
-  /// Checks that this is a map whose keys are all known, that none is repeated and that none required is missing.
+  /// Checks that this is a map with all required keys, no unknown ones and none repeated.
   void require_keys(const std::vector<std::string>& required, const std::vector<std::string>& optional) const;
-  /// The value of a key of a map, if it is there.
+  /// The value of a key of a map; std::nullopt if there is none.
   std::optional<YamlValue> find(const std::string& key) const;
-  /// The value of a key that require_keys() has seen.
+  /// Likewise. @throws InputError if there is none.
   YamlValue at(const std::string& key) const;
-  /// Where a key stands, which for a nested value is a line above it.
+  /// The place of a key; a nested value begins in a later line.
   SourceLocation key_place(const std::string& key) const;
   /// Keys and values of a map in the order written; a repeated key is an error.
   std::vector<std::pair<std::string, YamlValue>> entries() const;
 
+  /// The items of a list.
   std::vector<YamlValue> items() const;
-  /// A scalar as written, not empty.
+  /// A scalar as written. @throws InputError also if it is empty.
   std::string text() const;
-  /// A finite number. Quotes do not matter: rosparam reads `1e-6` as a string.
+  /// A finite number, quoted or not: rosparam writes `1e-6` as a string.
   double number() const;
   int integer() const;
-  /// `true` or `false`, as YAML spells them.
+  /// `true` or `false`, in any of YAML's spellings.
   bool boolean() const;
-  /// A scalar that is one of `allowed`.
+  /// A scalar that is one of `allowed`. @param kind what it denotes, for the message: "unknown <kind>".
   std::string choice(const std::string& kind, const std::vector<std::string>& allowed) const;
 
   [[noreturn]] void fail(const std::string& message, const std::string& allowed = "") const;
@@ -67,7 +68,7 @@ class YamlValue {
   std::string path_;
 };
 
-/// The whole text as a number, as YAML writes them; nothing if it is none. May be infinite or NaN.
+/// The number that the whole text spells in YAML's notation (`.inf`, `.nan` included); std::nullopt if it is not a number.
 std::optional<double> number_in(const std::string& text);
 
 }  // namespace codesign

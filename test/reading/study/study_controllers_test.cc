@@ -51,8 +51,8 @@ TEST(StudyControllers, RefusesMissingFields) {
 
 TEST(StudyControllers, RefusesTheNameOfAJointOrLink) {
   const std::string rest = ": {type: pid, input: crank_joint/velocity, setpoint: 0, output: crank_joint, gains: {p: 1}}}\n";
-  expect_fault(kLeastStudy + "controllers: {crank_joint" + rest, "controllers.crank_joint", "has this name", 3);
-  expect_fault(kLeastStudy + "controllers: {slider" + rest, "controllers.slider", "has this name", 3);
+  expect_fault(kLeastStudy + "controllers: {crank_joint" + rest, "controllers.crank_joint", "has the same name", 3);
+  expect_fault(kLeastStudy + "controllers: {slider" + rest, "controllers.slider", "has the same name", 3);
 }
 
 TEST(StudyControllers, AnInputMayReadEarlierControllersOnly) {

@@ -62,11 +62,11 @@ TEST(StudyInitialState, AnAngularVelocityNeedsARotation) {
 TEST(StudyInitialState, RefusesWhatTheJointHasNot) {
   expect_refused("free", "{position: 1}", ".position", "no position");
   expect_refused("crank_joint", "{translation: [0, 0, 0]}", ".translation", "no translation");
-  expect_refused("free", "{}", "", "nothing is said");
+  expect_refused("free", "{}", "", "no initial state is given");
   expect_refused("free", "{rotation: 0.3}", ".rotation", "three components");
-  expect_refused("ball_joint", "{rotation: [0, 0, 0.3]}", ".rotation", "about its normal alone");
-  expect_refused("ball_joint", "{translation: [0, 0, 0.3]}", ".translation", "out of the plane");
-  expect_refused("ball_joint", "{linear_velocity: [0, 0, 0.3]}", ".linear_velocity", "out of the plane");
+  expect_refused("ball_joint", "{rotation: [0, 0, 0.3]}", ".rotation", "only about its normal");
+  expect_refused("ball_joint", "{translation: [0, 0, 0.3]}", ".translation", "does not lie in the plane");
+  expect_refused("ball_joint", "{linear_velocity: [0, 0, 0.3]}", ".linear_velocity", "does not lie in the plane");
   expect_refused("free", "{translatoin: [0, 0, 0]}", ".translatoin", "did you mean \"translation\"");
 }
 

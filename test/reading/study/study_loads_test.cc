@@ -34,9 +34,9 @@ TEST(StudyLoads, ReadsAWrench) {
 TEST(StudyLoads, RefusesWhatActsOnNothingOrTwice) {
   expect_fault(with("{effort: 1}"), "loads[0]", "one joint or on one link", 5);
   expect_fault(with("{joint: slider_joint, link: ball, effort: 1}"), "loads[0]", "one joint or on one link", 5);
-  expect_fault(with("3"), "loads[0]", "a mapping", 5);
+  expect_fault(with("3"), "loads[0]", "must be a map", 5);
   expect_fault(with("{link: ball}"), "loads[0]", "needs a force or a torque", 5);
-  expect_fault(with("{link: ball, torque: [0, 0, 1], point: [0, 0, 0]}"), "loads[0].point", "where a force acts", 5);
+  expect_fault(with("{link: ball, torque: [0, 0, 1], point: [0, 0, 0]}"), "loads[0].point", "where the force acts", 5);
 }
 
 TEST(StudyLoads, RefusesNamesAndNumbers) {

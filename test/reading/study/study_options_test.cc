@@ -43,7 +43,7 @@ TEST(StudyOptions, RefusesBadSolverValues) {
   expect_fault(with("solver: {maximum_steps: 2.5}"), "solver.maximum_steps", "not an integer", 3);
   expect_fault(with("solver: {maximum_speed: -1}"), "solver.maximum_speed", "out of range", 3);
   expect_fault(with("solver: {gradient: backward}"), "solver.gradient", "unknown gradient", 3);
-  expect_fault(with("solver: {integrator: idas, gradient: adjoint}"), "solver.gradient", "Rosenbrock steps alone", 3);
+  expect_fault(with("solver: {integrator: idas, gradient: adjoint}"), "solver.gradient", "integrator rosenbrock only", 3);
   expect_fault(with("solver: {sensitivity_tolerance: 1e-4, gradient: adjoint}"), "solver.gradient", "no sensitivities", 3);
   expect_fault(with("solver: {tolerance: 1e-6}"), "solver.tolerance", "unknown key", 3);
 }

@@ -87,7 +87,7 @@ TEST(StudyReader, ChecksTheInitialState) {
   expect_fault(start + "{crank_jont: {position: 0}}\n", "initial_state.crank_jont", "did you mean \"crank_joint\"", 3);
   expect_fault(start + "{ball_joint: {position: 0}}\n", "initial_state.ball_joint.position", "no position", 3);
   expect_fault(start + "{crank_joint: {speed: 0}}\n", "initial_state.crank_joint.speed", "unknown key", 3);
-  expect_fault(start + "{crank_joint: {}}\n", "initial_state.crank_joint", "nothing is said", 3);
+  expect_fault(start + "{crank_joint: {}}\n", "initial_state.crank_joint", "no initial state is given", 3);
   expect_fault(start + "{crank_joint: 0.1}\n", "initial_state.crank_joint", "expected a map", 3);
   expect_fault(start + "{crank_joint: {position: 0, guess: 0}}\n", "initial_state.crank_joint.guess", "either", 3);
   expect_fault(start + "{crank_joint: {position: fast}}\n", "initial_state.crank_joint.position", "not a number", 3);

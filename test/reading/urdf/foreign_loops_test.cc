@@ -12,7 +12,7 @@ SourceText two_links(const std::string& more) {
 }
 
 void expect_loop(const std::string& element, const std::string& remedy) {
-  expect_warning(two_links(element), "loop_ignored", {"test.urdf:4:", "ties links or joints together", remedy});
+  expect_warning(two_links(element), "loop_ignored", {"test.urdf:4:", "connects links or couples joints", remedy});
 }
 
 TEST(ForeignLoops, LoopJoint) {

@@ -65,9 +65,9 @@ TEST(FrictionReader, Faults) {
     expect_error(text_with(plain + " model=\"gonthier\" " + name + "=\"0\""), {std::string(name) + " is not positive"});
   for (const char* name : {"preload", "viscous"})
     expect_error(text_with(plain + " " + name + "=\"-1\""), {std::string(name) + " is negative"});
-  expect_error(text_with(plain + " transverse_axis=\"2 0 0\""), {"no direction across the joint axis"});
-  expect_error(text_with(plain + " transverse_axis=\"0 0 0\""), {"no direction across the joint axis"});
-  expect_error(text_with(plain + " transverse_axis=\"0 1\""), {"wrong count"});
+  expect_error(text_with(plain + " transverse_axis=\"2 0 0\""), {"zero or parallel to the joint axis"});
+  expect_error(text_with(plain + " transverse_axis=\"0 0 0\""), {"zero or parallel to the joint axis"});
+  expect_error(text_with(plain + " transverse_axis=\"0 1\""), {"wrong number"});
 }
 
 TEST(FrictionReader, AttributesBelongToTheirModels) {

@@ -104,7 +104,7 @@ TEST(Overlay, SaysNothingTwice) {
 }
 
 TEST(Overlay, HoldsAnnotatedElementsOnly) {
-  expect_error(vendor(), {"notes.urdf:2: <material name=\"x\">: an overlay cannot hold this element"}, {overlay("<material name=\"x\"/>")});
+  expect_error(vendor(), {"notes.urdf:2: <material name=\"x\">: an overlay cannot contain this element"}, {overlay("<material name=\"x\"/>")});
   expect_error(vendor(), {"notes.urdf:2:", "the attribute name is missing"}, {overlay("<joint/>")});
 }
 

@@ -32,7 +32,7 @@ TEST(ShapeReader, ShapesWithoutMass) {
   expect_error(with_inertial(from_shape("-1", "2"), kBox), {"the density is not positive"});
   expect_error(with_inertial("<inertial codesign:density=\"1\" codesign:from=\"colision\"/>", kBox),
                {"value: colision, allowed: visual or collision"});
-  expect_error(with_inertial("<inertial codesign:from=\"visual\"/>", kBox), {"shapes without codesign:density"});
+  expect_error(with_inertial("<inertial codesign:from=\"visual\"/>", kBox), {"without codesign:density no mass can be computed"});
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ TEST(TreeCheck, TwoRoots) {
 
 TEST(TreeCheck, Rings) {
   const std::string ab = "<link name=\"a\"/><link name=\"b\"/>" + joint_with("ab", "fixed", "a", "b") + joint_with("ba", "fixed", "b", "a");
-  expect_error(robot_text(ab), {"the joints form a ring that hangs on nothing"});
-  expect_error(robot_text(kGround + ab), {"<joint name=\"ba\">: the joints form a ring that hangs on nothing (value: a"});
+  expect_error(robot_text(ab), {"the joints form a ring that is not connected to the root"});
+  expect_error(robot_text(kGround + ab), {"<joint name=\"ba\">: the joints form a ring that is not connected to the root (value: a"});
 }
 
 TEST(TreeCheck, ASecondParentClosesALoop) {
@@ -34,7 +34,7 @@ TEST(TreeCheck, ASecondParentClosesALoop) {
 }
 
 TEST(TreeCheck, InAnOverlayALinkHangsOnOneJoint) {
-  expect_error(pendulum(""), {"notes.urdf:2: <joint name=\"two\">: its child arm already hangs on the joint hinge", "<loop>"},
+  expect_error(pendulum(""), {"notes.urdf:2: <joint name=\"two\">: its child arm is already the child of the joint hinge", "<loop>"},
                {overlay_text(joint_with("two", "continuous", "ground", "arm"))});
 }
 

@@ -36,9 +36,9 @@ TEST(Twin, BadExpressions) {
   expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${length*}")"), {"a number is missing"});
   expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${length")"), {"${ without its }"});
   expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 length")"), {"'length' in codesign:xyz is not a number"});
-  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 2${length}")"), {"'2${length}' is no expression"});
+  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 2${length}")"), {"'2${length}' is not an expression"});
   expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${sqrt(-length)}")"), {"not finite at the default parameters"});
-  expect_error(with_origin(R"(xyz="0 0 ${length}")"), {"an expression stands in a plain attribute", "codesign:xyz"});
+  expect_error(with_origin(R"(xyz="0 0 ${length}")"), {"a plain attribute contains an expression", "codesign:xyz"});
 }
 
 TEST(Twin, BadNumbers) {
@@ -47,12 +47,12 @@ TEST(Twin, BadNumbers) {
   expect_error(with_origin(R"(xyz="0 0 nan")"), {"xyz is not finite"});
   expect_error(with_origin(R"(xyz="0 0 -inf")"), {"xyz is not finite"});
   expect_error(with_origin(R"(xyz="0 0 1e999")"), {"is not a number"});
-  expect_error(with_origin(R"(xyz="0 0")"), {"wrong count of values (2)", "3 values"});
+  expect_error(with_origin(R"(xyz="0 0")"), {"wrong number of values (2)", "3 values"});
   expect_error(with_origin(R"(xyz="")"), {"the attribute xyz is empty"});
 }
 
 TEST(Twin, CountsOfTwinAndPlainMustAgree) {
-  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 ${length}")"), {"codesign:xyz holds the wrong count"});
+  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 ${length}")"), {"codesign:xyz has the wrong number"});
 }
 
 TEST(Twin, OfVisualsAreCheckedToo) {

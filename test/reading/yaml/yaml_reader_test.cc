@@ -73,7 +73,7 @@ TEST(YamlReader, ChecksKeys) {
 TEST(YamlReader, RefusesTextThatIsNotOneDocument) {
   EXPECT_EQ(fault_of([] { parse("a: [1, 2\nb: 3\n"); }).message.substr(0, 8), "not YAML");
   EXPECT_EQ(fault_of([] { parse("a: 1\n\tb: 3\n"); }).where.line, 2);
-  EXPECT_EQ(fault_of([] { parse(""); }).message, "the file holds no YAML");
+  EXPECT_EQ(fault_of([] { parse(""); }).message, "the file contains no YAML");
   EXPECT_EQ(fault_of([] { parse("a: 1\n---\nb: 1\n"); }).message, "more than one YAML document");
 }
 
