@@ -20,7 +20,7 @@ class Resolver {
 
   std::vector<Controller> resolve(const std::vector<Signal>& observed, int* states) {
     for (std::size_t k = 0; k < controllers_.size(); ++k) resolve_signals(k);
-    // Later controllers read earlier ones: what a controller must provide is known when all behind it are complete.
+    // Controllers read earlier ones only, so from the last to the first: whether a rate is needed is known when all later ones are done.
     for (std::size_t k = controllers_.size(); k-- > 0;) provide_rate(k);
     for (std::size_t k = 0; k < controllers_.size(); ++k)
       if (needs_integral(static_cast<int>(k), observed)) controllers_[k].state = (*states)++;
@@ -35,12 +35,13 @@ class Resolver {
     Signal signal = resolve_signal(description, robot_, topology_, study_.controllers);
     for (const SignalReference& term : signal)
       if (term.controller >= static_cast<int>(k) || reads_effort(term, k))
-        throw InputError({study_.controllers[k].where, element(k) + key, "a controller cannot read an effort, itself or a later controller",
+        throw InputError({study_.controllers[k].where, element(k) + key,
+                          "a controller cannot read an effort, a reaction of a joint that it drives, itself or a later controller",
                           description.text, "controllers defined before it"});
     return signal;
   }
 
-  /// What contains the output of the k-th controller or of a later one. A reaction does if one of them drives that joint.
+  /// Whether a term contains the output of the k-th controller or of a later one. A reaction does if one of them drives its joint.
   bool reads_effort(const SignalReference& term, std::size_t k) const {
     if (term.kind == SignalKind::kJointEffort || term.kind == SignalKind::kActuatorPower) return true;
     if (term.kind != SignalKind::kReactionForce && term.kind != SignalKind::kReactionTorque) return false;
@@ -93,7 +94,7 @@ class Resolver {
     if (!torque) return;
     for (std::size_t other = 0; other < k; ++other)
       if (controllers_[other].kind == ControllerKind::kComputedTorque && controllers_[other].pair == controller.pair)
-        throw InputError({study_.controllers[k].where, element(k) + ".output", "a joint can have one computed torque only",
+        throw InputError({study_.controllers[k].where, element(k) + ".output", "a joint can have only one computed torque",
                           study_.controllers[k].output, "a joint that " + study_.controllers[other].name + " does not drive"});
     for (DrivenTree::Node& node : controller.tree.nodes)
       for (std::size_t other = 0; other < controllers_.size(); ++other)

@@ -9,20 +9,20 @@
 
 namespace codesign {
 
-/// A controller with its names resolved; the laws: ControllerKind.
+/// A controller with its names resolved to indices; ControllerKind lists the laws.
 struct Controller {
   ControllerKind kind = ControllerKind::kPid;
-  Signal input, input_rate;      ///< input_rate is empty where nobody asks for it
-  std::vector<Signal> feedback;  ///< state feedback, one per term
-  int pair = -1, element = -1;
-  int state = -1;   ///< index of its integral among the extra states, or -1
-  DrivenTree tree;  ///< of laws that know the model
+  Signal input, input_rate;      ///< only if has_error(kind); input_rate is empty if it is not needed
+  std::vector<Signal> feedback;  ///< kStateFeedback: one signal per term
+  int pair = -1, element = -1;   ///< the coordinate it drives: index in Topology::pairs and in the pair's chain
+  int state = -1;                ///< index of its integral among the extra states, or -1
+  DrivenTree tree;               ///< kPdGravity and kComputedTorque only
 };
 
 /// Resolves all controllers of a study, in its order.
-/// @param observed signals beside the controllers' own that may read them: the objective's.
-/// @param states grows by one for each integral that is needed.
-/// @throws InputError for what does not exist, cannot be read, or cannot be driven.
+/// @param observed other signals that may read controllers: those of the objective.
+/// @param states number of extra states; grows by one for each integral that is needed.
+/// @throws InputError for unknown names, signals that a controller cannot read, and joints that it cannot drive.
 std::vector<Controller> resolve_controllers(const Study& study, const RobotDescription& robot, const Topology& topology,
                                             const std::vector<Signal>& observed, int* states);
 

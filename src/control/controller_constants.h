@@ -16,12 +16,12 @@ template <class T>
 struct ControllerConstants {
   Reference<T> setpoint, feedforward;
   Pid<T> pid;
-  std::vector<T> gains;                  ///< state feedback, one per term
-  std::vector<Reference<T>> references;  ///< as `gains`
-  ShapedInput<T> shape;                  ///< basis
+  std::vector<T> gains;                  ///< kStateFeedback: one per term
+  std::vector<Reference<T>> references;  ///< kStateFeedback: one per term
+  ShapedInput<T> shape;                  ///< kBasis
 };
 
-/// Evaluates a description, which must outlive the result, at `parameters` (all named parameters).
+/// Evaluates a description at `parameters`, all named parameters. The description must outlive the result.
 template <class T>
 ControllerConstants<T> controller_constants(const ControllerDescription& description, const std::vector<T>& parameters) {
   ControllerConstants<T> c;

@@ -4,8 +4,8 @@
 
 namespace codesign {
 
-/// A PID law, theory (C1): u = p e + i s + d e', with the error e, its integral s and its rate e'. The gains are also the derivatives of u
-/// by e, s and e'.
+/// The PID law u = p e + i s + d e', theory (C3), with the error e, its integral s and its rate e'. The gains are the derivatives of u by
+/// e, s and e'.
 template <class T>
 struct Pid {
   T p{0.0}, i{0.0}, d{0.0};

@@ -21,7 +21,7 @@ std::vector<T> evaluate(const std::vector<Quantity>& quantities, const std::vect
   return values;
 }
 
-// Slope of the parabola through a point and its neighbours; at rest at both ends.
+// Velocities that are not given, theory (C2): the slope of the parabola through a way-point and its neighbours; zero at both ends.
 template <class T>
 void choose_velocities(const std::vector<double>& times, std::vector<Knot<T>>* knots) {
   for (std::size_t k = 1; k + 1 < knots->size(); ++k) {
@@ -32,7 +32,7 @@ void choose_velocities(const std::vector<double>& times, std::vector<Knot<T>>* k
   }
 }
 
-// Mean of what the cubic pieces on both sides would have; none at both ends.
+// Accelerations that are not given, theory (C2): the mean of those of the two cubic pieces that meet at a way-point; zero at both ends.
 template <class T>
 void choose_accelerations(const std::vector<double>& times, std::vector<Knot<T>>* knots) {
   std::vector<T> chosen(knots->size(), T(0.0));
@@ -46,7 +46,7 @@ void choose_accelerations(const std::vector<double>& times, std::vector<Knot<T>>
   for (std::size_t k = 0; k < knots->size(); ++k) (*knots)[k].acceleration = chosen[k];
 }
 
-/// Coefficients of the polynomial over a time h from one way-point to the next.
+/// Coefficients c_k of the polynomial sum c_k tau^k from one way-point to the next; theory (C2).
 template <class T>
 std::array<T, 6> polynomial(Interpolation interpolation, const Knot<T>& from, const Knot<T>& to, double duration) {
   const T h(duration), zero(0.0), rise = to.position - from.position;
@@ -58,7 +58,7 @@ std::array<T, 6> polynomial(Interpolation interpolation, const Knot<T>& from, co
             (from.velocity + to.velocity - T(2.0) * rise / h) / (h * h),
             zero,
             zero};
-  // What the Taylor polynomial at the start misses at the end, in position, velocity and acceleration.
+  // D, V, A of theory (C2): the error of the Taylor polynomial at the start, taken at the end, in position, velocity and acceleration.
   const T half = T(0.5) * from.acceleration;
   const T D = rise - h * (from.velocity + h * half), V = h * (to.velocity - from.velocity - h * from.acceleration),
           A = T(0.5) * h * h * (to.acceleration - from.acceleration), h3 = h * h * h;

@@ -11,24 +11,24 @@
 
 namespace codesign {
 
-/// A function of time and its first three derivatives at one instant.
+/// A function of time and its first three time derivatives at one instant.
 template <class T>
 struct ReferenceMotion {
   T value{0.0}, rate{0.0}, acceleration{0.0}, jerk{0.0};
 };
 
-/// A prescribed function of time at one design; doc/theory.md (C1), (C2). T: double, std::complex<double>, Lanes<N>.
+/// A prescribed function of time for one design; doc/theory.md (C1), (C2). T: double, std::complex<double>, Lanes<N>, Traced.
 template <class T>
 class Reference {
  public:
   Reference() = default;
   Reference(const ReferenceDescription& description, const std::vector<T>& parameters);
 
-  /// At a break between way-points, derivatives are those of what follows.
+  /// The function at time t [s]. At a way-point the derivatives are those of the piece that follows.
   ReferenceMotion<T> at(double t) const;
 
  private:
-  /// sum c_k (t - start)^k from `start` on.
+  /// The polynomial sum c_k (t - start)^k for t >= start.
   struct Piece {
     double start;
     std::array<T, 6> c;
@@ -38,10 +38,10 @@ class Reference {
 
   ReferenceDescription::Kind kind_ = ReferenceDescription::Kind::kConstant;
   T offset_{0.0}, amplitude_{0.0}, angular_frequency_{0.0}, phase_{0.0};
-  std::vector<Piece> pieces_;  ///< the first from minus infinity, the last to infinity
+  std::vector<Piece> pieces_;  ///< by ascending start; the first begins at minus infinity, the last never ends
 };
 
-/// While equations are recorded: a constant, or numbers that come with each instant.
+/// For recorded equations: a constant, or inputs that are supplied for each instant (Recording::timed()).
 template <>
 class Reference<Traced> {
  public:

@@ -10,17 +10,17 @@
 
 namespace codesign {
 
-/// A shaped input u(t) = sum_k c_k B_k(t) at one design; theory (C8). T as of Reference.
+/// A shaped input u(t) = sum_k c_k B_k(t) for one design; theory (C8). T as for Reference.
 template <class T>
 class ShapedInput {
  public:
   ShapedInput() = default;
-  /// @param basis must outlive this.
+  /// @param basis must outlive the object.
   ShapedInput(const BasisDescription& basis, const std::vector<T>& parameters);
 
   const std::vector<T>& coefficients() const { return coefficients_; }
 
-  /// Value and rate; higher derivatives are left at zero.
+  /// u and u' at time t [s]; higher derivatives are not computed (zero).
   ReferenceMotion<T> at(double t) const;
 
  private:
@@ -28,7 +28,7 @@ class ShapedInput {
   std::vector<T> coefficients_;
 };
 
-/// While equations are recorded: numbers that come with each instant.
+/// For recorded equations: inputs that are supplied for each instant (Recording::timed()).
 template <>
 class ShapedInput<Traced> {
  public:

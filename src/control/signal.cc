@@ -44,7 +44,7 @@ const std::map<std::string, SignalKind>& mechanism_kinds() {
   return kinds;
 }
 
-/// The wrench on a link without mass is handed on to the next joint, in whose frame it is read.
+/// Throws InputError: the child of the joint has no mass and transmits the reaction to the next joint, where it can be read.
 [[noreturn]] void refuse_reaction(const SignalTerm& term, const Pair& pair, const SignalDescription& signal, const RobotDescription& robot,
                                   const Topology& topology) {
   std::string allowed;
@@ -54,8 +54,8 @@ const std::map<std::string, SignalKind>& mechanism_kinds() {
     allowed = other.name + "/" + term.quantity + "/" + term.component + ", in the frame of that joint";
   }
   throw InputError({signal.where, "signal",
-                    "the joint's child has no <inertial>, so that it is folded into a joint and hands on what acts on it", signal.text,
-                    allowed});
+                    "the joint's child has no <inertial>: the joint is folded with the next one, where the reaction can be read",
+                    signal.text, allowed});
 }
 
 SignalReference resolve_joint(const SignalTerm& term, int joint, const SignalDescription& signal, const RobotDescription& robot,

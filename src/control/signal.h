@@ -11,7 +11,7 @@
 
 namespace codesign {
 
-/// What one term of a signal reads.
+/// The quantity that one term of a signal reads; doc/study.md describes them.
 enum class SignalKind {
   kJointPosition,
   kJointVelocity,
@@ -20,19 +20,19 @@ enum class SignalKind {
   kJointFriction,
   kJointNormalForce,
   kJointSlidingVelocity,
-  kContactFriction,  ///< of a pair that slips isotropically
-  kContactSpeed,
+  kContactFriction,  ///< friction of a pair that slips isotropically; theory (13a)
+  kContactSpeed,     ///< its speed of slip
   kLinkPosition,
   kLinkVelocity,
   kLinkAcceleration,
   kLinkAngularVelocity,
   kLinkOrientation,  ///< component w, x, y or z of the quaternion in the root link's frame; axis 0 is w
-  kReactionForce,    ///< on the child of a joint, at and in the joint frame that it carries
-  kReactionTorque,
-  kKineticEnergy,  ///< of the whole mechanism
+  kReactionForce,    ///< on the child of a joint, in the axes of the joint frame that the child carries; theory (11a)
+  kReactionTorque,   ///< likewise, about the origin of that frame
+  kKineticEnergy,    ///< of the whole mechanism; theory (14b)
   kPotentialEnergy,
   kTotalEnergy,
-  kFrictionPower,  ///< of a joint, or of the whole mechanism (pair -1); see PowerKind
+  kFrictionPower,  ///< of a joint, or of the whole mechanism (pair -1); theory (14c)
   kDampingPower,
   kActuatorPower,
   kLoadPower,
@@ -42,24 +42,25 @@ enum class SignalKind {
   kControllerOutput
 };
 
-/// A term with its names resolved to indices.
+/// One term of a signal with its names resolved to indices.
 struct SignalReference {
   double factor = 1.0;
   SignalKind kind = SignalKind::kJointPosition;
-  int pair = -1, element = -1;  ///< joints: the pair and its chain element
-  int link = -1;                ///< links
-  int axis = 0;                 ///< of a vector or a quaternion
-  int controller = -1;          ///< controllers
+  int pair = -1, element = -1;  ///< of a joint: index in Topology::pairs and in the pair's chain
+  int link = -1;                ///< index of a link
+  int axis = 0;                 ///< component of a vector (x, y, z) or a quaternion (w, x, y, z), from 0
+  int controller = -1;          ///< index of a controller
 };
 
 /// A sum of resolved terms.
 using Signal = std::vector<SignalReference>;
 
-/// Resolves names against a mechanism. @throws InputError for what does not exist or cannot be read.
+/// Resolves the names of a signal. @throws InputError for unknown names and for quantities that cannot be read.
 Signal resolve_signal(const SignalDescription& signal, const RobotDescription& robot, const Topology& topology,
                       const std::vector<ControllerDescription>& controllers);
 
-/// The time derivative of a signal. @throws InputError, naming `signal`, for a quantity whose derivative is not available.
+/// The time derivative of a resolved signal. @param signal, element for messages.
+/// @throws InputError for a quantity whose derivative is not available.
 Signal differentiate(const Signal& resolved, const SignalDescription& signal, const std::string& element);
 
 }  // namespace codesign

@@ -6,17 +6,17 @@
 
 namespace codesign {
 
-/// States of a friction law that remembers.
+/// The states of a friction law with bristles; theory (13e), (13f). They start at zero.
 template <class T>
 struct BristleState {
-  Vector3<T> zeta = Vector3<T>::Zero();  ///< sigma_0 z [-]: deflection, as the friction per normal force that it stands for
-  T dwell{0.0};                          ///< s_dw [-]: 1 after a long rest, 0 in sliding; Gonthier's model only
+  Vector3<T> zeta = Vector3<T>::Zero();  ///< deflection times sigma_0, which is a friction per normal force [-]; one per slip direction
+  T dwell{0.0};                          ///< s_dw [-]: 1 after a long rest, 0 while sliding; Gonthier's model only
 };
 
-/// What such a law does at one instant: friction and rates of its states, with their derivatives by slip velocity u and states.
+/// Friction and the rates of the states at one instant, with their derivatives by the slip velocity u, zeta and s_dw.
 template <class T>
 struct Bristle {
-  Vector3<T> mu = Vector3<T>::Zero();                                      ///< friction against u, per normal force [-]
+  Vector3<T> mu = Vector3<T>::Zero();                                      ///< friction per normal force, opposing u [-]
   Matrix3<T> mu_u = Matrix3<T>::Zero(), mu_zeta = Matrix3<T>::Zero();      ///< [s/m], [-]
   Vector3<T> mu_dwell = Vector3<T>::Zero();                                ///< [-]
   Vector3<T> rate = Vector3<T>::Zero();                                    ///< zeta' [1/s]

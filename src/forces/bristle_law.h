@@ -8,19 +8,19 @@
 
 namespace codesign {
 
-/// One contact whose friction has states, and where they stand among the extra states: zeta per slip coordinate, then s_dw.
+/// A contact whose friction has states. In the vector of extra states it has one zeta per slip coordinate, then s_dw if the model has it.
 struct BristleContact {
   FrictionModel model = FrictionModel::kGonthier;
   int pair = -1, element = -1;  ///< element -1: the pair slips isotropically
   int first = 0;                ///< index of the first state
-  int size = 1;                 ///< slip coordinates
+  int size = 1;                 ///< number of slip coordinates
 
   bool dwells() const { return model == FrictionModel::kGonthier; }
   int states() const { return size + (dwells() ? 1 : 0); }
   int dwell_state() const { return first + size; }
 };
 
-/// The law of a contact at slip velocity u [m/s], with its states read from the extra states s.
+/// Evaluates the friction law of a contact. @param u slip velocity [m/s]. @param s all extra states, of which it reads its own.
 template <class T>
 Bristle<T> bristle_law(const BristleContact& contact, const Vector3<T>& u, const VectorX<T>& s, const FrictionConstants<T>& c) {
   BristleState<T> state;

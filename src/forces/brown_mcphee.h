@@ -8,16 +8,16 @@
 
 namespace codesign {
 
-/// Friction coefficient and its slope.
+/// A friction coefficient and its derivative by the sliding speed.
 template <class T>
 struct FrictionCoefficient {
   T value{0.0};  ///< S(v) [-], odd in v
   T slope{0.0};  ///< dS/dv [s/m]
 };
 
-/// Brown and McPhee (2016) without the viscous term, the bracket of the paper's friction equation; doc/theory.md (10):
+/// Friction coefficient of Brown and McPhee (2016) without the viscous term, the bracket in the paper's (1); doc/theory.md (10):
 ///   S(v) = mu_d tanh(4 v / v_t) + (mu_s - mu_d) (v / v_t) / ((v / (2 v_t))^2 + 3/4)^2.
-/// @param v sliding speed [m/s], @param v_t transition velocity [m/s].
+/// @param v sliding velocity with sign [m/s]. @param v_t transition velocity, > 0 [m/s].
 template <class T>
 FrictionCoefficient<T> brown_mcphee(const T& v, const T& mu_static, const T& mu_dynamic, const T& v_t) {
   using std::tanh;

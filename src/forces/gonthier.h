@@ -12,8 +12,9 @@
 
 namespace codesign {
 
-/// Direction of a velocity per speed, dir(u) = u d(u.u), over the square of the speed, doc/theory.md (13e): 1/|u|, but below `v_e` the
-/// parabola (3 - u.u/v_e^2)/(2 v_e), which is finite at rest and meets it with the same slope. Returns [s/m], [s^3/m^3].
+/// The factor d in dir(u) = d u, as a function of u.u, with its derivative; doc/theory.md (13e). d = 1/|u| for |u| >= v_e; below, the
+/// parabola (3 - u.u/v_e^2)/(2 v_e), which is finite at rest and continues it with the same slope.
+/// @param square u.u [m^2/s^2]. @param v_e [m/s]. @return [s/m], [s^3/m^3]
 template <class T>
 ValueAndSlope<T> direction_per_speed(const T& square, const T& v_e) {
   using std::sqrt;
@@ -25,13 +26,15 @@ ValueAndSlope<T> direction_per_speed(const T& square, const T& v_e) {
   return {inverse, T(-0.5) * inverse / square};
 }
 
-/// Cuts a vector off at a length, doc/theory.md (13e): x where |x| <= limit, else limit x/|x|.
+/// A vector limited in length, with its derivatives by the vector and the limit; see cut_off().
 template <class T>
 struct CutVector {
   Vector3<T> value = Vector3<T>::Zero();
   Matrix3<T> by_x = Matrix3<T>::Identity();
   Vector3<T> by_limit = Vector3<T>::Zero();
 };
+
+/// x if |x| <= limit, else limit x/|x|; doc/theory.md (13e).
 
 template <class T>
 CutVector<T> cut_off(const Vector3<T>& x, const T& limit) {
@@ -47,17 +50,17 @@ CutVector<T> cut_off(const Vector3<T>& x, const T& limit) {
   return cut;
 }
 
-/// Gonthier, McPhee, Lange and Piedboeuf (2004) per unit of normal force, doc/theory.md (13e). A resting contact is a spring and a damper
-/// (sigma_0, sigma_1); the share s of it that rests falls as exp(-u.u/v_s^2), and what it can hold grows with the dwell state s_dw from
-/// mu_d to mu_s. With zeta = sigma_0 z, c = mu_d dir(u) and f = s (zeta + sigma_1 u) + (1 - s) c:
+/// Friction of Gonthier, McPhee, Lange and Piedboeuf (2004) per unit of normal force, doc/theory.md (13e). A share s = exp(-u.u/v_s^2) of
+/// the contact rests and is a spring and a damper (sigma_0, sigma_1); the rest slides. The largest friction grows with the dwell state s_dw
+/// from mu_d to mu_s. With zeta = sigma_0 z, c = mu_d dir(u) and f = s (zeta + sigma_1 u) + (1 - s) c:
 ///   mu = f cut off at mu_d + (mu_s - mu_d) s_dw,   zeta' = sigma_0 s u + (1 - s) sigma_0/sigma_1 (c - zeta),
-///   s_dw' = (s - s_dw)/tau, tau = tau_dw where s >= s_dw and sigma_1/sigma_0 elsewhere.
-/// Continuous; the derivatives jump where the cut begins and where tau changes.
-/// @param u slip velocity [m/s]; of a joint with one direction in u[0].
+///   s_dw' = (s - s_dw)/tau with tau = tau_dw if s >= s_dw, else sigma_1/sigma_0.
+/// mu and the rates are continuous; their derivatives jump where the cut begins and where tau changes.
+/// @param u slip velocity [m/s]; with one slip direction only u[0] is used, the others are zero.
 template <class T>
 Bristle<T> gonthier(const Vector3<T>& u, const BristleState<T>& state, const FrictionConstants<T>& c) {
   using std::exp;
-  constexpr double kDirectionVelocity = 0.1;  // of v_s: there 1 - s is 1 %, and the direction hardly counts below
+  constexpr double kDirectionVelocity = 0.1;  // v_e / v_s; below it the sliding share 1 - s, and so the direction, is less than 1 %
   const T square = dot(u, u), v2 = T(1.0) / (c.transition_velocity * c.transition_velocity);
   const T s = exp(-square * v2), left = T(1.0) - s, bristle_rate = c.bristle_stiffness / c.bristle_damping;
   const Vector3<T> s_u = (T(-2.0) * v2 * s) * u;

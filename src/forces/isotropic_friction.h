@@ -8,7 +8,8 @@
 
 namespace codesign {
 
-/// Brown and McPhee's coefficient per sliding speed as a function of the square of the speed, doc/theory.md (13a): analytic at rest too.
+/// Brown and McPhee's friction coefficient divided by the sliding speed s, as a function of s^2; analytic also at rest; doc/theory.md
+/// (13a).
 /// @param square s^2 [m^2/s^2], @param v_t transition velocity [m/s].
 /// @return S(s)/s [s/m] and its derivative by s^2 [s^3/m^3].
 template <class T>
@@ -20,18 +21,18 @@ ValueAndSlope<T> friction_per_speed(const T& square, const T& mu_static, const T
   return {(T(4.0) * mu_dynamic * h.value + bump) / v_t, (T(64.0) * mu_dynamic * h.slope - T(0.5) * bump / d) * scale / v_t};
 }
 
-/// Friction of a contact that slips in D directions, against the slip and equal in all of them.
+/// The friction of a contact that slips in D directions, with the same coefficient in all of them.
 template <class T, int D>
 struct IsotropicFriction {
   using Vector = Eigen::Matrix<T, D, 1>;
   using Matrix = Eigen::Matrix<T, D, D>;
 
-  Vector load = Vector::Zero();       ///< that opposes the slip [N]; its power -load . u takes energy away
+  Vector load = Vector::Zero();       ///< load L that opposes the slip, with the power -L . u [N]
   Matrix by_slip = Matrix::Zero();    ///< d load / d u [N s/m], symmetric
   Vector by_normal = Vector::Zero();  ///< d load / d N [-]
 };
 
-/// load = S(|u|) N u/|u|, theory (13a); linear in u and zero at rest.
+/// load = S(|u|) N u/|u|, theory (13a); zero at rest and analytic there.
 /// @param u slip velocity [m/s], @param normal N [N].
 template <class T, int D>
 IsotropicFriction<T, D> isotropic_friction(const Eigen::Matrix<T, D, 1>& u, const T& normal, const T& mu_static, const T& mu_dynamic,
@@ -49,7 +50,7 @@ IsotropicFriction<T, D> isotropic_friction(const Eigen::Matrix<T, D, 1>& u, cons
   return friction;
 }
 
-/// Length of a vector, for reports and signals. At rest it has no direction: its derivative is taken as zero there.
+/// The length of a vector, for signals. At zero, where it has no derivative, the derivative is set to zero.
 template <class T, int D>
 T length_of(const Eigen::Matrix<T, D, 1>& u) {
   using std::sqrt;

@@ -8,20 +8,20 @@
 
 namespace codesign {
 
-/// What a stop pushes back with.
+/// The force of a stop, with its derivatives by g and g'.
 template <class T>
 struct StopForce {
-  T value{0.0};      ///< against the excess, never negative [N or N m]
+  T value{0.0};      ///< F, pushes the joint back into its range; never negative [N or N m]
   T by_excess{0.0};  ///< [N/m or N m/rad]
   T by_rate{0.0};    ///< [N s/m or N m s/rad]
 };
 
-/// A stop of a joint, doc/theory.md (13d): F = k delta(g) h(c g').
+/// The force of a joint's stop, doc/theory.md (13d): F = k delta(g) h(c g').
 ///
-/// delta is the depth: 0 for g <= 0, g - w/2 for g >= w, between them w (5/2 s^4 - 3 s^5 + s^6) with s = g/w, three times continuously
-/// differentiable. h(y) = y + sqrt(1 + y^2) > 0 makes the force larger going in than coming out, and never lets it pull.
-/// @param excess g, how far the joint is beyond its limit [m or rad], @param rate g', @param stiffness k [N/m or N m/rad],
-/// @param dissipation c [s/m or s/rad], @param width w > 0 [m or rad].
+/// delta(g) is 0 for g <= 0, g - w/2 for g >= w, and w (5/2 s^4 - 3 s^5 + s^6) with s = g/w in between; three times continuously
+/// differentiable. h(y) = y + sqrt(1 + y^2) is positive and makes the force larger on the way in than on the way out.
+/// @param excess g, by which the joint is beyond its limit [m or rad], @param rate g' [m/s or rad/s],
+/// @param stiffness k [N/m or N m/rad], @param dissipation c [s/m or s/rad], @param width w > 0 [m or rad].
 template <class T>
 StopForce<T> joint_stop(const T& excess, const T& rate, double stiffness, double dissipation, double width) {
   using std::sqrt;
@@ -35,13 +35,13 @@ StopForce<T> joint_stop(const T& excess, const T& rate, double stiffness, double
     slope = s3 * (T(10.0) + s * (T(6.0) * s - T(15.0)));
   }
   const T y = T(dissipation) * rate, root = sqrt(T(1.0) + y * y);
-  // The other form loses no digits where the joint leaves fast.
+  // h(y) = 1/(sqrt(1 + y^2) - y) avoids cancellation for negative y.
   const T growth = is_less(y, T(0.0), false) ? T(1.0) / (root - y) : y + root;
   const T k(stiffness);
   return {k * depth * growth, k * slope * growth, k * depth * growth * T(dissipation) / root};
 }
 
-/// Elastic energy of the depth [J], the integral of k delta(g).
+/// The elastic energy of a stop, the integral of k delta(g) by g from 0 [J].
 template <class T>
 T stop_energy(const T& excess, double stiffness, double width) {
   if (!is_less(T(0.0), excess, false)) return T(0.0);
@@ -50,7 +50,7 @@ T stop_energy(const T& excess, double stiffness, double width) {
     const T s = excess / w, s2 = s * s;
     return k * w * w * s2 * s2 * s * (T(0.5) - T(0.5) * s + s2 / T(7.0));
   }
-  // The whole width holds k w^2/7; beyond it the force grows from k w/2.
+  // The energy at g = w is k w^2/7; from there on the force is k (g - w/2).
   return k * (w * w / T(7.0) + T(0.5) * (excess - w) * excess);
 }
 

@@ -10,10 +10,12 @@
 
 namespace codesign {
 
-/// Canudas de Wit, Olsson, Astrom and Lischinsky (1995) per unit of normal force, doc/theory.md (13f); the same in all directions:
+/// LuGre friction of Canudas de Wit, Olsson, Astrom and Lischinsky (1995) per unit of normal force, equal in all directions; doc/theory.md
+/// (13f):
 ///   zeta' = sigma_0 (u - |u|/g zeta),   g = mu_d + (mu_s - mu_d) exp(-u.u/v_s^2),   mu = zeta + sigma_1/sigma_0 zeta',
-/// zeta = sigma_0 z. Sliding steadily mu = g. At rest |u| has a corner; its slope is taken as zero there.
-/// @param u slip velocity [m/s]; of a joint with one direction in u[0]. The dwell state has no part in it.
+/// with zeta = sigma_0 z. In steady sliding |mu| = g. At rest, where |u| has no derivative, its derivative is set to zero. g must not
+/// vanish.
+/// @param u slip velocity [m/s]; with one slip direction only u[0] is used, the others are zero. The dwell state is not used.
 template <class T>
 Bristle<T> lugre(const Vector3<T>& u, const BristleState<T>& state, const FrictionConstants<T>& c) {
   using std::exp;
@@ -22,7 +24,7 @@ Bristle<T> lugre(const Vector3<T>& u, const BristleState<T>& state, const Fricti
   const bool moving = is_less(T(0.0), square, true);
   const T speed = moving ? T(sqrt(square)) : T(0.0);
   const T rise = (c.mu_static - c.mu_dynamic) * exp(-square * v2), g = c.mu_dynamic + rise;
-  const T turnover = speed / g;  // |u|/g: how fast bristles are replaced, per sigma_0 [m/s]
+  const T turnover = speed / g;  // |u|/g, the rate of bristle replacement divided by sigma_0 [m/s]
   const T by_square = moving ? T(T(0.5) / speed / g + turnover * rise * v2 / g) : T(0.0);
   const Matrix3<T> I = Matrix3<T>::Identity();
 

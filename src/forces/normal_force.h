@@ -10,7 +10,8 @@
 
 namespace codesign {
 
-/// A normal force with its gradient over the joint's reaction force F'' and torque T'' (on the child, in the joint frame).
+/// A normal force with its gradient by the reaction F'', T'' of theory (11): components in the joint axes, in the paper's sign, in which
+/// the child feels -F'' and -T''. Normal forces are even functions of the reaction.
 template <class T>
 struct NormalForce {
   T value{0.0};                            ///< [N]
@@ -18,9 +19,10 @@ struct NormalForce {
   Vector3<T> torque = Vector3<T>::Zero();  ///< dN/dT'' [1/m]
 };
 
-/// Haug's resolution of a reaction into forces at the ends of the joint, doc/theory.md (11); a = joint_length, b = joint_width:
+/// Prismatic joint, theory (12): N = cabs f1x + cabs f1y + cabs f2x + cabs f2y + 2 cabs f3x + preload, with Haug's resolution of the
+/// reaction into forces at the ends of the joint, theory (11); a = joint_length, b = joint_width:
 ///   f1 = (-F_x + T_y/a, -F_y - T_x/a),  f2 = (-T_y/a, T_x/a),  f3 = T_z/(2b).
-/// Translational joint, theory (12): N = cabs f1x + cabs f1y + cabs f2x + cabs f2y + 2 cabs f3x.
+/// @param F F'' [N]. @param torque T'' [N m].
 template <class T>
 NormalForce<T> translational_normal_force(const Vector3<T>& F, const Vector3<T>& torque, const FrictionConstants<T>& c) {
   const T ia = 1.0 / c.joint_length, ib = 0.5 / c.joint_width;
@@ -37,8 +39,8 @@ NormalForce<T> translational_normal_force(const Vector3<T>& F, const Vector3<T>&
   return N;
 }
 
-/// Radial load of a pin, theory (12): N = (pi^3/24) (sqrt(f1x^2 + f1y^2 + eps^2) + sqrt(f2x^2 + f2y^2 + eps^2)), the parabolic pressure of
-/// Haug's cylindrical joint. Does not change when F'' and T'' turn about z''.
+/// Pin of a cylindrical joint, theory (12): N = (pi^3/24) (sqrt(f1x^2 + f1y^2 + eps^2) + sqrt(f2x^2 + f2y^2 + eps^2)) + preload, from
+/// Haug's parabolic distribution of pressure. It does not depend on the choice of x''.
 template <class T>
 NormalForce<T> pin_normal_force(const Vector3<T>& F, const Vector3<T>& torque, const FrictionConstants<T>& c) {
   using std::sqrt;
@@ -56,7 +58,8 @@ NormalForce<T> pin_normal_force(const Vector3<T>& F, const Vector3<T>& torque, c
   return N;
 }
 
-/// Revolute joint, theory (12): the pin's load and the thrust cabs(F_z), which acts at `friction_arm` and is referred to `pin_radius`.
+/// Revolute joint, theory (12): the pin's normal force plus r_z/r_e cabs(F_z), the axial force at the arm r_z (friction_arm) referred to
+/// the pin's radius r_e (pin_radius).
 template <class T>
 NormalForce<T> revolute_normal_force(const Vector3<T>& F, const Vector3<T>& torque, const FrictionConstants<T>& c) {
   NormalForce<T> N = pin_normal_force(F, torque, c);
@@ -67,7 +70,7 @@ NormalForce<T> revolute_normal_force(const Vector3<T>& F, const Vector3<T>& torq
   return N;
 }
 
-/// Planar joint or table, theory (12): N = cabs(F_z) + preload, whatever the sign: the joint holds both ways.
+/// Planar joint or table, theory (12): N = cabs(F_z) + preload. The joint holds in both directions of the normal.
 template <class T>
 NormalForce<T> planar_normal_force(const Vector3<T>& F, const FrictionConstants<T>& c) {
   const T load = smooth_abs(F[2], c.smoothing);
@@ -77,7 +80,7 @@ NormalForce<T> planar_normal_force(const Vector3<T>& F, const FrictionConstants<
   return N;
 }
 
-/// Ball of a spherical joint, theory (12): N = sqrt(F.F + eps^2) + preload, the same in all directions.
+/// Ball of a spherical joint, theory (12): N = sqrt(F.F + eps^2) + preload.
 template <class T>
 NormalForce<T> ball_normal_force(const Vector3<T>& F, const FrictionConstants<T>& c) {
   using std::sqrt;

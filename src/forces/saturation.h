@@ -8,22 +8,22 @@
 
 namespace codesign {
 
-/// A bounded effort and its slope.
+/// A saturated effort and its derivative by the effort asked for.
 template <class T>
 struct SaturatedEffort {
-  T value{0.0};  ///< [of u]
+  T value{0.0};  ///< [unit of u]
   T slope{0.0};  ///< d value / d u, in (0, 1]
 };
 
 /// Smooth saturation of an actuator, doc/theory.md (13c): u / (1 + (u/u_max)^8)^(1/8).
-/// Odd and analytic; gain 1 up to terms of order (u/u_max)^8; never reaches u_max.
-/// @param u effort asked for, @param u_max > 0 the largest it can give, in the same unit.
+/// Odd and analytic, with gain 1 up to terms of order (u/u_max)^8; its magnitude stays below u_max.
+/// @param u effort asked for [N m or N]. @param u_max > 0, the limit, in the same unit.
 template <class T>
 SaturatedEffort<T> saturate(const T& u, const T& u_max) {
   using std::sqrt;
   const auto eighth_root = [](const T& x) { return sqrt(sqrt(sqrt(x))); };
   const T x = u / u_max;
-  // Beyond the limit in powers of 1/x, which cannot overflow.
+  // Above the limit the formula is written in 1/x, whose powers cannot overflow.
   const bool beyond = is_less(T(1.0), T(x * x), false);
   const T r = beyond ? T(1.0) / x : x, r2 = r * r, r4 = r2 * r2, r8 = r4 * r4;
   const T root = eighth_root(T(1.0) + r8), root9 = (T(1.0) + r8) * root;

@@ -8,21 +8,21 @@
 
 namespace codesign {
 
-/// What a spring-damper does at one instant.
+/// The force of a spring-damper, with its derivatives.
 template <class T>
 struct SpringForce {
   T length{0.0};                            ///< l [m]
   T tension{0.0};                           ///< k (l - l_0) + c l', positive if it pulls [N]
-  Vector3<T> pull = Vector3<T>::Zero();     ///< tension d/l: on the first point; the second feels the opposite [N]
-  Matrix3<T> by_d = Matrix3<T>::Zero();     ///< d pull / d d [N/m], symmetric but for the damper
-  Matrix3<T> by_rate = Matrix3<T>::Zero();  ///< d pull / d d' [N s/m], symmetric
+  Vector3<T> pull = Vector3<T>::Zero();     ///< tension d/l, the force on the first point; -pull acts on the second [N]
+  Matrix3<T> by_d = Matrix3<T>::Zero();     ///< derivative of pull by d [N/m]; the damper makes it unsymmetric
+  Matrix3<T> by_rate = Matrix3<T>::Zero();  ///< derivative of pull by d' [N s/m]; symmetric
 };
 
-/// Spring length below which its line has no direction, theory (13b) [m]: a billionth of what is drawn to a metre.
+/// delta of theory (13b) [m]: far below the length of any spring, it keeps the direction finite where the points meet.
 constexpr double kSpringSmoothing = 1e-9;
 
-/// Linear spring and damper along the line between two points, doc/theory.md (13b): l = sqrt(d.d + delta^2), pull = (k (l - l_0) + c l')
-/// d/l. Analytic everywhere; where the points meet there is no line, and the pull is zero whatever the free length.
+/// Linear spring and damper along the line between two points, doc/theory.md (13b): l = sqrt(d.d + delta^2),
+/// pull = (k (l - l_0) + c l') d/l. Analytic everywhere; where the points meet the pull is zero for any free length.
 /// @param d from the first point to the second [m], @param rate its time derivative [m/s],
 /// @param stiffness k [N/m], @param damping c [N s/m], @param free_length l_0 [m].
 template <class T>
@@ -47,7 +47,7 @@ SpringForce<T> spring_damper(const Vector3<T>& d, const Vector3<T>& rate, const 
   return s;
 }
 
-/// Elastic energy k (l - l_0)^2/2 [J].
+/// The elastic energy k (l - l_0)^2/2 [J]; parameters as for spring_damper().
 template <class T>
 T spring_energy(const Vector3<T>& d, const T& stiffness, const T& free_length) {
   using std::sqrt;

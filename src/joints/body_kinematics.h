@@ -6,14 +6,14 @@
 
 namespace codesign {
 
-/// Position, velocity and acceleration of one body's centroidal frame, with the rotation matrix and its first two time derivatives along
-/// (p, p', p''); doc/theory.md (1). The ground is a body at rest at the origin.
+/// Position, velocity and acceleration of a body's frame: centre of mass r, Euler parameters p, rotation matrix A, with first (d) and
+/// second (dd) time derivatives; doc/theory.md (1). The ground is a body at rest at the origin. [m], [m/s], [m/s^2]; [-], [1/s], [1/s^2].
 template <class T>
 struct BodyKinematics {
   Vector3<T> r = Vector3<T>::Zero(), rd = Vector3<T>::Zero(), rdd = Vector3<T>::Zero();
   Vector4<T> p = Vector4<T>(T(1.0), T(0.0), T(0.0), T(0.0)), pd = Vector4<T>::Zero(), pdd = Vector4<T>::Zero();
   Matrix3<T> A = Matrix3<T>::Identity(), Ad = Matrix3<T>::Zero(), Add = Matrix3<T>::Zero();
-  bool at_rest = false;  ///< the ground: what is fixed in it need not be computed, and has no derivatives
+  bool at_rest = false;  ///< the body is the ground: vectors fixed in it are constants
 
   /// Fills A, Ad = DA(p)[p'], Add = DA(p)[p''] + 2 A(p') from p, pd, pdd.
   void update_rotation() {
@@ -23,13 +23,13 @@ struct BodyKinematics {
   }
 };
 
-/// x = value, first and second time derivative of a vector that moves with the bodies.
+/// A vector that moves with the bodies, in ground axes, with its first and second time derivative.
 template <class T>
 struct VectorMotion {
   Vector3<T> x, xd, xdd;
 };
 
-/// Motion of a body-fixed direction A a.
+/// Motion of the body-fixed direction A a.
 template <class T>
 VectorMotion<T> direction_motion(const BodyKinematics<T>& body, const Vector3<T>& a) {
   if (body.at_rest) return {a, Vector3<T>::Zero(), Vector3<T>::Zero()};

@@ -10,26 +10,27 @@
 
 namespace codesign {
 
-/// How much of a coordinate is asked for; each includes those before it.
+/// Which members of CoordinateMotion to compute; each includes those before it.
 enum class CoordinateDetail {
   kRate,      ///< rate and J
   kGradient,  ///< rate_q, and the acceleration with its gradients
   kAll        ///< position and position_q
 };
 
-/// A joint's scalar coordinate theta with its rate and acceleration, and their gradients over the pair's coordinates; doc/theory.md (8).
+/// A joint coordinate theta with its rate and acceleration, and their gradients by the pair's 14 coordinates (_q) and velocities (_v);
+/// doc/theory.md (8).
 ///
-/// `J` maps velocities to the rate (rate = J v) and, transposed, a load on the joint to generalized forces, so that power balances exactly.
-/// What CoordinateDetail leaves out is not initialized.
+/// rate = J v, and a load L that opposes the coordinate enters the equations of motion as +J^T L, so that its power is exactly -L * rate.
+/// Members that CoordinateDetail excludes are not initialized.
 template <class T>
 struct CoordinateMotion {
-  T position, rate, acceleration;
+  T position, rate, acceleration;  ///< [rad or m], per s, per s^2
   LocalRow<T> position_q, J, rate_q, acceleration_q, acceleration_v;
 };
 
 namespace internal {
 
-/// N/D-type angle: theta = atan2(N, D) with N, D scalar products; all derivatives by the quotient rule on the unit circle.
+/// All members except the position for theta = atan2(N, D), with scalar products N and D, by the quotient rule.
 template <class T>
 void angle_motion(const ProductMotion<T>& N, const ProductGradient<T>& Ng, const ProductMotion<T>& D, const ProductGradient<T>& Dg,
                   CoordinateMotion<T>* m) {
@@ -67,9 +68,9 @@ Product<T> directions_product(const Vector3<T>& a_i, const Vector3<T>& b_j, cons
   return product(PairVector<T>::direction(Side::kI, a_i), PairVector<T>::direction(Side::kJ, b_j), i, j);
 }
 
-/// A rate that is linear in p and in p': R(p_j) p_j' . u_j - R(p_i) p_i' . u_i with R(p) r = -R(r) p, so that no arc tangent is
-/// differentiated.
-/// @param rate_matrix p -> G(p) or E(p), @param u_i, u_j carried by the bodies (for G) or fixed in the ground (for E).
+/// The rate u_i . R(p_i) p_i' + u_j . R(p_j) p_j' with R = G or E. It is linear in p and in p', since R(p) r = -R(r) p, so that no arc
+/// tangent need be differentiated.
+/// @param rate_matrix p -> R(p). @param u_i, u_j fixed in the bodies (G) or in the ground (E), factor and sign included.
 template <class T, class RateMatrix>
 void angular_rate(const RateMatrix& rate_matrix, const Vector3<T>& u_i, const Vector3<T>& u_j, const BodyKinematics<T>& i,
                   const BodyKinematics<T>& j, CoordinateDetail detail, CoordinateMotion<T>* m) {
@@ -92,7 +93,7 @@ void angular_rate(const RateMatrix& rate_matrix, const Vector3<T>& u_i, const Ve
   add(Side::kI, i, u_i);
 }
 
-/// About the common axis, 2 u_j . G(p_j) p_j' - 2 u_i . G(p_i) p_i'.
+/// The rate of a turn about the common axis, 2 u_j . G(p_j) p_j' - 2 u_i . G(p_i) p_i'.
 template <class T>
 void turn_rate(const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateDetail detail,
                CoordinateMotion<T>* m) {
@@ -100,7 +101,7 @@ void turn_rate(const PairConstants<T>& pair, const BodyKinematics<T>& i, const B
                   Vector3<T>(2.0 * pair.C_j.col(2)), i, j, detail, m);
 }
 
-/// About a ground axis, 2 a . (E(p_j) p_j' - E(p_i) p_i').
+/// The rate of a turn about a ground axis a, 2 a . (E(p_j) p_j' - E(p_i) p_i').
 template <class T>
 void spin_rate(const Vector3<T>& a, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateDetail detail,
                CoordinateMotion<T>* m) {
@@ -136,13 +137,14 @@ void apply_sign(double sign, CoordinateDetail detail, CoordinateMotion<T>* m) {
 
 }  // namespace internal
 
-/// The direction or displacement products of a sliding coordinate.
+/// The axis of a sliding coordinate as a vector over the pair.
 template <class T>
 PairVector<T> slide_axis(const CoordinateConstants<T>& c) {
   return PairVector<T>::direction(c.fixed_in_j ? Side::kJ : Side::kI, c.a);
 }
 
-/// The value of a coordinate. A turn's position lies in (-pi, pi]; whole turns are counted by the caller. Zero where there is none.
+/// The value of a coordinate [rad or m]; 0 for kSpin and kNone, which have none. Arc tangents lie in (-pi, pi]; the caller adds whole
+/// turns.
 template <class T>
 T coordinate_position(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i,
                       const BodyKinematics<T>& j) {
@@ -196,7 +198,7 @@ void angle_or_sine_motion(const CoordinateConstants<T>& c, const BodyKinematics<
 
 }  // namespace internal
 
-/// Evaluates one coordinate of a pair, its position as coordinate_position() does.
+/// Evaluates one coordinate of a pair; its position as coordinate_position().
 template <class T>
 CoordinateMotion<T> coordinate_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i,
                                       const BodyKinematics<T>& j, CoordinateDetail detail = CoordinateDetail::kAll) {

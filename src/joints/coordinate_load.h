@@ -8,11 +8,12 @@
 
 namespace codesign {
 
-// How the generalized forces of a load along a coordinate, J^T load, change with the positions; doc/theory.md (8).
+// The derivative by positions of the generalized forces J^T L of a load along a coordinate, (J^T L)_q = L theta_qq; doc/theory.md (8). Rows
+// and columns are those of the pair's 14 coordinates.
 
 namespace internal {
 
-/// Calls add(row, column, value) with weight (X . Y)_qq.
+/// Calls add(row, column, value) for the entries of weight * (X . Y)_qq.
 template <class T, class Add>
 void add_product_curvature(const PairVector<T>& X, const PairVector<T>& Y, const T& weight, const BodyKinematics<T>& i,
                            const BodyKinematics<T>& j, const Add& add) {
@@ -28,7 +29,7 @@ void add_product_curvature(const PairVector<T>& X, const PairVector<T>& Y, const
   add_turning(Side::kJ, load_j.W);
 }
 
-/// Calls add(row, column, value) with weight (a b^T + b a^T)/2 over the pair's Euler parameters.
+/// Calls add(row, column, value) for the entries of weight * (a b^T + b a^T)/2 that belong to Euler parameters.
 template <class T, class Add>
 void add_outer_product(const LocalRow<T>& a, const LocalRow<T>& b, const T& weight, const Add& add) {
   const T half = 0.5 * weight;
@@ -37,7 +38,7 @@ void add_outer_product(const LocalRow<T>& a, const LocalRow<T>& b, const T& weig
       if (row % kBodySize >= 3 && column % kBodySize >= 3) add(row, column, T(half * (a[row] * b[column] + b[row] * a[column])));
 }
 
-/// theta_qq of theta = atan2(N, D) or asin(N), by the chain rule.
+/// Calls add(row, column, value) for the entries of load * theta_qq with theta = atan2(N, D) or asin(N), by the chain rule.
 template <class T, class Add>
 void add_angle_curvature(const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j, const T& load,
                          const Add& add) {
@@ -63,7 +64,7 @@ void add_angle_curvature(const CoordinateConstants<T>& c, const BodyKinematics<T
 
 }  // namespace internal
 
-/// Calls add(row, column, value) with (J^T load)_q.
+/// Calls add(row, column, value) for the entries of (J^T load)_q at constant load. @param load opposes the coordinate [N m or N].
 template <class T, class Add>
 void coordinate_load_gradient(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i,
                               const BodyKinematics<T>& j, const T& load, const Add& add) {

@@ -6,34 +6,34 @@
 
 namespace codesign {
 
-/// Coordinates of a pair of bodies, in the order [r_i, p_i, r_j, p_j].
+/// The number of coordinates of a pair of bodies, [r_i, p_i, r_j, p_j], and of one body.
 constexpr int kLocalSize = 14;
 constexpr int kBodySize = 7;
 
-/// A row vector over the coordinates of a pair of bodies: the gradient of a scalar.
+/// The gradient of a scalar by the coordinates of a pair of bodies, stored as a column.
 template <class T>
 using LocalRow = Eigen::Matrix<T, kLocalSize, 1>;
 
 template <class T>
 using LocalMatrix = Eigen::Matrix<T, kLocalSize, kLocalSize>;
 
-/// Which body of the pair.
+/// A body of the pair.
 enum class Side { kI = 0, kJ = 1 };
 
 constexpr int r_offset(Side side) { return side == Side::kI ? 0 : kBodySize; }
 constexpr int p_offset(Side side) { return r_offset(side) + 3; }
 
-/// One term of a vector that depends on a pair's coordinates: sign (r + A s) if `point`, else sign A s.
+/// One term of a vector over a pair: sign * (r + A s) if `point`, else sign * A s.
 template <class T>
 struct VectorTerm {
   Side side = Side::kI;
   bool point = false;
   double sign = 1.0;
   Vector3<T> s = Vector3<T>::Zero();
-  int shared = -1;  ///< place among the vectors that a pair's rows share, PairRows::vectors
+  int shared = -1;  ///< index in PairRows::vectors, or -1
 };
 
-/// A vector over a pair of bodies: a direction fixed in one, or the displacement between a point of each.
+/// A vector over a pair of bodies, in ground axes: a direction fixed in one of them, or the displacement from a point of i to a point of j.
 template <class T>
 struct PairVector {
   int terms = 0;

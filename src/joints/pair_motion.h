@@ -8,14 +8,14 @@
 
 namespace codesign {
 
-/// The vectors that a pair's product rows share, in motion; evaluated once for all rows.
+/// The motion of the vectors that a pair's product rows share (PairRows::vectors), evaluated once for all rows.
 template <class T>
 struct PairMotion {
   std::array<VectorMotion<T>, PairRows<T>::kVectors> motion;
   std::array<VectorJacobian<T>, PairRows<T>::kVectors> jacobian;
   VectorMotion<T> displacement;  ///< from the point of i to the point of j
 
-  /// Vectors that are fixed in the ground have no Jacobian.
+  /// Evaluates the vectors that are used. Jacobians of vectors fixed in the ground are not set.
   void update(const PairRows<T>& rows, const BodyKinematics<T>& i, const BodyKinematics<T>& j, bool with_jacobians) {
     for (std::size_t k = 0; k < rows.vectors.size(); ++k) {
       if (!rows.used[k]) continue;
@@ -32,7 +32,7 @@ struct PairMotion {
   const VectorMotion<T>& of(const VectorTerm<T>& term) const { return motion[static_cast<std::size_t>(term.shared)]; }
   const VectorJacobian<T>& jacobian_of(const VectorTerm<T>& term) const { return jacobian[static_cast<std::size_t>(term.shared)]; }
 
-  /// Of a direction, or of the displacement.
+  /// The motion of a direction of the rows, or of the displacement.
   const VectorMotion<T>& of(const PairVector<T>& x) const { return x.terms == 1 ? of(x.term[0]) : displacement; }
 };
 

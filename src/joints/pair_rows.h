@@ -10,7 +10,7 @@
 
 namespace codesign {
 
-/// A constraint scale (X . Y - offset) = 0.
+/// The constraint row scale * (X . Y - offset) = 0; theory (6).
 template <class T>
 struct ProductRow {
   PairVector<T> X, Y;
@@ -18,15 +18,15 @@ struct ProductRow {
   double scale = 1.0;
 };
 
-/// The constraints of a kinematic pair: three rows "the points coincide" (in ground axes) if `coincident`, then products; doc/theory.md
-/// (5), (6).
+/// The constraint rows of a kinematic pair: if `coincident`, three rows for coincident points, in ground axes; then scalar products;
+/// doc/theory.md (5), (6).
 ///
-/// Directions and planes are the parent's, so that the multipliers are components of the paper's F'' and T'' in the parent's joint axes
-/// (the child feels -F'', -T''): rows (x_i . d, y_i . d) give F'' = (lambda_1, lambda_2, 0); rows (x_i . z_j, y_i . z_j, y_i . x_j) give
-/// T'' = (-lambda_2, lambda_1, lambda_3).
+/// Directions and planes belong to body i, so that the multipliers are components of the paper's F'' and T'' in the joint axes of i, theory
+/// (11); the child feels -F'' and -T''. Rows (x_i . d, y_i . d) give F'' = (lambda_1, lambda_2, 0); rows (x_i . z_j, y_i . z_j, y_i . x_j)
+/// give T'' = (-lambda_2, lambda_1, lambda_3).
 template <class T>
 struct PairRows {
-  /// Joint axes x, y, z and the joint's point on each body; several rows use the same ones.
+  /// The shared vectors: joint axes x, y, z (0 to 2) and the joint point (3) of each body.
   static constexpr int kPoint = 3, kVectors = 8;
   static constexpr int shared(Side side, int k) { return (side == Side::kI ? 0 : 4) + k; }
 
@@ -54,6 +54,7 @@ void share_vectors(const PairConstants<T>& c, PairRows<T>* rows) {
 
 }  // namespace internal
 
+/// The constraint rows of a pair of this kind; the table in theory (6) lists them.
 template <class T>
 PairRows<T> pair_rows(PairKind kind, const PairConstants<T>& c) {
   using V = PairVector<T>;

@@ -7,8 +7,8 @@
 
 namespace codesign {
 
-// The scalar product phi = X . Y of two vectors over a pair of bodies. Directions normal to each other, a point in a plane, two points at a
-// distance: every constraint beside coincident points is one of these; doc/theory.md (6).
+// The scalar product phi = X . Y of two vectors over a pair of bodies. All constraints of pairs except coincident points have this form:
+// normal directions, a point in a plane, two points at a distance; doc/theory.md (6). Gradients are by the pair's 14 coordinates.
 
 template <class T>
 VectorMotion<T> motion_of(const PairVector<T>& x, const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
@@ -17,7 +17,7 @@ VectorMotion<T> motion_of(const PairVector<T>& x, const BodyKinematics<T>& i, co
   return displacement_motion(i, x.term[1].s, j, first.s);
 }
 
-/// phi and its first two time derivatives.
+/// phi and its first and second time derivative.
 template <class T>
 struct ProductMotion {
   T phi, phid, phidd;
@@ -33,7 +33,7 @@ template <class T>
 struct ProductGradient {
   LocalRow<T> phi_q, phid_q, phidd_q;
 
-  /// Zero up to this order; the rest stays uninitialized.
+  /// Sets phi_q to zero and, if order > 0, the other two.
   void clear(int order = 2) {
     phi_q.setZero();
     if (order < 1) return;
@@ -42,7 +42,7 @@ struct ProductGradient {
   }
 };
 
-/// B of a body-fixed vector along p, p' and p'': the Jacobians of A s, (A s)' and (A s)'' by p.
+/// B(p, s), B(p', s) and B(p'', s) of a body-fixed vector s, from which the Jacobians of A s, (A s)' and (A s)'' by p are made; theory (2).
 template <class T>
 struct VectorJacobian {
   Matrix34<T> B, Bd, Bdd;
@@ -53,7 +53,7 @@ VectorJacobian<T> vector_jacobian(const BodyKinematics<T>& body, const Vector3<T
   return {rotated_vector_jacobian(body.p, s), rotated_vector_jacobian(body.pd, s), rotated_vector_jacobian(body.pdd, s)};
 }
 
-/// Adds to the gradient of X . Y the part that comes from one of X's terms; `J` is that term's Jacobian, `y` the motion of its partner.
+/// Adds to the gradient of X . Y the part of one term of X. @param J the Jacobians of that term. @param y the motion of Y.
 template <class T>
 void add_term_gradient(const VectorTerm<T>& term, const VectorJacobian<T>& J, const VectorMotion<T>& y, ProductGradient<T>* gradient) {
   const double sign = term.sign, twice = 2.0 * term.sign;
@@ -73,7 +73,7 @@ void add_term_gradient(const VectorTerm<T>& term, const VectorJacobian<T>& J, co
   }
 }
 
-/// As above, of phi_q alone.
+/// Likewise for phi_q only. @param B Jacobian of the term by p. @param y the value of Y.
 template <class T>
 void add_term_slope(const VectorTerm<T>& term, const Matrix34<T>& B, const Vector3<T>& y, LocalRow<T>* phi_q) {
   const double sign = term.sign;
@@ -82,7 +82,7 @@ void add_term_slope(const VectorTerm<T>& term, const Matrix34<T>& B, const Vecto
   for (int c = 0; c < 4; ++c) (*phi_q)[p_offset(term.side) + c] += sign * dot<T>(B.col(c), y);
 }
 
-/// @param order 0: phi_q alone; 2: all.
+/// The gradient of X . Y. @param x, y the motion of X and Y. @param order 0: phi_q only; 2: all.
 template <class T>
 ProductGradient<T> product_gradient(const PairVector<T>& X, const PairVector<T>& Y, const VectorMotion<T>& x, const VectorMotion<T>& y,
                                     const BodyKinematics<T>& i, const BodyKinematics<T>& j, int order = 2) {
@@ -102,14 +102,14 @@ ProductGradient<T> product_gradient(const PairVector<T>& X, const PairVector<T>&
   return gradient;
 }
 
-/// The load of a multiplier on the bodies: phi_q^T lambda = [force on r, K(W) p] with W = sum of b s^T; theory (7).
+/// The load of multipliers on one body: (phi_q^T lambda)_b = [force, K(W) p] with W = sum of b s^T; theory (7).
 template <class T>
 struct BodyLoad {
-  Vector3<T> force = Vector3<T>::Zero();
-  Matrix3<T> W = Matrix3<T>::Zero();
+  Vector3<T> force = Vector3<T>::Zero();  ///< [N], in ground axes
+  Matrix3<T> W = Matrix3<T>::Zero();      ///< [N m]
 };
 
-/// @param i, j nullptr for the ground.
+/// Adds the load b on every term of x. @param i, j loads of the two bodies; null for the ground.
 template <class T>
 void add_vector_load(const PairVector<T>& x, const Vector3<T>& b, BodyLoad<T>* i, BodyLoad<T>* j) {
   for (int k = 0; k < x.terms; ++k) {
@@ -129,8 +129,8 @@ void add_product_load(const PairVector<T>& X, const PairVector<T>& Y, const Vect
   add_vector_load<T>(Y, lambda * x.x, i, j);
 }
 
-/// Calls add(row, column, value) with the part of (phi_q^T lambda)_q in which one term of each factor moves: their Jacobians' product and
-/// its transpose. `Ba`, `Bb` are the terms' Jacobians by p.
+/// Calls add(row, column, value) for weight * (D_a^T D_b + D_b^T D_a), the part of (phi_q^T lambda)_q of a pair of terms; theory (6).
+/// @param Ba, Bb the Jacobians of the terms by p.
 template <class T, class Add>
 void term_hessian(const VectorTerm<T>& a, const Matrix34<T>& Ba, const VectorTerm<T>& b, const Matrix34<T>& Bb, const T& weight,
                   const Add& add) {
@@ -151,7 +151,7 @@ void term_hessian(const VectorTerm<T>& a, const Matrix34<T>& Ba, const VectorTer
   }
 }
 
-/// Calls add(row, column, value) with the part of (phi_q^T lambda)_q in which both factors move; the remainder is K(W) on each body's p.
+/// Calls add(row, column, value) for the terms D_k^T D_l of (phi_q^T lambda)_q, theory (6); the remainder is K(W) for each body's p.
 template <class T, class Add>
 void product_hessian(const PairVector<T>& X, const PairVector<T>& Y, const T& lambda, const BodyKinematics<T>& i,
                      const BodyKinematics<T>& j, const Add& add) {

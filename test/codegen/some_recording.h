@@ -14,8 +14,8 @@ namespace codesign {
 
 constexpr int kSomeLeaves = 30, kSomeResults = 25;
 
-/// Sums, products, quotients and functions of the leaves and of each other, the same for every scalar: some used at once, some long after,
-/// so that not all fit into registers.
+/// Sums, products, quotients and functions of the leaves and of each other, for any scalar. Some are used at once, some much later, so that
+/// they do not all fit into registers.
 template <class T>
 std::vector<T> some_results(const std::vector<T>& leaves) {
   using std::asin, std::cos, std::exp, std::sin, std::sqrt, std::tanh;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kRows = 40, kArrays = 5;
 
-/// The same sums in loops.
+/// Computes the sums by loops.
 void interpret(const std::vector<Sum>& sums, int width, std::vector<double> (&arrays)[kArrays]) {
   const auto number = [&arrays](const Place& place) { return arrays[place.array][static_cast<std::size_t>(place.index)]; };
   const auto row = [&](const Place& place, int k) -> double& {
@@ -30,8 +30,8 @@ void interpret(const std::vector<Sum>& sums, int width, std::vector<double> (&ar
     }
 }
 
-/// Sums of 0 to 20 products of rows that were computed before, in array 0, and of given ones, in array 1, with numbers of array 2.
-/// Rows that are added, and such without a factor, if `wide`.
+/// Sums of 0 to 20 products. Their rows are earlier targets (array 0) and given rows (array 1), their factors are in array 2. If `wide`,
+/// some products are added and some have no factor.
 std::vector<Sum> some_sums(bool wide) {
   std::mt19937 random(7);
   const auto below = [&random](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };

@@ -86,7 +86,7 @@ TEST_F(SmallTangents, OfAConstantAndOfARoundedNumberAreEmpty) {
 }
 
 TEST_F(SmallTangents, AWrongDerivativeWouldBeSeen) {
-  // The check above, on a program whose first factor was tampered with.
+  // The check above must fail for a program with a wrong first factor.
   TangentProgram program = differentiate(x * y);
   const std::vector<double> leaves{2.0, 3.0, 0.0}, direction{1.0, 1.0, 0.0};
   EXPECT_DOUBLE_EQ(run(recording, program, 1, leaves, direction)[0], 5.0);

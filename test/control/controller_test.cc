@@ -52,7 +52,7 @@ TEST(Controller, FeedbackReadsEarlierControllersOnly) {
       Resolved(std::string(kInner) + "  a: {type: state_feedback, output: elbow, feedback: [{signal: inner/output, gain: 1.0}]}\n"));
 }
 
-// A reaction or a power that holds a controller's own output would have to be known before it.
+// A controller cannot read a reaction or a power that contains its own output.
 TEST(Controller, NothingReadsItsOwnEffort) {
   const auto feedback = [](const std::string& signal) {
     return "  a: {type: state_feedback, output: elbow, feedback: [{signal: " + signal + ", gain: 1.0}]}\n";
@@ -76,7 +76,7 @@ TEST(Controller, ComputedTorquesKnowOfEachOther) {
   EXPECT_EQ(one.controllers.at(0).tree.nodes[1].controller, -1);
 }
 
-// Two laws for one joint would each ask for its own acceleration.
+// Two computed torques on one joint would prescribe two accelerations.
 TEST(Controller, AJointHasOneComputedTorqueAtMost) {
   const std::string servo = ": {type: computed_torque, setpoint: 0.0, gains: {p: 1.0}, output: shoulder}\n";
   EXPECT_THROW(Resolved("  a" + servo + "  b" + servo), InputError);

@@ -17,7 +17,7 @@ Reference<double> through(const WaypointsDescription& points) {
   return Reference<double>(description, {});
 }
 
-/// Each derivative against differences of the one before it.
+/// Compares each derivative with differences of the one before it.
 void expect_derivatives(const Reference<double>& reference, double t) {
   const auto difference = [t](const auto& f) { return ridders_derivative(f, t, 1e-2).value; };
   const ReferenceMotion<double> m = reference.at(t);
@@ -94,7 +94,7 @@ TEST(Reference, QuinticPiecesMeetInPositionVelocityAndAcceleration) {
   EXPECT_NEAR(through(given).at(0.7).acceleration, 4.0, 1e-12);
 }
 
-// Inner way-points of a parabola get its slope and curvature.
+// At inner way-points on a parabola the chosen velocity and acceleration are those of the parabola.
 TEST(Reference, ChosenVelocitiesAndAccelerationsAreThoseOfAParabola) {
   std::vector<double> times{0.0, 0.5, 1.2, 1.5, 2.0, 3.0};
   std::vector<Quantity> positions;

@@ -8,7 +8,7 @@
 namespace codesign {
 namespace {
 
-/// ground - yaw - massless fork - pitch - arm, an end frame on the arm, and a finger without mass on a hinge of its own.
+/// ground - yaw - massless fork - pitch - arm, an end frame fixed to the arm, and a massless finger on another hinge.
 struct Fixture {
   RobotDescription robot = read_urdf(robot_text(
       kGround + link_with("fork", "") + link_with("arm") + link_with("camera", "") + link_with("finger", "") +
@@ -85,7 +85,7 @@ TEST(ResolveSignal, AReactionIsReadWhereTheChildHasMass) {
   EXPECT_EQ(signal[0].element, 1);
   EXPECT_EQ(signal[0].axis, 1);
   const std::string refused = fixture.refusal("yaw/reaction_force/x");
-  EXPECT_NE(refused.find("hands on what acts on it"), std::string::npos) << refused;
+  EXPECT_NE(refused.find("where the reaction can be read"), std::string::npos) << refused;
   EXPECT_NE(refused.find("pitch/reaction_force/x, in the frame of that joint"), std::string::npos) << refused;
   EXPECT_NE(fixture.refusal("grip/reaction_force/x").find("without <inertial>"), std::string::npos);
   EXPECT_NE(fixture.refusal("mount/reaction_force/x").find("one body"), std::string::npos);

@@ -29,7 +29,7 @@ TEST(Basis, LinearCoefficientsAreTheValuesAtEqualTimes) {
   EXPECT_NEAR(value(b, c, 0.25, true), -6.0, 1e-13);
 }
 
-// The uniform cubic B-spline has the weights 1/6, 4/6, 1/6 at an inner knot; knots 3 spans from both ends are repeated nowhere near.
+// The uniform cubic B-spline has the weights 1/6, 4/6, 1/6 at an inner knot that is at least 3 spans away from the repeated end knots.
 TEST(Basis, CubicWeightsFarFromTheEndsAreThoseOfTheUniformSpline) {
   const BasisDescription b = basis(BasisShape::kCubic, 11, 8.0);
   const BasisWeights w = basis_weights(b, 4.0);

@@ -67,7 +67,7 @@ TEST(ExpressionSyntax, RefusesWhatIsNoArithmetic) {
   expect_complaint("atan2(x)", "");
 }
 
-// Each of these was once read as something that nobody wrote.
+// A previous parser accepted these and gave them another meaning.
 TEST(ExpressionSyntax, RefusesWhatLooksLikeSomethingElse) {
   expect_complaint("99\n3", "an operator is missing before '3' at position 4");
   expect_complaint("1\r\n+ 2\n3", "an operator is missing before '3'");

@@ -28,7 +28,7 @@ TEST(Quantity, LanesCarryTheChainRule) {
   const Quantity product(6.0, std::make_shared<const Expression>("x*y", std::vector<std::string>{"x", "y"}));
   EXPECT_EQ(product.nominal(), 6.0);
   std::vector<Lanes<4>> at = {lane(2.0, 0), lane(5.0, 1)};
-  at[0].v = 10.0 * at[0].v;  // x itself depends on something
+  at[0].v = 10.0 * at[0].v;  // the parameter itself has a derivative
   const Lanes<4> value = product.at(at);
   EXPECT_DOUBLE_EQ(value.a, 10.0);
   EXPECT_DOUBLE_EQ(value.v[0], 50.0);

@@ -50,7 +50,7 @@ void expect_exact_derivatives(const Law& law, const ComplexLaw& complex_law, dou
   EXPECT_LT(compare_jacobians(J, complex_step_jacobian(function, x)).largest, 1e-12) << speed << " " << zeta << " " << dwell;
 }
 
-/// Derivatives by the six coefficients, as numbers with derivatives carry them, against the complex step.
+/// Derivatives by the six coefficients, computed with lanes, against the complex step.
 template <class LanesLaw, class ComplexLaw>
 void expect_parameter_derivatives(const LanesLaw& lanes_law, const ComplexLaw& complex_law) {
   const auto members = [](auto& c) {

@@ -80,7 +80,8 @@ TEST(Gonthier, DoesNotDependOnTheDirection) {
 }
 
 TEST(Gonthier, DerivativesAreExact) {
-  // At rest, inside the parabola, on both sides of its edge (1 mm/s), around v_s, sliding; free and cut off; s above and below s_dw.
+  // Speeds: at rest, within the parabola, on both sides of its end (1 mm/s), around v_s, sliding. Deflections: not cut and cut. s above and
+  // below s_dw.
   for (double speed : {0.0, 1e-5, 0.00099, 0.00101, 0.006, 0.012, 0.05, 2.0})
     for (double zeta : {0.0, 0.2, 0.9})
       for (double dwell : {0.0, 0.4, 0.95}) expect_exact_derivatives(gonthier<double>, gonthier<std::complex<double>>, speed, zeta, dwell);

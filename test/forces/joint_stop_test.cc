@@ -36,7 +36,7 @@ TEST(JointStop, NeverPulls) {
 }
 
 TEST(JointStop, MeetsSmoothlyAtBothEndsOfItsWidth) {
-  // The second derivative is continuous: near each end the slope departs by the cube of the distance.
+  // The second derivative is continuous: near each end the slope differs from the end's by the cube of the distance.
   EXPECT_LT(stop(1e-3 * kWidth, 0.0).by_excess, 1.01e-8 * kStiffness);
   EXPECT_NEAR(stop(kWidth * (1.0 - 1e-3), 0.0).by_excess, kStiffness, 1.01e-8 * kStiffness);
   EXPECT_NEAR(stop(std::nextafter(kWidth, 0.0), 0.0).value, stop(kWidth, 0.0).value, 1e-12);

@@ -11,7 +11,7 @@ namespace {
 constexpr double kStiffness = 1000.0, kDamping = 50.0, kFree = 0.1;
 
 TEST(SpringDamper, ByHand) {
-  // 0.5 m long, 0.4 m too long; it grows at 0.6 * 0.1 - 0.8 * 0.2 = -0.1 m/s.
+  // Length 0.5 m, 0.4 m above the free length; its rate is 0.6 * 0.1 - 0.8 * 0.2 = -0.1 m/s.
   const auto s = spring_damper<double>({0.3, 0.0, -0.4}, {0.1, 5.0, 0.2}, kStiffness, kDamping, kFree);
   EXPECT_NEAR(s.length, 0.5, 1e-15);
   EXPECT_NEAR(s.tension, 400.0 - 5.0, 1e-11);

@@ -10,7 +10,7 @@ namespace {
 
 using Body = BodyKinematics<double>;
 
-/// A body on a smooth path through position and turning, at time t; derivatives by hand.
+/// A body that moves and turns smoothly, at time t, with derivatives written by hand.
 Body on_a_path(double t) {
   Body b;
   b.r = {std::sin(t), t * t, 1.0};

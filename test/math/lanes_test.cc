@@ -14,7 +14,7 @@ using L = Lanes<4>;
 using C = std::complex<double>;
 constexpr double kStep = 1e-30;
 
-/// Every lane must carry what the complex step gives for a generic function of two variables.
+/// Every lane must equal the derivative by the complex step, for a generic function of two variables.
 template <class F>
 void expect_derivatives(const F& f, double x, double y) {
   L lx(x), ly(y);

@@ -11,7 +11,7 @@ std::string inertial(const std::string& mass, const std::string& ixx, const std:
          izz + "\"/></inertial>";
 }
 
-/// An arm of these numbers on a hinge, and a part welded to it.
+/// An arm with this inertial on a hinge, and a part fixed to the arm.
 SourceText arm(const std::string& numbers, const std::string& part = "") {
   return robot_text(kGround + link_with("arm", numbers) + joint_with("hinge", "continuous", "ground", "arm") + "\n" +
                     (part.empty() ? "" : link_with("part", part) + joint_with("weld", "fixed", "arm", "part")));

@@ -39,7 +39,7 @@ TEST(ChainGeometry, WalkedBackwardsItIsTheInverse) {
 
 TEST(NearestPoint, IsWhereLinesMeetOrComeClosest) {
   using V = Vector3<double>;
-  // The lines along x at y = 2 and along y at x = 3 meet; lifted by z = 1 the second only passes over.
+  // The line along x at y = 2 and the line along y at x = 3 intersect; with the second one at z = 1 they do not.
   for (double lift : {0.0, 1.0})
     EXPECT_LT((nearest_point<double>(V(-5, 2, 0), V::UnitX(), V(3, 7, lift), V::UnitY()) - V(3, 2, 0)).norm(), 1e-14);
   const V oblique = V(1, 1, 0).normalized();

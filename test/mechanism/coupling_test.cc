@@ -81,7 +81,7 @@ TEST(Coupling, ALinkWithoutMassThatIsCoupledIsABody) {
 }
 
 TEST(Coupling, WhatFollowsAJointWithoutMassKeepsIt) {
-  // The finger that drives has no inertial, the one that follows has: the row says what both do.
+  // The driving finger has no inertial, the one that mimics it has; the coupling needs both coordinates.
   const std::string fingers = link_with("driver", "") + joint_with("drive", "continuous", "lower", "driver") + link_with("follower") +
                               joint_with("follow", "continuous", "lower", "follower", "<mimic joint=\"drive\" multiplier=\"-1\"/>");
   const Topology topology = derive_topology(read_urdf(robot_text(arm(fingers))));

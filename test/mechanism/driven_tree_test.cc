@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-/// The tree of a joint of a mechanism, its nodes' body names.
+/// The driven trees of a mechanism's joints, as names of bodies.
 class Trees {
  public:
   explicit Trees(const std::string& urdf) : robot_(read_urdf({"test.urdf", urdf})), topology_(derive_topology(robot_)) {}

@@ -8,7 +8,7 @@
 namespace codesign {
 namespace {
 
-/// One joint of a chain: what moves, along which axis, and where it stands from the one before.
+/// One joint of a chain: its type, its axis, and its origin in the frame of the one before.
 struct Element {
   const char* type;
   const char* axis;
@@ -28,7 +28,7 @@ Topology topology(const std::vector<Element>& elements, const std::string& more 
   return derive_topology(read_urdf(robot_text(text)));
 }
 
-/// The joint that it amounts to.
+/// The kind of pair that the chain is folded into.
 PairKind fold(const std::vector<Element>& elements) { return topology(elements).pairs.at(0).kind; }
 
 constexpr const char *kTurn = "continuous", *kSlide = "prismatic", *kX = "1 0 0", *kY = "0 1 0", *kZ = "0 0 1";
@@ -69,7 +69,7 @@ TEST(FoldChain, LinksOfWhatIsNoJointAreBodiesWithoutMass) {
       {{kTurn, kX}, {kTurn, kY}, {kTurn, kZ, "1 1 0"}},  // the third passes by
       {{kSlide, kX}, {kSlide, kX}},                      // twice the same slide
       {{kSlide, kX}, {kSlide, kY}, {kSlide, "1 1 0"}},   // three slides in one plane
-      {{kTurn, kX}, {kSlide, kY}},                       // a slide that a turn swings round
+      {{kTurn, kX}, {kSlide, kY}},                       // a slide across the axis of a turn
       {{kTurn, kX}, {"planar", kZ}},                     // no chain of simple joints
   };
   for (const std::vector<Element>& chain : chains) {

@@ -6,7 +6,7 @@
 namespace codesign {
 namespace {
 
-/// Which attribute the check asks for; empty if none.
+/// The error that the check throws; empty if it passes.
 std::string complaint(const FrictionDescription& friction, JointType type) {
   try {
     check_friction_geometry(friction, type, "<joint>");

@@ -74,7 +74,7 @@ TEST(PairGeometry, AUniversalJointKeepsTheAngleBetweenItsAxes) {
 
 TEST(PairGeometry, SlidesAreReadByDualVectors) {
   const PairConstants<double> c = pair({{"prismatic", "1 0 0"}, {"prismatic", "0.6 0.8 0"}});
-  // d = u0 x + u1 (0.6, 0.8, 0): each coordinate's vector must give its own slide and nothing of the other.
+  // d = u0 x + u1 (0.6, 0.8, 0): the vector of each coordinate must give its own slide and be normal to the other's axis.
   const Eigen::Vector3d d = 0.3 * kX + 0.7 * Eigen::Vector3d(0.6, 0.8, 0.0);
   EXPECT_EQ(c.coordinates[0].kind, Kind::kSlide);
   EXPECT_NEAR(c.coordinates[0].a.dot(d), 0.3, 1e-15);

@@ -22,7 +22,7 @@ JointDescription joint(const std::string& name, JointType type, int child) {
   return description;
 }
 
-/// A chain from the ground, whose last joint only turns a pointer without mass. One link bears the name of a joint.
+/// A chain from the ground; its last joint moves only a massless pointer. One link has the same name as a joint.
 RobotDescription robot() {
   RobotDescription robot;
   robot.links = {link("ground", false), link("arm", true),        link("hinge", true),

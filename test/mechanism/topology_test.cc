@@ -48,7 +48,7 @@ TEST(Topology, FoldsMasslessChains) {
 }
 
 TEST(Topology, WhatFoldsIntoNoJointIsABodyWithoutMass) {
-  // Two parallel hinges apart: a massless link of some length.
+  // A massless link between two parallel hinges at a distance.
   const Topology rod = topology(light("m") + heavy("b") + joint("1", "continuous", "ground", "m", "0 1 0") +
                                 joint("2", "continuous", "m", "b", "0 1 0", "1 0 0"));
   ASSERT_EQ(rod.bodies.size(), 2U);

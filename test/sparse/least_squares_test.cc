@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-/// A band of `size` independent columns of three numbers, and behind them sums of neighbours.
+/// A matrix with `size` independent columns of three numbers each in a band, followed by columns that are sums of neighbours.
 SparseMatrix band(int size, int sums) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](int column, int k) {
@@ -54,7 +54,7 @@ TEST_P(LeastSquaresOfSize, EarlierPreferencesComeFirst) {
   EXPECT_TRUE(dependent_columns(columns_of(A, chosen), 1e-9).empty());
 }
 
-// Either side of the size from which factors are sparse.
+// Sizes below and above the one from which the factorization is sparse.
 INSTANTIATE_TEST_SUITE_P(Sizes, LeastSquaresOfSize, ::testing::Values(8, 600));
 
 TEST(LeastSquares, OfNothingIsNothing) {

@@ -24,7 +24,7 @@ Eigen::Matrix3d matrix(double corner) {
 
 std::vector<double> values(double corner) { return {2.0, 4.0, 3.0, 6.0, 1.0, corner}; }
 
-/// By machine code, where there is any, and by loops.
+/// With machine code, if available, and with loops.
 class LuScheduleTest : public ::testing::TestWithParam<bool> {};
 
 TEST_P(LuScheduleTest, SolvesForOneAndForSeveralRightHandSides) {
@@ -83,7 +83,7 @@ TEST_P(LuScheduleTest, TakesFillAndPermutationsOfALargeMatrix) {
   constexpr int n = 60;
   std::srand(5);
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
-  // The diagonal is left empty in places, so that rows and columns are exchanged.
+  // Some diagonal entries are zero, so that rows and columns must be exchanged.
   for (int row = 0; row < n; ++row)
     for (int k = 0; k < 4; ++k) A(row, (7 * row + 13 * k * k + row / 3) % n) += 1.0 + 0.1 * Eigen::internal::random<double>();
   A.diagonal().tail(n / 2).array() += 5.0;

@@ -44,7 +44,7 @@ TEST(SparseLu, FallsBackWhenOldPivotsVanish) {
   EXPECT_LT((m * x - b).norm(), 1e-12);
   EXPECT_EQ(lu.full_factorizations(), 2);
 
-  // Both sets of pivots are known now.
+  // Both choices of pivots are kept by now.
   for (double corner : {1e8, 4.0}) {
     ASSERT_TRUE(lu.factor(matrix(corner).data()));
     ASSERT_TRUE(lu.factor(m.data()));

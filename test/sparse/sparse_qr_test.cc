@@ -9,7 +9,8 @@
 namespace codesign {
 namespace {
 
-/// A band of independent columns with three numbers each; a column whose number leaves the remainder 3 by 7 is the sum of the two before.
+/// A matrix with three numbers per column in a band. Columns are independent, except that column k is the sum of the two before if k % 7
+/// == 3.
 SparseMatrix band(int size) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](int column, int k) {

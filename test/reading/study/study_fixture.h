@@ -29,12 +29,12 @@ inline RobotDescription study_robot() {
   return robot;
 }
 
-/// The least a study must say, to which tests add lines.
+/// A minimal study, to which tests add lines.
 inline const std::string kLeastStudy = "duration: 2.0\nobjective: {integral: [{signal: crank_joint/velocity}]}\n";
 
 inline Study read_text(const std::string& text) { return read_study({"study.yaml", text}, study_robot()); }
 
-/// The fault of a study that must be refused.
+/// The fault of an invalid study; the test fails if reading it succeeds.
 inline InputFault fault_in(const std::string& text) {
   try {
     read_text(text);
@@ -46,7 +46,7 @@ inline InputFault fault_in(const std::string& text) {
   return {};
 }
 
-/// Expects a study to be refused at `element`, with `message` in its sentence and `line` as its place.
+/// Expects an error at `element` and `line` whose message contains `message`.
 inline void expect_fault(const std::string& text, const std::string& element, const std::string& message, int line) {
   const InputFault fault = fault_in(text);
   EXPECT_EQ(fault.element, element) << text;

@@ -10,7 +10,7 @@ std::string with(const std::string& joint, const std::string& start) {
   return kLeastStudy + "parameters: {a: {initial: 0.5}}\ninitial_state:\n  " + joint + ": " + start + "\n";
 }
 
-/// The fixture's robot, whose planar joint has the normal z, and one that flies.
+/// The fixture's robot, whose planar joint has the normal z, with one more body on a floating joint.
 RobotDescription flying_robot() {
   RobotDescription robot = study_robot();
   robot.joints[2].axis = {0.0, 0.0, 1.0};

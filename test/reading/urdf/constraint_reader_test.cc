@@ -5,7 +5,7 @@
 namespace codesign {
 namespace {
 
-/// Two arms on the ground, of which a constraint makes a closed linkage.
+/// Two arms on the ground, which a constraint connects to a closed linkage.
 SourceText arms(const std::string& constraint) {
   return robot_text(kGround + link_with("a") + link_with("b") + joint_with("ja", "continuous", "ground", "a", "<axis xyz=\"0 0 1\"/>") +
                     joint_with("jb", "continuous", "ground", "b", "<axis xyz=\"0 0 1\"/>") + "\n" + constraint);

@@ -6,7 +6,7 @@
 namespace codesign {
 namespace {
 
-/// ground - hinge - arm - wrist (0.5 m on) - tip, and something more from line 4 on.
+/// ground - hinge - arm - wrist (at 0.5 m) - tip, with further elements from line 4 on.
 SourceText two_links(const std::string& more) {
   return pendulum("", link_with("tip") + joint_with("wrist", "continuous", "arm", "tip", "<origin xyz=\"0.5 0 0\"/>") + "\n" + more);
 }

@@ -4,7 +4,7 @@
 namespace codesign {
 namespace {
 
-/// The loop stands on line 3.
+/// A robot with the loop on line 3.
 SourceText loop_text(const std::string& type, const std::string& content = "",
                      const std::string& ends = "<predecessor link=\"ground\"/><successor link=\"arm\"/>") {
   return pendulum("", "<loop name=\"l\" type=\"" + type + "\">" + ends + content + "</loop>");

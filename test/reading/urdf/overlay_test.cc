@@ -6,7 +6,7 @@
 namespace codesign {
 namespace {
 
-/// A vendor's file, which knows nothing of us.
+/// A vendor's file without annotations.
 SourceText vendor() {
   return {"vendor.urdf", std::string("<robot name=\"vendor\">\n") + kGround + link_with("arm") + "\n" +
                              joint_with("hinge", "continuous", "ground", "arm", "<origin xyz=\"0 0 0.2\" rpy=\"0 0 1\"/>") + "\n</robot>"};
@@ -69,7 +69,7 @@ TEST(Overlay, NamesMustExist) {
 }
 
 TEST(Overlay, AddsLinksAndJoints) {
-  // A base that floats, between the ground and the vendor's root.
+  // A floating joint between a new ground and the vendor's root.
   const RobotDescription floating =
       read_urdf(vendor(), {overlay("<link name=\"world\"/>" + joint_with("free", "floating", "world", "ground") + "<link name=\"ground\">" +
                                    kInertial + "</link>")});
@@ -104,7 +104,8 @@ TEST(Overlay, SaysNothingTwice) {
 }
 
 TEST(Overlay, HoldsAnnotatedElementsOnly) {
-  expect_error(vendor(), {"notes.urdf:2: <material name=\"x\">: an overlay cannot contain this element"}, {overlay("<material name=\"x\"/>")});
+  expect_error(vendor(), {"notes.urdf:2: <material name=\"x\">: an overlay cannot contain this element"},
+               {overlay("<material name=\"x\"/>")});
   expect_error(vendor(), {"notes.urdf:2:", "the attribute name is missing"}, {overlay("<joint/>")});
 }
 

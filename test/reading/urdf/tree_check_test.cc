@@ -22,7 +22,7 @@ TEST(TreeCheck, Rings) {
 }
 
 TEST(TreeCheck, ASecondParentClosesALoop) {
-  // b hangs on a, and is named once more by a hinge on the ground, which stands first in the file.
+  // b is the child of a, and also of a hinge on the ground, which comes first in the file.
   const SourceText text = robot_text(kGround + link_with("a") + link_with("b") + "\n" + joint_with("ring", "continuous", "b", "a") + "\n" +
                                      joint_with("ga", "continuous", "ground", "a") + "\n" + joint_with("ab", "continuous", "a", "b"));
   expect_warning(text, "second_parent", {"test.urdf:3: <joint name=\"ring\">", "read as a loop", "(value: a)"});

@@ -11,7 +11,7 @@
 
 namespace codesign {
 
-/// `body` stands on line 2 and those after it. Parameter: length = 0.2 in [0.1, 0.4].
+/// A robot with `body` from line 2 on and the parameter length = 0.2 in [0.1, 0.4].
 inline SourceText robot_text(const std::string& body, const std::string& name = "test.urdf") {
   return {name, R"(<robot name="test" xmlns:codesign="urn:x"> <codesign:parameter name="length" value="0.2" lower="0.1" upper="0.4"/>)"
                 "\n" +
@@ -36,7 +36,7 @@ inline SourceText pendulum(const std::string& joint_content, const std::string& 
   return robot_text(kGround + link_with("arm") + joint_with("hinge", "continuous", "ground", "arm", joint_content) + "\n" + more);
 }
 
-/// `what()` of the InputError that reading throws; a test failure if it reads.
+/// `what()` of the InputError that reading throws; the test fails if it throws none.
 inline std::string error_of(const SourceText& urdf, const std::vector<SourceText>& overlays = {}) {
   try {
     read_urdf(urdf, overlays);
@@ -47,13 +47,13 @@ inline std::string error_of(const SourceText& urdf, const std::vector<SourceText
   return "";
 }
 
-/// The complaint holds every one of `parts`.
+/// Expects an error that contains every one of `parts`.
 inline void expect_error(const SourceText& urdf, const std::vector<std::string>& parts, const std::vector<SourceText>& overlays = {}) {
   const std::string message = error_of(urdf, overlays);
   for (const std::string& part : parts) EXPECT_NE(message.find(part), std::string::npos) << "no '" << part << "' in:\n" << message;
 }
 
-/// The texts are read, with exactly one warning of this code, which holds every one of `parts`.
+/// Expects exactly one warning, with this code, that contains every one of `parts`.
 inline void expect_warning(const SourceText& urdf, const std::string& code, const std::vector<std::string>& parts,
                            const std::vector<SourceText>& overlays = {}) {
   std::vector<std::string> messages;
@@ -67,7 +67,7 @@ inline void expect_no_warning(const SourceText& urdf, const std::vector<SourceTe
   for (const Warning& warning : read_urdf(urdf, overlays).warnings) ADD_FAILURE() << warning.code << ": " << warning.message;
 }
 
-/// An overlay of any vendor's file; `body` stands on line 2.
+/// An overlay with `body` on line 2.
 inline SourceText overlay_text(const std::string& body) {
   return {"notes.urdf", "<robot name=\"notes\" xmlns:codesign=\"urn:mechanism_codesign\">\n" + body + "\n</robot>"};
 }

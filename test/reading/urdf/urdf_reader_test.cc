@@ -30,7 +30,7 @@ void pose_at_zero(const RobotDescription& robot, int link, const std::vector<dou
   }
 }
 
-/// How far the universal loop is from being closed: distance of its points, and cosine between its axes.
+/// Closure error of the universal loop: distance of its points, and cosine between its axes.
 /// @param slider position of the slider's joint, along x; the others are at zero.
 void loop_gap(const RobotDescription& robot, double slider, double* distance, double* cosine) {
   const std::vector<double> at = {0.08, 0.3, 0.05, 0.025};
