@@ -62,6 +62,7 @@ class Recording {
   /// @param b -1 for operations with one operand.
   int operate(Operation operation, int a, int b = -1);
 
+  /// Adds a guard on nodes a and b.
   void guard(int a, int b, bool outcome) { guards_.push_back({a, b, outcome}); }
   /// Makes the recording refused(): the computation branched in a way that no guard can check.
   void refuse() { refused_ = true; }

@@ -47,6 +47,7 @@ class Traced {
   double value_ = 0.0;
 };
 
+// The functions that lanes have too; radians.
 Traced sqrt(const Traced& x);
 Traced sin(const Traced& x);
 Traced cos(const Traced& x);
@@ -56,6 +57,7 @@ Traced exp(const Traced& x);
 Traced atan2(const Traced& y, const Traced& x);
 Traced round(const Traced& x);
 inline Traced arc_tangent(const Traced& y, const Traced& x) { return atan2(y, x); }
+/// As nearest_turns() in math/elementary.h, also for a reference that varies.
 inline Traced nearest_turns(const Traced& reference, const Traced& angle) { return 2.0 * M_PI * round((reference - angle) / (2.0 * M_PI)); }
 
 /// The value of a literal. For a node it returns 0 and makes the recording refused(): a branch on the value of a node can only be recorded

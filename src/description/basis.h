@@ -9,6 +9,7 @@
 
 namespace codesign {
 
+/// Degree of the B-splines: 1 or 3.
 enum class BasisShape { kLinear, kCubic };
 
 /// A shaped input u(t) = sum_k c_k B_k(t) for 0 <= t <= duration; afterwards the last value is held; theory (C8).
@@ -32,7 +33,6 @@ struct BasisWeights {
 };
 
 /// The weights at time t [s]; rates are zero after the duration.
-
 BasisWeights basis_weights(const BasisDescription& basis, double t);
 
 }  // namespace codesign

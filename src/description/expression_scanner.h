@@ -41,6 +41,7 @@ class ExpressionScanner {
   ExpressionToken token_;
 };
 
+/// Whether an identifier may begin with this character (a letter or _), or contain it (also digits).
 bool starts_identifier(char c);
 bool continues_identifier(char c);
 

@@ -39,6 +39,7 @@ struct InertialDescription {
   SourceLocation where;
 };
 
+/// A `<link>`; without inertial it has no mass.
 struct LinkDescription {
   std::string name;
   std::optional<InertialDescription> inertial;
@@ -76,6 +77,7 @@ struct LimitDescription {
   Quantity lower, upper;      ///< position [rad or m]
   Quantity effort, velocity;  ///< [N m or N], [rad/s or m/s]
 
+  /// Whether a number is given: it is not zero, or an expression.
   static bool given(const Quantity& q) { return !q.is_constant() || q.nominal() != 0.0; }
   /// False if both limits are zero or missing.
   bool bounds_position() const { return given(lower) || given(upper); }
@@ -90,6 +92,7 @@ struct MimicDescription {
   SourceLocation where;
 };
 
+/// `<codesign:torsion_spring>`: load stiffness * (theta - free_position) + damping * theta' against the coordinate; theory (13).
 struct TorsionSpringDescription {
   Quantity stiffness, damping, free_position;  ///< [N m/rad or N/m], [N m s/rad or N s/m], [rad or m]
 };

@@ -71,6 +71,7 @@ struct FeedbackTerm {
   Quantity gain;
 };
 
+/// A controller that drives one joint; the members that are used depend on `kind`.
 struct ControllerDescription {
   std::string name;
   ControllerKind kind = ControllerKind::kPid;

@@ -35,7 +35,6 @@ struct CutVector {
 };
 
 /// x if |x| <= limit, else limit x/|x|; doc/theory.md (13e).
-
 template <class T>
 CutVector<T> cut_off(const Vector3<T>& x, const T& limit) {
   using std::sqrt;

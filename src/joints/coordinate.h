@@ -51,6 +51,7 @@ void angle_motion(const ProductMotion<T>& N, const ProductGradient<T>& Ng, const
   m->acceleration_v = 2.0 * (c * Ng.phid_q - s * Dg.phid_q) - 2.0 * (m->J * ratio + m->rate * ratio_v);
 }
 
+/// A scalar product with its gradients.
 template <class T>
 struct Product {
   ProductMotion<T> motion;
@@ -63,6 +64,7 @@ Product<T> product(const PairVector<T>& X, const PairVector<T>& Y, const BodyKin
   return {product_motion(x, y), product_gradient(X, Y, x, y, i, j, order)};
 }
 
+/// The product of the direction a_i, fixed in body i, and b_j, fixed in body j.
 template <class T>
 Product<T> directions_product(const Vector3<T>& a_i, const Vector3<T>& b_j, const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
   return product(PairVector<T>::direction(Side::kI, a_i), PairVector<T>::direction(Side::kJ, b_j), i, j);
@@ -108,6 +110,7 @@ void spin_rate(const Vector3<T>& a, const BodyKinematics<T>& i, const BodyKinema
   angular_rate<T>([](const Vector4<T>& p) { return ground_rate_matrix(p); }, Vector3<T>(T(-2.0) * a), Vector3<T>(2.0 * a), i, j, detail, m);
 }
 
+/// All members except the position for theta = asin(s), with the scalar product s.
 template <class T>
 void sine_motion(const Product<T>& s, CoordinateMotion<T>* m) {
   using std::sqrt;
@@ -124,6 +127,7 @@ void sine_motion(const Product<T>& s, CoordinateMotion<T>* m) {
   m->acceleration_v = 2.0 * (k * s.gradient.phid_q + (curvature * f.phid) * s.gradient.phi_q);
 }
 
+/// Multiplies the members that `detail` includes, except the position, by the sign.
 template <class T>
 void apply_sign(double sign, CoordinateDetail detail, CoordinateMotion<T>* m) {
   if (sign > 0.0) return;
@@ -170,6 +174,7 @@ T coordinate_position(const PairConstants<T>& pair, const CoordinateConstants<T>
 
 namespace internal {
 
+/// All members except the position for a sliding coordinate, a scalar product itself.
 template <class T>
 void slide_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
                   CoordinateDetail detail, CoordinateMotion<T>* m) {
@@ -185,6 +190,7 @@ void slide_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c,
   m->acceleration_v = 2.0 * s.gradient.phid_q;
 }
 
+/// All members except the position for kAngle and kSine.
 template <class T>
 void angle_or_sine_motion(const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateMotion<T>* m) {
   const auto N = directions_product(c.a, c.b, i, j);

@@ -20,6 +20,7 @@ using LocalMatrix = Eigen::Matrix<T, kLocalSize, kLocalSize>;
 /// A body of the pair.
 enum class Side { kI = 0, kJ = 1 };
 
+/// The index of the first coordinate of r, and of p, of a body among the pair's coordinates.
 constexpr int r_offset(Side side) { return side == Side::kI ? 0 : kBodySize; }
 constexpr int p_offset(Side side) { return r_offset(side) + 3; }
 

@@ -36,11 +36,13 @@ struct PairRows {
   std::vector<ProductRow<T>> products;
 
   const Vector3<T>& point(Side side) const { return vectors[static_cast<std::size_t>(shared(side, kPoint))].s; }
+  /// The number of rows.
   int size() const { return (coincident ? 3 : 0) + static_cast<int>(products.size()); }
 };
 
 namespace internal {
 
+/// Sets PairRows::vectors.
 template <class T>
 void share_vectors(const PairConstants<T>& c, PairRows<T>* rows) {
   for (Side side : {Side::kI, Side::kJ})

@@ -10,6 +10,7 @@ namespace codesign {
 // The scalar product phi = X . Y of two vectors over a pair of bodies. All constraints of pairs except coincident points have this form:
 // normal directions, a point in a plane, two points at a distance; doc/theory.md (6). Gradients are by the pair's 14 coordinates.
 
+/// The motion of a vector over the pair.
 template <class T>
 VectorMotion<T> motion_of(const PairVector<T>& x, const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
   const VectorTerm<T>& first = x.term[0];
@@ -23,6 +24,7 @@ struct ProductMotion {
   T phi, phid, phidd;
 };
 
+/// phi = x . y and its time derivatives; theory (6).
 template <class T>
 ProductMotion<T> product_motion(const VectorMotion<T>& x, const VectorMotion<T>& y) {
   return {dot(x.x, y.x), dot(x.xd, y.x) + dot(x.x, y.xd), dot(x.xdd, y.x) + 2.0 * dot(x.xd, y.xd) + dot(x.x, y.xdd)};
@@ -48,6 +50,7 @@ struct VectorJacobian {
   Matrix34<T> B, Bd, Bdd;
 };
 
+/// The Jacobians of the vector s fixed in `body`.
 template <class T>
 VectorJacobian<T> vector_jacobian(const BodyKinematics<T>& body, const Vector3<T>& s) {
   return {rotated_vector_jacobian(body.p, s), rotated_vector_jacobian(body.pd, s), rotated_vector_jacobian(body.pdd, s)};
@@ -122,6 +125,7 @@ void add_vector_load(const PairVector<T>& x, const Vector3<T>& b, BodyLoad<T>* i
   }
 }
 
+/// Adds the load phi_q^T lambda of the product phi = X . Y; x and y are the motions of X and Y.
 template <class T>
 void add_product_load(const PairVector<T>& X, const PairVector<T>& Y, const VectorMotion<T>& x, const VectorMotion<T>& y, const T& lambda,
                       BodyLoad<T>* i, BodyLoad<T>* j) {

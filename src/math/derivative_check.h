@@ -16,6 +16,7 @@ struct JacobianDifference {
   Eigen::Index row = -1, column = -1;  ///< of that entry; -1 if all entries agree or the sizes differ
 };
 
+/// Compares a Jacobian with its reference of the same size, entry by entry.
 inline JacobianDifference compare_jacobians(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& reference) {
   JacobianDifference difference;
   if (jacobian.rows() != reference.rows() || jacobian.cols() != reference.cols()) return {1e300, -1, -1};

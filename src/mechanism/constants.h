@@ -58,7 +58,7 @@ template <class T>
 struct JointDynamicsConstants {
   T damping{0.0}, dry_friction{0.0};                          ///< `<dynamics>`
   T stiffness{0.0}, spring_damping{0.0}, free_position{0.0};  ///< torsion spring
-  T lower{0.0}, upper{0.0}, effort{0.0};                      ///< valid only where LimitDescription says that they bound something
+  T lower{0.0}, upper{0.0}, effort{0.0};                      ///< valid only if LimitDescription::bounds_position() or bounds_effort()
   T gear_ratio{1.0}, rotor_inertia{0.0};                      ///< n and J_r of an actuator
   Vector3<T> rotor_axis = Vector3<T>::Zero();                 ///< unit vector in the axes of the body that carries the rotor
 };
@@ -115,8 +115,8 @@ struct Constants {
 template <class T>
 Constants<T> evaluate_constants(const RobotDescription& robot, const Topology& topology, const std::vector<T>& parameters);
 
-/// A sentence that names the first impossible mass, inertia, length or coefficient of a design; empty if there is none. Faults that the
-/// default parameters have too do not count: check_bodies() warned of them.
+/// A sentence that names the first impossible mass, inertia, length or coefficient of a design; empty if there is none. Mass faults
+/// that a body has at the default parameters too do not count, since check_bodies() warned of them.
 std::string find_impossible(const RobotDescription& robot, const Topology& topology, const Constants<double>& constants);
 
 }  // namespace codesign

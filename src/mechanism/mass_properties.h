@@ -34,6 +34,7 @@ Matrix3<T> rotation_from_rpy(const Vector3<T>& rpy) {
 
 namespace internal {
 
+/// The three components at `parameters`.
 template <class T>
 Vector3<T> values_at(const QuantityVector& vector, const std::vector<T>& parameters) {
   return {vector[0].at(parameters), vector[1].at(parameters), vector[2].at(parameters)};
@@ -85,6 +86,7 @@ MassProperties<T> solid(const ShapeDescription& shape, const T& density, const s
   return result;
 }
 
+/// The sum of the solids, in the link's frame. Without mass, centre and inertia are zero.
 template <class T>
 MassProperties<T> from_shapes(const InertialDescription& inertial, const std::vector<T>& parameters) {
   const T density = inertial.density->at(parameters);

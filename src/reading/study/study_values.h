@@ -11,6 +11,7 @@
 
 namespace codesign {
 
+/// The names of the parameters, in order.
 std::vector<std::string> names_of(const std::vector<Parameter>& parameters);
 
 /// The names, for parsing expressions. `parameters` must outlive the scope.

@@ -9,6 +9,7 @@
 
 namespace codesign {
 
+/// The allowed values of a number: any finite one, >= 0, or > 0.
 enum class Range { kAny, kNonNegative, kPositive };
 
 /// The number of an attribute, or of its twin `codesign:...`; the range is checked at the default parameters.

@@ -26,6 +26,7 @@ struct ParameterTable {
   std::unordered_map<std::string, int> index;  ///< from name to index in `names` and `values`
 };
 
+/// The prefix of our elements and attributes.
 inline const char kPrefix[] = "codesign:";
 
 /// The `count` space-separated values of an attribute, each a number or `${expression}`, for example `0 0 -${crank_length/2}`. Nominal

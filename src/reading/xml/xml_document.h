@@ -20,6 +20,7 @@ class XmlDocument {
   /// @throws InputError if the text is not XML or its root element is not `<robot>`.
   explicit XmlDocument(const SourceText& source);
 
+  /// The name of the URDF file, for messages; overlays have other names.
   const std::string& file() const { return file_; }
   tinyxml2::XMLElement* robot() { return dom_->RootElement(); }
   const tinyxml2::XMLElement* robot() const { return dom_->RootElement(); }
@@ -30,6 +31,7 @@ class XmlDocument {
   const Warnings& warnings() const { return warnings_; }
   void note(const Warnings& warnings) { append(warnings, &warnings_); }
 
+  /// The file and line of an element, or of one of its attributes.
   SourceLocation location(const tinyxml2::XMLElement* element) const;
   SourceLocation location(const tinyxml2::XMLElement* element, const std::string& attribute) const;
 

@@ -48,12 +48,14 @@ class YamlValue {
   std::string text() const;
   /// A finite number, quoted or not: rosparam writes `1e-6` as a string.
   double number() const;
+  /// A whole number of magnitude up to 1e9.
   int integer() const;
   /// `true` or `false`, in any of YAML's spellings.
   bool boolean() const;
   /// A scalar that is one of `allowed`. @param kind what it denotes, for the message: "unknown <kind>".
   std::string choice(const std::string& kind, const std::vector<std::string>& allowed) const;
 
+  /// Throws InputError with the place, path and value. @param allowed the allowed values; may be empty.
   [[noreturn]] void fail(const std::string& message, const std::string& allowed = "") const;
 
  private:
