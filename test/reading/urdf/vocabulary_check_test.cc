@@ -51,7 +51,8 @@ TEST(VocabularyCheck, PrefixesThatAreNearlyOurs) {
                {"test.urdf:2:", "unknown prefix, did you mean \"codesign\"?", "codesing:friction"});
   expect_error(pendulum("<origin xyz=\"0 0 0\" Codesign:xyz=\"0 0 0\"/>"), {"unknown prefix", "Codesign:xyz"});
   expect_error({"a.urdf", "<robot name=\"a\" xmlns:codesing=\"urn:x\"><link name=\"l\"/></robot>"}, {"a.urdf:1:", "xmlns:codesing"});
-  expect_error({"a.urdf", "<robot name=\"a\" xmlns:c=\"urn:mechanism_codesign\"><link name=\"l\"/></robot>"}, {"must have the prefix codesign"});
+  expect_error({"a.urdf", "<robot name=\"a\" xmlns:c=\"urn:mechanism_codesign\"><link name=\"l\"/></robot>"},
+               {"must have the prefix codesign"});
   expect_error(pendulum(""), {"notes.urdf:2:", "unknown prefix"}, {overlay_text("<joint name=\"hinge\"><cdesign:friction/></joint>")});
   expect_no_warning(
       {"a.urdf", "<robot name=\"a\" xmlns:xacro=\"urn:y\"><link name=\"l\" drake:ignore=\"1\"/><xacro:if value=\"1\"/></robot>"});
