@@ -6,8 +6,8 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
-// Eigen's decompositions of dense matrices take seconds to compile. They are compiled once, in dense.cc, for everybody who includes this
-// header in place of Eigen's.
+// Eigen's decompositions of dense matrices take seconds to compile. dense.cc compiles them once; files that include this header in place of
+// Eigen's do not compile them again.
 extern template class Eigen::BDCSVD<Eigen::MatrixXd>;
 extern template class Eigen::JacobiSVD<Eigen::MatrixXd>;
 extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;

@@ -74,16 +74,19 @@ std::string friction_fault(const Pair& pair, const FrictionConstants<double>& f)
   const bool possible = f.mu_static >= f.mu_dynamic && f.mu_dynamic >= 0.0 && f.transition_velocity > 0.0 && f.joint_length > 0.0 &&
                         f.joint_width > 0.0 && f.pin_radius >= 0.0 && f.smoothing > 0.0 && f.viscous >= 0.0 && f.bristle_stiffness > 0.0 &&
                         f.bristle_damping > 0.0 && f.dwell_time > 0.0;
-  return possible ? "" : "friction geometry or coefficients of joint '" + pair.name + "' are out of range";
+  return possible ? ""
+                  : "friction geometry or coefficients of joint '" + pair.name +
+                        "' are out of range (allowed: mu_static >= mu_dynamic >= 0, pin_radius and viscous >= 0, all others > 0)";
 }
 
 std::string joint_fault(const RobotDescription& robot, const Pair& pair, const PairConstants<double>& constants) {
   for (std::size_t e = 0; e < pair.chain.size(); ++e) {
     const JointDescription& joint = robot.joints[index(pair.chain[e].joint)];
     const JointDynamicsConstants<double>& d = constants.dynamics[e];
-    if (joint.limit && !(d.lower <= d.upper && d.effort >= 0.0)) return "a limit of joint '" + joint.name + "' is out of range";
+    if (joint.limit && !(d.lower <= d.upper && d.effort >= 0.0))
+      return "a limit of joint '" + joint.name + "' is out of range (allowed: lower <= upper, effort >= 0)";
     if (!(d.rotor_inertia >= 0.0) || !std::isfinite(d.rotor_inertia) || !std::isfinite(d.gear_ratio))
-      return "the rotor of joint '" + joint.name + "' is out of range";
+      return "the rotor of joint '" + joint.name + "' is out of range (allowed: finite gear_ratio, finite rotor_inertia >= 0)";
   }
   return "";
 }

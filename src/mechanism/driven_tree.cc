@@ -45,7 +45,7 @@ class TreeBuilder {
   void require_simple(int index) const {
     const bool simple = pair(index).kind == PairKind::kRevolute || pair(index).kind == PairKind::kPrismatic;
     if (simple && !pair(index).is_loop && !upwards(pair(index))) return;
-    fail("a controller that knows the model cannot work through this joint", pair(index).name,
+    fail("gravity compensation and computed torque cannot work through this joint", pair(index).name,
          "revolute, continuous and prismatic joints of the tree, with links that have an <inertial> on both sides");
   }
 

@@ -16,7 +16,7 @@ SourceText read_source(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (file && file.peek() == std::ifstream::traits_type::eof()) throw InputError({{path, 1}, "", "the file is empty", "", ""});
   if (!file) throw InputError({{path, 0}, "", "the file cannot be read", "", ""});
-  // Devices and pipes may have no end.
+  // Devices and pipes may never end.
   constexpr std::size_t kMost = 32000000;
   std::string text;
   std::array<char, 65536> block;
