@@ -53,7 +53,7 @@ void add_tangents(const Problem& problem, Report* report) {
   const std::vector<int> counts = {1, 4, 5, 8};
   for (int count : counts) {
     problems.push_back(with_tuned(problem, count));
-    evaluators.push_back(std::make_unique<Evaluator>(problems.back().system));
+    evaluators.push_back(std::make_unique<Evaluator>(problems.back()));
   }
   Evaluation evaluation = evaluators[0]->evaluate(problems[0].start(), false);
   if (!evaluation.status.ok()) throw std::runtime_error(evaluation.status.cause);

@@ -26,7 +26,7 @@ class Formulas {
   explicit Formulas(const System& system);
 
   /// Evaluates all constants at `parameters` (all named parameters). Allocates.
-  void set_design(const std::vector<T>& parameters) { view_.set_design(parameters); }
+  void set_design(const std::vector<T>& parameters);
   StateView<T>& view() { return view_; }
   const StateView<T>& view() const { return view_; }
 
@@ -52,7 +52,7 @@ class Formulas {
   T signal(const Signal& signal, const State<T>& state, SparseGradient<T>* gradient = nullptr);
 
   // The functions below are of the state that load() took last.
-  void load(const State<T>& state) { view_.load(state); }
+  void load(const State<T>& state);
   const BodyKinematics<T>& body(int index) const { return view_.body(index); }
   const CoordinateMotion<T>& coordinate(int pair, int element, CoordinateDetail detail = CoordinateDetail::kAll) const;
   FrictionState<T> friction(int pair, int element) const;

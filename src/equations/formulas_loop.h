@@ -19,6 +19,16 @@ Formulas<T>::Formulas(const System& system) : view_(system), workspace_(system) 
 }
 
 template <class T>
+void Formulas<T>::set_design(const std::vector<T>& parameters) {
+  view_.set_design(parameters);
+}
+
+template <class T>
+void Formulas<T>::load(const State<T>& state) {
+  view_.load(state);
+}
+
+template <class T>
 void Formulas<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
   load(state);
   const StateView<T>& view = view_;

@@ -24,13 +24,13 @@ TEST(Inputs, ReadsModelStudyOverlaysAndSettings) {
   const Problem problem = load(arguments);
   EXPECT_EQ(problem.overlays().size(), 1U);
   EXPECT_EQ(problem.start()[4], 2.0);
-  EXPECT_EQ(load_tunable(arguments).study.tuned.size(), 5U);
+  EXPECT_EQ(load_tunable(arguments).study().tuned.size(), 5U);
 }
 
 TEST(Inputs, ALoneModelHasNothingToTune) {
   Arguments arguments = slider_crank();
   arguments.study.clear();
-  EXPECT_TRUE(load(arguments).study.tuned.empty());
+  EXPECT_TRUE(load(arguments).study().tuned.empty());
   EXPECT_THROW(load_tunable(arguments), InputError);
 }
 

@@ -57,7 +57,7 @@ TEST(Problem, AMechanismAloneTunesNothing) {
 TEST(Problem, OverlaysAreMerged) {
   const SourceText overlay{"overlay.urdf", R"(<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
     <joint name="hinge"><codesign:friction model="brown_mcphee" mu_static="0.4" mu_dynamic="0.3" joint_length="0.02" pin_radius="0.01"/></joint></robot>)"};
-  EXPECT_TRUE(load_mechanism(kPendulum, {overlay}).robot.joints.at(0).friction.has_value());
+  EXPECT_TRUE(load_mechanism(kPendulum, {overlay}).robot().joints.at(0).friction.has_value());
 }
 
 void expect_refused(const ParameterSettings& settings, const std::string& message, const std::string& allowed) {

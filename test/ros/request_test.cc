@@ -36,7 +36,7 @@ std::string fault_of(const EvaluateRequest& request) {
 
 TEST(OptimizeRequest, AnEmptyOneChangesNothing) {
   const Problem problem = pendulum();
-  const Problem changed = apply_request(problem, OptimizeGoal());
+  const Problem changed = apply_request(problem, OptimizeGoal()).problem;
   EXPECT_EQ(changed.system, problem.system());
   EXPECT_EQ(changed.start(), problem.start());
   EXPECT_EQ(changed.study.optimizer.algorithm, "lbfgs");
@@ -48,7 +48,7 @@ TEST(OptimizeRequest, ChoosesParametersAndStarts) {
   OptimizeGoal request;
   request.parameters = {"mass", "length"};
   request.start = {1.5, 0.25 + 0.125};
-  const Problem changed = apply_request(pendulum(), request);
+  const Problem changed = apply_request(pendulum(), request).problem;
   EXPECT_EQ(changed.tuned_names(), (Names{"mass", "length"}));
   EXPECT_EQ(changed.start(), Eigen::Vector2d(1.5, 0.375));
 }
@@ -56,7 +56,7 @@ TEST(OptimizeRequest, ChoosesParametersAndStarts) {
 TEST(OptimizeRequest, StartsAloneAreThoseOfTheStudysParameters) {
   OptimizeGoal request;
   request.start = {0.375, 2.0};
-  const Problem changed = apply_request(pendulum(), request);
+  const Problem changed = apply_request(pendulum(), request).problem;
   EXPECT_EQ(changed.tuned_names(), (Names{"length", "Kp"}));
   EXPECT_EQ(changed.start(), Eigen::Vector2d(0.375, 2.0));
 }
@@ -66,7 +66,7 @@ TEST(OptimizeRequest, ChoosesOptions) {
   request.algorithm = "mma";
   request.max_evaluations = 7;
   request.relative_tolerance = 1e-3;
-  const OptimizerOptions options = apply_request(pendulum(), request).study.optimizer;
+  const OptimizerOptions options = apply_request(pendulum(), request).options;
   EXPECT_EQ(options.algorithm, "mma");
   EXPECT_EQ(options.max_evaluations, 7);
   EXPECT_EQ(options.relative_tolerance, 1e-3);
