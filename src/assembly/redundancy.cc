@@ -14,9 +14,9 @@ namespace {
 constexpr double kRank = 1e-3;  // rank tolerance of the loops' scaled Jacobian: rounded angles and lengths leave less of a redundant row
 constexpr double kTakesPart = 1e-7;  // smaller components of a self-stress, relative to the largest, count as zero; far above rounding
 constexpr double kTestMotion = 0.2;  // [rad], or this fraction of a loop's longest lever
-constexpr double kTestMiss =
-    2e-3;  // allowed error of a redundant row after the test motion; a row that is only singular at the start has ten times this
-constexpr int kTrials = 3;  // test motions, and random self-stresses
+// Allowed error of a redundant row after the test motion; a row that is redundant at a singular start only misses ten times as much.
+constexpr double kTestMiss = 2e-3;
+constexpr int kTrials = 3;  // number of test motions, and of random self-stresses
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
