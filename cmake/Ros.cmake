@@ -1,5 +1,5 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-# Messages, the library behind the nodes, and the nodes; what is installed for them alone.
+# Messages, the library of the nodes, the nodes, and the installation of scripts and launch files.
 
 set(message_dependencies actionlib_msgs std_msgs)
 set(ros_dependencies
@@ -37,7 +37,7 @@ target_link_libraries(codesign_ros PUBLIC codesign_core ${catkin_LIBRARIES} PRIV
 codesign_warnings(codesign_ros)
 codesign_sanitize(codesign_ros)
 
-# x_node_main.cc becomes the executable x.
+# Each x_node_main.cc becomes the executable x.
 set(codesign_nodes)
 foreach(node_main IN LISTS node_mains)
   get_filename_component(node ${node_main} NAME)
