@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// A vendor's URDF as exporters write them, annotated by an overlay, through all that a user would do with it.
+// A vendor's URDF as written by an exporter, annotated by an overlay, in all commands.
 #include <gtest/gtest.h>
 
 #include <cmath>

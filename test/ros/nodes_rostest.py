@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""Nodes as they are started by hand: parameters, what they show of the mechanism and of their runs, what they leave on the disk."""
+"""Nodes started by hand: their parameters, their output about mechanism and runs, and their files."""
 import os
 import signal
 import subprocess

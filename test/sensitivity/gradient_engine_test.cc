@@ -30,7 +30,7 @@ TEST(GradientEngine, TheStudyChoosesTheDirection) {
   EXPECT_FALSE(prefers_adjoint(*servo("{integrator: idas}")));
 }
 
-// Auto: few parameters forwards, many local ones backwards, but not where their sensitivities are to be tested.
+// gradient: auto chooses direct sensitivities for few parameters and the adjoint for many local ones, except with a sensitivity tolerance.
 TEST(GradientEngine, ManyLocalParametersGoBackwards) {
   const auto prefers = [](int tuned, double sensitivity_tolerance) {
     const GeneratedCase chain = parametric_chain(12, tuned);
