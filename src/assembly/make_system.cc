@@ -67,7 +67,7 @@ void warn_of_friction(const CompiledSystem& system, const Redundancy& redundancy
                  {description.where, (description.is_loop ? "<loop name=\"" : "<joint name=\"") + description.name + "\">",
                   "friction depends on a reaction that is not unique, because the loop has redundant constraints; the reactions of least "
                   "norm are "
-                  "used; to remove the warning, give one joint of the loop the play that it has in reality, as codesign:spherical or "
+                  "used; to remove the warning, give one joint of the loop the freedom that it has in reality, as codesign:spherical or "
                   "codesign:cylindrical",
                   "", ""})},
            warnings);

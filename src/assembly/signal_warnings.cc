@@ -20,7 +20,7 @@ Warnings warn_of_open_reactions(const CompiledSystem& system, const Redundancy& 
                  {signals[k].where, "signal",
                   "the signal reads a reaction that is not unique, because the loop has redundant constraints; the one of least norm is "
                   "used; to "
-                  "remove the warning, give one joint of the loop the play that it has in reality, as codesign:spherical or "
+                  "remove the warning, give one joint of the loop the freedom that it has in reality, as codesign:spherical or "
                   "codesign:cylindrical",
                   signals[k].text, ""})},
            &warnings);
