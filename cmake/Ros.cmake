@@ -17,7 +17,7 @@ generate_messages(DEPENDENCIES ${message_dependencies})
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES codesign_core
-  # What the messages need. The library needs no ROS, and its nodes are not for others.
+  # Only the dependencies of the messages: the library needs no ROS, and the library of the nodes is not exported.
   CATKIN_DEPENDS message_runtime ${message_dependencies}
   DEPENDS EIGEN3
   CFG_EXTRAS mechanism_codesign-targets.cmake)

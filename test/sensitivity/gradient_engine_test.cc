@@ -74,8 +74,8 @@ TEST(GradientEngine, IdasStartsAnewToTheLastBitWithAndWithoutGradient) {
 }
 
 TEST(GradientEngine, NothingTunedIsNoGradient) {
-  const auto system = compile(
-      pendulum(), "duration: 0.1\nparameters: {}\nobjective: {integral: [{signal: hinge/velocity}]}\nsolver: {integrator: idas}\n");
+  const auto system =
+      compile(pendulum(), "duration: 0.1\nparameters: {}\nobjective: {integral: [{signal: hinge/velocity}]}\nsolver: {integrator: idas}\n");
   const GradientRun result = run_gradient(make_gradient_engine(*system).get(), *system, {});
   EXPECT_TRUE(result.status.ok());
   EXPECT_EQ(result.gradient.size(), 0);
