@@ -1,5 +1,5 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-# What the core is built on; none of it is ROS.
+# The dependencies of the core, without ROS.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 include(cmake/Sundials.cmake)
 find_package(NLopt REQUIRED)
@@ -11,7 +11,7 @@ find_package(yaml-cpp REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(Threads REQUIRED)
 
-# An INTERFACE target for a library that brings no CMake configuration.
+# Creates an INTERFACE target codesign_<name> for libraries (ARGN) without a CMake configuration.
 function(codesign_import name header header_suffixes)
   string(TOUPPER ${name} prefix)
   find_path(${prefix}_INCLUDE_DIR ${header} PATH_SUFFIXES ${header_suffixes} REQUIRED)
@@ -31,7 +31,7 @@ endfunction()
 codesign_import(klu klu.h suitesparse klu amd colamd btf suitesparseconfig)
 codesign_import(spqr SuiteSparseQR.hpp suitesparse spqr cholmod)
 
-# Equations and sparse factorizations are compiled to machine code with it; without it, and on other processors, formulas and loops do their work.
+# Xbyak compiles equations and sparse factorizations to machine code on x86-64. Without it, templates and loops are used instead.
 find_path(XBYAK_INCLUDE_DIR xbyak/xbyak.h)
 mark_as_advanced(XBYAK_INCLUDE_DIR)
 add_library(codesign_xbyak INTERFACE IMPORTED)

@@ -1,20 +1,20 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-# What must be settled before catkin is found.
+# Settings that must be made before catkin is found.
 
-# ROS's Python modules live beside the system interpreter. catkin reads PYTHON_EXECUTABLE, rosbag (through pluginlib) Python3_EXECUTABLE;
-# left alone, both take whichever python3 comes first in PATH.
+# The Python modules of ROS are installed for the system interpreter. catkin reads PYTHON_EXECUTABLE, rosbag (through pluginlib)
+# Python3_EXECUTABLE; without these settings both take the first python3 in PATH.
 set(PYTHON_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python of the ROS installation")
 set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python of the ROS installation")
 
-# Outside a catkin workspace the package is its own workspace: rosrun and roslaunch look into <package>/devel, never into build/.
+# Outside a catkin workspace the package is its own workspace, with its devel space in <package>/devel, where rosrun and roslaunch find it.
 if(NOT DEFINED CATKIN_DEVEL_PREFIX)
   set(CATKIN_DEVEL_PREFIX ${PROJECT_SOURCE_DIR}/devel CACHE PATH "Where the package can be used from without being installed")
 endif()
 
-# catkin freezes the environment of its tests at the first configure and leaves out directories that do not exist yet.
+# catkin fixes the environment of its tests at the first configuration and leaves out directories that do not exist then.
 file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/python3/dist-packages)
 
-# catkin's default, which it sets only when it is found, after the core has been declared.
+# The default of catkin, set here because catkin is found only after the core has been declared.
 option(BUILD_SHARED_LIBS "Build shared libraries" ON)
 
 set(CMAKE_CXX_STANDARD 17)

@@ -1,5 +1,5 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-# The fuzzer: a short run and everything that ever failed with the tests, a long run by tools/fuzz.
+# The fuzzer. The tests include a short run and all inputs that ever failed; tools/fuzz makes long runs.
 
 if(NOT TARGET codesign_cli)
   return()

@@ -1,7 +1,7 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-# Programs go where rosrun looks and libraries where other packages look, in the devel space and when installed.
+# Puts programs where rosrun finds them and libraries where other packages find them, in the devel space and in an installation.
 
-# The libraries as the programs find them.
+# Relative path from the programs to the libraries, for their RPATH.
 file(RELATIVE_PATH codesign_libraries_from_programs /${CATKIN_PACKAGE_BIN_DESTINATION} /${CATKIN_PACKAGE_LIB_DESTINATION})
 
 set(codesign_programs ${codesign_nodes})

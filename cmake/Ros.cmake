@@ -1,5 +1,5 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-# Messages, the library behind the nodes, and the nodes; what is installed for them alone.
+# Messages, the library of the nodes, the nodes, and the installation of scripts and launch files.
 
 set(message_dependencies actionlib_msgs std_msgs)
 set(ros_dependencies
@@ -17,7 +17,7 @@ generate_messages(DEPENDENCIES ${message_dependencies})
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES codesign_core
-  # What the messages need. The library needs no ROS, and its nodes are not for others.
+  # Only the dependencies of the messages: the library needs no ROS, and the library of the nodes is not exported.
   CATKIN_DEPENDS message_runtime ${message_dependencies}
   DEPENDS EIGEN3
   CFG_EXTRAS mechanism_codesign-targets.cmake)
@@ -37,7 +37,7 @@ target_link_libraries(codesign_ros PUBLIC codesign_core ${catkin_LIBRARIES} PRIV
 codesign_warnings(codesign_ros)
 codesign_sanitize(codesign_ros)
 
-# x_node_main.cc becomes the executable x.
+# Each x_node_main.cc becomes the executable x.
 set(codesign_nodes)
 foreach(node_main IN LISTS node_mains)
   get_filename_component(node ${node_main} NAME)

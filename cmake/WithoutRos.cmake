@@ -1,5 +1,5 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-# Stands in for catkin where there is none. doc/decisions/0029
+# Replaces the settings of catkin where it is not installed; doc/decisions/0029.
 
 message(STATUS "No catkin: messages, nodes, launch files and their tests are left out; the library codesign_core, the program codesign and the core's tests are built")
 

@@ -11,14 +11,15 @@
 namespace codesign {
 namespace {
 
-// Of the scaled Jacobian of loops. What is smaller than the first comes from rounded angles and lengths, or from a position that is almost
-// singular; if without it the loops do not close, the second decides.
+// Relative rank tolerances of the scaled Jacobian of the loops. Parts below kRank come from rounded angles and lengths or from an almost
+// singular position and are ignored; if the loops do not close without them, kSingularRank is tried.
 constexpr double kRank = 1e-3, kSingularRank = 1e-9;
-constexpr double kClosed = 1e-12;    // loop error that counts as closed, of a mechanism of size one
-constexpr double kAtRest = 1e-13;    // step of Newton's method [rad or m] that changes nothing, of a mechanism of size one
-constexpr double kSamePlace = 0.05;  // [rad or m]
+constexpr double kClosed = 1e-12;    // a loop error below this times the mechanism's size counts as closed
+constexpr double kAtRest = 1e-13;    // a Newton step [rad or m] below this times the mechanism's size counts as zero
+constexpr double kSamePlace = 0.05;  // [rad or m] two positions that differ by less are taken as the same
 constexpr int kNewtonIterations = 200;
-constexpr double kLargestTurn = 0.5;  // [rad or m] that one Newton step may move a coordinate: keeps to the branch of the start
+constexpr double kLargestTurn =
+    0.5;  // [rad or m] limit of one Newton step per coordinate, so that the solution stays on the start's branch
 
 double size_of(const LoopMiss& miss) { return std::max(miss.length, miss.angle); }
 
@@ -57,7 +58,7 @@ void Assembly::set_start(const std::vector<double>& parameters) {
   set_given_start(system_, tree_, parameters, &theta_, &theta_rate_);
 }
 
-// Followers of followers come right after as many passes as there are couplings.
+// A follower may itself lead another coupling: after as many passes as there are couplings every chain of followers is consistent.
 void Assembly::follow_couplings(const Constants<double>& constants) {
   const std::vector<Coupling>& couplings = system_.topology().couplings;
   for (std::size_t pass = 0; pass < couplings.size(); ++pass) {
@@ -75,7 +76,7 @@ void Assembly::follow_couplings(const Constants<double>& constants) {
   }
 }
 
-// Positions are continued from the tree's: a start of several turns counts.
+// Joint positions count whole turns, beginning at the tree's coordinate, so that a start beyond one turn is kept.
 void Assembly::set_turns(Equations<double>* equations) const {
   for (std::size_t p = 0; p < system_.topology().pairs.size(); ++p) {
     const Pair& pair = system_.topology().pairs[p];
@@ -158,7 +159,7 @@ Assembly::Rest Assembly::newton(const std::vector<double>& parameters, Equations
     if (error == 0.0 || (error < closed && error >= 0.5 * previous)) return Rest::kClosed;
     previous = error;
     const Eigen::VectorXd step = factor(scaled_loops(parameters, *equations), free, rank_tolerance).solve(loops);
-    double largest = 0.0;  // but for what only follows: a coupling is linear and has no branches
+    double largest = 0.0;  // without followers of couplings: a coupling is linear and has no branches
     for (std::size_t k = 0; k < free.size(); ++k)
       if (!follows_[static_cast<std::size_t>(free[k])]) largest = std::max(largest, std::abs(step[static_cast<Eigen::Index>(k)]));
     const double shortened = largest > kLargestTurn ? kLargestTurn / largest : 1.0;
@@ -182,8 +183,8 @@ void Assembly::note_miss(const VectorX<double>& errors, const Equations<double>&
     if (size_of(miss) > size_of(worst_miss_)) worst_miss_ = miss;
 }
 
-// If the dependent coordinates alone do not reach a closed position, the start may be singular (a stretched-out linkage): then every open
-// coordinate moves.
+// If changing the dependent coordinates alone does not close the loops, the start may be singular (a stretched-out linkage): then all
+// coordinates without a given position are changed.
 Assembly::Rest Assembly::close(const std::vector<double>& parameters, Equations<double>* equations, double rank_tolerance) {
   const std::vector<std::vector<int>> preferences = by_preference(position_given_);
   std::vector<int> open = preferences[0];
@@ -200,7 +201,7 @@ Assembly::Rest Assembly::close(const std::vector<double>& parameters, Equations<
   return second;
 }
 
-// A position that is only near may be an almost singular one, where the loops close exactly a little farther on.
+// A position within the tolerance but not closed may be almost singular, with an exactly closed position nearby: it is taken if found.
 void Assembly::refine(const std::vector<double>& parameters, Equations<double>* equations) {
   const VectorX<double> near = theta_;
   const LoopMiss miss = worst_miss_;
@@ -230,7 +231,7 @@ Status Assembly::solve_positions(const std::vector<double>& parameters, Equation
   if (rest == Rest::kApart) return closure_failed();
   all_rows_count_ = !system_.sharing().drops();
   if (all_rows_count_) return {};
-  // The rows that hold, exactly: the motion keeps to them.
+  // Now the enforced rows alone, to rounding: the integrators start from Phi = 0 in these rows.
   const LoopMiss miss = worst_miss_;
   const std::vector<int> columns = choose(scaled_loops(parameters, *equations), by_preference(position_given_)).columns;
   if (newton(parameters, equations, columns, rank_tolerance_) != Rest::kClosed || !is_near()) {
@@ -295,7 +296,7 @@ Status Assembly::solve(const std::vector<double>& parameters, Equations<double>*
 Status Assembly::solve_rates(Equations<double>* equations, State<double>* state) {
   VectorX<double> G, step;
   double g = 0.0, previous = std::numeric_limits<double>::infinity();
-  // Rounding of the redundant rows, divided by their compliance, is left in the reactions that these rows leave open.
+  // With redundant rows, rounding errors divided by the compliance remain in the reactions that are not unique.
   const double converged = system_.compliance() == 0.0 ? 1e-11 : 1e-7;
   for (int iteration = 0; iteration < 100; ++iteration) {
     if (cancelled()) return {StatusCode::kCancelled, state->t, "cancelled"};
@@ -342,7 +343,7 @@ void Assembly::extend(const std::vector<T>& parameters, const State<double>& sta
   place_extended();
   correct(velocities_, Phi_rate, &rate);
   place_extended();
-  // G(z) = 0 to first order: the matrix is that of the last Newton iteration of solve_rates().
+  // First-order solution of G(z) = 0 with the factorization of the last Newton iteration of solve_rates().
   VectorX<T> G;
   T g(0.0);
   state->z = start.z.template cast<T>();

@@ -17,56 +17,65 @@ namespace codesign {
 
 /// Consistent initial conditions of a design; doc/theory.md (19), (20).
 ///
-/// Positions: the tree's joint coordinates theta start from the study's values (or guesses, or zero); those the study fixes stay, and as
-/// many of the others as loops and couplings determine are solved for by Newton's method, the rest staying where they started. Joints that
-/// follow others by a coupling start from them, and depend rather than they. Velocities likewise, linearly. Accelerations and multipliers:
-/// Newton on G(z) = 0 from z = 0, where friction has no normal force to act on.
+/// Positions: the tree's joint coordinates theta start from the study's positions, else from its guesses, else from zero. Coordinates with
+/// a given position are held. Of the others, Newton's method changes as many as the loops and couplings determine (the dependent
+/// coordinates); the rest keep their start values. The follower of a coupling starts at the value that the coupling implies and is chosen
+/// as a dependent coordinate first.
+/// Velocities: the same choice of dependent coordinates for the rates, with one linear solve.
+/// Accelerations and multipliers: Newton's method on G(z) = 0 from z = 0, where the multipliers, and with them friction, are zero.
+///
+/// Statuses of the solve functions: kAssemblyFailed (a loop or coupling does not close within solver.closure_tolerance),
+/// kInitialVelocityFailed (given velocities contradict each other), kSingularConfiguration, kSingularMatrix, kNonFinite,
+/// kInitialReactionsFailed, kCancelled. Not thread-safe.
 class Assembly {
  public:
   explicit Assembly(const CompiledSystem& system);
 
-  /// Solves for `state` (at t = 0, extra states zero). `equations` must hold the design at `parameters`; its turn references are set too.
+  /// Finds positions, velocities, accelerations and multipliers and writes them to `state`, with t = 0 and the extra states zero.
+  /// @param parameters all named parameters (Study::parameters order).
+  /// @param equations must hold the design at `parameters`; their turn references are set to the positions found.
   Status solve(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
 
-  /// The same without accelerations and multipliers.
+  /// Finds positions and velocities only; the accelerations and multipliers in `state` are zero.
   Status solve_motion(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
-  /// Positions alone, with every row of loops and couplings, those that the system drops too.
+  /// Finds positions only. First every row of the loops and couplings counts, dropped ones too; if the system drops rows, the enforced rows
+  /// are then solved to rounding. The rates in `state` are those given by the study, not solved for.
   Status solve_positions(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
 
-  /// Carries first-order parts (complex step or lanes) of `parameters` through the solution found by solve(): exact initial sensitivities.
-  /// @param start what solve() gave. `equations` must hold the design at the extended parameters.
+  /// Exact initial sensitivities, doc/theory.md (20): carries the first-order parts of `parameters` (complex step or lanes) through the
+  /// last solution of solve(). `state` receives that solution with its derivatives.
+  /// @param start the state that the last solve() found. @param equations must hold the design at `parameters`, derivatives included.
   template <class T>
   void extend(const std::vector<T>& parameters, const State<double>& start, Equations<T>* equations, State<T>* state) const;
 
-  /// Tree joint coordinates of the last solution, TreeLayout order.
+  /// Tree joint coordinates of the last solution [rad or m], in the order of TreeLayout.
   const VectorX<double>& theta() const { return theta_; }
   const TreeLayout& tree() const { return tree_; }
-  /// What is doubtful about the last start.
+  /// Warnings about the last start: `singular_start`, or none.
   const Warnings& warnings() const { return warnings_; }
-  /// Entries of Study::initial_state whose velocities contradict each other in the last start.
+  /// Indices of the entries of Study::initial_state whose velocities contradict each other; empty unless kInitialVelocityFailed.
   const std::vector<std::size_t>& contradicting() const { return contradicting_; }
-  /// Accelerations and multipliers consistent with state->q, v, s; starts from state->z.
+  /// Solves G(q, v, s; z) = 0 for state->z (accelerations, multipliers, rates of the extra states), starting from the present state->z.
   Status solve_rates(Equations<double>* equations, State<double>* state);
-  /// From now on every solve ends with kCancelled soon after `cancel` is set, from any thread. Null: never.
+  /// Once `cancel` is set (by any thread), a running or later solve ends soon with kCancelled. nullptr: no cancellation.
   void obey(const std::atomic<bool>* cancel) { cancel_ = cancel; }
-  /// How far the loop or coupling that is violated most is from closed at the positions found last.
+  /// The largest closure error of a loop or coupling at the last positions; after a failure, at the nearest positions that were tried.
   const LoopMiss& worst_miss() const { return worst_miss_; }
   const LoopJacobian& loops() const { return loops_; }
 
  private:
-  /// The loops' Jacobian, scaled, its columns those of every coordinate.
   struct ScaledLoops {
-    SparseMatrix matrix, unscaled;
+    SparseMatrix matrix, unscaled;  ///< loops_.rows() x tree_.size; in `matrix` the rows that do not count are zero
     LoopScales scales;
   };
   struct Dependents {
-    std::vector<int> columns;  ///< dependent coordinates
-    LeastSquares inverse;      ///< of their columns of the scaled Jacobian
+    std::vector<int> columns;  ///< the dependent coordinates
+    LeastSquares inverse;      ///< factorization of their columns of the scaled Jacobian
     LoopScales scales;
-    /// Changes of the dependent coordinates that make changes of the loops' rows.
+    /// Least-squares changes of the dependent coordinates for given (unscaled) changes of the loops' rows, one column per case.
     Eigen::MatrixXd solve(const Eigen::MatrixXd& rows) const;
   };
-  /// Where Newton's method came to rest.
+  /// Result of Newton's method: closed to rounding, within the closure tolerance, or neither.
   enum class Rest { kClosed, kNear, kApart };
 
   Status solve_positions(const std::vector<double>& parameters, Equations<double>* equations);
@@ -75,10 +84,9 @@ class Assembly {
   Rest newton(const std::vector<double>& parameters, Equations<double>* equations, const std::vector<int>& free, double rank_tolerance);
   void refine(const std::vector<double>& parameters, Equations<double>* equations);
   bool cancelled() const { return cancel_ != nullptr && *cancel_; }
-  /// Why no closed position was found.
   Status closure_failed() const;
   void note_miss(const VectorX<double>& errors, const Equations<double>& equations);
-  /// Within the closure tolerance.
+  /// Whether worst_miss_ is within solver.closure_tolerance.
   bool is_near() const;
   Status choose_branch(const std::vector<double>& parameters, Equations<double>* equations);
   Status check_rest(const State<double>& state);
@@ -89,7 +97,7 @@ class Assembly {
   void set_turns(Equations<double>* equations) const;
   std::vector<std::vector<int>> by_preference(const std::vector<bool>& given) const;
   ScaledLoops scaled_loops(const std::vector<double>& parameters, const Equations<double>& equations) const;
-  /// The loops' rows; zero for those that are dropped, unless all count.
+  /// The rows of the loops and couplings from all constraint rows; dropped rows are zero unless all_rows_count_.
   Eigen::VectorXd loop_part(const VectorX<double>& rows) const;
   Dependents choose(const ScaledLoops& loops, const std::vector<std::vector<int>>& preferences) const;
   static Dependents factor(const ScaledLoops& loops, const std::vector<int>& columns, double rank_tolerance);
@@ -99,14 +107,14 @@ class Assembly {
   const CompiledSystem& system_;
   TreeLayout tree_;
   LoopJacobian loops_;
-  std::vector<bool> drops_;     ///< per row of the loops
-  bool all_rows_count_ = true;  ///< and none is left out, though the system drops it
-  double rank_tolerance_;       ///< by which the positions were found
+  std::vector<bool> drops_;     ///< per row of loops_: whether the system does not enforce it
+  bool all_rows_count_ = true;  ///< whether dropped rows take part in the solution
+  double rank_tolerance_;       ///< relative; the one with which the last positions were found
   SingularStart singular_start_;
   Warnings warnings_;
   std::vector<std::size_t> contradicting_;
   std::vector<int> followers_;  ///< per coupling: the coordinate that follows the others
-  std::vector<bool> follows_;   ///< per coordinate
+  std::vector<bool> follows_;   ///< per coordinate: whether it is in followers_
   std::vector<bool> position_given_, guess_given_, velocity_given_;
   VectorX<double> theta_, theta_rate_;
   Dependents positions_, velocities_;

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// The part of an assembly that judges the velocities at the start.
+// The checks of Assembly on the velocities, and from rest the accelerations, of the start.
 #include <cmath>
 
 #include "assembly/assembly.h"
@@ -8,11 +8,11 @@
 namespace codesign {
 namespace {
 
-constexpr double kTakesPart = 1e-9;  // entry of the loops' Jacobian that counts
+constexpr double kTakesPart = 1e-9;  // smaller entries of the loops' Jacobian count as zero
 
 }  // namespace
 
-// Named are the given ones that take part in a row that is not satisfied.
+// The message names the joints with a given velocity that appear in a violated row.
 Status Assembly::contradiction(const SparseMatrix& jacobian, const Eigen::VectorXd& left) {
   const double most = left.cwiseAbs().maxCoeff();
   std::string joints, loop;
@@ -33,7 +33,7 @@ Status Assembly::contradiction(const SparseMatrix& jacobian, const Eigen::Vector
           "the given initial velocities of " + joints + " contradict each other: loop or coupling '" + loop + "' cannot follow them"};
 }
 
-// Where several motions meet, rates that satisfy the loops need not be those of a motion.
+// At a singular position where several motions meet, rates can satisfy the loops to first order without belonging to any motion.
 Status Assembly::choose_branch(const std::vector<double>& parameters, Equations<double>* equations) {
   singular_start_.load(parameters, theta_, equations);
   if (singular_start_.is_motion(theta_rate_)) return {};
@@ -42,20 +42,20 @@ Status Assembly::choose_branch(const std::vector<double>& parameters, Equations<
   if (!singular_start_.choose_motion(velocity_given_, &theta_rate_))
     return {StatusCode::kSingularConfiguration, 0.0, where + ", and the given velocities belong to none of them"};
   warnings_.push_back({"singular_start",
-                       where + ", and the given velocities do not tell which: one was chosen, and gradients do not know of the choice. "
-                               "Give the initial velocity of one more of these joints, or start elsewhere",
+                       where + ", and the given velocities do not determine which one begins: one was chosen, and gradients do not include "
+                               "this choice. Give the initial velocity of one more of these joints, or start from another position",
                        {}});
   return {};
 }
 
-// From rest the accelerations must be such that a motion can follow.
+// From rest, the accelerations take the place of the velocities in the check for a possible motion, doc/theory.md (19a).
 Status Assembly::check_rest(const State<double>& state) {
   if (!theta_rate_.isZero(0.0)) return {};
   const VectorX<double> accelerations = singular_start_.tree_accelerations(state.z.head(system_.layout().n));
   if (accelerations.size() == 0 || accelerations.cwiseAbs().maxCoeff() < 1e-9 || singular_start_.is_motion(accelerations)) return {};
   return {StatusCode::kSingularConfiguration, 0.0,
           "the start is at rest in a singular position, where several motions of " + singular_start_.joints() +
-              " meet, and the forces do not tell which begins: give initial velocities, or start elsewhere"};
+              " meet, and the forces do not determine which one begins: give initial velocities, or start from another position"};
 }
 
 }  // namespace codesign

@@ -10,9 +10,11 @@
 
 namespace codesign {
 
-/// Counts coordinates, constraints and equations at the assembled start, as the paper's table "number of equations" does.
+/// Counts coordinates, constraints and equations at the assembled start, as the paper's table "number of equations" does; redundant
+/// constraints and degrees of freedom by doc/theory.md (23), (23a).
 /// @param parameters all named parameters (Study::parameters order).
-/// @param status receives the status of the assembly. After kAssemblyFailed the counts that need the start's rank are zero.
+/// @param status receives the status of Assembly::solve(). After kAssemblyFailed the counts that need the rank of Phi_q (redundancy,
+/// degrees of freedom) and the sums of equations are zero.
 Counts count_equations(const CompiledSystem& system, const std::vector<double>& parameters, Status* status);
 
 }  // namespace codesign

@@ -14,8 +14,9 @@ namespace codesign {
 namespace {
 
 constexpr double kRank = 1e-9;
-constexpr double kSingular = 1e-12;          // smallest eigenvalue of M, scaled to a unit diagonal, that is told from rounding
-constexpr double kSmallestGyration = 1e-14;  // square of a radius of gyration [m^2] that no file means
+constexpr double kSingular = 1e-12;  // smaller eigenvalues of M, relative to the largest, count as zero
+constexpr double kSmallestGyration =
+    1e-14;  // square of a radius of gyration [m^2]; smaller ones are rounding of the tool that wrote the file
 
 std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
@@ -25,7 +26,7 @@ bool lacks_inertia(const BodyConstants<double>& body) {
   return !(moments[0] > kSingular * moments[2]) || !(moments[0] > kSmallestGyration * body.mass);
 }
 
-/// The motions that the tree's coordinates make one at a time.
+/// The mass matrix in the tree's joint coordinates and the joint rates that loops and couplings allow; doc/theory.md (14a).
 class Motions {
  public:
   Motions(const CompiledSystem& system, const std::vector<double>& parameters, const Assembly& assembly, Equations<double>* equations)
@@ -35,7 +36,7 @@ class Motions {
     find_allowed();
   }
 
-  /// A motion [one rate per independent coordinate] that has no inertia, or an empty vector.
+  /// A motion without inertia, as one rate per independent coordinate; empty if there is none.
   Eigen::VectorXd undetermined() const {
     if (allowed_.cols() == 0) return {};
     const Eigen::MatrixXd projected = allowed_.transpose() * scale_.asDiagonal() * M_ * scale_.asDiagonal() * allowed_;
@@ -75,7 +76,7 @@ class Motions {
     return link_motions(system_.robot(), tree_, parameters_, theta_, VectorX<double>(VectorX<double>::Unit(tree_.size, c)));
   }
 
-  // Coordinates that move nothing, and those of a folded joint that repeat others, are left out.
+  // Leaves out coordinates that move no body, and coordinates of folded joints that move the bodies as other coordinates do.
   void find_independent() {
     Eigen::MatrixXd all(system_.layout().n, tree_.size);
     VectorX<double> v;
@@ -96,7 +97,7 @@ class Motions {
     }
   }
 
-  // What multiplies the accelerations in the equations of motion, bodies and all else that is accelerated.
+  // The block G_a of (14) in the independent coordinates: the bodies' M and every other term in a, such as rotors.
   void find_mass_matrix() {
     const VectorX<double> q = state_.q;
     state_.resize(system_.layout());
@@ -117,7 +118,7 @@ class Motions {
     choose_scale();
   }
 
-  // To a unit diagonal; a coordinate that moves no inertia of its own is scaled as the lightest of the others.
+  // Scales M to a unit diagonal; a coordinate without inertia of its own gets the factor of the lightest other coordinate.
   void choose_scale() {
     const Eigen::Index size = M_.rows();
     double lightest = std::numeric_limits<double>::infinity();
@@ -139,7 +140,7 @@ class Motions {
     return std::abs(M_(k, k)) > kSmallestGyration * mass ? M_(k, k) : 0.0;
   }
 
-  // The null space of what loops and couplings forbid, in scaled coordinates.
+  // An orthonormal basis of the scaled joint rates that satisfy the rows of loops and couplings.
   void find_allowed() {
     const Eigen::Index size = M_.rows();
     Eigen::MatrixXd forbidden(system_.layout().m, size);
@@ -174,11 +175,11 @@ class Motions {
   VectorX<double> theta_;
   Equations<double>* equations_;
   State<double> state_;
-  std::vector<int> coordinates_;  ///< independent ones, ascending
-  Eigen::MatrixXd V_;             ///< velocities of the bodies per rate of these
-  Eigen::MatrixXd M_;             ///< their mass matrix
-  Eigen::VectorXd scale_;
-  Eigen::MatrixXd allowed_;  ///< orthonormal columns, of scaled coordinates
+  std::vector<int> coordinates_;  ///< the independent tree coordinates, ascending
+  Eigen::MatrixXd V_;             ///< n x coordinates: velocities of the bodies for unit rates
+  Eigen::MatrixXd M_;             ///< V^T M V
+  Eigen::VectorXd scale_;         ///< diagonal of D in (14a)
+  Eigen::MatrixXd allowed_;       ///< N of (14a): orthonormal columns, in scaled coordinates
 };
 
 }  // namespace

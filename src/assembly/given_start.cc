@@ -4,12 +4,12 @@
 namespace codesign {
 namespace {
 
-/// Sets `count` flags from the first coordinate on.
+/// Sets the flags first .. first + count - 1 if `given`.
 void mark(std::vector<bool>* flags, int first, int count, bool given) {
   for (int k = 0; given && k < count; ++k) (*flags)[static_cast<std::size_t>(first + k)] = true;
 }
 
-/// What a planar or floating joint's vector is in its coordinates.
+/// Writes a vector in the joint frame to the sliding coordinates of a planar (2) or floating (3) joint.
 template <class T>
 void set_slides(const JointDescription& joint, const QuantityVector& vector, const std::vector<T>& parameters, T* coordinates) {
   const Vector3<T> x = vector_at(vector, parameters);

@@ -10,15 +10,16 @@
 
 namespace codesign {
 
-/// Which of the tree's coordinates, and of their rates, the study gives.
+/// Flags per tree coordinate (TreeLayout order): whether the study gives its position, a guess of it, or its rate.
 struct GivenStart {
   std::vector<bool> position, guess, velocity;
 
   GivenStart(const System& system, const TreeLayout& tree);
 };
 
-/// Sets the coordinates and rates that the study gives to their values at `parameters`; the others stay. The turning coordinates of a
-/// floating joint with a given rotation are zero: JointDescription::start_rotation holds it.
+/// Sets the tree coordinates [rad or m] and rates that the study gives (guesses excepted) to their values at `parameters`; other entries of
+/// `theta` and `rate`, both of tree.size, keep their values. A given rotation of a floating joint leaves its turning coordinates at zero:
+/// JointDescription::start_rotation holds the rotation.
 template <class T>
 void set_given_start(const System& system, const TreeLayout& tree, const std::vector<T>& parameters, VectorX<T>* theta, VectorX<T>* rate);
 

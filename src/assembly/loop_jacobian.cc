@@ -10,9 +10,9 @@ namespace {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-constexpr int kMostRows = 6;  // of one pair
+constexpr int kMostRows = 6;  // constraint rows of one pair
 
-/// Disjoint sets of numbers.
+/// Union-find over the numbers 0 .. size - 1.
 class Sets {
  public:
   explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -26,7 +26,7 @@ class Sets {
   std::vector<int> parent_;
 };
 
-/// A body as it stands at q, moved by a coordinate.
+/// Sets the velocities of a body for the unit rate of one coordinate.
 void move(const CoordinateTwist& twist, BodyKinematics<double>* body) {
   body->rd = twist.velocity + cross<double>(twist.omega, body->r - twist.point);
   body->pd = 0.5 * (ground_rate_matrix(body->p).transpose() * twist.omega);
@@ -73,7 +73,7 @@ void LoopJacobian::add_row(int row, const std::string& owner) {
   owners_.push_back(owner);
 }
 
-// From both bodies towards the root; what both ways have in common moves the loop as a whole.
+// Collects the joints from both bodies towards the root; joints on both ways move the loop as a whole and are left out.
 void LoopJacobian::add_loop(int index) {
   const Topology& topology = system_.topology();
   const Pair& pair = topology.pairs[at(index)];

@@ -11,51 +11,53 @@
 
 namespace codesign {
 
-/// Factors of rows and columns that make a LoopJacobian free of units and of a loop's size: turning by 1 rad and sliding by the loop's
-/// longest lever count the same.
+/// Factors of the rows and columns of a LoopJacobian that remove units and the loop's size: afterwards, turning by 1 rad and sliding by the
+/// loop's longest lever have the same effect. Rows that are lengths are in 1/m, columns of slides in m.
 struct LoopScales {
   Eigen::VectorXd rows, columns;
 };
 
-/// By how much a loop or coupling is not closed.
+/// Closure error of one loop or coupling: the largest of its rows, lengths and angles apart.
 struct LoopMiss {
-  std::string owner;
+  std::string owner;    ///< name of the loop or coupling
   double length = 0.0;  ///< [m]
-  double angle = 0.0;   ///< [rad]; of a coupling in the unit of the coordinate that follows
+  double angle = 0.0;   ///< [rad]; for a coupling, in the unit of its follower's coordinate
 };
 
-/// What loops and couplings ask of the tree's joint coordinates, Phi^l_theta of doc/theory.md (19). Its cost and its size grow with the
-/// lengths of the loops: only coordinates on the way around a loop have entries in its rows.
+/// The Jacobian Phi^l_theta of the rows of loops and couplings with respect to the tree's joint coordinates, doc/theory.md (19). A loop's
+/// rows have entries only in the coordinates on the way around the loop, so that cost and size grow with the lengths of the loops.
 class LoopJacobian {
  public:
+  /// @param system, tree must outlive this.
   LoopJacobian(const CompiledSystem& system, const TreeLayout& tree);
 
   int rows() const { return static_cast<int>(constraint_rows_.size()); }
-  /// Rows of Phi that the tree does not satisfy by itself: of loops in order, then of couplings.
+  /// The rows of Phi that forward kinematics of the tree does not satisfy: those of the loops in order, then those of the couplings.
   const std::vector<int>& constraint_rows() const { return constraint_rows_; }
-  /// The loop or coupling that a row belongs to.
+  /// Name of the loop or coupling that row `row` of this matrix belongs to.
   const std::string& owner(int row) const { return owners_[static_cast<std::size_t>(row)]; }
   /// Coordinates that a loop or coupling depends on, ascending; the others have empty columns.
   const std::vector<int>& coordinates() const { return coordinates_; }
 
-  /// rows() by tree.size at theta. `equations` must hold the design at `parameters`.
+  /// The matrix, rows() x tree.size, at theta. `equations` must hold the design at `parameters`.
   SparseMatrix evaluate(const std::vector<double>& parameters, const VectorX<double>& theta, const Equations<double>& equations) const;
 
+  /// @param jacobian the result of evaluate().
   LoopScales scales(const SparseMatrix& jacobian, const Equations<double>& equations) const;
 
-  /// What constraint errors (rows of Phi) mean for each loop, then for each coupling.
+  /// Converts constraint errors Phi (all m rows) to closure errors, one per loop and then one per coupling.
   std::vector<LoopMiss> misses(const VectorX<double>& errors, const Equations<double>& equations) const;
 
-  /// Pairs and couplings that a row shares coordinates with, and those that these do, and so on. One part for each set of rows that has no
-  /// coordinate in common with the others.
+  /// A connected part: rows that share coordinates, directly or through other rows, with the pairs and couplings of these coordinates.
   struct Part {
-    std::vector<int> rows;              ///< of this matrix
-    std::vector<int> pairs, couplings;  ///< ascending
+    std::vector<int> rows;              ///< rows of this matrix
+    std::vector<int> pairs, couplings;  ///< indices in Topology, ascending
   };
+  /// The partition of all rows into parts that have no coordinate in common.
   std::vector<Part> parts() const;
 
  private:
-  /// A coordinate and which body of the loop it moves.
+  /// A coordinate on the way around a loop, and whether it moves the loop's body j (else body i).
   struct Mover {
     int coordinate;
     bool moves_j;
@@ -67,7 +69,7 @@ class LoopJacobian {
 
   void add_loop(int pair);
   int rows_of(const Loop& loop) const;
-  /// Of the length that a row of a loop is measured in: 0 for an angle, 1 for a position, 2 for half the square of a distance.
+  /// Power of length in the unit of a loop's row: 0 for an angle, 1 for a position [m], 2 for half a squared distance [m^2].
   static int power(const Loop& loop, int within, const Equations<double>& equations);
   void add_row(int row, const std::string& owner);
   bool slides(int coordinate) const { return slides_[static_cast<std::size_t>(coordinate)]; }
@@ -77,8 +79,8 @@ class LoopJacobian {
   std::vector<int> constraint_rows_, coordinates_;
   std::vector<std::string> owners_;
   std::vector<Loop> loops_;
-  std::vector<int> joint_of_;  ///< per coordinate
-  std::vector<bool> slides_;   ///< per coordinate
+  std::vector<int> joint_of_;  ///< per coordinate: its joint in the description
+  std::vector<bool> slides_;   ///< per coordinate: whether it is a length
   int first_coupling_row_ = 0;
 };
 

@@ -14,10 +14,10 @@ namespace codesign {
 namespace {
 
 std::string miss_text(const LoopMiss& miss) {
-  return to_decimal(1e3 * miss.length) + " mm and " + to_decimal(miss.angle) + " rad at the nearest";
+  return to_decimal(1e3 * miss.length) + " mm and " + to_decimal(miss.angle) + " rad at the closest position found";
 }
 
-/// The loop or coupling of a name, with its place.
+/// Where in the input a loop or coupling of this name stands; the root link's place if there is none.
 InputFault fault_of(const CompiledSystem& system, const std::string& name) {
   for (const Coupling& coupling : system.topology().couplings)
     if (coupling.name == name) return {coupling.where, coupling.element(), "", "", ""};
@@ -29,7 +29,7 @@ InputFault fault_of(const CompiledSystem& system, const std::string& name) {
   return {system.robot().links[static_cast<std::size_t>(root)].where, "initial_state", "", "", ""};
 }
 
-/// The start values contradict a loop or a coupling.
+/// Throws for a start whose positions or velocities contradict a loop or coupling.
 [[noreturn]] void refuse_start(const CompiledSystem& system, const Assembly& assembly, const Status& status) {
   InputFault fault = fault_of(system, status.code == StatusCode::kAssemblyFailed ? assembly.worst_miss().owner : "");
   fault.message = status.cause;
@@ -46,14 +46,15 @@ InputFault fault_of(const CompiledSystem& system, const std::string& name) {
   throw InputError(fault);
 }
 
-/// A loop that closes only nearly, as one with rounded angles does.
+/// Warns of a loop that closes within the tolerance but not to rounding, as with rounded angles in the file.
 void warn_of_miss(const CompiledSystem& system, const LoopMiss& miss, Warnings* warnings) {
   constexpr double kRounding = 1e-9;
   if (!(std::max(miss.length, miss.angle) > kRounding)) return;
   InputFault fault = fault_of(system, miss.owner);
   fault.message =
-      "the origins and axes around the loop do not close it exactly; the constraints that follow from the others are left to miss by about "
-      "as much; to silence this, write lengths and angles with all their digits, a right angle as 1.5707963267948966";
+      "the origins and axes around the loop do not close it exactly; redundant constraints are not enforced and stay violated by about "
+      "this "
+      "amount; to remove the warning, write lengths and angles with all their digits, a right angle as 1.5707963267948966";
   fault.value = miss_text(miss);
   fault.allowed = "0, to rounding; solver.closure_tolerance " + to_decimal(system.study().solver.closure_tolerance);
   append({warn("inexact_loop", fault)}, warnings);
@@ -62,35 +63,36 @@ void warn_of_miss(const CompiledSystem& system, const LoopMiss& miss, Warnings* 
 void warn_of_friction(const CompiledSystem& system, const Redundancy& redundancy, Warnings* warnings) {
   for (int joint : redundancy.chosen_joints) {
     const JointDescription& description = system.robot().joints[static_cast<std::size_t>(joint)];
-    append(
-        {warn(
-            "undetermined_friction",
-            {description.where, (description.is_loop ? "<loop name=\"" : "<joint name=\"") + description.name + "\">",
-             "friction rests on a reaction that nothing determines, because constraints of the loop follow from each other; the reactions "
-             "of least norm are taken; to silence this, give one joint of the loop the freedom that it has in fact, as "
-             "codesign:spherical or codesign:cylindrical",
-             "", ""})},
-        warnings);
+    append({warn("undetermined_friction",
+                 {description.where, (description.is_loop ? "<loop name=\"" : "<joint name=\"") + description.name + "\">",
+                  "friction depends on a reaction that is not unique, because the loop has redundant constraints; the reactions of least "
+                  "norm are "
+                  "used; to remove the warning, give one joint of the loop the freedom that it has in reality, as codesign:spherical or "
+                  "codesign:cylindrical",
+                  "", ""})},
+           warnings);
   }
 }
 
-/// A billionth of what a body yields to a force: far above rounding, far below what a motion shows; theory (23).
+/// Compliance epsilon of the redundant rows [1/kg], doc/theory.md (23): 1e-9 over the mean mass of the bodies. Far above rounding, and its
+/// effect on a motion is far below any tolerance.
 double compliance_of(const Equations<double>& equations) {
   double mass = 0.0;
   for (const BodyConstants<double>& body : equations.constants().bodies) mass += body.mass;
-  if (!(mass > 0.0)) mass = 1.0;  // rotors alone
+  if (!(mass > 0.0)) mass = 1.0;  // all inertia is in rotors
   return 1e-9 * static_cast<double>(equations.constants().bodies.size()) / mass;
 }
 
-/// Whether redundant rows must be dropped: where they contradict each other a little, or where friction follows from the reactions that
-/// they leave open, so that rounding divided by a compliance would be felt. Elsewhere all rows stay, which holds however far the mechanism
-/// turns.
+/// Whether redundant rows must be dropped: if they contradict each other by more than rounding, or if friction depends on reactions that
+/// are not unique, where rounding divided by the compliance would change the motion. Otherwise all rows stay enforced, which remains right
+/// at positions far from the start.
 bool must_drop(const LoopMiss& miss, const Redundancy& redundancy) {
-  constexpr double kExact = 1e-12;  // [m and rad] a miss that a compliance of 1e-9 turns into no load worth speaking of
+  constexpr double kExact = 1e-12;  // [m and rad] a smaller miss, divided by a compliance of 1e-9, gives a negligible load
   return std::max(miss.length, miss.angle) > kExact || !redundancy.friction_chosen.empty();
 }
 
-/// The system with its redundant constraints handled. A design that cannot start is bad input; later designs are trial points.
+/// The system with its redundant constraints handled, doc/theory.md (23). Throws if the study's own design cannot be assembled; a later
+/// design that cannot is a trial point with a failed status.
 std::shared_ptr<const CompiledSystem> with_sharing(std::shared_ptr<const CompiledSystem> system, Warnings* warnings) {
   StartWorkspace start(*system, system->parameters());
   const Status status = start.solve_positions();

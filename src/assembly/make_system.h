@@ -11,8 +11,9 @@
 
 namespace codesign {
 
-/// Compiles a mechanism and a study into equations of motion.
-/// @param warnings receives what is doubtful: loops that close only nearly, friction on a reaction that nothing determines.
+/// Compiles a mechanism and a study into equations of motion. Assembles the start and handles redundant constraints there, doc/theory.md
+/// (23).
+/// @param warnings receives `inexact_loop`, `undetermined_friction` and `undetermined_reaction`, if not null.
 /// @throws InputError for a mechanism without equations of motion: two masses on one loop end, a massless chain that cannot be folded, an
 /// unknown signal, a start that cannot be assembled, a motion without inertia.
 std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot, const Study& study, Warnings* warnings = nullptr);

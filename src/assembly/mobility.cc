@@ -8,10 +8,10 @@
 namespace codesign {
 namespace {
 
-constexpr double kRank = 1e-9;
-constexpr double kNothing = 1e-7;  // of the largest form: what differences leave of zero
+constexpr double kRank = 1e-9;     // smaller singular values, relative to the largest, count as zero
+constexpr double kNothing = 1e-7;  // forms below this times the largest count as zero: the error of the differences
 constexpr double kStep = 1e-4;     // of central differences [rad or m]
-constexpr int kStarts = 16;        // of the search for branches; fewer below a branch
+constexpr int kStarts = 16;        // random starts of the search for branches; fewer within a branch
 
 using Forms = std::vector<Eigen::MatrixXd>;
 
@@ -28,7 +28,7 @@ Eigen::MatrixXd gradients(const Forms& forms, const Eigen::VectorXd& y) {
   return rows;
 }
 
-/// A unit vector that solves all equations, by Gauss-Newton; empty if the start leads to none.
+/// A unit vector that solves all equations, by the Gauss-Newton method from `y`; empty if it does not converge.
 Eigen::VectorXd root_from(const Forms& forms, Eigen::VectorXd y) {
   y.normalize();
   for (int iteration = 0; iteration < 100; ++iteration) {
@@ -42,7 +42,7 @@ Eigen::VectorXd root_from(const Forms& forms, Eigen::VectorXd y) {
   return (0.5 * (gradients(forms, y) * y)).cwiseAbs().maxCoeff() < kNothing ? y : Eigen::VectorXd();
 }
 
-/// Orthonormal columns that span the null space of `rows`, as far as they are normal to `y`.
+/// Orthonormal basis of the vectors in the null space of `rows` that are normal to `y`.
 Eigen::MatrixXd tangents_beside(const Eigen::MatrixXd& rows, const Eigen::VectorXd& y, double threshold) {
   Eigen::MatrixXd stacked(rows.rows() + 1, rows.cols());
   stacked << rows, y.transpose();
@@ -53,7 +53,8 @@ Eigen::MatrixXd tangents_beside(const Eigen::MatrixXd& rows, const Eigen::Vector
 
 int dimension(const Forms& forms, Eigen::Index size, int starts);
 
-/// Along a root: its own direction, and the tangents on which the equations whose gradients vanish there hold too.
+/// Dimension of the solutions near the root y: one for its own direction, plus the dimension of the solutions, among the tangents normal
+/// to y, of the equations whose gradients vanish at y.
 int dimension_at(const Forms& forms, const Eigen::VectorXd& y, int starts) {
   constexpr double kVanishes = 1e-5;  // a double root is found to the square root of rounding
   const Eigen::MatrixXd rows = gradients(forms, y);

@@ -9,14 +9,14 @@
 
 namespace codesign {
 
-/// Dimension of the real solutions y of the quadratic equations y^T H_k y = 0, the largest of those of the branches that are found.
-/// @param forms symmetric k x k matrices.
+/// Dimension of the set of real solutions y of the quadratic equations y^T H_k y = 0; of several branches, the largest dimension found.
+/// @param forms the symmetric matrices H_k, all of the size of y.
 int dimension_of_cone(const std::vector<Eigen::MatrixXd>& forms);
 
-/// At a singular position (a stretched-out or flat linkage) the null space of Phi_q holds velocities that are no motion: the constraints'
-/// second derivatives forbid them; doc/theory.md (23a). @returns by how many dimensions the motions fall short of the null space, 0 where
-/// the position is regular.
-/// @param assembly as it found the position; `equations` hold the design at `parameters`.
+/// At a singular position (a stretched-out or flat linkage) the null space of Phi_q contains velocities that belong to no motion, because
+/// the second derivatives of the constraints forbid them; doc/theory.md (23a).
+/// @returns the dimension of the null space minus that of the motions; 0 at a regular position.
+/// @param assembly its last positions are used. @param equations must hold the design at `parameters`.
 int motions_lost_to_curvature(const std::vector<double>& parameters, const Assembly& assembly, const Equations<double>& equations);
 
 }  // namespace codesign

@@ -11,11 +11,12 @@
 namespace codesign {
 namespace {
 
-constexpr double kRank = 1e-3;  // of the loops' scaled Jacobian: what rounded angles and lengths leave of a row that follows from others
-constexpr double kTakesPart = 1e-7;  // of the largest component of a self-stress: far above its rounding
-constexpr double kTestMotion = 0.2;  // [rad] or as much of a loop's longest lever
-constexpr double kTestMiss = 2e-3;   // of a row after the test motion; one that merely is singular at the start misses ten times as much
-constexpr int kTrials = 3;
+constexpr double kRank = 1e-3;  // rank tolerance of the loops' scaled Jacobian: rounded angles and lengths leave less of a redundant row
+constexpr double kTakesPart = 1e-7;  // smaller components of a self-stress, relative to the largest, count as zero; far above rounding
+constexpr double kTestMotion = 0.2;  // [rad], or this fraction of a loop's longest lever
+// Allowed error of a redundant row after the test motion; a row that is redundant at a singular start only misses ten times as much.
+constexpr double kTestMiss = 2e-3;
+constexpr int kTrials = 3;  // number of test motions, and of random self-stresses
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
@@ -25,7 +26,7 @@ std::string vector_name(const PairVector<double>& x) {
   return std::string(1, "xyz"[index]) + (x.term[0].side == Side::kI ? "_i" : "_j");
 }
 
-/// The product and what it says: a displacement is d, from the joint's point on i to that on j.
+/// The kind of a scalar-product row, (6), and its vectors; d is the displacement from the joint's point on body i to the one on body j.
 std::string product_kind(const ProductRow<double>& row) {
   const std::string product = vector_name(row.X) + " . " + vector_name(row.Y);
   if (row.X.terms == 2 && row.Y.terms == 2) return "distance, " + product;
@@ -35,13 +36,13 @@ std::string product_kind(const ProductRow<double>& row) {
   return (x == 2 || y == 2 ? "parallel axes, " : "no turn, ") + product;
 }
 
-/// Numbers between -1 and 1, the same in every run.
+/// Pseudo-random numbers between -1 and 1, the same in every run.
 Eigen::MatrixXd mixed_numbers(Eigen::Index rows, Eigen::Index columns) {
   std::mt19937 generator(1);
   return Eigen::MatrixXd::NullaryExpr(rows, columns, [&generator] { return static_cast<double>(generator() % 2001) / 1000.0 - 1.0; });
 }
 
-/// Rows of a matrix as columns, without the numbers that are zero in all of them.
+/// The given rows of A as columns, without the columns of A that are zero in all of these rows.
 SparseMatrix rows_as_columns(const Eigen::SparseMatrix<double, Eigen::RowMajor>& A, const std::vector<int>& rows) {
   std::vector<Eigen::Triplet<double>> entries;
   std::map<Eigen::Index, int> place;
@@ -53,14 +54,14 @@ SparseMatrix rows_as_columns(const Eigen::SparseMatrix<double, Eigen::RowMajor>&
   return result;
 }
 
-/// Which of the rows that seem to follow from the others do so wherever the mechanism goes.
+/// Tells rows that are redundant everywhere from rows that are redundant at the start only, by moving the mechanism away from it.
 class TestMotion {
  public:
   TestMotion(const CompiledSystem& system, Equations<double>* equations, const LoopJacobian& loops, const TreeLayout& tree,
              const std::vector<double>& parameters)
       : system_(system), equations_(equations), loops_(loops), tree_(tree), parameters_(parameters) {}
 
-  /// Drops from `rows` (of the loops) those that do not hold any more when the others lead the mechanism elsewhere.
+  /// Removes from `rows` (rows of the LoopJacobian) those that are violated after a test motion along which the other rows hold.
   void sift(const VectorX<double>& theta, std::vector<int>* rows) {
     for (int trial = 0; trial < kTrials && !rows->empty(); ++trial) {
       held_.setOnes(loops_.rows());
@@ -108,7 +109,7 @@ class TestMotion {
     return part;
   }
 
-  /// False if the rows that are held could not be kept.
+  /// False if the other rows could not be satisfied after a motion of this size.
   bool try_motion(const VectorX<double>& start, int trial, double size, std::vector<int>* rows) {
     Linear l;
     linearize(start, &l);
@@ -161,7 +162,7 @@ class Analysis {
     return {system_.topology().pairs[pair].name, within + 1, pair_row_kind(pair, within)};
   }
 
-  /// Notes what self-stresses move: loads of the rows (layout.constraints() x any number) that balance each other.
+  /// Notes the joints, loops and couplings that the self-stresses (layout.constraints() x any number) load.
   void find_undetermined(const Eigen::MatrixXd& stress, double threshold, Redundancy* result) const {
     const auto moves = [&](int first, int last) {
       return last > first && stress.middleRows(first, last - first).cwiseAbs().maxCoeff() > threshold;
@@ -171,7 +172,7 @@ class Analysis {
       if (!moves(layout_.pair_row[k], layout_.pair_end(static_cast<int>(k)))) continue;
       result->undetermined.push_back(topology.pairs[k].name);
       const int joint = topology.pairs[k].friction_joint;
-      // All of a joint's rows enter its normal force, but in a plane and in a ball, whose pressure is the force alone.
+      // All rows of a joint enter its normal force (12); of a plane only the first row does, and a ball has no others.
       const bool plane = topology.pairs[k].kind == PairKind::kPlanar || topology.pairs[k].kind == PairKind::kTable;
       if (joint < 0 || (plane && !moves(layout_.pair_row[k], layout_.pair_row[k] + 1))) continue;
       result->friction_chosen.push_back(topology.pairs[k].name);
@@ -197,7 +198,8 @@ class Analysis {
   const Equations<double>& equations_;
 };
 
-/// Constraint rows by the bodies' translations and turns, which the unit Euler parameters do not restrict; a column per row.
+/// The constraint rows' forces and torques on the bodies, 6 x bodies by one column per row: Phi_q^T in translations and rotations, in which
+/// the rows of the unit Euler parameters vanish.
 SparseMatrix loads_of_rows(const CompiledSystem& system, const SparseMatrix& Phi_q, const VectorX<double>& q,
                            const std::vector<int>& rows) {
   const Eigen::SparseMatrix<double, Eigen::RowMajor> by_rows = Phi_q;
@@ -217,7 +219,7 @@ SparseMatrix loads_of_rows(const CompiledSystem& system, const SparseMatrix& Phi
   return result;
 }
 
-/// Self-stresses: any loads of the redundant rows, and those of the others that balance them.
+/// Finds self-stresses: random loads of the redundant rows, with the loads of the other rows that balance them.
 void find_undetermined(const CompiledSystem& system, Equations<double>* equations, const State<double>& state,
                        const std::vector<int>& redundant, const ReactionSharing& sharing, Redundancy* result) {
   const Layout& layout = system.layout();

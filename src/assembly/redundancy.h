@@ -11,29 +11,31 @@
 
 namespace codesign {
 
-/// Which constraints of a mechanism depend on the others at one position, and whose reactions that leaves undetermined; doc/theory.md (23).
+/// The redundant constraints of a mechanism at one position, and the reactions that are therefore not unique; doc/theory.md (23).
 struct Redundancy {
-  std::vector<ConstraintRow> rows;           ///< as many as the rank lacks, of loops and couplings; without them the others are independent
-  std::vector<std::string> undetermined;     ///< joints, loops and couplings whose multipliers are not unique
-  std::vector<std::string> friction_chosen;  ///< those among them whose friction depends on the reaction
-  std::vector<int> chosen_joints;            ///< of the description: the joints of that friction
-  Eigen::MatrixXd self_stress;               ///< by columns some multipliers of all constraints that balance each other
-  double stress_threshold = 0.0;             ///< what they move by less they do not move
-  ReactionSharing sharing;                   ///< without compliance. Rows that only depend on the others at this very position are kept
+  std::vector<ConstraintRow> rows;        ///< redundant rows of loops and couplings, as many as the rank lacks; the others are independent
+  std::vector<std::string> undetermined;  ///< joints, loops and couplings whose multipliers are not unique
+  std::vector<std::string> friction_chosen;  ///< those among them with friction that depends on such a multiplier
+  std::vector<int> chosen_joints;            ///< the joints of friction_chosen, as indices in the description
+  Eigen::MatrixXd self_stress;    ///< constraints x trials: multipliers s with Phi_q^T s = 0, up to the loads of unit Euler parameters
+  double stress_threshold = 0.0;  ///< smaller entries of self_stress count as zero
+  ReactionSharing sharing;        ///< compliance not set; `dropped` lacks rows that are redundant only at this very position
 };
 
-/// Phi_q at a state.
+/// Phi_q at a state, constraints x n. `equations` must hold the design.
 SparseMatrix constraint_jacobian(const CompiledSystem& system, Equations<double>* equations, const State<double>& state);
 
-/// Rank of what loops and couplings ask of the tree, by a pivoted QR factorization for each set of them that shares no coordinates with
-/// others. A row counts as redundant if less than 1e-3 of it is left (scaled as LoopScales says), and is dropped if it also holds after
-/// motions of 0.2 rad along which the other rows hold. Multipliers that are not unique are those of loads that balance each other.
-/// @param assembly at the positions of `state`, where the constraints hold.
+/// Finds the redundant rows of loops and couplings by a pivoted QR factorization of each part of LoopJacobian::parts(). A row is redundant
+/// if less than 1e-3 of it (in the scaling of LoopScales) is independent of the other rows, and is dropped if it also holds after motions
+/// of 0.2 rad along which the other rows hold. A multiplier is not unique if a self-stress, a set of loads that balance each other, changes
+/// it.
+/// @param assembly its last positions must be those of `state`, where the constraints hold.
+/// @param equations must hold the design at `parameters`.
 Redundancy analyse_redundancy(const CompiledSystem& system, Equations<double>* equations, const Assembly& assembly,
                               const std::vector<double>& parameters, const State<double>& state);
 
-/// Which of some signals read a component of a reaction that self-stresses move, so that nothing determines it.
-/// @param state of the redundancy.
+/// Indices of the signals that read a component of a reaction that is not unique.
+/// @param state the one at which `redundancy` was found.
 std::vector<std::size_t> open_reactions(const CompiledSystem& system, const Redundancy& redundancy, State<double> state,
                                         const std::vector<Signal>& signals, Equations<double>* equations);
 

@@ -18,9 +18,10 @@ Warnings warn_of_open_reactions(const CompiledSystem& system, const Redundancy& 
   for (std::size_t k : open_reactions(system, redundancy, state, resolved, equations))
     append({warn("undetermined_reaction",
                  {signals[k].where, "signal",
-                  "the signal reads a reaction that nothing determines, because constraints of the loop follow from each other; that of "
-                  "least norm is taken; to silence this, give one joint of the loop the freedom that it has in fact, as "
-                  "codesign:spherical or codesign:cylindrical",
+                  "the signal reads a reaction that is not unique, because the loop has redundant constraints; the one of least norm is "
+                  "used; to "
+                  "remove the warning, give one joint of the loop the freedom that it has in reality, as codesign:spherical or "
+                  "codesign:cylindrical",
                   signals[k].text, ""})},
            &warnings);
   return warnings;

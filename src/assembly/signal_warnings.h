@@ -9,11 +9,13 @@
 
 namespace codesign {
 
-/// Warns of each signal that reads a reaction which nothing determines. @param state of the redundancy.
+/// `undetermined_reaction` for each signal that reads a component of a reaction that is not unique.
+/// @param state the one at which `redundancy` was found. @param equations must hold its design.
 Warnings warn_of_open_reactions(const CompiledSystem& system, const Redundancy& redundancy, const State<double>& state,
                                 const std::vector<SignalDescription>& signals, Equations<double>* equations);
 
-/// The same at the start of a system that is compiled already, of signals beside the study's.
+/// The same for signals that are not in the study, at the start of a compiled system at its own parameters. None if the positions of the
+/// start cannot be found.
 Warnings warn_of_open_reactions(const CompiledSystem& system, const std::vector<SignalDescription>& signals);
 
 }  // namespace codesign

@@ -8,11 +8,11 @@
 namespace codesign {
 namespace {
 
-constexpr double kRank = 1e-4;        // a start that is solved for lies within the root of its tolerance of the singular position
-constexpr double kIsMotion = 1e-3;    // of the curvature that may be left
-constexpr double kDifference = 1e-3;  // [rad or m] of the fourth-order differences, exact to about 1e-12
+constexpr double kRank = 1e-4;        // a position that is solved for can be off the singular one by the square root of its tolerance
+constexpr double kIsMotion = 1e-3;    // allowed norm of L^T (J x)_theta x, relative to (J x)_theta x
+constexpr double kDifference = 1e-3;  // step [rad or m] of the fourth-order differences, whose error is about 1e-12
 constexpr int kIterations = 50;
-constexpr Eigen::Index kLargest = 250000;  // entries of J; larger ones are not analysed
+constexpr Eigen::Index kLargest = 250000;  // entries of J; a larger J is not analysed, since its QR factorization is dense
 
 }  // namespace
 
@@ -41,7 +41,7 @@ void SingularStart::load(const std::vector<double>& parameters, const VectorX<do
   L_ = Q.rightCols(count - qr.rank());
 }
 
-// (J x)_theta x
+// (J x)_theta x, by central differences of fourth order.
 VectorX<double> SingularStart::curvature(const VectorX<double>& x) {
   const double h = kDifference / x.cwiseAbs().maxCoeff();
   const VectorX<double> near = rates(theta_ + h * x, x) - rates(theta_ - h * x, x);
@@ -62,7 +62,7 @@ bool SingularStart::is_motion(const VectorX<double>& x) {
   return B.norm() <= tolerance_;
 }
 
-// Newton's method on J x = 0 (but for what nearly depends) and L^T (J x)_theta x = 0, each step of least size.
+// Newton's method on J x = 0 (without the nearly dependent part L L^T J) and L^T (J x)_theta x = 0, with steps of least norm.
 bool SingularStart::solve(const std::vector<int>& free, VectorX<double>* x) {
   const Eigen::MatrixXd J = J_ - L_ * (L_.transpose() * J_);
   const auto count = static_cast<Eigen::Index>(free.size());
@@ -90,7 +90,7 @@ bool SingularStart::choose_motion(const std::vector<bool>& held, VectorX<double>
   for (int c = 0; c < tree_.size; ++c)
     if (!held[static_cast<std::size_t>(c)]) free.push_back(c);
   const VectorX<double> first = *x;
-  // The same from both sides of where the first-order solution happens to lie, between the tangents.
+  // The first-order solution may lie between the tangents of two motions, where Newton's method fails: it is then started from both sides.
   for (int attempt = 0; attempt <= 2 * static_cast<int>(free.size()) && attempt <= 8; ++attempt) {
     *x = first;
     if (attempt > 0) (*x)[free[static_cast<std::size_t>((attempt - 1) / 2)]] += (attempt % 2 == 1 ? 1.0 : -1.0) * first.norm();

@@ -11,27 +11,28 @@
 
 namespace codesign {
 
-/// Whether velocities, or accelerations from rest, are those of a motion, at a position where rows of the loops depend on each other;
-/// doc/theory.md (19a). J = Phi_theta of loops and couplings, L an orthonormal basis of its left null space. First-order velocities,
-/// J x = 0, belong to a motion only if J y = -(J x)_theta x has a solution y: L^T (J x)_theta x = 0. That is always so where redundancy is
-/// permanent; where several motions meet it tells their tangents from all others.
+/// Tests whether rates of the tree coordinates (or, from rest, accelerations) belong to a motion, at a position where rows of the loops
+/// depend on each other; doc/theory.md (19a). With J = Phi^l_theta of loops and couplings and L an orthonormal basis of its left null
+/// space, rates x with J x = 0 belong to a motion only if J y = -(J x)_theta x has a solution y, which requires L^T (J x)_theta x = 0.
+/// Where redundancy is permanent this always holds; where several motions meet only their tangents satisfy it.
 class SingularStart {
  public:
   /// @param tree, loops must outlive this.
   SingularStart(const CompiledSystem& system, const TreeLayout& tree, const LoopJacobian& loops);
 
-  /// Makes the position present. @param theta tree coordinates.
+  /// Evaluates J and L at a position. Problems with more than 250,000 entries of J are not analysed: every rate then counts as a motion.
+  /// @param theta tree coordinates. @param equations must hold the design at `parameters`, and outlive the calls below.
   void load(const std::vector<double>& parameters, const VectorX<double>& theta, Equations<double>* equations);
 
-  /// Whether rates x (or, from rest, accelerations) are those of a motion.
+  /// Whether rates x (or, from rest, accelerations), tree.size, belong to a motion.
   bool is_motion(const VectorX<double>& x);
-  /// Changes the rates that are not `held` to the nearest ones found that are a motion's. False if there are none.
+  /// Changes the rates that are not `held` as little as possible so that x belongs to a motion. False, with x unchanged, if none is found.
   bool choose_motion(const std::vector<bool>& held, VectorX<double>* x);
 
-  /// Tree accelerations from the bodies' at rest.
+  /// Tree accelerations from the bodies' accelerations a (n entries) at rest; zero at a regular position.
   VectorX<double> tree_accelerations(const VectorX<double>& a);
 
-  /// The joints of the loops that the last rates violate, by name: 'a', 'b' and 'c'.
+  /// Names of the joints in the loops whose condition the last is_motion() found violated: 'a', 'b', 'c'.
   std::string joints() const;
 
  private:
@@ -47,7 +48,7 @@ class SingularStart {
   Equations<double>* equations_ = nullptr;
   VectorX<double> theta_, q_, v_, Phi_, Phi_rate_, violated_;
   Eigen::MatrixXd J_, L_;
-  double tolerance_ = 0.0;  ///< of the last violation()
+  double tolerance_ = 0.0;  ///< a last violation() of a smaller norm counts as zero
 };
 
 }  // namespace codesign

@@ -9,13 +9,13 @@
 
 namespace codesign {
 
-/// The workspace of one analysis at t = 0: a design, its equations, the assembly and the state that the assembly finds.
+/// The workspace of one analysis at t = 0: a design, its equations, an Assembly and the state that it finds.
 struct StartWorkspace {
   /// @param system must outlive the workspace.
   /// @param design all named parameters (Study::parameters order).
   StartWorkspace(const CompiledSystem& system, std::vector<double> design)
       : parameters(std::move(design)), equations(system), assembly(system) {
-    equations.compiled().allow(false);  // a single evaluation does not pay for compilation
+    equations.compiled().allow(false);  // compilation takes longer than the few evaluations here
     equations.set_design(parameters);
   }
 

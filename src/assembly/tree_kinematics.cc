@@ -39,7 +39,7 @@ Matrix3<T> axis_rotation(const Vector3<T>& axis, const T& angle) {
   return R;
 }
 
-/// Motion of a joint's child frame relative to its frame at zero.
+/// Pose and twist of a joint's child frame relative to the joint frame, which is the child frame at theta = 0.
 template <class T>
 struct JointMotion {
   Pose<T> X;
@@ -85,12 +85,13 @@ JointMotion<T> joint_motion(const JointDescription& joint, const std::vector<T>&
 
 }  // namespace
 
-// As passes over the joints would order them, but a file that lists children before parents does not cost a pass for each.
+// The order is that of repeated passes over the file, each of which takes the joints whose parent is placed. The queue computes it without
+// one pass per level where a file lists children before parents.
 TreeLayout::TreeLayout(const RobotDescription& robot) : offset(robot.joints.size(), 0) {
   std::vector<std::vector<int>> children(robot.links.size());
   for (std::size_t k = 0; k < robot.joints.size(); ++k)
     if (!robot.joints[k].is_loop) children[static_cast<std::size_t>(robot.joints[k].parent)].push_back(static_cast<int>(k));
-  // In one pass a joint follows its parent's if it stands behind it in the file, else it waits for the next pass.
+  // A joint that stands behind its parent's joint in the file is taken in the same pass, else in the next one.
   using Place = std::pair<int, int>;  // pass, joint
   std::priority_queue<Place, std::vector<Place>, std::greater<>> next;
   for (int k : children[static_cast<std::size_t>(robot.root)]) next.emplace(0, k);

@@ -11,18 +11,18 @@
 
 namespace codesign {
 
-/// Where the coordinates theta of each tree joint stand: one for revolute, continuous and prismatic joints, three for planar (x, y, turn),
-/// six for floating ones (translation, then turns about x, y, z that carry on from JointDescription::start_rotation; where they are zero
-/// their rates are the angular velocity in the joint frame), none for fixed ones.
+/// The places of the tree joints' coordinates in theta [rad or m]. A revolute, continuous or prismatic joint has one, a planar joint three
+/// (x, y, turn), a fixed joint none. A floating joint has six: the translation, then turns about x, y, z that follow
+/// JointDescription::start_rotation; where the turns are zero their rates are the angular velocity in the joint frame.
 struct TreeLayout {
   std::vector<int> joint_order;  ///< tree joints, parents before children
-  std::vector<int> offset;       ///< per joint of the description: first coordinate
+  std::vector<int> offset;       ///< per joint of the description: its first coordinate; meaningless for loops
   int size = 0;                  ///< number of coordinates
 
   explicit TreeLayout(const RobotDescription& robot);
 };
 
-/// The directions in a planar joint's plane along which it slides, in the joint frame.
+/// The two unit directions along which a planar joint slides, in the joint frame.
 template <class T>
 struct PlaneAxes {
   Vector3<T> x, y;
@@ -37,30 +37,30 @@ PlaneAxes<T> plane_axes(const JointDescription& joint, const std::vector<T>& par
 /// How many coordinates a joint of the tree has.
 int coordinates_of(JointType type);
 
-/// Pose and twist of a link frame in the ground frame.
+/// Pose of a link frame in the ground frame, its angular velocity [rad/s] and the velocity of its origin [m/s], in ground axes.
 template <class T>
 struct LinkMotion {
   Pose<T> X;
-  Vector3<T> omega = Vector3<T>::Zero(), velocity = Vector3<T>::Zero();  ///< of the link's origin
+  Vector3<T> omega = Vector3<T>::Zero(), velocity = Vector3<T>::Zero();
 };
 
-/// Forward kinematics of the URDF tree: motions of all links at theta and its rate.
+/// Forward kinematics of the URDF tree: the motions of all links, in the order of the description, at theta and theta_rate.
 template <class T>
 std::vector<LinkMotion<T>> link_motions(const RobotDescription& robot, const TreeLayout& layout, const std::vector<T>& parameters,
                                         const VectorX<T>& theta, const VectorX<T>& theta_rate);
 
-/// What one coordinate's unit rate makes of everything that hangs on its joint, in ground axes.
+/// The rigid motion of all links below a joint for the unit rate of one of its coordinates, in ground axes.
 struct CoordinateTwist {
-  Vector3<double> omega, velocity;  ///< of the point
-  Vector3<double> point;            ///< the origin of the joint's child
+  Vector3<double> omega, velocity;  ///< angular velocity; velocity of `point`
+  Vector3<double> point;            ///< origin of the joint's child link [m]
 };
 
-/// Per coordinate, at theta and the links' poses there.
+/// The twist of each coordinate (layout.size) at theta. @param links the result of link_motions() at theta.
 std::vector<CoordinateTwist> coordinate_twists(const RobotDescription& robot, const TreeLayout& layout,
                                                const std::vector<double>& parameters, const VectorX<double>& theta,
                                                const std::vector<LinkMotion<double>>& links);
 
-/// Centroidal coordinates and velocities of the bodies that hang on these links.
+/// Centroidal coordinates q and velocities v of the bodies (n entries each) for given motions of their links.
 template <class T>
 void body_coordinates(const System& system, const Constants<T>& constants, const std::vector<LinkMotion<T>>& links, VectorX<T>* q,
                       VectorX<T>* v);

@@ -14,11 +14,12 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// How an option takes its value: `--set x=1` or `--set=x=1`; a switch none, or only behind `=`.
+/// An option of the command line. A required value is the next word or follows `=`, as in `--set x=1` and `--set=x=1`; an optional one must
+/// follow `=`.
 struct Option {
   enum class Value { kNone, kOptional, kRequired };
   Value value = Value::kRequired;
-  Names commands;  ///< that know it; empty: all
+  Names commands;  ///< commands that have the option; empty: all
   std::function<void(const std::string&, Arguments*)> apply;
 };
 

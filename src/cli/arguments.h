@@ -11,30 +11,30 @@
 
 namespace codesign::cli {
 
-/// A command line that makes no sense, as a sentence.
+/// An invalid command line. what() is a sentence for the user.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// `codesign COMMAND MODEL [STUDY] [OPTIONS]`, taken apart.
+/// The parts of the command line `codesign COMMAND MODEL [STUDY] [OPTIONS]`. Members of options name their command.
 struct Arguments {
   std::string command;  ///< check, urdf, simulate, gradient, optimize or help
   std::string model;
-  std::string study;  ///< empty: none given
-  std::vector<std::string> overlays;
-  ParameterSettings settings;
+  std::string study;                  ///< path; empty: none given
+  std::vector<std::string> overlays;  ///< paths, in order
+  ParameterSettings settings;         ///< --set NAME=VALUE, in order
   bool json = false;
   std::vector<std::string> signals;  ///< simulate
   std::string csv;                   ///< simulate; empty: standard output
-  int samples = 101;                 ///< simulate
+  int samples = 101;                 ///< simulate; number of equally spaced instants, at least 2
   bool verify = false;               ///< gradient
   CheckMethod method = CheckMethod::kComplexStep;
   std::string output;  ///< optimize; empty: no files
 };
 
 /// @param words the command line without the program's name.
-/// @throws UsageError naming the word and, of a misspelt one, the nearest known.
+/// @throws UsageError that names the word and, for an unknown option or command, the nearest known one.
 Arguments parse_arguments(const std::vector<std::string>& words);
 
 }  // namespace codesign::cli

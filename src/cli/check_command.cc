@@ -19,9 +19,9 @@ void print_names(const std::string& what, const std::vector<std::string>& names,
 void print_redundancy(const Counts& counts, std::ostream& out) {
   std::vector<std::string> rows;
   for (const ConstraintRow& row : counts.redundant_rows) rows.push_back(row.joint + ", row " + std::to_string(row.row) + ": " + row.kind);
-  print_names("redundant rows (they follow from the others at the start)", rows, out);
-  print_names("reactions that rigid bodies leave open, taken as those of least norm", counts.undetermined_reactions, out);
-  print_names("friction that is a choice, since it is computed from such a reaction", counts.chosen_friction, out);
+  print_names("redundant rows (they depend on the other rows at the start)", rows, out);
+  print_names("reactions that are not unique; those of least norm are used", counts.undetermined_reactions, out);
+  print_names("friction that depends on such a reaction", counts.chosen_friction, out);
 }
 
 void print_table(const Counts& counts, std::ostream& out) {
@@ -30,7 +30,7 @@ void print_table(const Counts& counts, std::ostream& out) {
   add("bodies", counts.bodies);
   add("coordinates", counts.coordinates);
   add("first-order equations", counts.first_order_equations);
-  if (counts.controller_states > 0) add("controller and friction states beside them", counts.controller_states);
+  if (counts.controller_states > 0) add("additional controller and friction states", counts.controller_states);
   add("degrees of freedom", counts.degrees_of_freedom);
   add("constraints", counts.constraints);
   add("redundant constraints", counts.redundant_constraints);
@@ -42,7 +42,7 @@ void print_table(const Counts& counts, std::ostream& out) {
   print_redundancy(counts, out);
 }
 
-/// Limits that the start already exceeds.
+/// The limits that are exceeded at the start.
 std::vector<LimitCrossing> crossings_at_start(const Problem& problem, const std::vector<double>& parameters) {
   Simulation simulation(problem.system(), parameters);
   LimitWatch watch(problem, parameters, simulation.names());

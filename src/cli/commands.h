@@ -10,14 +10,15 @@
 
 namespace codesign::cli {
 
-/// Each returns kDone or kFailed, and throws InputError for bad input.
+/// The commands of the program. Each returns kDone or kFailed. @throws InputError for bad input, OutputError for output that cannot be
+/// written.
 int check(const Arguments& arguments, const Console& console);
 int simulate(const Arguments& arguments, const Console& console);
 int urdf(const Arguments& arguments, const Console& console);
 int gradient(const Arguments& arguments, const Console& console);
 int optimize(const Arguments& arguments, const Console& console);
 
-/// The whole program. @param words the command line without the program's name.
+/// Runs the program and reports every error. @param words the command line without the program's name. @returns the exit code, an ExitCode.
 int run(const std::vector<std::string>& words, const Console& console);
 
 }  // namespace codesign::cli

@@ -7,12 +7,12 @@
 
 namespace codesign::cli {
 
-/// Where a command speaks, and how it is told to stop.
+/// The output streams and the cancel flag of a command.
 struct Console {
   std::ostream& out;                ///< results only
   std::ostream& err;                ///< progress and messages
-  const std::atomic<bool>& cancel;  ///< set: end soon, keeping what there is
-  void (*loaded)() = nullptr;       ///< called once the input is read and set up, before anything is computed
+  const std::atomic<bool>& cancel;  ///< once set, the command ends soon and keeps its results so far
+  void (*loaded)() = nullptr;       ///< called after the input is loaded, before the computation; may be null
 };
 
 /// The program's exit codes.

@@ -11,10 +11,10 @@ namespace codesign::cli {
 /// Comma-separated values (RFC 4180 quoting, Unix line ends). Numbers read back as the same doubles.
 class CsvWriter {
  public:
-  /// Writes the header. @param where what the stream is, for messages. @throws OutputError
+  /// Writes the header row. @param where name of the stream in messages. @throws OutputError
   CsvWriter(std::ostream& out, const std::vector<std::string>& names, std::string where = "standard output");
 
-  /// Writes a row and flushes it, so that what is known survives whatever comes. @throws OutputError if the stream does not take it.
+  /// Writes a row and flushes the stream, so that the row survives if the program is killed. @throws OutputError if writing fails.
   void write(const std::vector<std::string>& cells);
   void write(const std::vector<double>& values);
 

@@ -56,7 +56,7 @@ Json result_json(const Arguments& arguments, const Problem& problem, const Gradi
 
 int gradient(const Arguments& arguments, const Console& console) {
   const Problem problem = load_tunable(arguments, &console);
-  // Before the computation, so that nothing keeps a cancelled one waiting.
+  // Counted before the computation, so that a cancelled command ends without further work.
   Json counts = Json::object();
   if (arguments.json) add_counts(problem, problem.parameters(), &counts);
   const GradientCheck result = compute(arguments, problem, console);

@@ -11,9 +11,9 @@ namespace codesign::cli {
 namespace {
 
 std::atomic<bool> interrupted_flag{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing that locks");
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not take a lock");
 
-// Reading and setting up have no loop that could look at a flag without knowing of it, and nothing that would be lost.
+// Loading the input does not check a flag and has no results to lose, so the program ends at once.
 extern "C" void leave(int) {
   static const char kMessage[] = "codesign: interrupted before anything was computed\n";
   const ssize_t written = write(STDERR_FILENO, kMessage, sizeof kMessage - 1);

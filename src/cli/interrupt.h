@@ -6,11 +6,12 @@
 
 namespace codesign::cli {
 
-/// Until something is there to keep, SIGINT and SIGTERM end the program at once, with the exit code of a failure.
+/// Until keep_results() is called, SIGINT and SIGTERM end the program at once with exit code kFailed.
 void watch_interrupts();
 
-/// From now on the first of them sets interrupted(), and the second ends the program.
+/// From now on the first SIGINT or SIGTERM sets interrupted(), and a second one ends the program. Called when there are results to keep.
 void keep_results();
+/// Whether the program was interrupted after keep_results().
 
 const std::atomic<bool>& interrupted();
 

@@ -58,7 +58,7 @@ void JobFolder::try_to(const std::function<void()>& write) {
 void JobFolder::add(const Trial& trial) {
   best_.note(trial);
   if (!convergence_) return;
-  // A point that failed has no objective; an empty cell says so to every reader of CSV.
+  // A failed point has no objective; its cell is left empty, which CSV readers take as missing.
   const auto known = [&trial](double value) { return trial.status.ok() ? to_decimal(value) : std::string(); };
   std::vector<std::string> cells = {std::to_string(trial.evaluation), std::to_string(trial.iteration),  name_of(trial.status.code),
                                     known(trial.objective),           to_decimal(trial.best_objective), known(trial.gradient_norm)};

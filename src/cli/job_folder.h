@@ -19,23 +19,24 @@
 
 namespace codesign::cli {
 
-/// The files of one optimization: convergence.csv, best.urdf and best.json as it goes, then result.json, tuned.urdf, initial.csv and
-/// tuned.csv, each of them whole. The folder belongs to one optimization at a time, and holds nothing of an earlier one but its best point
-/// if it was killed.
+/// The output folder of `codesign optimize`. convergence.csv, best.urdf and best.json are written while the optimization runs; finish()
+/// writes result.json, tuned.urdf, initial.csv and tuned.csv, each as a whole. A lock admits one optimization at a time. Results of an
+/// earlier optimization are removed; the best point of one that was killed is kept as killed_best.urdf and killed_best.json.
 class JobFolder {
  public:
-  /// Makes the folder and opens convergence.csv. @throws InputError if that cannot be, or if another program is writing there.
+  /// Creates and locks the folder and opens convergence.csv. @throws InputError if that fails, or if another optimization uses the folder.
   JobFolder(const std::string& path, const Problem& problem);
 
-  /// What was found in the folder and is worth a sentence.
+  /// Sentences for the user about files of an earlier optimization that were kept.
   const std::vector<std::string>& notes() const { return notes_; }
 
-  /// A file that cannot be written does not end the optimization: finish() tells.
+  /// Records a trial point. A file that cannot be written does not end the optimization; finish() reports it.
   void add(const Trial& trial);
 
-  /// Writes the other files, each of them even if another one fails.
-  /// Returns what became of each that is missing or, since its run failed, ends early; none: all is well.
-  /// @param cancel set while a run is recorded: it ends early. An optimization that was cancelled before keeps whole runs.
+  /// Writes the remaining files; a failure of one does not affect the others. @param rho the best point.
+  /// @returns one failure for each file that is missing, or incomplete because its run failed; empty on success.
+  /// @param cancel if it is set during this call, the recorded runs end early. If it was set before (a cancelled optimization), it is
+  /// ignored and the runs are recorded in full.
   std::vector<Failure> finish(const Json& result, const Eigen::VectorXd& rho, const std::atomic<bool>& cancel);
 
  private:
@@ -50,7 +51,7 @@ class JobFolder {
   std::vector<std::string> notes_;
   std::vector<Failure> failures_;
   std::ofstream convergence_file_;
-  std::optional<CsvWriter> convergence_;  // empty once it cannot be written
+  std::optional<CsvWriter> convergence_;  // empty after a write failed
   BestRecord best_;
 };
 

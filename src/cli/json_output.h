@@ -16,6 +16,7 @@
 
 namespace codesign::cli {
 
+/// One entry per member of Counts, with the members' names.
 Json to_json(const Counts& counts);
 /// `{code, message, file, line, element, value, allowed}` with code `bad_input`.
 Json to_json(const InputError& error);
@@ -27,10 +28,10 @@ Json to_json(const Status& status);
 Json to_json(const Warnings& warnings);
 /// Sets `steps`, `rejected_steps`, `cpu_seconds`, `constraint_drift` and `energy_error`.
 void add_statistics(const Statistics& statistics, Json* object);
-/// Sets `counts`, at `parameters`, unless that design cannot be assembled.
+/// Sets `counts` for the design at `parameters`, if it can be assembled.
 void add_counts(const Problem& problem, const std::vector<double>& parameters, Json* object);
 
-/// As to_text().
+/// Writes to_text(object) and flushes.
 void print(const Json& object, std::ostream& out);
 
 }  // namespace codesign::cli

@@ -51,8 +51,8 @@ void LimitWatch::note(Watched* watched, double value, bool beyond, double time) 
 }
 
 std::string describe(const LimitCrossing& crossing) {
-  return "joint '" + crossing.joint + "' is beyond its " + crossing.limit + " limit " + readable(crossing.bound) +
-         " from t = " + readable(crossing.time) + " s, " + readable(crossing.worst) + " at the worst";
+  return "joint '" + crossing.joint + "' exceeds its " + crossing.limit + " limit " + readable(crossing.bound) +
+         " from t = " + readable(crossing.time) + " s; the worst value is " + readable(crossing.worst);
 }
 
 }  // namespace codesign::cli

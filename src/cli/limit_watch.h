@@ -10,19 +10,20 @@
 
 namespace codesign::cli {
 
-/// A joint beyond one of URDF's limits.
+/// A limit of the URDF that a joint exceeds during a run.
 struct LimitCrossing {
   std::string joint;
   std::string limit;   ///< lower, upper, velocity or effort
-  double bound = 0.0;  ///< what the file says; of velocity and effort the magnitude
+  double bound = 0.0;  ///< the limit in the file; velocity and effort: a magnitude [rad or m, rad/s or m/s, N m or N]
   double worst = 0.0;  ///< the value farthest beyond it
-  double time = 0.0;   ///< first seen [s]
+  double time = 0.0;   ///< of the first sample beyond it [s]
 };
 
-/// Watches a run for joints beyond their `<limit>`. Velocities are only ever reported; positions and efforts where the study does not
-/// enforce them. Beyond is what the solver's tolerances cannot explain: more than absolute_tolerance + relative_tolerance * |bound|.
+/// Finds joints that exceed their `<limit>` during a run: velocities always, positions and efforts unless the study enforces them. A limit
+/// counts as exceeded if the excess is more than absolute_tolerance + relative_tolerance * |bound| of the solver.
 class LimitWatch {
  public:
+  /// @param parameters all named parameters. @param names of the frames to observe.
   LimitWatch(const Problem& problem, const std::vector<double>& parameters, const FrameNames& names);
 
   void observe(const Frame& frame);
@@ -42,7 +43,7 @@ class LimitWatch {
   std::vector<LimitCrossing> crossings_;
 };
 
-/// One sentence each, as `codesign simulate` and `check` print them.
+/// The sentence that `codesign simulate` and `check` print for a crossing.
 std::string describe(const LimitCrossing& crossing);
 
 }  // namespace codesign::cli

@@ -16,16 +16,16 @@ void print_trial(const Trial& trial, std::ostream& err) {
   if (trial.status.ok())
     err << "objective " << readable(trial.objective) << ", scaled gradient " << readable(trial.gradient_norm);
   else
-    err << "stepped back, " << describe(trial.status);
+    err << "failed, " << describe(trial.status);
   err << ", best " << readable(trial.best_objective) << std::endl;
 }
 
-/// Whether the best point has been evaluated, which one that was cancelled before the first evaluation, or whose start failed, has not.
+/// Whether the best point was evaluated; false if the search was cancelled before the first evaluation or the start failed.
 bool is_evaluated(const Problem& problem, const OptimizationResult& result) {
   return result.gradient.size() == static_cast<Eigen::Index>(problem.study().tuned.size());
 }
 
-/// Whether there is a best point to show: a cancelled optimization has one too, at least its start.
+/// Whether there is a design to report. A cancelled optimization has one, which may be its start.
 bool has_design(const Problem& problem, const OptimizationResult& result) {
   const auto size = static_cast<Eigen::Index>(problem.study().tuned.size());
   const bool is_complete = result.rho.size() == size && result.initial_rho.size() == size;
@@ -56,7 +56,7 @@ void print_result(const Problem& problem, const OptimizationResult& result, std:
       << " s of processor time\n";
 }
 
-/// By the constraint's text.
+/// The margins of the constraints, by the text of the constraint.
 Json margins_json(const Problem& problem, const OptimizationResult& result) {
   std::vector<std::string> constraints;
   for (const ParameterConstraint& constraint : problem.study().constraints) constraints.push_back(constraint.text);
@@ -111,7 +111,7 @@ int optimize(const Arguments& arguments, const Console& console) {
   add_warnings(arguments, problem, result.warnings, &object, console);
   if (!result.status.ok()) object["error"] = to_json(result.status);
   std::vector<Failure> failures;
-  // First, so that what is printed tells of files that are missing.
+  // The files are written before the output, so that the output reports missing ones.
   if (folder && designed) failures = folder->finish(object, result.rho, console.cancel);
   return finish(arguments, result.status, std::move(object), console, failures);
 }

@@ -18,7 +18,7 @@ void make_folder(const std::string& path, const std::string& option) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error || !std::filesystem::is_directory(path))
-    throw InputError({{path, 0}, option, "the folder cannot be made", path, "a folder that exists or can be made"});
+    throw InputError({{path, 0}, option, "the folder cannot be created", path, "a folder that exists or can be created"});
 }
 
 }  // namespace codesign::cli

@@ -7,10 +7,11 @@
 
 namespace codesign::cli {
 
-/// Opens a file to write to, before anything is computed. @throws InputError naming the option that asked for it, if that cannot be.
+/// Opens a file for writing; called before the computation, so that a bad path is reported at once. @param option the option with the path.
+/// @throws InputError that names the option, if the file cannot be opened.
 void open_output(const std::string& path, const std::string& option, std::ofstream* file);
 
-/// Makes a folder and those above it. @throws InputError if that cannot be.
+/// Creates a folder and the folders above it. @throws InputError that names the option, if that fails.
 void make_folder(const std::string& path, const std::string& option);
 
 }  // namespace codesign::cli

@@ -15,18 +15,18 @@ namespace codesign::cli {
 /// `assembly_failed at t = 0 s: cause`
 std::string describe(const Status& status);
 
-/// Tells what is doubtful: each warning as a line on the error stream, and all as `warnings` of `object`, which also gets `setup_seconds`.
-/// @param of_run what the run added to the warnings of the files.
+/// Writes each warning as a line to the error stream and all of them to `warnings` of `object`; also sets its `setup_seconds`.
+/// @param of_run warnings of the run, in addition to those of the input files.
 void add_warnings(const Arguments& arguments, const Problem& problem, const Warnings& of_run, Json* object, const Console& console);
 
-/// Something else than the computation that went wrong: a file that could not be written, a run that ends early.
+/// A failure outside the main computation, such as a file that could not be written or a recorded run that ended early.
 struct Failure {
-  std::string code;
+  std::string code;  ///< snake case, for `error.code`
   std::string message;
 };
 
-/// Ends a command: prints `object` if JSON was asked for, with an `error` if something failed, and names each failure on the error stream.
-/// The status, or else the first of `failures`, gives the error its code. Returns the exit code.
+/// Ends a command: prints `object` if --json was given, with an `error` if something failed, and writes each failure to the error stream.
+/// The code of the error is that of `status`, or if that is ok, of the first of `failures`. @returns the exit code.
 int finish(const Arguments& arguments, const Status& status, Json object, const Console& console,
            const std::vector<Failure>& failures = {});
 

@@ -13,23 +13,23 @@
 
 namespace codesign::cli {
 
-/// How a run ended and what it cost.
+/// The outcome of a run: status, statistics, exceeded limits and warnings.
 struct RunSummary {
   Status status;
   Statistics statistics;
-  std::vector<LimitCrossing> crossings;  ///< seen at the sampled instants
+  std::vector<LimitCrossing> crossings;  ///< at the sampled instants
   Warnings warnings;                     ///< Simulation::warnings()
 };
 
-/// Called with `time, signal, ...` at each instant.
+/// Receives the row `time, signal, ...` of each instant.
 using RowSink = std::function<void(const std::vector<double>&)>;
 
-/// Runs a study at `parameters` and hands on its signals at `samples` equally spaced instants.
-/// @param cancel if given and set, the run ends with kCancelled.
+/// Runs a study at `parameters` and calls `sink` with the values of `signals` at `samples` equally spaced instants from 0 to its duration.
+/// @param parameters all named parameters. @param cancel once set, the run ends soon with kCancelled; nullptr: no cancellation.
 RunSummary record_run(const Problem& problem, const std::vector<double>& parameters, const std::vector<SignalDescription>& signals,
                       int samples, const RowSink& sink, const std::atomic<bool>* cancel = nullptr);
 
-/// `time`, then the signals as written.
+/// The columns of the rows: `time`, then the signals as the user wrote them.
 std::vector<std::string> column_names(const std::vector<SignalDescription>& signals);
 
 }  // namespace codesign::cli

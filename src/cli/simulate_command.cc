@@ -26,7 +26,7 @@ Json series_json(const std::vector<std::string>& names, const std::vector<std::v
   return series;
 }
 
-/// Three significant digits of a figure of merit.
+/// The value with three significant digits.
 std::string brief(double value) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
@@ -39,12 +39,13 @@ void summarize(const RunSummary& run, double duration, double setup_seconds, std
   err << "simulated " << readable(duration) << " s in " << run.statistics.steps << " steps (" << run.statistics.rejected_steps
       << " rejected), " << readable(run.statistics.cpu_seconds) << " s of processor time, set-up " << readable(setup_seconds) << " s"
       << std::endl;
-  err << "energy balance to " << brief(run.statistics.energy_error) << " of the largest energy; constraint drift at most "
+  err << "energy error " << brief(run.statistics.energy_error) << " of the largest energy; constraint drift at most "
       << brief(run.statistics.constraint_drift) << " times the error tolerance" << std::endl;
   for (const LimitCrossing& crossing : run.crossings) err << describe(crossing) << std::endl;
 }
 
-/// The objective needs its own quadrature beside the run, so it is computed only where it is shown. Cancelled meanwhile, the command is.
+/// Adds the objective. It needs a run of its own with the quadrature, so it is computed only for output that shows it. If that run is
+/// cancelled, `status` becomes kCancelled.
 void add_objective(const Problem& problem, const Console& console, Status* status, Json* object) {
   const bool has_objective = !problem.study().integral.empty() || !problem.study().terminal.empty();
   if (!status->ok() || !has_objective) return;
@@ -77,7 +78,7 @@ int simulate(const Arguments& arguments, const Console& console) {
     if (csv) csv->write(row);
     if (arguments.json) rows.push_back(row);
   };
-  // Before the run, so that nothing keeps a cancelled one waiting.
+  // Counted before the run, so that a cancelled command ends without further work.
   Json counts = Json::object();
   if (arguments.json) add_counts(problem, problem.parameters(), &counts);
   RunSummary run = record_run(problem, problem.parameters(), signals, arguments.samples, sink, &console.cancel);

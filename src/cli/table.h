@@ -8,7 +8,7 @@
 
 namespace codesign::cli {
 
-/// Rows of text in aligned columns, the first to the left, the others to the right.
+/// Prints rows of text in columns, the first one aligned to the left, the others to the right.
 class Table {
  public:
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
@@ -18,7 +18,7 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// Ten significant digits, for people.
+/// The value with ten significant digits, for output that people read.
 std::string readable(double value);
 
 }  // namespace codesign::cli

@@ -12,23 +12,23 @@ commands
   check MODEL [STUDY]      the table of equations, redundant constraints
   urdf MODEL [STUDY]       the URDF that is simulated: overlays merged, parameters at their values
   simulate MODEL STUDY     one run as CSV
-    --signals A,B          which signals; by default those of every joint, friction and controller
-    --csv FILE             where to; by default standard output
-    --samples N            equally spaced instants, from 2; by default 101
+    --signals A,B          the signals to print; by default those of every joint, friction and controller
+    --csv FILE             the file to write; by default standard output
+    --samples N            number of equally spaced instants, at least 2; by default 101
   gradient MODEL STUDY     the objective and its gradient by direct sensitivities
-    --verify[=METHOD]      beside complex_step (the default) or ridders (always with idas)
+    --verify[=METHOD]      compare with complex_step (the default) or ridders (always with idas)
   optimize MODEL STUDY     tune the study's parameters; Ctrl-C ends with the best point so far
     --output DIR           write tuned.urdf, result.json, convergence.csv, initial.csv, tuned.csv;
-                           best.urdf and best.json as it goes
+                           best.urdf and best.json while it runs
   help                     this text
 
 options of every command
   --overlay FILE           annotations to merge into the model; may be repeated
-  --set PARAMETER=VALUE    replace a parameter's value, of a tuned one its start; may be repeated
+  --set PARAMETER=VALUE    replace a parameter's value, or the start of a tuned one; may be repeated
   --json                   one JSON object on standard output
 
-exit code: 0 done, 1 failed while running or output lost, 2 bad input
-what a failure's code means (error.code in JSON): doc/study.md, Statuses
+exit code: 0 success, 1 a failed run or output that cannot be written, 2 bad input
+the codes of failures (error.code in JSON) are listed in doc/study.md, Statuses
 )";
 }
 

@@ -6,7 +6,7 @@
 
 namespace codesign::cli {
 
-/// What `codesign --help` prints.
+/// The text of `codesign --help`.
 std::string usage();
 
 }  // namespace codesign::cli

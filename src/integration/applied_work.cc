@@ -36,7 +36,7 @@ BodyEnergy BodyMotion::energy(const VectorX<double>& q, const VectorX<double>& v
   return energy;
 }
 
-// The term of M a's partner 8 G'^T J G p' has no power: G' p' = 0.
+// The velocity term 8 G'^T J G p' of (9) has no power, since G' p' = 0.
 double BodyMotion::power(const VectorX<double>& q, const VectorX<double>& v, const double* a) const {
   double power = 0.0;
   const double *r = q.data(), *rate = v.data();
@@ -49,7 +49,7 @@ double BodyMotion::power(const VectorX<double>& q, const VectorX<double>& v, con
   return power;
 }
 
-// y(1/2) = (y_0 + y_1)/2 + (d_0 + d_1/2 + d_2/4)/4, all of it sums of the same u.
+// y(1/2) = (y_0 + y_1)/2 + (d_0 + d_1/2 + d_2/4)/4, where y_1 - y_0 and the d_k are linear combinations of the increments u_j.
 StepWork::StepWork(const CompiledSystem& system, const RosenbrockTableau& tableau) {
   for (std::size_t j = 0; j < static_cast<std::size_t>(tableau.stages); ++j) {
     double dense = 0.0;

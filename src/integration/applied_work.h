@@ -6,20 +6,21 @@
 
 namespace codesign {
 
-/// Kinetic energy and potential energy of gravity [J], zero where every centre of mass is at the ground's origin.
+/// Kinetic energy of the bodies and potential energy of gravity [J], the latter zero if every centre of mass is at the ground's origin.
 struct BodyEnergy {
   double kinetic = 0.0, potential = 0.0;
   double total() const { return kinetic + potential; }
 };
 
-/// What the bodies' motion says of energy, whatever acts on them; doc/theory.md (17a). Inexpensive: no law of force is evaluated.
+/// Energy of the bodies and applied power from the bodies' motion alone, doc/theory.md (17a): no force law is evaluated.
 class BodyMotion {
  public:
   explicit BodyMotion(const CompiledSystem& system);
 
   void set_design(const Constants<double>& constants);
   BodyEnergy energy(const VectorX<double>& q, const VectorX<double>& v) const;
-  /// v^T M a - weight . v [W]: the power of everything but gravity, in a motion that satisfies the constraints.
+  /// W' of (17a), v^T M a - sum of m g . r' [W]: the power of all forces but gravity, if the motion satisfies the constraints.
+  /// @param a accelerations, n entries.
   double power(const VectorX<double>& q, const VectorX<double>& v, const double* a) const;
 
  private:
@@ -31,19 +32,19 @@ class BodyMotion {
   std::vector<Body> bodies_;
 };
 
-/// Work that everything but gravity does over one Rosenbrock step: Simpson's rule, with the method's dense output in the middle.
+/// Work of all forces but gravity over one Rosenbrock step, by Simpson's rule with the method's dense output in the middle of the step.
 class StepWork {
  public:
   StepWork(const CompiledSystem& system, const RosenbrockTableau& tableau);
 
   void start(const State<double>& state, const BodyMotion& motion);
-  /// [J] over the last step that was taken. Each step must be asked for.
+  /// Work [J] over the last accepted step. Must be called once for each accepted step: the power at its end is kept for the next one.
   double over(const RosenbrockStep<double>& step, const BodyMotion& motion);
 
  private:
   RosenbrockTableau::Row middle_{};  ///< y(1/2) = y_0 + sum of middle_j u_j
   double power_ = 0.0;               ///< at the end of the last step [W]
-  VectorX<double> q_, v_, a_;        ///< in the middle
+  VectorX<double> q_, v_, a_;        ///< in the middle of the step
 };
 
 }  // namespace codesign

@@ -11,7 +11,7 @@ BreakTimes::BreakTimes(const Study& study) : apart_(1e-12 * study.duration) {
     add(controller.feedforward);
     for (const FeedbackTerm& term : controller.feedback) add(term.reference);
     const BasisDescription& basis = controller.basis;
-    // Every coefficient begins to act at a knot. A cubic spline is smooth there, but for where it ends.
+    // A linear basis has kinks at the knots, where each coefficient begins to act; a cubic one is smooth until its end.
     for (int k = 0; k < basis.count() && basis.shape == BasisShape::kLinear; ++k) times_.push_back(basis.support(k)[0]);
     if (basis.count() > 0) times_.push_back(basis.duration);
   }

@@ -8,20 +8,20 @@
 
 namespace codesign {
 
-/// The instants at which a study's functions of time have a kink or begin to move. A step across one would lose its order, or, from rest,
-/// overlook what happens within it; integrators therefore end steps there.
+/// The instants [s] at which a study's functions of time have a kink or begin to move, doc/theory.md (C1). Integrators end a step there: a
+/// step across a kink loses its order, and a long step from rest could skip a motion that begins within it.
 class BreakTimes {
  public:
   explicit BreakTimes(const Study& study);
 
-  /// The first one after `t`, if it comes before `limit`; else `limit`.
+  /// The first break time after `t` if it is before `limit`, else `limit`; all in [s].
   double next(double t, double limit) const;
 
  private:
   void add(const ReferenceDescription& reference);
 
   std::vector<double> times_;  ///< ascending
-  double apart_;               ///< nearer ones count as reached [s]
+  double apart_;               ///< [s] a break time less than this after t counts as reached
 };
 
 }  // namespace codesign

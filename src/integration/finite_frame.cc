@@ -35,7 +35,7 @@ std::string find_not_finite(const FrameNames& names, const Frame& frame) {
   if (fault.empty()) fault = look("controller", names.controllers, frame.controllers);
   if (fault.empty()) fault = look("the pose of link", names.links, frame.links);
   for (std::size_t k = 0; fault.empty() && k < frame.signals.size(); ++k)
-    if (!std::isfinite(frame.signals[k])) fault = "signal number " + std::to_string(k + 1) + " of those asked for is not finite";
+    if (!std::isfinite(frame.signals[k])) fault = "signal number " + std::to_string(k + 1) + " of the requested ones is not finite";
   return fault;
 }
 

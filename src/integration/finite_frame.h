@@ -8,7 +8,8 @@
 
 namespace codesign {
 
-/// Says which number of a frame is not finite, as a sentence; empty if all are.
+/// A sentence that names the first joint, friction, controller, link or signal of a frame with a value that is not finite; empty if there
+/// is none.
 std::string find_not_finite(const FrameNames& names, const Frame& frame);
 
 }  // namespace codesign

@@ -13,14 +13,14 @@ using Map = Eigen::Map<VectorX<double>>;
 
 const double* read(N_Vector vector) { return N_VGetArrayPointer(vector); }
 
-// What callbacks tell IDAS: go on; try a smaller step; give up.
+// Return values of callbacks: success; retry with a smaller step; stop with a failure.
 constexpr int kDone = 0, kRetry = 1, kGiveUp = -1;
 
-// Drift dies out this many times within a study: often enough to stay what a twentieth of the study makes it, slowly enough never to
-// stiffen.
+// kappa times the study's duration: drift decays within a twentieth of the study, which is fast enough to keep it small and far too slow to
+// make the equations stiff.
 constexpr double kStabilizations = 20.0;
 
-/// Keeps exceptions on this side of the C callback.
+/// Runs `action` and turns an exception into a message and kGiveUp, since none may pass through the C code of IDAS.
 template <class Action>
 int guarded(std::string* failure, const Action& action) {
   try {
@@ -62,7 +62,7 @@ void IdasEquations::unpack(double t, const double* y, const double* y_dot, State
   state->z.tail(states) = ConstMap(y_dot + 2 * n, states);
 }
 
-// The multipliers' derivative appears nowhere; zero predicts them to be what they are.
+// lambda' does not appear in F; zero makes the first predictor keep the multipliers.
 void IdasEquations::pack(const State<double>& state, double* y, double* y_dot) const {
   const int n = layout_.n, m = layout_.m, states = layout_.states;
   Map(y, n) = state.q;
@@ -97,7 +97,7 @@ int IdasEquations::integrand(double t, const double* y, const double* y_dot, dou
   unpack(t, y, y_dot, &state_);
   equations_.residual(state_, &G_, g);
   equations_.constraint_errors(state_.q, state_.v, &Phi_, &Phi_rate_);
-  // v^T Q - weight . v, also where the constraints are violated, so that what they then do counts as an error.
+  // W' of (17a). lambda^T Phi_q v - v^T G corrects for violated constraints, so that the work that they do appears as an energy error.
   g[1] = motion_->power(state_.q, state_.v, state_.z.data()) + state_.z.segment(layout_.n, layout_.m).dot(Phi_rate_) -
          state_.v.dot(G_.head(layout_.n));
   return std::isfinite(*g) ? kDone : kRetry;

@@ -12,10 +12,12 @@
 
 namespace codesign {
 
-/// The equations in IDAS's terms: y = (q, v, s, lambda), F(t, y, y') = (q' - v, G(q, v, s; v', lambda, s')); doc/theory.md (25).
+/// The equations of motion in the form of IDAS: y = (q, v, s, lambda), F(t, y, y') = (q' - v, G(q, v, s; v', lambda, s')) = 0;
+/// doc/theory.md (25).
 ///
-/// The constraints' rows are stabilized, Phi'' + 2 kappa Phi' + kappa^2 Phi, which changes neither the solution nor its sensitivities.
-/// The static functions are IDAS's callbacks; their user data is an IdasEquations. No exception leaves them.
+/// The constraint rows are stabilized, Phi'' + 2 kappa Phi' + kappa^2 Phi, which changes neither the solution nor its sensitivities.
+/// The static functions are the callbacks of IDAS, with an IdasEquations as user data. They catch exceptions (see failure()) and return 0
+/// for success, a positive number to request a smaller step, a negative one to stop.
 class IdasEquations {
  public:
   IdasEquations(const CompiledSystem& system, IdasNewton* newton);
@@ -23,16 +25,16 @@ class IdasEquations {
   int size() const { return 2 * layout_.n + layout_.states + layout_.m; }
   Equations<double>& equations() { return equations_; }
   void set_sensitivities(IdasSensitivities* sensitivities) { sensitivities_ = sensitivities; }
-  /// What tells the power of everything but gravity; must outlive the integration.
+  /// For the quadrature of the work of all forces but gravity; must outlive the integration.
   void set_motion(const BodyMotion* motion) { motion_ = motion; }
-  /// Forgets the last solution and failure.
+  /// Discards stored derivatives and the last failure.
   void start();
 
-  /// State from y and y', and back.
+  /// Conversion of (y, y'), size() entries each, to a state, and back.
   void unpack(double t, const double* y, const double* y_dot, State<double>* state) const;
   void pack(const State<double>& state, double* y, double* y_dot) const;
 
-  /// What went wrong inside a callback, if anything.
+  /// Message of an exception inside a callback; empty if there was none.
   const std::string& failure() const { return failure_; }
 
   static int residual(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector F, void* self);
@@ -48,7 +50,7 @@ class IdasEquations {
   int residual(double t, const double* y, const double* y_dot, double* F);
   int jacobian(double t, double c_j, const double* y, const double* y_dot);
   int integrand(double t, const double* y, const double* y_dot, double* g);
-  /// Derivatives at a point, unless they are there already: the corrector of the sensitivities calls again and again at one point.
+  /// Computes the derivatives at a point unless they are stored: the sensitivity corrector calls repeatedly at the same point.
   void visit(double t, const double* y, const double* y_dot);
   void derivative(int k, const double* y_rho, const double* y_dot_rho);
 
@@ -59,8 +61,8 @@ class IdasEquations {
   const BodyMotion* motion_ = nullptr;
   State<double> state_, direction_;
   VectorX<double> G_, dG_, Phi_, Phi_rate_;
-  double kappa_;                 ///< [1/s]
-  std::vector<double> visited_;  ///< t, y, y' of the point whose derivatives are present
+  double kappa_;                 ///< rate of stabilization [1/s]
+  std::vector<double> visited_;  ///< t, y, y' of the point whose derivatives are stored
   std::string failure_;
 };
 

@@ -16,7 +16,7 @@
 
 namespace codesign {
 
-/// Calls its function on what it owns, at the end.
+/// Deleter for std::unique_ptr that calls a function of SUNDIALS.
 template <auto kFree>
 struct Release {
   template <class T>
@@ -34,9 +34,10 @@ using VectorHandle = std::unique_ptr<std::remove_pointer_t<N_Vector>, Release<N_
 using MatrixHandle = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, Release<SUNMatDestroy>>;
 using LinearSolverHandle = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, Release<SUNLinSolFree>>;
 
-/// Several vectors side by side, as SUNDIALS takes them.
+/// An owned array of vectors for the sensitivity functions of SUNDIALS.
 class VectorArray {
  public:
+  /// `count` vectors of the size of `like`. @throws std::bad_alloc
   VectorArray(int count, N_Vector like) : count_(count), vectors_(N_VCloneVectorArray(count, like)) {
     if (!vectors_) throw std::bad_alloc();
   }
@@ -65,7 +66,7 @@ inline VectorHandle make_vector(int size, SUNContext context) {
   return VectorHandle(vector);
 }
 
-/// For calls that only fail when we call them wrongly, or out of memory.
+/// Throws std::logic_error for a negative flag. For calls that fail only through a programming error or lack of memory.
 inline void require(int flag, const char* call) {
   if (flag < 0) throw std::logic_error(std::string(call) + " failed with " + std::to_string(flag));
 }

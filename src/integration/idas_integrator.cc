@@ -20,10 +20,10 @@
 namespace codesign {
 namespace {
 
-constexpr double kAnyMultiplier = 1e10;  // absolute tolerance of what is not to be tested
+constexpr double kAnyMultiplier = 1e10;  // absolute tolerance that excludes multipliers from convergence tests
 
-/// Drift, in the scale of the error test, that a run is not to go on with. Right next to a singular position steps drift by more than
-/// elsewhere, whatever is done, and the more so in units of a small tolerance.
+/// The drift d of (17a) beyond which the run is projected and restarted. It grows as the tolerance shrinks, because next to a singular
+/// position the drift in units of the tolerance is large even right after a projection.
 double restart_drift(double relative_tolerance) { return std::max(100.0, 0.03 / std::sqrt(relative_tolerance)); }
 
 }  // namespace
@@ -116,7 +116,7 @@ class IdasIntegrator::Implementation {
   std::vector<State<double>> directions_;
   std::vector<double> scales_;
   VectorX<double> drift_, drift_rate_, position_correction_, velocity_correction_;
-  double work_ = 0.0;  ///< [J] of everything but gravity so far
+  double work_ = 0.0;  ///< work of all forces but gravity so far [J]
   double largest_drift_ = 0.0, drift_size_ = 0.0;
   Statistics before_restart_;
   bool watch_singularities_ = false;
@@ -137,7 +137,7 @@ void IdasIntegrator::Implementation::set_up() {
   require(IDASetId(ida, differential.get()), "IDASetId");
   require(IDASetSuppressAlg(ida, SUNTRUE), "IDASetSuppressAlg");
   require(IDASetInitStep(ida, options_.initial_step), "IDASetInitStep");
-  // Shorter ones get lost in the time they are added to.
+  // A shorter step would be lost in rounding when added to the time.
   require(IDASetMinStep(ida, std::numeric_limits<double>::epsilon() * system_.study().duration), "IDASetMinStep");
   require(IDASetMaxStep(ida, options_.maximum_step), "IDASetMaxStep");
   require(IDASetLinearSolver(ida, newton_.solver(), newton_.matrix()), "IDASetLinearSolver");
@@ -145,7 +145,8 @@ void IdasIntegrator::Implementation::set_up() {
   require(IDAQuadInit(ida, IdasEquations::integrand, psi_.get()), "IDAQuadInit");
 }
 
-// Multipliers that nothing determines follow rounding, divided by the compliance: the corrector must not wait for them to settle.
+// With redundant constraints, multipliers that are not unique vary by rounding divided by the compliance: Newton's convergence test must
+// not include them.
 void IdasIntegrator::Implementation::set_tolerances() {
   const VectorHandle absolute = make_vector(equations_.size(), context_.get());
   N_VConst(options_.absolute_tolerance, absolute.get());
@@ -194,14 +195,14 @@ void IdasIntegrator::Implementation::start_sensitivities(const std::vector<doubl
     *psi_rho_->data(k) = 0.0;
   }
   if (!first) return;
-  // Only the staggered corrector gets past the first steps; without the error test the tangent grows wrong at the higher orders.
+  // The simultaneous corrector fails in the first steps, and without the error test the sensitivities are inaccurate at the higher orders.
   require(IDASensInit(ida_.get(), count, IDA_STAGGERED, IdasEquations::sensitivity_residual, y_rho_->get(), y_dot_rho_->get()),
           "IDASensInit");
   require(IDAQuadSensInit(ida_.get(), IdasEquations::sensitivity_integrand, psi_rho_->get()), "IDAQuadSensInit");
   require(IDASensEEtolerances(ida_.get()), "IDASensEEtolerances");
 }
 
-/// Begins at state_, and its sensitivities, at order one.
+/// Restarts IDAS at state_ and its sensitivities, at order one.
 void IdasIntegrator::Implementation::restart_solver() {
   void* ida = ida_.get();
   require(IDAReInit(ida, state_.t, y_.get(), y_dot_.get()), "IDAReInit");
@@ -209,13 +210,13 @@ void IdasIntegrator::Implementation::restart_solver() {
   if (!with_sensitivities()) return;
   require(IDASensReInit(ida, IDA_STAGGERED, y_rho_->get(), y_dot_rho_->get()), "IDASensReInit");
   require(IDAQuadSensReInit(ida, psi_rho_->get()), "IDAQuadSensReInit");
-  // A solution without sensitivities in between switches it off.
+  // A run without sensitivities in between switches this error test off.
   require(IDASetSensErrCon(ida, SUNTRUE), "IDASetSensErrCon");
   require(IDASetSensParams(ida, nullptr, scales_.data(), nullptr), "IDASetSensParams");
 }
 
-// A multistep method remembers the points before, so that it begins anew. Near a singular position that saves the branch: whatever drift
-// there is moves the mechanism the farther off the smaller the constraints' singular value becomes.
+// Projects state and sensitivities and restarts, since a multistep method interpolates the points before. Near a singular position this
+// keeps the mechanism on its branch: the smaller the smallest singular value of Phi_q, the farther a given drift displaces the mechanism.
 Status IdasIntegrator::Implementation::project() {
   if (!projection_.apply(&equations(), &state_))
     return {StatusCode::kSingularMatrix, state_.t, "the augmented matrix of the equations of motion is singular"};
@@ -235,13 +236,13 @@ Status IdasIntegrator::Implementation::project() {
   return {};
 }
 
-/// The state is right after a projection. Its sensitivities were carried by steps that had left the constraints, and keep that error.
+/// A projection corrects the state, but the sensitivities keep the error of the steps that had drifted off the constraints.
 void IdasIntegrator::Implementation::warn_of_restart() {
   if (!restart_warnings_.empty()) return;
   restart_warnings_.push_back(
       {"sensitivities_restarted",
        "at t = " + to_decimal(state_.t) + " s the steps of idas had drifted off the constraints by " + to_decimal(drift_size_) +
-           " tolerances, as they do beside a singular position: idas began anew there, and the gradient may be wrong in its first digits; "
+           " tolerances, as happens near a singular position: idas was restarted there, and the gradient may be wrong in its first digits; "
            "compare it with solver.integrator: rosenbrock",
        {}});
 }
@@ -254,8 +255,8 @@ Status IdasIntegrator::Implementation::advance(double limit) {
 
 Status IdasIntegrator::Implementation::take_step(double limit) {
   if (statistics_.steps + statistics_.rejected_steps >= options_.maximum_steps)
-    return {StatusCode::kTooManySteps, state_.t, "more than " + std::to_string(options_.maximum_steps) + " steps"};
-  // Not sooner: dense output needs the points before.
+    return {StatusCode::kTooManySteps, state_.t, "more than " + std::to_string(options_.maximum_steps) + " steps (solver.maximum_steps)"};
+  // At the beginning of the next step, since dense output within the last one needs its history.
   if (drift_size_ > restart_drift_)
     if (Status status = project(); !status.ok()) return status;
   void* ida = ida_.get();
@@ -284,7 +285,7 @@ void IdasIntegrator::Implementation::take_over(double time) {
   largest_drift_ = std::max(largest_drift_, drift_.cwiseAbs().maxCoeff());
 }
 
-// Newton's matrix is that of a projection but for terms of the order of the step.
+// The corrections use the last Newton matrix, which differs from G_z of the projection (17) by terms of the order of the step.
 Status IdasIntegrator::Implementation::check_run() {
   const double before = work_;
   work_ = N_VGetArrayPointer(psi_.get())[1];

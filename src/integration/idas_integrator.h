@@ -9,39 +9,43 @@
 
 namespace codesign {
 
-/// What IDAS must know of the equations' derivatives to carry sensitivities along; implemented where derivatives by parameters are made.
+/// The derivatives that IdasIntegrator needs to integrate sensitivities, doc/theory.md (27). Implemented by IdasTangent in src/sensitivity,
+/// so that integration does not depend on derivatives by parameters.
 class IdasSensitivities {
  public:
   virtual ~IdasSensitivities() = default;
 
-  /// How many parameters.
+  /// Number of tuned parameters p.
   virtual int count() const = 0;
-  /// Takes a design over. @param initial its assembled start. @param sensitivities one direction (q, v, s, z)_rho of the start for each
-  /// parameter.
-  /// @param scales the size of each parameter, never zero: sensitivities are as accurate relative to 1/scale as the state is to 1.
+  /// Begins the integration of a design. @param initial its assembled start.
+  /// @param sensitivities receives the initial sensitivities (q, v, s, z)_rho, one per parameter; sized by the caller.
+  /// @param scales receives the size of each parameter, never zero: the absolute tolerance of its sensitivities is that of the state
+  /// divided by it.
   virtual void start(const std::vector<double>& parameters, const State<double>& initial, Integrator* integrator,
                      std::vector<State<double>>* sensitivities, std::vector<double>* scales) = 0;
-  /// Makes the derivatives at a state the present ones. @param kappa rate of stabilization [1/s] of the constraints' rows.
+  /// Computes the derivatives at a state for the calls of derivative() that follow. @param kappa rate of stabilization [1/s], (25).
   virtual void linearize(const State<double>& state, double kappa, Equations<double>* equations) = 0;
-  /// d(G, g)/d(rho_k), stabilized, along a direction (q, v, s, z)_rho at the present point: columns() + 1 entries.
+  /// The derivative of (G, g) by rho_k along a direction (q, v, s, z)_rho at the last linearize(), with stabilized constraint rows:
+  /// Layout::columns() + 1 entries.
   virtual void derivative(int k, const State<double>& direction, VectorX<double>* result) = 0;
-  /// Takes the drift of directions (q, v)_rho off the tangent of the constraints at a state, and solves for their z. False if the augmented
-  /// matrix is singular.
+  /// Projects directions (q, v)_rho onto the tangent of the constraints at a state and solves for their z; one direction per parameter.
+  /// False if the augmented matrix is singular.
   virtual bool project(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions) = 0;
 };
 
 /// Variable-order BDF by SUNDIALS IDAS on q' = v, 0 = G(q, v, s; v', lambda, s'), psi' = g; doc/theory.md (25)-(27).
 ///
-/// The unknowns are (q, v, s, lambda); a and sigma are derivatives, not unknowns. Newton's systems are reduced to the size of (a, lambda,
-/// sigma). lambda stays out of the error test. A multistep method has no place for a projection, so the constraints' rows are stabilized;
-/// where that is not enough, (q, v) and the sensitivities are projected and the method starts again. Failures of IDAS come back as a Status
-/// with time and cause.
+/// The unknowns are (q, v, s, lambda); a and sigma are the derivatives of v and s. Newton's linear systems are reduced to the size of (a,
+/// lambda, sigma). lambda is not part of the error test. A multistep method cannot be projected after each step without a restart at order
+/// one, so the constraint rows are stabilized instead; where the drift (17a) grows too large nevertheless, (q, v) and the sensitivities are
+/// projected and the method restarts. A failure of IDAS is returned as a Status with time and cause.
 class IdasIntegrator final : public Integrator {
  public:
   explicit IdasIntegrator(const CompiledSystem& system);
   ~IdasIntegrator() override;
 
-  /// Sensitivities to integrate from the next start() on, staggered and in the error test; nullptr for none. Must outlive the integration.
+  /// Sets the sensitivities to integrate from the next start() on, by the staggered corrector and with error test; nullptr for none.
+  /// `sensitivities` must outlive the integration.
   void carry(IdasSensitivities* sensitivities);
 
   Status start(const std::vector<double>& parameters) override;
@@ -55,11 +59,11 @@ class IdasIntegrator final : public Integrator {
   const Statistics& statistics() const override;
   Warnings warnings() const override;
 
-  /// (q, v, s, z)_rho of parameter k at the end of the last step.
+  /// (q, v, s, z)_rho of tuned parameter k at the end of the last step.
   void sensitivity(int k, State<double>* direction) const;
-  /// d psi / d rho_k so far.
+  /// Derivative of psi() by tuned parameter k.
   double psi_sensitivity(int k) const;
-  /// Largest |Phi(q)| met at the end of a step since start().
+  /// Largest entry of |Phi(q)| at the end of a step since start().
   double largest_drift() const;
 
  private:

@@ -6,7 +6,7 @@
 namespace codesign {
 namespace {
 
-// SUNDIALS frees content itself or leaves it alone; ours belongs to IdasNewton.
+// The solver's content is the IdasNewton itself and must not be freed with the SUNLinearSolver.
 int free_shell(SUNLinearSolver solver) {
   SUNLinSolFreeEmpty(solver);
   return kSundialsSuccess;
@@ -19,7 +19,7 @@ IdasNewton::IdasNewton(const CompiledSystem& system, SUNContext context)
   if (!matrix_ || !solver_) throw std::bad_alloc();
   derivatives_.resize(system.patterns());
   u_.setZero(system.layout().columns());
-  // The matrix is only there because a direct solver must have one; its numbers are the derivatives.
+  // IDAS requires a matrix for a direct solver; this one is empty, since the entries are in derivatives_.
   matrix_->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
   matrix_->ops->zero = [](SUNMatrix) { return kSundialsSuccess; };
   matrix_->ops->destroy = SUNMatFreeEmpty;
@@ -35,7 +35,7 @@ int IdasNewton::setup(SUNLinearSolver solver, SUNMatrix) {
   auto* self = static_cast<IdasNewton*>(solver->content);
   const double h = 1.0 / self->c_j_;
   self->singular_ = !self->reduced_.factor(self->derivatives_, h, h * h, h);
-  // Positive: IDAS tries a smaller step.
+  // A positive value makes IDAS try a smaller step.
   return self->singular_ ? SUNLS_LUFACT_FAIL : kSundialsSuccess;
 }
 

@@ -7,32 +7,33 @@
 
 namespace codesign {
 
-/// Newton's linear systems of IDAS, J x = b with J = F_y + c_j F_y', in the shape of a SUNLinearSolver with a SUNMatrix; doc/theory.md
+/// The linear solver of IDAS's Newton iteration, J x = b with J = F_y + c_j F_y', as a SUNLinearSolver with a SUNMatrix; doc/theory.md
 /// (26).
 ///
 /// With y = (q, v, s, lambda) and F = (q' - v, G), the rows q' - v and the columns of q are eliminated:
 ///   (G_z + G_v/c_j + G_q/c_j^2) (u_a, u_lambda, u_sigma) = b_G - G_q b_q/c_j,
 ///   x_v = u_a/c_j,  x_q = (x_v + b_q)/c_j,  x_s = u_sigma/c_j,  x_lambda = u_lambda.
-/// In a stabilized constraint row Phi_q grows to (1 + kappa/c_j)^2 Phi_q; b is divided instead, and what that does to the row's other
-/// terms, of order kappa/c_j^2, is left to Newton's iteration.
+/// In a stabilized constraint row Phi_q becomes (1 + kappa/c_j)^2 Phi_q; b is divided by this factor instead. The row's other terms are
+/// then wrong by the order of kappa/c_j^2, which the Newton iteration corrects.
 class IdasNewton {
  public:
   IdasNewton(const CompiledSystem& system, SUNContext context);
 
-  /// Forms and factors the reduced matrix at the next setup.
+  /// Derivatives for the next setup, which forms and factors the reduced matrix; set by the Jacobian callback.
   Linearization<double>* derivatives() { return &derivatives_; }
+  /// @param c_j of IDAS: derivative of y' by y [1/s]. @param kappa rate of stabilization [1/s].
   void set_rates(double c_j, double kappa) {
     c_j_ = c_j;
     kappa_ = kappa;
   }
 
-  /// The change [delta; multipliers; 0] of least kinetic energy, with the matrix of the last setup, that takes an error of the constraints
-  /// away.
+  /// The correction [delta; multipliers; 0] (Layout::columns() entries) that removes a constraint error (m entries) as in (17), with the
+  /// matrix of the last setup in place of G_z.
   void correct(const VectorX<double>& error, VectorX<double>* correction) const;
 
   SUNMatrix matrix() { return matrix_.get(); }
   SUNLinearSolver solver() { return solver_.get(); }
-  /// Whether the last matrix was singular.
+  /// Whether the matrix of the last setup was singular.
   bool singular() const { return singular_; }
 
  private:

@@ -8,9 +8,9 @@
 
 namespace codesign {
 
-/// Our status for a flag of IDASolve.
-/// @param time [s] that was reached. @param singular whether the last Newton matrix was. @param message IDAS's own, or of an exception in a
-/// callback.
+/// The Status for a return flag of IDASolve; ok for flags >= 0.
+/// @param time reached by the run [s]. @param singular whether the last Newton matrix was singular.
+/// @param message of IDAS, or of an exception in a callback; may be empty.
 Status idas_status(int flag, double time, bool singular, const std::string& message);
 
 }  // namespace codesign

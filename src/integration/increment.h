@@ -11,7 +11,7 @@
 
 namespace codesign {
 
-/// Where an increment's parts stand in one vector [x | v | z | psi] with x = (q, s); sums over stages are then single loops.
+/// Offsets of the parts of an increment u_i, (15), in one vector [x | v | z | psi] with x = (q, s), so that a sum over stages is one loop.
 struct IncrementLayout {
   int n, states, x_size, z_size;
 
@@ -55,14 +55,14 @@ void combine_up_to(std::size_t count, const T* from, const double* factors, cons
 
 }  // namespace internal
 
-/// to = from + sum over j < count of factors[j] parts[j], of `length` numbers, in one pass. The number of parts becomes a constant, so that
-/// the loop over them is unrolled.
+/// to = from + sum over j < count of factors[j] parts[j], for `length` numbers, in one pass; count <= RosenbrockTableau::kMaximumStages.
+/// `to` may be `from`. The count becomes a template parameter, so that the loop over the parts is unrolled.
 template <class T>
 void combine(const T* from, const double* factors, const T* const* parts, std::size_t count, int length, T* to) {
   internal::combine_up_to<RosenbrockTableau::kMaximumStages>(count, from, factors, parts, length, to);
 }
 
-/// to = from + sum over j < count of factors[j] u_j, of the entries [first, first + size) of each u_j.
+/// to = from + sum over j < count of factors[j] u_j, for the entries [first, first + size) of each u_j.
 template <class T>
 void combine(const T* from, const double* factors, const std::vector<VectorX<T>>& u, std::size_t count, int first, int size, T* to) {
   const T* parts[RosenbrockTableau::kMaximumStages];
@@ -70,7 +70,7 @@ void combine(const T* from, const double* factors, const std::vector<VectorX<T>>
   combine(from, factors, parts, count, size, to);
 }
 
-/// to = from + sum over j < count of factors[j] u_j, in all parts of the state.
+/// to = from + sum over j < count of factors[j] u_j, for the parts q, s, v and z of the state.
 template <class T>
 void combine(const IncrementLayout& at, const State<T>& from, const double* factors, const std::vector<VectorX<T>>& u, std::size_t count,
              State<T>* to) {

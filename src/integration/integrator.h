@@ -11,33 +11,35 @@
 
 namespace codesign {
 
-/// Integrates one design of a mechanism step by step. Reusable: start() begins anew, in the same memory. Not thread-safe.
+/// Integrates one design of a mechanism step by step. start() may be called again for another design and reuses the memory. Not
+/// thread-safe.
 class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  /// Assembles the start of a design. @param parameters all named parameters.
+  /// Assembles the initial state of a design at t = 0. @param parameters all named parameters (Study::parameters order).
+  /// @returns the status of assemble_start().
   virtual Status start(const std::vector<double>& parameters) = 0;
-  /// Takes one accepted step, not beyond `limit` [s].
+  /// Takes one accepted step that ends at `limit` [s] or before. Rejected attempts are repeated with smaller steps.
   virtual Status advance(double limit) = 0;
 
-  /// At the end of the last step.
+  /// The state at the end of the last step; after start(), the initial state.
   virtual const State<double>& state() const = 0;
-  /// Integral of the objective's integrand so far.
+  /// Integral of the objective's integrand g from 0 to state().t, doc/theory.md (21).
   virtual double psi() const = 0;
-  /// Dense output at `time` [s] within the last step; `state->z` of the lower order that it comes with.
+  /// Dense output at `time` [s] within the last step: state and psi. Accelerations and multipliers in `state->z` are of lower accuracy.
   virtual void interpolate(double time, State<double>* state, double* psi) = 0;
 
   virtual Equations<double>& equations() = 0;
   virtual Assembly& assembly() = 0;
-  /// Whether singular positions that the run passes are found, for warnings(); from the next start() on.
+  /// Whether runs look for singular positions that they pass, doc/theory.md (17b), to report in warnings(); from the next start() on.
   virtual void watch_singularities(bool watch) = 0;
   virtual const Statistics& statistics() const = 0;
-  /// What the run since start() gives reason to doubt.
+  /// Warnings about the run since start().
   virtual Warnings warnings() const = 0;
 
-  /// From now on start() and advance() end with kCancelled soon after `cancel` is set (from any thread), also while a step is tried again
-  /// and again. Null: never.
+  /// Once `cancel` is set (by any thread), start() and advance() end soon with kCancelled, even while a step is being retried. nullptr: no
+  /// cancellation.
   void obey(const std::atomic<bool>* cancel) {
     cancel_ = cancel;
     assembly().obey(cancel);
@@ -50,10 +52,11 @@ class Integrator {
   const std::atomic<bool>* cancel_ = nullptr;
 };
 
-/// The integrator that the study asks for.
+/// The integrator that the study selects by solver.integrator. @param system must outlive it.
 std::unique_ptr<Integrator> make_integrator(const CompiledSystem& system);
 
-/// The common beginning of every integration: constants of the design, then a consistent state at t = 0.
+/// Sets the design in `equations` and solves for a consistent initial state at t = 0.
+/// @returns kInvalidDesign for constants that no mechanism can have (such as a negative mass), else the status of Assembly::solve().
 Status assemble_start(const CompiledSystem& system, const std::vector<double>& parameters, Assembly* assembly, Equations<double>* equations,
                       State<double>* initial);
 

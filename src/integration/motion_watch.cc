@@ -11,12 +11,12 @@
 namespace codesign {
 namespace {
 
-constexpr double kBeyondReason = 10.0;  // times the typical speed
-constexpr std::int64_t kWindow = 500;   // steps that tell the present pace
-constexpr double kPatience = 0.1;       // of maximum_steps
-constexpr double kLeastPatience = 5000.0;
+constexpr double kBeyondReason = 10.0;     // speeds beyond this multiple of the typical one are suspicious
+constexpr std::int64_t kWindow = 500;      // steps over which the pace is measured
+constexpr double kPatience = 0.1;          // expected steps, relative to maximum_steps, from which a suspicious run ends
+constexpr double kLeastPatience = 5000.0;  // [steps] lower limit of the same
 
-constexpr int kInstants = 64;  // at which setpoints and references that vary are looked at
+constexpr int kInstants = 64;  // instants at which setpoints and references are sampled
 
 constexpr SignalKind kVelocities[] = {SignalKind::kJointVelocity, SignalKind::kJointSlidingVelocity, SignalKind::kLinkVelocity,
                                       SignalKind::kLinkAngularVelocity};
@@ -35,7 +35,7 @@ MotionWatch::Speeds MotionWatch::speeds(const State<double>& state) const {
   Speeds fastest;
   for (int b = 0; b < system_.layout().bodies; ++b) {
     const double linear = state.v.segment<3>(kBodySize * b).norm();
-    // |omega| = 2 |p'|: p' stands at right angles to the unit vector p.
+    // |omega| = 2 |p'|, since p' is orthogonal to the unit vector p.
     const double angular = 2.0 * state.v.segment<4>(kBodySize * b + 3).norm();
     if (linear > fastest.linear) {
       fastest.linear = linear;
@@ -49,7 +49,7 @@ MotionWatch::Speeds MotionWatch::speeds(const State<double>& state) const {
   return fastest;
 }
 
-// Angles and lengths are not told apart: a target speed excuses both kinds.
+// The largest speed that setpoints and references ask for. Angles and lengths are not distinguished: it counts for both kinds of speed.
 double MotionWatch::target(const Equations<double>& equations) const {
   const Study& study = system_.study();
   double largest = 0.0;
@@ -73,7 +73,7 @@ void MotionWatch::start(const Equations<double>& equations, const State<double>&
   mark_time_ = initial.t;
   mark_work_ = 0;
   linear_bound_ = angular_bound_ = system_.study().solver.maximum_speed;
-  // What nothing drives has no more energy than it began with.
+  // A mechanism without controllers cannot gain energy, so it needs no automatic limit.
   if (linear_bound_ > 0.0 || system_.study().controllers.empty()) return;
   double size = 0.0;
   for (int b = 0; b < system_.layout().bodies; ++b) size = std::max(size, initial.q.segment<3>(kBodySize * b).norm());
@@ -103,14 +103,14 @@ Status MotionWatch::exceeded(const State<double>& state, const std::string& advi
 
 Status MotionWatch::check(const State<double>& state, std::int64_t work) {
   const SolverOptions& options = system_.study().solver;
-  if (options.maximum_speed > 0.0) return exceeded(state, "as solver.maximum_speed says");
+  if (options.maximum_speed > 0.0) return exceeded(state, "the limit is solver.maximum_speed");
   if (work - mark_work_ < kWindow) return {};
   const double expected = expected_work(state.t, work);
   mark_time_ = state.t;
   mark_work_ = work;
   if (expected <= std::max(kLeastPatience, kPatience * options.maximum_steps)) return {};
   return exceeded(state, "the study would take some " + std::to_string(std::llround(expected)) +
-                             " steps. Check signs and bounds of the gains, or give solver.maximum_speed if such speeds are meant");
+                             " steps. Check signs and bounds of the gains, or set solver.maximum_speed if such speeds are intended");
 }
 
 }  // namespace codesign

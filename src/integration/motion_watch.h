@@ -9,24 +9,24 @@
 
 namespace codesign {
 
-/// Ends a motion that runs away, as under a controller of the wrong sign: it could be integrated, but in ever more steps and to no use.
+/// Ends a run whose motion is unstable, for example with a feedback gain of the wrong sign, before it wastes ever shorter steps.
 ///
-/// With `solver.maximum_speed` that is any body beyond it. Without, there must be a controller, a body must be ten times as fast as the
-/// mechanism has reason to be (its start, a fall through its own size, the velocities that setpoints and references ask for, or that theirs
-/// of positions imply), and at the pace of the last 500 steps the study must take more than a tenth of `maximum_steps` (at least 5000).
-/// Speeds are |r'| [m/s] and |omega| [rad/s].
+/// With `solver.maximum_speed`, the run ends when a body exceeds it. Without, it ends if all of these hold: there is a controller; a body
+/// is ten times faster than a typical speed, the largest of the start's, of a fall through the mechanism's size, and of the velocities that
+/// setpoints and references ask for directly or as derivatives of positions; and at the pace of the last 500 steps the study would need
+/// more than a tenth of `maximum_steps` (at least 5000). Speeds are |r'| [m/s] and |omega| [rad/s].
 class MotionWatch {
  public:
   explicit MotionWatch(const CompiledSystem& system) : system_(system) {}
 
-  /// @param equations at the design; `initial` its start.
+  /// @param equations must hold the design. @param initial its initial state.
   void start(const Equations<double>& equations, const State<double>& initial);
-  /// After each step. @param work steps so far, the rejected ones too.
+  /// To be called after each step. @param work number of steps so far, rejected ones included. @returns kUnstableMotion, or ok.
   Status check(const State<double>& state, std::int64_t work);
 
  private:
   struct Speeds {
-    double linear = 0.0, angular = 0.0;  ///< of the fastest bodies
+    double linear = 0.0, angular = 0.0;  ///< of the fastest bodies [m/s], [rad/s]
     int linear_body = 0, angular_body = 0;
   };
   Speeds speeds(const State<double>& state) const;

@@ -7,12 +7,13 @@
 
 namespace codesign {
 
-/// Takes a state's drift off the constraints away; doc/theory.md (17), in two rounds, since the drift may be more than that of one step.
+/// Projects a state onto the constraints, doc/theory.md (17), with two Newton steps, since the drift may be larger than that of one step.
 class Projection {
  public:
   explicit Projection(const CompiledSystem& system);
 
-  /// Changes q and v so that Phi = 0 and Phi_q v = 0. False if the augmented matrix is singular.
+  /// Changes q and v so that Phi = 0 and Phi_q v = 0; z is unchanged. `equations` must hold the design. False if the augmented matrix is
+  /// singular or the result is not finite.
   bool apply(Equations<double>* equations, State<double>* state);
 
  private:

@@ -41,7 +41,8 @@ Warnings RosenbrockIntegrator::warnings() const {
   return all;
 }
 
-// A hundredth of the time in which the state changes by its own scaled size (Hairer, Norsett and Wanner, II.4).
+// The first step size: a hundredth of the time in which the state, scaled by the tolerances, changes by its own size (Hairer, Norsett and
+// Wanner, Solving ODE I, II.4).
 double RosenbrockIntegrator::first_step() const {
   double size = 0.0, rate = 0.0;
   for (Eigen::Index k = 0; k < initial_.q.size(); ++k) {
@@ -69,11 +70,12 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
   };
   for (;;) {
     if (statistics_.steps + statistics_.rejected_steps >= options_.maximum_steps)
-      return judged({StatusCode::kTooManySteps, t, "more than " + std::to_string(options_.maximum_steps) + " steps"});
+      return judged(
+          {StatusCode::kTooManySteps, t, "more than " + std::to_string(options_.maximum_steps) + " steps (solver.maximum_steps)"});
     if (cancelled()) return {StatusCode::kCancelled, t, "cancelled"};
     double h = proposal_;
     if (options_.maximum_step > 0.0) h = std::min(h, options_.maximum_step);
-    // Stretched by up to a tenth, or halved, so that no sliver is left before the limit.
+    // Stretches the step by up to a tenth or halves the remaining time, so that no tiny step is left before the limit.
     const double rest = breaks_.next(t, limit) - t;
     const bool last = h >= rest / 1.1;
     if (last) h = rest;
@@ -95,7 +97,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
       ++statistics_.rejected_steps;
       continue;
     }
-    // A step cut short by the limit says little about the next one.
+    // After a step that the limit cut short, the earlier proposal is the better one.
     if (last && h < 0.5 * kept) proposal_ = std::max(proposal_, kept);
     ++statistics_.steps;
     if (!step_.accept()) return {StatusCode::kSingularMatrix, t + h, "the augmented matrix of the equations of motion is singular"};

@@ -15,7 +15,7 @@
 
 namespace codesign {
 
-/// An adaptive Rosenbrock-Wanner method; doc/theory.md (15)-(17). Once warm, steps do not allocate.
+/// Adaptive Rosenbrock-Wanner method, doc/theory.md (15)-(17), by the tableau that solver.method selects. Once warm, steps do not allocate.
 class RosenbrockIntegrator final : public Integrator {
  public:
   explicit RosenbrockIntegrator(const CompiledSystem& system);
@@ -31,7 +31,8 @@ class RosenbrockIntegrator final : public Integrator {
   const Statistics& statistics() const override { return statistics_; }
   Warnings warnings() const override;
 
-  /// Called when a step's error has been accepted, before it is taken: the tangent of its stages is due.
+  /// Called for a step whose error is below 1, before RosenbrockStep::accept(); computes the tangent of its stages there. Returns a scaled
+  /// error, and the step is rejected if that exceeds 1.
   using BeforeAccept = std::function<double(const RosenbrockStep<double>&)>;
 
   Status advance(double limit, const BeforeAccept& before_accept);

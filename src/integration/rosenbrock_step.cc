@@ -47,7 +47,8 @@ void RosenbrockStep<T>::start(const State<T>& state) {
   equations_.linearize(state_, &derivatives_);
 }
 
-// u_v = w_v = h gamma r_v, u_q = w_q = h gamma (r_q + w_v), u_s = w_s = h gamma r_s, with r the stage's rates and sums of c_ij u_j / h.
+// Sets w of (16) in increment i: w_v = h gamma r_v, w_q = h gamma (r_q + w_v), w_s = h gamma r_s, where r is the stage's rate plus the sum
+// of c_ij u_j / h.
 template <class T>
 void RosenbrockStep<T>::stage_start(std::size_t i) {
   const T hg(h_ * tableau_.gamma);
@@ -65,7 +66,7 @@ void RosenbrockStep<T>::stage_start(std::size_t i) {
   u.segment(at_.s(), at_.states) *= hg;
 }
 
-// With these, the stage's matrix gives u_z, and then u_v = w_v + h gamma u_a etc.
+// Solves (16) for u_z of stage i, then adds h gamma u_a to w_v and the corresponding terms to w_q and w_s.
 template <class T>
 bool RosenbrockStep<T>::solve_stage(std::size_t i) {
   VectorX<T>& u = increments_[i];

@@ -15,9 +15,10 @@ namespace codesign {
 /// One step of a Rosenbrock-Wanner method on q' = v, v' = a, s' = sigma, 0 = G(q, v, s; a, lambda, sigma), psi' = g; doc/theory.md
 /// (15)-(17).
 ///
-/// The unknowns q, v, s of each stage are eliminated, so that one sparse matrix of the size of (a, lambda, sigma) serves all of them. After
-/// an accepted step (q, v) are projected onto Phi = 0, Phi_q v = 0; the derivatives of the next step are those at the unprojected point,
-/// whose factorization the projection uses. T: double for the solution, std::complex<double> to check its derivatives.
+/// The unknowns q, v, s of each stage are eliminated, so that one sparse matrix of the size of (a, lambda, sigma) serves all stages, (16).
+/// After an accepted step (q, v) are projected onto Phi = 0, Phi_q v = 0. Projection and next step use the derivatives at the unprojected
+/// point, so that a step needs one linearization.
+/// @tparam T double for the solution, std::complex<double> to check its derivatives.
 template <class T>
 class RosenbrockStep {
  public:
@@ -27,37 +28,38 @@ class RosenbrockStep {
   const Equations<T>& equations() const { return equations_; }
   const RosenbrockTableau& tableau() const { return tableau_; }
 
-  /// Starts a solution at a consistent state.
+  /// Starts a solution at a consistent state; psi() is zero. equations() must hold the design.
   void start(const State<T>& state);
 
-  /// Computes the step of size h [s] from the present state. False if the matrix is singular or a value is not finite.
+  /// Computes the step of size h [s] from state(), without accepting it. False if the matrix is singular or a value is not finite.
   bool attempt(double h);
-  /// Scaled error of the last attempt: the largest of u_last / (absolute + relative max(|y|, |y_1|)) over (q, v, s), whatever else is at
-  /// rest.
+  /// Scaled error of the last attempt, acceptable up to 1: the largest |u_last| / (absolute + relative max(|y|, |y_1|)) over (q, v, s). A
+  /// mean would hide one fast joint among many bodies at rest.
   double error(double relative_tolerance, double absolute_tolerance) const;
-  /// Takes the last attempt: projects and linearizes. False if the augmented matrix is singular there.
+  /// Accepts the last attempt: linearizes at its end and projects. False if the augmented matrix is singular there.
   bool accept();
-  /// Takes a solution up again where an accepted step ended, before its projection: what accept() made of it is made anew.
+  /// Continues a solution at the unprojected end of an earlier step: linearizes and projects as accept() did, so that attempt() repeats the
+  /// step that followed. For the backward pass of the adjoint. False as for accept().
   bool resume(const State<T>& unprojected);
 
   const State<T>& state() const { return state_; }  ///< at the end of the last accepted step, projected
   const T& psi() const { return psi_; }             ///< integral of g so far
-  double step_size() const { return h_; }
+  double step_size() const { return h_; }           ///< of the last attempt [s]
 
-  // What the tangent of the step needs.
+  // The parts of a step that its tangent and adjoint use.
   const IncrementLayout& increment_layout() const { return at_; }
   const std::vector<VectorX<T>>& increments() const { return increments_; }       ///< u_i of the last attempt
-  const std::vector<State<T>>& stages() const { return stages_; }                 ///< where the last attempt evaluated the equations
-  const State<T>& previous() const { return previous_; }                          ///< where the last accepted step began
-  const State<T>& unprojected() const { return end_; }                            ///< where the last attempt ended
-  const Linearization<T>& derivatives() const { return derivatives_; }            ///< that the next step will use
+  const std::vector<State<T>>& stages() const { return stages_; }                 ///< the states at which the last attempt evaluated G
+  const State<T>& previous() const { return previous_; }                          ///< the state at which the last accepted step began
+  const State<T>& unprojected() const { return end_; }                            ///< the end of the last attempt, before projection
+  const Linearization<T>& derivatives() const { return derivatives_; }            ///< at the point where the next step begins, unprojected
   const VectorX<T>& position_correction() const { return position_correction_; }  ///< of the last projection: [delta q, multipliers]
   const VectorX<T>& velocity_correction() const { return velocity_correction_; }  ///< [delta v, multipliers]
   const StageMatrix<T>& stage_matrix() const { return stage_matrix_; }
   const StageProduct& product() const { return product_; }
   const StageMatrix<T>& projection_matrix() const { return projection_matrix_; }
 
-  /// State at `previous().t + theta h` by the method's dense output; psi too.
+  /// State and psi at previous().t + theta h by the method's dense output, 0 <= theta <= 1.
   void interpolate(double theta, State<T>* state, T* psi) const;
 
  private:

@@ -11,13 +11,14 @@
 namespace codesign {
 namespace {
 
-// A run from rest begins with energies near zero, where low-order steps may be wrong by as much as there is.
+// Steps that may exceed the limit before the run fails: a run from rest begins with energies near zero and low-order steps, whose relative
+// error may be large.
 constexpr int kPatience = 20;
 
-// What sums of this size lose to rounding, with room to spare.
+// Relative rounding error of the sums of energy and work, with a margin.
 constexpr double kRounding = 1e-9;
 
-/// Three digits for a sentence.
+/// The value with three significant digits.
 std::string rounded(double value) {
   std::array<char, 32> text;
   const auto result = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3);
@@ -30,12 +31,12 @@ std::string advice(const SolverOptions& options) {
 }
 
 std::string drift_sentence(double drift, double time) {
-  return "the step that ends at t = " + rounded(time) + " s leaves the constraints by " + rounded(drift) + " times the error tolerance";
+  return "the step that ends at t = " + rounded(time) + " s violates the constraints by " + rounded(drift) + " times the error tolerance";
 }
 
 std::string energy_sentence(double error, double time) {
   return "kinetic and potential energy and the work done by all other forces are out of balance by " + rounded(error) +
-         " of the largest energy in the run, at t = " + rounded(time) + " s";
+         " times the largest energy in the run, at t = " + rounded(time) + " s";
 }
 
 }  // namespace
@@ -57,7 +58,8 @@ RunWatch::RunWatch(const CompiledSystem& system)
       energy_limit_(energy_limit(options_.relative_tolerance)),
       motion_(system) {}
 
-// What the absolute tolerance or the rounding of large sums does not resolve must stay below the limit of the warning.
+// Lower limit of the denominator of e in (17a) [J], so that errors within the absolute tolerance or the rounding of large sums do not cause
+// a warning.
 double RunWatch::smallest_scale(const Constants<double>& constants, const State<double>& initial) const {
   const double g = Eigen::Vector3d(system_.study().gravity.data()).norm(), atol = options_.absolute_tolerance;
   double unresolved = 0.0;
@@ -85,7 +87,7 @@ double RunWatch::drift(const State<double>& state, const VectorX<double>& positi
   const auto add = [&](const VectorX<double>& correction, const VectorX<double>& y) {
     for (Eigen::Index k = 0; k < y.size(); ++k) {
       const double size = std::abs(correction[k]), scale = options_.absolute_tolerance + options_.relative_tolerance * std::abs(y[k]);
-      if (size > drift * scale) drift = size / scale;  // rarely divided
+      if (size > drift * scale) drift = size / scale;  // divides only for a new maximum
     }
   };
   add(position_correction, state.q);

@@ -7,32 +7,35 @@
 
 namespace codesign {
 
-/// How far two figures of a run may go at a relative tolerance: up to `warning` without a word, up to `failure` with a warning.
+/// Limits of a measure of a run's accuracy: beyond `warning` the run warns, beyond `failure` it fails.
 struct RunLimit {
   double warning = 0.0, failure = 0.0;
 };
 
-/// Of Statistics::constraint_drift. Next to a singular position a right step may drift by 1/sqrt(tolerance); theory (17a).
+/// Limits of Statistics::constraint_drift, doc/theory.md (17a): next to a singular position an accurate step may drift by up to
+/// 1/sqrt(relative_tolerance).
 RunLimit drift_limit(double relative_tolerance);
-/// Of Statistics::energy_error. Right runs stay within a hundred times the tolerance.
+/// Limits of Statistics::energy_error, doc/theory.md (17a). Accurate runs stay within a hundred times the relative tolerance.
 RunLimit energy_limit(double relative_tolerance);
 
-/// Watches how well a run keeps to the constraints and to the balance of energy; doc/theory.md (17a). No allocation.
+/// Checks after each step the drift off the constraints and the energy balance, doc/theory.md (17a). No allocation in check().
 class RunWatch {
  public:
   explicit RunWatch(const CompiledSystem& system);
 
+  /// @param constants of the design. @param initial its initial state.
   void start(const Constants<double>& constants, const State<double>& initial);
   const BodyMotion& motion() const { return motion_; }
 
-  /// Drift of a state in the scale of the error test: the largest change of a coordinate or velocity, over its tolerance, that the way back
-  /// to the constraints takes. @param position_correction, velocity_correction that way, n entries or more each.
+  /// The drift d of (17a) [-]: the largest projection correction of a coordinate or velocity over its error tolerance.
+  /// @param position_correction, velocity_correction delta q and delta v of (17) in the first n entries.
   double drift(const State<double>& state, const VectorX<double>& position_correction, const VectorX<double>& velocity_correction) const;
 
-  /// After each step, at its end. @param drift of the step. @param work [J] of everything but gravity over the step.
+  /// To be called after each step, with its end. @param drift of the step, from drift(). @param work of all forces but gravity over the
+  /// step [J]. @param statistics receives the largest drift and energy error so far. @returns kConstraintDrift, kEnergyError or ok.
   Status check(const State<double>& state, double drift, double work, Statistics* statistics);
 
-  /// What the run so far gives reason to doubt.
+  /// `constraint_drift` and `energy_error`, if the run so far exceeds their limits.
   Warnings warnings(const Statistics& statistics) const;
 
  private:
@@ -45,7 +48,7 @@ class RunWatch {
   double start_potential_ = 0.0, start_energy_ = 0.0;                     ///< [J]
   double work_ = 0.0, turnover_ = 0.0, scale_ = 0.0, worst_error_ = 0.0;  ///< [J]
   double worst_drift_time_ = 0.0, worst_error_time_ = 0.0;                ///< [s]
-  int unbalanced_steps_ = 0;                                              ///< beyond the limit, one after the other
+  int unbalanced_steps_ = 0;  ///< consecutive steps with an energy error beyond the limit of failure
 };
 
 }  // namespace codesign

@@ -11,14 +11,16 @@
 namespace codesign {
 namespace {
 
-constexpr double kPeak = 8.0;          // times the mean drift, that is worth a look
-constexpr double kSingular = 2e-3;     // of the typical stiffness; the compliance of redundant constraints leaves 2e-4
-constexpr double kLarge = 4.0;         // times threshold_: drift after which idas begins anew, so that it has no higher peaks
-constexpr double kBeside = 0.05;       // of the typical stiffness, where a run that begins anew over and over passes
-constexpr double kRank = 3e-4;         // of the largest singular value
-constexpr double kLeastDrift = 1e-12;  // whose logarithm counts
-constexpr int kIterations = 40;        // of the search, by 0.618 each
-constexpr int kLargest = 400;          // coordinates, whose rank is still decided
+constexpr double kPeak = 8.0;  // a peak must exceed this multiple of the mean drift
+// A position is singular below this fraction of the typical stiffness. The compliance of redundant constraints leaves 2e-4 there.
+constexpr double kSingular = 2e-3;
+// The same for a run that restarts often, whose steps do not reach over the position.
+constexpr double kBeside = 0.05;
+constexpr double kLarge = 4.0;         // upper limit of the mean drift in the test for a peak, since idas restarts before larger drifts
+constexpr double kRank = 3e-4;         // smaller singular values, relative to the largest, count as zero
+constexpr double kLeastDrift = 1e-12;  // smaller drifts count as this in the geometric mean
+constexpr int kIterations = 40;        // of the golden-section search, a factor 0.618 each
+constexpr int kLargest = 400;          // the rank is computed up to this number of coordinates
 
 }  // namespace
 
@@ -39,7 +41,7 @@ void SingularityWatch::start(bool enabled, const State<double>& initial) {
   if (enabled) initial_ = initial;
 }
 
-// The reciprocal of how far a unit error of the constraints, without any pattern, moves the mechanism.
+// k of (17b): 1/|delta q| of the projection (17) for a fixed right-hand side without any pattern.
 double SingularityWatch::stiffness(Equations<double>* equations) {
   const Layout& layout = system_.layout();
   if (!matrix_) matrix_ = std::make_unique<IterationMatrix>(system_);
@@ -66,7 +68,7 @@ void SingularityWatch::look(const State<double>& state, double drift, Equations<
   if (++count_ > 3 && is_peak()) search(equations);
 }
 
-/// Hermite's cubic through positions and velocities at the ends of the step around `time`.
+/// Sets between_ to the Hermite cubic, through positions and velocities at the ends of the step around `time`.
 void SingularityWatch::place(double time) {
   const bool second = time > points_[1].state.t;
   const State<double>&from = points_[second ? 1 : 0].state, &to = points_[second ? 2 : 1].state;
@@ -109,10 +111,10 @@ void SingularityWatch::search(Equations<double>* equations) {
       at_right = at(right = a + kGolden * (b - a));
     }
   }
-  // Steps that begin anew are too short for the position to lie between two of them.
+  // A run that restarts often has steps too short to bracket the position, so a weaker limit applies.
   const bool restarts = points_[1].drift <= threshold_ * std::exp(sum_of_logarithms_ / count_);
   if (std::min(at_left, at_right) > (restarts ? kBeside : kSingular) * typical_stiffness_) {
-    threshold_ *= restarts ? 1.2 : 2.0;  // so that searches without result end
+    threshold_ *= restarts ? 1.2 : 2.0;  // so that fruitless searches become rare
     return;
   }
   place(0.5 * (a + b));
@@ -123,8 +125,8 @@ void SingularityWatch::search(Equations<double>* equations) {
   warnings_.push_back(
       {"singular_position_passed",
        "the mechanism passes a singular position at t = " + to_decimal(1e-6 * std::round(1e6 * between_.t)) + " s" + ranks +
-           ": sensitivities of what follows lose digits there, whatever the tolerance. Compare the gradient with differences "
-           "(codesign gradient --verify=ridders), or end the study before",
+           ": sensitivities lose digits there, whatever the tolerance. Compare the gradient with differences (codesign gradient "
+           "--verify=ridders), or end the study before that time",
        {}});
   enabled_ = false;
 }

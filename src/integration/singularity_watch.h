@@ -12,18 +12,18 @@ namespace codesign {
 
 /// Finds the first singular position that a run passes, where the rank of Phi_q drops and sensitivities lose digits; doc/theory.md (17b).
 ///
-/// A singular position shows in the drift of the steps beside it, which the way back to the constraints magnifies. Only there, between
-/// three ends of steps, is the response of the augmented matrix looked at.
+/// Near a singular position the drift (17a) of the steps has a peak. Only at a peak, between the ends of three steps, is the response of
+/// the augmented matrix evaluated, so that other runs cost nothing.
 class SingularityWatch {
  public:
   explicit SingularityWatch(const CompiledSystem& system);
 
-  /// @param enabled whether to look at all.
+  /// @param enabled whether look() does anything. @param initial state of the run, for the usual rank.
   void start(bool enabled, const State<double>& initial);
-  /// After each step, at its end. @param drift RunWatch::drift().
+  /// To be called after each step, with its end. @param drift of the step, from RunWatch::drift(). @param equations must hold the design.
   void look(const State<double>& state, double drift, Equations<double>* equations);
 
-  /// `singular_position_passed` with time and rank, if there was one.
+  /// `singular_position_passed` with time and rank, if one was found.
   Warnings warnings() const { return warnings_; }
 
  private:
@@ -38,7 +38,7 @@ class SingularityWatch {
   int rank(Equations<double>* equations, const State<double>& state) const;
 
   const CompiledSystem& system_;
-  std::unique_ptr<IterationMatrix> matrix_;  ///< made when a peak is first looked at: few runs have one
+  std::unique_ptr<IterationMatrix> matrix_;  ///< allocated at the first peak, since few runs have one
   Linearization<double> derivatives_;
   VectorX<double> response_;
   std::array<Point, 3> points_;

@@ -8,7 +8,8 @@
 
 namespace codesign {
 
-/// The linear solves of a step, by scalar: sparse for real numbers, dense for complex ones, which only checks of derivatives use.
+/// The matrix E = G_z + c_v G_v + c_q G_q (+ c_s G_s) of a step, doc/theory.md (16), and its solves. Sparse for double; dense for complex
+/// numbers, which only derivative checks use. factor() returns false for a singular matrix.
 template <class T>
 class StageMatrix;
 

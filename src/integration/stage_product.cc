@@ -7,7 +7,7 @@
 namespace codesign {
 namespace {
 
-// The arrays of the compiled code.
+// Indices of the arrays that the compiled code reads and writes.
 constexpr int kProduct = 0, kPosition = 1, kVelocity = 2, kVectors = 3;
 
 void append(const Sparsity& pattern, int row, int matrix, int shift, Sum* sum) {

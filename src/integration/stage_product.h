@@ -12,10 +12,10 @@ namespace codesign {
 
 class LazyStraightLine;
 
-/// The products with G_q (and G_s) and G_v on the right-hand side of every stage, of a step and of its tangent; theory (16), (18).
+/// The products with G_q (and G_s) and G_v on the right-hand side of every stage of a step and of its tangent; doc/theory.md (16), (18).
 class StageProduct {
  public:
-  /// @param machine_code whether to compile the products where that is possible; loops take them otherwise.
+  /// @param system must outlive this. @param machine_code whether to compile the products to machine code where possible; loops otherwise.
   explicit StageProduct(const CompiledSystem& system, bool machine_code = true);
   ~StageProduct();
   StageProduct(StageProduct&&) noexcept;
@@ -25,7 +25,7 @@ class StageProduct {
   template <int N>
   void subtract(const Linearization<double>& derivatives, const double* xv, double* y) const;
 
-  /// The same for one complex vector, which only checks of derivatives use.
+  /// The same for one complex vector, which only derivative checks use.
   void subtract(const Linearization<std::complex<double>>& derivatives, const std::complex<double>* xv, std::complex<double>* y) const;
   void subtract(const Linearization<double>& derivatives, const double* xv, double* y) const { subtract<1>(derivatives, xv, y); }
 

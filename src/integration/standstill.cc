@@ -10,12 +10,14 @@
 namespace codesign {
 namespace {
 
-constexpr std::int64_t kWindow = 100;  // steps from one look at the pace to the next
-constexpr double kNever = 20000.0;     // steps to come that no study needs
-constexpr double kSingular = 0.02;     // of the value at the start; reactions are fifty times as large as there
-constexpr double kNearby = 0.1;        // of the same, where a run failed: friction locks a mechanism before the position is reached
-constexpr double kTakesPart = 0.1;     // of the largest load of a pair in a self-stress
-constexpr int kLargest = 400;          // coordinates whose singular values are still looked at
+constexpr std::int64_t kWindow = 100;  // the pace is checked once in this number of steps
+constexpr double kNever = 20000.0;     // remaining steps from which a run counts as stalled
+// Smallest singular value, relative to its value at the start, below which the position counts as singular: kSingular for a stalled run,
+// where reactions are then fifty times as large as at the start; kNearby for a failed one, since friction can lock a mechanism before the
+// position.
+constexpr double kSingular = 0.02, kNearby = 0.1;
+constexpr double kTakesPart = 0.1;  // a pair is named if its load in the self-stress exceeds this fraction of the largest
+constexpr int kLargest = 400;       // larger numbers of coordinates are not analysed, since the decomposition is dense
 
 using Svd = Eigen::JacobiSVD<Eigen::MatrixXd>;
 
@@ -24,7 +26,7 @@ bool may_be_singular(StatusCode code) {
          code == StatusCode::kEnergyError || code == StatusCode::kTooManySteps;
 }
 
-/// Distance of the farthest body from the middle of all [m].
+/// Largest distance of a body from the mean of all [m]; 1 if that is zero.
 double size_of(const VectorX<double>& q, int bodies) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (int b = 0; b < bodies; ++b) middle += q.segment<3>(kBodySize * b) / bodies;
@@ -41,7 +43,7 @@ std::vector<int> enforced_rows(const CompiledSystem& system) {
   return rows;
 }
 
-/// Phi_q free of units: lengths by the mechanism's size, rows by their own.
+/// Phi_q without units: columns of r multiplied by the mechanism's size, then all rows normalized.
 Eigen::MatrixXd scaled_jacobian(const CompiledSystem& system, const State<double>& state, Equations<double>* equations) {
   Eigen::MatrixXd rows = constraint_jacobian(system, equations, state);
   const double size = size_of(state.q, system.layout().bodies);
@@ -58,12 +60,12 @@ Eigen::MatrixXd enforced_part(const CompiledSystem& system, const Eigen::MatrixX
   return rows;
 }
 
-/// The singular value of number `rank`, in descending order.
+/// The singular value number `rank` (from 1) in descending order.
 double singular_value(const Eigen::MatrixXd& rows, Eigen::Index rank) { return Svd(rows).singularValues()[rank - 1]; }
 
 void add_name(const std::string& name, std::string* list) { *list += (list->empty() ? "'" : ", '") + name + "'"; }
 
-/// Joints and loops that a self-stress (a number per enforced row) loads.
+/// Names of the joints and loops that a self-stress (one multiplier per enforced row) loads.
 std::string loaded_pairs(const CompiledSystem& system, const Eigen::VectorXd& stress) {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(system.layout().constraints());
   const std::vector<int> enforced = enforced_rows(system);
@@ -96,12 +98,12 @@ std::string cause(const CompiledSystem& system, const Eigen::MatrixXd& rows, boo
   const std::string rank = std::to_string(rows.rows() - 1), usual = std::to_string(rows.rows());
   if (!all_lose_rank)
     return "the constraints that were independent at the start have rank " + rank + " instead of " + usual +
-           " here, though the mechanism's have not: those of " + names +
-           " that were dropped as redundant would have to take the place of others; end the study before, or begin it nearer to here";
-  return "the mechanism comes to a singular position, where its independent constraints have rank " + rank + " instead of " + usual +
+           " here, although all constraints together keep their rank: rows of " + names +
+           " that were dropped as redundant would have to replace others; end the study before this position, or start it nearer to here";
+  return "the mechanism approaches a singular position, where its independent constraints have rank " + rank + " instead of " + usual +
          ": reactions of " + names + " grow without bound on the way there" +
-         (frictions.empty() ? "" : ", and the friction of " + frictions + " with them, so that rigid bodies do not say what follows") +
-         "; end the study before, or start elsewhere";
+         (frictions.empty() ? "" : ", and the friction of " + frictions + " with them, so that the motion beyond it is not determined") +
+         "; end the study before this position, or start from another one";
 }
 
 }  // namespace

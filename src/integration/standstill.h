@@ -8,14 +8,15 @@
 
 namespace codesign {
 
-/// What the end of a step means for a run that comes to rest, in steps ever shorter, before a singular position; doc/theory.md (17c).
+/// Detects a run that stalls, with ever shorter steps, before a singular position; doc/theory.md (17c). To be called after each step.
 ///
-/// Reactions grow there as one over the smallest singular value of Phi_q, and friction that rests on them with them. Only mechanisms whose
-/// redundant rows are dropped are looked at, since elsewhere the compliance leads past such positions, and only runs that failed or that
-/// get along very slowly, so that others pay nothing.
-/// @param initial where the run began. @param state at the end of the last step, which was `step_size` [s] long.
-/// @returns `status`, or kSingularConfiguration in place of a failure at a singular position, and of success where the steps get so short
-/// before one that the study would never end.
+/// Near such a position reactions grow as one over the smallest singular value of Phi_q, and friction that depends on them as well. Only
+/// mechanisms with dropped redundant rows are checked, since otherwise the compliance leads past the position, and only runs that failed or
+/// whose steps are very short, so that other runs cost nothing.
+/// @param status of the step. @param initial state of the run. @param state at the end of the last step. @param step_size its size [s].
+/// @param equations must hold the design.
+/// @returns kSingularConfiguration, with rank and joints in its cause, if the run is at a singular position and either failed there or
+/// would need more than 20,000 further steps; else `status`.
 Status judge_standstill(const Status& status, const CompiledSystem& system, const State<double>& initial, const State<double>& state,
                         double step_size, const Statistics& statistics, Equations<double>* equations);
 

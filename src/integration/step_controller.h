@@ -7,12 +7,13 @@
 
 namespace codesign {
 
-/// Step-size control with Gustafsson's prediction, as in Hairer and Wanner's RODAS.
+/// Step-size control with Gustafsson's prediction, as in the code RODAS of Hairer and Wanner [5].
 class StepController {
  public:
+  /// @param order the order of the method.
   explicit StepController(int order) : exponent_(1.0 / order) {}
 
-  /// Whether a step of size h with this scaled error may be taken; proposes the next size.
+  /// Whether a step of size h [s] with this scaled error is accepted, error <= 1; `proposal` receives the size of the next attempt [s].
   bool accept(double h, double error, double* proposal) {
     double factor = limit(std::pow(error, exponent_) / kSafety);
     if (!(error <= 1.0)) {
@@ -30,7 +31,7 @@ class StepController {
     return true;
   }
 
-  /// The next size after a step that could not be computed at all.
+  /// The next size [s] after an attempt of size h that could not be computed.
   double back_off(double h) {
     rejected_ = true;
     return h / kLargestReduction;

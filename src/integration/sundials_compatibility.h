@@ -10,12 +10,12 @@
 
 namespace codesign {
 
-/// What SUNDIALS 6 and 7 call differently. Everything else that we use has one name in both (sunrealtype, not realtype).
+/// The differences between SUNDIALS 6 and 7. All other names that are used here exist in both (sunrealtype, not realtype).
 
-/// What the functions of a matrix and a linear solver return when all is well: SUNMAT_SUCCESS and SUNLS_SUCCESS in 6, SUN_SUCCESS in 7.
+/// Return value of a matrix or linear solver operation without error: SUNMAT_SUCCESS and SUNLS_SUCCESS in 6, SUN_SUCCESS in 7.
 inline constexpr int kSundialsSuccess = 0;
 
-/// A context for one process. @return zero, or SUNDIALS's error.
+/// Creates a context for one process, without MPI. @return zero, or an error code of SUNDIALS.
 inline int create_context(SUNContext* context) {
 #if SUNDIALS_VERSION_MAJOR >= 7
   return SUNContext_Create(SUN_COMM_NULL, context);
@@ -24,12 +24,12 @@ inline int create_context(SUNContext* context) {
 #endif
 }
 
-/// Writes the sentence of the latest error of `ida`, made in `context`, to `message` and nothing to stderr. In 7 that holds for everything
-/// made in the context. @return zero, or a negative error. @param message must outlive both.
+/// Redirects error messages of `ida`, created in `context`, from stderr to `message`, which holds the latest. In SUNDIALS 7 this applies to
+/// every object of the context. @return zero, or a negative error code. @param message must outlive both.
 inline int keep_last_message(void* ida, SUNContext context, std::string* message) {
 #if SUNDIALS_VERSION_MAJOR >= 7
   static_cast<void>(ida);
-  // The handlers form a stack and all of it is called; at its bottom lies the one that writes to stderr.
+  // Every handler on the stack is called, and the one at the bottom writes to stderr, so the stack is cleared first.
   if (const int flag = SUNContext_ClearErrHandlers(context); flag != kSundialsSuccess) return flag;
   const auto keep = [](int, const char*, const char*, const char* text, SUNErrCode, void* kept, SUNContext) {
     *static_cast<std::string*>(kept) = text;

@@ -10,18 +10,19 @@ namespace codesign {
 
 /// Coefficients of a stiffly accurate Rosenbrock-Wanner method in Hairer's transformed variables; doc/theory.md (15):
 ///   (M/(h gamma) - f_y) u_i = f(t + alpha_i h, y + sum_j a_ij u_j) + M sum_j (c_ij/h) u_j + gamma_i h f_t,
-/// where the last rows of `a` continue each other, so that y_1 = y + sum_j a_{s+1,j} u_j and the error estimate is the last u.
+/// with y_1 = y + sum_j m_j u_j (`weights`). The methods are stiffly accurate: the last rows of `a` and `weights` differ only by the last
+/// increment, which therefore is the error estimate.
 struct RosenbrockTableau {
   static constexpr int kMaximumStages = 8;
   using Row = std::array<double, kMaximumStages>;
 
   const char* name;
   int stages;
-  int order;  ///< of y_1; the embedded solution has one less
+  int order;  ///< order of y_1; the embedded solution is one order lower
   double gamma;
   std::array<Row, kMaximumStages> a, c;
-  Row weights;  ///< of y_1
-  Row alpha, gamma_i;
+  Row weights;               ///< m_j of y_1
+  Row alpha, gamma_i;        ///< alpha_i = sum of alpha_ij, gamma_i = sum of gamma_ij, for equations that depend on time
   int dense_terms;           ///< rows of `dense` in use
   std::array<Row, 3> dense;  ///< y(theta) = (1-theta) y + theta (y_1 + (1-theta) (d_0 + theta (d_1 + theta d_2))), d_k = sum_j dense_kj u_j
 };
@@ -33,7 +34,7 @@ const RosenbrockTableau& rodas4p2();
 /// Rodas5P (Steinebach 2023), order 5, 8 stages.
 const RosenbrockTableau& rodas5p();
 
-/// The coefficients of a method.
+/// The coefficients of the method that solver.method selects.
 const RosenbrockTableau& rosenbrock_tableau(RosenbrockMethod method);
 
 }  // namespace codesign

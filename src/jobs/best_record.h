@@ -9,20 +9,20 @@
 
 namespace codesign {
 
-/// The best point so far of a job that is running, on disk from its first evaluation on: `best.urdf`, the tuned model, and `best.json`, its
-/// objective, gradient and parameters. Each is replaced as a whole at each improvement, so that a killed job leaves both.
+/// Keeps the best point of a running job on disk: `best.urdf`, the tuned model, and `best.json` with objective, gradient and parameters.
+/// Both exist from the first evaluation on and are replaced as a whole at each improvement, so that a killed job leaves complete files.
 class BestRecord {
  public:
-  /// @param prefix what stands before `best.urdf` and `best.json`: "folder/" or "folder/stem.". Outlives nothing: `problem` must live on.
+  /// @param prefix the path before `best.urdf` and `best.json`: "folder/" or "folder/stem.". @param problem must outlive this.
   BestRecord(std::string prefix, const Problem& problem) : prefix_(std::move(prefix)), problem_(problem) {}
 
-  /// Writes the point if it is the best so far. A job does not fail because its record does: see failure().
+  /// Writes the point if it is the best so far. Does not throw if writing fails; see failure().
   void note(const Trial& trial);
 
-  /// Why the last point could not be written; empty if it was.
+  /// Why the last best point could not be written; empty if it was written.
   const std::string& failure() const { return failure_; }
 
-  /// Removes both files, once the job has left something better.
+  /// Removes both files; called when the final results are written.
   void remove();
 
  private:
@@ -31,7 +31,7 @@ class BestRecord {
   std::string prefix_;
   const Problem& problem_;
   Trial first_;
-  int iteration_ = -1;  ///< of the point on disk; -1: none yet
+  int iteration_ = -1;  ///< iteration of the point on disk; -1: none yet
   std::string failure_;
 };
 

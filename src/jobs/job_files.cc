@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLock = ".job";
 const std::array<std::string, 2> kBest = {".best.urdf", ".best.json"};
-/// Room for the date, a number and the longest suffix.
+/// Length reserved after the robot's name for the date, a number and the longest suffix.
 constexpr std::size_t kBehindTheName = 48;
 
 std::string file_name_of(std::string robot, const std::string& directory) {
@@ -50,10 +50,10 @@ bool has_files(const std::string& stem) {
   return exists(stem + ".bag") || exists(stem + ".bag.active") || exists(stem + kBest[0]) || exists(stem + kBest[1]);
 }
 
-/// Removes what a killed job has not finished and names what it has.
+/// Removes the unfinished files of a killed job. Returns a sentence that names the removed files and the best point.
 std::string clean(const std::string& stem) {
   std::string removed, kept;
-  // Without `.bag`: the simulation node's own bag in the same folder, whose path may end in any way.
+  // ".active" without ".bag" is for a bag of the simulation node in the same folder, whose path may have any ending.
   for (const std::string& suffix : {std::string(".bag.active"), std::string(".active"), kBest[0] + kPartSuffix, kBest[1] + kPartSuffix}) {
     std::error_code error;
     if (fs::remove(stem + suffix, error)) removed += (removed.empty() ? "" : ", ") + stem + suffix;
@@ -61,7 +61,7 @@ std::string clean(const std::string& stem) {
   for (const std::string& suffix : kBest)
     if (exists(stem + suffix)) kept += (kept.empty() ? "" : " and ") + stem + suffix;
   return "a job was killed: " + (removed.empty() ? stem + " had no unfinished bag" : "removed " + removed) +
-         (kept.empty() ? "; it had no point yet" : "; its best point is in " + kept);
+         (kept.empty() ? "; it had no best point yet" : "; its best point is in " + kept);
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ JobFiles JobFiles::reserve(const std::string& directory, const std::string& robo
   const std::string first = (fs::path(directory) / (file_name_of(robot, directory) + "_" + time_stamp())).string();
   std::string stem = first;
   for (int number = 2;; ++number) {
-    // Who holds the lock owns the name; only then is it safe to look whether files of an earlier job have it.
+    // The holder of the lock owns the stem. Only then is it safe to check for files of an earlier job with the same stem.
     std::optional<LockFile> lock = LockFile::create(stem + kLock);
     if (lock && !has_files(stem)) return JobFiles(stem, std::move(*lock));
     stem = first + "-" + std::to_string(number);

@@ -9,12 +9,13 @@
 
 namespace codesign {
 
-/// The names of one job's files in a folder that the jobs of many processes share: `<robot>_%Y-%m-%d-%H-%M-%S` in local time, with `-2`,
-/// `-3`, ... behind it if that is taken, and then `.bag`, `.best.json`, ... A locked `.job` beside them tells that the job is alive.
+/// Reserves the file names of one job in a folder that is shared by jobs of several processes. The stem is `<robot>_%Y-%m-%d-%H-%M-%S` in
+/// local time, followed by `-2`, `-3`, ... if it is taken; the files are `<stem>.bag`, `<stem>.best.json`, ... The lock file `<stem>.job`
+/// shows that the job is running.
 class JobFiles {
  public:
-  /// Makes the folder and takes a name. Characters of the robot's name that could lead out of the folder are replaced, and a long name is
-  /// shortened to what the file system takes. @throws OutputError if that cannot be.
+  /// Creates the folder and reserves a stem. Characters of the robot's name other than letters, digits and `-` become `_`, and a long name
+  /// is shortened to the limit of the file system. @throws OutputError if the folder or the lock file cannot be created.
   JobFiles(const std::string& directory, const std::string& robot);
 
   const std::string& stem() const { return stem_; }
@@ -28,7 +29,8 @@ class JobFiles {
   LockFile lock_;
 };
 
-/// Removes what killed jobs left unfinished in a folder, files of living ones excepted, and says so, a sentence each. Best points stay.
+/// Removes the unfinished files of killed jobs in a folder; files of running jobs and best points stay. @returns one sentence per killed
+/// job.
 std::vector<std::string> remove_leftovers(const std::string& directory);
 
 }  // namespace codesign

@@ -30,7 +30,7 @@ LockFile& LockFile::operator=(LockFile&& other) noexcept {
 
 LockFile::~LockFile() {
   if (descriptor_ < 0) return;
-  // Removed while it is still locked: nobody else can have taken it.
+  // Removed while still locked, so that no other process can have taken it.
   if (is_at_its_path()) unlink(path_.c_str());
   close(descriptor_);
 }
@@ -46,8 +46,8 @@ std::optional<LockFile> LockFile::create(const std::string& path) {
   if (descriptor < 0 && errno == EEXIST) return std::nullopt;
   if (descriptor < 0) throw OutputError::of_system(path, errno);
   LockFile file(path, descriptor);
-  // The name is ours by its exclusive creation even where the file system knows no locks. Somebody who looks for abandoned files may have
-  // come between the two calls and removed it.
+  // Exclusive creation reserves the name even on file systems without locks. Between the two calls another process may have taken the file
+  // for an abandoned one and removed it, which the check below detects.
   flock(descriptor, LOCK_EX);
   if (!file.is_at_its_path()) return std::nullopt;
   return file;

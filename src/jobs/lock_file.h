@@ -7,17 +7,18 @@
 
 namespace codesign {
 
-/// A file that is there, and locked, while a process works on what stands beside it. The system takes the lock back however the process
-/// ends, so that a file without a lock was left behind by a killed one. Removed by the destructor.
+/// A lock file (flock) that exists while a process works on the files that it protects. The system releases the lock however the process
+/// ends, so that an unlocked file was left behind by a killed process. The destructor removes the file.
 class LockFile {
  public:
-  /// Makes `path`; nothing if it exists. @throws OutputError if it cannot be made.
+  /// Creates and locks `path`; nullopt if it exists. @throws OutputError if it cannot be created.
   static std::optional<LockFile> create(const std::string& path);
 
-  /// Takes `path`, made or left behind; nothing if a living process holds it. @throws OutputError if it cannot be made or locked.
+  /// Locks `path`, which is created if needed; nullopt if another process holds the lock. @throws OutputError if it cannot be created or
+  /// locked.
   static std::optional<LockFile> take(const std::string& path);
 
-  /// Takes `path` if it was left behind; nothing if it is not there, or held, or cannot be locked.
+  /// Locks `path` if it was left behind by a killed process; nullopt if it does not exist, is locked, or cannot be locked.
   static std::optional<LockFile> take_abandoned(const std::string& path);
 
   ~LockFile();

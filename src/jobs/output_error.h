@@ -7,14 +7,14 @@
 
 namespace codesign {
 
-/// Something computed that could not be written. Not bad input: the disk is full, or the folder may not be written to.
+/// A result could not be written, for example because the disk is full or the folder is not writable. Not a case of bad input.
 ///
 /// `what()` reads `path: cannot be written: No space left on device`.
 class OutputError : public std::runtime_error {
  public:
   OutputError(const std::string& path, const std::string& cause);
 
-  /// The cause as the system names it. @param number errno of the call that failed; 0: no cause is known.
+  /// An error with the system's text for the cause. @param number errno of the failed call; 0: unknown cause.
   static OutputError of_system(const std::string& path, int number);
 };
 

@@ -25,7 +25,7 @@ void write_whole_file(const std::string& path, const std::string& text) {
 }
 
 void give_final_name(const std::string& active, const std::string& path) {
-  // link() never replaces a file. Some file systems have none: there a rename must do.
+  // link() never replaces an existing file. Some file systems do not support it; there rename() is used.
   if (link(active.c_str(), path.c_str()) == 0) {
     unlink(active.c_str());
     return;

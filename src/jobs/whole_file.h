@@ -6,14 +6,14 @@
 
 namespace codesign {
 
-/// What stands behind the name of a file that write_whole_file() has not finished.
+/// Suffix of a file that write_whole_file() has not finished.
 inline constexpr const char* kPartSuffix = ".part";
 
-/// Writes `path`.part and gives it its name when it is whole, so that `path` is never half-written, even if the process is killed. A file
-/// of that name is replaced. @throws OutputError, having removed the part.
+/// Writes `path`.part and renames it to `path` when it is complete, so that `path` is never half-written, even if the process is killed. An
+/// existing `path` is replaced. @throws OutputError if that fails; `path`.part is removed then.
 void write_whole_file(const std::string& path, const std::string& text);
 
-/// Gives the finished file `active` its final name `path`, which must not exist. @throws OutputError
+/// Renames the finished file `active` to `path`, which must not exist. @throws OutputError if it exists or renaming fails.
 void give_final_name(const std::string& active, const std::string& path);
 
 }  // namespace codesign

@@ -6,30 +6,32 @@
 
 namespace codesign {
 
-// Where the energy of a motion is and goes, doc/theory.md (14b), (14c). Along any motion
+// Mechanical energy and its power balance, doc/theory.md (14b), (14c). Along any motion
 //   d mechanical_energy().total() / dt = mechanical_power().total().
 
 /// Mechanical energy [J].
 struct Energy {
-  double kinetic = 0.0;    ///< of bodies and rotors
-  double potential = 0.0;  ///< gravity, torsion springs, spring-dampers, the depth of stops; not what bristles of friction laws hold
+  double kinetic = 0.0;  ///< of bodies and rotors
+  double potential =
+      0.0;  ///< gravity (zero at the root's origin), torsion springs, spring-dampers, stops; without bristles of friction laws
 
   double total() const { return kinetic + potential; }
 };
 
-/// Power that goes into the mechanism [W]; what it loses is negative.
+/// Power that goes into the mechanism [W]; negative where energy leaves it.
 struct Power {
-  double friction = 0.0, damping = 0.0, actuators = 0.0, loads = 0.0;  ///< see PowerKind
+  double friction = 0.0, damping = 0.0, actuators = 0.0, loads = 0.0;  ///< the kinds of PowerKind
 
   double total() const { return friction + damping + actuators + loads; }
 };
 
-/// @param equations must have loaded a state with its accelerations and reactions: Equations::load(). No allocation once warm.
+/// Energy of the loaded state, (14b). @param equations must have loaded a state with Equations::load(). No allocation once warm.
 inline Energy mechanical_energy(const Equations<double>& equations) {
   return {equations.formulas().kinetic_energy(nullptr), equations.formulas().potential_energy(nullptr)};
 }
 
-/// As mechanical_energy(). Friction depends on reactions, so that the state's multipliers count.
+/// Power in the loaded state, (14c). Friction depends on the reactions, so that the state's multipliers must be consistent. No allocation
+/// once warm.
 inline Power mechanical_power(Equations<double>* equations) {
   return {equations->formulas().power(PowerKind::kFriction, nullptr), equations->formulas().power(PowerKind::kDamping, nullptr),
           equations->formulas().power(PowerKind::kActuator, nullptr), equations->formulas().power(PowerKind::kLoad, nullptr)};

@@ -104,7 +104,7 @@ void Observer::observe(const State<double>& state, double objective, const Vecto
   for (std::size_t k = 0; k < signals_.size(); ++k) frame->signals[k] = equations->formulas().signal(signals_[k], state);
 }
 
-// A joint that moves nothing with mass has no equation, but follows what it mimics all the same.
+// A joint below which nothing has mass has no row of motion; if it mimics another joint, its position follows from that one.
 void Observer::follow_mimics(const std::vector<double>& parameters, VectorX<double>* positions, Frame* frame) const {
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     double factor = 1.0, offset = 0.0;
@@ -152,7 +152,7 @@ void Observer::observe_contact(int index, Equations<double>* equations, Friction
   sample->friction = -contact.magnitude();
   sample->normal_force = contact.normal.value;
   sample->sliding_velocity = contact.speed();
-  // Of a chain that runs from the child to the parent, body j is the parent's.
+  // If the chain runs from the joint's child to its parent, body j is on the parent's side.
   const bool reversed = std::any_of(pair.chain.begin(), pair.chain.end(),
                                     [&](const ChainElement& e) { return e.joint == pair.friction_joint && e.reversed; });
   const Eigen::Vector3d on_child = (reversed ? 1.0 : -1.0) * contact.load;
@@ -178,8 +178,8 @@ void Observer::observe_controllers(const State<double>& state, Equations<double>
   }
 }
 
-// Bodies are read off the state; a link without mass stands on its parent as the position of its joint says. The tree's own kinematics
-// cannot place it in the world: it knows planar and floating joints where they started only.
+// Links with mass get their poses from the state. A massless link is placed relative to its parent by its joint's position; forward
+// kinematics from the root would be wrong, since theta has planar and floating joints at their start positions only.
 void Observer::observe_links(const VectorX<double>& theta, Equations<double>* equations, Frame* frame) const {
   const auto& links = equations->constants().links;
   frame->links.resize(links.size());

@@ -10,23 +10,27 @@
 
 namespace codesign {
 
-/// Reads everything a user may want to see off a state: URDF joint positions (massless joints included), link poses, friction, controllers.
+/// Fills a Frame from a state: URDF joint positions (massless joints included), link poses, friction, controllers, loop errors, signals.
+/// Not thread-safe.
 class Observer {
  public:
+  /// @param signals the signals of the frames, in order. @param system must outlive this.
   /// @throws InputError for a signal that does not exist.
   Observer(const CompiledSystem& system, const std::vector<SignalDescription>& signals);
 
   const FrameNames& names() const { return names_; }
 
-  /// @param theta tree joint coordinates of the start; joints that only carry massless end links stay there.
+  /// @param state with accelerations and multipliers. @param objective integral of the integrand so far.
+  /// @param theta tree joint coordinates of the start; joints below which nothing has mass keep these positions.
+  /// @param equations must hold the design; they load `state`.
   void observe(const State<double>& state, double objective, const VectorX<double>& theta, Equations<double>* equations, Frame* frame);
 
  private:
   struct JointSource {
-    int joint = -1, pair = -1, element = -1;  ///< pair -1: a joint below which nothing has mass
-    int mimicked = -1;                        ///< what such a joint mimics, as an index of joints_; or -1
+    int joint = -1, pair = -1, element = -1;  ///< pair is -1 for a joint below which nothing has mass
+    int mimicked = -1;                        ///< for a joint without a pair: index in joints_ of the joint that it mimics, or -1
   };
-  static constexpr int kContact = -2;  ///< in place of an element: isotropic friction of the whole pair
+  static constexpr int kContact = -2;  ///< element of a FrictionSource: isotropic friction of the whole pair
   struct FrictionSource {
     int pair = -1, element = -1;
   };
@@ -47,7 +51,7 @@ class Observer {
   FrameNames names_;
   std::vector<JointSource> joints_;
   std::vector<FrictionSource> frictions_;
-  std::vector<int> loops_;  ///< pairs with a loop
+  std::vector<int> loops_;  ///< indices of the pairs that close a loop
   VectorX<double> errors_, rates_;
 };
 

@@ -38,8 +38,8 @@ nlopt::opt make_optimizer(const Study& study, const OptimizerOptions& options, u
   const InputFault fault{where, "optimizer.algorithm", "", options.algorithm, ""};
   if (found == algorithms().end()) throw InputError({fault.where, fault.element, "no such algorithm", fault.value, names(false)});
   if (!study.constraints.empty() && !found->second.takes_constraints)
-    throw InputError({fault.where, fault.element, "this algorithm takes no constraints among parameters", fault.value, names(true)});
-  // Requests bring tolerances too; below this rounding decides.
+    throw InputError({fault.where, fault.element, "this algorithm takes no constraints on parameters", fault.value, names(true)});
+  // Checked here because the tolerance may also come from a request of a ROS client. Smaller ones are below rounding.
   constexpr double kLeast = 1e-15;
   if (!(options.relative_tolerance >= kLeast && options.relative_tolerance < 1.0))
     throw InputError({where, "optimizer.relative_tolerance", "tolerance out of range", to_decimal(options.relative_tolerance),
@@ -48,7 +48,7 @@ nlopt::opt make_optimizer(const Study& study, const OptimizerOptions& options, u
   if (found->second.id == nlopt::LD_AUGLAG) {
     nlopt::opt local(nlopt::LD_LBFGS, dimension);
     local.set_ftol_rel(options.relative_tolerance);
-    // NLopt 2.7.1 reads the sub-optimizer's absolute tolerances whether they were set or not.
+    // NLopt 2.7.1 reads the absolute tolerances of the sub-optimizer even if they were never set.
     local.set_xtol_abs(0.0);
     optimizer.set_local_optimizer(local);
     optimizer.set_xtol_abs(0.0);

@@ -9,10 +9,13 @@
 
 namespace codesign {
 
-/// The NLopt optimizer that a study names. @throws InputError for an unknown name, or constraints with an algorithm that takes none.
+/// The NLopt optimizer that `options.algorithm` names. @param study for its parameter constraints. @param dimension number of tuned
+/// parameters.
+/// @throws InputError for an unknown algorithm, for parameter constraints with an algorithm that takes none, or a relative tolerance out of
+/// range.
 nlopt::opt make_optimizer(const Study& study, const OptimizerOptions& options, unsigned dimension);
 
-/// Snake-case name of why NLopt stopped.
+/// Snake-case name of the reason for which NLopt stopped, e.g. objective_tolerance_reached.
 std::string termination_name(nlopt::result result);
 
 }  // namespace codesign

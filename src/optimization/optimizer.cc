@@ -15,9 +15,9 @@
 namespace codesign {
 namespace {
 
-constexpr double kSlopeLeft = 1e-2;  // of the first gradient, at most, where a line search that finds nothing better has converged
+constexpr double kSlopeLeft = 1e-2;  // a failed line search has converged if the scaled gradient fell below this fraction of the first one
 
-/// One optimization: what NLopt's callbacks share.
+/// One optimization: the state that NLopt's callbacks share.
 class Minimization {
  public:
   Minimization(const std::shared_ptr<const CompiledSystem>& system, const OptimizerOptions& options, const TrialObserver& observer,
@@ -69,7 +69,7 @@ class Minimization {
     if (result_.termination == "algorithm_failed" && have_best_ && has_converged()) result_.termination = "roundoff_limited";
   }
 
-  /// Why the search ended, with margins and warnings of the best point.
+  /// Sets the status and the termination, with the margins and warnings of the best point.
   void conclude() {
     result_.margins = constraint_margins(study_, parameters_at(study_, result_.rho));
     if (have_best_) append(search_warnings(study_, options_, result_), &result_.warnings);
@@ -82,15 +82,15 @@ class Minimization {
       result_.termination = "start_failed";
     } else if (result_.termination == "algorithm_failed") {
       result_.status = {StatusCode::kAlgorithmFailed, study_.duration,
-                        "the algorithm \"" + options_.algorithm + "\" gave up (" + failure_ +
+                        "the algorithm \"" + options_.algorithm + "\" failed (" + failure_ +
                             "); the best point so far is kept; try another algorithm or another start"};
     } else if (!all_met(result_.margins)) {
       result_.status = {StatusCode::kInfeasible, study_.duration, describe_unmet(study_, result_.margins)};
     }
   }
 
-  /// A line search that gives up between points that are equal within the tolerance asked for, on a slope that is nearly gone (or taken up
-  /// by a constraint), has converged as far as it can.
+  /// Whether a failed line search ended at an optimum: its points are equal within the relative tolerance, and the gradient is small, or a
+  /// constraint is active.
   bool has_converged() const {
     const double difference = std::abs(last_.objective - result_.objective);
     if (!last_.status.ok() || difference > options_.relative_tolerance * std::abs(result_.objective)) return false;
@@ -117,16 +117,16 @@ class Minimization {
     return -value;
   }
 
-  // Where a constraint is no number it counts as violated, and the more so the farther from the best point.
+  // A constraint that is not finite counts as violated, with a value that grows with the distance from the best point.
   double step_back_from_constraint(const std::vector<double>& x, std::vector<double>* gradient) const {
     return 1.0 + distance_from_best(x, 1.0, gradient);
   }
 
   double objective(const std::vector<double>& x, std::vector<double>* gradient) {
-    // Some of NLopt's line searches finish their work after a forced stop.
+    // Some line searches of NLopt continue to call after a forced stop.
     if (cancelled_) stop();
     const Eigen::VectorXd rho = scaling_.from_scaled(x);
-    // At its bounds an algorithm may ask again for where it stands.
+    // An algorithm at its bounds may ask for the same point again.
     if (rho.size() != last_rho_.size() || rho != last_rho_) evaluate(rho);
     const Evaluation& evaluation = last_;
     if (!evaluation.status.ok()) return step_back(x, gradient);
@@ -144,25 +144,25 @@ class Minimization {
     last_rho_ = rho;
     const Trial trial = note(last_, rho);
     if (observer_ && !observer_(trial)) stop();
-    // Quasi-Newton methods begin with a step as long as the gradient: the first shall not leave the neighbourhood in which variables are
-    // scaled.
+    // The first step of a quasi-Newton method is as long as the gradient; divided by unit_, it is at most 1 in scaled variables, (24).
     if (trial.evaluation == 1 && last_.status.ok()) unit_ = std::max(1.0, trial.gradient_norm);
   }
 
-  // NLopt's line searches may end with another reason than the one given here.
+  // cancelled_ is kept, because the line searches of NLopt may report another reason than a forced stop.
   [[noreturn]] void stop() {
     cancelled_ = true;
     throw nlopt::forced_stop();
   }
 
-  // A point without a value is worse than all seen, and the more so the farther it lies from the best one: a line search turns back.
+  // The value (24) of a point that cannot be evaluated: worse than all values so far, and larger with growing distance from the best point,
+  // so that a line search turns back.
   double step_back(const std::vector<double>& x, std::vector<double>* gradient) const {
     if (!have_best_) throw std::runtime_error("the start could not be evaluated");
     const double weight = std::abs(worst_) + std::abs(result_.objective) + 1e-300;
     return (worst_ + weight * (1.0 + distance_from_best(x, weight / unit_, gradient))) / unit_;
   }
 
-  /// The square of the distance of scaled variables. @param gradient if not empty, set to `weight` times its derivative.
+  /// Squared distance from the best point in scaled variables. @param gradient if not empty, set to `weight` times its derivative.
   double distance_from_best(const std::vector<double>& x, double weight, std::vector<double>* gradient) const {
     const std::vector<double> best = scaling_.to_scaled(result_.rho);
     double distance = 0.0;
@@ -200,7 +200,7 @@ class Minimization {
     return trial;
   }
 
-  // A start outside the constraints is kept only until a point inside is seen.
+  // A start that violates the constraints is the best point only until a feasible point is found.
   void take_best(const Evaluation& evaluation, const Eigen::VectorXd& rho) {
     const bool inside = all_met(constraint_margins(study_, parameters_at(study_, rho))), first = !have_best_;
     if (first) {
@@ -225,12 +225,12 @@ class Minimization {
   Evaluator evaluator_;
   Scaling scaling_;
   Eigen::VectorXd last_rho_;
-  Evaluation last_;  ///< at last_rho_
+  Evaluation last_;  ///< the evaluation at last_rho_
   std::vector<Constraint> constraints_;
   OptimizationResult result_;
   Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"};
   std::string failure_;
-  double worst_ = 0.0, unit_ = 1.0;  ///< of the objective: NLopt sees it divided by `unit_`
+  double worst_ = 0.0, unit_ = 1.0;  ///< worst objective so far; NLopt gets objectives divided by `unit_`
   bool have_best_ = false, best_feasible_ = false, cancelled_ = false;
 };
 
@@ -239,7 +239,8 @@ class Minimization {
 OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system, const OptimizerOptions& options,
                             const TrialObserver& observer, const std::atomic<bool>* cancel) {
   const Study& study = system->study();
-  if (study.tuned.empty()) throw InputError({{study.file, 1}, "parameters", "nothing to tune", "", "at least one parameter"});
+  if (study.tuned.empty())
+    throw InputError({{study.file, 1}, "parameters", "the study has no parameter to tune", "", "at least one parameter"});
   return Minimization(system, options, observer, cancel).run();
 }
 

@@ -9,24 +9,31 @@
 
 namespace codesign {
 
-/// Scaled variables x = (rho - origin) / range: bounds become 0 and 1; an unbounded parameter is measured in its start value.
+/// Scaled variables of the optimizer, doc/theory.md (24): x = (rho - lower) / (upper - lower), or rho over the magnitude of its start value
+/// where a bound is missing.
 ///
-/// Parameters differ by orders of magnitude (a length in metres beside a gain), which quasi-Newton methods with a unit start cannot bear.
+/// Parameters differ by orders of magnitude (a length in metres beside a gain). Quasi-Newton methods start from a unit Hessian and would
+/// fail without scaling. All vectors have p entries in the order of Study::tuned.
 class Scaling {
  public:
   explicit Scaling(const Study& study);
 
+  /// Start values, unscaled.
   Eigen::VectorXd start() const { return start_; }
+  /// Scaled bounds; infinite where a parameter has none.
   std::vector<double> lower() const { return lower_; }
   std::vector<double> upper() const { return upper_; }
+  /// d rho_k / d x_k.
   double range(std::size_t k) const { return range_[k]; }
 
   std::vector<double> to_scaled(const Eigen::VectorXd& rho) const;
-  /// Within the bounds, whatever rounding does.
+  /// The result is clipped to the bounds, which rounding could exceed.
   Eigen::VectorXd from_scaled(const std::vector<double>& x) const;
+  /// d psi / d x from d psi / d rho.
   std::vector<double> scale_gradient(const Eigen::VectorXd& gradient) const;
+  /// Euclidean norm of the scaled gradient.
   double gradient_norm(const Eigen::VectorXd& gradient) const;
-  /// The same without the components that a bound, on which `rho` stands, keeps from falling further.
+  /// The same without components of parameters at a bound beyond which the objective falls.
   double free_gradient_norm(const Eigen::VectorXd& rho, const Eigen::VectorXd& gradient) const;
 
  private:

@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-/// A parameter is on its bound within this part of its range.
+/// A parameter counts as on its bound within this fraction of its range.
 constexpr double kOnBound = 1e-6;
 
 void add_evaluations_warning(const Study& study, const OptimizerOptions& options, const OptimizationResult& result, Warnings* warnings) {
@@ -18,8 +18,8 @@ void add_evaluations_warning(const Study& study, const OptimizerOptions& options
   warnings->push_back(
       warn("max_evaluations_reached",
            {where, "optimizer.max_evaluations",
-            "the search ended at its last evaluation, not at an optimum; the best point so far is given; more evaluations, or a "
-            "larger optimizer.relative_tolerance, let it end by itself",
+            "the search stopped at the limit of evaluations before it converged; the best point so far is returned; allow more "
+            "evaluations or a larger optimizer.relative_tolerance",
             std::to_string(options.max_evaluations), ""}));
 }
 
@@ -29,7 +29,7 @@ bool is_on(double value, double bound, const Parameter& parameter) {
   return std::abs(value - bound) <= kOnBound * scale;
 }
 
-// Downhill is beyond the bound, so that the bound decides and not the objective.
+// Warns only if the objective falls beyond the bound, so that the bound and not the objective determines the value.
 void add_bound_warning(const Parameter& parameter, double value, double slope, Warnings* warnings) {
   const bool at_lower = is_on(value, parameter.lower, parameter) && slope > 0.0;
   const bool at_upper = is_on(value, parameter.upper, parameter) && slope < 0.0;
@@ -37,7 +37,7 @@ void add_bound_warning(const Parameter& parameter, double value, double slope, W
   warnings->push_back(
       warn("parameter_on_bound", {parameter.where, parameter.name,
                                   std::string("the best value lies on its ") + (at_lower ? "lower" : "upper") +
-                                      " bound, and the objective falls beyond it; widen the bound if it was a guess",
+                                      " bound, and the objective falls further beyond it; widen the bound if it was a guess",
                                   to_decimal(value), "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"}));
 }
 
@@ -54,8 +54,8 @@ Warnings search_warnings(const Study& study, const OptimizerOptions& options, co
       warnings.push_back(
           warn("parameter_without_influence",
                {parameter.where, parameter.name,
-                "the objective did not change with this parameter at any point that was tried; its value is not tuned; take it "
-                "out of the study's parameters, or give {tune: false}",
+                "the objective did not change with this parameter at any trial point, so its value is not tuned; remove it from the "
+                "study's parameters, or give {tune: false}",
                 to_decimal(result.rho[i]), ""}));
   }
   return warnings;

@@ -6,7 +6,7 @@
 
 namespace codesign {
 
-/// What is doubtful about a search that has ended: `max_evaluations_reached`, `parameter_on_bound`, `parameter_without_influence`.
+/// Warnings about a finished search: `max_evaluations_reached`, `parameter_on_bound`, `parameter_without_influence`.
 Warnings search_warnings(const Study& study, const OptimizerOptions& options, const OptimizationResult& result);
 
 }  // namespace codesign

@@ -6,8 +6,8 @@
 
 namespace codesign {
 
-/// Advances a run from time `from` to `to` [s], asking `stop()` on the way, which may be long. It changes no step of the run.
-/// Returns kCancelled if `stop` said so.
+/// Advances a run from time `from` to `to` [s] and calls `stop()` sixteen times on the way, since this may take long. The division does not
+/// change the steps of the integrator. @returns kCancelled if `stop()` was true, else the status of the run.
 template <class Stop>
 Status advance(Simulation* simulation, double from, double to, Stop&& stop) {
   constexpr int kSlices = 16;

@@ -48,7 +48,7 @@ void BagFile::fail(int cause) {
   throw OutputError::of_system(path_, cause);
 }
 
-/// Ends the bag without a word to the disk: what its destructor still writes goes nowhere, and therefore cannot fail.
+/// Closes the bag after its descriptor was redirected to /dev/null, so that the writes of its destructor cannot fail.
 void BagFile::abandon() noexcept {
   if (divert()) {
     try {
@@ -58,11 +58,11 @@ void BagFile::abandon() noexcept {
     } catch (const std::exception&) {
     }
   }
-  // rosbag closed the file and failed doing so. Its destructor would close it again: it must never run.
+  // The file was closed by a call that failed. The destructor would close it again and throw, so the object is leaked on purpose.
   static_cast<void>(bag_.release());
 }
 
-/// Points every descriptor of the file, rosbag's one, to /dev/null. Returns whether there was any.
+/// Redirects every open descriptor of the file to /dev/null; rosbag does not give access to its own. Returns whether there was any.
 bool BagFile::divert() const noexcept {
   const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
   bool found = false;

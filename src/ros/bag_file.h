@@ -11,27 +11,27 @@
 
 namespace codesign {
 
-/// A bag that is being written as `path`.active and gets its name when it is whole.
+/// A bag that is written as `path`.active and renamed to `path` when it is complete.
 ///
-/// rosbag cannot be left alone with a full disk: the destructor of a bag that could not be written tries again, throws, and so ends the
-/// program. Here a failure is an OutputError, the unfinished file is removed, and the program goes on.
+/// With a full disk, the destructor of rosbag::Bag tries to write again and throws, which ends the program. Here a failure is an
+/// OutputError and the unfinished file is removed, so that the program can continue.
 class BagFile {
  public:
-  /// @throws OutputError if it cannot be made, or if `path` or `path`.active exists.
+  /// @throws OutputError if the file cannot be created, or if `path` or `path`.active exists.
   explicit BagFile(const std::string& path);
 
-  /// Removes a bag that is not finished.
+  /// Removes the file unless finish() succeeded.
   ~BagFile();
   BagFile(const BagFile&) = delete;
   BagFile& operator=(const BagFile&) = delete;
 
-  /// @throws OutputError, after which the bag is gone.
+  /// @throws OutputError; the bag is then removed and must not be used any more.
   template <class Message>
   void write(const std::string& topic, const ros::Time& time, const Message& message, const boost::shared_ptr<ros::M_string>& header = {}) {
     guard([&] { bag_->write(topic, time, message, header); });
   }
 
-  /// Writes the index and gives the bag its name, which must be free. @throws OutputError, after which the bag is gone.
+  /// Writes the index and renames the bag to `path`, which must not exist. @throws OutputError; the bag is then removed.
   void finish();
 
  private:
@@ -49,8 +49,8 @@ class BagFile {
   bool divert() const noexcept;
 
   std::string path_, active_;
-  dev_t device_ = 0;  ///< of the file
-  ino_t inode_ = 0;   ///< of the file
+  dev_t device_ = 0;  ///< device and inode identify the file's descriptor inside rosbag
+  ino_t inode_ = 0;
   std::unique_ptr<rosbag::Bag> bag_;
 };
 

@@ -10,10 +10,11 @@
 
 namespace codesign {
 
-/// Writes runs into a bag. Recorded time starts at 1 s, since rosbag refuses stamps near zero; header stamps agree with it.
+/// Writes runs into a bag. Recorded time is the time of the run plus 1 s, since rosbag refuses stamps near zero; header stamps are the
+/// same.
 class BagWriter {
  public:
-  /// @throws OutputError, as every member does.
+  /// Every member function throws OutputError if writing fails. @param path must not exist.
   explicit BagWriter(const std::string& path) : bag_(path) {}
 
   static ros::Time stamp(double time) { return ros::Time(1.0 + time); }
@@ -23,7 +24,7 @@ class BagWriter {
     bag_.write(topic, stamp(time), message);
   }
 
-  /// As `rosbag record` marks a latched topic, so that `rosbag play` latches it again.
+  /// Writes a message with the connection header that `rosbag record` uses for latched topics, so that `rosbag play` latches it.
   template <class Message>
   void write_latched(const std::string& topic, double time, const Message& message) {
     auto header = boost::make_shared<ros::M_string>();
@@ -36,12 +37,12 @@ class BagWriter {
 
   void write_text(const std::string& topic, const std::string& text);
 
-  /// One instant of a run, under topics that begin with `topic_prefix`.
+  /// Writes one instant of a run to topics that begin with `topic_prefix`.
   /// @param root_frame TF frame of the root link.
   void write_frame(const std::string& topic_prefix, const std::string& root_frame, const FrameNames& names, const Frame& frame,
                    const MarkerStyle& style);
 
-  /// Gives the bag its name.
+  /// Completes the bag and gives it its final name.
   void finish() { bag_.finish(); }
 
  private:

@@ -19,17 +19,17 @@
 #include "mechanism_codesign/optimization.h"
 #include "mechanism_codesign/warning.h"
 
-// From what the core computes to ROS messages. Nothing here needs a master.
+// Conversions from results of the core to ROS messages. No ROS master is needed.
 
 namespace codesign {
 
-/// When and where a message holds: the stamp, and the TF frame of the root link.
+/// Stamp of a message and the TF frame of the root link.
 struct MessageContext {
   ros::Time stamp;
   std::string root_frame;
 };
 
-/// Every scalar joint of the tree; loops have no place in the URDF tree and are left out.
+/// All one-coordinate joints of the tree. Joints of loops are left out, since they are not part of the URDF tree.
 sensor_msgs::JointState joint_states(const FrameNames& names, const Frame& frame, const MessageContext& context);
 
 mechanism_codesign::JointFriction joint_friction(const FrameNames& names, const Frame& frame, const MessageContext& context);
@@ -42,20 +42,20 @@ mechanism_codesign::Signals signals(const FrameNames& names, const Frame& frame,
 /// Poses of the links that robot_state_publisher cannot place, each relative to its parent link.
 tf2_msgs::TFMessage free_link_transforms(const FrameNames& names, const Frame& frame, const MessageContext& context);
 
-/// Poses of all links but the root, relative to the root link; `prefix` stands before every frame.
+/// Poses of all links but the root, relative to the root link, with `prefix` before each frame's name.
 tf2_msgs::TFMessage link_transforms(const FrameNames& names, const Frame& frame, const ros::Time& stamp, const std::string& prefix);
 
-/// Poses of all links relative to the root link, whose TF frame is `prefix` + its name; `prefix` stands before every frame.
-/// The root itself is placed at the origin of the frame called `prefix` without its trailing slash.
+/// Like link_transforms(), with the pose of the root link as well: it is at the origin of a frame with the name `prefix` without its
+/// trailing slash.
 tf2_msgs::TFMessage all_link_transforms(const FrameNames& names, const Frame& frame, const ros::Time& stamp, const std::string& prefix);
 
 mechanism_codesign::OptimizationProgress optimization_progress(const Trial& trial, const std::vector<std::string>& parameters,
                                                                const ros::Time& stamp);
 
-/// The values of an Eigen vector as ROS holds them.
+/// An Eigen vector as an array of a ROS message.
 std::vector<double> to_array(const Eigen::VectorXd& values);
 
-/// The warnings of the files, then those of a job.
+/// Messages for the warnings of the input files, followed by those of a job.
 std::vector<mechanism_codesign::Warning> warning_messages(const Warnings& of_files, const Warnings& of_job);
 
 }  // namespace codesign

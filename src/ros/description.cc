@@ -28,14 +28,13 @@ Warnings check_description(const ros::NodeHandle& node, const Problem& problem, 
   std::string text;
   if (!node.getParam("robot_description", text) || describes(text, problem, effective)) return {};
   const std::string name = node.resolveName("robot_description");
-  return {
-      warn("description_differs", {{name, 0},
-                                   "robot_description",
-                                   "the parameter describes another mechanism than the one simulated, so that robot_state_publisher and "
-                                   "rviz show another one; the topic " +
-                                       name + " has the URDF of this one, and `codesign urdf` prints it",
-                                   "",
-                                   ""})};
+  return {warn("description_differs", {{name, 0},
+                                       "robot_description",
+                                       "the parameter describes another mechanism than the simulated one, so robot_state_publisher and "
+                                       "rviz show the wrong one; the topic " +
+                                           name + " has the URDF of the simulated one, and `codesign urdf` prints it",
+                                       "",
+                                       ""})};
 }
 
 }  // namespace codesign

@@ -10,11 +10,12 @@
 
 namespace codesign {
 
-/// A warning if the parameter `robot_description`, from which others draw and place the mechanism, describes another one than `effective`,
-/// the URDF of what is simulated. Nothing if the parameter is not set.
+/// `description_differs` if the parameter `robot_description`, which robot_state_publisher and rviz use, describes a mechanism other than
+/// `effective`, the URDF that is simulated. No warning if the parameter is not set.
 Warnings check_description(const ros::NodeHandle& node, const Problem& problem, const std::string& effective);
 
-/// Whether `text` describes the mechanism: it is the effective URDF, or the model itself where no overlay and no value changes it.
+/// Whether the URDF `text` describes the simulated mechanism: it equals `effective`, or it is the model's own file and neither overlays nor
+/// parameter values change the model.
 bool describes(const std::string& text, const Problem& problem, const std::string& effective);
 
 }  // namespace codesign

@@ -7,7 +7,7 @@
 
 namespace codesign {
 
-/// What the simulation node publishes and a bag records for one instant, under these topics.
+/// The messages of one instant that the simulation node publishes and a bag records. The members' names are the topics.
 struct FrameMessages {
   sensor_msgs::JointState joint_states;
   mechanism_codesign::JointFriction joint_friction;
@@ -18,7 +18,7 @@ struct FrameMessages {
 
   FrameMessages(const FrameNames& names, const Frame& frame, const MessageContext& context, const MarkerStyle& style);
 
-  /// Calls `visitor(topic, message)` for each.
+  /// Calls `visitor(topic, message)` for each message.
   template <class Visitor>
   void visit(Visitor&& visitor) const {
     visitor("joint_states", joint_states);

@@ -9,15 +9,15 @@
 
 namespace codesign {
 
-/// How friction is drawn.
+/// Scales of the arrows that show friction.
 struct MarkerStyle {
-  double metres_per_newton = 0.01;       ///< length of a force arrow
-  double metres_per_newton_metre = 0.1;  ///< length of a torque arrow
+  double metres_per_newton = 0.01;       ///< length of a force arrow per newton [m/N]
+  double metres_per_newton_metre = 0.1;  ///< length of a torque arrow per newton metre [m/(N m)]
   double shaft_diameter = 0.006;         ///< [m]
 };
 
 /// One arrow for each joint and loop with friction, from the joint along the friction force (red) or torque (cyan) on the child link.
-/// An arrow shorter than its shaft is thick is taken away instead of drawn.
+/// An arrow shorter than its shaft diameter is removed instead of drawn.
 visualization_msgs::MarkerArray friction_markers(const FrameNames& names, const Frame& frame, const MessageContext& context,
                                                  const MarkerStyle& style);
 

@@ -15,33 +15,34 @@
 #include "mechanism_codesign/status.h"
 #include "problem/load_problem.h"
 
-// What the optimization node computes, apart from how it is asked: none of it needs a master, none of it throws.
+// The computations of the optimization node, without its communication. No ROS master is needed, and no function throws.
 
 namespace codesign {
 
 struct JobOptions {
-  std::string output_directory;  ///< where bags go
+  std::string output_directory;  ///< folder for the bags
   double rate = 50.0;            ///< samples per second in the bag
 };
 
 struct OptimizationOutcome {
   mechanism_codesign::OptimizeResult result;
-  std::string tuned_urdf;  ///< empty if not even the start could be evaluated
+  std::string tuned_urdf;  ///< empty if the start could not be evaluated
 };
 
-/// Called for each trial point, in the thread that computes.
+/// Called for each trial point, in the thread of the computation.
 using ProgressObserver = std::function<void(const mechanism_codesign::OptimizationProgress&)>;
 
-/// Optimizes, runs the initial and the tuned design, and writes the bag. Bad input, numerical failure and a full disk come back as code and
-/// sentence.
+/// Optimizes, records runs of the initial and of the tuned design, and writes the bag. Bad input, numerical failures and a full disk are
+/// returned as code and message of the result.
+/// @param study text of the study, for the bag. @param cancel once set, the optimization ends with its best point so far.
 OptimizationOutcome run_optimization(const Problem& problem, const std::string& study, const mechanism_codesign::OptimizeGoal& request,
                                      const JobOptions& options, const ProgressObserver& observer, const std::atomic<bool>& cancel);
 
-/// Objective, gradient and gradient check at one design.
+/// Computes objective, gradient and gradient check at one design. @param cancel once set, it ends soon with `cancelled`.
 mechanism_codesign::EvaluateResponse run_evaluation(const Problem& problem, const mechanism_codesign::EvaluateRequest& request,
                                                     const std::atomic<bool>& cancel);
 
-/// The status as a reply says it: code and sentence.
+/// Sets success, code and message of a reply from a status.
 template <class Reply>
 void set_status(const Status& status, Reply* reply) {
   reply->success = status.ok();
@@ -49,6 +50,7 @@ void set_status(const Status& status, Reply* reply) {
   if (!status.ok()) reply->message = status.cause + " (at t = " + std::to_string(status.time) + " s)";
 }
 
+/// Sets a reply without success.
 template <class Reply>
 void refuse(const std::string& code, const std::string& message, Reply* reply) {
   reply->success = false;

@@ -13,13 +13,13 @@
 
 namespace codesign {
 
-/// One side of the bag: a design, its URDF and its run.
+/// The initial or the tuned design in the bag: its URDF and its run.
 struct BagSide {
   std::string urdf;
   RecordedRun run;
 };
 
-/// Everything one job leaves behind.
+/// The contents of the bag of one job.
 struct JobRecord {
   BagSide initial, tuned;
   std::vector<mechanism_codesign::OptimizationProgress> progress;
@@ -28,11 +28,11 @@ struct JobRecord {
   std::string study;  ///< the text of the study
 };
 
-/// Writes the bag as `path`.active and renames it when it is whole. Topics: doc/ros_api.md.
+/// Writes the bag as `path`.active and renames it when it is complete. Topics: doc/ros_api.md.
 ///
-/// Recorded time starts at 1 s, and header stamps agree with it. Frames are `initial/<link>` and `tuned/<link>`, both below `world`.
-/// The convergence is spread evenly over the duration of the runs, so that a plot shows it beside them.
-/// @throws OutputError if the disk does not take it; no unfinished bag is left then.
+/// Recorded time starts at 1 s, and header stamps are the same. TF frames are `initial/<link>` and `tuned/<link>`, both below `world`.
+/// The trial points are spread evenly over the duration of the runs, so that a plot shows the convergence next to the runs.
+/// @throws OutputError if writing fails; no unfinished bag is left.
 void write_bag(const std::string& path, const JobRecord& record);
 
 }  // namespace codesign

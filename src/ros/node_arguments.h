@@ -7,8 +7,8 @@
 
 namespace codesign {
 
-/// Starts a node as ros::init() does; SIGTERM ends it as SIGINT does, with its results.
-/// @return the exit code, if there is nothing to start: 0 after printing `help` for `--help`, 2 for an argument that means nothing.
+/// Initializes a ROS node. SIGTERM ends it in the same way as SIGINT, so that results are kept.
+/// @return nullopt if the node is to run; else the exit code: 0 after printing `help` for `--help`, 2 for an unknown argument.
 std::optional<int> start_node(int argc, char** argv, const std::string& name, const std::string& help);
 
 }  // namespace codesign

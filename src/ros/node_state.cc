@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-/// More are counted, not shown.
+/// Warnings that are shown; more are only counted.
 constexpr std::size_t kMostShown = 50;
 
 }  // namespace
@@ -17,7 +17,7 @@ constexpr std::size_t kMostShown = 50;
 NodeState::NodeState(const std::string& subject) {
   updater_.setHardwareID("none");
   updater_.add(subject, this, &NodeState::report);
-  // A wall timer: simulated time may stand still, and the state is wanted most when it does.
+  // A wall timer, since simulated time may stand still and the state must be published then too.
   timer_ = ros::NodeHandle().createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { updater_.force_update(); });
 }
 

@@ -14,7 +14,7 @@
 
 namespace codesign {
 
-/// What a node is doing, as one sentence in its log and once a second on /diagnostics. Safe to call from any thread.
+/// The state of a node: one sentence, written to its log and published once a second on /diagnostics. Thread-safe.
 class NodeState {
  public:
   enum class Level {
@@ -23,16 +23,17 @@ class NodeState {
     kError = diagnostic_msgs::DiagnosticStatus::ERROR
   };
 
-  /// @param subject what the state is of, as it appears in /diagnostics: "simulation".
+  /// @param subject name of the entry in /diagnostics, e.g. "simulation".
   explicit NodeState(const std::string& subject);
+  /// Sets and logs the sentence.
 
   void set(Level level, const std::string& sentence);
 
-  /// What is doubtful, which makes the state a warning as long as it stands: each warning once in the log, and as a value beside the
-  /// sentence. Those of one group replace those shown for it before.
+  /// Sets the warnings of a group, which replace the group's earlier ones. Each warning is logged once and shown as a value; while there
+  /// are any, the level is at least kWarning.
   void warn(const std::string& group, const Warnings& warnings);
 
-  /// A value shown beside the sentence.
+  /// Sets a value of the entry in /diagnostics.
   void show(const std::string& key, const std::string& value);
 
  private:

@@ -43,8 +43,8 @@ mechanism_codesign::OptimizeResult to_message(const OptimizationResult& result, 
   return message;
 }
 
-/// Lets the runs of a job be recorded after it was cancelled or its node was told to end, but not for ever: roslaunch kills a node after 15
-/// s.
+/// Limits the time for recording the runs of a job after it was cancelled (30 s) or the node is shutting down (8 s): roslaunch kills a node
+/// after 15 s.
 class Patience {
  public:
   explicit Patience(const std::atomic<bool>& cancel) : cancel_(cancel) {}
@@ -62,7 +62,7 @@ class Patience {
   }
 
   const std::atomic<bool>& cancel_;
-  ros::WallTime shutdown_, cancelled_;  ///< when it was first seen
+  ros::WallTime shutdown_, cancelled_;  ///< time of the first call that saw it
 };
 
 BagSide run_side(const Problem& problem, const std::vector<double>& parameters, double rate, Patience* patience) {
@@ -70,7 +70,7 @@ BagSide run_side(const Problem& problem, const std::vector<double>& parameters, 
           record_run(problem, parameters, rate, [patience] { return (*patience)(); })};
 }
 
-/// One job from its request to its bag.
+/// One optimization job, from the changed problem to its bag.
 class Job {
  public:
   Job(const OptimizationRequest& request, const JobOptions& options, JobRecord* record, OptimizationOutcome* outcome)
@@ -98,7 +98,7 @@ class Job {
     outcome_->result.setup_seconds = problem_.setup_seconds();
   }
 
-  /// A cancelled job is recorded too, with its start if it was cancelled before the first evaluation.
+  /// Records the runs and writes the bag. A cancelled job is recorded as well; before the first evaluation its tuned design is the start.
   void record(const std::atomic<bool>& cancel) {
     const bool is_evaluated = result_.gradient.size() > 0;
     if (!is_evaluated && result_.status.code != StatusCode::kCancelled) return;

@@ -21,7 +21,7 @@
 namespace codesign {
 namespace {
 
-/// Two callbacks may wait for their workers; the others answer `busy`.
+/// Threads for callbacks: two callbacks may wait for their workers, the others answer `busy`.
 constexpr unsigned kDoorThreads = 4;
 
 std::vector<std::string> known_parameters() {
@@ -36,7 +36,7 @@ std::string default_output_directory() {
   return (ros_home != nullptr ? std::string(ros_home) : std::string(home != nullptr ? home : ".") + "/.ros") + "/mechanism_codesign";
 }
 
-/// What a job added to the warnings of the files, which come first.
+/// The warnings of a job without those of the input files, which come first.
 Warnings added_warnings(const mechanism_codesign::OptimizeResult& result, std::size_t of_files) {
   Warnings warnings;
   for (std::size_t i = of_files; i < result.warnings.size(); ++i)
@@ -55,7 +55,7 @@ OptimizationNode::OptimizationNode() : state_("optimization"), spinner_(kDoorThr
   evaluate_ = doors_.advertiseService("evaluate", &OptimizationNode::on_evaluate, this);
   action_ = std::make_unique<ActionServer>(
       doors_, "optimize", [this](const GoalHandle& goal) { on_goal(goal); }, [this](const GoalHandle& goal) { on_cancel(goal); }, false);
-  // In the action's own namespace, so that it follows when that is remapped.
+  // Subscribed in the action's namespace, so that a remapping of the action applies to it too.
   cancel_all_ = ros::NodeHandle(doors_, "optimize").subscribe("cancel", 10, &OptimizationNode::on_cancel_all, this);
   spinner_.start();
   action_->start();
@@ -199,7 +199,7 @@ void OptimizationNode::on_goal(GoalHandle goal) {
     goal.setRejected(refusal, refusal.message);
 }
 
-/// As for goals, an empty identifier without a stamp cancels whatever runs, and so a job of the service too.
+/// In actionlib an empty identifier with a zero stamp cancels all goals; here it also cancels a job of the service.
 void OptimizationNode::on_cancel_all(const actionlib_msgs::GoalID& goal) {
   if (goal.id.empty() && goal.stamp.isZero()) optimizer_.cancel();
 }

@@ -23,9 +23,9 @@ namespace codesign {
 
 /// The node `optimization`: services `optimize` and `evaluate`, action `optimize`. See doc/ros_api.md.
 ///
-/// One worker stands behind the service and the action `optimize`, another behind `evaluate`; who comes while it works is answered `busy`.
-/// Callbacks only hand over and wait, on a queue of their own, so that every door answers at any time. With bad input the node is up and
-/// says so.
+/// One worker thread serves the service and the action `optimize`, another one `evaluate`; a request to a working one is answered with
+/// `busy`. Callbacks only hand the job over and wait for it. They have their own queue with several threads, so that the node answers at
+/// any time. With bad input the node stays up and answers every request with `bad_input`.
 class OptimizationNode {
  public:
   OptimizationNode();
@@ -43,29 +43,29 @@ class OptimizationNode {
   void on_cancel(const GoalHandle& goal);
   void on_cancel_all(const actionlib_msgs::GoalID& goal);
 
-  /// What whoever asked for a job is told, all of it in the worker's thread.
+  /// Callbacks to the client of a job, called in the worker's thread.
   struct Client {
     std::function<void()> begin;
     ProgressObserver progress;
     std::function<void(const Result&)> end;
   };
 
-  /// Starts the job, or fills `refusal` and returns false.
+  /// Starts the job. If that is not possible (bad input, busy), fills `refusal` and returns false.
   bool start(const mechanism_codesign::OptimizeGoal& request, const Client& client, Result* refusal);
   Result run(const mechanism_codesign::OptimizeGoal& request, const ProgressObserver& observer, const std::atomic<bool>& cancel);
-  /// Whether the lists of a request are of a length that can be meant; fills `refusal` if not.
+  /// Whether the lists of a request have admissible lengths; fills `refusal` if not.
   template <class Reply>
   bool has_size(const std::vector<std::string>& names, const std::vector<double>& values, const std::string& field, Reply* refusal) const;
   void tell_result(const Result& result);
 
   ros::NodeHandle node_, private_node_{"~"};
   NodeState state_;
-  std::optional<Problem> problem_;  // empty: the input was bad
-  std::string fault_;               // why
+  std::optional<Problem> problem_;  // empty after bad input
+  std::string fault_;               // message of the bad input
   std::string study_;
   JobOptions options_;
   ros::Publisher progress_, tuned_;
-  // From here on the order matters: what is used by callbacks and workers must outlive them.
+  // The order of the members from here on matters: what callbacks and workers use must outlive them.
   ros::CallbackQueue queue_;
   ros::NodeHandle doors_;
   std::unique_ptr<ActionServer> action_;

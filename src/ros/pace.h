@@ -8,13 +8,13 @@
 
 namespace codesign {
 
-/// Keeps frames at least an interval of wall time apart on the average, so that whoever listens can follow.
+/// Limits the average rate of frames in wall time, so that subscribers can follow.
 class Pace {
  public:
-  /// @param limit frames per second.
+  /// @param limit frames per second of wall time.
   explicit Pace(double limit = 1.0) : interval_(1.0 / limit) {}
 
-  /// How long to wait before a frame at `now`. A frame that comes late is not made up for.
+  /// Time to wait before a frame at `now`. A late frame does not shorten later waits.
   ros::WallDuration wait(const ros::WallTime& now) {
     next_ = std::max(next_, now);
     const ros::WallDuration left = next_ - now;
@@ -27,7 +27,7 @@ class Pace {
   ros::WallTime next_;
 };
 
-/// Seconds of the run in one second of wall time.
+/// The real-time factor: seconds of the run per second of wall time [-].
 class RealTimeFactor {
  public:
   void start(const ros::WallTime& now) { *this = RealTimeFactor(now); }
@@ -42,10 +42,10 @@ class RealTimeFactor {
     return true;
   }
 
-  /// Over the last half second.
+  /// The factor over the last half second.
   double value() const { return value_; }
 
-  /// Over the run so far.
+  /// The factor over the run so far. @param time reached by the run [s].
   double mean(double time, const ros::WallTime& now) const { return time / std::max((now - start_).toSec(), 1e-9); }
 
   RealTimeFactor() = default;

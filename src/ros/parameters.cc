@@ -19,7 +19,7 @@ using XmlRpc::XmlRpcValue;
 
 namespace {
 
-// XmlRpcValue offers its contents only to those who may change it.
+// The value is passed by copy, since XmlRpcValue gives access to its content only when it is not const.
 template <class T>
 T content(XmlRpcValue value) {
   return static_cast<T&>(value);
@@ -57,7 +57,7 @@ void emit(XmlRpcValue value, YAML::Emitter* out) {
   }
 }
 
-/// A value as a message shows it: on one line, and cut short.
+/// A value as shown in messages: on one line and shortened.
 std::string shown(const XmlRpcValue& value) {
   constexpr std::size_t kMost = 80;
   YAML::Emitter out;
@@ -127,10 +127,12 @@ std::vector<std::string> read_texts(const ros::NodeHandle& private_node, const s
   XmlRpcValue value;
   if (!find_parameter(private_node, key, &value)) return {};
   if (value.getType() == XmlRpcValue::TypeString) return {text_of(value)};
-  if (value.getType() != XmlRpcValue::TypeArray) refuse_parameter(private_node, key, "neither a text nor a list", value, "texts");
+  if (value.getType() != XmlRpcValue::TypeArray)
+    refuse_parameter(private_node, key, "neither a text nor a list", value, "a text or a list of texts");
   std::vector<std::string> texts;
   for (int i = 0; i < value.size(); ++i) {
-    if (value[i].getType() != XmlRpcValue::TypeString) refuse_parameter(private_node, key, "an entry is no text", value[i], "texts");
+    if (value[i].getType() != XmlRpcValue::TypeString)
+      refuse_parameter(private_node, key, "an entry is not a text", value[i], "a list of texts");
     texts.push_back(text_of(value[i]));
   }
   return texts;

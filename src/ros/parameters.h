@@ -10,48 +10,50 @@
 
 #include "mechanism_codesign/warning.h"
 
-// Private parameters of a node, read strictly: one of the wrong type is an InputError that shows its value, never the default.
+// Strict reading of a node's private parameters: a value of the wrong type is an InputError that shows the value; the default is used only
+// for a parameter that is not set.
 
 namespace codesign {
 
-/// False if `key` is not set, or an empty text, as launch files leave it. The value may be of any type.
+/// Reads a parameter of any type. False if it is not set or is an empty text, which launch files use for "not set".
 bool find_parameter(const ros::NodeHandle& node, const std::string& key, XmlRpc::XmlRpcValue* value);
 
-/// A finite number above zero, or `fallback` if it is not set. @throws InputError if it is none.
+/// A finite number above zero, or `fallback` if the parameter is not set. @throws InputError for any other value.
 double read_positive(const ros::NodeHandle& private_node, const std::string& key, double fallback);
 
-/// The same, and at most `largest`.
+/// As above, with an upper limit `largest`.
 double read_positive(const ros::NodeHandle& private_node, const std::string& key, double fallback, double largest);
 
-/// true or false. @throws InputError
+/// A truth value, or `fallback` if the parameter is not set. @throws InputError for any other type.
 bool read_flag(const ros::NodeHandle& private_node, const std::string& key, bool fallback);
 
-/// @throws InputError if it is no text.
+/// A text, or `fallback` if the parameter is not set. @throws InputError for any other type.
 std::string read_text(const ros::NodeHandle& private_node, const std::string& key, const std::string& fallback);
 
-/// A path, in which a leading `~` is the home directory. @throws InputError if it is no text.
+/// A path, with the home directory for a leading `~`, or `fallback`. @throws InputError if it is not a text.
 std::string read_path(const ros::NodeHandle& private_node, const std::string& key, const std::string& fallback);
 
-/// A text or a list of texts; none if it is not set. @throws InputError
+/// A text or a list of texts; empty if the parameter is not set. @throws InputError for any other type.
 std::vector<std::string> read_texts(const ros::NodeHandle& private_node, const std::string& key);
 
-/// A warning for each private parameter whose name is none of `known`, with the nearest one.
+/// `unknown_parameter` for each private parameter whose name is not in `known`, with the nearest known name.
 Warnings unknown_parameters(const ros::NodeHandle& private_node, const std::vector<std::string>& known);
 
 /// `path` with the home directory for a leading `~`.
 std::string expand_home(const std::string& path);
 
-/// Refuses the value of a parameter, showing it.
+/// Throws an InputError that shows the value of a parameter. @param allowed what the message gives as allowed values.
 [[noreturn]] void refuse_parameter(const ros::NodeHandle& node, const std::string& key, const std::string& message,
                                    const XmlRpc::XmlRpcValue& value, const std::string& allowed);
 
-/// False if the value is no number.
+/// Reads an integer or a floating-point number. False if the value is of another type.
 bool is_number(const XmlRpc::XmlRpcValue& value, double* number);
 
-/// A text's content. The value must hold one.
+/// The content of a value that is a text.
 std::string text_of(const XmlRpc::XmlRpcValue& value);
 
-/// A tree of ROS parameters as YAML text, for the one strict reader of studies. XML-RPC structs know no order: keys come out sorted.
+/// A tree of ROS parameters as YAML text, so that studies from the parameter server are read by the same strict reader as files. Keys are
+/// sorted, since XML-RPC structs have no order.
 std::string to_yaml(const XmlRpc::XmlRpcValue& tree);
 
 }  // namespace codesign

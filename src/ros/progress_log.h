@@ -10,7 +10,8 @@
 
 namespace codesign {
 
-/// The trial points of a job, in bounded memory: of more than `capacity`, every second, fourth, ... is kept, and always the last.
+/// The trial points of a job in bounded memory: of more than `capacity` points only every second, then every fourth, ... is kept, and
+/// always the last one.
 class ProgressLog {
  public:
   /// @param capacity even, at least 2.
@@ -19,7 +20,7 @@ class ProgressLog {
   void add(mechanism_codesign::OptimizationProgress progress);
   const mechanism_codesign::OptimizationProgress& last() const { return last_; }
 
-  /// All that is kept, in order; the log is used up.
+  /// Moves out the kept points, in order. The log must not be used afterwards.
   std::vector<mechanism_codesign::OptimizationProgress> take();
 
  private:

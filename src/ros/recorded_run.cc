@@ -15,7 +15,7 @@
 namespace codesign {
 namespace {
 
-/// How long an arrow of one unit is drawn.
+/// Determines the scale of arrows from the loads that they show.
 class ArrowScale {
  public:
   void include(double load) {
@@ -25,7 +25,7 @@ class ArrowScale {
     largest_ = std::max(largest_, load);
   }
 
-  /// The load is mostly about a third as long as the mechanism, at its peak not longer than it.
+  /// Arrow length per unit of load: a third of `size` for the root mean square of the loads, and at most `size` for the largest one.
   double metres_per_unit(double size, double fallback) const {
     if (count_ == 0) return fallback;
     return std::min(size / (3.0 * std::sqrt(sum_of_squares_ / count_)), size / largest_);
@@ -36,7 +36,7 @@ class ArrowScale {
   double sum_of_squares_ = 0.0, largest_ = 0.0;
 };
 
-/// The box that holds every link frame relative to the root, and the loads to draw.
+/// The bounding box of all link frames relative to the root link, and the loads to draw.
 struct Extent {
   Eigen::AlignedBox3d box{Eigen::Vector3d::Zero()};
   ArrowScale force, torque;
@@ -52,7 +52,7 @@ struct Extent {
   }
 };
 
-/// For the frames of both runs [bytes].
+/// Limit for the frames of both runs [bytes].
 constexpr double kMostMemory = 256e6;
 
 double bytes_of_a_frame(const RobotDescription& robot, const Study& study) {
@@ -69,7 +69,7 @@ void check_recording(const Problem& problem, double rate, const std::string& ele
   if (duration > kLongestRun)
     throw InputError({{problem.study().file, 0},
                       "duration",
-                      "the run is longer than ROS can count",
+                      "the run is longer than ROS time can represent",
                       to_decimal(duration),
                       "at most " + to_decimal(kLongestRun) + " s"});
   const double most = kMostMemory / (2.0 * bytes_of_a_frame(problem.robot(), problem.study()));

@@ -11,31 +11,32 @@
 
 namespace codesign {
 
-/// A whole study at one design, sampled at a fixed rate.
+/// A run of a study at one design, sampled at a fixed rate.
 struct RecordedRun {
   FrameNames names;
   std::vector<Frame> frames;
-  Status status;  ///< not ok: the frames end where the run did
+  Status status;  ///< if not ok, the frames end where the run failed or was stopped
 };
 
-/// Makes sure that the runs of a job fit into memory and into ROS's time. @param rate samples per second. @throws InputError naming
-/// `element` if they do not.
+/// Checks that the two runs of a job fit into memory (256 MB) and into the range of ROS time. @param rate samples per second.
+/// @param element where the rate was given. @throws InputError for a duration or a rate that is too large.
 void check_recording(const Problem& problem, double rate, const std::string& element);
 
-/// @param rate samples per second, that check_recording() has let pass.
-/// @param stop if given, asked at each sample; true ends the run there.
+/// Runs the study at `parameters` and samples it at equally spaced instants from 0 to its duration.
+/// @param rate samples per second, accepted by check_recording(). @param stop if given, called repeatedly; true ends the run with
+/// kCancelled.
 RecordedRun record_run(const Problem& problem, const std::vector<double>& parameters, double rate, const std::function<bool()>& stop = {});
 
-/// How the initial and the tuned run are shown together.
+/// Placement and scales for showing the initial and the tuned run together in rviz.
 struct SceneLayout {
-  double separation = 0.0;    ///< of the tuned mechanism from the initial one, along -y [m]
-  double label_height = 0.0;  ///< where their names stand, above the root link [m]
-  double label_size = 0.0;    ///< [m]
+  double separation = 0.0;    ///< distance of the tuned mechanism from the initial one, along -y [m]
+  double label_height = 0.0;  ///< height of their labels above the root link [m]
+  double label_size = 0.0;    ///< height of the letters [m]
   MarkerStyle style;
 };
 
-/// Chosen so that the two mechanisms do not overlap, and a typical friction arrow is a third as long as the mechanism, the largest at most
-/// as long.
+/// A layout in which the two mechanisms do not overlap, an arrow of the root-mean-square friction is a third as long as the mechanism, and
+/// the largest arrow at most as long as the mechanism.
 SceneLayout lay_out(const RecordedRun& initial, const RecordedRun& tuned);
 
 }  // namespace codesign

@@ -17,7 +17,7 @@ ros::Time RunClock::stamp(double time) const {
 }
 
 bool RunClock::wait(double time, const std::function<bool()>& stop) const {
-  // Sleeps in slices, to notice the end of the program soon.
+  // Sleeps in short slices, so that `stop` is called often.
   const ros::WallDuration slice(0.1);
   while (!stop()) {
     if (is_free_running()) return true;

@@ -8,30 +8,30 @@
 
 namespace codesign {
 
-/// What a run may last in ROS time, whose seconds are 32 bits [s].
+/// Longest run in ROS time [s], whose seconds have 32 bits.
 inline constexpr double kLongestRun = 2e9;
 
-/// When an instant of a run is due, and which stamp it carries.
+/// Determines when an instant of a run is due, and its stamp.
 ///
-/// Paced: stamps are those of ROS time, `time_scale` seconds of the run pass in one second. Free-running: nothing waits, and stamps are the
-/// time of the runs laid end to end, from 1 s on (zero means "no time" to ROS), to be published as /clock.
+/// Paced: `time_scale` seconds of the run pass in one second, and stamps are in ROS time. Free-running: nothing waits, and stamps are the
+/// accumulated time of all runs plus 1 s (ROS takes zero as "no time"), to be published on /clock.
 class RunClock {
  public:
-  /// @param time_scale above zero; 0 for free-running.
+  /// @param time_scale seconds of the run per second, above zero; 0 for free-running.
   explicit RunClock(double time_scale) : time_scale_(time_scale) {}
 
   bool is_free_running() const { return time_scale_ == 0.0; }
 
-  /// Begins a run, `previous_duration` [s] after the start of the one before (0: there was none).
+  /// Starts a run. @param previous_duration time since the start of the previous run [s]; 0 for the first run.
   void start_run(double previous_duration);
 
-  /// Whether the stamps of a run of `duration` [s] more can be told: ROS counts 2^32 seconds.
+  /// Whether the stamps of a further run of `duration` [s] can be represented: ROS time ends at 2^32 s.
   bool has_room_for(double duration) const { return !is_free_running() || offset_ + duration < 4.2e9; }
 
   /// Stamp of `time` [s] in this run.
   ros::Time stamp(double time) const;
 
-  /// Waits until `time` is due. Returns false, at once, when `stop` says so.
+  /// Waits until `time` [s] of the run is due. Returns false as soon as `stop()` is true.
   bool wait(double time, const std::function<bool()>& stop) const;
 
  private:

@@ -26,7 +26,7 @@ namespace codesign {
 namespace {
 
 constexpr std::uint32_t kQueueSize = 100;
-/// As fast as possible a whole second of frames may wait for a subscriber that is held up.
+/// In the mode as_fast_as_possible, a subscriber that is slow for a second must not lose frames.
 constexpr std::uint32_t kLongQueueSize = 1000;
 
 std::string at_time(const Status& status) { return status.cause + " (at t = " + std::to_string(status.time) + " s)"; }
@@ -114,7 +114,7 @@ void SimulationNode::run_all() {
   open_bag();
   do {
     if (!clock_.has_room_for(previous_duration + problem_->study().duration))
-      return state_.set(NodeState::Level::kWarning, "finished: /clock has come to the end of what ROS can count");
+      return state_.set(NodeState::Level::kWarning, "finished: /clock has reached the end of ROS time");
     clock_.start_run(previous_duration);
     if (previous_duration == 0.0) place_root();
     const Status status = run_once();
@@ -168,7 +168,7 @@ void SimulationNode::wait_for_subscribers() {
   const std::vector<std::string>& topics = options_.wait_for_subscribers;
   state_.set(NodeState::Level::kOk, "waiting for subscribers of " + list_names(topics));
   while (!stopping() && std::any_of(topics.begin(), topics.end(), is_missing)) {
-    // Some programs, rosbag record among them, do not work before the clock tells a time.
+    // Some programs, such as rosbag record, wait for a first message on /clock.
     if (clock_.is_free_running()) publish_clock(0.0);
     ros::WallDuration(0.05).sleep();
   }
@@ -209,7 +209,7 @@ void SimulationNode::open_bag() {
   }
 }
 
-// What a killed node left unfinished is known by its lock, which is held until it is gone.
+// Locks the bag. If a killed node left an unlocked lock file, its unfinished bag is removed.
 std::optional<LockFile> SimulationNode::lock_bag() {
   const std::string lock = options_.bag + ".job";
   std::optional<LockFile> abandoned = LockFile::take_abandoned(lock);

@@ -27,7 +27,7 @@ namespace codesign {
 
 /// The node `simulation`: runs the loaded study and publishes it. See doc/ros_api.md.
 ///
-/// It computes in a thread of its own. With bad input, or after a numerical failure, the node stays up and says so on /diagnostics.
+/// The computation has its own thread. After bad input or a numerical failure the node stays up and reports it on /diagnostics.
 class SimulationNode {
  public:
   SimulationNode();
@@ -39,7 +39,7 @@ class SimulationNode {
   void tell_description();
   void run();
   void run_all();
-  /// One run from 0 to the study's duration; the status tells why it ended before.
+  /// Runs the study once, from 0 to its duration. The status is ok unless the run failed or was stopped.
   Status run_once();
   void place_root();
   void wait_for_subscribers();

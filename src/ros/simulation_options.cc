@@ -12,7 +12,7 @@
 namespace codesign {
 namespace {
 
-/// Stamps have nanoseconds.
+/// [1/s] Stamps have a resolution of nanoseconds.
 constexpr double kHighestRate = 1e9;
 
 using Node = ros::NodeHandle;
@@ -20,7 +20,7 @@ using Node = ros::NodeHandle;
 /// Reads a private parameter into the options.
 using Read = std::function<void(const Node& node, const std::string& name, SimulationOptions* options)>;
 
-/// A private parameter: its name, which is written here alone, and where its value goes.
+/// A private parameter: its name and the function that reads it.
 struct Entry {
   const char* name;
   Read read;
@@ -61,7 +61,7 @@ void read_world_frame(const Node& node, const std::string& name, SimulationOptio
 void read_frame_prefix(const Node& node, const std::string& name, SimulationOptions* options) {
   options->frame_prefix = read_text(node, name, "");
   if (!options->frame_prefix.empty() && options->frame_prefix[0] == '/')
-    refuse_parameter(node, name, "TF frames begin with no slash", options->frame_prefix, "a text such as left/");
+    refuse_parameter(node, name, "TF frames must not begin with a slash", options->frame_prefix, "a text such as left/");
 }
 
 void read_topics(const Node& node, const std::string& name, SimulationOptions* options) {
@@ -73,7 +73,7 @@ void read_topics(const Node& node, const std::string& name, SimulationOptions* o
 
 void read_bag(const Node& node, const std::string& name, SimulationOptions* options) { options->bag = read_path(node, name, ""); }
 
-/// In the order in which they are read: the mode overrules the time scale.
+/// In the order of reading: `mode` is after `time_scale`, since it overrides it.
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> kEntries = {{"rate", read_rate},
                                               {"time_scale", positive(&SimulationOptions::time_scale)},
@@ -116,7 +116,7 @@ void check_duration(const ros::NodeHandle& private_node, const SimulationOptions
   const std::string key = duration > kLongestRun ? "study/duration" : "time_scale";
   throw InputError({{private_node.resolveName(key), 0},
                     key,
-                    "the run is longer than ROS can count",
+                    "the run is longer than ROS time can represent",
                     to_decimal(is_paced ? duration / options.time_scale : duration) + " s",
                     "at most " + to_decimal(kLongestRun) + " s"});
 }

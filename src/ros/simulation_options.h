@@ -11,28 +11,29 @@
 
 namespace codesign {
 
+/// The private parameters of the simulation node; doc/ros_api.md.
 struct SimulationOptions {
   double rate = 50.0;                             ///< frames per second of the run
-  double time_scale = 1.0;                        ///< seconds of the run per second; 0: as fast as possible, with /clock
-  double publish_limit = 500.0;                   ///< frames per second, as fast as possible and while somebody listens
-  bool loop = false;                              ///< start again when the study's duration is over
-  std::string world_frame;                        ///< a TF frame at the root link, for viewers that do not know its name; empty: none
-  std::string frame_prefix;                       ///< before the name of each link's TF frame; not empty: the node publishes all of them
-  std::vector<std::string> wait_for_subscribers;  ///< topics that must have one before the run begins
+  double time_scale = 1.0;                        ///< seconds of the run per second; 0: mode as_fast_as_possible, with /clock
+  double publish_limit = 500.0;                   ///< frames per second of wall time, in that mode and while there are subscribers
+  bool loop = false;                              ///< start again at the end of the study
+  std::string world_frame;                        ///< TF frame to publish as the parent of the root link; empty: none
+  std::string frame_prefix;                       ///< before the name of each link's TF frame; if not empty, the node publishes all frames
+  std::vector<std::string> wait_for_subscribers;  ///< topics that must have a subscriber before the run begins
   std::string bag;                                ///< path of a bag of the first run; empty: none
   MarkerStyle style;
 };
 
-/// Topics of a frame, which may have to wait for subscribers.
+/// The topics of a frame, which are the allowed entries of wait_for_subscribers.
 const std::vector<std::string>& frame_topics();
 
 /// The names of the parameters that read_simulation_options() knows.
 std::vector<std::string> simulation_parameters();
 
-/// Reads the private parameters of those names. @throws InputError
+/// Reads these private parameters. @throws InputError for a value of the wrong type or out of range.
 SimulationOptions read_simulation_options(const ros::NodeHandle& private_node);
 
-/// Makes sure that ROS can count the time of a run. @param duration of the study [s]. @throws InputError
+/// Checks that ROS time can represent the duration of a run. @param duration of the study [s]. @throws InputError if it cannot.
 void check_duration(const ros::NodeHandle& private_node, const SimulationOptions& options, double duration);
 
 }  // namespace codesign

@@ -20,7 +20,9 @@ namespace {
 std::string path_of(const TrajectoryAddress& address, const std::string& folder) {
   const std::filesystem::path path(address.bag);
   if (path.is_absolute()) return address.bag;
-  if (folder.empty()) fail(address, "bag", "a study on the parameter server lies in no folder", address.bag, "an absolute path");
+  if (folder.empty())
+    fail(address, "bag", "a relative path is allowed only in a study file, not in a study on the parameter server", address.bag,
+         "an absolute path");
   return (std::filesystem::path(folder) / path).string();
 }
 
@@ -37,7 +39,9 @@ trajectory_msgs::JointTrajectory find_message(const TrajectoryAddress& address, 
   for (const rosbag::MessageInstance& instance : view) {
     any = true;
     const auto message = instance.instantiate<trajectory_msgs::JointTrajectory>();
-    if (!message) fail(address, "topic", "no trajectory but a " + instance.getDataType(), address.topic, "trajectory_msgs/JointTrajectory");
+    if (!message)
+      fail(address, "topic", "the topic does not hold trajectories but " + instance.getDataType(), address.topic,
+           "trajectory_msgs/JointTrajectory");
     if (index_of(*message, address.joint) < message->joint_names.size()) found.push_back(message);
   }
   if (!any) fail(address, "topic", "the bag holds no message on this topic", address.topic, "");
@@ -47,7 +51,7 @@ trajectory_msgs::JointTrajectory find_message(const TrajectoryAddress& address, 
   return *found.front();
 }
 
-/// One entry of each point, or nothing if the points leave it out.
+/// The entries of one joint at all points; empty if the points do not have this field.
 std::vector<double> column(const trajectory_msgs::JointTrajectory& message, std::size_t joint,
                            std::vector<double> trajectory_msgs::JointTrajectoryPoint::*member) {
   std::vector<double> values;

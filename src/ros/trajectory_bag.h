@@ -9,8 +9,9 @@
 
 namespace codesign {
 
-/// Reads the way-points of one joint from the only trajectory_msgs/JointTrajectory of a topic that names it.
-/// @param folder what a relative path of a bag starts from; empty: only absolute ones are taken.
+/// A loader that reads the way-points of one joint from a bag: from the one trajectory_msgs/JointTrajectory of a topic that names the
+/// joint. Fails with an InputError if there is none, or more than one.
+/// @param folder base of relative bag paths; empty: only absolute paths are accepted.
 TrajectoryLoader bag_trajectory_loader(const std::string& folder);
 
 /// The folder of a node's study file; empty for a study on the parameter server.

@@ -9,8 +9,8 @@
 
 namespace codesign {
 
-/// Turns a message into another of the same fields, such as a service's request into an action's goal. Fails to compile if the fields
-/// differ.
+/// Converts a message to another message type with the same fields, such as the request of a service to the goal of an action. Does not
+/// compile if the fields differ.
 template <class To, class From>
 To same_fields(const From& from) {
   namespace traits = ros::message_traits;

@@ -10,10 +10,10 @@
 
 namespace codesign {
 
-/// One thread that does one job at a time, so that no callback ever computes.
+/// A thread that runs one job at a time, so that callbacks do not compute.
 class Worker {
  public:
-  /// A job ends soon once the flag it is given is set.
+  /// A job must end soon after the flag is set, and must not throw.
   using Job = std::function<void(const std::atomic<bool>& cancel)>;
 
   Worker();
@@ -21,16 +21,18 @@ class Worker {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  /// Hands over a job, or returns false at once if another one is still running. Neither function may throw.
-  /// @param done called in the worker's thread when it is free for the next job, so that whoever is told may come back at once.
+  /// Starts a job and returns true, or returns false at once if another one is running.
+  /// @param done called in the worker's thread when it is free for the next job, so that a client notified by it can start one at once.
+  /// Must not throw.
   bool try_start(Job job, std::function<void()> done);
 
   /// Sets the flag of the running job, if any.
   void cancel() { cancel_ = true; }
 
-  /// Cancels the running job, waits for its end, and takes no further ones.
+  /// Cancels the running job, waits for its end, and accepts no further jobs.
   void finish();
 
+  /// Whether a job is running.
   bool busy() const;
 
  private:

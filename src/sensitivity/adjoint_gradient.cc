@@ -15,7 +15,7 @@ AdjointGradient::Backward::Backward(const CompiledSystem& system, const Rosenbro
 AdjointGradient::AdjointGradient(const CompiledSystem& system, LanePlan plan, int most_points)
     : system_(system), most_points_(most_points), plan_(std::move(plan)), integrator_(system) {}
 
-// Memory for the way back is only taken by who asks for a gradient.
+// The workspace of the backward pass is allocated only when a gradient is requested.
 Status AdjointGradient::start(const std::vector<double>& parameters, bool with_gradient) {
   with_gradient_ = with_gradient;
   integrator_.watch_singularities(with_gradient);
@@ -42,7 +42,7 @@ double AdjointGradient::objective() {
   return integrator_.psi() + integrator_.equations().formulas().terminal(integrator_.state(), nullptr);
 }
 
-// The adjoint of the last state is the terminal terms' gradient.
+// The backward pass begins with the gradient of the terminal terms as the adjoint of the last state, and 1 for psi.
 void AdjointGradient::prepare() {
   const std::vector<double>& parameters = integrator_.equations().parameters();
   const IncrementLayout at(system_.layout());
@@ -60,7 +60,7 @@ void AdjointGradient::prepare() {
   back_->parameters->for_each([&](auto* lanes) { lanes->start(parameters); });
 }
 
-/// Takes the solution up at point k, which `point` holds.
+/// Continues the solution at point k, which `point` holds.
 bool AdjointGradient::take_up(int k) {
   RosenbrockStep<double>& step = back_->replay;
   if (k == 0) {
@@ -68,12 +68,12 @@ bool AdjointGradient::take_up(int k) {
   } else if (!step.resume(back_->point.state)) {
     return false;
   }
-  // Backwards too, positions continue the nearest.
+  // Turn counts follow the nearest previous positions, in the backward pass as well.
   step.equations().track_turns(step.state());
   return true;
 }
 
-/// Sets `point` to the k-th. Where it was not kept, the steps up to it are made once more.
+/// Sets `point` to the k-th point of the path. If it was not stored, the steps from the last stored point before it are repeated.
 bool AdjointGradient::reach(int k) {
   StepPath& path = back_->path;
   PathPoint& point = back_->point;
@@ -93,7 +93,7 @@ bool AdjointGradient::reach(int k) {
   return true;
 }
 
-/// Makes the step that began at point k once more, but not beyond the last point.
+/// Repeats the step that began at point k; at the last point, only the projection.
 bool AdjointGradient::replay(int k) {
   if (!take_up(k)) return false;
   return k + 1 == back_->path.size() || back_->replay.attempt(back_->path.step_size(k + 1));
@@ -116,7 +116,7 @@ bool AdjointGradient::step_back(int k) {
   return true;
 }
 
-// The start depends on the design, and so do the terminal terms' weights and references: each parameter has its lane here.
+// Adds the parts of (18a) at both ends of the run, psi_y(0)^T y_rho(0) and w_rho, with one lane per parameter.
 void AdjointGradient::add_boundaries(Eigen::VectorXd* gradient) {
   const IncrementLayout at(system_.layout());
   const VectorX<double>& adjoint = back_->adjoint.adjoint();

@@ -12,11 +12,11 @@
 
 namespace codesign {
 
-/// Gradient by the discrete adjoint of the Rosenbrock steps: the motion forward, then back along its steps; doc/theory.md (18a)-(18d).
-/// To rounding the same as RosenbrockGradient's.
+/// Gradient by the discrete adjoint of the Rosenbrock steps, doc/theory.md (18a)-(18d): advance() integrates forward and stores the path,
+/// gradient() goes back along its steps. Equal to the gradient of RosenbrockGradient up to rounding.
 class AdjointGradient final : public GradientEngine {
  public:
-  /// @param most_points of the way that are kept, see StepPath.
+  /// @param plan which parameters share a lane. @param most_points stored points of the path, see StepPath; 0: what fits into 32 MB.
   AdjointGradient(const CompiledSystem& system, LanePlan plan, int most_points = 0);
 
   Status start(const std::vector<double>& parameters, bool with_gradient) override;
@@ -32,7 +32,7 @@ class AdjointGradient final : public GradientEngine {
   }
 
  private:
-  /// What only a gradient needs.
+  /// Workspace of the backward pass, allocated by the first start() with gradient.
   struct Backward {
     Backward(const CompiledSystem& system, const RosenbrockTableau& tableau, int most_points);
     RosenbrockStep<double> replay;
@@ -48,7 +48,7 @@ class AdjointGradient final : public GradientEngine {
   };
 
   void share(LanePlan plan);
-  /// All the steps back, with the explicit parts summed. False if a step cannot be made again.
+  /// The backward pass over all steps; sums the explicit parts of the parameters. False if cancelled or if a step cannot be repeated.
   bool go_back();
   bool plan_holds();
   void prepare();

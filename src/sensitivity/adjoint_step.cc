@@ -6,7 +6,7 @@
 namespace codesign {
 namespace {
 
-constexpr int kPositionPair = 0, kVelocityPair = 1;  // of Curvature, behind the stages'
+constexpr int kPositionPair = 0, kVelocityPair = 1;  // offsets of the projection's pairs in Curvature, after those of the stages
 
 }  // namespace
 
@@ -60,7 +60,7 @@ void AdjointStep::add_products(const Linearization<double>& derivatives, RowRang
   add_transposed_product(patterns.rate, derivatives.rate, rows, 1.0, mu.data(), adjoint->data() + at_.z());
 }
 
-// u_psi = h gamma (g + Sigma_psi + g_y u).
+// Reverses u_psi = h gamma (g + Sigma_psi + g_y u).
 void AdjointStep::reverse_integrand(std::size_t i, const RosenbrockStep<double>& step) {
   VectorX<double>&u = increment_adjoints_[i], &mu = stages_[i].mu;
   mu[at_.z_size] = step.step_size() * tableau_.gamma * u[at_.psi()];
@@ -69,7 +69,8 @@ void AdjointStep::reverse_integrand(std::size_t i, const RosenbrockStep<double>&
   add_products(step.derivatives(), {at_.z_size, at_.z_size + 1}, mu, &u);
 }
 
-// u_z = -E^-1 (G + G_q w_q + G_v w_v + G_s w_s); u_v = w_v + h gamma u_a, u_q = w_q + (h gamma)^2 u_a, u_s = w_s + h gamma u_sigma.
+// Reverses u_z = -E^-1 (G + G_q w_q + G_v w_v + G_s w_s); u_v = w_v + h gamma u_a, u_q = w_q + (h gamma)^2 u_a, u_s = w_s + h gamma
+// u_sigma.
 void AdjointStep::reverse_solve(std::size_t i, const RosenbrockStep<double>& step) {
   VectorX<double>&u = increment_adjoints_[i], &mu = stages_[i].mu;
   const double hg = step.step_size() * tableau_.gamma;
@@ -85,7 +86,7 @@ void AdjointStep::reverse_solve(std::size_t i, const RosenbrockStep<double>& ste
   add_transposed_product(patterns.velocity, matrices.velocity, rows, 1.0, mu.data(), u.data() + at_.v());
 }
 
-// w_q = h gamma (v + Sigma_q + w_v), w_v = h gamma (a + Sigma_v), w_s = h gamma (sigma + Sigma_s).
+// Reverses w_q = h gamma (v + Sigma_q + w_v), w_v = h gamma (a + Sigma_v), w_s = h gamma (sigma + Sigma_s).
 void AdjointStep::reverse_elimination(std::size_t i, double hg) {
   VectorX<double>& w = increment_adjoints_[i];
   const auto w_q = w.segment(at_.x(), at_.n), w_s = w.segment(at_.s(), at_.states);
@@ -133,7 +134,7 @@ void AdjointStep::add_pair(int k, const VectorX<double>& u, const VectorX<double
   }
 }
 
-// mu^T of G_z [delta; multipliers] = [0; -error], for the adjoint of delta at `first`.
+// Solves the transposed system of G_z [delta; multipliers] = [0; -error] for errors->mu, with the adjoint of delta from entry `first` on.
 void AdjointStep::solve_projection(const RosenbrockStep<double>& step, int first, WeightedPoint* errors) {
   z_.setZero();
   z_.head(at_.n) = adjoint_.segment(first, at_.n);
@@ -142,7 +143,7 @@ void AdjointStep::solve_projection(const RosenbrockStep<double>& step, int first
   errors->mu[at_.z_size] = 0.0;
 }
 
-// (Phi_q v)_q is half the derivative of the acceleration rows by v; theory (6).
+// Uses that (Phi_q v)_q is half the derivative of the acceleration rows by v, theory (6).
 void AdjointStep::reverse_velocity_errors(const State<double>& start, const RosenbrockStep<double>& step) {
   const RowRange constraints{layout_.n, layout_.n + layout_.m};
   const double* const mu = velocity_errors_.mu.data();

@@ -11,44 +11,47 @@
 
 namespace codesign {
 
-/// A point where the residual G was evaluated, and the multipliers of its rows: what a parameter adds to the gradient there is mu^T G_rho.
+/// A state at which G was evaluated, and the multipliers mu of its rows, theory (18b). The evaluation contributes mu^T G_rho to the
+/// gradient.
 struct WeightedPoint {
   State<double> point;
-  VectorX<double> mu;  ///< one per row, that of the integrand last
+  VectorX<double> mu;  ///< one per row of G, then the one of the integrand's row
 };
 
 /// One step of RosenbrockStep differentiated backwards; doc/theory.md (18b), (18c).
 ///
-/// It carries the adjoint psi_y of the state. From one step to the one before it goes through the stages in reverse (E^T mu_i = ...), the
-/// projection, and the matrices, which the step takes from the equations at its unprojected start. What parameters need is left behind.
+/// It holds the adjoint psi_y of the state. Each step is reversed in three calls: the stages in reverse order (E^T mu_i = ...), the
+/// projection at its start, and the matrices, which are derivatives of the equations at the unprojected start. The accessors below then
+/// give the multipliers that ParameterLanes needs for the explicit dependence on parameters.
 class AdjointStep {
  public:
   AdjointStep(const CompiledSystem& system, const RosenbrockTableau& tableau);
 
-  /// @param parameters all named parameters; `adjoint` of the state where the last step ended, as IncrementLayout lays it out, 1 for psi.
+  /// @param parameters all named parameters (Study::parameters order).
+  /// @param adjoint psi_y at the end of the last step, in the order of IncrementLayout, with 1 for psi.
   void start(const std::vector<double>& parameters, const VectorX<double>& adjoint);
 
-  /// Back over the stages of the step's last attempt, from where it ended to where it began.
+  /// Reverses the stages of the step's last attempt: psi_y at its end becomes psi_y at its start.
   void reverse_stages(const RosenbrockStep<double>& step);
-  /// Back over the projection onto the constraints with which the step was taken up, RosenbrockStep::resume(start).
+  /// Reverses the projection of `start`, the unprojected start of the step, as made by RosenbrockStep::resume(start).
   void reverse_projection(const State<double>& start, const RosenbrockStep<double>& step);
-  /// Adds what stages and projection owe to the matrices, made at `start` too.
+  /// Adds Theta_y of (18c): the dependence of stages and projection on `start` through the matrices evaluated there.
   void reverse_matrices(const State<double>& start, const RosenbrockStep<double>& step);
 
-  /// psi_y where reverse_matrices() left it.
+  /// psi_y at `start` after reverse_matrices(), in the order of IncrementLayout.
   const VectorX<double>& adjoint() const { return adjoint_; }
 
-  // What parameters need of the present step.
+  // The multipliers of the last step, for the gradient by parameters, (18d).
   const std::vector<WeightedPoint>& stages() const { return stages_; }
-  /// Phi and Phi_q v were evaluated there; rows as in G.
+  /// The points at which the projection evaluated Phi and Phi_q v; their multipliers are in the acceleration rows of G.
   const WeightedPoint& position_errors() const { return position_errors_; }
   const WeightedPoint& velocity_errors() const { return velocity_errors_; }
-  /// Theta_rho, theory (18c), is the product of the derivatives of G_y by rho with these.
+  /// Weights on the entries of G_q, G_v and G_z: Theta of (18c) is the sum of entries times weights, Theta_rho the same with d/d rho.
   const ByVariable<std::vector<double>>& matrix_weights() const { return matrix_weights_; }
-  /// The same for G_t; one per row, that of the integrand last.
+  /// The same for G_t; one per row of G, then the one of the integrand's row.
   const VectorX<double>& time_weights() const { return time_weights_; }
 
-  /// Forgets the last step's: before a step that lacks stages or projection.
+  /// Resets the contributions of the previous step. Needed before a step without stages (the last point) or without projection (the start).
   void clear();
 
  private:
@@ -68,7 +71,7 @@ class AdjointStep {
   Equations<double> equations_;
   Linearization<double> derivatives_;
   Curvature<8> curvature_;
-  std::optional<Curvature<4>> more_curvature_;  ///< of methods with more than six stages: the projection's
+  std::optional<Curvature<4>> more_curvature_;  ///< for methods with more than six stages: the projection's pairs
   VectorX<double> adjoint_, start_adjoint_, stage_adjoint_, sum_adjoint_, z_, direction_, time_weights_;
   std::vector<VectorX<double>> increment_adjoints_;
   std::vector<WeightedPoint> stages_;

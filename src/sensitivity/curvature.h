@@ -9,10 +9,10 @@
 
 namespace codesign {
 
-/// The bilinear forms Theta = sum_k mu_k^T G_y(y, rho) u_k of N pairs of vectors, which a step contains because its matrices are the
-/// equations' own derivatives; doc/theory.md (18c).
+/// The bilinear forms Theta = sum_k mu_k^T G_y(y, rho) u_k of N pairs of vectors, through which a step depends on the derivatives of the
+/// equations; doc/theory.md (18c).
 ///
-/// Second derivatives are symmetric: dTheta/dy = sum_k (dG_y[u_k])^T mu_k, with the change of G_y along u_k in lane k.
+/// Because second derivatives are symmetric, dTheta/dy = sum_k (dG_y[u_k])^T mu_k, where lane k holds the change of G_y along u_k.
 template <int N>
 class Curvature {
  public:
@@ -20,17 +20,19 @@ class Curvature {
 
   /// @param parameters all named parameters.
   void set_design(const std::vector<double>& parameters);
+  /// Sets all pairs to zero.
   void clear();
-  /// Sets pair k. @param u as IncrementLayout lays it out; @param mu one per row, that of the integrand last.
+  /// Sets pair k. @param u in the order of IncrementLayout. @param mu one per row of G, then the one of the integrand's row.
   void set(int k, const VectorX<double>& u, const VectorX<double>& mu);
 
-  /// adjoint += dTheta/dy at a point. @param equations the design's, for its turn references.
+  /// adjoint += dTheta/dy at a state. @param equations for their turn references.
   void add_state_gradient(const State<double>& at, const Equations<double>& equations, VectorX<double>* adjoint);
 
-  /// adjoint += d/dy sum of weights[row] G_t[row], the integrand's row last; by units of all coordinates, as long as time is no lane.
+  /// adjoint += d/dy of the sum of weights[row] G_t[row], the integrand's row last. Differentiates along one unit vector per coordinate,
+  /// since time has no lane.
   void add_time_gradient(const State<double>& at, const VectorX<double>& weights, VectorX<double>* adjoint);
 
-  /// weights += sum_k mu_k[row] u_k[column] for each entry of the patterns: Theta is the product of entries and weights.
+  /// weights += sum_k mu_k[row] u_k[column] for each entry of the patterns, so that Theta is the sum of entries times weights.
   void add_weights(ByVariable<std::vector<double>>* weights) const;
 
  private:

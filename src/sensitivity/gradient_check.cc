@@ -14,7 +14,7 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double kComplexStep = 1e-30;
 
-/// The sizes of the steps that an integration with sensitivities takes.
+/// Records the step sizes of an integration with sensitivities.
 Status record_steps(const CompiledSystem& system, const std::vector<double>& parameters, const std::atomic<bool>* cancel,
                     std::vector<double>* steps) {
   RosenbrockGradient run(system);
@@ -27,7 +27,7 @@ Status record_steps(const CompiledSystem& system, const std::vector<double>& par
   return status;
 }
 
-/// psi after the same steps in complex arithmetic.
+/// psi after steps of the same sizes in complex arithmetic.
 Complex replay(const CompiledSystem& system, const std::vector<Complex>& parameters, const std::vector<double>& steps,
                RosenbrockIntegrator* integrator, const std::vector<double>& real_parameters, const std::atomic<bool>* cancel) {
   RosenbrockStep<Complex> step(system, integrator->step().tableau());
@@ -56,7 +56,7 @@ void compare(GradientCheck* check) {
   }
 }
 
-/// A reference that is no number checks nothing.
+/// Sets a failure if a component of the reference is not finite.
 void refuse_non_finite(const CompiledSystem& system, GradientCheck* check) {
   for (Eigen::Index k = 0; k < check->reference.size(); ++k) {
     if (std::isfinite(check->reference[k]) && std::isfinite(check->reference_error[k])) continue;
@@ -83,7 +83,8 @@ void check_by_complex_step(const CompiledSystem& system, const Eigen::VectorXd& 
   }
 }
 
-/// Differences need an objective that is smoother than they are small: tolerances far below the study's.
+/// Reference by Ridders' extrapolated differences [9]. The error of the objective must be far below the differences, so tolerances are
+/// tightened.
 void check_by_differences(const CompiledSystem& system, const Eigen::VectorXd& rho, const std::atomic<bool>* cancel, GradientCheck* check) {
   Study study = system.study();
   study.solver.relative_tolerance = std::min(study.solver.relative_tolerance, 1e-10);

@@ -4,10 +4,10 @@
 
 namespace codesign {
 
-// What a gradient costs, in simulations: measured on mechanisms of 3 to 16 bodies, doc/decisions/0018-adjoint.md. Lanes come eight or four
-// at a time.
+// Estimated cost of a gradient, in units of one simulation without gradient; measured on mechanisms of 3 to 16 bodies,
+// doc/decisions/0018-adjoint.md. Lanes are evaluated in groups of eight or four.
 
-/// Direct sensitivities of so many parameters.
+/// Cost of direct sensitivities by this number of parameters.
 inline double direct_cost(int parameters) {
   constexpr double kSimulation = 1.0, kEight = 2.4, kFour = 1.7;
   double cost = kSimulation;
@@ -15,7 +15,7 @@ inline double direct_cost(int parameters) {
   return parameters > 0 ? cost + kFour : cost;
 }
 
-/// The adjoint, whose parameters share so many lanes; one lane of each group watches the others.
+/// Cost of the adjoint method if the parameters share this number of lanes; each group has one more lane that checks the plan.
 inline double adjoint_cost(int lanes) {
   constexpr double kThereAndBack = 4.2, kEight = 2.6, kFour = 1.5;
   double cost = kThereAndBack;

@@ -10,12 +10,12 @@
 namespace codesign {
 namespace {
 
-/// The lanes that parameters share, if the gradient is to be made backwards.
+/// The plan of lanes if the gradient is to be computed by the adjoint.
 std::optional<LanePlan> backward_plan(const CompiledSystem& system, const std::atomic<bool>* cancel) {
   const SolverOptions& options = system.study().solver;
   if (options.integrator != IntegratorKind::kRosenbrock || options.gradient == GradientMethod::kDirect) return std::nullopt;
   if (options.gradient == GradientMethod::kAdjoint) return plan_lanes(system, cancel);
-  // Without sensitivities on the way forward there is no error of theirs to test.
+  // solver.sensitivity_tolerance tests the errors of direct sensitivities, which the adjoint does not compute.
   if (options.sensitivity_tolerance > 0.0) return std::nullopt;
   const int parameters = static_cast<int>(system.study().tuned.size());
   if (direct_cost(parameters) <= adjoint_cost(1)) return std::nullopt;

@@ -11,34 +11,37 @@
 
 namespace codesign {
 
-/// An integration that can carry the gradient of psi along; one implementation per integrator. Reusable; not thread-safe.
+/// An integration that can compute the gradient of psi; one implementation per method. start() may be called again. Not thread-safe.
 class GradientEngine {
  public:
   virtual ~GradientEngine() = default;
 
-  /// Assembles the start of a design. @param parameters all named parameters.
+  /// Assembles the initial state of a design. @param parameters all named parameters (Study::parameters order). @param with_gradient
+  /// whether gradient() will be called. @returns the status of assemble_start().
   virtual Status start(const std::vector<double>& parameters, bool with_gradient) = 0;
-  /// Takes one step, with its sensitivities if start() was asked for them, not beyond `limit` [s].
+  /// Takes one step that ends at `limit` [s] or before, with sensitivities if start() was called with gradient.
   virtual Status advance(double limit) = 0;
 
   /// Time reached [s].
   virtual double time() const = 0;
-  /// psi if the motion ended here: the integral so far and the terminal terms.
+  /// psi of a study that ends at time(): the integral so far plus the terminal terms, doc/theory.md (21).
   virtual double objective() = 0;
-  /// d psi / d rho at the same point, in the order of Study::tuned.
+  /// d psi / d rho for the same end, p entries in the order of Study::tuned; NaN if it cannot be computed or was cancelled. start() must
+  /// have been called with gradient.
   virtual void gradient(Eigen::VectorXd* gradient) = 0;
   virtual const Statistics& statistics() const = 0;
-  /// What the run gives reason to doubt.
+  /// Warnings about the run since start().
   virtual Warnings warnings() const = 0;
-  /// From now on advance() and gradient() end soon after `cancel` is set, advance() with kCancelled. Null: never.
+  /// Once `cancel` is set (by any thread), advance() and gradient() end soon, advance() with kCancelled. nullptr: no cancellation.
   virtual void obey(const std::atomic<bool>* cancel) = 0;
 };
 
-/// Whether the study's gradient is made backwards: where it asks for the adjoint, or leaves the choice and the adjoint is expected to be
-/// cheaper; doc/decisions/0018-adjoint.md.
+/// Whether the gradient is computed by the adjoint: if solver.gradient is `adjoint`, or `auto` and the adjoint has the lower estimated
+/// cost; doc/decisions/0018-adjoint.md. Only the integrator `rosenbrock` has an adjoint.
 bool prefers_adjoint(const CompiledSystem& system);
 
-/// The engine of the study's integrator. @param cancel if given and set, null comes soon.
+/// The engine for the study's integrator and gradient method. @param system must outlive it. @param cancel if it is set meanwhile, the
+/// result is nullptr.
 std::unique_ptr<GradientEngine> make_gradient_engine(const CompiledSystem& system, const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign

@@ -5,7 +5,7 @@ namespace codesign {
 
 IdasGradient::IdasGradient(const CompiledSystem& system) : system_(system), integrator_(system) {}
 
-// Memory for sensitivities is only taken by who asks for a gradient.
+// The workspace of the sensitivities is allocated only when a gradient is requested.
 Status IdasGradient::start(const std::vector<double>& parameters, bool with_gradient) {
   if (with_gradient && !tangent_) tangent_ = std::make_unique<IdasTangent>(system_);
   integrator_.carry(with_gradient ? tangent_.get() : nullptr);

@@ -10,7 +10,7 @@
 
 namespace codesign {
 
-/// Gradient by IDAS's staggered forward sensitivities; doc/theory.md (27).
+/// Gradient by the staggered forward sensitivities of IDAS; doc/theory.md (27).
 class IdasGradient final : public GradientEngine {
  public:
   explicit IdasGradient(const CompiledSystem& system);
@@ -25,7 +25,8 @@ class IdasGradient final : public GradientEngine {
   void obey(const std::atomic<bool>* cancel) override { integrator_.obey(cancel); }
 
  private:
-  /// The present state with rates that satisfy the equations at it.
+  /// The state at the end of the last step with accelerations and multipliers solved from G = 0, so that terminal terms do not depend on
+  /// the derivatives of BDF.
   const State<double>& consistent_state();
 
   const CompiledSystem& system_;

@@ -79,8 +79,8 @@ void IdasTangent::linearize(const State<double>& state, double kappa, Equations<
   });
 }
 
-// Along (q, v, a), Phi'' + 2 kappa Phi' + kappa^2 Phi changes as Phi'' does along (q, v + kappa q, a + 2 kappa v + kappa^2 q), since
-// (Phi'')_v = 2 (Phi')_q and (Phi'')_a = (Phi')_v = Phi_q.
+// The derivative of Phi'' + 2 kappa Phi' + kappa^2 Phi along (q, v, a) is that of Phi'' along (q, v + kappa q, a + 2 kappa v + kappa^2 q),
+// because (Phi'')_v = 2 (Phi')_q and (Phi'')_a = (Phi')_v = Phi_q.
 void IdasTangent::derivative(int k, const State<double>& direction, VectorX<double>* result) {
   const Layout& layout = system_.layout();
   directional_derivative(system_, derivatives_, direction, result);
@@ -109,7 +109,7 @@ void IdasTangent::solve_rates(std::vector<State<double>>* directions) {
   }
 }
 
-// The derivatives of Phi and Phi_q v along (q, v, s)_rho and the parameter come out of one evaluation in lanes.
+// One evaluation with lanes gives the derivatives of Phi and Phi_q v along (q, v, s)_rho and the parameter together.
 void IdasTangent::correct(const State<double>& state, VectorX<double> State<double>::*part, std::vector<State<double>>* directions) {
   const Layout& layout = system_.layout();
   const bool positions = part == &State<double>::q;

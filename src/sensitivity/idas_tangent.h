@@ -11,8 +11,9 @@
 namespace codesign {
 
 /// The sensitivity equations that IDAS integrates; doc/theory.md (27):
-///   0 = G_q q_rho + G_v v_rho + G_s s_rho + G_z z_rho + G_rho, and g's the same; rows of constraints stabilized as IDAS's residual.
-/// By states the derivatives are the hand-written ones, by parameters automatic: once per point, whatever the corrector then asks for.
+///   0 = G_q q_rho + G_v v_rho + G_s s_rho + G_z z_rho + G_rho, and the same for g; constraint rows are stabilized as in IdasEquations.
+/// Derivatives by the state are the analytic ones, those by parameters come from lanes. Both are computed once per point and serve all
+/// calls of the corrector there.
 class IdasTangent final : public IdasSensitivities {
  public:
   explicit IdasTangent(const CompiledSystem& system);
@@ -24,8 +25,8 @@ class IdasTangent final : public IdasSensitivities {
   void derivative(int k, const State<double>& direction, VectorX<double>* result) override;
   bool project(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions) override;
 
-  /// w_rho of the terminal terms at a consistent state; not a number where G_z is singular. @param directions (q, v, s)_rho per parameter;
-  /// their z is solved for.
+  /// Sets `gradient` (p entries) to the total derivative of the terminal terms w by rho at a consistent state; NaN if G_z is
+  /// singular. @param directions (q, v, s)_rho per parameter; their z is solved for.
   void terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
                 Eigen::VectorXd* gradient);
 
@@ -34,7 +35,8 @@ class IdasTangent final : public IdasSensitivities {
   struct Group {
     using Scalar = Lanes<N>;
     Group(const CompiledSystem& system, LaneRange<N> lanes);
-    /// Sets values, and the first-order parts of this group's parameters to their columns in `directions`, or to zero without.
+    /// Sets the lanes of `state`: the values from `at`, the first-order parts from the `directions` of this group's parameters, or zero for
+    /// nullptr.
     void load(const State<double>& at, const std::vector<State<double>>* directions);
 
     LaneRange<N> range;
@@ -43,17 +45,17 @@ class IdasTangent final : public IdasSensitivities {
     VectorX<Scalar> G, Phi, Phi_rate;
   };
 
-  /// Makes the derivatives at a state present, without stabilization, and factors G_z. False if it is singular.
+  /// Evaluates the derivatives at a state, without stabilization, and factors G_z. False if it is singular.
   bool factor(const State<double>& state, Equations<double>* equations);
   /// Solves for z_rho of directions whose (q, v, s)_rho are given.
   void solve_rates(std::vector<State<double>>* directions);
-  /// Adds the least change that satisfies the constraints' derivatives to q_rho, or to v_rho.
+  /// Corrects q_rho, or v_rho, as in the projection (17), so that they satisfy the derivative of Phi, or of Phi_q v.
   void correct(const State<double>& state, VectorX<double> State<double>::*part, std::vector<State<double>>* directions);
 
   const CompiledSystem& system_;
   LaneGroups<Group> groups_;
   Linearization<double> derivatives_;
-  Eigen::MatrixXd partial_;  ///< (G, g)_rho at the present point
+  Eigen::MatrixXd partial_;  ///< (G, g)_rho at the last linearize(), one column per parameter
   IterationMatrix matrix_;
   VectorX<double> dG_, stabilized_;
   State<double> stabilized_direction_;

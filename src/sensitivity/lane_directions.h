@@ -10,7 +10,7 @@
 
 namespace codesign {
 
-/// N directional derivatives of a vector, one column per component; a matrix over memory of its own that begins with a cache line.
+/// N directional derivatives of a vector: an N x size matrix with one column per component, in memory aligned to cache lines.
 template <int N>
 class Directions : public Eigen::Map<Eigen::Matrix<double, N, Eigen::Dynamic>> {
  public:
@@ -26,14 +26,14 @@ class Directions : public Eigen::Map<Eigen::Matrix<double, N, Eigen::Dynamic>> {
     return *this;
   }
 
-  /// Keeps nothing if the size changes.
+  /// A change of the number of columns sets all entries to zero.
   void resize(Eigen::Index columns) {
     if (columns == this->cols()) return;
     numbers_.assign(static_cast<std::size_t>(N * columns), 0.0);
     new (static_cast<Map*>(this)) Map(numbers_.data(), N, columns);
   }
 
-  /// One component's derivatives as the processor holds them.
+  /// The N derivatives of one component as a vector of the processor.
   Vector& vector(int column) { return *reinterpret_cast<Vector*>(this->data() + N * column); }
   const Vector& vector(int column) const { return *reinterpret_cast<const Vector*>(this->data() + N * column); }
 

@@ -11,12 +11,12 @@
 
 namespace codesign {
 
-/// The tuned parameters rho_first, rho_first+1, ... whose derivatives N lanes carry.
+/// The tuned parameters rho_first, ..., rho_(first+count-1), count <= N, each with one of N lanes.
 template <int N>
 struct LaneRange {
   int first = 0, count = 0;
 
-  /// All named parameters, lane k seeded with the direction of rho_(first+k).
+  /// All named parameters (Study::parameters order), with the derivative 1 of rho_(first+k) in lane k.
   std::vector<Lanes<N>> seed(const CompiledSystem& system, const std::vector<double>& parameters) const {
     std::vector<Lanes<N>> lanes(parameters.begin(), parameters.end());
     for (int k = 0; k < count; ++k) lanes[static_cast<std::size_t>(system.study().tuned[static_cast<std::size_t>(first + k)])].v[k] = 1.0;
@@ -24,13 +24,13 @@ struct LaneRange {
   }
 };
 
-/// Which lanes to group, where it is not one per tuned parameter: so many from `first` on. Each group keeps `reserved` more for itself.
+/// The lanes `first` .. `first + value - 1` to be divided into groups; each group reserves `reserved` further lanes for its own use.
 struct LaneCount {
   int value = 0, reserved = 0, first = 0;
 };
 
-/// All tuned parameters in groups: eight at a time; a last group of four or fewer takes the narrower kind.
-/// Group<N> is made from (system, LaneRange<N>, further arguments).
+/// Divides lanes into groups of eight; a last group of four lanes or fewer is a Group<4>. Without a LaneCount there is one lane per tuned
+/// parameter. Group<N> is constructed from (system, LaneRange<N>, further arguments).
 template <template <int> class Group>
 class LaneGroups {
  public:

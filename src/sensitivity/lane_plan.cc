@@ -16,9 +16,9 @@ namespace {
 
 constexpr int kWidth = 8;
 using Scalar = Lanes<kWidth>;
-constexpr int kInstants = 64;  // at which parameters are looked for that act for a time only
+constexpr int kInstants = 64;  // instants tried for parameters without rows at t = 0, such as coefficients of a basis
 
-/// Rows whose derivatives along a lane are no numbers, for `kWidth` parameters at a time.
+/// Finds the rows whose derivative along a lane is NaN, for `kWidth` parameters at a time.
 class RowProbe {
  public:
   explicit RowProbe(const CompiledSystem& system) : system_(system), layout_(system.layout()), equations_(system) {
@@ -105,7 +105,7 @@ LanePlan plan_lanes(std::vector<std::vector<int>> rows) {
   std::vector<std::size_t> order(plan.rows.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return plan.rows[a].size() > plan.rows[b].size(); });
-  std::map<int, std::vector<bool>> taken;  // by row: the lanes in use there
+  std::map<int, std::vector<bool>> taken;  // per row: which lanes are in use
   for (std::size_t k : order) {
     std::size_t lane = 0;
     const auto is_taken = [&](int row) { return lane < taken[row].size() && taken[row][lane]; };

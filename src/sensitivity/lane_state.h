@@ -8,7 +8,8 @@
 
 namespace codesign {
 
-/// Values and directions side by side: state = values + sum over the lanes of directions.row(lane), laid out as IncrementLayout says.
+/// Combines values and directional derivatives in a state of lanes. @param directions in the order of IncrementLayout. @param state must
+/// have the sizes of `values`.
 template <int N>
 void load_lanes(const IncrementLayout& at, const State<double>& values, const Directions<N>& directions, State<Lanes<N>>* state) {
   const auto load = [&directions](const VectorX<double>& value, int first, VectorX<Lanes<N>>* lanes) {

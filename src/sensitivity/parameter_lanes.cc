@@ -7,7 +7,7 @@
 namespace codesign {
 namespace {
 
-/// Weights that no sum makes vanish by chance.
+/// The weight xi_k of a parameter: irrational ratios, so that contributions do not cancel by chance.
 double xi(std::size_t parameter) { return 1.0 + std::fmod(0.6180339887498949 * static_cast<double>(parameter + 1), 1.0); }
 
 }  // namespace
@@ -76,7 +76,7 @@ void ParameterLanes<N>::check(std::size_t row, const Scalar& value) {
   largest_error_[row] = std::max(largest_error_[row], std::abs(found - expected));
 }
 
-// Rounding leaves something in rows that should vanish, out of the largest of the others.
+// The second tolerance allows for rounding in rows that should be zero, relative to the largest row.
 template <int N>
 bool ParameterLanes<N>::plan_holds() const {
   const double largest = *std::max_element(largest_.begin(), largest_.end());

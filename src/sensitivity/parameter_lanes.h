@@ -10,25 +10,26 @@
 
 namespace codesign {
 
-/// The explicit part of the gradient, sum of mu^T G_rho over all that the steps evaluated, for the parameters in up to N - 1 lanes of a
-/// plan; doc/theory.md (18d). It is summed by rows, which tell the parameters of a lane apart.
+/// The explicit part of the gradient, the sum of mu^T G_rho over all evaluations of the steps, for the parameters in up to N - 1 lanes of a
+/// plan; doc/theory.md (18d). The sums are kept per row, from which collect() separates the parameters that share a lane.
 ///
-/// A plan is believed only as far as it is seen to hold: one more lane carries the direction sum_k xi_k e_k of all parameters of the group,
-/// and each row's derivative along it must be that which the plan makes of the others.
+/// The plan is checked: one more lane has the direction sum_k xi_k e_k of all parameters of the group, and the derivative of each row along
+/// it must equal the sum over the other lanes of their derivatives times the xi_k of the parameter that the plan assigns to row and lane.
 template <int N>
 class ParameterLanes {
  public:
-  /// @param lanes N - 1 at most.
+  /// @param lanes at most N - 1. @param plan must outlive this.
   ParameterLanes(const CompiledSystem& system, LaneRange<N> lanes, const LanePlan& plan);
 
-  /// @param parameters all named parameters.
+  /// Begins a backward pass with zero sums. @param parameters all named parameters.
   void start(const std::vector<double>& parameters);
+  // The terms of (18d) of one step: stages, projection, matrices. @param equations for their turn references.
   void add_stages(const AdjointStep& adjoint, const Equations<double>& equations);
   void add_projection(const AdjointStep& adjoint);
   void add_matrices(const State<double>& start, const AdjointStep& adjoint, const Equations<double>& equations);
-  /// Adds each parameter's part to its component.
+  /// Adds the sums to the components of their parameters; p entries.
   void collect(Eigen::VectorXd* gradient) const;
-  /// False if a row of G moved with a parameter that the plan does not give it.
+  /// False if a row of G was found to depend on a parameter that the plan does not assign to it.
   bool plan_holds() const;
 
  private:
@@ -49,8 +50,8 @@ class ParameterLanes {
   VectorX<Scalar> G_, Phi_, Phi_rate_;
   Scalar g_;
   std::vector<Vector> sums_;                     ///< per row
-  std::vector<Vector> xi_;                       ///< per row and lane: that of the parameter to which the plan gives them
-  std::vector<double> largest_, largest_error_;  ///< per row, of the derivative along the checking lane
+  std::vector<Vector> xi_;                       ///< per row and lane: xi_k of the assigned parameter, or 0
+  std::vector<double> largest_, largest_error_;  ///< per row, of the derivative along the lane that checks the plan
 };
 
 }  // namespace codesign

@@ -7,9 +7,9 @@
 namespace codesign {
 namespace {
 
-/// Lanes come eight at a time; where that is too much, four.
+/// Number of lanes that fit into memory: a multiple of eight, at least four.
 int lanes_in_memory(const CompiledSystem& system) {
-  constexpr int kMemory = 128000000, kPerNumber = 375;  // bytes; the second as measured on chains of 1000 and 3000 links
+  constexpr int kMemory = 128000000, kPerNumber = 375;  // [bytes]; kPerNumber measured on chains of 1000 and 3000 links
   const int lanes = kMemory / (kPerNumber * IncrementLayout(system.layout()).size());
   return std::max(4, lanes / 8 * 8);
 }
@@ -29,7 +29,7 @@ RosenbrockGradient::RosenbrockGradient(const CompiledSystem& system, int most_la
   };
 }
 
-// Memory for tangents is only taken by who asks for a gradient.
+// The workspace of the tangents is allocated only when a gradient is requested.
 Status RosenbrockGradient::start(const std::vector<double>& parameters, bool with_gradient) {
   with_gradient_ = with_gradient;
   integrator_.watch_singularities(with_gradient);

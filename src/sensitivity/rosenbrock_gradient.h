@@ -11,12 +11,12 @@
 
 namespace codesign {
 
-/// Gradient by the exact tangent of the Rosenbrock steps; doc/theory.md (18), (22).
+/// Gradient by the exact tangent of the Rosenbrock steps (direct sensitivities); doc/theory.md (18), (22).
 ///
-/// Where the tangents of all parameters would take too much memory, gradient() makes the run once more for each further part of them.
+/// If the tangents of all parameters do not fit into memory, gradient() repeats the run for each further group of parameters.
 class RosenbrockGradient final : public GradientEngine {
  public:
-  /// @param most_lanes tangents that are carried at a time; 0: what fits into 128 MB.
+  /// @param most_lanes largest number of parameters per run; 0: as many as fit into 128 MB.
   explicit RosenbrockGradient(const CompiledSystem& system, int most_lanes = 0);
 
   Status start(const std::vector<double>& parameters, bool with_gradient) override;
@@ -39,14 +39,14 @@ class RosenbrockGradient final : public GradientEngine {
   };
 
   int count() const { return static_cast<int>(system_.study().tuned.size()); }
-  /// Begins with the tangents of the parameters from `first` on.
+  /// Starts the tangents of the parameters from `first` on.
   void carry(int first, const std::vector<double>& parameters);
   void collect(Eigen::VectorXd* gradient);
 
   const CompiledSystem& system_;
   RosenbrockIntegrator integrator_;
   const int most_lanes_;
-  int first_ = -1;  ///< whose tangents `groups_` hold
+  int first_ = -1;  ///< first parameter of `groups_`
   std::optional<LaneGroups<Group>> groups_;
   RosenbrockIntegrator::BeforeAccept stages_;
   bool with_gradient_ = false;

@@ -7,8 +7,8 @@
 namespace codesign {
 namespace {
 
-constexpr int kMemory = 32000000;  // bytes
-constexpr int kFewest = 16;
+constexpr int kMemory = 32000000;  // [bytes]
+constexpr int kFewest = 16;        // points that are stored in any case
 
 int points_in_memory(const Layout& layout) {
   const int numbers = 1 + 2 * layout.n + layout.states + layout.columns();
@@ -70,7 +70,7 @@ void StepPath::point(int k, PathPoint* point) const {
   point->turns = kept.turns;
 }
 
-// Half of what is free, so that there is room between these points too.
+// Uses half of the free memory, so that points between the stored ones can be stored later.
 int StepPath::make_room(int from, int to) {
   while (stride_ > 1 && kept_[count_ - 1].k > from) --count_;
   const std::size_t all = 2 * most_, free = all > count_ ? (all - count_) / 2 : 0;

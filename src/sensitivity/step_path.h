@@ -8,38 +8,38 @@
 
 namespace codesign {
 
-/// What a Rosenbrock step is taken up from: where the last one ended, before its projection, and to which turns angles belong there.
+/// A point from which a Rosenbrock step can be repeated: the unprojected end of the step before, and the turn references there.
 struct PathPoint {
   State<double> state;
   std::vector<std::vector<double>> turns;  ///< Equations::turn_references()
 };
 
-/// The points that an integration passed, to go back along them. Keeps its memory from run to run.
+/// The ends of the steps of an integration, for the backward pass of the adjoint. clear() keeps the memory for the next run.
 ///
-/// Of a path with more points than there is room for only every second is kept, then every fourth, and so on. Whoever goes back makes
-/// those between once more and keeps as many of them as there is room for, beside what lies before.
+/// If the path has more points than `most`, only every second point is stored, then every fourth, and so on. The backward pass repeats the
+/// steps between stored points; it stores their ends with make_room() and keep(), as far as memory allows.
 class StepPath {
  public:
-  /// @param most points of an integration that are kept; as many again as are made once more. 0: what fits into 32 MB.
+  /// @param most largest number of stored points of an integration; there is room for as many repeated points. 0: what fits into 32 MB.
   explicit StepPath(const Layout& layout, int most = 0);
 
   void clear();
-  /// @param h size of the step [s] that ended here; 0 for the start.
+  /// Appends the end of a step of size h [s]; h = 0 for the start.
   void append(double h, const State<double>& state, const std::vector<std::vector<double>>& turns);
 
   int size() const { return static_cast<int>(sizes_.size()); }
   /// Size [s] of the step that ended at point k.
   double step_size(int k) const { return sizes_[static_cast<std::size_t>(k)]; }
 
-  /// The last point up to k that was kept.
+  /// Index of the last stored point that is not after k.
   int kept_before(int k) const;
-  /// @param k a point that was kept. @param point its state is of the layout's sizes.
+  /// Reads a stored point k. @param point its state must have the sizes of the layout.
   void point(int k, PathPoint* point) const;
 
-  /// Forgets what lies behind point `from` of a path that is not kept as a whole. Returns how far apart points from there to `to` can be
-  /// kept.
+  /// Discards the stored points after `from`, unless the whole path is stored. @returns the spacing at which the points between `from` and
+  /// `to` can be stored.
   int make_room(int from, int to);
-  /// Keeps a point that was made once more, behind all that are kept.
+  /// Stores the repeated point k, which must be after all stored points.
   void keep(int k, const PathPoint& point);
 
  private:
@@ -53,10 +53,10 @@ class StepPath {
   void thin_out();
 
   std::size_t most_;
-  std::vector<double> sizes_;  ///< of all steps
-  std::vector<Kept> kept_;     ///< ascending; those behind the first `count_` are memory to be used again
+  std::vector<double> sizes_;  ///< sizes of all steps [s]
+  std::vector<Kept> kept_;     ///< the stored points, ascending, in the first `count_` entries; the others are spare memory
   std::size_t count_ = 0;
-  int stride_ = 1;  ///< of the points of the integration that are kept
+  int stride_ = 1;  ///< every stride-th point of the integration is stored
 };
 
 }  // namespace codesign

@@ -8,19 +8,20 @@
 
 namespace codesign {
 
-/// Directional derivatives of the equations along (y', e_k) for N parameters at once, without their values. No allocation once warm.
+/// Directional derivatives of the equations along (y', e_k) for N parameters at once, (18), by compiled code where it exists, else by
+/// lanes. A prime denotes a directional derivative; only derivatives are returned, not values. No allocation once warm.
 template <int N>
 class TangentEquations {
  public:
   explicit TangentEquations(const CompiledSystem& system);
 
-  /// The design with its directions, whole turns, and everything else that is not asked for in every step.
+  /// The equations with lanes, which hold the design with its directions and the turn references.
   Equations<Lanes<N>>& equations() { return equations_; }
 
-  /// G' and, in the last column, g'. @param y directions of the state, as IncrementLayout lays them out.
+  /// G', one column per row of G, and g' in the last column. @param y directions of the state, in the order of IncrementLayout.
   void residual(const State<double>& state, const Directions<N>& y, Directions<N>* result);
 
-  /// dG_q, dG_v and dG_z with the integrand's row, on CompiledSystem::patterns(), N numbers per entry; dG_t likewise.
+  /// Computes the changes dG_q, dG_v and dG_z, integrand's row included, on CompiledSystem::patterns() with N numbers per entry, and dG_t.
   void linearize(const State<double>& state, const Directions<N>& y);
   const ByVariable<LineVector>& changes() const { return changes_; }
   const Directions<N>& time_changes() const { return time_changes_; }
@@ -28,7 +29,7 @@ class TangentEquations {
   /// Phi' and (Phi_q v)'.
   void constraint_errors(const State<double>& state, const Directions<N>& y, Directions<N>* Phi, Directions<N>* Phi_rate);
 
-  /// Values and directions side by side.
+  /// The state with its directions in lanes, valid until the next call.
   const State<Lanes<N>>& lanes(const State<double>& state, const Directions<N>& y);
 
  private:
@@ -41,7 +42,7 @@ class TangentEquations {
   ByVariable<LineVector> changes_;
   Directions<N> time_changes_;
 
-  // Where there is no code.
+  // Workspace for evaluation with lanes, without compiled code.
   State<Lanes<N>> state_;
   Linearization<Lanes<N>> derivatives_;
   VectorX<Lanes<N>> residual_, errors_, rates_;

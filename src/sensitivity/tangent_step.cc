@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-/// Of each direction's components from the `first` on.
+/// Sum of squares of `size` components from `first` on, for each direction.
 template <int N>
 Eigen::Array<double, N, 1> squared_norms(const Directions<N>& x, int first, int size) {
   Eigen::Array<double, N, 1> sum = Eigen::Array<double, N, 1>::Zero();
@@ -63,7 +63,7 @@ void TangentStep<N>::combine(const double* from, const double* factors, std::siz
   codesign::combine(from, factors, parts, count, N * size, to);
 }
 
-// The stage's u' as far as it is known before the solve; as RosenbrockStep::stage_start().
+// Sets w' in increment i, the derivative of RosenbrockStep::stage_start().
 template <int N>
 void TangentStep<N>::stage_start(std::size_t i, double h) {
   const double hg = h * tableau_.gamma;
@@ -87,8 +87,8 @@ void TangentStep<N>::stage_start(std::size_t i, double h) {
   for (int k = 0; k < at_.states; ++k) u.vector(at_.s() + k) = hg * u.vector(at_.s() + k);
 }
 
-// (dG_q) u_q + (dG_s) u_s + (dG_v) u_v + (dG_z) u_z and the integrand's, for all stages: the u are the step's own, known beforehand, and dG
-// is by far the largest array, to be read seldom.
+// (dG_q) u_q + (dG_s) u_s + (dG_v) u_v + (dG_z) u_z, with the integrand's row, for several stages at once: dG is by far the largest array,
+// so it is read as few times as possible. The increments u of the step are known.
 template <int N>
 template <std::size_t together>
 void TangentStep<N>::change_matrices(const RosenbrockStep<double>& step) {
@@ -151,7 +151,7 @@ template <int N>
 double TangentStep<N>::error(double relative_tolerance) const {
   const Directions<N>& u = stages_.back();
   const auto ratio = [](const Eigen::Array<double, N, 1>& squares, const Eigen::Array<double, N, 1>& size) {
-    // A parameter that moves nothing has no error.
+    // A parameter without influence on the motion has no error.
     return (size > 0.0).select(squares / size, 0.0).maxCoeff();
   };
   const double largest =
@@ -165,7 +165,7 @@ void TangentStep<N>::measure() {
   largest_v_ = largest_v_.max(squared_norms(y_, at_.v(), at_.n));
 }
 
-// Differentiates [G_a G_lambda; Phi_q 0] [delta; mu] = [0; -error].
+// Differentiates the projection [G_a G_lambda; Phi_q 0] [delta; mu] = [0; -error], (17), and adds delta' to the directions at `target`.
 template <int N>
 void TangentStep<N>::project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu, double* target) {
   for (int row = 0; row < at_.z_size; ++row) {

@@ -10,33 +10,35 @@
 
 namespace codesign {
 
-/// The exact tangent of RosenbrockStep for N parameters at once, the step sizes held fixed; doc/theory.md (18).
+/// The exact derivative of RosenbrockStep by N parameters at once, with step sizes held fixed; doc/theory.md (18).
 ///
-/// The stage equation E u = -(G + G_q w_q + G_s w_s + G_v w_v) is differentiated as it stands, the derivative of E included:
+/// The stage equation E u = -(G + G_q w_q + G_s w_s + G_v w_v) is differentiated including the derivative of E:
 ///   E u' = -(G' + G_q w_q' + G_s w_s' + G_v w_v' + (dG_q) u_q + (dG_s) u_s + (dG_v) u_v + (dG_z) u_z),
-/// with dG_x the change of G_x along (y', e_k). E is the factorization that the step itself used.
+/// with dG_x the change of G_x along (y', e_k). E is solved with the factorization of the step.
 template <int N>
 class TangentStep {
  public:
   TangentStep(const CompiledSystem& system, const RosenbrockTableau& tableau);
 
-  /// Begins at the start of a solution. @param parameters all named parameters, lanes seeded with the directions wanted.
+  /// Starts with the initial sensitivities, (20). @param parameters all named parameters, with the directions of the N parameters in the
+  /// lanes.
+  /// @param assembly that found `initial`. @param step started at `initial`.
   void start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly, const State<double>& initial,
              const RosenbrockStep<double>& step);
 
-  /// Tangent of the stages of the step's last attempt.
+  /// Computes the tangent of the stages of the step's last attempt.
   void attempt(const RosenbrockStep<double>& step);
-  /// Scaled error of the last attempt: the largest over the parameters of |u_last| / (tolerance |y'|), norms over positions or velocities,
-  /// with the largest |y'| so far.
+  /// Scaled error of the last attempt, acceptable up to 1: the largest |u'_last| / (tolerance |y'|) over the parameters, with norms over
+  /// positions or over velocities and the largest |y'| so far.
   double error(double relative_tolerance) const;
-  /// Takes the last attempt: tangent of its sum and projection, after RosenbrockStep::accept().
+  /// Accepts the last attempt: computes the tangent of its end and projection. To be called after RosenbrockStep::accept().
   void accept(const RosenbrockStep<double>& step);
 
-  /// Derivatives of the objective: its integral so far, and with the terminal terms at the present state.
+  /// Derivatives of the objective: psi() of its integral so far, terminal() of its terminal terms at `state`, the end of the last step.
   Eigen::Matrix<double, N, 1> psi() const { return y_.col(at_.psi()); }
   Eigen::Matrix<double, N, 1> terminal(const State<double>& state);
 
-  /// Derivatives of the state, as IncrementLayout lays it out.
+  /// Derivatives of the state at the end of the last accepted step, in the order of IncrementLayout.
   const Directions<N>& directions() const { return y_; }
 
  private:

@@ -13,7 +13,7 @@ namespace {
 using C = std::complex<double>;
 constexpr double kCompliance = 1e-9;
 
-/// Two links of length 1 hinged to the ground 1.2 apart; their tips meet in a loop. `length` is that of the right one.
+/// Two links, of length 1 and `length` (the right one), on ground hinges 1.2 apart; a loop joins their tips.
 std::string triangle(const std::string& distance = "1.2") {
   return "<robot name='t' xmlns:codesign='urn:t'><codesign:parameter name='length' value='1' lower='0.5' upper='2'/><link name='ground'/>" +
          bar("left") + bar("right") + hinge("left_hinge", "ground", "left", "0 0 0") +

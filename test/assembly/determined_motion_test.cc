@@ -61,7 +61,7 @@ TEST(DeterminedMotion, APointOnItsAxisIsNot) {
 
 TEST(DeterminedMotion, ARotorWithoutMass) {
   EXPECT_EQ(acceleration(link("a", "0", "0.1", "0.5 0 0") + joint("j", "ground", "a", "0 0 0"), "j"), 0.0);
-  // On an arm: it turns with the arm and by itself, and weighs nothing. The arm: m g l / (m l^2 + J).
+  // The massless link is on an arm and can turn relative to it. Acceleration of the arm: m g l / (m l^2 + J).
   const std::string arm = link("a", "2", "0", "0.5 0 0") + joint("j", "ground", "a", "0 0 0");
   EXPECT_NEAR(acceleration(arm + link("r", "0", "0.1", "0 0 0") + joint("k", "a", "r", "0.5 0 0"), "j"), kGravity / 0.5, 1e-9);
   EXPECT_NEAR(acceleration(arm + link("r", "0", "0.1", "0 0 0") + joint("k", "a", "r", "0.5 0 0", "1 0 0"), "j"),

@@ -44,7 +44,7 @@ TEST(MakeSystem, ALoopThatCannotBeClosedIsNamedWithItsPlace) {
   EXPECT_EQ(refused.where.file, "test.urdf");
   EXPECT_EQ(refused.where.line, 2);
   EXPECT_EQ(refused.element, "<loop name=\"tip\">");
-  // Two bars of 1 m over 2.5 m: the nearest point of the search lies a little off the stretched position.
+  // Two bars of 1 m cannot span 2.5 m; the closest position of the search is near the stretched one.
   const std::string label = "misses by ";
   ASSERT_EQ(refused.value.substr(0, label.size()), label);
   EXPECT_NEAR(std::stod(refused.value.substr(label.size())), 500.0, 10.0) << "mm";

@@ -26,7 +26,8 @@ TEST(DimensionOfCone, OfSeveral) {
   EXPECT_EQ(dimension_of_cone({}), 0);
 }
 
-/// Two bars on each other and one beside them, tied together at their ends: lengths a, b and c, the third axis at x = d.
+/// A planar four-bar along the x axis: bar "two" (length b) hangs on bar "one" (length a), bar "three" (length c) on a hinge at x = d, and
+/// the ends of "two" and "three" are tied together.
 int lost(double a, double b, double c, double d, const std::string& start = "{}") {
   const auto number = [](double x) { return std::to_string(x); };
   const auto bar = [](const std::string& name) {

@@ -12,7 +12,7 @@
 namespace codesign {
 namespace {
 
-/// What the start of a mechanism needs that has no sharing yet.
+/// A system without sharing of reactions, assembled at its start.
 ReactionSharing sharing_of(const std::string& urdf, const std::string& study) {
   Compiled c(urdf, study, 1e-8);
   EXPECT_TRUE(c.start().ok());
@@ -43,13 +43,13 @@ TEST(Redundancy, NamesJointAndKindOfRowsThatTheOthersImply) {
   ASSERT_EQ(r.rows.size(), 3U);
   Eigen::MatrixXd kept = c.Phi_q;
   for (const ConstraintRow& row : r.rows) {
-    // Across the plane there are one shift and two tilts too many.
+    // Redundant are one translation normal to the plane and two rotations out of it.
     const bool across = row.kind == "coincident points, ground y" || row.kind.rfind("parallel axes, ", 0) == 0;
     EXPECT_TRUE(across) << row.joint << ' ' << row.kind;
     for (std::size_t k = 0; k < c.system.topology().pairs.size(); ++k)
       if (c.system.topology().pairs[k].name == row.joint) kept.row(c.system.layout().pair_row[k] + row.row - 1).setZero();
   }
-  // Without them nothing is lost.
+  // Without these rows the rank is the same.
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
   qr.setThreshold(1e-9);
   EXPECT_EQ(qr.compute(kept).rank(), c.Phi_q.rows() - 3);
@@ -98,7 +98,7 @@ TEST(Redundancy, RowsAreOfLoopsNeverOfTheTreeOrOfEulerParameters) {
 }
 
 TEST(Redundancy, WhatHoldsAtASingularPositionAloneIsNotDropped) {
-  // All bars of the flat parallelogram lie on one line, so that a row of its plane follows from the others, but only there.
+  // All bars of the flat parallelogram lie on one line, so that a row in its plane is redundant, but only at this position.
   Compiled c(four_bar_row(1),
              let_go("{bar0_hinge: {position: 1.5707963267948966}, bar1_hinge: {guess: 1.5707963267948966}}", "bar0_hinge/velocity"), 1e-8);
   ASSERT_TRUE(
@@ -123,7 +123,8 @@ TEST(Redundancy, ASecondMimicOfTheSameIsNamedAsOne) {
   EXPECT_EQ(r.undetermined, (std::vector<std::string>{"second", "gear"}));
 }
 
-/// Velocities of the coordinates by translation and turning of the bodies, which the unit Euler parameters' own multipliers do not load.
+/// Maps translation and rotation rates of the bodies to coordinate velocities, (6 per body) to n; in these, the rows of unit Euler
+/// parameters have no load.
 Eigen::MatrixXd rigid_motions(const Layout& layout, const State<double>& state) {
   Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(layout.n, 6 * layout.bodies);
   for (int b = 0; b < layout.bodies; ++b) {
@@ -143,7 +144,7 @@ void expect_least_norm(Started&& c) {
   Eigen::VectorXd G;
   double g = 0.0;
   c.equations.residual(unloaded, &G, &g);
-  // Newton and Euler: the reactions' forces and torques are known, and the complete orthogonal decomposition gives the shortest with these.
+  // By Newton and Euler the total load of the reactions is known; the complete orthogonal decomposition gives the reactions of least norm.
   const Eigen::MatrixXd motions = rigid_motions(layout, c.state), loads = motions.transpose() * c.Phi_q.topRows(joints).transpose();
   const Eigen::VectorXd wrenches = -motions.transpose() * G.head(layout.n);
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod;

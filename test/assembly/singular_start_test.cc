@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kCompliance = 1e-9;
 
-/// Two hinged bars whose tips a coupler joins as long as the hinges are apart: folded flat, at a quarter turn, bars may turn alike or
-/// against each other.
+/// A parallelogram: two hinged bars and a coupler as long as the distance of the hinges. Flat, at a quarter turn, the bars may turn in the
+/// same or in opposite directions.
 std::string parallelogram() {
   return robot(bar("left") + bar("right") + bar("coupler") + hinge("left_hinge", "ground", "left", "0 0 0") +
                hinge("right_hinge", "ground", "right", "1.2 0 0") + hinge("pin", "left", "coupler", "0 0 -1") +
@@ -21,7 +21,8 @@ std::string parallelogram() {
                "<successor link='coupler'><origin xyz='1.2 0 0'/></successor><axis xyz='0 1 0'/></loop>");
 }
 
-/// Crank and rod of 1 m: with the crank upright the slider is at the crank's hinge, and the rod may turn with the crank, or move it on.
+/// A slider-crank with crank and rod of 1 m: with the crank upright the slider is at the crank's hinge. Then either rod and crank turn
+/// together or the slider moves on.
 std::string equal_slider_crank() {
   return robot(bar("crank") + bar("rod") + bar("slider") + hinge("crank_hinge", "ground", "crank", "0 0 0") +
                hinge("pin", "crank", "rod", "0 0 -1") +
@@ -41,7 +42,7 @@ std::string flat(const std::string& left, const std::string& right) {
 struct Start {
   Start(const std::string& urdf, const std::string& initial, const std::string& signal)
       : compiled(urdf, let_go(initial, signal), kCompliance), status(compiled.start()) {}
-  /// Rates of the tree's coordinates by the bodies' turning about y: omega = 2 G p'.
+  /// Rates of the tree's coordinates, computed from the bodies' angular velocities about y, omega = 2 G p'.
   double turn_rate(int body) const {
     const auto p = compiled.state.q.segment<4>(7 * body + 3), rate = compiled.state.v.segment<4>(7 * body + 3);
     return 2.0 * (-p[2] * rate[0] - p[3] * rate[1] + p[0] * rate[2] + p[1] * rate[3]);

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// What users get wrong, from end to end: each fault is answered with its place, its value and what is allowed.
+// Errors in input files, end to end: each message names the place, the value and the allowed values.
 #include <gtest/gtest.h>
 
 #include "cli/slider_crank.h"
@@ -7,7 +7,7 @@
 namespace codesign::cli {
 namespace {
 
-/// One slip in a shipped file, and what the answer must hold.
+/// One error put into a shipped file, and the text that the message must contain.
 struct Slip {
   const char *from, *to;                    ///< the edit
   int line;                                 ///< where it stands

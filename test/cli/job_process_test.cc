@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// The command line as a program of its own: killed, interrupted, twice at a time, and without room for what it writes.
+// The command line as a separate process: killed, interrupted, two at the same time, and with a full disk.
 #include <gtest/gtest.h>
 
 #include "child_process.h"

@@ -47,7 +47,7 @@ TEST(LimitWatch, NotesFirstTimeAndWorstValueOfEachLimit) {
   EXPECT_EQ(crossings[1].worst, 4.0);
   EXPECT_EQ(crossings[2].limit, "effort");
   EXPECT_EQ(crossings[2].worst, -151.0);
-  EXPECT_EQ(describe(crossings[1]), "joint 'elbow_joint' is beyond its velocity limit 3.15 from t = 0.1 s, 4 at the worst");
+  EXPECT_EQ(describe(crossings[1]), "joint 'elbow_joint' exceeds its velocity limit 3.15 from t = 0.1 s; the worst value is 4");
 }
 
 TEST(LimitWatch, WhatTheTolerancesExplainIsNotReported) {

@@ -38,7 +38,7 @@ TEST(OptimizeCommand, PrintsStartAndTunedDesign) {
   EXPECT_EQ(outcome.err.substr(0, 8), "trial 1:");
 }
 
-/// Raises a flag once a text has been written to it, as a user would who reads along.
+/// A stream that sets a flag once a given text is written to it, like a user who interrupts on reading it.
 class WatchingBuffer : public std::stringbuf {
  public:
   WatchingBuffer(std::string text, std::atomic<bool>* flag) : text_(std::move(text)), flag_(flag) {}

@@ -49,7 +49,7 @@ inline std::string read_text_file(const std::string& path) {
   return text.str();
 }
 
-/// A folder of the running test, empty at first and gone afterwards.
+/// A temporary folder of the running test, removed at its end.
 class ScratchFolder {
  public:
   ScratchFolder() {

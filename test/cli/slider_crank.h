@@ -25,7 +25,7 @@ inline void expect_keys(const Json& object, const std::vector<std::string>& keys
   for (const std::string& key : keys) EXPECT_TRUE(object.contains(key)) << key;
 }
 
-/// The shipped study cut short, so that a test of shapes takes a moment only.
+/// The shipped study with a short duration, for quick tests of the output format.
 inline std::string short_study(const ScratchFolder& folder) {
   const std::string path = folder.edited("short.yaml", read_text_file(kStudy), "duration: 2.0", "duration: 0.1");
   return folder.edited("short.yaml", read_text_file(path), "max_evaluations: 200", "max_evaluations: 4");

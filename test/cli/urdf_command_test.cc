@@ -12,7 +12,7 @@ TEST(UrdfCommand, PrintsTheModelAtTheValuesAskedFor) {
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
   const RobotDescription robot = read_urdf({"printed", outcome.out});
   EXPECT_EQ(robot.parameters[0].value, 0.1);
-  // The mechanism that is printed needs no setting any more: it is simulated alike.
+  // The printed model contains the parameter values: without --set it gives the same simulation.
   const ScratchFolder folder;
   const std::string printed = folder.edited("printed.urdf", outcome.out, "<robot", "<robot");
   const Json there = json_of(run_words({"gradient", kModel, kStudy, "--set", "crank_length=0.1", "--json"}));

@@ -42,7 +42,7 @@ TEST(BodyMotion, PowerIsThatOfEverythingButGravity) {
   }
 }
 
-// What a friction law says that it took, by Gauss quadrature of its own power.
+// The work of friction, by Gauss quadrature of the power that the friction law reports.
 TEST(StepWork, OfFrictionIsWhatTheLawTakes) {
   for (const char* method : {"rodas4", "rodas4p2", "rodas5p"}) {
     const std::string solver =

@@ -34,7 +34,7 @@ std::string geared() {
 TEST(Couplings, StayInStepOverManyTurnsAndMoveAsOneInertia) {
   const double inertia = 0.8 + 400.0 * 0.001 + 0.01, omega = std::sqrt(3.0 / inertia);
   for (const char* integrator : {"rosenbrock", "idas"}) {
-    // What projection keeps to rounding, stabilization keeps to the tolerance of positions in the hundreds.
+    // Projection keeps the constraint to rounding, stabilization to the tolerance of positions of several hundred radians.
     const double in_step = integrator == std::string("idas") ? 2e-3 : 1e-6;
     const std::string solver = std::string("{integrator: ") + integrator + ", relative_tolerance: 1e-8, absolute_tolerance: 1e-9}";
     Simulation simulation(compile(geared(), motion_study(3.0, "{out: {position: 9.0}}", "out/velocity", solver)), {});

@@ -58,7 +58,7 @@ TEST(Energy, ABallJointLosesItsFrictionWork) {
   EXPECT_NEAR(b.start - b.end, b.friction_work, 1e-6 * b.friction_work);
 }
 
-// Of a bristle's spring too: what it stores is taken from the motion, and given back.
+// Includes the energy that the spring of a bristle takes from the motion and returns.
 TEST(Energy, FrictionWithStatesTakesExactlyItsWork) {
   for (const char* model : {"gonthier", "lugre"}) {
     const std::vector<std::array<std::string, 2>> cases = {

@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Every joint that carries friction of its reaction, in the tree and as a loop, with preload: friction takes exactly its work.
+// All joint types with friction from their reaction, in the tree and as a loop, with preload: the energy balance holds with the work of
+// friction.
 #include <gtest/gtest.h>
 
 #include "equations/compiled.h"
@@ -26,7 +27,7 @@ std::string friction(const std::string& geometry, const std::string& preload = "
          geometry + "/>";
 }
 
-/// A chain's friction stands on its first joint.
+/// In a chain the first joint has the friction annotation.
 std::string annotated(std::string content, const std::string& annotation) { return content.insert(content.find("</joint>"), annotation); }
 
 std::vector<FrictionCase> cases() {

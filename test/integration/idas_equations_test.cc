@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-/// Sensitivities that fail, to see what becomes of exceptions.
+/// Sensitivities that throw, to test the handling of exceptions in callbacks.
 struct Faulty : IdasSensitivities {
   int count() const override { return 1; }
   void start(const std::vector<double>&, const State<double>&, Integrator*, std::vector<State<double>>*, std::vector<double>*) override {}

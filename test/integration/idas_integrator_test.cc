@@ -96,7 +96,7 @@ TEST(IdasIntegrator, StartsAnewToTheLastBit) {
   const State<double> first = integrator.state();
   const double psi = integrator.psi();
   const auto steps = integrator.statistics().steps;
-  // Another design, left half-way.
+  // A run of another design that is not finished.
   std::vector<double> other = system->parameters();
   other[0] *= 2.0;
   ASSERT_TRUE(integrator.start(other).ok());
@@ -154,7 +154,7 @@ TEST(IdasIntegrator, WhatRunsAwayEndsWithAStatus) {
   EXPECT_GT(status.time, 0.0);
   EXPECT_LT(status.time, 0.5);
   EXPECT_FALSE(status.cause.empty());
-  // The memory is whole afterwards.
+  // The integrator can be used again afterwards.
   EXPECT_TRUE(run(&integrator, *system).ok());
 }
 

@@ -65,7 +65,7 @@ TEST_F(IdasNewtonTest, StabilizationOnlyScalesTheConstraintRows) {
   ASSERT_EQ(SUNLinSolSolve(newton.solver(), newton.matrix(), x.get(), b.get(), 0.0), kSundialsSuccess);
   VectorX<double> expected = Eigen::Map<const VectorX<double>>(data(b), size);
   VectorX<double> result = product(c_j);
-  // What the left-out terms of order kappa/c_j^2 would change; q' - v is not among them.
+  // Bound of the neglected terms of order kappa/c_j^2; the rows of q' - v have none.
   expected.segment(2 * layout.n, layout.m) /= growth;
   const double left_out = (result - expected).segment(2 * layout.n, layout.m).cwiseAbs().maxCoeff();
   result.segment(2 * layout.n, layout.m) = expected.segment(2 * layout.n, layout.m);

@@ -1,6 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 //
-// Accelerations of robots without loops beside those of Orocos KDL, the library behind much of ROS.
+// Compares accelerations of robots without loops with Orocos KDL, a library that many ROS packages use.
 #include <gtest/gtest.h>
 
 #ifdef CODESIGN_HAS_KDL

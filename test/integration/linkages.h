@@ -10,7 +10,7 @@
 
 namespace codesign {
 
-// Closed linkages with redundant constraints, whose motions are known otherwise.
+// Closed linkages with redundant constraints, whose motions are known in closed form.
 
 /// A planar ring of hinges with something more on it, see four_bar().
 inline std::string four_bar_with(const std::string& more) {
@@ -91,7 +91,7 @@ inline std::string bricard() {
       "1'/></loop>");
 }
 
-/// Turn of the even hinges of bricard() that belongs to one of the odd ones.
+/// The angle of the even hinges of bricard() for a given angle of the odd ones.
 inline double bricard_partner(double theta) { return std::acos(-std::cos(theta) / (1.0 + std::cos(theta))); }
 
 inline std::string bricard_start(double theta, double rate) {

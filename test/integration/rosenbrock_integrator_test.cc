@@ -18,7 +18,7 @@ CompiledSystem swinging(const std::string& solver, const std::string& urdf = pen
                         read_study({"test.yaml", let_go("{hinge: {position: 1.0}}", "hinge/velocity", "solver: " + solver + "\n")}, robot));
 }
 
-/// Steps to `time`; the largest step taken.
+/// Integrates to `time` and returns the largest step size [s].
 double run(RosenbrockIntegrator* integrator, double time) {
   double largest = 0.0;
   while (integrator->step().state().t < time) {

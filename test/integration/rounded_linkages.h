@@ -48,7 +48,7 @@ inline std::string four_bar(const std::string& suffix, const std::string& height
          closure("closure" + suffix, "coupler" + suffix, "xyz='0.35 0 0' rpy='" + rounding + "'", "rocker" + suffix, "xyz='0.25 0 0'");
 }
 
-/// Two four-bars that have nothing to do with each other.
+/// Two four-bars without a common coordinate.
 inline std::string two_four_bars() {
   return robot(four_bar("_a", "0", "0.00003", "0.00001 -0.00002 0") + four_bar("_b", "0.5", "0.49998", "-0.00002 0.00001 0"));
 }

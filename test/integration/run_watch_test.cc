@@ -98,10 +98,9 @@ TEST_F(WatchedPendulum, EnergyFromNowhereAtTheEndFailsAtOnce) {
   EXPECT_EQ(watch_.check(state_, 0.0, 0.0, &statistics_).code, StatusCode::kEnergyError);
 }
 
-// Rounding is all the motion there is.
+// The mechanism rests; its computed motion is only rounding.
 TEST(RunWatch, WhatHangsAtRestIsNotMeasuredByItsRounding) {
-  const auto system =
-      compile(pendulum(), motion_study(2.0, "{hinge: {position: 0.0}}", "hinge/velocity", solver("rosenbrock", 1e-10)));
+  const auto system = compile(pendulum(), motion_study(2.0, "{hinge: {position: 0.0}}", "hinge/velocity", solver("rosenbrock", 1e-10)));
   RosenbrockIntegrator integrator(*system);
   ASSERT_TRUE(integrator.start({}).ok());
   while (integrator.state().t < 2.0) ASSERT_TRUE(integrator.advance(2.0).ok());

@@ -22,7 +22,7 @@ std::shared_ptr<const CompiledSystem> system_of(const std::string& urdf, const s
   return make_system(robot, read_study({"test.yaml", study}, robot));
 }
 
-/// A small swing of a bar, and its angular frequency: 9.81 * 0.5 over its moment of inertia about the hinge.
+/// A small swing of a bar, and its angular frequency: the root of 9.81 * 0.5 over its moment of inertia about the hinge.
 std::shared_ptr<const CompiledSystem> small_swing() {
   return system_of(pendulum(), let_go("{hinge: {position: 1.0e-4}}", "hinge/position", kTight));
 }

@@ -22,7 +22,7 @@ Warnings warnings_of(const std::string& urdf, const std::string& initial, const 
   return run->warnings();
 }
 
-/// When upright_row() has turned by a quarter.
+/// The time at which upright_row() has turned by a quarter.
 double quarter_time(int count, double rate) {
   constexpr double kStep = 1e-5;
   double theta = 0.0, time = 0.0;
@@ -45,7 +45,7 @@ TEST(SingularityWatch, TellsTimeAndRankWhereParallelogramsAreFlat) {
     ASSERT_NE(at, std::string::npos);
     ASSERT_NE(rank, std::string::npos) << text;
     EXPECT_NEAR(std::stod(text.substr(at + 4)), quarter_time(2, 1.0), 1e-3) << text;
-    // Five bodies of seven coordinates, one of which moves; flat, two more.
+    // Five bodies with seven coordinates each and one degree of freedom; in the flat position the rank drops by two.
     EXPECT_NE(text.find("rank 32 instead of 34"), std::string::npos) << text;
   }
 }

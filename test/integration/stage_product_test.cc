@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-/// By machine code, where there is any, and by loops.
+/// The product by machine code, where it is available, and by loops.
 class StageProductTest : public ::testing::TestWithParam<bool> {
  protected:
   StageProductTest() {

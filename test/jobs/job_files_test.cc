@@ -21,7 +21,7 @@ class Names : public testing::Test {
   std::string folder() const { return directory_.path().string(); }
   bool is_there(const std::string& path) const { return std::filesystem::exists(path); }
 
-  /// The stem of a job that was killed with `suffixes` behind it.
+  /// Creates files with these suffixes as left by a killed job; returns their stem.
   std::string killed_job(const std::vector<std::string>& suffixes) const {
     const pid_t child = fork();
     if (child == 0) {

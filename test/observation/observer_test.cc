@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-/// The frame of a start.
+/// The frame observed at the start of a study.
 struct Observed {
   Compiled compiled;
   Observer observer;
@@ -55,7 +55,7 @@ TEST(Observer, FrictionIsATorqueAgainstTheMotion) {
   EXPECT_NEAR(sample.torque.y(), sample.friction, 1e-14) << "about the hinge's axis";
   EXPECT_EQ(sample.force.norm(), 0.0);
   EXPECT_LT(sample.position.norm(), 1e-14);
-  // The balance of moments: what gravity does not explain of the acceleration is friction's.
+  // Balance of moments: inertia times acceleration minus the moment of gravity is the friction.
   const double moment = (0.0834 + 0.25) * o.frame.joints[0].acceleration + 9.81 * 0.5 * std::sin(0.4);
   EXPECT_NEAR(moment, sample.friction, 1e-11);
 }
@@ -85,7 +85,7 @@ TEST(Observer, AJointThatMovesNoMassStaysWhereItStarted) {
   EXPECT_LT((o.frame.links[2].position + Eigen::Vector3d(std::sin(0.4), 0.0, std::cos(0.4))).norm(), 1e-14);
 }
 
-// The tree's kinematics knows the poses of planar and floating joints at the start only.
+// theta of the observer has planar and floating joints at their start positions only.
 TEST(Observer, ALinkWithoutMassBelowAFreeJointGoesWithIt) {
   for (const char* type : {"floating", "planar"}) {
     const std::string urdf =

@@ -16,7 +16,7 @@ struct Case {
   Study study;
 };
 
-/// A shipped study at tolerances that leave the optimum's digits alone and the test short.
+/// A shipped study at tolerances loose enough for a short test and tight enough for the digits that are compared.
 Case shipped(const std::string& name) {
   const std::string root = source_dir();
   Case c;
@@ -72,7 +72,7 @@ TEST(Optimizer, SurvivesPointsThatCannotBeAssembled) {
       parameter.lower = 0.05;
     }
   }
-  // The objective rewards a short rod, so that the search runs into the region that does not exist.
+  // The objective rewards a short rod, so that the search enters the region where the mechanism cannot be assembled.
   c.study.integral.front().signal = parse_signal("slider_joint/position", {}, "signal");
   c.study.integral.front().reference = Quantity(0.0);
   c.study.integral.resize(1);

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// How searches end: success is only what it says.
+// Statuses and terminations of searches; success only for a search that converged.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""With bad input the nodes are up, and each door says what is wrong."""
+"""With bad input the nodes stay up, and services, action and diagnostics report the error."""
 import threading
 import unittest
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""While a job runs the other doors answer, a second job is refused, and a cancelled one returns its best point."""
+"""While a job runs, other services answer, a second job is refused, and a cancelled job returns its best point."""
 import shutil
 import threading
 import unittest

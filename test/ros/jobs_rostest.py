@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""What a job leaves, whatever ends it: two nodes in one second, Ctrl-C, cancel, kill -9, a full disk, requests beyond all bounds."""
+"""The files that jobs leave: after Ctrl-C, cancel, kill -9, a full disk and absurd requests, and by two nodes in the same second."""
 import json
 import os
 import signal
@@ -24,7 +24,7 @@ SHORT = OptimizeRequest(max_evaluations=1)
 
 
 def long_study():
-    """A study of which one evaluation takes a while."""
+    """A study with slow evaluations."""
     with open(f"{SHARE}/config/slider_crank.yaml", encoding="utf-8") as file:
         text = file.read().replace("duration: 2.0", "duration: 8.0")
     path = tempfile.mktemp(suffix=".yaml")

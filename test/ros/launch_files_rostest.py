@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""Launch files as they are typed: paths, typing errors, and a master that is left as it was found, whatever ends them in whatever order."""
+"""Launch files as users call them: paths, typing errors, and restored parameters of the master in whatever order they end."""
 import json
 import os
 import pathlib
@@ -24,7 +24,7 @@ REAL_TIME = ("simulate.launch", "rviz:=false", "set:={crank_length: 0.09}", "loo
 
 
 def parameters():
-    """All of the master but what roslaunch itself leaves there."""
+    """All parameters of the master except those that roslaunch itself leaves there."""
     return {name: rospy.get_param(name) for name in rospy.get_param_names() if not name.startswith("/roslaunch/")}
 
 
@@ -75,7 +75,7 @@ class LaunchFilesTest(NodesTestCase):
         return launch
 
     def end(self, *launches):
-        """Ends launch files. What the node that restores parameters had no time for is done a moment later."""
+        """Ends launch files. Parameters that the node had no time to restore are restored by its background process a moment later."""
         count = len(records())
         for launch in launches:
             launch.process.send_signal(signal.SIGINT)
@@ -121,7 +121,7 @@ class LaunchFilesTest(NodesTestCase):
         for first, second in (("fast", "replay"), ("fast", "real time")):
             for is_first_to_end_first in (True, False):
                 launches = [starts[first](), starts[second]()]
-                # A command in a launch file is done before the next one begins: what is set by now is the second's.
+                # Commands of launch files run one after the other: parameters set by now belong to the second one.
                 both = parameters()
                 self.assertEqual(both["/use_sim_time"], second != "real time")
                 if is_first_to_end_first:

@@ -1,5 +1,5 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""Nodes as processes of a test, which ends them as users do."""
+"""Nodes as processes of a test, which ends them by signals as users do."""
 import os
 import re
 import shutil
@@ -21,7 +21,7 @@ SHARE = rospkg.RosPack().get_path("mechanism_codesign")
 
 
 class Node:
-    """One node under a name of its own; its parameters are those given."""
+    """One node with its own name and the given parameters."""
 
     def __init__(self, program, name, model="slider_crank", **parameters):
         self.name = name
@@ -69,7 +69,7 @@ class Launch:
         self.process = subprocess.Popen(command, cwd=cwd, env={**os.environ, **(environment or {})}, stdout=self.log, stderr=subprocess.STDOUT)
 
     def end(self, kind=signal.SIGINT):
-        """While it starts, roslaunch may miss a signal; one presses Ctrl-C again then."""
+        """Repeats the signal, since roslaunch may miss one while it starts."""
         end = time.monotonic() + TIMEOUT
         while self.process.poll() is None:
             assert time.monotonic() < end, "roslaunch does not end"
@@ -106,7 +106,7 @@ def values_of(status):
 
 
 class NodesTestCase(unittest.TestCase):
-    """Tests with a folder of their own and nodes that do not outlive them."""
+    """A test with its own folder; its nodes are ended with it."""
 
     def setUp(self):
         self.folder = tempfile.mkdtemp()

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""Nodes as they are started by hand: parameters, what they show of the mechanism and of their runs, what they leave on the disk."""
+"""Nodes started by hand: their parameters, their output about mechanism and runs, and their files."""
 import os
 import signal
 import subprocess
@@ -39,7 +39,7 @@ class NodesTest(NodesTestCase):
         for name, parameters in {"scale": {"time_scale": 1e-12}, "duration": {"study": study},
                                  "fast": {"study": study, "mode": "as_fast_as_possible"}}.items():
             self.start("simulation", f"endless_{name}", **parameters)
-            self.assertIn("longer than ROS can count", state_of(f"endless_{name}", "bad input").message)
+            self.assertIn("longer than ROS time can represent", state_of(f"endless_{name}", "bad input").message)
         self.start("optimization", "too_many", output_directory=self.folder, rate=1e10)
         self.assertIn("too many samples", state_of("too_many", "bad input").message)
         for node in self.nodes:

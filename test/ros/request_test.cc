@@ -15,7 +15,7 @@ using mechanism_codesign::EvaluateRequest;
 using mechanism_codesign::OptimizeGoal;
 using Names = std::vector<std::string>;
 
-/// What is wrong with a request, field first; fails if nothing is.
+/// The error message of a request, beginning with the field; the test fails if the request is valid.
 std::string fault_of(const std::function<void()>& use) {
   try {
     use();

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""The simulation node as fast as it can: it drives /clock, from one second on and never back."""
+"""The simulation node in the mode as_fast_as_possible: it publishes /clock, which starts at one second and never goes back."""
 import threading
 import unittest
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""The simulation node in scaled time, with robot_state_publisher beside it."""
+"""The simulation node in scaled time, together with robot_state_publisher."""
 import math
 import threading
 import unittest

@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-// That the service and the action say the same is checked when this compiles.
+// Compiling this checks that the service and the action have the same fields.
 TEST(Wire, ARequestBecomesAGoal) {
   mechanism_codesign::OptimizeRequest request;
   request.parameters = {"a", "b"};

@@ -36,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(Mechanisms, AdjointGradientTest,
                            return gradient_cases().at(std::get<0>(instance.param)).name + "_" + std::get<1>(instance.param);
                          });
 
-// Of a long way only a part is kept; the rest is made once more.
+// Of a long path only some points are stored; the steps between them are repeated.
 TEST_P(AdjointGradientTest, IsTheSameFromAWayOfWhichLittleIsKept) {
   const auto& [index, method] = GetParam();
   const GradientCase test = gradient_cases().at(index);
@@ -61,7 +61,7 @@ TEST(AdjointGradient, StartsAnewToTheLastBit) {
   EXPECT_NE(first.gradient, other.gradient);
 }
 
-// A plan that overlooks rows, as one made where a law did not act yet, is found out.
+// A plan that lacks rows, for example because a law did not act yet when it was made, is detected.
 TEST(AdjointGradient, DoesNotBelieveAWrongPlan) {
   const auto system = servo("{}");
   const LanePlan right = plan_lanes(*system);

@@ -72,7 +72,7 @@ TEST(Evaluation, RiddersDifferencesAgree) {
   EXPECT_LT(check.largest_relative_difference, 1e-4);
 }
 
-// Whatever check is asked for: there is no complex step through IDAS, and differences of the other integrator say more.
+// With idas every check is by Ridders' differences of the other integrator, since there is no complex step through IDAS.
 TEST(Evaluation, AGradientByIdasIsCheckedByTheOtherIntegrator) {
   Case c = shipped("slider_crank");
   c.study.duration = 0.3;
@@ -112,13 +112,13 @@ void expect_failures_are_statuses(const std::string& integrator) {
   const Evaluation impossible = evaluator.evaluate(rho, true);
   EXPECT_EQ(impossible.status.code, StatusCode::kAssemblyFailed);
   EXPECT_NE(impossible.status.cause.find("slider_pin"), std::string::npos);
-  // Friction geometry that cannot be.
+  // Impossible friction geometry.
   rho = c.rho;
   rho[2] = -0.05;
   EXPECT_EQ(evaluator.evaluate(rho, false).status.code, StatusCode::kInvalidDesign);
   const std::atomic<bool> cancelled{true};
   EXPECT_EQ(evaluator.evaluate(c.rho, false, &cancelled).status.code, StatusCode::kCancelled);
-  // The workspace is whole afterwards.
+  // The workspace can be used again afterwards.
   EXPECT_TRUE(evaluator.evaluate(c.rho, true).status.ok());
 }
 

@@ -40,12 +40,12 @@ inline GradientCase shipped_case(const std::string& name, double duration) {
   result.study.duration = duration;
   result.study.solver.relative_tolerance = 1e-6;
   result.study.solver.absolute_tolerance = 1e-7;
-  // The adjoint follows steps that no sensitivity has a say in.
+  // The adjoint requires steps that are not controlled by a sensitivity tolerance.
   result.study.solver.sensitivity_tolerance = 0.0;
   return result;
 }
 
-/// A parallelogram with three constraints too many, so that its multipliers come from compliance.
+/// A parallelogram with three redundant constraints, whose multipliers are determined by compliance.
 inline GradientCase four_bar_case() {
   std::string urdf = four_bar(pin_friction());
   const std::string plain = "<mass value='1'/>";

@@ -6,7 +6,7 @@
 namespace codesign {
 namespace {
 
-// Lanes come in eights and fours; of the adjoint's, one of each group is taken.
+// Lanes are evaluated in groups of eight and four; the adjoint uses one lane of each group to check its plan.
 TEST(GradientCost, GrowsByGroups) {
   EXPECT_EQ(direct_cost(1), direct_cost(4));
   EXPECT_LT(direct_cost(4), direct_cost(5));

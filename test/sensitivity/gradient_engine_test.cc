@@ -30,7 +30,7 @@ TEST(GradientEngine, TheStudyChoosesTheDirection) {
   EXPECT_FALSE(prefers_adjoint(*servo("{integrator: idas}")));
 }
 
-// Auto: few parameters forwards, many local ones backwards, but not where their sensitivities are to be tested.
+// gradient: auto chooses direct sensitivities for few parameters and the adjoint for many local ones, except with a sensitivity tolerance.
 TEST(GradientEngine, ManyLocalParametersGoBackwards) {
   const auto prefers = [](int tuned, double sensitivity_tolerance) {
     const GeneratedCase chain = parametric_chain(12, tuned);
@@ -74,8 +74,8 @@ TEST(GradientEngine, IdasStartsAnewToTheLastBitWithAndWithoutGradient) {
 }
 
 TEST(GradientEngine, NothingTunedIsNoGradient) {
-  const auto system = compile(
-      pendulum(), "duration: 0.1\nparameters: {}\nobjective: {integral: [{signal: hinge/velocity}]}\nsolver: {integrator: idas}\n");
+  const auto system =
+      compile(pendulum(), "duration: 0.1\nparameters: {}\nobjective: {integral: [{signal: hinge/velocity}]}\nsolver: {integrator: idas}\n");
   const GradientRun result = run_gradient(make_gradient_engine(*system).get(), *system, {});
   EXPECT_TRUE(result.status.ok());
   EXPECT_EQ(result.gradient.size(), 0);

@@ -118,7 +118,7 @@ TEST_F(IdasTangentTest, ProjectedDirectionsAreTangentToTheConstraints) {
     EXPECT_LT(after.segment(layout.n, layout.m).norm(), 1e-9) << k;
     EXPECT_LT((directions[at].q - exact[at].q).norm(), 2.0 * (drifted[at].q - exact[at].q).norm()) << k;
   }
-  // What is tangent already stays.
+  // Directions that are tangent to the constraints are not changed.
   directions = exact;
   ASSERT_TRUE(tangent.project(state, &integrator.equations(), &directions));
   for (std::size_t k = 0; k < 5; ++k) EXPECT_LT((directions[k].v - exact[k].v).cwiseAbs().maxCoeff(), 1e-11);

@@ -18,7 +18,7 @@ struct Probe {
   int tag;
 };
 
-/// (width, first, count) of each group for so many tuned parameters.
+/// (width, first, count) of each group for a number of tuned parameters.
 std::vector<std::array<int, 3>> groups_of(int count) {
   std::string parameters;
   for (int k = 0; k < count; ++k) parameters += (k ? ", p" : "p") + std::to_string(k) + ": {initial: " + std::to_string(k) + "}";

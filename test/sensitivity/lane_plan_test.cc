@@ -26,7 +26,7 @@ TEST(LanePlan, OfAChainDoesNotGrowWithItsLength) {
   EXPECT_EQ(lanes(16), lanes_of_8);
 }
 
-// A mass stands in its body's rows; a hinge's radius in those of both of its bodies.
+// The rows of a body depend on its mass; the rows of both bodies of a hinge depend on its radius.
 TEST(LanePlan, RowsAreThoseOfTheBodiesTouched) {
   const GeneratedCase chain = parametric_chain(3, 12);
   const auto system = from_texts("chain", chain.urdf.text, chain.study.text).compile("rodas4", "auto");

@@ -6,7 +6,7 @@
 namespace codesign {
 namespace {
 
-// psi_rho = psi_y y_rho at the start + what this unit sums, for the gains and the weight.
+// psi_rho = psi_y y_rho at the start + the sums of ParameterLanes, for the gains and the weight.
 TEST(ParameterLanes, IsWhatTheStartDoesNotExplain) {
   ServoSteps run("rodas4p2");
   const LanePlan plan = plan_lanes(*run.system);
@@ -27,7 +27,7 @@ TEST(ParameterLanes, IsWhatTheStartDoesNotExplain) {
     const double expected = run.end(k, psi);
     EXPECT_NEAR(gradient[k] + start.dot(begin), expected, 1e-12 * std::abs(expected)) << k;
   }
-  // All act on the motion or the integrand, but for the start's position.
+  // All parameters act on the motion or the integrand, except for the position of the start.
   for (Eigen::Index k : {0, 1, 2, 4}) EXPECT_NE(gradient[k], 0.0) << k;
   EXPECT_EQ(gradient[3], 0.0);
 }

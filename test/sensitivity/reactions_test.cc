@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Gradients of objectives that hold what joints exert, over the integral and at the end.
+// Gradients of objectives with reactions of joints, in the integral and at the end.
 #include <gtest/gtest.h>
 
 #include "assembly/make_system.h"

@@ -8,7 +8,7 @@ namespace {
 
 class RosenbrockGradientTest : public ::testing::TestWithParam<std::size_t> {};
 
-// Where memory is short the run is made once more for each further part of the parameters.
+// With a limit on memory the run is repeated for each further group of parameters.
 TEST_P(RosenbrockGradientTest, IsTheSameInParts) {
   const GradientCase test = gradient_cases().at(GetParam());
   const auto system = test.compile("rodas4", "direct");

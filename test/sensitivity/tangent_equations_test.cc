@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-/// With and without code, against all lanes at once.
+/// Compares results with and without compiled code with those of Equations<Lanes>.
 class TangentEquationsTest : public ::testing::TestWithParam<bool> {
  protected:
   TangentEquationsTest() {
@@ -77,7 +77,7 @@ TEST_P(TangentEquationsTest, OfTheConstraintsAreOnePerRow) {
   expect_equal(Phi_rate, expected_rate);
 }
 
-/// In its stop a joint has a branch that is not recorded.
+/// A joint in its stop takes a branch that is not part of the recorded code.
 TEST(TangentEquations, ComeFromTheFormulasWhereNothingWasRecorded) {
   const std::string narrow = "<limit lower='-0.05' upper='0.04' effort='2' velocity='1'/>";
   const std::shared_ptr<const CompiledSystem> system =

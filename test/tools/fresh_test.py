@@ -61,7 +61,7 @@ class FreshTest(unittest.TestCase):
                 os.chmod(file.name, 0o755)
             result = fresh(PATH=folder)
         self.assertEqual(result.returncode, 3, result.stderr)
-        self.assertIn("no fresh Debian can be made here: there is no mount", result.stderr)
+        self.assertIn("a Debian system cannot be created here: the program mount is missing", result.stderr)
 
 
 if __name__ == "__main__":
