@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <set>
 
 #include "equations/generic_state.h"
 #include "integration/linkages.h"
+#include "math/dense.h"
 
 namespace codesign {
 namespace {

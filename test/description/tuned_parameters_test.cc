@@ -8,7 +8,11 @@ namespace {
 
 TEST(TunedParameters, StandInTheOrderOfTheStudy) {
   Study study;
-  study.parameters = {{"a", 1.0}, {"b", 2.0}, {"c", 3.0}};
+  for (const auto& [name, value] : {std::pair{"a", 1.0}, {"b", 2.0}, {"c", 3.0}}) {
+    Parameter& parameter = study.parameters.emplace_back();
+    parameter.name = name;
+    parameter.value = value;
+  }
   study.tuned = {2, 0};
   EXPECT_EQ(start_parameters(study), (std::vector<double>{1.0, 2.0, 3.0}));
   EXPECT_EQ(start_of(study), Eigen::Vector2d(3.0, 1.0));

@@ -2,11 +2,11 @@
 #ifndef MECHANISM_CODESIGN_TEST_EQUATIONS_GENERIC_STATE_H_
 #define MECHANISM_CODESIGN_TEST_EQUATIONS_GENERIC_STATE_H_
 
-#include <Eigen/QR>
 #include <cmath>
 
 #include "assembly/redundancy.h"
 #include "equations/compiled.h"
+#include "math/dense.h"
 
 namespace codesign {
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""Checks the order of the house: includes run one way, ROS stays in ros/, files and functions stay short.
+"""Checks the order of the rooms: includes and declarations run one way, ROS stays in ros/, files and functions stay short.
 
 Usage: check_layering.py REPOSITORY. Prints each violation as file:line and exits with 1 if there is any.
 """
@@ -51,7 +51,9 @@ PUBLIC = {
 ROS_HEADER = re.compile(
     r"^(ros|rosbag|roscpp|actionlib|tf2?(_ros|_msgs)?|diagnostic_updater|xmlrpcpp|topic_tools|rosgraph_msgs|\w+_msgs)/|^(XmlRpc\w*|tf2_ros)\b")
 OWN_MESSAGE = re.compile(r"^mechanism_codesign/[A-Z]\w*\.h$")
-INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
+FORWARD_DECLARATION = re.compile(r"^\s*(?:class|struct)\s+(\w+);")
+DEFINITION = re.compile(r"^(?:class|struct)\s+(\w+)\b[^;]*\{", re.MULTILINE)
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 MAX_FILE = 400
 MAX_FUNCTION = 60
 
@@ -73,20 +75,35 @@ def room_of_file(name):
     return name.parts[1] if len(name.parts) > 2 and name.parts[1] in ROW_OF else None
 
 
-def is_ros(header):
-    return bool(ROS_HEADER.match(header) or OWN_MESSAGE.match(header))
+def is_ros(header, in_brackets):
+    """Our own headers below src/ros/ stand in quotes, those of ROS in brackets."""
+    return bool((in_brackets and ROS_HEADER.match(header)) or OWN_MESSAGE.match(header))
 
 
-def check_include(room, header):
+def check_include(room, header, in_brackets):
     """Why `room` must not include `header`, or None."""
-    if room != "ros" and is_ros(header):
+    if room != "ros" and is_ros(header, in_brackets):
         return f"{room}/ includes the ROS header <{header}>"
     other = room_of(header)
-    if other is None or other == room or (room == "ros" and is_ros(header)):
+    if other is None or other == room or (room == "ros" and is_ros(header, in_brackets)):
         return None
     if ROW_OF[other] >= ROW_OF[room]:
         return f"{room}/ includes {other}/, which does not stand before it"
     return None
+
+
+def defining_rooms(sources):
+    """The room that defines each class of ours, from the texts by file."""
+    return {name: room_of_file(path) for path, text in sources.items() for name in DEFINITION.findall(text)}
+
+
+def check_declaration(room, line, room_of_class):
+    """Why `room` must not declare the class that a line declares, or None: a declaration leads up at run time where no include does."""
+    match = FORWARD_DECLARATION.match(line)
+    other = room_of_class.get(match.group(1)) if match else None
+    if other is None or room == other or ROW_OF[other] < ROW_OF[room]:
+        return None
+    return f"{room}/ declares {match.group(1)}, which {other}/ defines above it"
 
 
 def blank_comments_and_strings(text):
@@ -126,20 +143,19 @@ def function_lengths(text):
 def check(root):
     """All violations below `root`, as sentences, and the number of lines of each file."""
     violations, lines_of = [], {}
-    for path in sorted(list(root.glob("src/**/*")) + list(root.glob("include/**/*"))):
-        if path.suffix not in (".h", ".cc"):
-            continue
-        name = path.relative_to(root)
+    sources = {path.relative_to(root): path.read_text(encoding="utf-8")
+               for path in sorted(list(root.glob("src/**/*")) + list(root.glob("include/**/*"))) if path.suffix in (".h", ".cc")}
+    room_of_class = defining_rooms(sources)
+    for name, text in sources.items():
         room = room_of_file(name)
-        text = path.read_text(encoding="utf-8")
         lines = text.splitlines()
         lines_of[str(name)] = len(lines)
         if room is None:
-            violations.append(f"{name}:1: {path.parent.name}/ has no place in the order of the rooms")
+            violations.append(f"{name}:1: {name.parent.name}/ has no place in the order of the rooms")
             continue
         for number, line in enumerate(lines, start=1):
             match = INCLUDE.match(line)
-            reason = check_include(room, match.group(1)) if match else None
+            reason = check_include(room, match.group(2), match.group(1) == "<") if match else check_declaration(room, line, room_of_class)
             if reason:
                 violations.append(f"{name}:{number}: {reason}")
         if len(lines) > MAX_FILE:

@@ -9,6 +9,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 sys.dont_write_bytecode = True
 import check_layering  # noqa: E402
+import check_symbols  # noqa: E402
 
 
 class PlantedViolations(unittest.TestCase):
@@ -16,8 +17,8 @@ class PlantedViolations(unittest.TestCase):
         self._directory = tempfile.TemporaryDirectory()
         self.root = pathlib.Path(self._directory.name)
         self.addCleanup(self._directory.cleanup)
-        self.plant("include/mechanism_codesign/math/a.h", "#include <Eigen/Core>\n")
-        self.plant("src/ros/node.cc", '#include <ros/ros.h>\n#include "mechanism_codesign/Optimize.h"\n#include "mechanism_codesign/math/a.h"\n')
+        self.plant("src/math/a.h", "#include <Eigen/Core>\n")
+        self.plant("src/ros/node.cc", '#include <ros/ros.h>\n#include "mechanism_codesign/Optimize.h"\n#include "math/a.h"\n')
 
     def plant(self, name, text):
         path = self.root / name
@@ -37,19 +38,35 @@ class PlantedViolations(unittest.TestCase):
         self.assertEqual(self.violations(), [])
 
     def test_backward_include(self):
-        self.plant("src/model/b.cc", '#include <map>\n#include "mechanism_codesign/dynamics/system.h"\n')
-        self.assert_only("src/model/b.cc:2", "model/ includes dynamics/")
+        self.plant("src/mechanism/b.cc", '#include <map>\n#include "mechanism_codesign/simulation.h"\n')
+        self.assert_only("src/mechanism/b.cc:2", "mechanism/ includes integration/")
 
     def test_backward_include_of_an_internal_header(self):
-        self.plant("src/model/b.cc", '#include "dynamics/system.h"\n')
-        self.assert_only("src/model/b.cc:1", "model/ includes dynamics/")
+        self.plant("src/reading/urdf/b.cc", '#include "system/system.h"\n')
+        self.assert_only("src/reading/urdf/b.cc:1", "reading/ includes system/")
+
+    def test_backward_include_of_a_public_header(self):
+        self.plant("include/mechanism_codesign/status.h", '#include "mechanism_codesign/frame.h"\n')
+        self.assert_only("include/mechanism_codesign/status.h:1", "text/ includes observation/")
+
+    def test_a_declaration_of_a_class_above(self):
+        self.plant("src/equations/code.h", "class Code {\n};\n")
+        self.plant("src/system/b.h", "class Code;\n")
+        self.assert_only("src/system/b.h:1", "system/ declares Code, which equations/ defines above it")
+        self.plant("src/system/b.h", "\n")
+        self.plant("src/assembly/b.h", "class Code;\n")
+        self.assertEqual(self.violations(), [])
+
+    def test_a_public_header_needs_a_room(self):
+        self.plant("include/mechanism_codesign/misc.h", "\n")
+        self.assert_only("include/mechanism_codesign/misc.h:1", "no place")
 
     def test_neighbours_in_one_row(self):
-        self.plant("src/joints/b.cc", '#include "mechanism_codesign/forces/friction.h"\n')
+        self.plant("src/joints/b.cc", '#include "forces/friction.h"\n')
         self.assert_only("src/joints/b.cc:1", "joints/ includes forces/")
 
     def test_command_line_does_not_include_ros(self):
-        self.plant("src/cli/b.cc", '#include "mechanism_codesign/ros/conversions.h"\n')
+        self.plant("src/cli/b.cc", '#include "ros/conversions.h"\n')
         self.assert_only("src/cli/b.cc:1", "cli/ includes ros/")
 
     def test_ros_header_outside_ros(self):
@@ -83,6 +100,12 @@ class PlantedViolations(unittest.TestCase):
     def test_long_member_function_inside_a_class(self):
         self.plant("src/math/b.cc", "class S {\n public:\n  int f() {\n" + "    g();\n" * 70 + "  }\n};\n")
         self.assert_only("src/math/b.cc:3", "function of 72 lines")
+
+    def test_a_call_of_a_function_above(self):
+        defined_by = {"codesign::make_system()": "assembly", "codesign::factor()": "sparse"}
+        self.assertEqual(check_symbols.check({"equations": {"codesign::factor()", "std::terminate()"}}, defined_by), [])
+        self.assertEqual(check_symbols.check({"equations": {"codesign::make_system()"}}, defined_by),
+                         ["equations/ calls codesign::make_system(), which assembly/ defines above it"])
 
 
 if __name__ == "__main__":
