@@ -16,8 +16,9 @@ class PlantedViolations(unittest.TestCase):
         self._directory = tempfile.TemporaryDirectory()
         self.root = pathlib.Path(self._directory.name)
         self.addCleanup(self._directory.cleanup)
-        self.plant("include/mechanism_codesign/math/a.h", "#include <Eigen/Core>\n")
-        self.plant("src/ros/node.cc", '#include <ros/ros.h>\n#include "mechanism_codesign/Optimize.h"\n#include "mechanism_codesign/math/a.h"\n')
+        self.plant("include/mechanism_codesign/error.h", "#include <string>\n")
+        self.plant("src/math/a.h", "#include <Eigen/Core>\n")
+        self.plant("src/ros/node.cc", '#include <ros/ros.h>\n#include "mechanism_codesign/Optimize.h"\n#include "math/a.h"\n')
 
     def plant(self, name, text):
         path = self.root / name
@@ -37,19 +38,23 @@ class PlantedViolations(unittest.TestCase):
         self.assertEqual(self.violations(), [])
 
     def test_backward_include(self):
-        self.plant("src/model/b.cc", '#include <map>\n#include "mechanism_codesign/dynamics/system.h"\n')
-        self.assert_only("src/model/b.cc:2", "model/ includes dynamics/")
+        self.plant("src/mechanism/b.cc", '#include <map>\n#include "equations/equations.h"\n')
+        self.assert_only("src/mechanism/b.cc:2", "mechanism/ includes equations/")
 
-    def test_backward_include_of_an_internal_header(self):
-        self.plant("src/model/b.cc", '#include "dynamics/system.h"\n')
-        self.assert_only("src/model/b.cc:1", "model/ includes dynamics/")
+    def test_backward_include_of_a_public_header(self):
+        self.plant("src/math/b.cc", '#include "mechanism_codesign/error.h"\n#include "mechanism_codesign/frame.h"\n')
+        self.assert_only("src/math/b.cc:2", "math/ includes observation/")
+
+    def test_public_header_without_a_room(self):
+        self.plant("include/mechanism_codesign/b.h", "\n")
+        self.assert_only("include/mechanism_codesign/b.h:1", "no place")
 
     def test_neighbours_in_one_row(self):
-        self.plant("src/joints/b.cc", '#include "mechanism_codesign/forces/friction.h"\n')
+        self.plant("src/joints/b.cc", '#include "forces/friction.h"\n')
         self.assert_only("src/joints/b.cc:1", "joints/ includes forces/")
 
     def test_command_line_does_not_include_ros(self):
-        self.plant("src/cli/b.cc", '#include "mechanism_codesign/ros/conversions.h"\n')
+        self.plant("src/cli/b.cc", '#include "ros/conversions.h"\n')
         self.assert_only("src/cli/b.cc:1", "cli/ includes ros/")
 
     def test_ros_header_outside_ros(self):
