@@ -55,7 +55,7 @@ class PlantedViolations(unittest.TestCase):
 
     def test_command_line_does_not_include_ros(self):
         self.plant("src/cli/b.cc", '#include "ros/conversions.h"\n')
-        self.assert_only("src/cli/b.cc:1", "cli/ includes ros/")
+        self.assert_only("src/cli/b.cc:1", "cli/ includes the ROS header")
 
     def test_ros_header_outside_ros(self):
         for header in ["ros/ros.h", "sensor_msgs/JointState.h", "rosbag/bag.h", "mechanism_codesign/JointFriction.h", "tf2_ros/buffer.h"]:
