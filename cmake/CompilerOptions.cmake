@@ -20,6 +20,13 @@ if(CODESIGN_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   endif()
 endif()
 
+# ccache takes precompiled headers only where it is told that it may trust them.
+if(CODESIGN_CCACHE AND CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+    CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${CMAKE_CXX_COMPILER_LAUNCHER})
+endif()
+option(CODESIGN_PRECOMPILED_HEADERS "Parse the headers of other libraries once for each library and for all tests" ON)
+
 # Numerical code. Neither errno nor floating-point traps are used, and both keep loops from being vectorized; IEEE results stay as they are.
 # The files of the time loop get all of it; for the rest it would only cost time to compile.
 function(codesign_optimize target)
@@ -47,7 +54,16 @@ function(codesign_optimize target)
   list(TRANSFORM hot PREPEND ${PROJECT_SOURCE_DIR}/src/)
   list(TRANSFORM hot APPEND .cc)
   list(APPEND hot ${PROJECT_SOURCE_DIR}/benchmark/kernel_tables.cc)
-  set_source_files_properties(${hot} PROPERTIES COMPILE_OPTIONS "$<$<NOT:$<CONFIG:Debug>>:${hot_options}>")
+  set_source_files_properties(${hot} PROPERTIES COMPILE_OPTIONS "$<$<NOT:$<CONFIG:Debug>>:${hot_options}>" SKIP_PRECOMPILE_HEADERS ON)
+endfunction()
+
+# Headers of the standard library and of Eigen are half of what a small source file compiles. Our own are not among them: they change.
+set(codesign_headers <Eigen/Core> <algorithm> <array> <atomic> <cmath> <complex> <cstdint> <functional> <map> <memory> <optional> <string>
+  <utility> <vector>)
+function(codesign_precompile target)
+  if(CODESIGN_PRECOMPILED_HEADERS)
+    target_precompile_headers(${target} PRIVATE ${codesign_headers} ${ARGN})
+  endif()
 endfunction()
 
 # Sanitizers watch libraries, program and fuzzer. The tests' own objects are those of an ordinary build, which a compiler cache has;

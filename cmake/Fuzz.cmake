@@ -29,7 +29,7 @@ codesign_sanitize(codesign_fuzz)
 add_executable(test_fuzz EXCLUDE_FROM_ALL ${fuzz_tests})
 target_link_libraries(test_fuzz PRIVATE codesign_fuzzing GTest::gtest GTest::gtest_main)
 codesign_warnings(test_fuzz)
-gtest_discover_tests(test_fuzz DISCOVERY_TIMEOUT 120 TEST_PREFIX fuzz. PROPERTIES TIMEOUT 300)
+codesign_add_test(fuzz test_fuzz 1 300)
 
 set_target_properties(codesign_fuzz test_fuzz PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test)
 add_dependencies(tests codesign_fuzz test_fuzz)

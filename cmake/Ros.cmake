@@ -36,6 +36,7 @@ target_include_directories(codesign_ros SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/inc
 target_link_libraries(codesign_ros PUBLIC codesign_core ${catkin_LIBRARIES} PRIVATE yaml-cpp)
 codesign_warnings(codesign_ros)
 codesign_sanitize(codesign_ros)
+codesign_precompile(codesign_ros <ros/ros.h>)
 
 # Each x_node_main.cc becomes the executable x.
 set(codesign_nodes)

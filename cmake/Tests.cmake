@@ -3,7 +3,6 @@
 # `tests` (catkin's target) builds them; `ctest` runs them. Without ROS only the tests of the core and of tools are there.
 
 find_package(GTest REQUIRED)
-include(GoogleTest)
 find_package(orocos_kdl QUIET)
 
 # Absolute paths reach the tests through one object alone: all others are the same in every checkout, for a compiler cache.
@@ -11,17 +10,44 @@ add_library(codesign_test_paths OBJECT EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/te
 target_compile_definitions(codesign_test_paths PRIVATE CODESIGN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" CODESIGN_EXECUTABLE="$<TARGET_FILE:codesign>")
 codesign_warnings(codesign_test_paths)
 
+# Registers an executable as a few tests, each of which runs its share of the cases in one process. For one case:
+# build/test/test_ROOM --gtest_filter=NAME
+function(codesign_add_test name target shards timeout)
+  math(EXPR last "${shards} - 1")
+  foreach(shard RANGE ${last})
+    math(EXPR number "${shard} + 1")
+    add_test(NAME ${name}.${number}_of_${shards} COMMAND ${target})
+    set_tests_properties(${name}.${number}_of_${shards} PROPERTIES
+      TIMEOUT ${timeout} ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${shard}")
+  endforeach()
+endfunction()
+
+# What every test compiles with. Its precompiled header is the other tests'.
+add_library(codesign_test_settings INTERFACE)
+target_include_directories(codesign_test_settings INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/test)
+target_link_libraries(codesign_test_settings INTERFACE codesign_core GTest::gtest SUNDIALS::idas NLopt::nlopt codesign_klu tinyxml2::tinyxml2
+  console_bridge::console_bridge yaml-cpp nlohmann_json::nlohmann_json)
+# A quarter less time to compile; the code under test is optimized all the same.
+if(CMAKE_BUILD_TYPE STREQUAL Release OR CODESIGN_SANITIZE)
+  target_compile_options(codesign_test_settings INTERFACE -O1)
+endif()
+# Fixtures that several rooms' tests share.
+add_library(codesign_test_fixtures STATIC EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/test/equations/equations_fixture.cc ${PROJECT_SOURCE_DIR}/benchmark/mechanisms.cc)
+target_link_libraries(codesign_test_fixtures PUBLIC codesign_test_settings)
+codesign_warnings(codesign_test_fixtures)
+codesign_precompile(codesign_test_fixtures <gtest/gtest.h>)
+
+set(many_cases reading elements equations integration sensitivity cli ros cases)
 foreach(folder text math codegen sparse description mechanism reading joints forces control system elements equations assembly observation problem integration sensitivity
     optimization jobs cli ros benchmark cases allocation)
   file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${folder}/*.cc)
+  list(FILTER test_sources EXCLUDE REGEX "_fixture\\.cc$")
   if(NOT test_sources OR (folder STREQUAL ros AND NOT TARGET codesign_ros))
     continue()
   endif()
   set(target test_${folder})
   add_executable(${target} EXCLUDE_FROM_ALL ${test_sources})
-  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/test)
-  target_link_libraries(${target} PRIVATE codesign_core codesign_test_paths GTest::gtest GTest::gtest_main
-    SUNDIALS::idas NLopt::nlopt codesign_klu tinyxml2::tinyxml2 console_bridge::console_bridge yaml-cpp nlohmann_json::nlohmann_json)
+  target_link_libraries(${target} PRIVATE codesign_test_fixtures codesign_test_paths GTest::gtest_main)
   if(folder STREQUAL ros)
     target_link_libraries(${target} PRIVATE codesign_ros)
   elseif(folder STREQUAL cli AND TARGET codesign)
@@ -34,21 +60,21 @@ foreach(folder text math codegen sparse description mechanism reading joints for
     target_link_libraries(${target} PRIVATE ${orocos_kdl_LIBRARIES} urdfdom::urdfdom_model)
     target_compile_definitions(${target} PRIVATE CODESIGN_HAS_KDL)
   endif()
-  if(folder MATCHES "^(sensitivity|allocation)$")
-    target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/benchmark/mechanisms.cc)
-  endif()
   if(folder STREQUAL benchmark)
-    target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/benchmark/mechanisms.cc ${PROJECT_SOURCE_DIR}/benchmark/table.cc)
+    target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/benchmark/table.cc)
   endif()
   # catkin's choice, the devel space, is where rosrun looks for programs.
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test)
   codesign_warnings(${target})
-  # A quarter less time to compile; the code under test is optimized all the same.
-  if(CMAKE_BUILD_TYPE STREQUAL Release OR CODESIGN_SANITIZE)
-    target_compile_options(${target} PRIVATE -O1)
+  if(CODESIGN_PRECOMPILED_HEADERS)
+    target_precompile_headers(${target} REUSE_FROM codesign_test_fixtures)
   endif()
   add_dependencies(tests ${target})
-  gtest_discover_tests(${target} DISCOVERY_TIMEOUT 120 TEST_PREFIX ${folder}. PROPERTIES TIMEOUT 300)
+  if(folder IN_LIST many_cases)
+    codesign_add_test(${folder} ${target} 6 600)
+  else()
+    codesign_add_test(${folder} ${target} 1 600)
+  endif()
 endforeach()
 
 # What several threads do at once, compiled for the thread sanitizer with the tests themselves: tools/sanitize thread.
@@ -61,11 +87,12 @@ if(CODESIGN_SANITIZE MATCHES thread)
   codesign_warnings(test_threads)
   codesign_sanitize(test_threads)
   set_target_properties(test_threads PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test)
-  gtest_discover_tests(test_threads DISCOVERY_TIMEOUT 120 TEST_PREFIX threads. PROPERTIES TIMEOUT 600)
+  codesign_add_test(threads test_threads 4 1200)
 endif()
 
 include(${PROJECT_SOURCE_DIR}/cmake/Fuzz.cmake)
 
+add_test(NAME layering_of_objects COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_symbols.py ${PROJECT_BINARY_DIR}/src/CMakeFiles/codesign_core.dir)
 add_test(NAME layering COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_layering.py ${PROJECT_SOURCE_DIR})
 add_test(NAME layering_self_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_layering_test.py)
 
@@ -80,7 +107,7 @@ else()
 endif()
 add_test(NAME api_page COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/api/api_page_test.py ${PROJECT_SOURCE_DIR} ${codesign_api_place})
 
-foreach(tool build ci fresh packages)
+foreach(tool build check ci fresh packages)
   add_test(NAME tools_${tool} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/tools/${tool}_test.py)
 endforeach()
 

@@ -128,6 +128,10 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
   if (words.empty()) throw UsageError("no command given");
   arguments.command = asks_for_help(words) ? "help" : words[0];
   if (arguments.command == "help") return arguments;
+  if (words[0] == "--version") {
+    arguments.command = "version";
+    return arguments;
+  }
   if (std::count(commands.begin(), commands.end(), arguments.command) == 0) fail_unknown("command", arguments.command, commands);
   for (std::size_t i = 1; i < words.size(); ++i) {
     if (words[i].empty()) throw UsageError("an empty argument");

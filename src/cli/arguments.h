@@ -19,7 +19,7 @@ class UsageError : public std::runtime_error {
 
 /// The parts of the command line `codesign COMMAND MODEL [STUDY] [OPTIONS]`. Members of options name their command.
 struct Arguments {
-  std::string command;  ///< check, urdf, simulate, gradient, optimize or help
+  std::string command;  ///< check, urdf, simulate, gradient, optimize, help or version
   std::string model;
   std::string study;                  ///< path; empty: none given
   std::vector<std::string> overlays;  ///< paths, in order

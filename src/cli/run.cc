@@ -9,6 +9,7 @@
 #include "cli/usage.h"
 #include "jobs/output_error.h"
 #include "mechanism_codesign/error.h"
+#include "mechanism_codesign/version.h"
 
 namespace codesign::cli {
 namespace {
@@ -19,7 +20,10 @@ int dispatch(const Arguments& arguments, const Console& console) {
   if (arguments.command == "simulate") return simulate(arguments, console);
   if (arguments.command == "gradient") return gradient(arguments, console);
   if (arguments.command == "optimize") return optimize(arguments, console);
-  console.out << usage();
+  if (arguments.command == "version")
+    console.out << "codesign " << version() << '\n';
+  else
+    console.out << usage();
   return kDone;
 }
 

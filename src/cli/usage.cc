@@ -21,11 +21,12 @@ commands
     --output DIR           write tuned.urdf, result.json, convergence.csv, initial.csv, tuned.csv;
                            best.urdf and best.json while it runs
   help                     this text
+  --version                the version of this program, as "codesign 0.1.0"
 
 options of every command
   --overlay FILE           annotations to merge into the model; may be repeated
   --set PARAMETER=VALUE    replace a parameter's value, or the start of a tuned one; may be repeated
-  --json                   one JSON object on standard output
+  --json                   one JSON object on standard output; its key "version" is that of this program
 
 exit code: 0 success, 1 a failed run or output that cannot be written, 2 bad input
 the codes of failures (error.code in JSON) are listed in doc/study.md, Statuses

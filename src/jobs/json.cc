@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/json.h"
 
+#include "mechanism_codesign/version.h"
+
 namespace codesign {
 
 Json by_name(const std::vector<std::string>& names, const std::vector<double>& values) {
@@ -19,6 +21,10 @@ Json parameters_json(const Problem& problem, const std::vector<double>& values) 
   return by_name(names, values);
 }
 
-std::string to_text(const Json& object) { return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string to_text(const Json& object) {
+  Json whole = {{"version", version()}};
+  whole.update(object);
+  return whole.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 }  // namespace codesign

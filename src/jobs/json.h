@@ -21,8 +21,8 @@ Json by_name(const std::vector<std::string>& names, const Eigen::VectorXd& value
 /// All named parameters.
 Json parameters_json(const Problem& problem, const std::vector<double>& values);
 
-/// One object and a line end. Doubles read back as the same doubles; what is not finite becomes null. Bytes that are no UTF-8, as a robot's
-/// name may hold, become the replacement character.
+/// The object as JSON text with a line end, and before its own keys `version`, the version of this package. Doubles read back as the same
+/// doubles; NaN and infinity become null. Bytes that are not UTF-8, which a robot's name may hold, become the replacement character U+FFFD.
 std::string to_text(const Json& object);
 
 }  // namespace codesign

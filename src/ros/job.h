@@ -13,6 +13,7 @@
 #include <string>
 
 #include "mechanism_codesign/status.h"
+#include "mechanism_codesign/version.h"
 #include "problem/load_problem.h"
 
 // The computations of the optimization node, without its communication. No ROS master is needed, and no function throws.
@@ -42,17 +43,19 @@ OptimizationOutcome run_optimization(const Problem& problem, const std::string& 
 mechanism_codesign::EvaluateResponse run_evaluation(const Problem& problem, const mechanism_codesign::EvaluateRequest& request,
                                                     const std::atomic<bool>& cancel);
 
-/// Sets success, code and message of a reply from a status.
+/// Sets success, code, message and version of a reply from a status.
 template <class Reply>
 void set_status(const Status& status, Reply* reply) {
+  reply->version = version();
   reply->success = status.ok();
   reply->code = name_of(status.code);
   if (!status.ok()) reply->message = status.cause + " (at t = " + std::to_string(status.time) + " s)";
 }
 
-/// Sets a reply without success.
+/// Sets a reply without success: code, message and version.
 template <class Reply>
 void refuse(const std::string& code, const std::string& message, Reply* reply) {
+  reply->version = version();
   reply->success = false;
   reply->code = code;
   reply->message = message;

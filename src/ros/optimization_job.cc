@@ -146,6 +146,7 @@ OptimizationOutcome run_optimization(const Problem& problem, const std::string& 
                                      const JobOptions& options, const ProgressObserver& observer, const std::atomic<bool>& cancel) {
   JobRecord record;
   record.request = request;
+  record.request.version = version();
   record.study = study;
   OptimizationOutcome outcome;
   try {

@@ -14,6 +14,7 @@
 #include "jobs/output_error.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/error.h"
+#include "mechanism_codesign/version.h"
 #include "ros/advance.h"
 #include "ros/description.h"
 #include "ros/inputs.h"
@@ -204,6 +205,7 @@ void SimulationNode::open_bag() {
     bag_lock_ = lock_bag();
     bag_ = std::make_unique<BagWriter>(options_.bag);
     bag_->write_text("robot_description", description_);
+    bag_->write_text("version", version());
   } catch (const OutputError& error) {
     give_up_bag(error);
   }

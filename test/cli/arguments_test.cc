@@ -85,5 +85,11 @@ TEST(Arguments, HelpWinsOverEverything) {
   EXPECT_EQ(parse_arguments({"optimize", "--bogus", "-h"}).command, "help");
 }
 
+TEST(Arguments, VersionStandsAlone) {
+  EXPECT_EQ(parse_arguments({"--version"}).command, "version");
+  EXPECT_EQ(parse_arguments({"--version", "--help"}).command, "help");
+  expect_usage_error({"check", "m", "--version"}, "unknown option \"--version\"");
+}
+
 }  // namespace
 }  // namespace codesign::cli

@@ -5,6 +5,8 @@
 
 #include <sstream>
 
+#include "mechanism_codesign/version.h"
+
 namespace codesign::cli {
 namespace {
 
@@ -37,7 +39,7 @@ TEST(Report, SuccessIsSilentButForJson) {
   const Finished plain = finish_with({}, false);
   EXPECT_EQ(plain.code, kDone);
   EXPECT_EQ(plain.out + plain.err, "");
-  EXPECT_EQ(Json::parse(finish_with({}, true).out).dump(), R"({"objective":0.5})");
+  EXPECT_EQ(Json::parse(finish_with({}, true).out), Json({{"version", version()}, {"objective", 0.5}}));
 }
 
 TEST(Report, FailureKeepsWhatIsKnown) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/run_fixture.h"
+#include "mechanism_codesign/version.h"
 
 namespace codesign::cli {
 namespace {
@@ -16,6 +17,18 @@ TEST(Run, HelpGoesToStandardOutput) {
     EXPECT_NE(outcome.out.find("usage: codesign COMMAND"), std::string::npos);
     EXPECT_EQ(outcome.err, "");
   }
+}
+
+TEST(Run, PrintsItsVersion) {
+  const Outcome outcome = run_words({"--version"});
+  EXPECT_EQ(outcome.code, kDone);
+  EXPECT_EQ(outcome.out, "codesign " + std::string(version()) + "\n");
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST(Run, EveryJsonObjectHoldsTheVersion) {
+  for (const std::string& model : {kModel, std::string("/nowhere/robot.urdf")})
+    EXPECT_EQ(json_of(run_words({"check", model, "--json"}))["version"], version()) << model;
 }
 
 TEST(Run, BadUsageEndsWithTwo) {

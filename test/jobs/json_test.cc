@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "mechanism_codesign/version.h"
+
 namespace codesign {
 namespace {
 
@@ -14,6 +16,11 @@ TEST(Json, ValuesGoByName) {
 }
 
 TEST(Json, BytesThatAreNoUtf8AreReplaced) { EXPECT_EQ(Json::parse(to_text({{"model", "arm\xe4"}}))["model"], "arm\xef\xbf\xbd"); }
+
+TEST(Json, TheVersionComesFirst) {
+  EXPECT_EQ(to_text({{"objective", 0.5}}), "{\n  \"version\": \"" + std::string(version()) + "\",\n  \"objective\": 0.5\n}\n");
+  EXPECT_EQ(Json::parse(to_text(Json::parse(to_text(Json::object())))), Json({{"version", version()}}));
+}
 
 }  // namespace
 }  // namespace codesign

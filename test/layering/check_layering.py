@@ -46,6 +46,7 @@ PUBLIC = {
     "source_text.h": "text",
     "statistics.h": "integration",
     "status.h": "text",
+    "version.h": "text",
     "warning.h": "text",
 }
 ROS_HEADER = re.compile(

@@ -12,6 +12,7 @@ TEST(Job, AStatusIsSaidAsCodeAndSentence) {
   EXPECT_TRUE(reply.success);
   EXPECT_EQ(reply.code, "success");
   EXPECT_EQ(reply.message, "");
+  EXPECT_EQ(reply.version, version());
   set_status({StatusCode::kTooManySteps, 0.25, "more than 3 steps"}, &reply);
   EXPECT_FALSE(reply.success);
   EXPECT_EQ(reply.code, "too_many_steps");
@@ -24,6 +25,7 @@ TEST(Job, ARefusalNamesItsReason) {
   EXPECT_FALSE(reply.success);
   EXPECT_EQ(reply.code, "busy");
   EXPECT_EQ(reply.message, "ask again later");
+  EXPECT_EQ(reply.version, version());
 }
 
 }  // namespace

@@ -94,6 +94,9 @@ class NodesTest(NodesTestCase):
                     stamps = [(m.transforms[0] if topic == "tf" else m).header.stamp.to_sec() for _, m, _ in bag.read_messages(topics=names)]
                     self.assertEqual(len(stamps), 1001, f"{path} {topic}")
                     self.assertTrue(all(abs(b - a - 0.002) < 1e-6 for a, b in zip(stamps, stamps[1:])), topic)
+        with rosbag.Bag(own) as bag:
+            (_, version, _), = bag.read_messages(topics=["version"])
+        self.assertRegex(version.data, r"^\d+\.\d+\.\d+$")
 
     def test_the_bag_of_a_killed_node_is_removed_by_the_next_one(self):
         path = f"{self.folder}/run.bag"

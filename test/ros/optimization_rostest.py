@@ -84,6 +84,9 @@ class OptimizationTest(unittest.TestCase):
             (_, result, _), = bag.read_messages(topics=["result"])
             self.assertEqual(result.objective, self.result.objective)
             self.assertEqual(result.bag, self.result.bag)
+            (_, request, _), = bag.read_messages(topics=["request"])
+            self.assertRegex(result.version, r"^\d+\.\d+\.\d+$")
+            self.assertEqual((request.version, self.result.version), (result.version, result.version))
             self.assertEqual((result.constraint_drift, result.energy_error), (self.result.constraint_drift, self.result.energy_error))
             velocity = [message.velocity[message.name.index("crank_joint")] for _, message, _ in bag.read_messages(topics=["tuned/joint_states"])]
             self.assertAlmostEqual(velocity[-1], -10.0, delta=0.2)

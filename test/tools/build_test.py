@@ -1,7 +1,11 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""How tools/build calls CMake, with a stand-in for it, and which home folder tools/environment chooses. Usage: build_test.py [-v]"""
+"""How tools/build calls CMake, with a stand-in for it; that tools/sanitize names tests that exist; which home folder tools/environment chooses.
+
+Usage: build_test.py [-v]
+"""
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -62,6 +66,25 @@ class BuildTest(unittest.TestCase):
             self.assertEqual(checkout.build()[0], "-S . -B build")
         with Checkout() as checkout:
             self.assertEqual(checkout.build(CMAKE_GENERATOR="Unix Makefiles")[0], "-S . -B build")
+
+
+def words_of(pattern, *path):
+    """The words of a list in one of our files."""
+    with open(os.path.join(ROOT, *path)) as file:
+        return re.search(pattern, file.read()).group(1).split()
+
+
+class SanitizeTest(unittest.TestCase):
+    def test_every_program_of_tests_has_its_folder_and_is_run(self):
+        targets = words_of(r"sanitizers=address,undefined\s+targets=\((.*)\)", "tools", "sanitize")
+        folders = [target[len("test_"):] for target in targets if target.startswith("test_")]
+        self.assertEqual([folder for folder in folders if not os.path.isdir(os.path.join(ROOT, "test", folder))], [])
+        self.assertEqual(words_of(r"tests='\^\(([a-z|]+)\)", "tools", "sanitize")[0].split("|"), folders)
+
+    def test_every_test_of_threads_exists(self):
+        names = words_of(r"set\(thread_tests ([^)]*)\)", "cmake", "Tests.cmake")
+        self.assertIn("ros/worker", names)
+        self.assertEqual([name for name in names if not os.path.isfile(os.path.join(ROOT, "test", name + "_test.cc"))], [])
 
 
 class EnvironmentTest(unittest.TestCase):
