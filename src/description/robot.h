@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "description/friction.h"
 #include "description/quantity.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/parameter.h"
@@ -48,29 +49,6 @@ struct LinkDescription {
 
 /// Tree joints have URDF's types, kFixed to kFloating; the types after kFloating exist for loops only.
 enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic, kPlanar, kFloating, kSpherical, kUniversal, kCylindrical, kDistance };
-
-/// Laws of the friction coefficient: theory (10), (13e), (13f). Gonthier's and the LuGre model have states of their own.
-enum class FrictionModel { kBrownMcPhee, kGonthier, kLuGre };
-
-/// `<codesign:friction>`, see doc/annotations.md. SI units.
-struct FrictionDescription {
-  FrictionModel model = FrictionModel::kBrownMcPhee;
-  Quantity mu_static;                                    ///< mu_s [-]
-  Quantity mu_dynamic;                                   ///< mu_d [-]
-  Quantity transition_velocity{1e-2};                    ///< v_t [m/s]
-  Quantity joint_length;                                 ///< a [m]
-  Quantity joint_width;                                  ///< b [m]
-  Quantity pin_radius;                                   ///< r_e [m], arm of the friction of forces across the axis; radius of a ball
-  Quantity friction_arm;                                 ///< r_z [m], arm of the friction of the axial force; pin_radius if not given
-  Quantity preload;                                      ///< N_0 [N], constant part of the normal force
-  Quantity smoothing{1e-3};                              ///< epsilon of the smooth absolute value [N]
-  Quantity viscous;                                      ///< c [N s/m] or [N m s/rad]
-  Quantity bristle_stiffness{1e4};                       ///< sigma_0 [1/m], per normal force; models with states only
-  Quantity bristle_damping{10.0};                        ///< sigma_1 [s/m], per normal force; models with states only
-  Quantity dwell_time{2.0};                              ///< tau_dw [s]; Gonthier's model only
-  std::optional<std::array<double, 3>> transverse_axis;  ///< x'' in the joint frame
-  SourceLocation where;
-};
 
 /// `<limit>`. Exporters write zeros for unknown limits; the three bounds_ functions tell which limits count.
 struct LimitDescription {

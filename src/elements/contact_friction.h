@@ -75,7 +75,7 @@ ContactFriction<T> contact_friction(PairKind kind, const PairConstants<T>& pair,
   contact.motion = slip.motion;
   contact.normal = normal;
   contact.size = pair.slip.coordinates.size();
-  contact.reported = kind == PairKind::kSpherical ? 3 : 2;
+  contact.reported = static_cast<std::size_t>(traits_of(kind).slips_of_the_point);
   IsotropicFriction<T, 3> law;
   if (bristle) {
     const Bristle<T> b = bristle_law<T>(*bristle, slip.u, s, f);

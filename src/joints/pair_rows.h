@@ -76,7 +76,7 @@ PairRows<T> pair_rows(PairKind kind, const PairConstants<T>& c) {
     rows.products.push_back({axis_i(1), axis_j(2), T(0.0), 1.0});
   };
   const auto no_turn = [&] { rows.products.push_back({axis_i(1), axis_j(0), T(0.0), 1.0}); };
-  rows.coincident = kind == PairKind::kFixed || kind == PairKind::kRevolute || kind == PairKind::kUniversal || kind == PairKind::kSpherical;
+  rows.coincident = traits_of(kind).force == ForceRows::kAll;
   switch (kind) {
     case PairKind::kFixed:
       parallel_z(), no_turn();

@@ -71,12 +71,17 @@ std::string body_fault(const RobotDescription& robot, const Topology& topology, 
 }
 
 std::string friction_fault(const Pair& pair, const FrictionConstants<double>& f) {
-  const bool possible = f.mu_static >= f.mu_dynamic && f.mu_dynamic >= 0.0 && f.transition_velocity > 0.0 && f.joint_length > 0.0 &&
-                        f.joint_width > 0.0 && f.pin_radius >= 0.0 && f.smoothing > 0.0 && f.viscous >= 0.0 && f.bristle_stiffness > 0.0 &&
-                        f.bristle_damping > 0.0 && f.dwell_time > 0.0;
+  bool possible = f.mu_static >= f.mu_dynamic;
+  const auto check = [&possible](const FrictionNumberRule& rule, const double& number) {
+    // A radius that is not given is zero; check_friction_geometry() asks for it where the law needs it.
+    const bool may_be_zero = rule.zero_allowed || (rule.missing == FrictionNumberRule::Missing::kStandard && rule.standard == 0.0) ||
+                             rule.missing == FrictionNumberRule::Missing::kPinRadius;
+    possible = possible && (number > 0.0 || (may_be_zero && number == 0.0));
+  };
+  visit_friction_numbers(check, &f);
   return possible ? ""
                   : "friction geometry or coefficients of joint '" + pair.name +
-                        "' are out of range (allowed: mu_static >= mu_dynamic >= 0, pin_radius and viscous >= 0, all others > 0)";
+                        "' are out of range (allowed: mu_static >= mu_dynamic >= 0, pin_radius, preload and viscous >= 0, all others > 0)";
 }
 
 std::string joint_fault(const RobotDescription& robot, const Pair& pair, const PairConstants<double>& constants) {

@@ -48,10 +48,7 @@ struct SlipConstants {
 
 /// The numbers of a FrictionDescription at one design, in its units.
 template <class T>
-struct FrictionConstants {
-  T mu_static{0.0}, mu_dynamic{0.0}, transition_velocity{1.0}, joint_length{1.0}, joint_width{1.0}, pin_radius{0.0}, friction_arm{0.0},
-      preload{0.0}, smoothing{1.0}, viscous{0.0}, bristle_stiffness{1.0}, bristle_damping{1.0}, dwell_time{1.0};
-};
+using FrictionConstants = FrictionNumbers<T>;
 
 /// `<dynamics>`, `<limit>`, torsion spring and actuator of one joint. Units as in JointDescription.
 template <class T>

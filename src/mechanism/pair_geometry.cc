@@ -253,24 +253,19 @@ class PairBuilder {
     d.rotor_axis = pair_.chain[k].reversed ? Vector3<T>(R_ji * axis(k)) : axis(k);
   }
 
-  // A dimension that is not given does not enter the joint's friction law; 1 keeps quotients with it finite.
   FrictionConstants<T> friction() const {
     const FrictionDescription& f = *robot_.joints[static_cast<std::size_t>(pair_.friction_joint)].friction;
-    const auto length = [this](const Quantity& q) { return q.is_constant() && q.nominal() == 0.0 ? T(1.0) : q.at(parameters_); };
     FrictionConstants<T> c;
-    c.mu_static = f.mu_static.at(parameters_);
-    c.mu_dynamic = f.mu_dynamic.at(parameters_);
-    c.transition_velocity = f.transition_velocity.at(parameters_);
-    c.joint_length = length(f.joint_length);
-    c.joint_width = length(f.joint_width);
-    c.pin_radius = f.pin_radius.at(parameters_);
-    c.friction_arm = f.friction_arm.is_constant() && f.friction_arm.nominal() == 0.0 ? c.pin_radius : f.friction_arm.at(parameters_);
-    c.preload = f.preload.at(parameters_);
-    c.smoothing = f.smoothing.at(parameters_);
-    c.viscous = f.viscous.at(parameters_);
-    c.bristle_stiffness = f.bristle_stiffness.at(parameters_);
-    c.bristle_damping = f.bristle_damping.at(parameters_);
-    c.dwell_time = f.dwell_time.at(parameters_);
+    const auto evaluate = [this, &c](const FrictionNumberRule& rule, const Quantity& q, T& number) {
+      const bool missing = q.is_constant() && q.nominal() == 0.0;
+      if (missing && rule.missing == FrictionNumberRule::Missing::kLengthOfOne)
+        number = T(1.0);
+      else if (missing && rule.missing == FrictionNumberRule::Missing::kPinRadius)
+        number = c.pin_radius;
+      else
+        number = q.at(parameters_);
+    };
+    visit_friction_numbers(evaluate, &f, &c);
     return c;
   }
 

@@ -7,6 +7,7 @@
 
 #include "description/robot.h"
 #include "mechanism/coupling.h"
+#include "mechanism/pair_kind.h"
 
 namespace codesign {
 
@@ -15,22 +16,6 @@ struct Body {
   std::string name;        ///< name of the base link
   int base_link = -1;      ///< the link nearest to the root; its axes are the body's axes
   std::vector<int> links;  ///< indices of its links, the base link first
-};
-
-/// The relative motion that a pair allows, with its number of constraint rows. Body i is on the parent's side, j on the child's; z is the
-/// joint axis.
-enum class PairKind {
-  kFixed,          ///< 6 constraints
-  kRevolute,       ///< 5: turn about z
-  kPrismatic,      ///< 5: slide along z
-  kCylindrical,    ///< 4: both
-  kUniversal,      ///< 4: turn about z_i and z_j, which keep their angle
-  kSpherical,      ///< 3
-  kTable,          ///< 4: slide in the plane normal to z, no turn
-  kPlanar,         ///< 3: slide in the plane normal to z and turn about z
-  kTranslational,  ///< 3: slide anywhere, no turn
-  kDistance,       ///< 1: two points at a constant distance
-  kFree            ///< 0
 };
 
 /// A joint or loop in the chain of a pair. `reversed`: the chain runs from the joint's child to its parent.
@@ -48,12 +33,6 @@ struct Pair {
   int friction_joint = -1;          ///< the joint of the chain with a `<codesign:friction>`, or -1
   bool is_loop = false;             ///< the chain contains a loop
 };
-
-/// Whether the friction of such a pair follows one law for all directions of its slip, doc/theory.md (13a), instead of one law per
-/// coordinate, (13).
-constexpr bool slips_isotropically(PairKind kind) {
-  return kind == PairKind::kTable || kind == PairKind::kPlanar || kind == PairKind::kSpherical;
-}
 
 /// The bodies, pairs and couplings of a mechanism, derived from its description. It does not depend on the design.
 struct Topology {

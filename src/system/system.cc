@@ -10,29 +10,6 @@
 namespace codesign {
 namespace {
 
-int constraint_rows(PairKind kind) {
-  switch (kind) {
-    case PairKind::kFixed:
-      return 6;
-    case PairKind::kRevolute:
-    case PairKind::kPrismatic:
-      return 5;
-    case PairKind::kCylindrical:
-    case PairKind::kUniversal:
-    case PairKind::kTable:
-      return 4;
-    case PairKind::kSpherical:
-    case PairKind::kPlanar:
-    case PairKind::kTranslational:
-      return 3;
-    case PairKind::kDistance:
-      return 1;
-    case PairKind::kFree:
-      return 0;
-  }
-  return 0;
-}
-
 bool zero(const Quantity& q) { return q.is_constant() && q.nominal() == 0.0; }
 
 }  // namespace
@@ -61,7 +38,7 @@ void System::lay_out() {
   layout_.n = kBodySize * layout_.bodies;
   for (const Pair& pair : topology_.pairs) {
     layout_.pair_row.push_back(layout_.m);
-    layout_.m += constraint_rows(pair.kind);
+    layout_.m += traits_of(pair.kind).rows;
   }
   layout_.couplings = static_cast<int>(topology_.couplings.size());
   layout_.m += layout_.couplings + layout_.bodies;
@@ -185,7 +162,7 @@ void System::collect_bristles() {
   for (const JointLoad& load : loads_)
     if (load.reaction_friction) add_bristle(load.pair, load.element, 1);
   for (int contact : contacts_)
-    add_bristle(contact, -1, topology_.pairs[static_cast<std::size_t>(contact)].kind == PairKind::kTable ? 2 : 3);
+    add_bristle(contact, -1, traits_of(topology_.pairs[static_cast<std::size_t>(contact)].kind).slip_coordinates);
 }
 
 const BristleContact* System::bristle(int pair, int element) const {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "description/friction.h"
+
 namespace codesign {
 namespace {
 
@@ -24,16 +26,17 @@ void add_ends(const std::string& path, bool with_origin, std::vector<ElementRule
   }
 }
 
+Names friction_attributes() {
+  Names names;
+  const FrictionNumbers<double> any;
+  visit_friction_numbers([&names](const FrictionNumberRule& rule, const double&) { names.emplace_back(rule.attribute); }, &any);
+  return names;
+}
+
 void add_joint_parts(const std::string& path, bool strict, std::vector<ElementRule>* rules) {
   rules->push_back({path + "/axis", strict, {}, {"xyz"}, {}, {}});
   rules->push_back({path + "/dynamics", strict, {}, {"damping", "friction"}, {}, {}});
-  rules->push_back({path + "/codesign:friction",
-                    true,
-                    {"model", "transverse_axis"},
-                    {"mu_static", "mu_dynamic", "transition_velocity", "joint_length", "joint_width", "pin_radius", "friction_arm",
-                     "preload", "smoothing", "viscous", "bristle_stiffness", "bristle_damping", "dwell_time"},
-                    {},
-                    {}});
+  rules->push_back({path + "/codesign:friction", true, {"model", "transverse_axis"}, friction_attributes(), {}, {}});
   rules->push_back({path + "/codesign:torsion_spring", true, {}, {"stiffness", "damping", "free_position"}, {}, {}});
   rules->push_back({path + "/codesign:actuator", true, {}, {"gear_ratio", "rotor_inertia"}, {}, {}});
 }

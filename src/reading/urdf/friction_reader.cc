@@ -19,14 +19,22 @@ FrictionModel read_model(const XmlElement& element) {
   throw unknown_name(element.where("model"), element.label(), "friction model", name, {"brown_mcphee", "gonthier", "lugre"});
 }
 
-/// Attributes that the model does not use are an error, since they would have no effect.
-void check_model_attributes(const XmlElement& element, FrictionModel model) {
-  const auto refuse = [&](const char* attribute, const char* models) {
-    if (element.has(attribute)) element.fail_at(attribute, std::string(attribute) + " has no meaning for this friction model", models);
-  };
-  if (model == FrictionModel::kBrownMcPhee)
-    for (const char* attribute : {"bristle_stiffness", "bristle_damping"}) refuse(attribute, "with model=\"gonthier\" or model=\"lugre\"");
-  if (model != FrictionModel::kGonthier) refuse("dwell_time", "with model=\"gonthier\"");
+/// A number of the element. An attribute that the model does not use is an error, since it would have no effect.
+void read_number(const XmlElement& element, const FrictionNumberRule& rule, const ParameterTable& table, FrictionDescription* friction,
+                 Quantity* number) {
+  if (!rule.is_used_by(friction->model)) {
+    const bool gonthier = rule.models == FrictionNumberRule::Models::kGonthierOnly;
+    if (element.has(rule.attribute))
+      element.fail_at(rule.attribute, std::string(rule.attribute) + " has no meaning for this friction model",
+                      gonthier ? "with model=\"gonthier\"" : "with model=\"gonthier\" or model=\"lugre\"");
+    return;
+  }
+  const Range range = rule.zero_allowed ? Range::kNonNegative : Range::kPositive;
+  if (rule.missing == FrictionNumberRule::Missing::kRefused)
+    *number = read_quantity(element, rule.attribute, range, table);
+  else
+    *number = read_quantity_or(rule.missing == FrictionNumberRule::Missing::kPinRadius ? friction->pin_radius : *number, element,
+                               rule.attribute, range, table);
 }
 
 std::array<double, 3> read_transverse_axis(const XmlElement& element, const QuantityVector& axis) {
@@ -45,27 +53,12 @@ FrictionDescription read_friction(const XmlElement& element, const QuantityVecto
   FrictionDescription friction;
   friction.where = element.where();
   friction.model = read_model(element);
-  check_model_attributes(element, friction.model);
-  friction.mu_static = read_quantity(element, "mu_static", Range::kNonNegative, table);
-  friction.mu_dynamic = read_quantity(element, "mu_dynamic", Range::kNonNegative, table);
+  const auto read = [&](const FrictionNumberRule& rule, Quantity& number) { read_number(element, rule, table, &friction, &number); };
+  visit_friction_numbers(read, &friction);
   if (friction.mu_dynamic.nominal() > friction.mu_static.nominal())
     element.fail_at("mu_dynamic", "mu_dynamic is above mu_static", "at most mu_static=" + to_decimal(friction.mu_static.nominal()));
   if (friction.model == FrictionModel::kLuGre && friction.mu_dynamic.nominal() == 0.0)
     element.fail_at("mu_dynamic", "mu_dynamic is zero: the LuGre model divides by it", "> 0");
-  const auto read = [&](const char* name, Range range, const Quantity& fallback) {
-    return read_quantity_or(fallback, element, name, range, table);
-  };
-  friction.transition_velocity = read("transition_velocity", Range::kPositive, friction.transition_velocity);
-  friction.joint_length = read("joint_length", Range::kPositive, friction.joint_length);
-  friction.joint_width = read("joint_width", Range::kPositive, friction.joint_width);
-  friction.pin_radius = read("pin_radius", Range::kPositive, friction.pin_radius);
-  friction.friction_arm = read("friction_arm", Range::kPositive, friction.pin_radius);
-  friction.preload = read("preload", Range::kNonNegative, friction.preload);
-  friction.smoothing = read("smoothing", Range::kPositive, friction.smoothing);
-  friction.viscous = read("viscous", Range::kNonNegative, friction.viscous);
-  friction.bristle_stiffness = read("bristle_stiffness", Range::kPositive, friction.bristle_stiffness);
-  friction.bristle_damping = read("bristle_damping", Range::kPositive, friction.bristle_damping);
-  friction.dwell_time = read("dwell_time", Range::kPositive, friction.dwell_time);
   if (element.has("transverse_axis")) friction.transverse_axis = read_transverse_axis(element, axis);
   return friction;
 }

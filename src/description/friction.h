@@ -1,0 +1,86 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_DESCRIPTION_FRICTION_H_
+#define MECHANISM_CODESIGN_DESCRIPTION_FRICTION_H_
+
+#include <array>
+#include <optional>
+
+#include "description/quantity.h"
+#include "mechanism_codesign/error.h"
+
+namespace codesign {
+
+/// Laws of the friction coefficient: theory (10), (13e), (13f). Gonthier's and the LuGre model have states of their own.
+enum class FrictionModel { kBrownMcPhee, kGonthier, kLuGre };
+
+/// The numbers of `<codesign:friction>`, see doc/annotations.md, SI units. Value: Quantity in a description, a scalar at one design. A new
+/// number is a member here and a row in visit_friction_numbers(); readers, checks and designs follow the rows.
+template <class Value>
+struct FrictionNumbers {
+  Value mu_static{0.0};            ///< mu_s [-]
+  Value mu_dynamic{0.0};           ///< mu_d [-]
+  Value transition_velocity{1.0};  ///< v_t [m/s]
+  Value joint_length{1.0};         ///< a [m]
+  Value joint_width{1.0};          ///< b [m]
+  Value pin_radius{0.0};           ///< r_e [m], arm of the friction of forces across the axis; radius of a ball
+  Value friction_arm{0.0};         ///< r_z [m], arm of the friction of the axial force
+  Value preload{0.0};              ///< N_0 [N], constant part of the normal force
+  Value smoothing{1.0};            ///< epsilon of the smooth absolute value [N]
+  Value viscous{0.0};              ///< c [N s/m] or [N m s/rad]
+  Value bristle_stiffness{1.0};    ///< sigma_0 [1/m], per normal force
+  Value bristle_damping{1.0};      ///< sigma_1 [s/m], per normal force
+  Value dwell_time{1.0};           ///< tau_dw [s]
+};
+
+/// What the language says of one number.
+struct FrictionNumberRule {
+  /// What a missing attribute means. A missing length does not enter the joint's law; as 1 it keeps quotients finite.
+  enum class Missing { kRefused, kStandard, kLengthOfOne, kPinRadius };
+  /// The models that use the number.
+  enum class Models { kAll, kWithStates, kGonthierOnly };
+
+  const char* attribute;
+  bool zero_allowed;  ///< else it must be positive
+  Missing missing = Missing::kStandard;
+  double standard = 0.0;
+  Models models = Models::kAll;
+
+  bool is_used_by(FrictionModel model) const {
+    return models == Models::kAll || model == FrictionModel::kGonthier || (models == Models::kWithStates && model == FrictionModel::kLuGre);
+  }
+};
+
+/// Calls visit(rule, number of each structure...) for each number, in the order in which they are read.
+template <class Visit, class... Values>
+void visit_friction_numbers(const Visit& visit, Values*... of) {
+  using M = FrictionNumberRule::Missing;
+  using U = FrictionNumberRule::Models;
+  visit(FrictionNumberRule{"mu_static", true, M::kRefused}, of->mu_static...);
+  visit(FrictionNumberRule{"mu_dynamic", true, M::kRefused}, of->mu_dynamic...);
+  visit(FrictionNumberRule{"transition_velocity", false, M::kStandard, 1e-2}, of->transition_velocity...);
+  visit(FrictionNumberRule{"joint_length", false, M::kLengthOfOne}, of->joint_length...);
+  visit(FrictionNumberRule{"joint_width", false, M::kLengthOfOne}, of->joint_width...);
+  visit(FrictionNumberRule{"pin_radius", false}, of->pin_radius...);
+  visit(FrictionNumberRule{"friction_arm", false, M::kPinRadius}, of->friction_arm...);
+  visit(FrictionNumberRule{"preload", true}, of->preload...);
+  visit(FrictionNumberRule{"smoothing", false, M::kStandard, 1e-3}, of->smoothing...);
+  visit(FrictionNumberRule{"viscous", true}, of->viscous...);
+  visit(FrictionNumberRule{"bristle_stiffness", false, M::kStandard, 1e4, U::kWithStates}, of->bristle_stiffness...);
+  visit(FrictionNumberRule{"bristle_damping", false, M::kStandard, 10.0, U::kWithStates}, of->bristle_damping...);
+  visit(FrictionNumberRule{"dwell_time", false, M::kStandard, 2.0, U::kGonthierOnly}, of->dwell_time...);
+}
+
+/// `<codesign:friction>`. A length and an arm that are not given are zero.
+struct FrictionDescription : FrictionNumbers<Quantity> {
+  FrictionDescription() {
+    visit_friction_numbers([](const FrictionNumberRule& rule, Quantity& number) { number = Quantity(rule.standard); }, this);
+  }
+
+  FrictionModel model = FrictionModel::kBrownMcPhee;
+  std::optional<std::array<double, 3>> transverse_axis;  ///< x'' in the joint frame
+  SourceLocation where;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_DESCRIPTION_FRICTION_H_

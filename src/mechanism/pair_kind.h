@@ -1,0 +1,69 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MECHANISM_PAIR_KIND_H_
+#define MECHANISM_CODESIGN_MECHANISM_PAIR_KIND_H_
+
+#include <array>
+#include <cstddef>
+
+namespace codesign {
+
+/// The relative motion that a pair allows. Body i is on the parent's side, j on the child's; z is the joint axis.
+enum class PairKind {
+  kFixed,
+  kRevolute,       ///< turn about z
+  kPrismatic,      ///< slide along z
+  kCylindrical,    ///< both
+  kUniversal,      ///< turn about z_i and z_j, which keep their angle
+  kSpherical,      ///< turn about any axis
+  kTable,          ///< slide in the plane normal to z, no turn
+  kPlanar,         ///< slide in the plane normal to z and turn about z
+  kTranslational,  ///< slide anywhere, no turn
+  kDistance,       ///< two points at a constant distance
+  kFree
+};
+
+/// What the multipliers of a pair's first rows are: components of the reaction force F'', theory (11).
+enum class ForceRows {
+  kNone,
+  kAll,     ///< three rows of coincident points, in ground axes
+  kAcross,  ///< two, along x'' and y''
+  kAlong    ///< one, along z''
+};
+
+/// The law of the normal force in the bearing, theory (12).
+enum class BearingLaw { kPin, kRevolute, kTranslational, kPlane, kBall };
+
+/// What the formulas know of a kind of pair. A new kind is an enumerator, a row of kPairTraits and its rows in pair_rows().
+struct PairTraits {
+  int rows;                ///< number of constraint rows
+  ForceRows force;         ///< in the order of pair_rows() they come first
+  bool torque_rows;        ///< whether the rows behind them hold the components (-y'', x'', z'') of the reaction torque T''
+  BearingLaw bearing;      ///< law of the normal force, of kinds that can have friction
+  int slip_coordinates;    ///< isotropic friction: the number of slip coordinates; 0: friction of each coordinate by itself, theory (13)
+  int slips_of_the_point;  ///< isotropic friction: how many of them make up the reported speed and friction
+};
+
+/// In the order of PairKind.
+constexpr std::array<PairTraits, 11> kPairTraits{{
+    {6, ForceRows::kAll, true, BearingLaw::kPin, 0, 0},               // fixed
+    {5, ForceRows::kAll, true, BearingLaw::kRevolute, 0, 0},          // revolute
+    {5, ForceRows::kAcross, true, BearingLaw::kTranslational, 0, 0},  // prismatic
+    {4, ForceRows::kAcross, true, BearingLaw::kPin, 0, 0},            // cylindrical
+    {4, ForceRows::kAll, false, BearingLaw::kPin, 0, 0},              // universal
+    {3, ForceRows::kAll, false, BearingLaw::kBall, 3, 3},             // spherical
+    {4, ForceRows::kAlong, true, BearingLaw::kPlane, 2, 2},           // table
+    {3, ForceRows::kAlong, true, BearingLaw::kPlane, 3, 2},           // planar
+    {3, ForceRows::kNone, true, BearingLaw::kPin, 0, 0},              // translational
+    {1, ForceRows::kNone, false, BearingLaw::kPin, 0, 0},             // distance
+    {0, ForceRows::kNone, false, BearingLaw::kPin, 0, 0},             // free
+}};
+
+constexpr const PairTraits& traits_of(PairKind kind) { return kPairTraits[static_cast<std::size_t>(kind)]; }
+
+/// Whether the friction of such a pair follows one law for all directions of its slip, doc/theory.md (13a), instead of one law per
+/// coordinate, (13).
+constexpr bool slips_isotropically(PairKind kind) { return traits_of(kind).slip_coordinates > 0; }
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MECHANISM_PAIR_KIND_H_
