@@ -2,9 +2,9 @@
 #include "assembly/count_equations.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
-#include "cli/limit_watch.h"
 #include "cli/report.h"
 #include "cli/table.h"
+#include "jobs/limit_watch.h"
 #include "mechanism_codesign/simulation.h"
 
 namespace codesign::cli {

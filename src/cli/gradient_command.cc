@@ -3,6 +3,7 @@
 #include "cli/inputs.h"
 #include "cli/report.h"
 #include "cli/table.h"
+#include "text/number_text.h"
 
 namespace codesign::cli {
 namespace {

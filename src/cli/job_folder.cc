@@ -10,7 +10,7 @@
 
 #include "cli/inputs.h"
 #include "cli/output_file.h"
-#include "cli/run_recorder.h"
+#include "jobs/run_recorder.h"
 #include "jobs/whole_file.h"
 #include "text/decimal.h"
 

@@ -3,36 +3,13 @@
 #define MECHANISM_CODESIGN_CLI_JSON_OUTPUT_H_
 
 #include <ostream>
-#include <string>
-#include <vector>
 
-#include "cli/limit_watch.h"
-#include "jobs/json.h"
-#include "mechanism_codesign/counts.h"
-#include "mechanism_codesign/error.h"
-#include "mechanism_codesign/simulation.h"
-#include "mechanism_codesign/status.h"
-#include "problem/load_problem.h"
+#include "jobs/json_records.h"
 
 namespace codesign::cli {
 
-/// One entry per member of Counts, with the members' names.
-Json to_json(const Counts& counts);
-/// `{code, message, file, line, element, value, allowed}` with code `bad_input`.
-Json to_json(const InputError& error);
-/// `[{joint, limit, bound, worst, time}]`
-Json to_json(const std::vector<LimitCrossing>& crossings);
-/// `{code, message, time}`
-Json to_json(const Status& status);
-/// `[{code, message, file, line}]`
-Json to_json(const Warnings& warnings);
-/// Sets `steps`, `rejected_steps`, `cpu_seconds`, `constraint_drift` and `energy_error`.
-void add_statistics(const Statistics& statistics, Json* object);
-/// Sets `counts` for the design at `parameters`, if it can be assembled.
-void add_counts(const Problem& problem, const std::vector<double>& parameters, Json* object);
-
 /// Writes to_text(object) and flushes.
-void print(const Json& object, std::ostream& out);
+inline void print(const Json& object, std::ostream& out) { out << to_text(object) << std::flush; }
 
 }  // namespace codesign::cli
 

@@ -7,6 +7,7 @@
 #include "cli/report.h"
 #include "cli/table.h"
 #include "mechanism_codesign/optimization.h"
+#include "text/number_text.h"
 
 namespace codesign::cli {
 namespace {

@@ -2,6 +2,7 @@
 #include "cli/report.h"
 
 #include "cli/table.h"
+#include "text/number_text.h"
 
 namespace codesign::cli {
 

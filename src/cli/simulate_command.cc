@@ -10,8 +10,9 @@
 #include "cli/inputs.h"
 #include "cli/output_file.h"
 #include "cli/report.h"
-#include "cli/run_recorder.h"
 #include "cli/table.h"
+#include "jobs/run_recorder.h"
+#include "text/number_text.h"
 
 namespace codesign::cli {
 namespace {

@@ -23,12 +23,4 @@ void Table::print(std::ostream& out) const {
   }
 }
 
-std::string readable(double value) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(10);
-  text << value;
-  return text.str();
-}
-
 }  // namespace codesign::cli

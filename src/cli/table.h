@@ -18,9 +18,6 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// The value with ten significant digits, for output that people read.
-std::string readable(double value);
-
 }  // namespace codesign::cli
 
 #endif  // MECHANISM_CODESIGN_CLI_TABLE_H_

@@ -15,6 +15,9 @@ std::optional<double> parse_number(const std::string& text);
 /// The values as to_decimal() writes them, separated by spaces.
 std::string format_numbers(const std::vector<double>& values);
 
+/// The value with ten significant digits, for output that people read.
+std::string readable(double value);
+
 bool ends_with(const std::string& text, const std::string& tail);
 
 /// The words of `text` between white space.

@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/table.h"
+#include "text/number_text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "cli/run_recorder.h"
+#include "jobs/run_recorder.h"
 
-namespace codesign::cli {
+namespace codesign {
 
 RunSummary record_run(const Problem& problem, const std::vector<double>& parameters, const std::vector<SignalDescription>& signals,
                       int samples, const RowSink& sink, const std::atomic<bool>* cancel) {
@@ -29,4 +29,4 @@ std::vector<std::string> column_names(const std::vector<SignalDescription>& sign
   return names;
 }
 
-}  // namespace codesign::cli
+}  // namespace codesign

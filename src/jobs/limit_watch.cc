@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "cli/limit_watch.h"
+#include "jobs/limit_watch.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "cli/table.h"
+#include "text/number_text.h"
 
-namespace codesign::cli {
+namespace codesign {
 
 LimitWatch::LimitWatch(const Problem& problem, const std::vector<double>& parameters, const FrameNames& names)
     : absolute_margin_(problem.study().solver.absolute_tolerance), relative_margin_(problem.study().solver.relative_tolerance) {
@@ -55,4 +55,4 @@ std::string describe(const LimitCrossing& crossing) {
          " from t = " + readable(crossing.time) + " s; the worst value is " + readable(crossing.worst);
 }
 
-}  // namespace codesign::cli
+}  // namespace codesign

@@ -1,17 +1,17 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CLI_RUN_RECORDER_H_
-#define MECHANISM_CODESIGN_CLI_RUN_RECORDER_H_
+#ifndef MECHANISM_CODESIGN_JOBS_RUN_RECORDER_H_
+#define MECHANISM_CODESIGN_JOBS_RUN_RECORDER_H_
 
 #include <atomic>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "cli/limit_watch.h"
+#include "jobs/limit_watch.h"
 #include "mechanism_codesign/simulation.h"
 #include "problem/load_problem.h"
 
-namespace codesign::cli {
+namespace codesign {
 
 /// The outcome of a run: status, statistics, exceeded limits and warnings.
 struct RunSummary {
@@ -32,6 +32,6 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
 /// The columns of the rows: `time`, then the signals as the user wrote them.
 std::vector<std::string> column_names(const std::vector<SignalDescription>& signals);
 
-}  // namespace codesign::cli
+}  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_CLI_RUN_RECORDER_H_
+#endif  // MECHANISM_CODESIGN_JOBS_RUN_RECORDER_H_

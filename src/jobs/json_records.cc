@@ -1,8 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "cli/json_output.h"
+#include "jobs/json_records.h"
 #include "assembly/count_equations.h"
 
-namespace codesign::cli {
+namespace codesign {
 namespace {
 
 Json to_json(const std::vector<ConstraintRow>& rows) {
@@ -66,6 +66,4 @@ void add_counts(const Problem& problem, const std::vector<double>& parameters, J
   if (status.ok()) (*object)["counts"] = to_json(counts);
 }
 
-void print(const Json& object, std::ostream& out) { out << to_text(object) << std::flush; }
-
-}  // namespace codesign::cli
+}  // namespace codesign

@@ -1,6 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CLI_LIMIT_WATCH_H_
-#define MECHANISM_CODESIGN_CLI_LIMIT_WATCH_H_
+#ifndef MECHANISM_CODESIGN_JOBS_LIMIT_WATCH_H_
+#define MECHANISM_CODESIGN_JOBS_LIMIT_WATCH_H_
 
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 #include "mechanism_codesign/frame.h"
 #include "problem/load_problem.h"
 
-namespace codesign::cli {
+namespace codesign {
 
 /// A limit of the URDF that a joint exceeds during a run.
 struct LimitCrossing {
@@ -46,6 +46,6 @@ class LimitWatch {
 /// The sentence that `codesign simulate` and `check` print for a crossing.
 std::string describe(const LimitCrossing& crossing);
 
-}  // namespace codesign::cli
+}  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_CLI_LIMIT_WATCH_H_
+#endif  // MECHANISM_CODESIGN_JOBS_LIMIT_WATCH_H_

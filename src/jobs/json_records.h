@@ -1,0 +1,36 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOBS_JSON_RECORDS_H_
+#define MECHANISM_CODESIGN_JOBS_JSON_RECORDS_H_
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "jobs/json.h"
+#include "jobs/limit_watch.h"
+#include "mechanism_codesign/counts.h"
+#include "mechanism_codesign/error.h"
+#include "mechanism_codesign/simulation.h"
+#include "mechanism_codesign/status.h"
+#include "problem/load_problem.h"
+
+namespace codesign {
+
+/// One entry per member of Counts, with the members' names.
+Json to_json(const Counts& counts);
+/// `{code, message, file, line, element, value, allowed}` with code `bad_input`.
+Json to_json(const InputError& error);
+/// `[{joint, limit, bound, worst, time}]`
+Json to_json(const std::vector<LimitCrossing>& crossings);
+/// `{code, message, time}`
+Json to_json(const Status& status);
+/// `[{code, message, file, line}]`
+Json to_json(const Warnings& warnings);
+/// Sets `steps`, `rejected_steps`, `cpu_seconds`, `constraint_drift` and `energy_error`.
+void add_statistics(const Statistics& statistics, Json* object);
+/// Sets `counts` for the design at `parameters`, if it can be assembled.
+void add_counts(const Problem& problem, const std::vector<double>& parameters, Json* object);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOBS_JSON_RECORDS_H_
