@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "description/friction.h"
+#include "description/joint_type.h"
 #include "description/quantity.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/parameter.h"
@@ -46,9 +47,6 @@ struct LinkDescription {
   std::optional<InertialDescription> inertial;
   SourceLocation where;
 };
-
-/// Tree joints have URDF's types, kFixed to kFloating; the types after kFloating exist for loops only.
-enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic, kPlanar, kFloating, kSpherical, kUniversal, kCylindrical, kDistance };
 
 /// `<limit>`. Exporters write zeros for unknown limits; the three bounds_ functions tell which limits count.
 struct LimitDescription {

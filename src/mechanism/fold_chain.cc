@@ -62,31 +62,6 @@ std::optional<PairKind> fold_axes(const Axes& axes) {
   return std::nullopt;
 }
 
-std::optional<PairKind> kind_of_single(JointType type) {
-  switch (type) {
-    case JointType::kFixed:
-      return PairKind::kFixed;
-    case JointType::kRevolute:
-    case JointType::kContinuous:
-      return PairKind::kRevolute;
-    case JointType::kPrismatic:
-      return PairKind::kPrismatic;
-    case JointType::kPlanar:
-      return PairKind::kPlanar;
-    case JointType::kFloating:
-      return PairKind::kFree;
-    case JointType::kSpherical:
-      return PairKind::kSpherical;
-    case JointType::kUniversal:
-      return PairKind::kUniversal;
-    case JointType::kCylindrical:
-      return PairKind::kCylindrical;
-    case JointType::kDistance:
-      return PairKind::kDistance;
-  }
-  return std::nullopt;
-}
-
 [[noreturn]] void refuse(const RobotDescription& robot, const std::vector<ChainElement>& chain) {
   std::string names;
   for (const ChainElement& element : chain)
@@ -135,8 +110,8 @@ bool needs_coordinate(const RobotDescription& robot, const Topology& topology, i
 }  // namespace
 
 PairKind fold_chain(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain) {
-  const auto kind = chain.size() == 1 ? kind_of_single(robot.joints[static_cast<std::size_t>(chain[0].joint)].type)
-                                      : kind_of_chain(robot, topology, chain);
+  const auto kind =
+      chain.size() == 1 ? kind_of(robot.joints[static_cast<std::size_t>(chain[0].joint)].type) : kind_of_chain(robot, topology, chain);
   if (!kind) refuse(robot, chain);
   return *kind;
 }

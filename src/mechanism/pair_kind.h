@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 
+#include "description/joint_type.h"
+
 namespace codesign {
 
 /// The relative motion that a pair allows. Body i is on the parent's side, j on the child's; z is the joint axis.
@@ -35,6 +37,7 @@ enum class BearingLaw { kPin, kRevolute, kTranslational, kPlane, kBall };
 
 /// What the formulas know of a kind of pair. A new kind is an enumerator, a row of kPairTraits and its rows in pair_rows().
 struct PairTraits {
+  JointType joint;         ///< the type of joint with this motion, whose friction law applies; kFloating, which has none, for the others
   int rows;                ///< number of constraint rows
   ForceRows force;         ///< in the order of pair_rows() they come first
   bool torque_rows;        ///< whether the rows behind them hold the components (-y'', x'', z'') of the reaction torque T''
@@ -45,20 +48,29 @@ struct PairTraits {
 
 /// In the order of PairKind.
 constexpr std::array<PairTraits, 11> kPairTraits{{
-    {6, ForceRows::kAll, true, BearingLaw::kPin, 0, 0},               // fixed
-    {5, ForceRows::kAll, true, BearingLaw::kRevolute, 0, 0},          // revolute
-    {5, ForceRows::kAcross, true, BearingLaw::kTranslational, 0, 0},  // prismatic
-    {4, ForceRows::kAcross, true, BearingLaw::kPin, 0, 0},            // cylindrical
-    {4, ForceRows::kAll, false, BearingLaw::kPin, 0, 0},              // universal
-    {3, ForceRows::kAll, false, BearingLaw::kBall, 3, 3},             // spherical
-    {4, ForceRows::kAlong, true, BearingLaw::kPlane, 2, 2},           // table
-    {3, ForceRows::kAlong, true, BearingLaw::kPlane, 3, 2},           // planar
-    {3, ForceRows::kNone, true, BearingLaw::kPin, 0, 0},              // translational
-    {1, ForceRows::kNone, false, BearingLaw::kPin, 0, 0},             // distance
-    {0, ForceRows::kNone, false, BearingLaw::kPin, 0, 0},             // free
+    {JointType::kFixed, 6, ForceRows::kAll, true, BearingLaw::kPin, 0, 0},                   // fixed
+    {JointType::kRevolute, 5, ForceRows::kAll, true, BearingLaw::kRevolute, 0, 0},           // revolute
+    {JointType::kPrismatic, 5, ForceRows::kAcross, true, BearingLaw::kTranslational, 0, 0},  // prismatic
+    {JointType::kCylindrical, 4, ForceRows::kAcross, true, BearingLaw::kPin, 0, 0},          // cylindrical
+    {JointType::kUniversal, 4, ForceRows::kAll, false, BearingLaw::kPin, 0, 0},              // universal
+    {JointType::kSpherical, 3, ForceRows::kAll, false, BearingLaw::kBall, 3, 3},             // spherical
+    {JointType::kPlanar, 4, ForceRows::kAlong, true, BearingLaw::kPlane, 2, 2},              // table
+    {JointType::kPlanar, 3, ForceRows::kAlong, true, BearingLaw::kPlane, 3, 2},              // planar
+    {JointType::kFloating, 3, ForceRows::kNone, true, BearingLaw::kPin, 0, 0},               // translational
+    {JointType::kDistance, 1, ForceRows::kNone, false, BearingLaw::kPin, 0, 0},              // distance
+    {JointType::kFloating, 0, ForceRows::kNone, false, BearingLaw::kPin, 0, 0},              // free
 }};
 
 constexpr const PairTraits& traits_of(PairKind kind) { return kPairTraits[static_cast<std::size_t>(kind)]; }
+
+/// The kind of pair that a single joint or loop makes.
+constexpr PairKind kind_of(JointType type) {
+  if (type == JointType::kContinuous) return PairKind::kRevolute;
+  // Of several kinds the last has all the freedoms of the joint type.
+  for (std::size_t k = kPairTraits.size(); k-- > 0;)
+    if (kPairTraits[k].joint == type) return static_cast<PairKind>(k);
+  return PairKind::kFree;
+}
 
 /// Whether the friction of such a pair follows one law for all directions of its slip, doc/theory.md (13a), instead of one law per
 /// coordinate, (13).

@@ -25,25 +25,6 @@ std::string joint_element(const JointDescription& joint) {
   return (joint.is_loop ? "<loop name=\"" : "<joint name=\"") + joint.name + "\">";
 }
 
-/// The joint type whose friction law applies to pairs of this kind; kFloating, which has none, for all other kinds.
-JointType equivalent_type(PairKind kind) {
-  switch (kind) {
-    case PairKind::kRevolute:
-      return JointType::kRevolute;
-    case PairKind::kPrismatic:
-      return JointType::kPrismatic;
-    case PairKind::kCylindrical:
-      return JointType::kCylindrical;
-    case PairKind::kSpherical:
-      return JointType::kSpherical;
-    case PairKind::kTable:
-    case PairKind::kPlanar:
-      return JointType::kPlanar;
-    default:
-      return JointType::kFloating;
-  }
-}
-
 class TopologyBuilder {
  public:
   explicit TopologyBuilder(const RobotDescription& robot) : robot_(robot) {}
@@ -242,7 +223,7 @@ class TopologyBuilder {
   // The URDF reader checks ordinary joints only, not those folded from a chain.
   void check_friction(const Pair& pair) const {
     const JointDescription& joint = robot_.joints[index(pair.friction_joint)];
-    check_friction_geometry(*joint.friction, equivalent_type(pair.kind), joint_element(joint) + " <codesign:friction>");
+    check_friction_geometry(*joint.friction, traits_of(pair.kind).joint, joint_element(joint) + " <codesign:friction>");
   }
 
   const RobotDescription& robot_;

@@ -18,6 +18,15 @@ TEST(PairTraits, CountTheRowsThatPairsHave) {
   EXPECT_EQ(traits_of(PairKind::kFree).rows, 0) << "the last enumerator has the last row";
 }
 
+TEST(PairTraits, EveryJointTypeMakesAPairOfItsMotion) {
+  for (const JointTypeName& name : kJointTypeNames) {
+    const JointType expected = name.type == JointType::kContinuous ? JointType::kRevolute : name.type;
+    EXPECT_EQ(traits_of(kind_of(name.type)).joint, expected);
+  }
+  EXPECT_EQ(kind_of(JointType::kPlanar), PairKind::kPlanar);
+  EXPECT_EQ(kind_of(JointType::kFloating), PairKind::kFree);
+}
+
 TEST(PairTraits, IsotropicSlipHasACoordinatePerFreedomThatSlips) {
   for (PairKind kind : {PairKind::kTable, PairKind::kPlanar, PairKind::kSpherical}) {
     EXPECT_TRUE(slips_isotropically(kind));

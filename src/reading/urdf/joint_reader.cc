@@ -1,8 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/urdf/joint_reader.h"
 
-#include <map>
-
 #include "reading/urdf/friction_reader.h"
 #include "reading/urdf/quantity_reader.h"
 #include "text/decimal.h"
@@ -11,18 +9,7 @@
 namespace codesign {
 namespace {
 
-JointType read_type(const XmlElement& element) {
-  static const std::map<std::string, JointType> kTypes = {{"fixed", JointType::kFixed},           {"revolute", JointType::kRevolute},
-                                                          {"continuous", JointType::kContinuous}, {"prismatic", JointType::kPrismatic},
-                                                          {"planar", JointType::kPlanar},         {"floating", JointType::kFloating}};
-  const std::string name = element.text("type");
-  const auto found = kTypes.find(name);
-  if (found != kTypes.end()) return found->second;
-  std::vector<std::string> known;
-  known.reserve(kTypes.size());
-  for (const auto& type : kTypes) known.push_back(type.first);
-  throw unknown_name(element.where("type"), element.label(), "joint type", name, known);
-}
+JointType read_type(const XmlElement& element) { return read_joint_type(element, &JointTypeName::of_joints, "joint type"); }
 
 bool has_one_coordinate(JointType type) {
   return type == JointType::kRevolute || type == JointType::kContinuous || type == JointType::kPrismatic;

@@ -7,6 +7,9 @@
 
 namespace codesign {
 
+/// The attribute `type`. @param spelling of joints or of loops. @param kind what messages call it. @throws InputError
+JointType read_joint_type(const XmlElement& element, const char* const JointTypeName::*spelling, const std::string& kind);
+
 /// Reads a `<joint>` of the tree. @throws InputError
 JointDescription read_joint(const XmlElement& element, const ReadContext& context);
 

@@ -1,5 +1,4 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include <map>
 #include <tuple>
 
 #include "reading/urdf/joint_reader.h"
@@ -9,24 +8,7 @@
 namespace codesign {
 namespace {
 
-JointType read_type(const XmlElement& element) {
-  static const std::map<std::string, JointType> kTypes = {{"fixed", JointType::kFixed},
-                                                          {"revolute", JointType::kRevolute},
-                                                          {"continuous", JointType::kContinuous},
-                                                          {"prismatic", JointType::kPrismatic},
-                                                          {"planar", JointType::kPlanar},
-                                                          {"codesign:spherical", JointType::kSpherical},
-                                                          {"codesign:universal", JointType::kUniversal},
-                                                          {"codesign:cylindrical", JointType::kCylindrical},
-                                                          {"codesign:distance", JointType::kDistance}};
-  const std::string name = element.text("type");
-  const auto found = kTypes.find(name);
-  if (found != kTypes.end()) return found->second;
-  std::vector<std::string> known;
-  known.reserve(kTypes.size());
-  for (const auto& type : kTypes) known.push_back(type.first);
-  throw unknown_name(element.where("type"), element.label(), "loop type", name, known);
-}
+JointType read_type(const XmlElement& element) { return read_joint_type(element, &JointTypeName::of_loops, "loop type"); }
 
 void read_type_specific(const XmlElement& element, const ReadContext& context, JointDescription* loop) {
   const std::optional<XmlElement> second_axis = element.child("codesign:second_axis"), length = element.child("codesign:length");

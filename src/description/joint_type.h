@@ -1,0 +1,34 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_DESCRIPTION_JOINT_TYPE_H_
+#define MECHANISM_CODESIGN_DESCRIPTION_JOINT_TYPE_H_
+
+#include <array>
+
+namespace codesign {
+
+/// The types of joints and loops, as files name them.
+enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic, kPlanar, kFloating, kSpherical, kUniversal, kCylindrical, kDistance };
+
+/// Where a type may stand, and how it is spelled there.
+struct JointTypeName {
+  JointType type;
+  const char* of_joints;  ///< value of `<joint type>`; null: no joint of the tree has this type
+  const char* of_loops;   ///< value of `<loop type>`; null: no loop has it
+};
+
+constexpr std::array<JointTypeName, 10> kJointTypeNames{{
+    {JointType::kFixed, "fixed", "fixed"},
+    {JointType::kRevolute, "revolute", "revolute"},
+    {JointType::kContinuous, "continuous", "continuous"},
+    {JointType::kPrismatic, "prismatic", "prismatic"},
+    {JointType::kPlanar, "planar", "planar"},
+    {JointType::kFloating, "floating", nullptr},
+    {JointType::kSpherical, nullptr, "codesign:spherical"},
+    {JointType::kUniversal, nullptr, "codesign:universal"},
+    {JointType::kCylindrical, nullptr, "codesign:cylindrical"},
+    {JointType::kDistance, nullptr, "codesign:distance"},
+}};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_DESCRIPTION_JOINT_TYPE_H_
