@@ -61,9 +61,8 @@ TEST(Mechanisms, EveryParameterOfAChainMatters) {
 
 TEST(Mechanisms, TheChainsAreTheSameAtTheStart) {
   const Problem plain = load(open_chain(3)), parametric = load(parametric_chain(3, 2));
-  EXPECT_EQ(parametric.study.tuned.size(), 2U);
-  EXPECT_NEAR(Evaluator(plain.system).evaluate({}, false).objective,
-              Evaluator(parametric.system).evaluate(parametric.start(), false).objective, 1e-9);
+  EXPECT_EQ(parametric.study().tuned.size(), 2U);
+  EXPECT_NEAR(Evaluator(plain).evaluate({}, false).objective, Evaluator(parametric).evaluate(parametric.start(), false).objective, 1e-9);
 }
 
 }  // namespace

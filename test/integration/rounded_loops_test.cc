@@ -109,13 +109,13 @@ TEST(RoundedLoops, OtherLinkagesSettleAsTheToleranceFalls) {
 
 TEST(RoundedLoops, AMissIsAWarningAndTooMuchIsRefused) {
   const Problem exact = load_problem({"four.urdf", tilted_four_bar("0 0 0")}, {}, {"four.yaml", study(1e-6)});
-  ASSERT_EQ(exact.warnings.size(), 1U);
-  EXPECT_EQ(exact.warnings[0].code, "undetermined_friction");
-  EXPECT_NE(exact.warnings[0].message.find("j1"), std::string::npos);
+  ASSERT_EQ(exact.warnings().size(), 1U);
+  EXPECT_EQ(exact.warnings()[0].code, "undetermined_friction");
+  EXPECT_NE(exact.warnings()[0].message.find("j1"), std::string::npos);
   const Problem near = load_problem({"four.urdf", tilted_four_bar("0.0002 0 0")}, {}, {"four.yaml", study(1e-6)});
-  ASSERT_EQ(near.warnings.size(), 2U);
-  EXPECT_EQ(near.warnings[0].code, "inexact_loop");
-  EXPECT_NE(near.warnings[0].message.find("closure"), std::string::npos);
+  ASSERT_EQ(near.warnings().size(), 2U);
+  EXPECT_EQ(near.warnings()[0].code, "inexact_loop");
+  EXPECT_NE(near.warnings()[0].message.find("closure"), std::string::npos);
   const std::string apart = tilted_four_bar("0 0 0", "0.004");
   try {
     load_problem({"four.urdf", apart}, {}, {"four.yaml", study(1e-6)});

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "reading/urdf/urdf_reader.h"
 #include "ros/pendulum.h"
 #include "temporary_directory.h"
 

@@ -22,7 +22,7 @@ Study study(const std::string& algorithm, bool constrained = false) {
 
 TEST(Algorithm, EachFindsTheMinimumOfABowl) {
   for (const char* name : kNames) {
-    nlopt::opt optimizer = make_optimizer(study(name), 2);
+    nlopt::opt optimizer = make_optimizer(study(name), study(name).optimizer, 2);
     optimizer.set_min_objective(
         [](const std::vector<double>& x, std::vector<double>& gradient, void*) {
           if (!gradient.empty()) gradient = {2.0 * (x[0] - 0.3), 8.0 * (x[1] - 0.6)};
@@ -45,15 +45,15 @@ TEST(Algorithm, EachFindsTheMinimumOfABowl) {
 TEST(Algorithm, ConstraintsAreForThoseThatTakeThem) {
   for (const char* name : kNames) {
     if (kTakeConstraints.count(name) > 0)
-      EXPECT_NO_THROW(make_optimizer(study(name, true), 2)) << name;
+      EXPECT_NO_THROW(make_optimizer(study(name, true), study(name, true).optimizer, 2)) << name;
     else
-      EXPECT_THROW(make_optimizer(study(name, true), 2), InputError) << name;
+      EXPECT_THROW(make_optimizer(study(name, true), study(name, true).optimizer, 2), InputError) << name;
   }
 }
 
 TEST(Algorithm, AnUnknownNameIsAnsweredWithThoseKnown) {
   try {
-    make_optimizer(study("newton"), 1);
+    make_optimizer(study("newton"), study("newton").optimizer, 1);
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_EQ(error.fault().where.file, "study.yaml");

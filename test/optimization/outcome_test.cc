@@ -97,10 +97,10 @@ TEST(Outcome, AReferenceThatIsNotFiniteIsNoCheck) {
 }
 
 TEST(Outcome, AnObjectiveThatIsNotFiniteIsNoSuccess) {
-  Problem problem = problem_of("", "1e308");
-  problem.study().terminal.front().reference = Quantity(1e100);
-  problem.system() = make_system(problem.robot(), problem.study());
-  EXPECT_EQ(search(problem).status.code, StatusCode::kNonFinite);
+  const Problem problem = problem_of("", "1e308");
+  Study study = problem.study();
+  study.terminal.front().reference = Quantity(1e100);
+  EXPECT_EQ(search(with_study(problem, study)).status.code, StatusCode::kNonFinite);
 }
 
 TEST(Outcome, WarnsOfParametersOnTheirBound) {
@@ -140,9 +140,9 @@ TEST(Outcome, TolerancesBelowRoundingAreRefused) {
   for (const char* more : {"solver: {relative_tolerance: 1e-300}\n", "solver: {absolute_tolerance: 1e-17}\n",
                            "solver: {sensitivity_tolerance: 1e-14}\n", "optimizer: {relative_tolerance: 1e-16}\n"})
     EXPECT_THROW(problem_of(more), InputError) << more;
-  Problem problem = problem_of("");
-  problem.study().optimizer.relative_tolerance = 0.0;
-  EXPECT_THROW(search(problem), InputError) << "requests bring tolerances too";
+  OptimizerOptions options;
+  options.relative_tolerance = 0.0;
+  EXPECT_THROW(optimize(problem_of(""), options), InputError) << "requests bring tolerances too";
 }
 
 }  // namespace

@@ -60,10 +60,5 @@ TEST(Scaling, GradientFollowsTheChainRule) {
   EXPECT_NEAR(scaling.gradient_norm(gradient), std::sqrt(1000.0 * 1000.0 + 0.12 * 0.12 + 1.0), 1e-9);
 }
 
-TEST(Scaling, ParametersThatAreNotTunedStay) {
-  const Study s = study();
-  EXPECT_EQ(Scaling(s).all_parameters(Eigen::Vector3d(1.0, 0.07, 5.0)), (std::vector<double>{0.07, 2.0, 1.0, 5.0}));
-}
-
 }  // namespace
 }  // namespace codesign

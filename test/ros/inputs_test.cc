@@ -85,7 +85,7 @@ TEST(RequireEveryParameter, ATreeThatLostAnEmptyMappingIsRefused) {
 TEST(RequireEveryParameter, AFileMayLeaveParametersOut) {
   Inputs inputs = as_tree(kPendulumUrdf, kPendulumStudy);
   inputs.study_is_tree = false;
-  EXPECT_NO_THROW(require_every_parameter(inputs, load(inputs).robot));
+  EXPECT_NO_THROW(require_every_parameter(inputs, load(inputs).robot()));
 }
 
 TEST(RequireEveryParameter, TheShippedStudiesTuneTheSameAsATree) {

@@ -12,6 +12,7 @@
 #include <csignal>
 #include <set>
 
+#include "reading/urdf/urdf_reader.h"
 #include "ros/job.h"
 #include "ros/pendulum.h"
 #include "temporary_directory.h"

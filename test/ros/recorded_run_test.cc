@@ -41,9 +41,10 @@ TEST(LayOut, WithoutFramesItStaysFinite) {
 }
 
 TEST(CheckRecording, RefusesWhatMemoryOrRosTimeCannotHold) {
-  Problem problem = pendulum();
-  const auto fault_of = [&problem](double duration, double rate) -> std::string {
-    problem.study().duration = duration;
+  const auto fault_of = [](double duration, double rate) -> std::string {
+    Study study = pendulum().study();
+    study.duration = duration;
+    const Problem problem = with_study(pendulum(), study);
     try {
       check_recording(problem, rate, "/optimization/rate");
       return "";

@@ -36,12 +36,12 @@ std::string fault_of(const EvaluateRequest& request) {
 
 TEST(OptimizeRequest, AnEmptyOneChangesNothing) {
   const Problem problem = pendulum();
-  const Problem changed = apply_request(problem, OptimizeGoal()).problem;
-  EXPECT_EQ(changed.system, problem.system());
-  EXPECT_EQ(changed.start(), problem.start());
-  EXPECT_EQ(changed.study.optimizer.algorithm, "lbfgs");
-  EXPECT_EQ(changed.study.optimizer.max_evaluations, 30);
-  EXPECT_EQ(changed.study.optimizer.relative_tolerance, problem.study().optimizer.relative_tolerance);
+  const OptimizationRequest same = apply_request(problem, OptimizeGoal());
+  EXPECT_EQ(same.problem.system(), problem.system());
+  EXPECT_EQ(same.problem.start(), problem.start());
+  EXPECT_EQ(same.options.algorithm, "lbfgs");
+  EXPECT_EQ(same.options.max_evaluations, 30);
+  EXPECT_EQ(same.options.relative_tolerance, problem.study().optimizer.relative_tolerance);
 }
 
 TEST(OptimizeRequest, ChoosesParametersAndStarts) {
