@@ -11,7 +11,7 @@ namespace codesign {
 namespace {
 
 using Gains = std::vector<double>;
-/// The optima that test/system/inverted_pendulum_test.cc finds: under Brown and McPhee's friction (0.4, 0.3), and without.
+/// The optima that test/cases/inverted_pendulum_test.cc finds: under Brown and McPhee's friction (0.4, 0.3), and without.
 const Gains kWith = {546.115, 623.979, 90.071}, kWithout = {427.73, 1.11, 65.22};
 
 struct Motion {

@@ -50,7 +50,7 @@ class CheckTest(unittest.TestCase):
                        stdout=subprocess.DEVNULL)
 
     def compile_database(self, *names):
-        flags = "-O3 -mmove-max=256 -mstore-max=256 --param=large-function-growth=2000 -Wno-maybe-uninitialized -Wall"
+        flags = "-O3 -mmove-max=256 -mstore-max=256 --param=large-function-growth=2000 -Wno-maybe-uninitialized -Wall -Winvalid-pch -include /b/cmake_pch.hxx"
         entries = [{"directory": self.root, "file": os.path.join(self.root, name), "command": f"/usr/bin/ccache /usr/bin/c++ {flags} -c {name}"}
                    for name in names]
         self.plant("build/compile_commands.json", json.dumps(entries))
