@@ -114,6 +114,17 @@ void read_dynamics(const XmlElement& dynamics, const ReadContext& context, Joint
 
 }  // namespace
 
+JointType read_joint_type(const XmlElement& element, const char* const JointTypeName::*spelling, const std::string& kind) {
+  const std::string name = element.text("type");
+  std::vector<std::string> known;
+  for (const JointTypeName& type : kJointTypeNames) {
+    if (type.*spelling == nullptr) continue;
+    if (name == type.*spelling) return type.type;
+    known.emplace_back(type.*spelling);
+  }
+  throw unknown_name(element.where("type"), element.label(), kind, name, known);
+}
+
 void read_joint_parts(const XmlElement& element, const ReadContext& context, JointDescription* joint) {
   const ParameterTable& table = context.table;
   const bool welded = joint->type == JointType::kFixed && !joint->is_loop;  // other readers of URDF ignore the rest of a fixed joint
