@@ -77,12 +77,13 @@ void Assembly::follow_couplings(const Constants<double>& constants) {
 }
 
 // Joint positions count whole turns, beginning at the tree's coordinate, so that a start beyond one turn is kept.
-void Assembly::set_turns(Equations<double>* equations) const {
+void Assembly::set_turns(State<double>* state) const {
   for (std::size_t p = 0; p < system_.topology().pairs.size(); ++p) {
     const Pair& pair = system_.topology().pairs[p];
     for (std::size_t e = 0; e < pair.chain.size(); ++e) {
       const JointDescription& joint = system_.robot().joints[static_cast<std::size_t>(pair.chain[e].joint)];
-      equations->turn_references()[p][e] = joint.is_loop ? 0.0 : theta_[tree_.offset[static_cast<std::size_t>(pair.chain[e].joint)]];
+      state->turns[static_cast<std::size_t>(system_.layout().turn(static_cast<int>(p), static_cast<int>(e)))] =
+          joint.is_loop ? 0.0 : theta_[tree_.offset[static_cast<std::size_t>(pair.chain[e].joint)]];
     }
   }
 }
@@ -95,7 +96,7 @@ std::vector<std::vector<int>> Assembly::by_preference(const std::vector<bool>& g
 }
 
 void Assembly::place(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) const {
-  set_turns(equations);
+  set_turns(state);
   body_coordinates(system_, equations->constants(), link_motions(system_.robot(), tree_, parameters, theta_, theta_rate_), &state->q,
                    &state->v);
 }
@@ -147,7 +148,7 @@ Assembly::Rest Assembly::newton(const std::vector<double>& parameters, Equations
   for (int iteration = 0; iteration < kNewtonIterations; ++iteration) {
     if (cancelled()) return Rest::kApart;
     place(parameters, equations, &state);
-    equations->constraint_errors(state.q, state.v, &errors, &rates);
+    equations->constraint_errors(state, &errors, &rates);
     const Eigen::VectorXd loops = loop_part(errors);
     const double error = loops.size() == 0 ? 0.0 : loops.cwiseAbs().maxCoeff();
     if (!std::isfinite(error)) return Rest::kApart;
@@ -332,11 +333,12 @@ template <class T>
 void Assembly::extend(const std::vector<T>& parameters, const State<double>& start, Equations<T>* equations, State<T>* state) const {
   state->resize(system_.layout());
   state->t = start.t;
+  state->turns = start.turns;
   VectorX<T> theta = theta_.template cast<T>(), rate = theta_rate_.template cast<T>(), Phi, Phi_rate;
   set_given_start(system_, tree_, parameters, &theta, &rate);
   const auto place_extended = [&] {
     body_coordinates(system_, equations->constants(), link_motions(system_.robot(), tree_, parameters, theta, rate), &state->q, &state->v);
-    equations->constraint_errors(state->q, state->v, &Phi, &Phi_rate);
+    equations->constraint_errors(*state, &Phi, &Phi_rate);
   };
   place_extended();
   correct(positions_, Phi, &theta);

@@ -94,7 +94,7 @@ class Assembly {
   void place(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) const;
   void set_start(const std::vector<double>& parameters);
   void follow_couplings(const Constants<double>& constants);
-  void set_turns(Equations<double>* equations) const;
+  void set_turns(State<double>* state) const;
   std::vector<std::vector<int>> by_preference(const std::vector<bool>& given) const;
   ScaledLoops scaled_loops(const std::vector<double>& parameters, const Equations<double>& equations) const;
   /// The rows of the loops and couplings from all constraint rows; dropped rows are zero unless all_rows_count_.

@@ -146,7 +146,8 @@ class Motions {
     Eigen::MatrixXd forbidden(system_.layout().m, size);
     VectorX<double> errors, rates;
     for (Eigen::Index k = 0; k < size; ++k) {
-      equations_->constraint_errors(state_.q, VectorX<double>(V_.col(k)), &errors, &rates);
+      state_.v = V_.col(k);
+      equations_->constraint_errors(state_, &errors, &rates);
       forbidden.col(k) = rates * scale_[k];
     }
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;

@@ -98,12 +98,12 @@ class TestMotion {
       for (std::size_t e = 0; e < system_.topology().pairs[p].chain.size(); ++e) {
         const int joint = system_.topology().pairs[p].chain[e].joint;
         const bool in_loop = system_.robot().joints[at(joint)].is_loop;
-        equations_->turn_references()[p][e] = in_loop ? 0.0 : theta[tree_.offset[at(joint)]];
+        state_.turns[at(system_.layout().turn(static_cast<int>(p), static_cast<int>(e)))] = in_loop ? 0.0 : theta[tree_.offset[at(joint)]];
       }
     body_coordinates(system_, equations_->constants(),
-                     link_motions(system_.robot(), tree_, parameters_, theta, VectorX<double>(VectorX<double>::Zero(theta.size()))), &q_,
-                     &v_);
-    equations_->constraint_errors(q_, v_, &Phi_, &Phi_rate_);
+                     link_motions(system_.robot(), tree_, parameters_, theta, VectorX<double>(VectorX<double>::Zero(theta.size()))),
+                     &state_.q, &state_.v);
+    equations_->constraint_errors(state_, &Phi_, &Phi_rate_);
     Eigen::VectorXd part(loops_.rows());
     for (int k = 0; k < loops_.rows(); ++k) part[k] = scales.rows[k] * Phi_[loops_.constraint_rows()[at(k)]];
     return part;
@@ -142,7 +142,8 @@ class TestMotion {
   const TreeLayout& tree_;
   const std::vector<double>& parameters_;
   Eigen::VectorXd held_;
-  VectorX<double> q_, v_, Phi_, Phi_rate_;
+  State<double> state_;
+  VectorX<double> Phi_, Phi_rate_;
 };
 
 class Analysis {

@@ -17,11 +17,13 @@ constexpr Eigen::Index kLargest = 250000;  // entries of J; a larger J is not an
 }  // namespace
 
 SingularStart::SingularStart(const CompiledSystem& system, const TreeLayout& tree, const LoopJacobian& loops)
-    : system_(system), tree_(tree), loops_(loops) {}
+    : system_(system), tree_(tree), loops_(loops) {
+  state_.resize(system.layout());
+}
 
 VectorX<double> SingularStart::rates(const VectorX<double>& theta, const VectorX<double>& x) {
-  body_coordinates(system_, equations_->constants(), link_motions(system_.robot(), tree_, parameters_, theta, x), &q_, &v_);
-  equations_->constraint_errors(q_, v_, &Phi_, &Phi_rate_);
+  body_coordinates(system_, equations_->constants(), link_motions(system_.robot(), tree_, parameters_, theta, x), &state_.q, &state_.v);
+  equations_->constraint_errors(state_, &Phi_, &Phi_rate_);
   VectorX<double> part(loops_.rows());
   for (int k = 0; k < loops_.rows(); ++k) part[k] = Phi_rate_[loops_.constraint_rows()[static_cast<std::size_t>(k)]];
   return part;
@@ -105,7 +107,7 @@ VectorX<double> SingularStart::tree_accelerations(const VectorX<double>& a) {
   Eigen::MatrixXd body_velocities(a.size(), tree_.size);
   for (int c = 0; c < tree_.size; ++c) {
     rates(theta_, VectorX<double>::Unit(tree_.size, c));
-    body_velocities.col(c) = v_;
+    body_velocities.col(c) = state_.v;
   }
   return body_velocities.colPivHouseholderQr().solve(a);
 }

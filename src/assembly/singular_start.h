@@ -46,7 +46,8 @@ class SingularStart {
   const LoopJacobian& loops_;
   std::vector<double> parameters_;
   Equations<double>* equations_ = nullptr;
-  VectorX<double> theta_, q_, v_, Phi_, Phi_rate_, violated_;
+  VectorX<double> theta_, Phi_, Phi_rate_, violated_;
+  State<double> state_;
   Eigen::MatrixXd J_, L_;
   double tolerance_ = 0.0;  ///< a last violation() of a smaller norm counts as zero
 };

@@ -18,7 +18,9 @@ constexpr double kLoadUnit = 1e-4;
 
 template <class T>
 T is_dropped(const StateView<T>& view, int row) {
-  return T(view.turn_references.back()[static_cast<std::size_t>(view.system.sharing_layout().miss_slot[static_cast<std::size_t>(row)])]);
+  return T(
+      view.state
+          ->turns[static_cast<std::size_t>(view.layout.drop_slot + view.system.sharing_layout().miss_slot[static_cast<std::size_t>(row)])]);
 }
 
 template <class T>

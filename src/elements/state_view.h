@@ -4,10 +4,8 @@
 
 #include <array>
 #include <cstdint>
-#include <type_traits>
 #include <vector>
 
-#include "codegen/traced.h"
 #include "elements/design.h"
 #include "joints/coordinate.h"
 #include "math/elementary.h"
@@ -15,15 +13,6 @@
 #include "system/state.h"
 
 namespace codesign {
-
-/// The type of a turn reference: turns are counted with values alone, and are recorded as inputs while equations are traced.
-template <class T>
-using TurnReference = std::conditional_t<std::is_same_v<T, Traced>, Traced, double>;
-
-/// One list per pair with an entry per chain element: positions of turning joints are continued from the value nearest to it. Where
-/// reactions are shared, one list more with an entry per row that can be dropped: 1 if it is, 0 if it holds.
-template <class T>
-using TurnReferences = std::vector<std::vector<TurnReference<T>>>;
 
 /// Memory that controllers compute in: one entry per node of the largest driven tree, rates where rotors need them.
 template <class T>
@@ -50,9 +39,6 @@ struct StateView {
   void set_design(const std::vector<T>& parameters);
   /// Takes another state, which must outlive its use.
   void load(const State<T>& at);
-  /// Forgets the motions of coordinates; to be called after turn references change.
-  void forget_coordinates() { ++version; }
-
   /// A body's motion; -1 is the ground, a body at rest.
   const BodyKinematics<T>& body(int index) const { return kinematics[static_cast<std::size_t>(index < 0 ? layout.bodies : index)]; }
   /// Global column of a local coordinate of a pair, or -1 on the ground.
@@ -75,13 +61,11 @@ struct StateView {
   std::vector<std::array<int, kLocalSize>> columns;  ///< of each pair's local coordinates
   const State<T>* state = nullptr;
   std::vector<BodyKinematics<T>> kinematics;  ///< the ground last
-  TurnReferences<T> turn_references;
   mutable ControlMemory<T> control;
 
  private:
   /// What to add to a position so that it continues its reference.
   T whole_turns(int pair, int element, const T& position) const;
-  void set_turn_references();
 
   mutable std::vector<std::vector<KnownCoordinate<T>>> coordinates;  ///< per pair and chain element
   std::uint64_t version = 0;                                         ///< of what coordinates depend on
@@ -111,20 +95,8 @@ template <class T>
 void StateView<T>::set_design(const std::vector<T>& parameters) {
   ++version;
   design.set(system, parameters);
-  if (turn_references.empty()) set_turn_references();
-}
-
-template <class T>
-void StateView<T>::set_turn_references() {
-  for (const PairConstants<T>& pair : design.constants.pairs) {
-    turn_references.emplace_back(pair.coordinates.size(), 0.0);
-    coordinates.emplace_back(pair.coordinates.size());
-  }
-  if (!system.sharing().drops()) return;
-  const SharingLayout& sharing = system.sharing_layout();
-  turn_references.emplace_back(static_cast<std::size_t>(sharing.misses), 0.0);
-  for (int row : system.sharing().dropped)
-    turn_references.back()[static_cast<std::size_t>(sharing.miss_slot[static_cast<std::size_t>(row)])] = 1.0;
+  if (coordinates.empty())
+    for (const PairConstants<T>& pair : design.constants.pairs) coordinates.emplace_back(pair.coordinates.size());
 }
 
 template <class T>
@@ -168,7 +140,7 @@ T StateView<T>::coordinate_value(int pair, int element) const {
 template <class T>
 T StateView<T>::whole_turns(int pair, int element, const T& position) const {
   if (coordinate_moves_r(pair, element)) return T(0.0);
-  return nearest_turns(turn_references[static_cast<std::size_t>(pair)][static_cast<std::size_t>(element)], position);
+  return nearest_turns(state->turns[static_cast<std::size_t>(layout.turn(pair, element))], position);
 }
 
 }  // namespace codesign

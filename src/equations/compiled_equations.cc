@@ -88,18 +88,18 @@ bool CompiledEquations<T>::fill_numbers() {
 }
 
 template <class T>
-void CompiledEquations<T>::set_instant(double t, const TurnReferences& turns) {
+void CompiledEquations<T>::set_instant(double t, const std::vector<double>& turns) {
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     const ReferenceMotion<T> motion = std::visit([t](const auto& function) { return function.at(t); }, functions_[k]);
     const T* const orders[] = {&motion.value, &motion.rate, &motion.acceleration, &motion.jerk};
     for (std::size_t order = 0; order < Recording::kFunctionOrders; ++order)
       if (const int entry = numbered_->functions[k][order]; entry >= 0) numbers_[at(entry)] = *orders[order];
   }
-  for (const auto& [pair, element, entry] : numbered_->turns) numbers_[at(entry)] = T(turns[at(pair)][at(element)]);
+  for (const auto& [slot, entry] : numbered_->turns) numbers_[at(entry)] = T(turns[at(slot)]);
 }
 
 template <class T>
-const CompiledFunction* CompiledEquations<T>::begin(EquationFunction function, bool split, double t, const TurnReferences& turns) {
+const CompiledFunction* CompiledEquations<T>::begin(EquationFunction function, bool split, double t, const std::vector<double>& turns) {
   if (!is_worth_trying(function) || !prepare()) return nullptr;
   const CompiledFunction* const code = code_->function(function, {kLanesOf<T>, split});
   if (!code) return nullptr;
@@ -111,7 +111,7 @@ const CompiledFunction* CompiledEquations<T>::begin(EquationFunction function, b
 
 // Lanes of values and directions that stand in one array are read as its numbers.
 template <class T>
-bool CompiledEquations<T>::run(EquationFunction function, double t, const TurnReferences& turns, const T* const (&state)[4],
+bool CompiledEquations<T>::run(EquationFunction function, double t, const std::vector<double>& turns, const T* const (&state)[4],
                                T* const (&results)[4]) {
   const CompiledFunction* const code = begin(function, false, t, turns);
   if (!code) return false;
@@ -128,7 +128,7 @@ bool CompiledEquations<T>::run(EquationFunction function, double t, const TurnRe
 }
 
 template <class T>
-bool CompiledEquations<T>::tangents(EquationFunction function, double t, const TurnReferences& turns, const double* const (&values)[4],
+bool CompiledEquations<T>::tangents(EquationFunction function, double t, const std::vector<double>& turns, const double* const (&values)[4],
                                     const double* const (&directions)[4], double* const (&results)[4]) {
   const CompiledFunction* const code = kLanesOf<T> == 0 ? nullptr : begin(function, true, t, turns);
   if (!code) return false;
@@ -145,24 +145,23 @@ bool CompiledEquations<T>::tangents(EquationFunction function, double t, const T
 }
 
 template <class T>
-bool CompiledEquations<T>::residual(const State<T>& state, const TurnReferences& turns, VectorX<T>* G, T* g) {
+bool CompiledEquations<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
   G->resize(system_.layout().columns());
-  return run(EquationFunction::kResidual, state.t, turns, {state.q.data(), state.v.data(), state.s.data(), state.z.data()},
+  return run(EquationFunction::kResidual, state.t, state.turns, {state.q.data(), state.v.data(), state.s.data(), state.z.data()},
              {G->data(), g, nullptr, nullptr});
 }
 
 template <class T>
-bool CompiledEquations<T>::linearize(const State<T>& state, const TurnReferences& turns, Linearization<T>* derivatives) {
-  return run(EquationFunction::kLinearization, state.t, turns, {state.q.data(), state.v.data(), state.s.data(), state.z.data()},
+bool CompiledEquations<T>::linearize(const State<T>& state, Linearization<T>* derivatives) {
+  return run(EquationFunction::kLinearization, state.t, state.turns, {state.q.data(), state.v.data(), state.s.data(), state.z.data()},
              {derivatives->position.data(), derivatives->velocity.data(), derivatives->rate.data(), derivatives->time.data()});
 }
 
 template <class T>
-bool CompiledEquations<T>::constraint_errors(const VectorX<T>& q, const VectorX<T>& v, const TurnReferences& turns, VectorX<T>* Phi,
-                                             VectorX<T>* Phi_rate) {
+bool CompiledEquations<T>::constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
   Phi->resize(system_.layout().m);
   Phi_rate->resize(system_.layout().m);
-  return run(EquationFunction::kConstraintErrors, 0.0, turns, {q.data(), v.data(), nullptr, nullptr},
+  return run(EquationFunction::kConstraintErrors, 0.0, state.turns, {state.q.data(), state.v.data(), nullptr, nullptr},
              {Phi->data(), Phi_rate->data(), nullptr, nullptr});
 }
 

@@ -28,8 +28,6 @@ struct NumberedRecording;
 template <class T>
 class CompiledEquations {
  public:
-  using TurnReferences = std::vector<std::vector<double>>;
-
   explicit CompiledEquations(const CompiledSystem& system) : system_(system) {}
 
   void set_design(const std::vector<T>& parameters);
@@ -38,20 +36,20 @@ class CompiledEquations {
 
   // As the functions of Equations. False where there is no code, or the state asks for a branch that was not recorded: then nothing is
   // said about the results.
-  bool residual(const State<T>& state, const TurnReferences& turns, VectorX<T>* G, T* g);
-  bool linearize(const State<T>& state, const TurnReferences& turns, Linearization<T>* derivatives);
-  bool constraint_errors(const VectorX<T>& q, const VectorX<T>& v, const TurnReferences& turns, VectorX<T>* Phi, VectorX<T>* Phi_rate);
+  bool residual(const State<T>& state, VectorX<T>* G, T* g);
+  bool linearize(const State<T>& state, Linearization<T>* derivatives);
+  bool constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
 
   /// Derivatives alone, N side by side for each number, where values and directions stand in arrays of their own; only of Lanes<N>.
   /// @param values, directions of q, v, s and z, @param results as EquationFunction lists them.
-  bool tangents(EquationFunction function, double t, const TurnReferences& turns, const double* const (&values)[4],
+  bool tangents(EquationFunction function, double t, const std::vector<double>& turns, const double* const (&values)[4],
                 const double* const (&directions)[4], double* const (&results)[4]);
 
  private:
   bool prepare();
   /// Evaluates what depends on the design alone; false if a branch was not recorded for it.
   bool fill_numbers();
-  void set_instant(double t, const TurnReferences& turns);
+  void set_instant(double t, const std::vector<double>& turns);
 
   /// Evaluations of a function whose branch was not recorded. After some in a row the code is not tried for a while.
   struct Misses {
@@ -61,8 +59,8 @@ class CompiledEquations {
   bool note(EquationFunction function, bool recorded);
 
   /// The code of a function, made ready for an instant; null if there is none, or it had better not be tried.
-  const CompiledFunction* begin(EquationFunction function, bool split, double t, const TurnReferences& turns);
-  bool run(EquationFunction function, double t, const TurnReferences& turns, const T* const (&state)[4], T* const (&results)[4]);
+  const CompiledFunction* begin(EquationFunction function, bool split, double t, const std::vector<double>& turns);
+  bool run(EquationFunction function, double t, const std::vector<double>& turns, const T* const (&state)[4], T* const (&results)[4]);
 
   const CompiledSystem& system_;
   std::vector<T> parameters_;

@@ -48,7 +48,7 @@ EquationCode::EquationCode(const System& system, const AssemblyPlan& plan) {
     return;
   }
   record(system, plan);
-  if (usable()) values_.number_nodes(turn_owners_);
+  if (usable()) values_.number_nodes();
 }
 
 void EquationCode::record(const System& system, const AssemblyPlan& plan) {
@@ -60,14 +60,10 @@ void EquationCode::record(const System& system, const AssemblyPlan& plan) {
   for (double value : system.parameters()) parameters.emplace_back(recording, parameter, value);
   parameters.emplace_back(recording, parameter, 0.0);
   formulas.set_design(parameters);
-  TurnReferences<Traced>& turns = formulas.view().turn_references;
-  for (std::size_t pair = 0; pair < turns.size(); ++pair)
-    for (std::size_t element = 0; element < turns[pair].size(); ++element) {
-      turns[pair][element] = Traced(recording, recording->leaf(kTurns, static_cast<int>(turn_owners_.size()), true));
-      turn_owners_.push_back({static_cast<int>(pair), static_cast<int>(element)});
-    }
   State<Traced> state;
   state.resize(system.layout());
+  for (std::size_t k = 0; k < state.turns.size(); ++k)
+    state.turns[k] = Traced(recording, recording->leaf(kTurns, static_cast<int>(k), true));
   state.t = std::numeric_limits<double>::quiet_NaN();  // only functions of time may depend on it
   leaves(Arrays::kQ, recording, &state.q), leaves(Arrays::kV, recording, &state.v);
   leaves(Arrays::kS, recording, &state.s), leaves(Arrays::kZ, recording, &state.z);
@@ -88,7 +84,7 @@ void EquationCode::record(const System& system, const AssemblyPlan& plan) {
   const VectorX<Traced> by_position = vector(derivatives.position), by_velocity = vector(derivatives.velocity),
                         by_rate = vector(derivatives.rate);
   take(EquationFunction::kLinearization, {&by_position, &by_velocity, &by_rate, &derivatives.time}, &guards);
-  formulas.constraint_errors(state.q, state.v, &Phi, &Phi_rate);
+  formulas.constraint_errors(state, &Phi, &Phi_rate);
   take(EquationFunction::kConstraintErrors, {&Phi, &Phi_rate}, &guards);
 }
 
@@ -119,7 +115,7 @@ void EquationCode::differentiate() const {
     for (int n = 0; n < recording.size(); ++n) is_leaf[at(n)] = is_tangent_leaf(recording.node(n));
     derivatives_.tangents[f] = std::make_unique<TangentProgram>(&recording, functions_[f].outputs, is_leaf);
   }
-  derivatives_.number_nodes(turn_owners_);
+  derivatives_.number_nodes();
 }
 
 const NumberedRecording& EquationCode::numbered(bool with_derivatives) const {
@@ -128,7 +124,7 @@ const NumberedRecording& EquationCode::numbered(bool with_derivatives) const {
   return derivatives_;
 }
 
-void NumberedRecording::number_nodes(const std::vector<std::array<int, 2>>& turn_owners) {
+void NumberedRecording::number_nodes() {
   functions.resize(recording.timed_sources().size());
   for (auto& orders : functions) orders.fill(-1);
   homes.resize(at(recording.size()));
@@ -150,7 +146,7 @@ void NumberedRecording::number_nodes(const std::vector<std::array<int, 2>>& turn
     numbers.push_back(n);
     if (node.operation != Operation::kLeaf) continue;
     if (node.a == Recording::kTimed) functions[at(node.b / Recording::kFunctionOrders)][at(node.b % Recording::kFunctionOrders)] = entry;
-    if (node.a == kTurns && used[at(n)]) turns.push_back({turn_owners[at(node.b)][0], turn_owners[at(node.b)][1], entry});
+    if (node.a == kTurns && used[at(n)]) turns.push_back({node.b, entry});
   }
 }
 

@@ -41,10 +41,9 @@ struct NumberedRecording {
 
   /// First entry of kNumbers of each function of time (-1 if its derivative of that order is not used), and of each position's turns.
   std::vector<std::array<int, Recording::kFunctionOrders>> functions;
-  std::vector<std::array<int, 3>> turns;  ///< pair, element, entry
+  std::vector<std::array<int, 2>> turns;  ///< entry of State::turns, entry of kNumbers
 
-  /// @param turn_owners pair and element of each leaf that counts turns.
-  void number_nodes(const std::vector<std::array<int, 2>>& turn_owners);
+  void number_nodes();
 };
 
 /// The equations of one mechanism and study, recorded once; their derivatives, and code for each scalar, are made when they are first asked
@@ -89,7 +88,6 @@ class EquationCode {
   NumberedRecording values_;
   std::array<Recorded, kFunctions> functions_;
   std::vector<Recording::Guard> design_guards_;
-  std::vector<std::array<int, 2>> turn_owners_;  ///< pair and element of each leaf that counts turns
 
   mutable std::once_flag differentiated_;
   mutable NumberedRecording derivatives_;  ///< values_ and what derivatives take besides

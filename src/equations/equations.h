@@ -29,25 +29,19 @@ class Equations {
 
   /// Residual G (Layout::columns() rows) and the objective's integrand g at a state.
   void residual(const State<T>& state, VectorX<T>* G, T* g) {
-    if (!compiled_.residual(state, turns(), G, g)) formulas_.residual(state, G, g);
+    if (!compiled_.residual(state, G, g)) formulas_.residual(state, G, g);
   }
   /// Derivatives of G and g, on CompiledSystem::patterns().
   void linearize(const State<T>& state, Linearization<T>* derivatives) {
-    if (!compiled_.linearize(state, turns(), derivatives)) formulas_.linearize(state, system_.plan(), derivatives);
+    if (!compiled_.linearize(state, derivatives)) formulas_.linearize(state, system_.plan(), derivatives);
   }
-  /// Constraint values Phi(q) (m rows) and rates Phi_q v.
-  void constraint_errors(const VectorX<T>& q, const VectorX<T>& v, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
-    if (!compiled_.constraint_errors(q, v, turns(), Phi, Phi_rate)) formulas_.constraint_errors(q, v, Phi, Phi_rate);
+  /// Constraint values Phi(q) (m rows) and rates Phi_q v of a state, whose z is not used.
+  void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
+    if (!compiled_.constraint_errors(state, Phi, Phi_rate)) formulas_.constraint_errors(state, Phi, Phi_rate);
   }
 
-  /// Counts whole turns: positions of turning joints are continued from the value nearest to these; StateView says how they are laid out.
-  TurnReferences<T>& turn_references() {
-    formulas_.view().forget_coordinates();
-    return formulas_.view().turn_references;
-  }
-  const TurnReferences<T>& turn_references() const { return turns(); }
-  /// Makes the present positions the references.
-  void track_turns(const State<T>& state) { formulas_.track_turns(state); }
+  /// Sets the turn references of a state to the present positions of its turning joints.
+  void track_turns(State<T>* state) { formulas_.track_turns(state); }
 
   /// The formulas, for everything that is not compiled.
   Formulas<T>& formulas() { return formulas_; }
@@ -56,8 +50,6 @@ class Equations {
   CompiledEquationsOf<T>& compiled() { return compiled_; }
 
  private:
-  const TurnReferences<T>& turns() const { return formulas_.view().turn_references; }
-
   const CompiledSystem& system_;
   Formulas<T> formulas_;
   CompiledEquationsOf<T> compiled_;

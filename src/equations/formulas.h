@@ -38,13 +38,13 @@ class Formulas {
   /// `time(row, x)`. The order of the calls depends on the system only, never on the state.
   template <class Sink>
   void assemble(Sink* sink);
-  /// Constraint values Phi(q) (m rows) and rates Phi_q v.
-  void constraint_errors(const VectorX<T>& q, const VectorX<T>& v, VectorX<T>* Phi, VectorX<T>* Phi_rate);
+  /// Constraint values Phi(q) (m rows) and rates Phi_q v of a state, whose z is not used.
+  void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
   /// The same of one pair's rows, for bodies that move as given; the ground is a body at rest.
   void pair_errors(int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, T* errors, T* rates) const;
 
-  /// Makes the present positions of turning joints the references of their whole turns.
-  void track_turns(const State<T>& state);
+  /// Sets the turn references of a state to the present positions of its turning joints.
+  void track_turns(State<T>* state);
 
   /// Terminal objective terms w at a state, with their gradient if asked for.
   T terminal(const State<T>& state, SparseGradient<T>* gradient);
@@ -79,7 +79,6 @@ class Formulas {
  private:
   StateView<T> view_;
   Workspace<T> workspace_;
-  State<T> constraint_state_;
 };
 
 }  // namespace codesign

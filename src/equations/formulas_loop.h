@@ -14,9 +14,7 @@ namespace codesign {
 // The loop over the elements. Pairs, springs and link loads come before the bodies, which turn the loads that these add into rows.
 
 template <class T>
-Formulas<T>::Formulas(const System& system) : view_(system), workspace_(system) {
-  constraint_state_.resize(system.layout());
-}
+Formulas<T>::Formulas(const System& system) : view_(system), workspace_(system) {}
 
 template <class T>
 void Formulas<T>::set_design(const std::vector<T>& parameters) {
@@ -80,10 +78,8 @@ void Formulas<T>::linearize(const State<T>& state, const AssemblyPlan& plan, Lin
 }
 
 template <class T>
-void Formulas<T>::constraint_errors(const VectorX<T>& q, const VectorX<T>& v, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
-  constraint_state_.q = q;
-  constraint_state_.v = v;
-  load(constraint_state_);
+void Formulas<T>::constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
+  load(state);
   const Layout& layout = view_.layout;
   Phi->setZero(layout.m);
   Phi_rate->setZero(layout.m);
@@ -94,7 +90,6 @@ void Formulas<T>::constraint_errors(const VectorX<T>& q, const VectorX<T>& v, Ve
   }
   for (std::size_t k = 0; k < view_.design.constants.couplings.size(); ++k) coupling_error(view_, k, Phi, Phi_rate);
   for (int b = 0; b < layout.bodies; ++b) norm_error(view_, b, Phi, Phi_rate);
-  view_.state = nullptr;
 }
 
 template <class T>
@@ -103,12 +98,14 @@ void Formulas<T>::pair_errors(int pair, const BodyKinematics<T>& i, const BodyKi
 }
 
 template <class T>
-void Formulas<T>::track_turns(const State<T>& state) {
-  load(state);
-  for (std::size_t p = 0; p < view_.design.rows.size(); ++p)
-    for (std::size_t e = 0; e < view_.turn_references[p].size(); ++e)
-      view_.turn_references[p][e] = value_of(view_.coordinate_value(static_cast<int>(p), static_cast<int>(e)));
-  view_.forget_coordinates();
+void Formulas<T>::track_turns(State<T>* state) {
+  load(*state);
+  const Layout& layout = view_.layout;
+  for (std::size_t p = 0; p < view_.design.constants.pairs.size(); ++p)
+    for (std::size_t e = 0; e < view_.design.constants.pairs[p].coordinates.size(); ++e) {
+      const int pair = static_cast<int>(p), element = static_cast<int>(e);
+      state->turns[static_cast<std::size_t>(layout.turn(pair, element))] = value_of(view_.coordinate_value(pair, element));
+    }
 }
 
 }  // namespace codesign

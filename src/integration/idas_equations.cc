@@ -79,7 +79,7 @@ int IdasEquations::residual(double t, const double* y, const double* y_dot, doub
   double g = 0.0;
   unpack(t, y, y_dot, &state_);
   equations_.residual(state_, &G_, &g);
-  equations_.constraint_errors(state_.q, state_.v, &Phi_, &Phi_rate_);
+  equations_.constraint_errors(state_, &Phi_, &Phi_rate_);
   G_.segment(layout_.n, layout_.m) += 2.0 * kappa_ * Phi_rate_ + kappa_ * kappa_ * Phi_;
   Map(F, layout_.n) = ConstMap(y_dot, layout_.n) - state_.v;
   Map(F + layout_.n, layout_.columns()) = G_;
@@ -96,7 +96,7 @@ int IdasEquations::jacobian(double t, double c_j, const double* y, const double*
 int IdasEquations::integrand(double t, const double* y, const double* y_dot, double* g) {
   unpack(t, y, y_dot, &state_);
   equations_.residual(state_, &G_, g);
-  equations_.constraint_errors(state_.q, state_.v, &Phi_, &Phi_rate_);
+  equations_.constraint_errors(state_, &Phi_, &Phi_rate_);
   // W' of (17a). lambda^T Phi_q v - v^T G corrects for violated constraints, so that the work that they do appears as an energy error.
   g[1] = motion_->power(state_.q, state_.v, state_.z.data()) + state_.z.segment(layout_.n, layout_.m).dot(Phi_rate_) -
          state_.v.dot(G_.head(layout_.n));

@@ -31,6 +31,8 @@ class IdasEquations {
   void start();
 
   /// Conversion of (y, y'), size() entries each, to a state, and back.
+  /// Counts the whole turns of joints from the references of `state` on.
+  void count_turns_from(const State<double>& state) { state_.turns = state.turns; }
   void unpack(double t, const double* y, const double* y_dot, State<double>* state) const;
   void pack(const State<double>& state, double* y, double* y_dot) const;
 

@@ -163,6 +163,7 @@ Status IdasIntegrator::Implementation::start(const std::vector<double>& paramete
   restart_warnings_.clear();
   equations_.start();
   if (Status status = assemble_start(system_, parameters, &assembly_, &equations(), &initial_); !status.ok()) return status;
+  equations_.count_turns_from(initial_);
   equations_.pack(initial_, N_VGetArrayPointer(y_.get()), N_VGetArrayPointer(y_dot_.get()));
   N_VConst(0.0, psi_.get());
   state_ = initial_;
@@ -280,8 +281,9 @@ void IdasIntegrator::Implementation::take_over(double time) {
     require(IDAGetSensDky(ida_.get(), time, 1, y_dot_rho_->get()), "IDAGetSensDky");
     require(IDAGetQuadSens(ida_.get(), &reached, psi_rho_->get()), "IDAGetQuadSens");
   }
-  equations().track_turns(state_);
-  equations().constraint_errors(state_.q, state_.v, &drift_, &drift_rate_);
+  equations().track_turns(&state_);
+  equations_.count_turns_from(state_);
+  equations().constraint_errors(state_, &drift_, &drift_rate_);
   largest_drift_ = std::max(largest_drift_, drift_.cwiseAbs().maxCoeff());
 }
 

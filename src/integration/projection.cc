@@ -23,9 +23,9 @@ bool Projection::apply(Equations<double>* equations, State<double>* state) {
   for (int round = 0; round < kRounds; ++round) {
     equations->linearize(*state, &derivatives_);
     if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) return false;
-    equations->constraint_errors(state->q, state->v, &Phi_, &Phi_rate_);
+    equations->constraint_errors(*state, &Phi_, &Phi_rate_);
     correct(Phi_, &state->q);
-    equations->constraint_errors(state->q, state->v, &Phi_, &Phi_rate_);
+    equations->constraint_errors(*state, &Phi_, &Phi_rate_);
     correct(Phi_rate_, &state->v);
   }
   return std::isfinite(state->q.sum() + state->v.sum());

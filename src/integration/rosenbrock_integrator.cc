@@ -101,7 +101,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     if (last && h < 0.5 * kept) proposal_ = std::max(proposal_, kept);
     ++statistics_.steps;
     if (!step_.accept()) return {StatusCode::kSingularMatrix, t + h, "the augmented matrix of the equations of motion is singular"};
-    step_.equations().track_turns(step_.state());
+    step_.track_turns();
     const double drift = run_watch_.drift(step_.state(), step_.position_correction(), step_.velocity_correction());
     singularity_.look(step_.state(), drift, &step_.equations());
     if (Status status = run_watch_.check(step_.state(), drift, work_.over(step_, run_watch_.motion()), &statistics_); !status.ok())

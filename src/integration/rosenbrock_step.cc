@@ -7,19 +7,6 @@
 #include "sparse/row_product.h"
 
 namespace codesign {
-namespace {
-
-template <class T>
-void copy_state(const State<T>& from, State<T>* to) {
-  to->t = from.t;
-  to->q = from.q;
-  to->v = from.v;
-  to->s = from.s;
-  to->z = from.z;
-}
-
-}  // namespace
-
 template <class T>
 RosenbrockStep<T>::RosenbrockStep(const CompiledSystem& system, const RosenbrockTableau& tableau)
     : system_(system),
@@ -40,8 +27,8 @@ RosenbrockStep<T>::RosenbrockStep(const CompiledSystem& system, const Rosenbrock
 
 template <class T>
 void RosenbrockStep<T>::start(const State<T>& state) {
-  copy_state(state, &state_);
-  copy_state(state, &previous_);
+  state_ = state;
+  previous_ = state;
   psi_ = previous_psi_ = T(0.0);
   h_ = 0.0;
   equations_.linearize(state_, &derivatives_);
@@ -98,6 +85,8 @@ bool RosenbrockStep<T>::attempt(double h) {
   const double hg = h * tableau_.gamma;
   h_ = h;
   if (!stage_matrix_.factor(derivatives_, hg, hg * hg, hg)) return false;
+  for (State<T>& stage : stages_) stage.turns = state_.turns;
+  end_.turns = state_.turns;
   for (std::size_t i = 0; i < stages_.size(); ++i)
     if (!solve_stage(i)) return false;
   combine(at_, state_, tableau_.weights.data(), increments_, increments_.size(), &end_);
@@ -123,7 +112,7 @@ double RosenbrockStep<T>::error(double relative_tolerance, double absolute_toler
 
 template <class T>
 bool RosenbrockStep<T>::accept() {
-  copy_state(state_, &previous_);
+  previous_ = state_;
   previous_psi_ = psi_;
   for (std::size_t j = 0; j < increments_.size(); ++j) psi_ += T(tableau_.weights[j]) * increments_[j][at_.psi()];
   equations_.linearize(end_, &derivatives_);
@@ -132,7 +121,7 @@ bool RosenbrockStep<T>::accept() {
 
 template <class T>
 bool RosenbrockStep<T>::resume(const State<T>& unprojected) {
-  copy_state(unprojected, &end_);
+  end_ = unprojected;
   equations_.linearize(end_, &derivatives_);
   return project();
 }
@@ -140,7 +129,7 @@ bool RosenbrockStep<T>::resume(const State<T>& unprojected) {
 // [G_a G_lambda; Phi_q 0] [delta; mu] = [0; -error], once for positions and once for velocities at the new positions.
 template <class T>
 bool RosenbrockStep<T>::project() {
-  copy_state(end_, &state_);
+  state_ = end_;
   if (!projection_matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) return false;
   const auto correct = [this](const VectorX<T>& error, VectorX<T>* correction, VectorX<T>* target) {
     correction->setZero(layout_.columns());
@@ -148,16 +137,16 @@ bool RosenbrockStep<T>::project() {
     projection_matrix_.solve(correction);
     *target += correction->head(layout_.n);
   };
-  equations_.constraint_errors(state_.q, state_.v, &constraint_, &constraint_rate_);
+  equations_.constraint_errors(state_, &constraint_, &constraint_rate_);
   correct(constraint_, &position_correction_, &state_.q);
-  equations_.constraint_errors(state_.q, state_.v, &constraint_, &constraint_rate_);
+  equations_.constraint_errors(state_, &constraint_, &constraint_rate_);
   correct(constraint_rate_, &velocity_correction_, &state_.v);
   return std::isfinite(value_of(position_correction_.sum() + velocity_correction_.sum()));
 }
 
 template <class T>
 void RosenbrockStep<T>::interpolate(double theta, State<T>* state, T* psi) const {
-  copy_state(previous_, state);
+  *state = previous_;
   const T left(1.0 - theta), right(theta);
   const auto blend = [&](const auto& from, const auto& to, auto* y) { *y = left * from + right * to; };
   blend(previous_.q, state_.q, &state->q);

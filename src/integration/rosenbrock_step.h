@@ -42,6 +42,9 @@ class RosenbrockStep {
   /// step that followed. For the backward pass of the adjoint. False as for accept().
   bool resume(const State<T>& unprojected);
 
+  /// Counts the whole turns of joints from the positions at the end of the last accepted step on.
+  void track_turns() { equations_.track_turns(&state_); }
+
   const State<T>& state() const { return state_; }  ///< at the end of the last accepted step, projected
   const T& psi() const { return psi_; }             ///< integral of g so far
   double step_size() const { return h_; }           ///< of the last attempt [s]

@@ -74,6 +74,7 @@ void SingularityWatch::place(double time) {
   const State<double>&from = points_[second ? 1 : 0].state, &to = points_[second ? 2 : 1].state;
   const double h = to.t - from.t, x = (time - from.t) / h, y = 1.0 - x;
   between_.t = time;
+  between_.turns = from.turns;
   between_.q = y * y * (1.0 + 2.0 * x) * from.q + x * x * (1.0 + 2.0 * y) * to.q + h * x * y * (y * from.v - x * to.v);
   between_.v = y * from.v + x * to.v;
   between_.s = y * from.s + x * to.s;

@@ -202,7 +202,7 @@ void Observer::observe_links(const VectorX<double>& theta, Equations<double>* eq
 }
 
 void Observer::observe_loops(const State<double>& state, Equations<double>* equations, Frame* frame) {
-  equations->constraint_errors(state.q, state.v, &errors_, &rates_);
+  equations->constraint_errors(state, &errors_, &rates_);
   frame->loop_errors.resize(loops_.size());
   for (std::size_t k = 0; k < loops_.size(); ++k) {
     const auto pair = static_cast<std::size_t>(loops_[k]);

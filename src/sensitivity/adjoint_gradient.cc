@@ -8,7 +8,7 @@ namespace codesign {
 
 AdjointGradient::Backward::Backward(const CompiledSystem& system, const RosenbrockTableau& tableau, int most_points)
     : replay(system, tableau), adjoint(system, tableau), boundary(system), path(system.layout(), most_points) {
-  point.state.resize(system.layout());
+  point.resize(system.layout());
   final_adjoint.setZero(IncrementLayout(system.layout()).size());
 }
 
@@ -26,15 +26,13 @@ Status AdjointGradient::start(const std::vector<double>& parameters, bool with_g
     share(plan_);
   }
   back_->path.clear();
-  back_->initial_turns = integrator_.equations().turn_references();
-  back_->path.append(0.0, integrator_.initial_state(), back_->initial_turns);
+  back_->path.append(0.0, integrator_.initial_state());
   return status;
 }
 
 Status AdjointGradient::advance(double limit) {
   Status status = integrator_.advance(limit);
-  if (status.ok() && with_gradient_)
-    back_->path.append(integrator_.step().step_size(), integrator_.step().unprojected(), integrator_.equations().turn_references());
+  if (status.ok() && with_gradient_) back_->path.append(integrator_.step().step_size(), integrator_.step().unprojected());
   return status;
 }
 
@@ -56,7 +54,6 @@ void AdjointGradient::prepare() {
   for (const auto& e : back_->terminal.rate) adjoint[at.z() + e.column] += e.value;
   back_->adjoint.start(parameters, adjoint);
   back_->replay.equations().set_design(parameters);
-  back_->replay.equations().turn_references() = integrator_.equations().turn_references();
   back_->parameters->for_each([&](auto* lanes) { lanes->start(parameters); });
 }
 
@@ -64,30 +61,28 @@ void AdjointGradient::prepare() {
 bool AdjointGradient::take_up(int k) {
   RosenbrockStep<double>& step = back_->replay;
   if (k == 0) {
-    step.start(back_->point.state);
-  } else if (!step.resume(back_->point.state)) {
+    step.start(back_->point);
+  } else if (!step.resume(back_->point)) {
     return false;
   }
   // Turn counts follow the nearest previous positions, in the backward pass as well.
-  step.equations().track_turns(step.state());
+  step.track_turns();
   return true;
 }
 
 /// Sets `point` to the k-th point of the path. If it was not stored, the steps from the last stored point before it are repeated.
 bool AdjointGradient::reach(int k) {
   StepPath& path = back_->path;
-  PathPoint& point = back_->point;
+  State<double>& point = back_->point;
   RosenbrockStep<double>& step = back_->replay;
   const int from = path.kept_before(k);
   path.point(from, &point);
   if (from == k) return true;
   const int spacing = path.make_room(from, k);
-  step.equations().turn_references() = point.turns;
   for (int at = from; at < k; ++at) {
     if (cancel_ != nullptr && *cancel_) return false;
     if (!take_up(at) || !step.attempt(path.step_size(at + 1))) return false;
-    point.state = step.unprojected();
-    point.turns = step.equations().turn_references();
+    point = step.unprojected();
     if (at + 1 == k || (at + 1 - from) % spacing == 0) path.keep(at + 1, point);
   }
   return true;
@@ -106,12 +101,12 @@ bool AdjointGradient::step_back(int k) {
   const bool has_stages = k + 1 < back_->path.size(), is_projected = k > 0;
   adjoint.clear();
   if (has_stages) adjoint.reverse_stages(step);
-  if (is_projected) adjoint.reverse_projection(back_->point.state, step);
-  adjoint.reverse_matrices(back_->point.state, step);
+  if (is_projected) adjoint.reverse_projection(back_->point, step);
+  adjoint.reverse_matrices(back_->point, step);
   back_->parameters->for_each([&](auto* lanes) {
-    if (has_stages) lanes->add_stages(adjoint, step.equations());
+    if (has_stages) lanes->add_stages(adjoint);
     if (is_projected) lanes->add_projection(adjoint);
-    lanes->add_matrices(back_->point.state, adjoint, step.equations());
+    lanes->add_matrices(back_->point, adjoint);
   });
   return true;
 }
@@ -127,7 +122,6 @@ void AdjointGradient::add_boundaries(Eigen::VectorXd* gradient) {
     const std::vector<Lanes<8>> seeded = range.seed(system_, integrator_.equations().parameters());
     State<Lanes<8>>& state = back_->boundary_state;
     equations.set_design(seeded);
-    equations.turn_references() = back_->initial_turns;
     integrator_.assembly().extend(seeded, integrator_.initial_state(), &equations, &state);
     auto sum = gradient->segment(first, range.count);
     const auto add = [&](const VectorX<Lanes<8>>& part, int column) {
@@ -137,13 +131,7 @@ void AdjointGradient::add_boundaries(Eigen::VectorXd* gradient) {
     add(state.s, at.s());
     add(state.v, at.v());
     add(state.z, at.z());
-    const State<double>& end = integrator_.state();
-    equations.turn_references() = integrator_.equations().turn_references();
-    state.t = end.t;
-    state.q = end.q.cast<Lanes<8>>();
-    state.v = end.v.cast<Lanes<8>>();
-    state.s = end.s.cast<Lanes<8>>();
-    state.z = end.z.cast<Lanes<8>>();
+    cast_state(integrator_.state(), &state);
     sum += equations.formulas().terminal(state, nullptr).directions().head(range.count);
   }
 }

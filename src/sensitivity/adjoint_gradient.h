@@ -41,8 +41,7 @@ class AdjointGradient final : public GradientEngine {
     Equations<Lanes<8>> boundary;
     State<Lanes<8>> boundary_state;
     StepPath path;
-    PathPoint point;
-    std::vector<std::vector<double>> initial_turns;
+    State<double> point;
     SparseGradient<double> terminal;
     VectorX<double> final_adjoint;
   };

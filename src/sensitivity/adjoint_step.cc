@@ -112,7 +112,6 @@ void AdjointStep::reverse_point(std::size_t i, const RosenbrockStep<double>& ste
 }
 
 void AdjointStep::reverse_stages(const RosenbrockStep<double>& step) {
-  equations_.turn_references() = step.equations().turn_references();
   for (std::size_t i = 0; i < stages_.size(); ++i) increment_adjoints_[i] = tableau_.weights[i] * adjoint_;
   start_adjoint_ = adjoint_;
   for (std::size_t i = stages_.size(); i-- > 0;) {
@@ -149,7 +148,6 @@ void AdjointStep::reverse_velocity_errors(const State<double>& start, const Rose
   const double* const mu = velocity_errors_.mu.data();
   velocity_errors_.point = start;
   velocity_errors_.point.q = step.state().q;
-  equations_.turn_references() = step.equations().turn_references();
   equations_.linearize(velocity_errors_.point, &derivatives_);
   add_transposed_product(system_.patterns().velocity, derivatives_.velocity, constraints, 0.5, mu, adjoint_.data() + at_.x());
   z_.setZero();
@@ -178,7 +176,7 @@ void AdjointStep::reverse_matrices(const State<double>& start, const RosenbrockS
   for (std::vector<double>* weights : {&matrix_weights_.position, &matrix_weights_.velocity, &matrix_weights_.rate})
     std::fill(weights->begin(), weights->end(), 0.0);
   const auto add = [&](auto* curvature) {
-    curvature->add_state_gradient(start, step.equations(), &adjoint_);
+    curvature->add_state_gradient(start, &adjoint_);
     curvature->add_weights(&matrix_weights_);
   };
   add(&curvature_);

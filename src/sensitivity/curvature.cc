@@ -39,8 +39,7 @@ void Curvature<N>::add_transposed(const Sparsity& pattern, const std::vector<Lan
 }
 
 template <int N>
-void Curvature<N>::add_state_gradient(const State<double>& at, const Equations<double>& equations, VectorX<double>* adjoint) {
-  equations_.turn_references() = equations.turn_references();
+void Curvature<N>::add_state_gradient(const State<double>& at, VectorX<double>* adjoint) {
   load_lanes(at_, at, u_, &state_);
   equations_.linearize(state_, &derivatives_);
   products_.setZero();

@@ -26,7 +26,7 @@ class Curvature {
   void set(int k, const VectorX<double>& u, const VectorX<double>& mu);
 
   /// adjoint += dTheta/dy at a state. @param equations for their turn references.
-  void add_state_gradient(const State<double>& at, const Equations<double>& equations, VectorX<double>* adjoint);
+  void add_state_gradient(const State<double>& at, VectorX<double>* adjoint);
 
   /// adjoint += d/dy of the sum of weights[row] G_t[row], the integrand's row last. Differentiates along one unit vector per coordinate,
   /// since time has no lane.

@@ -34,14 +34,13 @@ Complex replay(const CompiledSystem& system, const std::vector<Complex>& paramet
   step.equations().set_design(parameters);
   integrator->start(real_parameters);
   State<Complex> state;
-  step.equations().turn_references() = integrator->step().equations().turn_references();
   integrator->assembly().extend(parameters, integrator->initial_state(), &step.equations(), &state);
   step.start(state);
   for (double h : steps) {
     if (cancel && *cancel) break;
     step.attempt(h);
     step.accept();
-    step.equations().track_turns(step.state());
+    step.track_turns();
   }
   return step.psi() + step.equations().formulas().terminal(step.state(), nullptr);
 }

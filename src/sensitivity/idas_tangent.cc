@@ -13,6 +13,7 @@ IdasTangent::Group<N>::Group(const CompiledSystem& system, LaneRange<N> lanes) :
 template <int N>
 void IdasTangent::Group<N>::load(const State<double>& at, const std::vector<State<double>>* directions) {
   state.t = at.t;
+  state.turns = at.turns;
   for (VectorX<double> State<double>::*part : {&State<double>::q, &State<double>::v, &State<double>::s, &State<double>::z}) {
     VectorX<Lanes<N>>& lanes = part == &State<double>::q   ? state.q
                                : part == &State<double>::v ? state.v
@@ -39,7 +40,6 @@ void IdasTangent::start(const std::vector<double>& parameters, const State<doubl
   groups_.for_each([&](auto* group) {
     const auto lanes = group->range.seed(system_, parameters);
     group->equations.set_design(lanes);
-    group->equations.turn_references() = integrator->equations().turn_references();
     integrator->assembly().extend(lanes, initial, &group->equations, &group->state);
     for (int k = 0; k < group->range.count; ++k) {
       State<double>& to = (*sensitivities)[static_cast<std::size_t>(group->range.first + k)];
@@ -63,11 +63,10 @@ void IdasTangent::linearize(const State<double>& state, double kappa, Equations<
   equations->linearize(state, &derivatives_);
   groups_.for_each([&](auto* group) {
     typename std::remove_pointer_t<decltype(group)>::Scalar g(0.0);
-    group->equations.turn_references() = equations->turn_references();
     group->load(state, nullptr);
     group->equations.residual(group->state, &group->G, &g);
     if (kappa > 0.0) {
-      group->equations.constraint_errors(group->state.q, group->state.v, &group->Phi, &group->Phi_rate);
+      group->equations.constraint_errors(group->state, &group->Phi, &group->Phi_rate);
       for (int row = 0; row < system_.layout().m; ++row)
         group->G[system_.layout().n + row] += 2.0 * kappa * group->Phi_rate[row] + kappa * kappa * group->Phi[row];
     }
@@ -115,7 +114,7 @@ void IdasTangent::correct(const State<double>& state, VectorX<double> State<doub
   const bool positions = part == &State<double>::q;
   groups_.for_each([&](auto* group) {
     group->load(state, directions);
-    group->equations.constraint_errors(group->state.q, group->state.v, &group->Phi, &group->Phi_rate);
+    group->equations.constraint_errors(group->state, &group->Phi, &group->Phi_rate);
     for (int k = 0; k < group->range.count; ++k) {
       dG_.setZero(layout.columns() + 1);
       for (int row = 0; row < layout.m; ++row) dG_[layout.n + row] = -(positions ? group->Phi : group->Phi_rate)[row].v[k];

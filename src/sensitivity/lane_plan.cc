@@ -29,11 +29,7 @@ class RowProbe {
   void find(const std::vector<Scalar>& parameters, const State<double>& at) {
     touched_.assign(static_cast<std::size_t>(layout_.columns()) + 1, Scalar(0.0));
     equations_.set_design(parameters);
-    state_.q = at.q.cast<Scalar>();
-    state_.v = at.v.cast<Scalar>();
-    state_.s = at.s.cast<Scalar>();
-    state_.z = at.z.cast<Scalar>();
-    state_.t = at.t;
+    cast_state(at, &state_);
     VectorX<Scalar> G, Phi, Phi_rate;
     Scalar g(0.0);
     equations_.residual(state_, &G, &g);
@@ -44,7 +40,7 @@ class RowProbe {
     touch(system_.patterns().velocity, derivatives_.velocity);
     touch(system_.patterns().rate, derivatives_.rate);
     for (int row = 0; row <= layout_.columns(); ++row) touch(row, derivatives_.time[row]);
-    equations_.constraint_errors(state_.q, state_.v, &Phi, &Phi_rate);
+    equations_.constraint_errors(state_, &Phi, &Phi_rate);
     for (int row = 0; row < layout_.m; ++row) touch(layout_.lambda_column(row), Phi[row] + Phi_rate[row]);
   }
 

@@ -19,6 +19,7 @@ void load_lanes(const IncrementLayout& at, const State<double>& values, const Di
     }
   };
   state->t = values.t;
+  state->turns = values.turns;
   load(values.q, at.x(), &state->q);
   load(values.s, at.s(), &state->s);
   load(values.v, at.v(), &state->v);

@@ -43,16 +43,11 @@ void ParameterLanes<N>::start(const std::vector<double>& parameters) {
 
 template <int N>
 void ParameterLanes<N>::load(const State<double>& at) {
-  state_.t = at.t;
-  state_.q = at.q.template cast<Scalar>();
-  state_.v = at.v.template cast<Scalar>();
-  state_.s = at.s.template cast<Scalar>();
-  state_.z = at.z.template cast<Scalar>();
+  cast_state(at, &state_);
 }
 
 template <int N>
-void ParameterLanes<N>::add_stages(const AdjointStep& adjoint, const Equations<double>& equations) {
-  equations_.turn_references() = equations.turn_references();
+void ParameterLanes<N>::add_stages(const AdjointStep& adjoint) {
   const int last = layout_.columns();
   for (const WeightedPoint& stage : adjoint.stages()) {
     load(stage.point);
@@ -96,10 +91,10 @@ void ParameterLanes<N>::add_errors(const VectorX<Scalar>& errors, const VectorX<
 template <int N>
 void ParameterLanes<N>::add_projection(const AdjointStep& adjoint) {
   load(adjoint.position_errors().point);
-  equations_.constraint_errors(state_.q, state_.v, &Phi_, &Phi_rate_);
+  equations_.constraint_errors(state_, &Phi_, &Phi_rate_);
   add_errors(Phi_, adjoint.position_errors().mu);
   load(adjoint.velocity_errors().point);
-  equations_.constraint_errors(state_.q, state_.v, &Phi_, &Phi_rate_);
+  equations_.constraint_errors(state_, &Phi_, &Phi_rate_);
   add_errors(Phi_rate_, adjoint.velocity_errors().mu);
 }
 
@@ -114,8 +109,7 @@ void ParameterLanes<N>::add_entries(const Sparsity& pattern, const std::vector<S
 }
 
 template <int N>
-void ParameterLanes<N>::add_matrices(const State<double>& start, const AdjointStep& adjoint, const Equations<double>& equations) {
-  equations_.turn_references() = equations.turn_references();
+void ParameterLanes<N>::add_matrices(const State<double>& start, const AdjointStep& adjoint) {
   load(start);
   equations_.linearize(state_, &derivatives_);
   add_entries(system_.patterns().position, derivatives_.position, adjoint.matrix_weights().position);

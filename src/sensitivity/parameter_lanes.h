@@ -23,10 +23,10 @@ class ParameterLanes {
 
   /// Begins a backward pass with zero sums. @param parameters all named parameters.
   void start(const std::vector<double>& parameters);
-  // The terms of (18d) of one step: stages, projection, matrices. @param equations for their turn references.
-  void add_stages(const AdjointStep& adjoint, const Equations<double>& equations);
+  // The terms of (18d) of one step: stages, projection, matrices.
+  void add_stages(const AdjointStep& adjoint);
   void add_projection(const AdjointStep& adjoint);
-  void add_matrices(const State<double>& start, const AdjointStep& adjoint, const Equations<double>& equations);
+  void add_matrices(const State<double>& start, const AdjointStep& adjoint);
   /// Adds the sums to the components of their parameters; p entries.
   void collect(Eigen::VectorXd* gradient) const;
   /// False if a row of G was found to depend on a parameter that the plan does not assign to it.

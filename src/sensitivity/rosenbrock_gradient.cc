@@ -44,9 +44,8 @@ void RosenbrockGradient::carry(int first, const std::vector<double>& parameters)
     groups_.emplace(LaneCount{std::min(most_lanes_, count() - first), 0, first}, system_, integrator_.step().tableau());
     first_ = first;
   }
-  groups_->for_each([&](auto* group) {
-    group->step.start(group->range.seed(system_, parameters), integrator_.assembly(), integrator_.initial_state(), integrator_.step());
-  });
+  groups_->for_each(
+      [&](auto* group) { group->step.start(group->range.seed(system_, parameters), integrator_.assembly(), integrator_.initial_state()); });
 }
 
 Status RosenbrockGradient::advance(double limit) {

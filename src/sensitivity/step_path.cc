@@ -25,15 +25,15 @@ void StepPath::clear() {
   stride_ = 1;
 }
 
-void StepPath::append(double h, const State<double>& state, const std::vector<std::vector<double>>& turns) {
+void StepPath::append(double h, const State<double>& state) {
   const int k = size();
   sizes_.push_back(h);
   if (k % stride_ != 0) return;
   if (count_ >= most_) thin_out();
-  if (k % stride_ == 0) push(k, state, turns);
+  if (k % stride_ == 0) push(k, state);
 }
 
-void StepPath::push(int k, const State<double>& state, const std::vector<std::vector<double>>& turns) {
+void StepPath::push(int k, const State<double>& state) {
   if (count_ == kept_.size()) kept_.emplace_back();
   Kept& kept = kept_[count_++];
   kept.k = k;
@@ -41,7 +41,7 @@ void StepPath::push(int k, const State<double>& state, const std::vector<std::ve
   kept.numbers.push_back(state.t);
   for (const VectorX<double>* part : {&state.q, &state.v, &state.s, &state.z})
     kept.numbers.insert(kept.numbers.end(), part->data(), part->data() + part->size());
-  kept.turns = turns;
+  kept.turns = state.turns;
 }
 
 void StepPath::thin_out() {
@@ -57,17 +57,17 @@ int StepPath::kept_before(int k) const {
   return std::prev(std::upper_bound(kept_.begin(), end, k, [](int number, const Kept& kept) { return number < kept.k; }))->k;
 }
 
-void StepPath::point(int k, PathPoint* point) const {
+void StepPath::point(int k, State<double>* point) const {
   const auto end = kept_.begin() + static_cast<std::ptrdiff_t>(count_);
   const Kept& kept = *std::lower_bound(kept_.begin(), end, k, [](const Kept& one, int number) { return one.k < number; });
   const double* from = kept.numbers.data();
-  State<double>& state = point->state;
+  State<double>& state = *point;
   state.t = *from++;
   for (VectorX<double>* part : {&state.q, &state.v, &state.s, &state.z}) {
     *part = Eigen::Map<const Eigen::VectorXd>(from, part->size());
     from += part->size();
   }
-  point->turns = kept.turns;
+  state.turns = kept.turns;
 }
 
 // Uses half of the free memory, so that points between the stored ones can be stored later.
@@ -78,6 +78,6 @@ int StepPath::make_room(int from, int to) {
   return (to - from + places - 1) / places;
 }
 
-void StepPath::keep(int k, const PathPoint& point) { push(k, point.state, point.turns); }
+void StepPath::keep(int k, const State<double>& point) { push(k, point); }
 
 }  // namespace codesign

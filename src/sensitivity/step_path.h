@@ -8,12 +8,6 @@
 
 namespace codesign {
 
-/// A point from which a Rosenbrock step can be repeated: the unprojected end of the step before, and the turn references there.
-struct PathPoint {
-  State<double> state;
-  std::vector<std::vector<double>> turns;  ///< Equations::turn_references()
-};
-
 /// The ends of the steps of an integration, for the backward pass of the adjoint. clear() keeps the memory for the next run.
 ///
 /// If the path has more points than `most`, only every second point is stored, then every fourth, and so on. The backward pass repeats the
@@ -25,7 +19,7 @@ class StepPath {
 
   void clear();
   /// Appends the end of a step of size h [s]; h = 0 for the start.
-  void append(double h, const State<double>& state, const std::vector<std::vector<double>>& turns);
+  void append(double h, const State<double>& state);
 
   int size() const { return static_cast<int>(sizes_.size()); }
   /// Size [s] of the step that ended at point k.
@@ -33,23 +27,23 @@ class StepPath {
 
   /// Index of the last stored point that is not after k.
   int kept_before(int k) const;
-  /// Reads a stored point k. @param point its state must have the sizes of the layout.
-  void point(int k, PathPoint* point) const;
+  /// Reads a stored point k. @param point must have the sizes of the layout.
+  void point(int k, State<double>* point) const;
 
   /// Discards the stored points after `from`, unless the whole path is stored. @returns the spacing at which the points between `from` and
   /// `to` can be stored.
   int make_room(int from, int to);
   /// Stores the repeated point k, which must be after all stored points.
-  void keep(int k, const PathPoint& point);
+  void keep(int k, const State<double>& point);
 
  private:
   struct Kept {
     int k = 0;
     std::vector<double> numbers;  ///< t, q, v, s, z
-    std::vector<std::vector<double>> turns;
+    std::vector<double> turns;
   };
 
-  void push(int k, const State<double>& state, const std::vector<std::vector<double>>& turns);
+  void push(int k, const State<double>& state);
   void thin_out();
 
   std::size_t most_;

@@ -19,7 +19,8 @@ void take_directions(const std::vector<Lanes<N>>& from, LineVector* to) {
 }  // namespace
 
 template <int N>
-TangentEquations<N>::TangentEquations(const CompiledSystem& system) : layout_(system.layout()), plan_(system.plan()), at_(layout_), equations_(system) {
+TangentEquations<N>::TangentEquations(const CompiledSystem& system)
+    : layout_(system.layout()), plan_(system.plan()), at_(layout_), equations_(system) {
   const ByVariable<Sparsity>& patterns = system.patterns();
   changes_.position.resize(N * patterns.position.column_index.size());
   changes_.velocity.resize(N * patterns.velocity.column_index.size());
@@ -33,8 +34,7 @@ template <int N>
 bool TangentEquations<N>::run_compiled(EquationFunction function, const State<double>& state, const Directions<N>& y,
                                        double* const (&results)[4]) {
   const auto direction = [&y](int component) { return y.data() + std::ptrdiff_t{N} * component; };
-  return equations_.compiled().tangents(function, state.t, std::as_const(equations_).turn_references(),
-                                        {state.q.data(), state.v.data(), state.s.data(), state.z.data()},
+  return equations_.compiled().tangents(function, state.t, state.turns, {state.q.data(), state.v.data(), state.s.data(), state.z.data()},
                                         {direction(at_.x()), direction(at_.v()), direction(at_.s()), direction(at_.z())}, results);
 }
 
@@ -75,7 +75,7 @@ void TangentEquations<N>::constraint_errors(const State<double>& state, const Di
   Phi_rate->resize(layout_.m);
   if (run_compiled(EquationFunction::kConstraintErrors, state, y, {Phi->data(), Phi_rate->data(), nullptr, nullptr})) return;
   const State<Lanes<N>>& both = lanes(state, y);
-  equations_.formulas().constraint_errors(both.q, both.v, &errors_, &rates_);
+  equations_.formulas().constraint_errors(both, &errors_, &rates_);
   take_directions<N>(errors_, Phi);
   take_directions<N>(rates_, Phi_rate);
 }

@@ -35,10 +35,8 @@ TangentStep<N>::TangentStep(const CompiledSystem& system, const RosenbrockTablea
 }
 
 template <int N>
-void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly, const State<double>& initial,
-                           const RosenbrockStep<double>& step) {
+void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly, const State<double>& initial) {
   equations_.equations().set_design(parameters);
-  equations_.equations().turn_references() = step.equations().turn_references();
   State<Lanes<N>> start;
   start.resize(layout_);
   assembly.extend(parameters, initial, &equations_.equations(), &start);
@@ -137,7 +135,6 @@ void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& 
 
 template <int N>
 void TangentStep<N>::attempt(const RosenbrockStep<double>& step) {
-  equations_.equations().turn_references() = step.equations().turn_references();
   if (stages_.size() % 4 == 0)
     change_matrices<4>(step);
   else if (stages_.size() % 3 == 0)

@@ -23,8 +23,7 @@ class TangentStep {
   /// Starts with the initial sensitivities, (20). @param parameters all named parameters, with the directions of the N parameters in the
   /// lanes.
   /// @param assembly that found `initial`. @param step started at `initial`.
-  void start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly, const State<double>& initial,
-             const RosenbrockStep<double>& step);
+  void start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly, const State<double>& initial);
 
   /// Computes the tangent of the stages of the step's last attempt.
   void attempt(const RosenbrockStep<double>& step);

@@ -4,10 +4,17 @@
 
 #include <vector>
 
+#include <type_traits>
+
+#include "codegen/traced.h"
 #include "joints/local_row.h"
 #include "math/scalar.h"
 
 namespace codesign {
+
+/// The type of a turn reference: turns are counted with values alone, and are inputs while equations are traced.
+template <class T>
+using TurnReference = std::conditional_t<std::is_same_v<T, Traced>, Traced, double>;
 
 /// Where everything stands in the vectors of a system.
 ///
@@ -22,6 +29,11 @@ struct Layout {
   int states = 0;             ///< extra first-order states s (integrals of controllers)
   std::vector<int> pair_row;  ///< first constraint row of each pair
 
+  std::vector<int> turn_slot;         ///< first of State::turns of each pair; one per chain element
+  int drop_slot = 0;                  ///< first of State::turns that are flags of dropped rows; theory (23)
+  std::vector<double> initial_turns;  ///< State::turns of a state that was not assembled yet
+
+  int turn(int pair, int element) const { return turn_slot[static_cast<std::size_t>(pair)] + element; }
   int constraints() const { return m - sharing; }  ///< rows of Phi
   int columns() const { return n + m + states; }
   int positions() const { return n + states; }
@@ -46,14 +58,29 @@ struct State {
   VectorX<T> q, v;  ///< coordinates and velocities, n each
   VectorX<T> s;     ///< extra states
   VectorX<T> z;     ///< accelerations, multipliers and rates of s
+  /// Counts whole turns: the position of a turning joint is continued from the value nearest to its entry [rad]. The entries behind the
+  /// joints' are flags of redundant rows: 1 for a row that is dropped, 0 for one that holds; theory (23).
+  std::vector<TurnReference<T>> turns;
 
   void resize(const Layout& layout) {
     q.setZero(layout.n);
     v.setZero(layout.n);
     s.setZero(layout.states);
     z.setZero(layout.columns());
+    turns.assign(layout.initial_turns.begin(), layout.initial_turns.end());
   }
 };
+
+/// Copies a state of numbers into one of another scalar, without derivatives.
+template <class To>
+void cast_state(const State<double>& from, State<To>* to) {
+  to->t = from.t;
+  to->q = from.q.template cast<To>();
+  to->v = from.v.template cast<To>();
+  to->s = from.s.template cast<To>();
+  to->z = from.z.template cast<To>();
+  to->turns = from.turns;
+}
 
 }  // namespace codesign
 

@@ -173,10 +173,16 @@ const BristleContact* System::bristle(int pair, int element) const {
 
 void System::find_coordinates() {
   for (const PairConstants<double>& pair : evaluate_constants(robot_, topology_, parameters()).pairs) {
+    layout_.turn_slot.push_back(static_cast<int>(layout_.initial_turns.size()));
+    layout_.initial_turns.resize(layout_.initial_turns.size() + pair.coordinates.size(), 0.0);
     has_coordinate_.emplace_back();
     for (const CoordinateConstants<double>& c : pair.coordinates)
       has_coordinate_.back().push_back(c.kind != CoordinateConstants<double>::Kind::kNone);
   }
+  layout_.drop_slot = static_cast<int>(layout_.initial_turns.size());
+  layout_.initial_turns.resize(layout_.initial_turns.size() + static_cast<std::size_t>(sharing_layout_.misses), 0.0);
+  for (int row : sharing_.dropped)
+    layout_.initial_turns[static_cast<std::size_t>(layout_.drop_slot + sharing_layout_.miss_slot[static_cast<std::size_t>(row)])] = 1.0;
 }
 
 void System::refuse_load(int pair, int element) const {

@@ -30,7 +30,7 @@ TEST(Assembly, GivenPositionsStayAndTheLoopIsClosed) {
   EXPECT_NEAR(c.assembly.theta()[1], 0.6, 1e-12);
   EXPECT_NEAR(c.assembly.theta()[2], -0.6, 1e-12);
   Eigen::VectorXd errors, rates;
-  c.equations.constraint_errors(c.state.q, c.state.v, &errors, &rates);
+  c.equations.constraint_errors(c.state, &errors, &rates);
   EXPECT_LT(errors.cwiseAbs().maxCoeff(), 1e-13);
   EXPECT_LT(rates.cwiseAbs().maxCoeff(), 1e-13);
 }
@@ -93,7 +93,6 @@ TEST(Assembly, InitialSensitivitiesAreThoseOfTheAssembledStart) {
   const double step = 1e-30, h = 1e-5;
   const std::vector<C> parameters{C(1.0, step)};
   extended.set_design(parameters);
-  extended.turn_references() = c.equations.turn_references();
   State<C> moved;
   c.assembly.extend(parameters, c.state, &extended, &moved);
   Compiled plus(triangle(), study, kCompliance), minus(triangle(), study, kCompliance);

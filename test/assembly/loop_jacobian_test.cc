@@ -15,12 +15,13 @@ Eigen::MatrixXd by_motions(Compiled* c) {
   const TreeLayout& tree = c->assembly.tree();
   const std::vector<double> parameters = c->system.parameters();
   Eigen::MatrixXd expected(loops.rows(), tree.size);
-  VectorX<double> q, v, errors, rates;
+  VectorX<double> errors, rates;
+  State<double> state = c->state;
   for (int k = 0; k < tree.size; ++k) {
     const VectorX<double> unit = VectorX<double>::Unit(tree.size, k);
-    body_coordinates(c->system, c->equations.constants(), link_motions(c->system.robot(), tree, parameters, c->assembly.theta(), unit), &q,
-                     &v);
-    c->equations.constraint_errors(q, v, &errors, &rates);
+    body_coordinates(c->system, c->equations.constants(), link_motions(c->system.robot(), tree, parameters, c->assembly.theta(), unit),
+                     &state.q, &state.v);
+    c->equations.constraint_errors(state, &errors, &rates);
     for (int row = 0; row < loops.rows(); ++row) expected(row, k) = rates[loops.constraint_rows()[static_cast<std::size_t>(row)]];
   }
   return expected;

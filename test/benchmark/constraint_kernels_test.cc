@@ -45,7 +45,11 @@ class ConstraintKernelsTest : public testing::TestWithParam<std::string> {
     const std::vector<double> parameters = problem_.parameters();
     equations.set_design(std::vector<T>(parameters.begin(), parameters.end()));
     VectorX<T> Phi, rate;
-    equations.constraint_errors(q, v, &Phi, &rate);
+    State<T> state;
+    state.resize(problem_.system()->layout());
+    state.q = q;
+    state.v = v;
+    equations.constraint_errors(state, &Phi, &rate);
     return {Phi, rate};
   }
   template <class Vector>

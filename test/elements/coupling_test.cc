@@ -88,7 +88,7 @@ TEST(Couplings, TheFollowerStartsWhereItBelongsManyTurnsAway) {
   EXPECT_NEAR(c.equations.formulas().coordinate(1, 0).position, -180.0 + 0.4, 1e-12);
   EXPECT_NEAR(c.equations.formulas().coordinate(1, 0).rate, -40.0, 1e-12);
   Eigen::VectorXd Phi, Phi_rate;
-  c.equations.constraint_errors(c.state.q, c.state.v, &Phi, &Phi_rate);
+  c.equations.constraint_errors(c.state, &Phi, &Phi_rate);
   EXPECT_LT(Phi.cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_LT(Phi_rate.cwiseAbs().maxCoeff(), 1e-12);
 }

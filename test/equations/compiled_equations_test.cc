@@ -49,21 +49,21 @@ struct Twins {
   void expect_same(const State<T>& state) {
     VectorX<T> G, expected;
     T g(0.0), expected_g(0.0);
-    EXPECT_TRUE(with.compiled().residual(state, with.turn_references(), &G, &g));
+    EXPECT_TRUE(with.compiled().residual(state, &G, &g));
     without.residual(state, &expected, &expected_g);
     EXPECT_LT(largest_difference(G, expected), 1e-12);
     EXPECT_LT(largest_difference(VectorX<T>(VectorX<T>::Constant(1, g)), VectorX<T>(VectorX<T>::Constant(1, expected_g))), 1e-12);
     Linearization<T> d, expected_d;
     d.resize(system.patterns()), expected_d.resize(system.patterns());
-    EXPECT_TRUE(with.compiled().linearize(state, with.turn_references(), &d));
+    EXPECT_TRUE(with.compiled().linearize(state, &d));
     without.linearize(state, &expected_d);
     EXPECT_LT(largest_difference(as_vector(d.position), as_vector(expected_d.position)), 1e-12);
     EXPECT_LT(largest_difference(as_vector(d.velocity), as_vector(expected_d.velocity)), 1e-12);
     EXPECT_LT(largest_difference(as_vector(d.rate), as_vector(expected_d.rate)), 1e-12);
     EXPECT_LT(largest_difference(d.time, expected_d.time), 1e-12);
     VectorX<T> Phi, Phi_rate, expected_Phi, expected_rate;
-    EXPECT_TRUE(with.compiled().constraint_errors(state.q, state.v, with.turn_references(), &Phi, &Phi_rate));
-    without.constraint_errors(state.q, state.v, &expected_Phi, &expected_rate);
+    EXPECT_TRUE(with.compiled().constraint_errors(state, &Phi, &Phi_rate));
+    without.constraint_errors(state, &expected_Phi, &expected_rate);
     EXPECT_LT(largest_difference(Phi, expected_Phi), 1e-12);
     EXPECT_LT(largest_difference(Phi_rate, expected_rate), 1e-12);
   }
@@ -164,7 +164,7 @@ TEST(CompiledEquations, GoBackToTheFormulasForADesignThatDecidesOtherwise) {
   double g = 0.0;
   for (double radius : {0.05, 0.0, 0.03}) {
     twins.set_design({radius});
-    EXPECT_EQ(twins.with.compiled().residual(state, twins.with.turn_references(), &G, &g), radius > 0.0);
+    EXPECT_EQ(twins.with.compiled().residual(state, &G, &g), radius > 0.0);
     twins.with.residual(state, &G, &g);
     twins.without.residual(state, &expected, &g);
     EXPECT_LT(largest_difference(G, expected), 1e-13) << radius;
@@ -180,11 +180,9 @@ TEST(CompiledEquations, CountTheTurnsOfEveryCoordinate) {
               "duration: 1.0\nobjective: {integral: [{signal: swing/position}]}\n");
   Twins<double> twins(*system);
   twins.set_design(system->parameters());
-  double turns = 1.0;
-  for (std::size_t pair = 0; pair < twins.with.turn_references().size(); ++pair)
-    for (std::size_t element = 0; element < twins.with.turn_references()[pair].size(); ++element, turns += 1.0)
-      for (Equations<double>* equations : {&twins.with, &twins.without}) equations->turn_references()[pair][element] = 2.0 * M_PI * turns;
-  twins.expect_same(some_state<double>(system->layout()));
+  State<double> state = some_state<double>(system->layout());
+  for (std::size_t k = 0; k < state.turns.size(); ++k) state.turns[k] = 2.0 * M_PI * static_cast<double>(k + 1);
+  twins.expect_same(state);
 }
 
 /// Half a turn from its reference an angle is continued the same way.
@@ -218,9 +216,9 @@ TEST(CompiledEquations, CountTurns) {
   const std::shared_ptr<const CompiledSystem> system = servo("{}");
   Twins<double> twins(*system);
   twins.set_design(system->parameters());
-  for (Equations<double>* equations : {&twins.with, &twins.without})
-    for (auto& pair : equations->turn_references()) pair.assign(pair.size(), 4.0 * M_PI);
-  twins.expect_same(some_state<double>(system->layout()));
+  State<double> state = some_state<double>(system->layout());
+  state.turns.assign(state.turns.size(), 4.0 * M_PI);
+  twins.expect_same(state);
 }
 
 TEST(CompiledEquations, LeaveABranchThatWasNotRecordedToTheFormulas) {
@@ -237,16 +235,16 @@ TEST(CompiledEquations, LeaveABranchThatWasNotRecordedToTheFormulas) {
   double g = 0.0;
   state.q.setZero();
   state.q[3] = 1.0;
-  EXPECT_TRUE(twins.with.compiled().residual(state, twins.with.turn_references(), &G, &g)) << "between the stops";
+  EXPECT_TRUE(twins.with.compiled().residual(state, &G, &g)) << "between the stops";
   state.q[3] = std::cos(0.05), state.q[5] = std::sin(0.05);
-  EXPECT_FALSE(twins.with.compiled().residual(state, twins.with.turn_references(), &G, &g)) << "in the upper one";
+  EXPECT_FALSE(twins.with.compiled().residual(state, &G, &g)) << "in the upper one";
   twins.with.residual(state, &G, &g);
   twins.without.residual(state, &expected, &g);
   EXPECT_EQ(G, expected);
-  for (int k = 0; k < 10; ++k) EXPECT_FALSE(twins.with.compiled().residual(state, twins.with.turn_references(), &G, &g));
+  for (int k = 0; k < 10; ++k) EXPECT_FALSE(twins.with.compiled().residual(state, &G, &g));
   twins.set_design(system->parameters());
   state.q[3] = 1.0, state.q[5] = 0.0;
-  EXPECT_TRUE(twins.with.compiled().residual(state, twins.with.turn_references(), &G, &g)) << "a new design begins anew";
+  EXPECT_TRUE(twins.with.compiled().residual(state, &G, &g)) << "a new design begins anew";
 }
 
 TEST(CompiledEquations, GiveDerivativesAloneFromArraysOfTheirOwn) {
@@ -264,7 +262,7 @@ TEST(CompiledEquations, GiveDerivativesAloneFromArraysOfTheirOwn) {
     }
   Eigen::Matrix<double, 4, Eigen::Dynamic> result(4, system->layout().columns());
   Eigen::Vector4d g_result;
-  ASSERT_TRUE(twins.with.compiled().tangents(EquationFunction::kResidual, state.t, twins.with.turn_references(),
+  ASSERT_TRUE(twins.with.compiled().tangents(EquationFunction::kResidual, state.t, state.turns,
                                              {values[0].data(), values[1].data(), values[2].data(), values[3].data()},
                                              {directions[0].data(), directions[1].data(), directions[2].data(), directions[3].data()},
                                              {result.data(), g_result.data(), nullptr, nullptr}));
@@ -289,7 +287,7 @@ TEST(CompiledEquations, DoNothingUnlessAllowed) {
   twins.set_design(system->parameters());
   VectorX<double> G;
   double g = 0.0;
-  EXPECT_FALSE(twins.without.compiled().residual(some_state<double>(system->layout()), twins.without.turn_references(), &G, &g));
+  EXPECT_FALSE(twins.without.compiled().residual(some_state<double>(system->layout()), &G, &g));
 }
 
 }  // namespace

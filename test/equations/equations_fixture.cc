@@ -31,11 +31,7 @@ EquationsFixture::EquationsFixture(const std::string& urdf, const std::string& s
 
 Eigen::MatrixXd EquationsFixture::reference(VectorX<std::complex<double>> State<std::complex<double>>::*member, const VectorX<double>& at) {
   State<std::complex<double>> point;
-  point.t = state.t;
-  point.q = state.q;
-  point.v = state.v;
-  point.s = state.s;
-  point.z = state.z;
+  cast_state(state, &point);
   return complex_step_jacobian(
       [&](const Eigen::VectorXcd& x) {
         point.*member = x;
@@ -105,7 +101,7 @@ void EquationsFixture::expect_code(bool recorded) {
   ASSERT_NE(system.equation_code(), nullptr) << "the equations decide something without is_less()";
   VectorX<double> G;
   double g = 0.0;
-  EXPECT_EQ(real.compiled().residual(state, real.turn_references(), &G, &g), recorded);
+  EXPECT_EQ(real.compiled().residual(state, &G, &g), recorded);
 }
 
 void EquationsFixture::expect_same_lanes() {
@@ -119,6 +115,7 @@ void EquationsFixture::expect_same_lanes() {
   }
   State<L> point;
   point.t = state.t;
+  point.turns = state.turns;
   const auto direct = [](const VectorX<double>& x, VectorX<L>* lanes) {
     *lanes = x.cast<L>();
     for (Eigen::Index k = 0; k < x.size(); ++k)
@@ -149,8 +146,7 @@ void EquationsFixture::expect_same_lanes() {
 
 void EquationsFixture::expect_exact_residual() {
   State<std::complex<double>> point;
-  point.t = state.t;
-  point.q = state.q, point.v = state.v, point.s = state.s, point.z = state.z;
+  cast_state(state, &point);
   VectorX<std::complex<double>> expected;
   std::complex<double> expected_g;
   complex.residual(point, &expected, &expected_g);

@@ -58,13 +58,15 @@ TEST_F(EquationsTest, ConstraintRowsAreTheSecondDerivativeOfPhi) {
   using C = std::complex<double>;
   constexpr double h = 1e-30;
   VectorX<C> Phi, rates;
-  const VectorX<C> q = state.q.cast<C>() + C(0.0, h) * state.v.cast<C>();
-  const VectorX<C> v = state.v.cast<C>() + C(0.0, h) * state.z.head(system.layout().n).cast<C>();
-  complex.constraint_errors(q, v, &Phi, &rates);
+  State<C> moved;
+  cast_state(state, &moved);
+  moved.q += C(0.0, h) * state.v.cast<C>();
+  moved.v += C(0.0, h) * state.z.head(system.layout().n).cast<C>();
+  complex.constraint_errors(moved, &Phi, &rates);
   VectorX<double> G, errors, real_rates;
   double g = 0.0;
   real.residual(state, &G, &g);
-  real.constraint_errors(state.q, state.v, &errors, &real_rates);
+  real.constraint_errors(state, &errors, &real_rates);
   EXPECT_LT((Phi.imag() / h - real_rates).norm(), 1e-12 * (1.0 + real_rates.norm()));
   EXPECT_LT((rates.imag() / h - G.segment(system.layout().n, system.layout().m)).norm(), 1e-12 * (1.0 + G.norm()));
 }

@@ -36,13 +36,13 @@ inline bool scramble(Compiled* c, double amount = 0.4) {
   for (int step = 0; step < 10; ++step) {
     state.q += 0.1 * amount * allowed(jacobian(), waves(state.q.size(), 0.3));
     for (int iteration = 0; iteration < 8; ++iteration) {
-      c->equations.constraint_errors(state.q, state.v, &Phi, &Phi_rate);
+      c->equations.constraint_errors(state, &Phi, &Phi_rate);
       state.q -= pseudo_inverse(jacobian()) * Phi;
     }
-    c->equations.track_turns(state);
+    c->equations.track_turns(&state);
   }
   state.v = allowed(jacobian(), waves(state.v.size(), 1.1));
-  c->equations.constraint_errors(state.q, state.v, &Phi, &Phi_rate);
+  c->equations.constraint_errors(state, &Phi, &Phi_rate);
   return Phi.norm() < 1e-12 && Phi_rate.norm() < 1e-12 && c->assembly.solve_rates(&c->equations, &state).ok();
 }
 

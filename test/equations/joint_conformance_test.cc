@@ -25,7 +25,6 @@ class JointConformance : public ::testing::TestWithParam<JointCase> {
   void SetUp() override {
     ASSERT_TRUE(c.start().ok());
     ASSERT_TRUE(scramble(&c));
-    complex.turn_references() = c.equations.turn_references();
     Phi_q = constraint_jacobian(c.system, &c.equations, c.state);
   }
 
@@ -37,7 +36,10 @@ class JointConformance : public ::testing::TestWithParam<JointCase> {
     return complex_step_jacobian(
         [&](const Eigen::VectorXcd& q) {
           VectorX<C> Phi, Phi_rate;
-          complex.constraint_errors(q, c.state.v.cast<C>(), &Phi, &Phi_rate);
+          State<C> state;
+          cast_state(c.state, &state);
+          state.q = q;
+          complex.constraint_errors(state, &Phi, &Phi_rate);
           return Eigen::VectorXcd(Phi);
         },
         c.state.q);
@@ -72,12 +74,15 @@ TEST_P(JointConformance, PhiQIsTheJacobianOfPhi) {
 TEST_P(JointConformance, AccelerationRowsAreTheSecondDerivativeOfPhi) {
   constexpr double h = 1e-30;
   VectorX<C> Phi, rates;
-  complex.constraint_errors(c.state.q.cast<C>() + C(0.0, h) * c.state.v.cast<C>(),
-                            c.state.v.cast<C>() + C(0.0, h) * accelerations().cast<C>(), &Phi, &rates);
+  State<C> moved;
+  cast_state(c.state, &moved);
+  moved.q += C(0.0, h) * c.state.v.cast<C>();
+  moved.v += C(0.0, h) * accelerations().cast<C>();
+  complex.constraint_errors(moved, &Phi, &rates);
   Eigen::VectorXd G, errors, real_rates;
   double g = 0.0;
   c.equations.residual(c.state, &G, &g);
-  c.equations.constraint_errors(c.state.q, c.state.v, &errors, &real_rates);
+  c.equations.constraint_errors(c.state, &errors, &real_rates);
   EXPECT_LT((Phi.imag() / h - real_rates).norm(), 1e-12);
   EXPECT_LT((rates.imag() / h - G.segment(layout().n, layout().m)).norm(), 1e-11);
   // At a = 0 they are (Phi_q v)_q v.
@@ -94,18 +99,14 @@ TEST_P(JointConformance, ParameterDerivativesOfLanesAreThoseOfTheComplexStep) {
   std::vector<Lanes<4>> seeded(parameters.begin(), parameters.end());
   for (std::size_t k = 0; k < seeded.size(); ++k) seeded[k].v[static_cast<int>(k)] = 1.0;
   lanes.set_design(seeded);
-  lanes.turn_references() = c.equations.turn_references();
   const auto rows = [this](auto* equations, const auto& zero) {
     using T = std::decay_t<decltype(zero)>;
     State<T> state;
-    state.q = c.state.q.template cast<T>();
-    state.v = c.state.v.template cast<T>();
-    state.s = c.state.s.template cast<T>();
-    state.z = c.state.z.template cast<T>();
+    cast_state(c.state, &state);
     VectorX<T> G, Phi, Phi_rate;
     T g(0.0);
     equations->residual(state, &G, &g);
-    equations->constraint_errors(state.q, state.v, &Phi, &Phi_rate);
+    equations->constraint_errors(state, &Phi, &Phi_rate);
     VectorX<T> all(G.size() + 2 * Phi.size());
     all << G, Phi, Phi_rate;
     return all;

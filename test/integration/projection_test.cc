@@ -24,7 +24,7 @@ TEST(Projection, TakesDriftAwayAndMovesByNoMore) {
   const State<double> drifted = state;
   ASSERT_TRUE(projection.apply(&integrator.equations(), &state));
   VectorX<double> Phi, Phi_rate;
-  integrator.equations().constraint_errors(state.q, state.v, &Phi, &Phi_rate);
+  integrator.equations().constraint_errors(state, &Phi, &Phi_rate);
   EXPECT_LT(Phi.cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_LT(Phi_rate.cwiseAbs().maxCoeff(), 1e-8);
   EXPECT_LT((state.q - exact.q).norm(), 2.0 * (drifted.q - exact.q).norm());

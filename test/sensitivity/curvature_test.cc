@@ -53,10 +53,7 @@ class CurvatureTest : public ::testing::Test {
 
   double derivative(int column) {
     State<C> state;
-    state.q = point.q.cast<C>();
-    state.v = point.v.cast<C>();
-    state.s = point.s.cast<C>();
-    state.z = point.z.cast<C>();
+    cast_state(point, &state);
     VectorX<C>* parts[] = {&state.q, &state.s, &state.v, &state.z};
     for (VectorX<C>* part : parts) {
       if (column >= 0 && column < part->size()) (*part)[column] += C(0.0, kStep);
@@ -79,7 +76,7 @@ class CurvatureTest : public ::testing::Test {
 
 TEST_F(CurvatureTest, StateGradientIsThatOfTheForms) {
   VectorX<double> gradient = VectorX<double>::Zero(at.size());
-  curvature.add_state_gradient(point, real, &gradient);
+  curvature.add_state_gradient(point, &gradient);
   EXPECT_GT(gradient.norm(), 1.0);
   for (int column = 0; column < at.psi(); ++column)
     EXPECT_NEAR(gradient[column], derivative(column), 1e-11 * gradient.cwiseAbs().maxCoeff()) << column;
@@ -104,7 +101,7 @@ TEST_F(CurvatureTest, WeightsTimesEntriesAreTheForms) {
 TEST_F(CurvatureTest, WithoutPairsThereIsNone) {
   VectorX<double> gradient = VectorX<double>::Zero(at.size());
   curvature.clear();
-  curvature.add_state_gradient(point, real, &gradient);
+  curvature.add_state_gradient(point, &gradient);
   EXPECT_EQ(gradient.norm(), 0.0);
 }
 

@@ -15,9 +15,9 @@ TEST(ParameterLanes, IsWhatTheStartDoesNotExplain) {
   lanes.start(run.parameters);
   const Eigen::Index size = run.end.cols(), psi = size - 1;
   const VectorX<double>& start = run.back(VectorX<double>::Unit(size, psi), [&](std::size_t k) {
-    if (k + 1 < run.points.size()) lanes.add_stages(run.adjoint, run.step.equations());
+    if (k + 1 < run.points.size()) lanes.add_stages(run.adjoint);
     if (k > 0) lanes.add_projection(run.adjoint);
-    lanes.add_matrices(run.points[k], run.adjoint, run.step.equations());
+    lanes.add_matrices(run.points[k], run.adjoint);
   });
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(5);
   lanes.collect(&gradient);

@@ -28,7 +28,7 @@ struct ServoSteps {
     step.start(initial);
     std::vector<Lanes<8>> lanes(parameters.begin(), parameters.end());
     for (std::size_t k = 0; k < lanes.size(); ++k) lanes[k].v[static_cast<int>(k)] = 1.0;
-    tangent.start(lanes, assembly, initial, step);
+    tangent.start(lanes, assembly, initial);
     begin = tangent.directions();
     points.push_back(initial);
     for (int k = 0; k < 3; ++k) {

@@ -27,27 +27,29 @@ State<double> numbered(double first) {
   return state;
 }
 
-using Turns = std::vector<std::vector<double>>;
-
-Turns turned(double first) { return {{first}, {}, {2.0 * first, 3.0 * first}}; }
+State<double> numbered_with_turns(double first, double turns) {
+  State<double> state = numbered(first);
+  state.turns = {turns, 2.0 * turns, 3.0 * turns};
+  return state;
+}
 
 StepPath path_of(int points, int most) {
   StepPath path(layout(), most);
-  for (int k = 0; k < points; ++k) path.append(0.25 * k, numbered(100.0 * k), turned(k));
+  for (int k = 0; k < points; ++k) path.append(0.25 * k, numbered_with_turns(100.0 * k, k));
   return path;
 }
 
 void expect_point(const StepPath& path, int k) {
-  PathPoint point;
-  point.state.resize(layout());
+  State<double> point;
+  point.resize(layout());
   path.point(k, &point);
-  const State<double> expected = numbered(100.0 * k);
-  EXPECT_EQ(point.state.t, expected.t);
-  EXPECT_EQ(point.state.q, expected.q);
-  EXPECT_EQ(point.state.v, expected.v);
-  EXPECT_EQ(point.state.s, expected.s);
-  EXPECT_EQ(point.state.z, expected.z);
-  EXPECT_EQ(point.turns, turned(k));
+  const State<double> expected = numbered_with_turns(100.0 * k, k);
+  EXPECT_EQ(point.t, expected.t);
+  EXPECT_EQ(point.q, expected.q);
+  EXPECT_EQ(point.v, expected.v);
+  EXPECT_EQ(point.s, expected.s);
+  EXPECT_EQ(point.z, expected.z);
+  EXPECT_EQ(point.turns, expected.turns);
 }
 
 TEST(StepPath, GivesBackWhatItTook) {
@@ -80,12 +82,9 @@ TEST(StepPath, TakesPointsThatAreMadeOnceMoreAsFarAsThereIsRoom) {
     if (from < k) {
       const int spacing = path.make_room(from, k);
       EXPECT_LE((k - from) / spacing, 10);
-      PathPoint point;
       for (int at = from + 1; at <= k; ++at, ++made) {
         if (at != k && (at - from) % spacing != 0) continue;
-        point.state = numbered(100.0 * at);
-        point.turns = turned(at);
-        path.keep(at, point);
+        path.keep(at, numbered_with_turns(100.0 * at, at));
       }
     }
     ASSERT_EQ(path.kept_before(k), k);
@@ -101,7 +100,7 @@ TEST(StepPath, TakesPointsThatAreMadeOnceMoreAsFarAsThereIsRoom) {
 TEST(StepPath, BeginsAnewWithEveryPoint) {
   StepPath path = path_of(100, 10);
   path.clear();
-  for (int k = 0; k < 10; ++k) path.append(0.25 * k, numbered(100.0 * k), turned(k));
+  for (int k = 0; k < 10; ++k) path.append(0.25 * k, numbered_with_turns(100.0 * k, k));
   for (int k = 0; k < 10; ++k) expect_point(path, k);
 }
 

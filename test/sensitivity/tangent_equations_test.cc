@@ -72,7 +72,7 @@ TEST_P(TangentEquationsTest, OfTheConstraintsAreOnePerRow) {
   tangents.constraint_errors(state, y, &Phi, &Phi_rate);
   VectorX<Lanes<4>> expected, expected_rate;
   const State<Lanes<4>>& both = tangents.lanes(state, y);
-  equations.constraint_errors(both.q, both.v, &expected, &expected_rate);
+  equations.constraint_errors(both, &expected, &expected_rate);
   expect_equal(Phi, expected);
   expect_equal(Phi_rate, expected_rate);
 }

@@ -22,7 +22,7 @@ class TangentStepTest : public ::testing::Test {
     step.start(initial);
     std::vector<Lanes<4>> lanes(parameters.begin(), parameters.end());
     for (std::size_t k = 0; k < 4; ++k) lanes[k].v[static_cast<int>(k)] = 1.0;
-    tangent.start(lanes, assembly, initial, step);
+    tangent.start(lanes, assembly, initial);
   }
 
   void advance() {
