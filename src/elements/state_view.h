@@ -75,10 +75,10 @@ struct StateView {
   bool coordinate_moves_r(int pair, int element) const {
     return coordinate_constants(pair, element).kind == CoordinateConstants<T>::Kind::kSlide;
   }
-  /// The motion of a joint coordinate, theory (8), with the members that `detail` includes; the position counts whole turns. The reference
-  /// holds until another state or design is set or more detail of the same coordinate is asked for.
+  /// The motion of a joint coordinate, theory (8), with the members that `detail` includes; the position counts whole turns. The object
+  /// behind the reference is overwritten when another state is loaded, or when more detail of the same coordinate is asked for.
   const CoordinateMotion<T>& coordinate(int pair, int element, CoordinateDetail detail = CoordinateDetail::kAll) const;
-  /// The position of a joint coordinate [m or rad], whole turns counted, without derivatives.
+  /// The position of a joint coordinate [m or rad], whole turns counted, when its rate and gradients are not needed.
   T coordinate_value(int pair, int element) const;
 
   const System& system;
