@@ -50,8 +50,8 @@ T link_term(const StateView<T>& view, const SignalReference& term, const T& fact
   if (gradient && index >= 0) {
     typename SparseGradient<T>::Entries* const variables[3] = {&gradient->position, &gradient->velocity, &gradient->rate};
     if (!turning) variables[order]->push_back({c + term.axis, factor});
-    // x = A(p) s has the derivatives x' = B(p) p' and x'' = B(p) p'' + B(p') p', where B is linear. So the gradient of the derivative of
-    // this order by p's derivative of order k is (order over k) B of the derivative of order - k.
+    // x = A(p) s has x' = B(p) p' and x'' = B(p) p'' + B(p') p' with B linear. So the derivative of x^(n) by p^(k) is the binomial
+    // coefficient (n over k) times B(p^(n-k)); likewise omega = 2 E(p) p', with -2 E(p') as its derivative by p.
     const Matrix34<T> B0 = turning ? Matrix34<T>(2.0 * ground_rate_matrix(k.p)) : rotated_vector_jacobian(k.p, s);
     const Matrix34<T> B1 = turning ? Matrix34<T>(T(-2.0) * ground_rate_matrix(k.pd)) : rotated_vector_jacobian(k.pd, s);
     const Matrix34<T> B2 = rotated_vector_jacobian(k.pdd, s);
