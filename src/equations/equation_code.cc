@@ -70,7 +70,8 @@ void EquationCode::record(const System& system, const AssemblyPlan& plan) {
     }
   State<Traced> state;
   state.resize(system.layout());
-  state.t = std::numeric_limits<double>::quiet_NaN();  // results must depend on time through functions of time alone; NaN would show
+  state.t = std::numeric_limits<double>::quiet_NaN();  // results must depend on time through functions of time alone: a NaN that is used
+                                                       // refuses the recording
   leaves(Arrays::kQ, recording, &state.q), leaves(Arrays::kV, recording, &state.v);
   leaves(Arrays::kS, recording, &state.s), leaves(Arrays::kZ, recording, &state.z);
 

@@ -61,7 +61,8 @@ class EquationCode {
   /// Records the equations. @param plan of record_assembly() for the same system.
   EquationCode(const System& system, const AssemblyPlan& plan);
 
-  /// Whether the equations could be recorded: the processor has code, the system is not too large, and every operation is known.
+  /// Whether the equations could be recorded: code can be made for this processor, the system is not too
+  /// large, and every decision of the formulas could be recorded as a guard.
   bool usable() const { return !values_.recording.refused(); }
   /// The code of one function, compiled by the first call; null if that fails. For a split scalar the arrays kQ to kZ hold the state's
   /// values while CompiledFunction::values runs, and the directions while `tangents` runs.
