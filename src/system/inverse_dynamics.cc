@@ -159,8 +159,8 @@ void InverseDynamics<T>::reverse_sum() {
   parent_adjoint(driven()).W += on_point * constants_->pairs[static_cast<std::size_t>(node(driven()).pair)].s_i.transpose();
 }
 
-// Adjoint of rotor_load(). It must run before node k hands its adjoint of the axis on to its parent, and before the parent's own turn,
-// since it adds to both.
+// Adjoint of rotor_load(). It must run before node k hands its adjoint of the axis on to its parent, and before the parent is processed,
+// since it adds to the adjoints of both.
 template <class T>
 void InverseDynamics<T>::reverse_rotor(std::size_t k, T* by_acceleration, T* by_rate) {
   const Motion &m = motions_[k], &parent = parent_motion(k);
