@@ -33,8 +33,8 @@ ContactSlip<T> bristle_slip(const StateView<T>& view, const BristleContact& cont
   return slip;
 }
 
-/// The body with which the axes of the deflections do not turn by themselves, or -1. The axes of slides and hinges are carried by body i;
-/// those of a ball are the ground's, so its deflections must be turned with the socket, body i; end of theory (13e).
+/// The body whose rotation turns the deflections of a contact, or -1 if none does. Deflections are given in the axes of the slip: those of
+/// slides, hinges and planes are carried by body i; a ball's are the ground's, so its deflections must be turned with the socket, body i.
 template <class T>
 int bristle_carrier(const StateView<T>& view, const BristleContact& contact) {
   const Pair& pair = view.system.topology().pairs[static_cast<std::size_t>(contact.pair)];

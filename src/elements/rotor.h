@@ -38,7 +38,7 @@ RotorMotion<T> rotor_motion(const StateView<T>& view, const Rotor& rotor) {
   return m;
 }
 
-/// What the spin adds to the kinetic energy, n J_r theta' (n theta'/2 + u . omega_c) [J]. Appends its gradient.
+/// The kinetic energy that the spin adds, n J_r theta' (n theta'/2 + u . omega_c) [J]. Appends its gradient.
 template <class T>
 T rotor_energy(const StateView<T>& view, const Rotor& rotor, OptionalGradient<T> gradient) {
   const RotorMotion<T> m = rotor_motion(view, rotor);

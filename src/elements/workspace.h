@@ -41,7 +41,7 @@ struct Workspace {
     return body < 0 ? displaced.back() : displaced[static_cast<std::size_t>(body)];
   }
 
-  /// Per body: f and W of multipliers, spring-dampers and constant forces. They stand on the left of G: the body feels the opposite.
+  /// Per body: f and W of multipliers, spring-dampers and constant forces. They are terms of G, on the left, so the body feels -f.
   std::vector<BodyLoad<T>> loads;
   /// Per body: f and W of the unknowns eta of shared reactions, theory (23b). Empty if no row is dropped, as is `displaced`.
   std::vector<BodyLoad<T>> shared_loads;

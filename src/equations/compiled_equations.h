@@ -46,8 +46,8 @@ class CompiledEquations {
   bool linearize(const State<T>& state, const TurnReferences& turns, Linearization<T>* derivatives);
   bool constraint_errors(const VectorX<T>& q, const VectorX<T>& v, const TurnReferences& turns, VectorX<T>* Phi, VectorX<T>* Phi_rate);
 
-  /// The derivatives of one function along N directions, for T = Lanes<N> only; false as above, and for T = double. The design's part of
-  /// the directions is that of the parameters.
+  /// The derivatives of one function along N directions of state and design, for T = Lanes<N> only; false as above, and for T = double. The
+  /// directions of the design are those of the parameters given to set_design().
   /// @param values of q, v, s and z. @param directions of the same vectors, N numbers side by side per entry.
   /// @param results one array per result in the order of EquationFunction, N numbers side by side per entry.
   bool tangents(EquationFunction function, double t, const TurnReferences& turns, const double* const (&values)[4],

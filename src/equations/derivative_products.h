@@ -8,8 +8,8 @@
 
 namespace codesign {
 
-/// The derivative of (G, g), theory (14), along a direction of the state: G_q q + G_s s + G_v v + G_z z, then that of g as the last entry.
-/// The time of `direction` is ignored.
+/// The derivative of (G, g), theory (14), along a direction of the state: G_q q + G_s s + G_v v + G_z z; the last entry is the derivative
+/// of g. The time of `direction` is ignored.
 /// @param result resized to Layout::columns() + 1 and overwritten.
 void directional_derivative(const CompiledSystem& system, const Linearization<double>& derivatives, const State<double>& direction,
                             VectorX<double>* result);

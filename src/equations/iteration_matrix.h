@@ -17,7 +17,7 @@ class LazyStraightLine;
 /// columns of a and c_s G_s in those of sigma; theory (16). The row of the integrand is left out. The pattern is fixed.
 ///
 /// c_v = c_q = c_s = 0 gives G_z, for accelerations and multipliers; c_v = c_s = h gamma, c_q = (h gamma)^2 the matrix of a Rosenbrock
-/// stage; c_v = c_s = 1/c_j, c_q = 1/c_j^2 that of IDAS, theory (26).
+/// stage; c_v = c_s = 1/c_j, c_q = 1/c_j^2 the matrix of IDAS, theory (26).
 class IterationMatrix {
  public:
   /// @param machine_code whether compiled code forms the sums, where it is available; else loops do.
