@@ -38,11 +38,11 @@ enum class BearingLaw { kPin, kRevolute, kTranslational, kPlane, kBall };
 /// The properties of a kind of pair that the formulas use. A new kind needs an enumerator, an entry of kPairTraits and its constraint rows
 /// in pair_rows().
 struct PairTraits {
-  JointType joint;     ///< the joint type with this motion, whose friction law applies; kFloating, which has no friction, if there is none
-  int rows;            ///< number of constraint rows
-  ForceRows force;     ///< what the first rows of pair_rows() are
-  bool torque_rows;    ///< whether the next rows are (T_y, -T_x, T_z) of the reaction torque T'', as far as there are rows
-  BearingLaw bearing;  ///< formula of the normal force; not used by kinds that cannot have friction
+  JointType joint;         ///< joint type with the same motion, whose friction law applies; kFloating (no friction) if there is none
+  int rows;                ///< number of constraint rows
+  ForceRows force;         ///< what the first rows of pair_rows() are
+  bool torque_rows;        ///< whether the next rows are (T_y, -T_x, T_z) of the reaction torque T'', as far as there are rows
+  BearingLaw bearing;      ///< formula of the normal force; not used by kinds that cannot have friction
   int slip_coordinates;    ///< number of slip coordinates of isotropic friction (13a); 0: each coordinate has its own friction, (13)
   int slips_of_the_point;  ///< how many of them, from the first on, make up the reported speed and friction
 };
@@ -67,7 +67,7 @@ constexpr const PairTraits& traits_of(PairKind kind) { return kPairTraits[static
 /// The kind of pair that a single joint or loop of this type makes.
 constexpr PairKind kind_of(JointType type) {
   if (type == JointType::kContinuous) return PairKind::kRevolute;
-  // Of several kinds with the same joint type, the last one allows every motion of that type; the others are left after folding.
+  // Of several kinds with the same joint type, the last one allows every motion of that type; the others arise by folding.
   for (std::size_t k = kPairTraits.size(); k-- > 0;)
     if (kPairTraits[k].joint == type) return static_cast<PairKind>(k);
   return PairKind::kFree;
