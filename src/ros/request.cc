@@ -71,10 +71,11 @@ void choose_options(const mechanism_codesign::OptimizeGoal& request, OptimizerOp
     options->where = {kRequest, 0};
   }
   if (request.max_evaluations > static_cast<unsigned>(std::numeric_limits<int>::max()))
-    fail("max_evaluations", "count out of range", std::to_string(request.max_evaluations), "0 (as the study says) to 2147483647");
+    fail("max_evaluations", "count out of range", std::to_string(request.max_evaluations), "0 (take the study's value) to 2147483647");
   if (request.max_evaluations > 0) options->max_evaluations = static_cast<int>(request.max_evaluations);
   if (!(request.relative_tolerance >= 0.0 && request.relative_tolerance < 1.0))
-    fail("relative_tolerance", "tolerance out of range", to_decimal(request.relative_tolerance), "0 (as the study says) to 1");
+    fail("relative_tolerance", "tolerance out of range", to_decimal(request.relative_tolerance),
+         "0 (take the study's value) or more, less than 1");
   if (request.relative_tolerance > 0.0) options->relative_tolerance = request.relative_tolerance;
 }
 
