@@ -13,8 +13,8 @@
 
 namespace codesign {
 
-/// The operations on constraints that the paper times in its Table 1, one by one, written by hand from the forms of doc/theory.md (1)-(7).
-/// The equations of motion never need them one by one: they take all derivatives of a joint in one go.
+/// The operations on constraints that the paper times in its Table 1, each as a function of its own, written by hand from the formulas of
+/// doc/theory.md (1)-(7). Only the benchmark uses them: the equations of motion evaluate all derivatives of a joint together.
 ///
 /// A row between a body and the ground is c . r + p^T K p / 2 + constant with a constant matrix K, theory (3); its derivatives cost one
 /// product with K. T is double, or a number with derivatives to differentiate the same code automatically.
@@ -28,7 +28,7 @@ class ConstraintKernels {
 
   /// Phi(q), m values.
   void values(const T* q, T* Phi);
-  /// The entries of Phi_q that can differ from zero, in a fixed order; entries() says which. Entries in one place add up.
+  /// The entries of Phi_q that can differ from zero, in the fixed order of entries(). Values for the same row and column add up.
   void jacobian(const T* q, T* Phi_q);
   /// Phi_q v, m values.
   void jacobian_times(const T* q, const T* v, T* product);
@@ -40,11 +40,11 @@ class ConstraintKernels {
   struct Entry {
     int row, column;
   };
-  /// Where the values of jacobian() stand.
+  /// Row and column of each value of jacobian().
   std::vector<Entry> entries() const;
 
  private:
-  /// One side of three rows, theory (5): sign (r + A s). A body whose centre of mass is the joint's point has no arm.
+  /// One body's part of three rows of coincident points, theory (5): sign (r + A s). Without an arm s is zero.
   struct Coincidence {
     int row;
     std::size_t body;
@@ -52,7 +52,7 @@ class ConstraintKernels {
     bool first, has_arm;
     Vector3<T> arm;  ///< sign s
   };
-  /// A row between one body and the ground.
+  /// A product row between one body and the ground, in the form above.
   struct Grounded {
     int row;
     std::size_t body;
@@ -62,7 +62,7 @@ class ConstraintKernels {
     Eigen::Matrix4d K;
     double constant;
   };
-  /// Any other product of vectors, theory (6).
+  /// Any other product row, theory (6).
   struct General {
     int row;
     std::size_t i, j;
@@ -70,7 +70,8 @@ class ConstraintKernels {
   };
 
   void add_joint(const Pair& pair, const PairConstants<double>& constants, int row);
-  /// Whether it is a row between a body and the ground whose direction on the ground's side is fixed; adds it then.
+  /// Adds a product row as Grounded if one of its bodies is the ground and its vector there is a constant direction; returns whether it
+  /// did.
   bool add_grounded(const ProductRow<double>& product, std::size_t i, std::size_t j, int row);
   static ProductRow<T> converted(const ProductRow<double>& product);
 
@@ -88,7 +89,7 @@ class ConstraintKernels {
   std::vector<General> general_;
   std::vector<BodyKinematics<T>> bodies_;  ///< the ground last
   std::vector<BodyLoad<T>> loads_;
-  std::vector<std::size_t> turned_;  ///< bodies of general rows
+  std::vector<std::size_t> turned_;  ///< bodies whose rotation matrix the general rows need
 };
 
 namespace internal {
@@ -98,7 +99,7 @@ T dot4(const Vector4<T>& a, const Vector4<T>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-/// B(p, s)^T y = K(y s^T) p without either matrix.
+/// B(p, s)^T y = K(y s^T) p, theory (3), computed without forming a matrix.
 template <class T>
 Vector4<T> gradient_on_p(const Vector4<T>& p, const Vector3<T>& s, const Vector3<T>& y) {
   const Vector3<T> e(p[1], p[2], p[3]), normal = cross(s, y);
@@ -188,7 +189,8 @@ void ConstraintKernels<T>::load_positions(const T* q) {
   for (const std::size_t b : turned_) bodies_[b].A = rotation(bodies_[b].p);
 }
 
-/// Adds sign (r + A s) of every coincidence, or its derivatives; `point` gives r and `turn` A.
+/// Evaluates the rows of coincident points, or one of their time derivatives. @param point, turn give r and A of a body, or their
+/// derivatives.
 template <class T>
 template <class Point, class Turn>
 void ConstraintKernels<T>::add_points(const Point& point, const Turn& turn, T* out) {
@@ -235,7 +237,7 @@ void ConstraintKernels<T>::values(const T* q, T* Phi) {
   }
 }
 
-/// The part of (X . Y)_q that comes from X's own terms, y being Y's value.
+/// Writes the part of (X . Y)_q from the terms of X. @param y the value of Y. @param out where it starts; returns where it ends.
 template <class T>
 T* ConstraintKernels<T>::add_gradient(const PairVector<T>& X, const Vector3<T>& y, const General& row, T* out) const {
   for (int k = 0; k < X.terms; ++k) {

@@ -2,7 +2,7 @@
 #ifndef MECHANISM_CODESIGN_BENCHMARK_CORE_ACCESS_H_
 #define MECHANISM_CODESIGN_BENCHMARK_CORE_ACCESS_H_
 
-// The only file of benchmark/ that knows how the core stores derivatives and takes a step.
+// Access of the benchmarks to the derivatives and to the parts of a step. No other file of benchmark/ depends on how the core stores them.
 
 #include <memory>
 #include <vector>
@@ -12,7 +12,7 @@
 
 namespace codesign {
 
-/// By what the equations are derived: (q, s), v, or z.
+/// The variables of a derivative of the equations: (q, s), v or z.
 enum class Variable { kPosition, kVelocity, kRate };
 
 /// Calls visit(variable, row, column, value) for every stored derivative of the equations; the integrand g is the row below them. Columns
@@ -29,7 +29,7 @@ void for_each_derivative(const CompiledSystem& system, const Linearization<doubl
   matrix(Variable::kRate, system.patterns().rate, derivatives.rate);
 }
 
-/// Derivatives of the equations with the memory to hold them.
+/// A workspace for the derivatives of a system's equations.
 class Derivatives {
  public:
   explicit Derivatives(const CompiledSystem& system) : system_(system) { values_.resize(system.patterns()); }
@@ -45,7 +45,7 @@ class Derivatives {
   Linearization<double> values_;
 };
 
-/// The pieces of a step, each to be called over and over at one state of a running simulation.
+/// The parts of a Rosenbrock step, each of which can be called repeatedly at one state of a run, to be timed.
 class StepProbe {
  public:
   /// Runs `system` at its start values up to `time` [s].
@@ -59,14 +59,15 @@ class StepProbe {
 
   void residual();
   void linearize();
-  /// Of the stage's matrix, numerically.
+  /// Numerical factorization of the stage matrix (16).
   void factor();
+  /// One solve with that factorization.
   void solve();
   /// All stages: one factorization, then per stage a residual, products and a solve.
   void attempt();
   /// attempt(), then projection and the derivatives at the end.
   void step();
-  /// Back to the state that the constructor reached.
+  /// Returns to the state that the constructor reached.
   void rewind();
 
  private:

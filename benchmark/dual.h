@@ -6,7 +6,7 @@
 
 namespace codesign {
 
-/// A value with one directional derivative: the textbook's forward mode, as far as the constraints need it.
+/// A value with one directional derivative: forward automatic differentiation as in textbooks, with the operations that constraints need.
 struct Dual {
   double a = 0.0;  ///< value
   double d = 0.0;  ///< derivative

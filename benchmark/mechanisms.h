@@ -6,7 +6,7 @@
 
 namespace codesign {
 
-/// A mechanism of any size and a study of it.
+/// The texts of a generated model and of a study of it.
 struct GeneratedCase {
   SourceText urdf, study;
 };
@@ -15,17 +15,17 @@ struct GeneratedCase {
 /// degrees of freedom as links.
 GeneratedCase open_chain(int links);
 
-/// The same chain, each of whose links has four parameters: length, mass, the hinge's pin radius and its friction coefficient.
-/// @param tuned how many of the 4 links parameters are tuned: the first ones of length_0, mass_0, radius_0, friction_0, length_1, ...
+/// The same chain with four parameters per link: length, mass, the hinge's pin radius and its friction coefficient.
+/// @param tuned how many of the 4 * links parameters are tuned: the first ones of length_0, mass_0, radius_0, friction_0, length_1, ...
 GeneratedCase parametric_chain(int links, int tuned);
 
 /// A ladder of `loops` closed loops: loops + 1 posts hang on hinges with friction from the ground, and each two neighbours are joined by a
 /// coupler, with a ball joint to the one and a universal joint to the other. One degree of freedom, no redundant constraint.
 GeneratedCase ladder(int loops);
 
-/// `loops` four-bar linkages, each of which stands on the coupler of the one before: 3 loops links, as many degrees of freedom as loops,
-/// and three redundant constraints in each loop, since all its axes are parallel.
-/// @param with_friction in the cranks' hinges, so that it rests on reactions that nothing determines.
+/// `loops` four-bar linkages, each of which stands on the coupler of the one before: 3 * loops links, `loops` degrees of freedom, and three
+/// redundant constraints in each loop, since all its axes are parallel.
+/// @param with_friction whether the cranks' hinges have friction; it depends on undetermined reactions, theory (23).
 GeneratedCase stacked_four_bars(int loops, bool with_friction);
 
 }  // namespace codesign

@@ -9,7 +9,7 @@
 
 namespace codesign {
 
-/// One of the figures that the package sets out to reach.
+/// A measured figure with its target.
 struct Finding {
   std::string what;
   std::string unit;
@@ -18,13 +18,14 @@ struct Finding {
   bool at_least;  ///< whether the target is a lower bound
 };
 
-/// Everything measured so far.
+/// All tables and figures of a run of the benchmarks.
 struct Report {
   std::vector<Table> tables;
   std::vector<Finding> findings;
 };
 
-// Each measures its part in one run and adds its tables. They throw std::runtime_error if a computation fails that has to succeed.
+// Each function measures one subject and adds its tables and findings. It throws std::runtime_error if a computation that must succeed
+// fails.
 void measure_kernels(Report* report);
 void measure_steps(Report* report);
 void measure_work_precision(Report* report);

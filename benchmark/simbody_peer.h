@@ -5,12 +5,12 @@
 namespace codesign {
 
 struct SimbodyResult {
-  double psi;
+  double psi;  ///< objective
   int steps;
 };
 
-/// The problem with_dry_friction() built of Simbody's own joints (a pin, a ball, a slider) and constraints (a ball and a constant angle),
-/// run by its Runge-Kutta-Merson integrator with its projection.
+/// The problem of with_dry_friction(), built from Simbody's own joints (a pin, a ball, a slider) and constraints (a ball and a constant
+/// angle), run with Simbody's Runge-Kutta-Merson integrator and projection.
 SimbodyResult run_simbody(double crank_length, double rod_length, double Kp, double accuracy);
 
 }  // namespace codesign

@@ -14,10 +14,10 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// For a terminal: columns aligned, the first to the left.
+/// The table as text for a terminal, with aligned columns; the first column is aligned left.
 std::string to_text(const Table& table);
 
-/// For doc/performance.md, between the markers `<!-- table: NAME -->` and `<!-- end: NAME -->`.
+/// The table in Markdown for doc/performance.md, where it stands between the markers `<!-- table: NAME -->` and `<!-- end: NAME -->`.
 std::string to_markdown(const Table& table);
 
 /// `value` with three significant digits and no exponent between 0.01 and 100000; "-" if it is not a number.

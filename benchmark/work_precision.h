@@ -13,28 +13,29 @@
 
 namespace codesign {
 
-/// The objective and its gradient as far as they are known.
+/// Reference values of the objective and its gradient.
 struct Reference {
   double psi;
   Eigen::VectorXd gradient;
 };
 
-/// What one run of a solver gave.
+/// The accuracy and the steps of one run of a solver.
 struct Outcome {
-  double error =
-      std::numeric_limits<double>::quiet_NaN();  ///< relative; of a gradient the largest over its components; NaN if the run failed
+  /// Relative error of psi, or the largest relative error of a component of the gradient; NaN if the run failed.
+  double error = std::numeric_limits<double>::quiet_NaN();
   long steps = 0;
 };
 
+/// The outcome of a run that gave `psi` and `gradient`. @param with_gradient whether the error is that of the gradient.
 Outcome outcome_of(const Reference& reference, bool with_gradient, double psi, const Eigen::VectorXd& gradient, long steps);
 
-/// A solver: prepare() sets it up for a tolerance, with or without the gradient; what it returns runs it once.
+/// A solver in a comparison. prepare() sets it up for a tolerance, with or without the gradient, and returns a function that runs it once.
 struct Contestant {
   std::string name;
   std::function<std::function<Outcome()>(double tolerance, bool with_gradient)> prepare;
 };
 
-/// A solver of ours, by the name that with_solver() takes.
+/// A solver of this library. @param name as with_solver() takes it.
 Contestant own_solver(const Problem& problem, const std::string& name, const Reference& reference);
 
 /// One point of a sweep over tolerances.
@@ -45,11 +46,12 @@ struct Measured {
 };
 using Sweep = std::vector<Measured>;
 
-/// The cost of an accuracy [s]: of the loosest tolerance from which on every tighter one keeps to it. NaN if none does.
+/// The processor time at which a solver reaches an accuracy [s]: the time at the loosest tolerance such that this and all tighter ones have
+/// an error of at most `error`. NaN if there is none.
 double seconds_to(double error, const Sweep& sweep);
 
-/// Runs all contestants at all tolerances, from loose to tight, in one shuffled run; adds a table of all runs, `name`, and one of the
-/// time that each takes to a given accuracy, `name`_at_accuracy.
+/// Runs all contestants at all tolerances, given from loose to tight, in random order. Adds a table `name` of all runs, and a table
+/// `name`_at_accuracy of the time that each contestant needs for a given accuracy.
 std::vector<Sweep> race(const std::string& name, const std::string& what, bool with_gradient, const std::vector<Contestant>& contestants,
                         const std::vector<double>& tolerances, Report* report);
 

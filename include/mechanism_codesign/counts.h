@@ -7,7 +7,7 @@
 
 namespace codesign {
 
-/// One row of Phi.
+/// One constraint row, an entry of Phi.
 struct ConstraintRow {
   std::string joint;  ///< name of the joint, loop or coupling (or body, for unit Euler parameters)
   int row = 0;        ///< number of the row within it, from 1
@@ -16,20 +16,20 @@ struct ConstraintRow {
 
 /// The numbers of the paper's table "number of equations" for a mechanism and a study, at the assembled start.
 struct Counts {
-  int bodies = 0;
-  int coordinates = 0;            ///< n = 7 per body
-  int first_order_equations = 0;  ///< 2 n
-  int controller_states = 0;      ///< extra states s: integrals of controllers, states of friction laws; not in the sums below
-  int degrees_of_freedom = 0;     ///< n - rank(Phi_q), minus the velocities that belong to no motion, theory (23a)
-  int constraints = 0;            ///< m, rows of Phi
-  int redundant_constraints = 0;  ///< m - rank(Phi_q)
-  int dynamic_equations = 0;      ///< 2 n + m
-  int parameters = 0;             ///< p, tuned parameters
-  int sensitivities = 0;          ///< p (2 n + m)
-  int total_equations = 0;        ///< dynamic equations + sensitivities
-  std::vector<ConstraintRow> redundant_rows;
+  int bodies = 0;                             ///< without the ground
+  int coordinates = 0;                        ///< n = 7 per body
+  int first_order_equations = 0;              ///< 2 n
+  int controller_states = 0;                  ///< extra states s: integrals of controllers, states of friction laws; not in the sums below
+  int degrees_of_freedom = 0;                 ///< dimension of the possible motions: n - rank(Phi_q), or less at a singular position, (23a)
+  int constraints = 0;                        ///< m, rows of Phi
+  int redundant_constraints = 0;              ///< m - rank(Phi_q)
+  int dynamic_equations = 0;                  ///< 2 n + m
+  int parameters = 0;                         ///< p, tuned parameters
+  int sensitivities = 0;                      ///< p (2 n + m)
+  int total_equations = 0;                    ///< dynamic equations + sensitivities
+  std::vector<ConstraintRow> redundant_rows;  ///< rows that follow from the others, theory (23)
   std::vector<std::string> undetermined_reactions;  ///< joints, loops and couplings whose reactions are not unique, theory (23)
-  std::vector<std::string> chosen_friction;         ///< those among them with friction that depends on the reaction
+  std::vector<std::string> chosen_friction;         ///< those of them whose friction depends on such a reaction
 };
 
 }  // namespace codesign

@@ -14,16 +14,17 @@
 
 namespace codesign {
 
-/// The objective psi and its gradient with respect to the tuned parameters, at one design.
+/// The objective psi and its gradient by the tuned parameters at one design; doc/theory.md (21), (22).
 struct Evaluation {
-  Status status;
-  double objective = 0.0;
-  Eigen::VectorXd gradient;  ///< in the order of Study::tuned; empty if not asked for
+  Status status;             ///< if not ok, objective and gradient are not valid
+  double objective = 0.0;    ///< psi, in the units of the study's terms
+  Eigen::VectorXd gradient;  ///< psi_rho, order of Problem::tuned_names(); empty if not asked for
   Statistics statistics;
-  Warnings warnings;  ///< of this evaluation, as Simulation::warnings()
+  Warnings warnings;  ///< warnings of the run, as Simulation::warnings()
 };
 
-/// Evaluates psi(rho) and its gradient by direct sensitivities. Holds a workspace that is reused from call to call: one per thread.
+/// Evaluates psi(rho) and its gradient, by direct sensitivities (18) or the adjoint (18a), as `solver.gradient` of the study says. Holds a
+/// workspace that is reused from call to call; not thread-safe, use one per thread.
 class Evaluator {
  public:
   explicit Evaluator(const Problem& problem);
@@ -32,8 +33,9 @@ class Evaluator {
   Evaluator(Evaluator&&) noexcept;
   Evaluator& operator=(Evaluator&&) noexcept;
 
-  /// @param rho the tuned parameters, in the order of Study::tuned; the others keep their defaults.
-  /// @param cancel if given and set, the evaluation ends early with kCancelled.
+  /// Runs the study at one design.
+  /// @param rho the tuned parameters, in the order of Problem::tuned_names(); the others keep their start values.
+  /// @param cancel the evaluation ends with kCancelled soon after this is set, from any thread; null: never.
   Evaluation evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel = nullptr);
 
  private:
@@ -41,24 +43,24 @@ class Evaluator {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// How a gradient is checked.
+/// The method that computes the reference of a gradient check.
 enum class CheckMethod {
-  kComplexStep,  ///< complex step through the same sequence of steps, of `rosenbrock` alone; exact to rounding
-  kRidders,      ///< Ridders' extrapolated differences of tight integrations; independent of the step sequence
+  kComplexStep,  ///< complex step through the same sequence of steps; exact to rounding; only for `rosenbrock`
+  kRidders,      ///< Ridders' extrapolated differences of runs with tight tolerances; independent of the steps
 };
 
-/// A gradient beside an independently computed one.
+/// A gradient and an independently computed reference.
 struct GradientCheck {
   Status status;
-  CheckMethod method = CheckMethod::kComplexStep;  ///< that was used
-  Evaluation evaluation;
-  Eigen::VectorXd reference;
-  Eigen::VectorXd reference_error;         ///< its own error estimate (zero for the complex step)
-  double largest_relative_difference = 0;  ///< max_k |g_k - r_k| / max(|r_k|, 1e-3 max_j |r_j|)
+  CheckMethod method = CheckMethod::kComplexStep;  ///< the method that was used
+  Evaluation evaluation;                           ///< objective and gradient g under check
+  Eigen::VectorXd reference;                       ///< the reference gradient r
+  Eigen::VectorXd reference_error;                 ///< error estimate of the reference; zero for the complex step
+  double largest_relative_difference = 0;          ///< max_k |g_k - r_k| / max(|r_k|, 1e-3 max_j |r_j|)
 };
 
-/// Computes a gradient twice. That of `idas` is always checked by differences, and they are of `rosenbrock`: each integrator is the other's
-/// check.
+/// Computes the gradient at `rho` and a reference for it. With `idas` the method is always kRidders, and its differences come from runs
+/// with `rosenbrock`, so that the two integrators check each other.
 GradientCheck check_gradient(const Problem& problem, const Eigen::VectorXd& rho, CheckMethod method,
                              const std::atomic<bool>* cancel = nullptr);
 GradientCheck check_gradient(const std::shared_ptr<const CompiledSystem>& system, const Eigen::VectorXd& rho, CheckMethod method,

@@ -11,26 +11,28 @@
 
 namespace codesign {
 
-/// One trial point of an optimization.
+/// One trial point of an optimization, theory (24). Vectors have one entry per tuned parameter, order of Problem::tuned_names().
 struct Trial {
-  int evaluation = 0;  ///< 1, 2, ...
-  int iteration = 0;   ///< improvements of the best point so far
-  Status status;       ///< not ok: the point could not be assembled or integrated, and was stepped back from
-  double objective = 0.0;
-  double gradient_norm = 0.0;  ///< of the gradient scaled by the parameters' ranges
-  Eigen::VectorXd gradient;
-  Eigen::VectorXd rho;
-  double best_objective = 0.0;
+  int evaluation = 0;           ///< number of the evaluation, from 1
+  int iteration = 0;            ///< how often the best point has improved so far
+  Status status;                ///< not ok: the point could not be assembled or integrated; the search turns back from it
+  double objective = 0.0;       ///< psi; not valid if the status is not ok
+  double gradient_norm = 0.0;   ///< norm of the gradient by the scaled variables x of (24)
+  Eigen::VectorXd gradient;     ///< psi_rho
+  Eigen::VectorXd rho;          ///< the trial point
+  double best_objective = 0.0;  ///< at the best point so far; a point that meets the constraints is better than any that does not
 };
 
-/// Called after each trial point; returning false cancels, keeping the best point.
+/// Called after each trial point; returning false ends the search with kCancelled and the best point so far.
 using TrialObserver = std::function<bool(const Trial&)>;
 
+/// The best point of an optimization and how the search ended.
 struct OptimizationResult {
-  /// Ok; cancelled; why not even the start could be evaluated; kAlgorithmFailed; or kInfeasible, where no point within the constraints was
-  /// found. In all cases but the third the best point is below.
+  /// Ok; kCancelled; kAlgorithmFailed; kInfeasible if no point that meets the parameter constraints was found; or the status of the start
+  /// value if that could not be evaluated. Only in the last case the members below hold no point.
   Status status;
-  std::string termination;  ///< snake case: "objective_tolerance_reached", "max_evaluations_reached", "cancelled", ...
+  std::string
+      termination;  ///< why the search ended, in snake case: "objective_tolerance_reached", "max_evaluations_reached", "cancelled", ...
   double initial_objective = 0.0;
   double objective = 0.0;  ///< at `rho`, the best feasible point seen
   Eigen::VectorXd initial_gradient;
@@ -40,20 +42,20 @@ struct OptimizationResult {
   int iterations = 0;
   int evaluations = 0;
   int failed_evaluations = 0;
-  Eigen::VectorXd margins;       ///< of the study's constraints at `rho`; negative: not met
-  Statistics statistics;         ///< summed over the evaluations; drift and energy error: those of the worst evaluation
-  Warnings warnings;             ///< of the best point, and of the search: a parameter without influence, or on its bound
-  std::vector<bool> influences;  ///< of each tuned parameter: whether the objective changed with it at any point that was tried
+  Eigen::VectorXd margins;       ///< margins of the study's parameter constraints at `rho`; negative where violated
+  Statistics statistics;         ///< sums over all evaluations; drift and energy error are the largest of any evaluation
+  Warnings warnings;             ///< about the best point, and about the search: a parameter without influence or on its bound
+  std::vector<bool> influences;  ///< per tuned parameter: whether the objective depended on it at any trial point
 };
 
 /// Minimizes psi(rho) within the bounds and the parameter constraints, from the parameters' start values.
-/// @param options in place of the study's; without them Problem::optimizer_options().
-/// @param cancel ends the search soon after it is set (from any thread), with the best point so far; null: never.
-/// @throws InputError for options that contradict each other (e.g. constraints with an algorithm that takes none).
+/// @param options in place of Problem::optimizer_options().
+/// @param cancel the search ends with kCancelled and the best point so far soon after this is set, from any thread; null: never.
+/// @throws InputError for options that contradict each other, such as constraints with an algorithm that takes none.
 OptimizationResult optimize(const Problem& problem, const TrialObserver& observer = {}, const std::atomic<bool>* cancel = nullptr);
 OptimizationResult optimize(const Problem& problem, const OptimizerOptions& options, const TrialObserver& observer = {},
                             const std::atomic<bool>* cancel = nullptr);
-/// The same of a compiled system.
+/// For the library's own code: with a compiled system.
 OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system, const OptimizerOptions& options,
                             const TrialObserver& observer = {}, const std::atomic<bool>* cancel = nullptr);
 

@@ -9,14 +9,14 @@
 
 namespace codesign {
 
-/// A named design or control parameter; an entry of rho if a study tunes it.
+/// A design parameter: a named number on which numbers of model or study may depend. If the study tunes it, it is an entry of rho.
 struct Parameter {
   std::string name;
-  double value = 0.0;                                       ///< default, and start of an optimization
-  double lower = -std::numeric_limits<double>::infinity();  ///< bound of the optimization
-  double upper = std::numeric_limits<double>::infinity();   ///< bound of the optimization
+  double value = 0.0;                                       ///< start value, in SI units
+  double lower = -std::numeric_limits<double>::infinity();  ///< lower bound; -infinity: none
+  double upper = std::numeric_limits<double>::infinity();   ///< upper bound; infinity: none
   std::string unit;                                         ///< for display only; may be empty
-  SourceLocation where;
+  SourceLocation where;                                     ///< where it is declared, for messages
 };
 
 }  // namespace codesign

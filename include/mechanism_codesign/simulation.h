@@ -18,14 +18,15 @@ namespace codesign {
 
 struct SignalDescription;
 
-/// One design of one mechanism, stepped forward in time. Not thread-safe; several may share one CompiledSystem.
+/// A run of one design, integrated step by step: start(), then advance() and sample() as often as needed. Not thread-safe; any number of
+/// simulations may share one Problem, each in its own thread.
 class Simulation {
  public:
-  /// @param parameters all named parameters, in the order of Problem::all_parameters().
-  /// @param signals extra signals to sample into Frame::signals, as a study spells them: "crank_joint/velocity".
-  /// @throws InputError for a signal that does not exist.
+  /// @param parameters values of all named parameters, in the order of Problem::all_parameters().
+  /// @param signals signals to sample into Frame::signals, spelled as in a study: "crank_joint/velocity".
+  /// @throws InputError for a signal that does not exist or cannot be read.
   Simulation(const Problem& problem, const std::vector<double>& parameters, const std::vector<std::string>& signals = {});
-  /// The same with a compiled system and signals that are parsed already.
+  /// For the library's own code: with a compiled system and parsed signals.
   Simulation(std::shared_ptr<const CompiledSystem> system, const std::vector<double>& parameters,
              const std::vector<SignalDescription>& signals);
   Simulation(std::shared_ptr<const CompiledSystem> system, const std::vector<double>& parameters);
@@ -33,21 +34,27 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  /// Assembles positions, velocities, accelerations and reactions at t = 0.
+  /// Assembles positions, velocities, accelerations and reactions at t = 0, theory (19); the status says if and why that failed. Must be
+  /// called before the functions below; a second call starts the run anew.
   Status start();
 
-  /// Integrates until `time` lies inside the last step. May be called again and again, past Study::duration too.
+  /// Integrates until `time` [s] lies within the last step; returns at once if it does already. `time` may exceed the study's duration.
+  /// After a status that is not ok the run cannot be continued.
   Status advance(double time);
 
-  /// Samples everything at `time`, which must lie inside the last step taken (or be 0 after start()).
+  /// Fills `frame` with everything at `time` [s], which must lie within the last step (or be 0 after start()), by the dense output of the
+  /// step.
   void sample(double time, Frame* frame);
 
-  /// From now on advance() ends with kCancelled soon after `cancel` is set, from any thread. Null: never.
+  /// Makes start() and advance() end with kCancelled soon after `cancel` is set, from any thread; null makes them ignore it. The flag must
+  /// outlive the simulation or the next call of obey().
   void obey(const std::atomic<bool>* cancel);
 
+  /// The names of the entries of every frame.
   const FrameNames& names() const;
+  /// Cost and accuracy of the run so far.
   const Statistics& statistics() const;
-  /// What became doubtful during the run: a singular position passed, a reaction that nothing determines.
+  /// Warnings of the run so far, such as `constraint_drift`, `energy_error` and `singular_start`; doc/warnings.md lists the codes.
   const Warnings& warnings() const;
 
  private:
@@ -55,12 +62,12 @@ class Simulation {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Called for each sample; returning false cancels.
+/// Called for each sample of a run; returning false ends the run with kCancelled.
 using FrameObserver = std::function<bool(const Frame&)>;
 
-/// Runs a whole study at `parameters`, sampling at `count` equally spaced instants from 0 to its duration.
-/// @param cancel if given and set, the run ends with kCancelled, between samples too.
-/// @returns kNonFinite at the first sample that is not finite throughout, which the observer does not get to see.
+/// Runs a simulation from t = 0 to `duration` [s] and hands `count` samples at equal distances, both ends included, to the observer.
+/// @param cancel the run ends with kCancelled soon after this is set, from any thread; null: never.
+/// @returns kNonFinite at the first sample with a number that is not finite; that sample is not handed to the observer.
 Status simulate(Simulation* simulation, double duration, int count, const FrameObserver& observer,
                 const std::atomic<bool>* cancel = nullptr);
 

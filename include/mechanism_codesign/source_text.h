@@ -6,10 +6,10 @@
 
 namespace codesign {
 
-/// A text to be read, with the name that messages call it by: the path of its file, if it has one.
+/// A text to be read: a URDF model, an overlay or a study.
 struct SourceText {
-  std::string name;
-  std::string text;
+  std::string name;  ///< for messages: the path of its file, or any other name
+  std::string text;  ///< the whole text
 };
 
 /// Reads a file of at most 32 MB. @throws InputError for a file that is missing, empty, too large or unreadable.

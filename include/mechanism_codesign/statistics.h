@@ -8,10 +8,11 @@ namespace codesign {
 
 /// The cost and the accuracy of an integration.
 struct Statistics {
-  std::int64_t steps = 0, rejected_steps = 0;
-  double cpu_seconds = 0.0;       ///< of the run
-  double constraint_drift = 0.0;  ///< largest violation of Phi and of Phi_q v after a step, in the scale of the error test [-]
-  double energy_error = 0.0;      ///< largest |E - E(0) - work done| over the run, relative to the largest energy that took part [-]
+  std::int64_t steps = 0, rejected_steps = 0;  ///< accepted and rejected steps
+  double cpu_seconds = 0.0;                    ///< processor time of the run
+  double constraint_drift =
+      0.0;  ///< largest drift of positions and velocities after a step, d of theory (17a), in the scale of the error test [-]
+  double energy_error = 0.0;  ///< largest error of the energy balance, e of theory (17a) [-]
 };
 
 }  // namespace codesign

@@ -10,8 +10,8 @@
 
 namespace codesign {
 
-/// Counts coordinates, constraints and equations at the assembled start, as the paper's table "number of equations" does; redundant
-/// constraints and degrees of freedom by doc/theory.md (23), (23a).
+/// Counts coordinates, constraints and equations at the assembled initial state, as in the paper's table "number of equations". Redundant
+/// constraints are found by doc/theory.md (23), degrees of freedom by (23a).
 /// @param parameters all named parameters (Study::parameters order).
 /// @param status receives the status of Assembly::solve(). After kAssemblyFailed the counts that need the rank of Phi_q (redundancy,
 /// degrees of freedom) and the sums of equations are zero.

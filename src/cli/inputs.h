@@ -10,13 +10,14 @@
 
 namespace codesign::cli {
 
-/// Reads the files a command line names, and tells the console if one is given. @throws InputError
+/// Loads the problem from the files that a command line names, and calls Console::loaded if it is set. Without a study the mechanism is
+/// loaded alone. @throws InputError as load_problem(), and for files that cannot be read.
 Problem load(const Arguments& arguments, const Console* console = nullptr);
 
-/// The same, for a command that differentiates. @throws InputError if the study tunes nothing.
+/// load() for commands that need a gradient. @throws InputError also if the study has no objective or tunes no parameter.
 Problem load_tunable(const Arguments& arguments, const Console* console = nullptr);
 
-/// The signals asked for, or the default ones. @throws InputError for one that does not exist.
+/// The signals of the option `--signals`, or default_signals() without it. @throws InputError for a signal that does not exist.
 std::vector<SignalDescription> select_signals(const Arguments& arguments, const Problem& problem);
 
 }  // namespace codesign::cli

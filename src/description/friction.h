@@ -10,11 +10,12 @@
 
 namespace codesign {
 
-/// Laws of the friction coefficient: theory (10), (13e), (13f). Gonthier's and the LuGre model have states of their own.
+/// The friction laws: theory (10), (13e) and (13f). The laws of Gonthier and LuGre have states.
 enum class FrictionModel { kBrownMcPhee, kGonthier, kLuGre };
 
-/// The numbers of `<codesign:friction>`, see doc/annotations.md, SI units. Value: Quantity in a description, a scalar at one design. A new
-/// number is a member here and a row in visit_friction_numbers(); readers, checks and designs follow the rows.
+/// The numbers of `<codesign:friction>` in SI units; doc/annotations.md describes them. Value is Quantity in a description, which may
+/// depend on parameters, and a scalar in a design. To add a number, add a member here and a row in visit_friction_numbers(); the reader,
+/// the checks and the evaluation of designs go through these rows.
 template <class Value>
 struct FrictionNumbers {
   Value mu_static{0.0};            ///< mu_s [-]
@@ -26,21 +27,22 @@ struct FrictionNumbers {
   Value friction_arm{0.0};         ///< r_z [m], arm of the friction of the axial force
   Value preload{0.0};              ///< N_0 [N], constant part of the normal force
   Value smoothing{1.0};            ///< epsilon of the smooth absolute value [N]
-  Value viscous{0.0};              ///< c [N s/m] or [N m s/rad]
+  Value viscous{0.0};              ///< c [N s/m] or [N m s/rad], viscous coefficient of (13)
   Value bristle_stiffness{1.0};    ///< sigma_0 [1/m], per normal force
   Value bristle_damping{1.0};      ///< sigma_1 [s/m], per normal force
   Value dwell_time{1.0};           ///< tau_dw [s]
 };
 
-/// What the language says of one number.
+/// The rule for one attribute of `<codesign:friction>`.
 struct FrictionNumberRule {
-  /// What a missing attribute means. A missing length does not enter the joint's law; as 1 it keeps quotients finite.
+  /// The value of a missing attribute: none (it is required), `standard`, 1, or the pin radius. A joint whose length or width is missing
+  /// has a law without them; the value 1 only keeps quotients finite.
   enum class Missing { kRefused, kStandard, kLengthOfOne, kPinRadius };
-  /// The models that use the number.
+  /// The friction laws that use the number.
   enum class Models { kAll, kWithStates, kGonthierOnly };
 
   const char* attribute;
-  bool zero_allowed;  ///< else it must be positive
+  bool zero_allowed;  ///< whether zero is allowed; negative values never are
   Missing missing = Missing::kStandard;
   double standard = 0.0;
   Models models = Models::kAll;
@@ -50,7 +52,8 @@ struct FrictionNumberRule {
   }
 };
 
-/// Calls visit(rule, number of each structure...) for each number, in the order in which they are read.
+/// Calls visit(rule, member of each structure...) for each number, in the order in which they are read. @param of structures whose members
+/// of the same name are visited together.
 template <class Visit, class... Values>
 void visit_friction_numbers(const Visit& visit, Values*... of) {
   using M = FrictionNumberRule::Missing;
@@ -70,7 +73,7 @@ void visit_friction_numbers(const Visit& visit, Values*... of) {
   visit(FrictionNumberRule{"dwell_time", false, M::kStandard, 2.0, U::kGonthierOnly}, of->dwell_time...);
 }
 
-/// `<codesign:friction>`. A length and an arm that are not given are zero.
+/// `<codesign:friction>`. Numbers that the model does not give keep the `standard` of their rule; lengths and arms are then zero.
 struct FrictionDescription : FrictionNumbers<Quantity> {
   FrictionDescription() {
     visit_friction_numbers([](const FrictionNumberRule& rule, Quantity& number) { number = Quantity(rule.standard); }, this);

@@ -6,14 +6,14 @@
 
 namespace codesign {
 
-/// The integrator of the equations of motion: Rosenbrock, theory (15), or IDAS, theory (25). Each computes direct sensitivities in its own
-/// way.
+/// The integrator of the equations of motion: Rosenbrock-Wanner methods, theory (15), or IDAS, theory (25). Each has its own computation of
+/// sensitivities, (18) and (27).
 enum class IntegratorKind { kRosenbrock, kIdas };
-/// The Rosenbrock-Wanner method, doc/theory.md (15).
+/// The Rosenbrock-Wanner method; the table in theory (15) lists stages, order and source.
 enum class RosenbrockMethod { kRodas4, kRodas4P2, kRodas5P };
-/// How the gradient of the objective is computed with the Rosenbrock integrator.
+/// The method for the gradient of the objective; with the Rosenbrock integrator only, IDAS always integrates sensitivities.
 enum class GradientMethod {
-  kAuto,     ///< the cheaper of the two, by an estimate of the costs
+  kAuto,     ///< the one below with the smaller estimated cost
   kDirect,   ///< the tangent of every step, forward; theory (18)
   kAdjoint,  ///< the discrete adjoint of the stored steps, backward; theory (18a)
 };
@@ -23,19 +23,19 @@ constexpr std::array<const char*, 2> kIntegratorNames{"rosenbrock", "idas"};
 constexpr std::array<const char*, 3> kRosenbrockMethodNames{"rodas4", "rodas4p2", "rodas5p"};
 constexpr std::array<const char*, 3> kGradientMethodNames{"auto", "direct", "adjoint"};
 
-/// The block `solver:` of a study.
+/// The block `solver:` of a study; doc/study.md describes it.
 struct SolverOptions {
   IntegratorKind integrator = IntegratorKind::kRosenbrock;
   RosenbrockMethod method = RosenbrockMethod::kRodas4;  ///< kRosenbrock only
-  double relative_tolerance = 1e-6;
-  double absolute_tolerance = 1e-7;
-  GradientMethod gradient = GradientMethod::kAuto;  ///< kRosenbrock only
-  /// kRosenbrock only: relative tolerance of each parameter's sensitivities; 0: they do not take part in the error test.
+  double relative_tolerance = 1e-6;                     ///< rtol of the error test, theory (15)
+  double absolute_tolerance = 1e-7;                     ///< atol of the error test, in the units of q, v and s
+  GradientMethod gradient = GradientMethod::kAuto;      ///< kRosenbrock only
+  /// kRosenbrock only: relative tolerance of the sensitivities by each parameter, theory (18); 0: they take no part in the error test.
   double sensitivity_tolerance = 0.0;
-  double initial_step = 0.0;  ///< [s]; 0: chosen automatically
-  double maximum_step = 0.0;  ///< [s]; 0: no limit
-  int maximum_steps = 200000;
-  double maximum_speed = 0.0;       ///< bound of every body's speed [m/s] and [rad/s]; 0: chosen automatically, see MotionWatch
+  double initial_step = 0.0;        ///< [s]; 0: chosen automatically
+  double maximum_step = 0.0;        ///< [s]; 0: no limit
+  int maximum_steps = 200000;       ///< a run that needs more fails
+  double maximum_speed = 0.0;       ///< a run fails when a body moves faster [m/s] or turns faster [rad/s]; 0: chosen by MotionWatch
   double closure_tolerance = 1e-3;  ///< largest closure error of a loop at the start [m and rad]; theory (19)
 };
 

@@ -13,11 +13,11 @@ namespace codesign {
 /// Start values of all named parameters, in the order of Study::parameters.
 std::vector<double> start_parameters(const Study& study);
 
-/// All named parameters, in the order of Study::parameters: the tuned ones from `rho` (p, order of Study::tuned), the others at their start
-/// values.
+/// All named parameters, in the order of Study::parameters: the tuned ones from `rho` (p entries, order of Study::tuned), the others at
+/// their start values.
 std::vector<double> parameters_at(const Study& study, const Eigen::VectorXd& rho);
 
-/// The start of rho: the values of the tuned parameters, in the order of Study::tuned (p).
+/// The start of rho: the start values of the p tuned parameters, in the order of Study::tuned.
 Eigen::VectorXd start_of(const Study& study);
 
 /// Names of the tuned parameters, in the order of rho.

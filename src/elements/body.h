@@ -8,8 +8,11 @@
 
 namespace codesign {
 
-// Inertia of one body, the loads that the other elements put on it, and its row |p| = 1; theory (9).
+// The rows of one body: inertia, theory (9), gravity, the loads that other elements added to the workspace, theory (7), and the constraint
+// row (p^T p - 1)/2 = 0 with its multiplier.
 
+/// Adds m (r'' - g) + f to the rows of r [N] and 4 G^T J G p'' + 8 G'^T J G p' + K(W) p + lambda p to the rows of p [N m], theory (7), (9).
+/// Sets the body's norm row to p^T p'' + p'^T p' [1/s^2]. All loads on bodies must be in `workspace` before.
 template <class T>
 void body_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_t b, VectorX<T>* G) {
   const BodyKinematics<T>& k = view.kinematics[b];
@@ -24,6 +27,8 @@ void body_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_
   (*G)[norm] = sum;
 }
 
+/// Adds the derivatives of body_residual() by p, p', the accelerations and lambda. The derivative K(W) needs the sum W of all loads, so
+/// every assemble_... function that adds to Workspace::loads must run before.
 template <class T, class Sink>
 void assemble_body(const StateView<T>& view, Workspace<T>* workspace, std::size_t b, Sink* sink) {
   const BodyKinematics<T>& k = view.kinematics[b];
@@ -46,7 +51,7 @@ void assemble_body(const StateView<T>& view, Workspace<T>* workspace, std::size_
   }
 }
 
-/// |p| = 1: Phi = (p^T p - 1) / 2.
+/// Sets the row |p| = 1 of Phi to (p^T p - 1)/2 and its rate to p^T p'.
 template <class T>
 void norm_error(const StateView<T>& view, int b, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
   const BodyKinematics<T>& k = view.body(b);

@@ -9,14 +9,16 @@
 
 namespace codesign {
 
-// Rows of the states of friction laws, theory (13e), (13f): sigma - zeta' = 0 for each deflection, then sigma - s_dw' = 0.
+// The rows of the states of a friction law, theory (13e), (13f): sigma - zeta' = 0 [1/s] for each slip coordinate, then sigma - s_dw' = 0
+// if the law has a dwell state. A BristleContact with element -1 slips isotropically; else it belongs to one joint coordinate.
 
+/// Whether the k-th slip coordinate of a pair with isotropic friction depends on r of the bodies.
 template <class T>
 bool slip_moves_r(const StateView<T>& view, int pair, std::size_t k) {
   return view.design.constants.pairs[static_cast<std::size_t>(pair)].slip.coordinates[k].kind == CoordinateConstants<T>::Kind::kSlide;
 }
 
-// Rows of the states of friction laws, theory (13e), (13f): sigma - zeta' = 0 for each deflection, then sigma - s_dw' = 0.
+/// The slip of a contact: the motion of its coordinates and u [m/s], the rate times the arm (the pin radius for a turn, 1 for a slide).
 template <class T>
 ContactSlip<T> bristle_slip(const StateView<T>& view, const BristleContact& contact, CoordinateDetail detail) {
   const auto p = static_cast<std::size_t>(contact.pair);
@@ -31,13 +33,16 @@ ContactSlip<T> bristle_slip(const StateView<T>& view, const BristleContact& cont
   return slip;
 }
 
-// The axes of slides and hinges are carried by body i; a ball's are the ground's, so that its deflections must be turned with its socket.
+/// The body whose rotation turns the deflections of a contact, or -1 if none does. Deflections are given in the axes of the slip: those of
+/// slides, hinges and planes are carried by body i; a ball's are the ground's, so its deflections must be turned with the socket, body i.
 template <class T>
 int bristle_carrier(const StateView<T>& view, const BristleContact& contact) {
   const Pair& pair = view.system.topology().pairs[static_cast<std::size_t>(contact.pair)];
   return contact.element < 0 && pair.kind == PairKind::kSpherical ? pair.body_i : -1;
 }
 
+/// Appends by_u . du/dy, the gradient by positions and velocities of a scalar that depends on the slip velocity u. @param by_u its
+/// derivative by u.
 template <class T>
 void append_bristle_slip(const StateView<T>& view, const BristleContact& contact, const ContactSlip<T>& slip, const Vector3<T>& by_u,
                          OptionalGradient<T> gradient) {
@@ -51,6 +56,7 @@ void append_bristle_slip(const StateView<T>& view, const BristleContact& contact
   }
 }
 
+/// Appends the entries of a gradient by the contact's own states. @param by_zeta, by_dwell the derivatives by deflections and dwell state.
 template <class T>
 void append_bristle_states(const StateView<T>& view, const BristleContact& contact, const Vector3<T>& by_zeta, const T& by_dwell,
                            OptionalGradient<T> gradient) {
@@ -58,6 +64,7 @@ void append_bristle_states(const StateView<T>& view, const BristleContact& conta
   if (contact.dwells()) gradient->position.push_back({view.layout.position_column(contact.dwell_state()), by_dwell});
 }
 
+/// omega_i x zeta [1/s], the part of zeta' by which a ball's deflections turn with the socket; zero for all other contacts.
 template <class T>
 Vector3<T> bristle_turn(const StateView<T>& view, const BristleContact& contact) {
   const int carrier = bristle_carrier(view, contact);
@@ -66,6 +73,7 @@ Vector3<T> bristle_turn(const StateView<T>& view, const BristleContact& contact)
   return cross<T>(omega, view.state->s.template segment<3>(contact.first));
 }
 
+/// Sets the rows of the contact's states to sigma - zeta' and sigma - s_dw'.
 template <class T>
 void bristle_residual(const StateView<T>& view, const BristleContact& contact, VectorX<T>* G) {
   const ContactSlip<T> slip = bristle_slip(view, contact, CoordinateDetail::kRate);
@@ -77,6 +85,7 @@ void bristle_residual(const StateView<T>& view, const BristleContact& contact, V
   if (contact.dwells()) set(contact.dwell_state(), law.dwell_rate);
 }
 
+/// Adds the derivatives of bristle_residual() by positions, velocities, states and sigma.
 template <class T, class Sink>
 void assemble_bristle(const StateView<T>& view, Workspace<T>* workspace, const BristleContact& contact, Sink* sink) {
   const ContactSlip<T> slip = bristle_slip(view, contact, CoordinateDetail::kGradient);

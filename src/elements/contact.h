@@ -12,9 +12,10 @@
 
 namespace codesign {
 
-// Isotropic friction of tables, planar and spherical joints, theory (13a): the equations get + sum of J_k^T L_k over the slip coordinates.
+// Isotropic friction of tables, planar and spherical joints, theory (13a). The loads L_k oppose the slip rates, so the rows of motion get
+// + sum of J_k^T L_k over the slip coordinates k.
 
-// Isotropic friction of tables, planar and spherical joints, theory (13a): the equations get + sum of J_k^T L_k over the slip coordinates.
+/// Slip, normal force and loads L_k of a pair among System::contacts() at the loaded state. Gradients need detail kGradient.
 template <class T>
 ContactFriction<T> contact_at(const StateView<T>& view, int pair, CoordinateDetail detail = CoordinateDetail::kGradient) {
   const Pair& p = view.system.topology().pairs[static_cast<std::size_t>(pair)];
@@ -22,6 +23,7 @@ ContactFriction<T> contact_at(const StateView<T>& view, int pair, CoordinateDeta
                           normal_force(view, pair), view.system.bristle(pair, -1), view.state->s, detail);
 }
 
+/// Appends factor times the gradient of the k-th slip rate by positions and velocities.
 template <class T>
 void append_slip_rate(const StateView<T>& view, int pair, const ContactFriction<T>& contact, std::size_t k, const T& factor,
                       OptionalGradient<T> gradient) {
@@ -29,6 +31,8 @@ void append_slip_rate(const StateView<T>& view, int pair, const ContactFriction<
   append_local(view, pair, contact.motion[k].J, factor, slip_moves_r(view, pair, k), &gradient->velocity);
 }
 
+/// Appends factor times the gradient of the load L_k: by positions, velocities, multipliers (through the normal force) and the states of
+/// the friction law. `contact` must have detail kGradient.
 template <class T>
 void append_contact_load(const StateView<T>& view, int pair, const ContactFriction<T>& contact, std::size_t k, const T& factor,
                          OptionalGradient<T> gradient) {
@@ -41,6 +45,7 @@ void append_contact_load(const StateView<T>& view, int pair, const ContactFricti
                           gradient);
 }
 
+/// Adds the sum of J_k^T L_k to the rows of motion of both bodies.
 template <class T>
 void contact_residual(const StateView<T>& view, int pair, VectorX<T>* G) {
   const ContactFriction<T> c = contact_at(view, pair, CoordinateDetail::kRate);
@@ -49,6 +54,7 @@ void contact_residual(const StateView<T>& view, int pair, VectorX<T>* G) {
       if (const int row = view.column(pair, local); row >= 0) (*G)[row] += c.motion[k].J[local] * c.load[static_cast<Eigen::Index>(k)];
 }
 
+/// Adds the derivatives of contact_residual().
 template <class T, class Sink>
 void assemble_contact(const StateView<T>& view, Workspace<T>* workspace, int pair, Sink* sink) {
   const auto& slip = view.design.constants.pairs[static_cast<std::size_t>(pair)].slip.coordinates;

@@ -11,32 +11,33 @@
 
 namespace codesign {
 
-/// Isotropic friction of one pair (a table, a planar or a spherical joint) at one instant, over its slip coordinates; theory (13a).
+/// Isotropic friction of one pair (a table, a planar or a spherical joint) at one instant; theory (13a). Vectors and matrices have one
+/// entry per slip coordinate; entries beyond `size` are zero.
 template <class T>
 struct ContactFriction {
-  std::size_t size = 0;      ///< slip coordinates
-  std::size_t reported = 0;  ///< those that make up the reported speed and friction: a plane's slides, all of a ball's
+  std::size_t size = 0;      ///< number of slip coordinates: 2 for a table, 3 for planar and spherical joints
+  std::size_t reported = 0;  ///< the first ones make up the reported speed and friction: two slides of a plane, all three of a ball
   std::array<CoordinateMotion<T>, 3> motion;
-  NormalForce<T> normal;
-  Vector3<T> load = Vector3<T>::Zero();       ///< against each rate [N or N m]
+  NormalForce<T> normal;                      ///< N [N], theory (12)
+  Vector3<T> load = Vector3<T>::Zero();       ///< L, positive against the rate, viscous part included [N or N m]
   Matrix3<T> by_rate = Matrix3<T>::Zero();    ///< d load / d rate
   Vector3<T> by_normal = Vector3<T>::Zero();  ///< d load / d N
-  Matrix3<T> by_zeta = Matrix3<T>::Zero();    ///< d load / d deflection, of a law with states
-  Vector3<T> by_dwell = Vector3<T>::Zero();   ///< d load / d s_dw
+  Matrix3<T> by_zeta = Matrix3<T>::Zero();    ///< d load / d zeta; zero if the law has no states
+  Vector3<T> by_dwell = Vector3<T>::Zero();   ///< d load / d s_dw; zero if the law has no dwell state
 
-  /// Speed of the joint's point [m/s], or of a ball's turn [rad/s].
+  /// Speed of the joint's point [m/s], or |omega| of a ball [rad/s].
   T speed() const {
     Vector3<T> rate = Vector3<T>::Zero();
     for (std::size_t k = 0; k < reported; ++k) rate[static_cast<Eigen::Index>(k)] = motion[k].rate;
     return length_of<T, 3>(rate);
   }
-  /// Magnitude of the force [N], or of a ball's torque [N m].
+  /// Magnitude of the friction force [N], or of the friction torque of a ball [N m].
   T magnitude() const {
     Vector3<T> part = load;
     if (reported < 3) part[2] = T(0.0);
     return length_of<T, 3>(part);
   }
-  /// Power that friction takes from the motion [W].
+  /// Power that friction takes from the motion, L . rates [W].
   T power() const {
     T sum(0.0);
     for (std::size_t k = 0; k < size; ++k) sum += load[static_cast<Eigen::Index>(k)] * motion[k].rate;
@@ -44,14 +45,15 @@ struct ContactFriction {
   }
 };
 
-/// Slip over one to three coordinates: their motion, and u [m/s], each rate times its arm.
+/// The slip of a contact in one to three coordinates: their motion, their arms (1 for a slide, a radius [m] for a turn), and u, each rate
+/// times its arm [m/s].
 template <class T>
 struct ContactSlip {
   std::array<CoordinateMotion<T>, 3> motion{};
   Vector3<T> arm = Vector3<T>::Zero(), u = Vector3<T>::Zero();
 };
 
-/// That of a pair with isotropic friction.
+/// The slip of a pair with isotropic friction. @param i, j motion of its two bodies.
 template <class T>
 ContactSlip<T> contact_slip(const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateDetail detail) {
   ContactSlip<T> slip;
@@ -64,7 +66,9 @@ ContactSlip<T> contact_slip(const PairConstants<T>& pair, const BodyKinematics<T
   return slip;
 }
 
-/// @param bristle the pair's law with states, or null. @param s extra states.
+/// Friction loads and their derivatives for a pair with isotropic friction, theory (13a): L = arm sigma N u plus the viscous part, or
+/// L = arm mu N for a law with states, theory (13e), (13f).
+/// @param normal normal force with its derivatives. @param bristle the pair's law with states, or null. @param s all extra states.
 template <class T>
 ContactFriction<T> contact_friction(PairKind kind, const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
                                     const NormalForce<T>& normal, const BristleContact* bristle, const VectorX<T>& s,

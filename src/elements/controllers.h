@@ -9,13 +9,15 @@
 
 namespace codesign {
 
-// The laws of control, theory (C1)-(C8). Their gradients by time are what the setpoints' motion brings in.
+// The control laws, theory (C1)-(C8). Each function returns a value and, if `gradient` is not null, appends its gradient by positions,
+// velocities, rates (multipliers and accelerations included) and time; the part by time comes from moving setpoints and inputs.
 
-// Controllers read signals, and signals read controllers: elements/signals.h.
+// Defined in elements/signals.h. Declared here because controllers read signals and signals read controllers.
 template <class T>
 T signal_value(const StateView<T>& view, const Signal& signal, const T& factor, OptionalGradient<T> gradient);
 
-// The laws of control, theory (C1)-(C8). Their gradients by time are what the setpoints' motion brings in.
+/// The error e = r - x of a controller, setpoint minus input, in the unit of its input; zero for laws without an error. Appends its
+/// gradient.
 template <class T>
 T controller_error(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
   const auto c = static_cast<std::size_t>(controller);
@@ -25,6 +27,7 @@ T controller_error(const StateView<T>& view, int controller, OptionalGradient<T>
   return setpoint.value + signal_value(view, view.system.controllers()[c].input, T(-1.0), gradient);
 }
 
+/// factor times e' = r' - x' of (C3); x' is the signal's exact derivative. Appends its gradient.
 template <class T>
 T controller_error_rate(const StateView<T>& view, int controller, const T& factor, OptionalGradient<T> gradient) {
   const auto c = static_cast<std::size_t>(controller);
@@ -33,6 +36,7 @@ T controller_error_rate(const StateView<T>& view, int controller, const T& facto
   return factor * setpoint.rate + signal_value(view, view.system.controllers()[c].input_rate, T(-factor), gradient);
 }
 
+/// u = k_p e + k_i s + k_d e' of (C3), also the feedback part of (C5) and (C6). Appends its gradient.
 template <class T>
 T pid_output(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
   const Controller& resolved = view.system.controllers()[static_cast<std::size_t>(controller)];
@@ -53,6 +57,10 @@ T pid_output(const StateView<T>& view, int controller, OptionalGradient<T> gradi
   return law.output(error, integral, error_rate);
 }
 
+/// The load tau_k of (C4) [N or N m] along the coordinate that the controller drives. Appends its gradient by positions and velocities, and
+/// leaves those by the accelerations and rates of the nodes in ControlMemory::by_acceleration and by_rate, for the caller to apply.
+/// @param accelerations one per node of the driven tree, or null for (C5): everything at rest. With accelerations the caller must fill
+/// ControlMemory::rates before.
 template <class T>
 T inverse_dynamics_load(const StateView<T>& view, int controller, const T* accelerations, OptionalGradient<T> gradient) {
   const auto c = static_cast<std::size_t>(controller);
@@ -63,6 +71,7 @@ T inverse_dynamics_load(const StateView<T>& view, int controller, const T* accel
   return load;
 }
 
+/// alpha_j = r'' + k_d e' + k_p e of (C6), the acceleration that a computed-torque controller asks of its joint. Appends its gradient.
 template <class T>
 T wanted_acceleration(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
   const ReferenceMotion<T> setpoint = view.design.controllers[static_cast<std::size_t>(controller)].setpoint.at(view.state->t);
@@ -70,7 +79,8 @@ T wanted_acceleration(const StateView<T>& view, int controller, OptionalGradient
   return setpoint.acceleration + pid_output(view, controller, gradient);
 }
 
-// All controllers of this kind are one law: each joint gets what the tree needs to follow the accelerations that they ask for together.
+/// u_k = tau_k(alpha) of (C6). All controllers of this kind are one law: alpha holds the accelerations that they ask for together, zero for
+/// joints without one. Appends its gradient.
 template <class T>
 T computed_torque(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
   const std::vector<DrivenTree::Node>& nodes = view.system.controllers()[static_cast<std::size_t>(controller)].tree.nodes;
@@ -91,6 +101,7 @@ T computed_torque(const StateView<T>& view, int controller, OptionalGradient<T> 
   return load;
 }
 
+/// u = u_0(t) - sum of K_i (x_i - r_i(t)), theory (C7). Appends its gradient.
 template <class T>
 T state_feedback(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
   const auto c = static_cast<std::size_t>(controller);
@@ -107,6 +118,7 @@ T state_feedback(const StateView<T>& view, int controller, OptionalGradient<T> g
   return output;
 }
 
+/// u(t) of (C8). Appends its derivative by time.
 template <class T>
 T shaped_input(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
   const ReferenceMotion<T> input = view.design.controllers[static_cast<std::size_t>(controller)].shape.at(view.state->t);
@@ -114,13 +126,15 @@ T shaped_input(const StateView<T>& view, int controller, OptionalGradient<T> gra
   return input.value;
 }
 
+/// The output u of a controller [N or N m], positive along the coordinate that it drives, before the actuator's limit (13c). Appends its
+/// gradient.
 template <class T>
 T controller_output(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
   switch (view.system.controllers()[static_cast<std::size_t>(controller)].kind) {
     case ControllerKind::kPid:
       return pid_output(view, controller, gradient);
     case ControllerKind::kPdGravity: {
-      // In this order for every scalar, as the gradient's entries are found again by it.
+      // Two statements, because the order in which entries are appended must not depend on the compiler: an assembly is recorded once.
       const T feedback = pid_output(view, controller, gradient);
       return feedback + inverse_dynamics_load(view, controller, static_cast<const T*>(nullptr), gradient);
     }
@@ -134,7 +148,7 @@ T controller_output(const StateView<T>& view, int controller, OptionalGradient<T
   return shaped_input(view, controller, gradient);
 }
 
-/// Row of a controller's integral, sigma - e = 0.
+/// Sets the row of a controller's integral state to sigma - e; nothing for controllers without one.
 template <class T>
 void controller_residual(const StateView<T>& view, std::size_t c, VectorX<T>* G) {
   const int s = view.system.controllers()[c].state;
@@ -143,6 +157,7 @@ void controller_residual(const StateView<T>& view, std::size_t c, VectorX<T>* G)
   (*G)[row] = view.state->z[row] - controller_error(view, static_cast<int>(c), nullptr);
 }
 
+/// Adds the derivatives of controller_residual().
 template <class T, class Sink>
 void assemble_controller(const StateView<T>& view, Workspace<T>* workspace, std::size_t c, Sink* sink) {
   const int s = view.system.controllers()[c].state;

@@ -7,11 +7,10 @@
 
 namespace codesign {
 
-// Rows between joint coordinates, theory (8a). A row is linear in the coordinates, so that its multiplier loads each of them with its own
-// coefficient.
+// Constraint rows between joint coordinates, Phi = sum of c_k theta_k - b, theory (8a). The row is linear in the coordinates, so its
+// multiplier lambda is a load c_k lambda along each of them.
 
-// Rows between joint coordinates, theory (8a). A row is linear in the coordinates, so that its multiplier loads each of them with its own
-// coefficient.
+/// Sets the coupling's entries of Phi and Phi_q v. Positions count whole turns.
 template <class T>
 void coupling_error(const StateView<T>& view, std::size_t k, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
   const Coupling& coupling = view.system.topology().couplings[k];
@@ -26,6 +25,7 @@ void coupling_error(const StateView<T>& view, std::size_t k, VectorX<T>* Phi, Ve
   }
 }
 
+/// Sets the coupling's row to Phi'' - epsilon lambda and adds J_k^T c_k lambda to the rows of motion.
 template <class T>
 void coupling_residual(const StateView<T>& view, std::size_t k, VectorX<T>* G) {
   const Coupling& coupling = view.system.topology().couplings[k];
@@ -42,6 +42,7 @@ void coupling_residual(const StateView<T>& view, std::size_t k, VectorX<T>* G) {
   }
 }
 
+/// Adds the derivatives of coupling_residual().
 template <class T, class Sink>
 void assemble_coupling(const StateView<T>& view, std::size_t k, Sink* sink) {
   const Coupling& coupling = view.system.topology().couplings[k];

@@ -12,38 +12,40 @@
 
 namespace codesign {
 
-/// A constant wrench at one design.
+/// A constant load on a link, theory (13g), with the numbers of one design. Components are in the root link's axes, or in the axes of the
+/// body if LinkLoad::turns.
 template <class T>
 struct ConstantWrench {
-  Vector3<T> force,
-      torque;        ///< in the root's axes; of a load that turns with its link in the body's, with the torque about the centre of mass
-  Vector3<T> point;  ///< in body coordinates [m]
+  /// [N], acting at `point`; [N m]. If LinkLoad::turns the torque includes the moment of the force about the centre of mass.
+  Vector3<T> force, torque;
+  Vector3<T> point;  ///< point of action in body coordinates, from the centre of mass [m]
 };
 
-/// The terms of an objective at one design.
+/// The numbers of the objective's terms, theory (21), one per term of Study::integral or Study::terminal.
 template <class T>
 struct ObjectiveNumbers {
   std::vector<T> weights;
   std::vector<Reference<T>> references;
 };
 
-/// All numbers of one design: what model and study say, evaluated at one set of parameters.
+/// One design: every number of model and study that the equations need, evaluated at one set of parameter values. With T = Lanes<N> the
+/// numbers carry their derivatives by the parameters.
 template <class T>
 struct Design {
-  std::vector<T> parameters;  ///< all named parameters (Study::parameters order)
-  Constants<T> constants;
-  std::vector<PairRows<T>> rows;  ///< per pair
-  std::vector<ControllerConstants<T>> controllers;
-  ObjectiveNumbers<T> integral, terminal;
-  std::vector<T> efforts;                   ///< of Study::loads, along joints [N or N m]
-  std::vector<ConstantWrench<T>> wrenches;  ///< of System::link_loads()
-  Vector3<T> gravity;                       ///< [m/s^2], in the root link's frame
+  std::vector<T> parameters;                        ///< all named parameters, order of Study::parameters
+  Constants<T> constants;                           ///< masses, geometry, springs and couplings of the model
+  std::vector<PairRows<T>> rows;                    ///< constraint rows, one entry per pair of the topology
+  std::vector<ControllerConstants<T>> controllers;  ///< order of Study::controllers
+  ObjectiveNumbers<T> integral, terminal;           ///< the integrand g and the terminal terms w of theory (21)
+  std::vector<T> efforts;                           ///< one per entry of Study::loads [N or N m]; read for loads on joints
+  std::vector<ConstantWrench<T>> wrenches;          ///< one per entry of System::link_loads()
+  Vector3<T> gravity;                               ///< [m/s^2], in the root link's axes
 
-  /// Evaluates everything at `values`. Allocates.
+  /// Evaluates all members at `values`, one value per named parameter. Allocates.
   void set(const System& system, const std::vector<T>& values);
 };
 
-/// The study's constant loads; theory (13g).
+/// Evaluates Design::efforts and Design::wrenches, theory (13g), from the design's parameters and link constants, which must be set before.
 template <class T>
 void set_constant_loads(const System& system, Design<T>* design) {
   const std::vector<T>& parameters = design->parameters;

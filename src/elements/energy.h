@@ -10,9 +10,9 @@
 
 namespace codesign {
 
-// Energies, theory (14b).
+// The mechanical energy [J], theory (14b). Each function appends its gradient by positions and velocities if `gradient` is not null.
 
-// Of a torsion spring and of the stops of one coordinate.
+/// The elastic energy of the torsion spring and of the stops of one joint coordinate, k (theta - theta_0)^2/2 and the integral of k delta.
 template <class T>
 T joint_energy(const StateView<T>& view, const JointLoad& load, OptionalGradient<T> gradient) {
   const JointDynamicsConstants<T>& d =
@@ -37,7 +37,7 @@ T joint_energy(const StateView<T>& view, const JointLoad& load, OptionalGradient
   return energy;
 }
 
-// Energies, theory (14b).
+/// T of (14b): translation and rotation of all bodies, and what the spin of rotors adds, theory (9a).
 template <class T>
 T kinetic_energy(const StateView<T>& view, OptionalGradient<T> gradient) {
   T energy(0.0);
@@ -59,6 +59,7 @@ T kinetic_energy(const StateView<T>& view, OptionalGradient<T> gradient) {
   return energy;
 }
 
+/// V of (14b): gravity (zero at the root's origin), spring-dampers, torsion springs and stops.
 template <class T>
 T potential_energy(const StateView<T>& view, OptionalGradient<T> gradient) {
   T energy(0.0);

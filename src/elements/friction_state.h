@@ -4,12 +4,12 @@
 
 namespace codesign {
 
-/// The friction of one joint coordinate at one instant.
+/// The friction of one joint coordinate at one instant, for observers; theory (13).
 template <class T>
 struct FrictionState {
-  T velocity{0.0};  ///< of the child along or about the axis [m/s or rad/s]
-  T normal{0.0};    ///< normal force N [N]
-  T load{0.0};      ///< the joint's load against the motion, S(v) N [N or N m]; the child feels -load
+  T velocity{0.0};  ///< rate of the coordinate, child relative to parent [m/s or rad/s]
+  T normal{0.0};    ///< normal force N [N]; zero for `<dynamics friction>`
+  T load{0.0};      ///< L, positive against the motion, viscous part included [N or N m]; the child feels -L
 };
 
 }  // namespace codesign

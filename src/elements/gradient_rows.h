@@ -7,14 +7,17 @@
 
 namespace codesign {
 
-// Gradients by the coordinates of a pair or a body, appended to sparse gradients.
+// Functions that append entries to a sparse gradient. `with_r` says whether the entries by r of the bodies may differ from zero; if not
+// they are left out. Entries that belong to the ground are always left out.
 
-/// The end of a gradient, from which later entries can be scaled; `gradient` may be null.
+/// The present end of a gradient, from which SparseGradient::scale_from() can scale later entries; `gradient` may be null.
 template <class T>
 typename SparseGradient<T>::Mark mark(const SparseGradient<T>* gradient) {
   return gradient ? gradient->mark() : typename SparseGradient<T>::Mark{0, 0, 0, T(0.0)};
 }
 
+/// Appends factor times a gradient over the 14 local coordinates of a pair. @param entries the positions, velocities or rates of a
+/// gradient.
 template <class T>
 void append_local(const StateView<T>& view, int pair, const LocalRow<T>& row, const T& factor, bool with_r,
                   typename SparseGradient<T>::Entries* entries) {
@@ -25,6 +28,8 @@ void append_local(const StateView<T>& view, int pair, const LocalRow<T>& row, co
   }
 }
 
+/// Appends factor times the gradient of the rate theta' of a joint coordinate, by positions and velocities; theory (8). `motion` must have
+/// detail kGradient and `gradient` must not be null, here and below.
 template <class T>
 void append_rate(const StateView<T>& view, int pair, int element, const CoordinateMotion<T>& motion, const T& factor,
                  OptionalGradient<T> gradient) {
@@ -33,6 +38,7 @@ void append_rate(const StateView<T>& view, int pair, int element, const Coordina
   append_local(view, pair, motion.J, factor, with_r, &gradient->velocity);
 }
 
+/// Appends factor times the gradient of theta'', by positions, velocities and accelerations.
 template <class T>
 void append_acceleration(const StateView<T>& view, int pair, int element, const CoordinateMotion<T>& motion, const T& factor,
                          OptionalGradient<T> gradient) {
@@ -42,6 +48,8 @@ void append_acceleration(const StateView<T>& view, int pair, int element, const 
   append_local(view, pair, motion.J, factor, with_r, &gradient->rate);
 }
 
+/// Appends factor times the gradient of axis . omega', omega' = 2 G(p) p' the angular velocity of a body in its own axes, theory (4).
+/// @param index the body, not the ground. @param axis in body axes.
 template <class T>
 void append_body_rate(const StateView<T>& view, int index, const Vector3<T>& axis, const T& factor, OptionalGradient<T> gradient) {
   const BodyKinematics<T>& k = view.body(index);
@@ -53,6 +61,8 @@ void append_body_rate(const StateView<T>& view, int index, const Vector3<T>& axi
   }
 }
 
+/// Appends the gradient of factor . omega, omega = 2 E(p) p' the angular velocity of a body in ground axes, theory (4).
+/// @param index the body, not the ground. @param factor in ground axes.
 template <class T>
 void append_spin(const StateView<T>& view, int index, const Vector3<T>& factor, OptionalGradient<T> gradient) {
   const BodyKinematics<T>& k = view.body(index);

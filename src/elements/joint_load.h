@@ -14,8 +14,11 @@
 
 namespace codesign {
 
-// Loads along joint coordinates. A load L opposes the coordinate, so the equations get + J^T L; a controller's output counts as -L.
+// Loads along joint coordinates [N or N m], theory (13). A load L is positive against the coordinate, so that the rows of motion get
+// + J^T L; an effort (of a controller, or a constant one) is positive along the coordinate and counts as -L. Functions with a `gradient`
+// append to it if it is not null.
 
+/// The sum of the study's constant efforts on a coordinate, theory (13g).
 template <class T>
 T constant_effort(const StateView<T>& view, const JointLoad& load) {
   T sum(0.0);
@@ -23,6 +26,8 @@ T constant_effort(const StateView<T>& view, const JointLoad& load) {
   return sum;
 }
 
+/// L of damping, torsion spring and `<dynamics friction>`, end of theory (13); `load` says which of them act.
+/// @param motion with detail kGradient for a gradient, kAll if a spring acts too.
 template <class T>
 T passive_load(const StateView<T>& view, int pair, int element, const JointLoad& load, const CoordinateMotion<T>& motion,
                OptionalGradient<T> gradient) {
@@ -47,7 +52,7 @@ T passive_load(const StateView<T>& view, int pair, int element, const JointLoad&
   return value;
 }
 
-// URDF's `<limit>` where the study enforces it, theory (13c), (13d).
+/// The sum of the controllers' outputs on a coordinate, bounded by the actuator's limit (13c) if the study enforces `<limit effort>`.
 template <class T>
 T applied_effort(const StateView<T>& view, const JointLoad& load, OptionalGradient<T> gradient) {
   const auto before = mark(gradient);
@@ -60,6 +65,8 @@ T applied_effort(const StateView<T>& view, const JointLoad& load, OptionalGradie
   return applied.value;
 }
 
+/// The whole load L along a coordinate: friction, damping, spring and stop minus constant and applied efforts.
+/// @param motion with detail kGradient for a gradient, kAll if JointLoad::needs_position().
 template <class T>
 T joint_load(const StateView<T>& view, const JointLoad& load, const CoordinateMotion<T>& motion, OptionalGradient<T> gradient) {
   T value(0.0);
@@ -74,6 +81,7 @@ T joint_load(const StateView<T>& view, const JointLoad& load, const CoordinateMo
   return value;
 }
 
+/// Adds J^T L to the rows of motion.
 template <class T>
 void load_residual(const StateView<T>& view, const JointLoad& load, VectorX<T>* G) {
   const CoordinateMotion<T>& motion = view.coordinate(load.pair, load.element, CoordinateDetail::kRate);
@@ -82,6 +90,7 @@ void load_residual(const StateView<T>& view, const JointLoad& load, VectorX<T>* 
     if (const int c = view.column(load.pair, local); c >= 0) (*G)[c] += motion.J[local] * value;
 }
 
+/// Adds the derivatives of load_residual(): J^T times the gradient of L, and L theta_qq of (8).
 template <class T, class Sink>
 void assemble_load(const StateView<T>& view, Workspace<T>* workspace, const JointLoad& load, Sink* sink) {
   const CoordinateMotion<T>& motion =
@@ -96,6 +105,7 @@ void assemble_load(const StateView<T>& view, Workspace<T>* workspace, const Join
   assemble_load_curvature(view, load.pair, view.coordinate_constants(load.pair, load.element), value, sink);
 }
 
+/// Friction of a joint coordinate for observers: its rate, normal force and load L, of `<codesign:friction>` and `<dynamics friction>`.
 template <class T>
 FrictionState<T> joint_friction(const StateView<T>& view, int pair, int element) {
   const CoordinateMotion<T>& motion = view.coordinate(pair, element);
@@ -113,6 +123,7 @@ FrictionState<T> joint_friction(const StateView<T>& view, int pair, int element)
   return state;
 }
 
+/// The effort that controllers apply along a coordinate, within the actuator's limit; positive along the coordinate.
 template <class T>
 T joint_effort(const StateView<T>& view, int pair, int element) {
   T sum(0.0);

@@ -8,8 +8,10 @@
 
 namespace codesign {
 
-// URDF's `<limit lower upper>` where the study enforces it; theory (13d).
+// Joint stops, theory (13d): `<limit lower upper>` in a study that enforces it.
 
+/// L of both stops of a coordinate [N or N m]: positive beyond the upper limit, negative beyond the lower one. Appends its gradient;
+/// `motion` then needs detail kAll. @param dissipation c of (13d) [s/m or s/rad]; 0 leaves the elastic part.
 template <class T>
 T stop_load(const StateView<T>& view, const JointLoad& load, const CoordinateMotion<T>& motion, double dissipation,
             OptionalGradient<T> gradient) {
@@ -27,6 +29,7 @@ T stop_load(const StateView<T>& view, const JointLoad& load, const CoordinateMot
   return at_upper.value - at_lower.value;
 }
 
+/// The part of stop_load() that takes energy from the motion, k delta (h - 1): the load less its elastic part. Appends its gradient.
 template <class T>
 T stop_dissipation(const StateView<T>& view, const JointLoad& load, const CoordinateMotion<T>& motion, OptionalGradient<T> gradient) {
   const auto before = mark(gradient);

@@ -7,9 +7,11 @@
 
 namespace codesign {
 
-// The study's constant wrenches on links, theory (13g). Forces in the root's axes enter as those of multipliers do, (7), with b = -F; they
-// must be added before the bodies are assembled.
+// The study's constant loads on links, theory (13g). A force with components in the root's axes is added to the loads of its body, (7),
+// with b = -F; torques, and loads that turn with their link, are added to the rows of motion directly.
 
+/// Adds the force in the root's axes to Workspace::loads, f = -F and W = -F s^T; nothing for a load that turns with its link. Must be
+/// called before body_residual() or assemble_body().
 template <class T>
 void add_link_load(const StateView<T>& view, Workspace<T>* workspace, std::size_t k) {
   const LinkLoad& load = view.system.link_loads()[k];
@@ -19,6 +21,7 @@ void add_link_load(const StateView<T>& view, Workspace<T>* workspace, std::size_
   on_body.W -= view.design.wrenches[k].force * view.design.wrenches[k].point.transpose();
 }
 
+/// Adds what add_link_load() leaves: -2 E^T tau, or, for a load that turns with its link, -A f' on r and -2 G^T (s x f' + tau') on p.
 template <class T>
 void link_load_residual(const StateView<T>& view, std::size_t k, VectorX<T>* G) {
   const LinkLoad& load = view.system.link_loads()[k];
@@ -33,6 +36,7 @@ void link_load_residual(const StateView<T>& view, std::size_t k, VectorX<T>* G) 
   }
 }
 
+/// Adds the derivatives of link_load_residual() by positions; there are no others.
 template <class T, class Sink>
 void assemble_link_load(const StateView<T>& view, std::size_t k, Sink* sink) {
   const LinkLoad& load = view.system.link_loads()[k];
@@ -48,6 +52,7 @@ void assemble_link_load(const StateView<T>& view, std::size_t k, Sink* sink) {
     for (int e = 0; e < 4; ++e) sink->position(c + row, c + 3 + e, T(-B(row, e)));
 }
 
+/// F . (r + A s)' + tau . omega [W], positive where the load drives the link; theory (14c). Appends its gradient.
 template <class T>
 T link_load_power(const StateView<T>& view, std::size_t k, OptionalGradient<T> gradient) {
   const LinkLoad& load = view.system.link_loads()[k];
@@ -55,7 +60,8 @@ T link_load_power(const StateView<T>& view, std::size_t k, OptionalGradient<T> g
   const BodyKinematics<T>& on = view.body(load.body);
   const int c = kBodySize * load.body;
   const Vector3<T> force = load.turns ? Vector3<T>(on.A * wrench.force) : wrench.force;
-  // What multiplies p', as a function of p that is linear: the same function of p' is the derivative of the power by p, but for signs.
+  // The power is linear in p', with factors that are linear in p. The same factors at p' are therefore the derivative by p; those of the
+  // torque change their sign, since G(p) p' = -G(p') p, theory (4).
   const auto on_p = [&](const Vector4<T>& p, double turn) -> Vector4<T> {
     if (load.turns) return T(turn) * body_rate_transposed(p, wrench.torque);
     return rotated_vector_jacobian(p, wrench.point).transpose() * wrench.force +

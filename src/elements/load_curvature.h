@@ -7,6 +7,8 @@
 
 namespace codesign {
 
+/// Adds L theta_qq, the derivative of J^T L by positions at a fixed load L, theory (8), to the rows of motion of a pair.
+/// @param index the pair. @param load L [N or N m].
 template <class T, class Sink>
 void assemble_load_curvature(const StateView<T>& view, int index, const CoordinateConstants<T>& coordinate, const T& load, Sink* sink) {
   const Pair& pair = view.system.topology().pairs[static_cast<std::size_t>(index)];

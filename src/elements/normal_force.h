@@ -8,9 +8,10 @@
 
 namespace codesign {
 
-// The normal force that a joint's reaction makes in its bearing; theory (12).
+// The normal force N in the bearing of a joint, computed from its reaction; theory (11), (12).
 
-/// Reaction force F'' [N] and torque T'' [N m] on the child in the joint axes of body i, as far as the pair constrains them; theory (11).
+/// Reaction force F'' [N] and torque T'' [N m] in the joint axes of body i, read from the multipliers, theory (11); the child feels -F''
+/// and -T''. Components that the pair does not constrain are zero.
 template <class T>
 void pair_reaction(const StateView<T>& view, int index, Vector3<T>* F, Vector3<T>* torque) {
   const Pair& pair = view.system.topology().pairs[static_cast<std::size_t>(index)];
@@ -37,7 +38,8 @@ void pair_reaction(const StateView<T>& view, int index, Vector3<T>* F, Vector3<T
   if (traits.rows > next + 2) (*torque)[2] = lambda(next + 2);
 }
 
-/// Appends factor times the gradient of a normal force N. @param F, torque dN/dF'' and dN/dT''.
+/// Appends factor times the gradient of a normal force N by the multipliers and, where the force is given in ground axes, by p of body i.
+/// @param F, torque the derivatives dN/dF'' and dN/dT''.
 template <class T>
 void append_normal_gradient(const StateView<T>& view, int index, const Vector3<T>& F, const Vector3<T>& torque, const T& factor,
                             OptionalGradient<T> gradient) {
@@ -47,7 +49,7 @@ void append_normal_gradient(const StateView<T>& view, int index, const Vector3<T
   const auto add = [&](int column, const T& value) { gradient->rate.push_back({column, T(factor * value)}); };
   if (traits.force == ForceRows::kAlong) {
     add(row, F[2]);
-    return;  // the force alone presses a plane
+    return;  // N of a plane depends on F_z alone
   }
   int next = 0;
   if (traits.force == ForceRows::kAll) {
@@ -71,7 +73,7 @@ void append_normal_gradient(const StateView<T>& view, int index, const Vector3<T
   if (traits.rows > next + 2) add(row + next + 2, torque[2]);
 }
 
-/// The normal force N [N] in the bearing of a pair, with its derivatives by F'' and T''; theory (12).
+/// The normal force N [N] in the bearing of a pair, with its derivatives by F'' and T'', theory (12); the kind of pair chooses the formula.
 template <class T>
 NormalForce<T> normal_force(const StateView<T>& view, int pair) {
   const FrictionConstants<T>& c = view.design.constants.pairs[static_cast<std::size_t>(pair)].friction;

@@ -6,7 +6,8 @@
 
 namespace codesign {
 
-/// The sum of weight (signal - reference)^2 over some terms of the objective. Its gradient is appended if asked for.
+/// The sum of weight (signal - reference)^2 over terms of the objective: the integrand g or the terminal terms w of theory (21). Appends
+/// its gradient if asked for, with the part by time that moving references bring in.
 template <class T>
 T objective_terms(const StateView<T>& view, const std::vector<ResolvedTerm>& terms, const ObjectiveNumbers<T>& numbers,
                   OptionalGradient<T> gradient) {
@@ -22,7 +23,7 @@ T objective_terms(const StateView<T>& view, const std::vector<ResolvedTerm>& ter
   return sum;
 }
 
-/// Assembles the gradient of the integrand g, the row below the equations.
+/// Adds the gradient of the integrand g to the row below those of G, Layout::columns().
 template <class T, class Sink>
 void assemble_objective(const StateView<T>& view, Workspace<T>* workspace, Sink* sink) {
   workspace->gradient.clear();

@@ -8,11 +8,12 @@
 
 namespace codesign {
 
-// Constraint rows of one pair and the loads of their multipliers; theory (4)-(7).
+// The constraint rows of one pair, theory (5), (6), and the loads of their multipliers on the two bodies, theory (7).
 
 namespace internal {
 
-/// Coincident points: Phi = (r_j + A_j s_j) - (r_i + A_i s_i), theory (5); one side's share.
+/// The derivatives of the three rows of coincident points, Phi = (r_j + A_j s_j) - (r_i + A_i s_i), theory (5), by the coordinates of one
+/// of the two bodies. @param sign -1 for body i, +1 for body j. @param row the first of the three rows.
 template <class T, class Sink>
 void assemble_coincidence(const BodyKinematics<T>& body, const Vector3<T>& s, double sign, int body_column, int row, Sink* sink) {
   const VectorJacobian<T> J = vector_jacobian<T>(body, sign * s);
@@ -29,20 +30,21 @@ void assemble_coincidence(const BodyKinematics<T>& body, const Vector3<T>& s, do
   }
 }
 
-/// Whether a product depends on r of a side: only through displacements.
+/// Whether a product depends on r of the bodies: only if one of its vectors is the displacement d.
 template <class T>
 bool moves_r(const ProductRow<T>& row) {
   return row.X.terms == 2 || row.Y.terms == 2;
 }
 
+/// Whether a product has a vector on this side; a displacement is on both.
 template <class T>
 bool touches(const ProductRow<T>& row, Side side) {
   const auto touched = [side](const PairVector<T>& x) { return x.terms == 2 || x.term[0].side == side; };
   return touched(row.X) || touched(row.Y);
 }
 
-/// Gradients of one product row over those of the pair's coordinates that it touches, from the shared vectors. `fixed` tells which side is
-/// the ground.
+/// Gradients of one product row and its time derivatives, theory (6), by the coordinates of the sides that it touches; other entries of `g`
+/// are not set. @param x, y motions of the row's two vectors. @param fixed per side, whether it is the ground.
 template <class T>
 void row_gradient(const ProductRow<T>& row, const PairMotion<T>& shared, const VectorMotion<T>& x, const VectorMotion<T>& y,
                   const bool (&fixed)[2], ProductGradient<T>* g) {
@@ -63,6 +65,8 @@ void row_gradient(const ProductRow<T>& row, const PairMotion<T>& shared, const V
 
 }  // namespace internal
 
+/// Sets the pair's rows to Phi'' - epsilon lambda, theory (6), (23), and adds the loads Phi_q^T lambda, theory (7), to Workspace::loads.
+/// Must be called before body_residual() and after Workspace::clear_loads().
 template <class T>
 void pair_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_t k, VectorX<T>* G) {
   const Pair& pair = view.system.topology().pairs[k];
@@ -93,6 +97,8 @@ void pair_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_
   G->segment(first, rows.size()) -= T(view.system.compliance()) * view.state->z.segment(first, rows.size());
 }
 
+/// Constraint values Phi and rates Phi_q v of one pair's rows, for bodies that move as given; the ground is a body at rest.
+/// @param errors, rates receive as many values as the pair has rows.
 template <class T>
 void pair_errors(const StateView<T>& view, int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, T* errors, T* rates) {
   const PairRows<T>& rows = view.design.rows[static_cast<std::size_t>(pair)];
@@ -110,6 +116,8 @@ void pair_errors(const StateView<T>& view, int pair, const BodyKinematics<T>& i,
   }
 }
 
+/// Adds the derivatives of one product row and of its multiplier's load, and that load to Workspace::loads. The part K(W) of the load's
+/// derivative is left to assemble_body(), once for all rows of a body. @param row of the residual.
 template <class T, class Sink>
 void assemble_product(const StateView<T>& view, Workspace<T>* workspace, int index, const ProductRow<T>& product,
                       const PairMotion<T>& shared, int row, Sink* sink) {
@@ -140,7 +148,7 @@ void assemble_product(const StateView<T>& view, Workspace<T>* workspace, int ind
     }
 }
 
-// namespace internal
+/// Adds the derivatives of pair_residual(), and the loads of the multipliers to Workspace::loads. Must be called before assemble_body().
 template <class T, class Sink>
 void assemble_pair(const StateView<T>& view, Workspace<T>* workspace, std::size_t k, Sink* sink) {
   const Pair& pair = view.system.topology().pairs[k];

@@ -12,12 +12,14 @@
 
 namespace codesign {
 
-// Powers, theory (14c). A load against a coordinate takes load times rate.
+// The powers [W] of theory (14c), positive where energy goes into the mechanism. A load L opposes the coordinate, so its power is -L
+// theta'. Each function appends its gradient if `gradient` is not null.
 
+/// The part of a coordinate's load L that belongs to one kind of power.
 template <class T>
 T load_of_kind(const StateView<T>& view, PowerKind kind, const JointLoad& load, const CoordinateMotion<T>& motion,
                OptionalGradient<T> gradient) {
-  // A part without the lists of the whole takes no memory.
+  // A copy of `load` would copy its lists too, which allocates.
   JointLoad part;
   part.pair = load.pair;
   part.element = load.element;
@@ -43,6 +45,7 @@ T load_of_kind(const StateView<T>& view, PowerKind kind, const JointLoad& load, 
   return -constant_effort(view, load);
 }
 
+/// The power of one kind along one joint coordinate; zero if no load of that kind acts there.
 template <class T>
 T load_power(const StateView<T>& view, PowerKind kind, const JointLoad& load, OptionalGradient<T> gradient) {
   const bool acts = kind == PowerKind::kFriction   ? load.reaction_friction || load.constant_friction
@@ -53,7 +56,7 @@ T load_power(const StateView<T>& view, PowerKind kind, const JointLoad& load, Op
   const CoordinateDetail detail = !gradient                                              ? CoordinateDetail::kRate
                                   : kind == PowerKind::kDamping && load.needs_position() ? CoordinateDetail::kAll
                                                                                          : CoordinateDetail::kGradient;
-  // A copy: controllers may ask for other coordinates, and for this one in more detail.
+  // A copy, since a controller may ask for more detail of this coordinate, which overwrites the object behind the reference.
   const CoordinateMotion<T> motion = view.coordinate(load.pair, load.element, detail);
   const auto before = mark(gradient);
   const T value = load_of_kind(view, kind, load, motion, gradient);
@@ -64,6 +67,7 @@ T load_power(const StateView<T>& view, PowerKind kind, const JointLoad& load, Op
   return -value * motion.rate;
 }
 
+/// The power of isotropic friction in a pair, theory (13a).
 template <class T>
 T contact_power(const StateView<T>& view, int pair, OptionalGradient<T> gradient) {
   const ContactFriction<T> c = contact_at(view, pair, gradient ? CoordinateDetail::kGradient : CoordinateDetail::kRate);
@@ -74,7 +78,7 @@ T contact_power(const StateView<T>& view, int pair, OptionalGradient<T> gradient
   return -c.power();
 }
 
-// Powers, theory (14c). A load against a coordinate takes load times rate.
+/// The power of one kind summed over the whole mechanism.
 template <class T>
 T total_power(const StateView<T>& view, PowerKind kind, OptionalGradient<T> gradient) {
   T sum(0.0);
@@ -88,12 +92,13 @@ T total_power(const StateView<T>& view, PowerKind kind, OptionalGradient<T> grad
   return sum;
 }
 
+/// The power of one kind in one joint: a pair and the index in its chain. Spring-dampers and loads on links belong to no joint.
 template <class T>
 T joint_power(const StateView<T>& view, PowerKind kind, int pair, int element, OptionalGradient<T> gradient) {
   const Pair& p = view.system.topology().pairs[static_cast<std::size_t>(pair)];
   const auto elements = static_cast<int>(p.chain.size());
   T sum(0.0);
-  // A cylindrical loop is one joint with a second coordinate behind those of its chain.
+  // A cylindrical loop is one joint with two coordinates: the index of the second one is beyond the chain.
   for (const JointLoad& load : view.system.loads())
     if (load.pair == pair && (load.element == element || load.element >= elements)) sum += load_power(view, kind, load, gradient);
   const bool holds_friction = p.chain[static_cast<std::size_t>(element)].joint == p.friction_joint;

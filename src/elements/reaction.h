@@ -12,9 +12,10 @@
 
 namespace codesign {
 
-// What a joint exerts on its child, theory (11a): one component of the force or of the torque in the joint frame that the child carries.
+// The wrench of a joint on its child, theory (11a): one component of the force [N] or of the torque [N m], in the axes of the joint frame
+// that the child carries. Each function appends its gradient if `gradient` is not null.
 
-// What a joint exerts on its child, theory (11a): one component of the force or of the torque in the joint frame that the child carries.
+/// The axis and the origin of the joint frame for one component of a reaction signal.
 template <class T>
 ReactionAxis<T> reaction_axis(const StateView<T>& view, const SignalReference& term) {
   const Pair& pair = view.system.topology().pairs[static_cast<std::size_t>(term.pair)];
@@ -30,7 +31,8 @@ ReactionAxis<T> reaction_axis(const StateView<T>& view, const SignalReference& t
   return axis;
 }
 
-// Every term of X that the child carries is pushed along Y, and the other way round.
+/// The part of one product row: the sum of -c lambda (+- A d) . Y over the terms of X on the child, and likewise for the terms of Y.
+/// @param row the row's multiplier in z.
 template <class T>
 T product_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, const ProductRow<T>& product, int row,
                    OptionalGradient<T> gradient) {
@@ -56,13 +58,14 @@ T product_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, const 
   return value;
 }
 
+/// The part of all constraint rows of the pair.
 template <class T>
 T constraint_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, OptionalGradient<T> gradient) {
   const PairRows<T>& rows = view.design.rows[static_cast<std::size_t>(axis.pair)];
   int row = view.layout.lambda_column(view.layout.pair_row[static_cast<std::size_t>(axis.pair)]);
   T value(0.0);
   if (rows.coincident) {
-    // Pushed with -lambda at its point, the child; with +lambda where it is body i.
+    // The multipliers are the force at the joint's point: -lambda acts on body j, +lambda on body i. Either may be the child.
     const BodyKinematics<T>& k = view.body(axis.body);
     const T sign(axis.side == Side::kJ ? -1.0 : 1.0);
     const Vector3<T> lambda = view.state->z.template segment<3>(row), lever = sign * axis.lever(rows.point(axis.side), true),
@@ -79,6 +82,8 @@ T constraint_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, Opt
   return value;
 }
 
+/// The part of one load L along a coordinate of the joint: -L times (11a) of its J^T.
+/// @param own the mark before the gradient of L was appended; that gradient is multiplied here, and the derivative of J^T is appended.
 template <class T>
 T load_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, const CoordinateConstants<T>& coordinate, const LocalRow<T>& J,
                 const T& load, const typename SparseGradient<T>::Mark& own, OptionalGradient<T> gradient) {
@@ -106,13 +111,13 @@ T load_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, const Coo
   return share * load;
 }
 
-// Friction, damping, springs, stops, controllers and constant loads along the joint's coordinates.
+/// The part of friction, damping, springs, stops, controllers and constant efforts along the joint's coordinates.
 template <class T>
 T coordinate_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, OptionalGradient<T> gradient) {
   T value(0.0);
   for (const JointLoad& load : view.system.loads()) {
     if (load.pair != axis.pair) continue;
-    // A copy: controllers may ask for other coordinates, and for this one in more detail.
+    // A copy, since a controller may ask for more detail of this coordinate, which overwrites the object behind the reference.
     const CoordinateMotion<T> motion =
         view.coordinate(load.pair, load.element, load.needs_position() ? CoordinateDetail::kAll : CoordinateDetail::kGradient);
     const auto own = mark(gradient);
@@ -122,6 +127,7 @@ T coordinate_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, Opt
   return value;
 }
 
+/// The part of the rotors that the joint drives, theory (9a).
 template <class T>
 T rotor_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, OptionalGradient<T> gradient) {
   T value(0.0);
@@ -135,6 +141,7 @@ T rotor_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, Optional
   return value;
 }
 
+/// The part of the couplings of the joint's coordinates, theory (8a).
 template <class T>
 T coupling_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, OptionalGradient<T> gradient) {
   T value(0.0);
@@ -154,6 +161,7 @@ T coupling_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, Optio
   return value;
 }
 
+/// The part of isotropic friction, theory (13a), of a pair among System::contacts().
 template <class T>
 T contact_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, OptionalGradient<T> gradient) {
   const ContactFriction<T> c = contact_at(view, axis.pair);
@@ -167,6 +175,7 @@ T contact_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, Option
   return value;
 }
 
+/// The part of a reaction signal that comes from multipliers: constraint rows and couplings. It is what redundant rows leave undetermined.
 template <class T>
 T multiplier_reaction(const StateView<T>& view, const SignalReference& term) {
   const ReactionAxis<T> axis = reaction_axis(view, term);
@@ -174,11 +183,12 @@ T multiplier_reaction(const StateView<T>& view, const SignalReference& term) {
   return value + coupling_reaction(view, axis, nullptr);
 }
 
+/// factor times one component of the whole wrench of a joint on its child.
 template <class T>
 T reaction_term(const StateView<T>& view, const SignalReference& term, const T& factor, OptionalGradient<T> gradient) {
   const ReactionAxis<T> axis = reaction_axis(view, term);
   const auto before = mark(gradient);
-  // In this order for every scalar, as the gradient's entries are found again by it.
+  // One statement each: the order in which entries are appended must not depend on the compiler, since an assembly is recorded once.
   T value = constraint_reaction(view, axis, gradient);
   value += coordinate_reaction(view, axis, gradient);
   value += coupling_reaction(view, axis, gradient);

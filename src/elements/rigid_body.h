@@ -10,7 +10,7 @@ namespace codesign {
 // Inertia of a rigid body in centroidal Euler-parameter coordinates; doc/theory.md (9):
 //   rows of r: m r'',   rows of p: 4 G^T J G p'' + 8 G'^T J G p'.
 
-/// Inertia forces [m r'', 4 G^T J G p'' + 8 G'^T J G p'].
+/// Inertia forces of (9), on the left of G: m r'' on the rows of r [N], and 4 G^T J G p'' + 8 G'^T J G p' on the rows of p [N m].
 template <class T>
 void inertia_force(const BodyConstants<T>& body, const BodyKinematics<T>& k, Vector3<T>* on_r, Vector4<T>* on_p) {
   const Vector3<T> y = 4.0 * (body.J * body_rate(k.p, k.pdd)), w = 8.0 * (body.J * body_rate(k.p, k.pd));
@@ -18,12 +18,13 @@ void inertia_force(const BodyConstants<T>& body, const BodyKinematics<T>& k, Vec
   *on_p = body_rate_transposed(k.p, y) + body_rate_transposed(k.pd, w);
 }
 
-/// Derivatives of the rows of p by p, p' and p''.
+/// Derivatives of the rows of p in (9) by p, p' and p''. Those of the rows of r are m I by r'' and zero otherwise.
 template <class T>
 struct InertiaGradient {
   Matrix4<T> by_p, by_pd, by_pdd;
 };
 
+/// The derivatives of inertia_force(); the formulas are given below theory (9).
 template <class T>
 InertiaGradient<T> inertia_gradient(const BodyConstants<T>& body, const BodyKinematics<T>& k) {
   const Matrix34<T> G = body_rate_matrix(k.p), Gd = body_rate_matrix(k.pd), Gdd = body_rate_matrix(k.pdd);

@@ -9,18 +9,19 @@
 
 namespace codesign {
 
-// Rotors of actuators, theory (9a): what their spin adds to the inertia of the bodies that carry them.
+// Rotors of actuators, theory (9a): the inertia forces of their spin, which is not part of the inertia of the bodies that carry them. The
+// carrier is the body that carries the rotor; on the ground it contributes nothing.
 
-/// How a rotor's carrier moves about the rotor's axis u; theory (9a).
+/// The rotor's constants and the motion of its carrier about the rotor's axis u; theory (9a).
 template <class T>
 struct RotorMotion {
   Vector3<T> axis;                                 ///< u, in the carrier's axes
-  T ratio{1.0}, coupling{0.0};                     ///< n, n J_r
-  T carrier_rate{0.0}, carrier_acceleration{0.0};  ///< omega . u and omega' . u of the carrier
+  T ratio{1.0}, coupling{0.0};                     ///< n [- or rad/m], n J_r [kg m^2 or kg m]
+  T carrier_rate{0.0}, carrier_acceleration{0.0};  ///< omega . u [rad/s], omega' . u [rad/s^2]
   Vector3<T> swing = Vector3<T>::Zero();           ///< omega x u, in the carrier's axes
 };
 
-// Rotors of actuators, theory (9a): what their spin adds to the inertia of the bodies that carry them.
+/// Evaluates RotorMotion at the loaded state.
 template <class T>
 RotorMotion<T> rotor_motion(const StateView<T>& view, const Rotor& rotor) {
   const JointDynamicsConstants<T>& d =
@@ -37,6 +38,7 @@ RotorMotion<T> rotor_motion(const StateView<T>& view, const Rotor& rotor) {
   return m;
 }
 
+/// The kinetic energy that the spin adds, n J_r theta' (n theta'/2 + u . omega_c) [J]. Appends its gradient.
 template <class T>
 T rotor_energy(const StateView<T>& view, const Rotor& rotor, OptionalGradient<T> gradient) {
   const RotorMotion<T> m = rotor_motion(view, rotor);
@@ -49,6 +51,8 @@ T rotor_energy(const StateView<T>& view, const Rotor& rotor, OptionalGradient<T>
   return m.coupling * joint.rate * (T(0.5) * m.ratio * joint.rate + m.carrier_rate);
 }
 
+/// L = n J_r (n theta'' + u . omega_c'), the load of the rotor along the joint's coordinate [N or N m], positive against it. Appends its
+/// gradient.
 template <class T>
 T rotor_load(const StateView<T>& view, const Rotor& rotor, OptionalGradient<T> gradient) {
   const RotorMotion<T> m = rotor_motion(view, rotor);
@@ -66,6 +70,7 @@ T rotor_load(const StateView<T>& view, const Rotor& rotor, OptionalGradient<T> g
   return m.coupling * (m.ratio * joint.acceleration + m.carrier_acceleration);
 }
 
+/// Adds J^T L to the rows of motion, and 2 G^T n J_r (theta'' u + theta' omega_c x u) to those of the carrier's p.
 template <class T>
 void rotor_residual(const StateView<T>& view, const Rotor& rotor, VectorX<T>* G) {
   const RotorMotion<T> m = rotor_motion(view, rotor);
@@ -78,7 +83,7 @@ void rotor_residual(const StateView<T>& view, const Rotor& rotor, VectorX<T>* G)
   G->template segment<4>(kBodySize * rotor.body + 3) += T(2.0) * body_rate_transposed(view.body(rotor.body).p, moment);
 }
 
-// The moment on the carrier, coupling (theta'' u + theta' omega' x u) in its axes, on the rows 2 G^T.
+/// Adds the derivatives of the moment on the carrier, the second part of rotor_residual(). The carrier must not be the ground.
 template <class T, class Sink>
 void assemble_rotor_moment(const StateView<T>& view, Workspace<T>* workspace, const Rotor& rotor, const RotorMotion<T>& m, Sink* sink) {
   const BodyKinematics<T>& carrier = view.body(rotor.body);
@@ -103,6 +108,7 @@ void assemble_rotor_moment(const StateView<T>& view, Workspace<T>* workspace, co
     for (int e = 0; e < 4; ++e) sink->position(p + row, p + e, Y(row, e));
 }
 
+/// Adds the derivatives of rotor_residual().
 template <class T, class Sink>
 void assemble_rotor(const StateView<T>& view, Workspace<T>* workspace, const Rotor& rotor, Sink* sink) {
   const RotorMotion<T> m = rotor_motion(view, rotor);

@@ -8,14 +8,17 @@
 
 namespace codesign {
 
-// How redundant rows share reactions, theory (23). The displacements w enter where accelerations do, of bodies without velocity: a row's
-// acceleration is then Phi_q w, with derivatives that are there already.
+// How redundant constraint rows share the reactions, theory (23), (23b). The unknowns are displacements w of the bodies, loads eta of the
+// rows, and mu of the rows that can be dropped. Phi_q w is computed as Phi'' of bodies without velocity whose acceleration is w, so that
+// the formulas of the pairs and their derivatives serve here too.
 
-// The loads eta are counted in units of 1 / kLoadUnit, so that the equation of w reads kLoadUnit w + Phi_q^T eta = 0. With a unit of one,
-// elimination would form Phi_q Phi_q^T, which squares the condition number: of small mechanisms, and near singular positions, no digit of
-// the loads is left. A factor as small as the least singular values of Phi_q makes the factorization begin with Phi_q itself.
+/// The factor 10^-4 of theory (23b): eta is counted in units of 1/kLoadUnit, and the rows of w read kLoadUnit w + Phi_q^T eta = 0. With a
+/// factor of one, elimination would form Phi_q Phi_q^T, whose condition number is squared; small mechanisms, and any mechanism near a
+/// singular position, would lose all digits of the loads. A factor of the order of the least singular values of Phi_q makes the
+/// factorization begin with Phi_q itself.
 constexpr double kLoadUnit = 1e-4;
 
+/// 1 if a row is dropped, 0 if it is enforced; a number, since compiled code takes it as an input. The row must have a mu.
 template <class T>
 T is_dropped(const StateView<T>& view, int row) {
   return T(
@@ -23,6 +26,8 @@ T is_dropped(const StateView<T>& view, int row) {
           ->turns[static_cast<std::size_t>(view.layout.drop_slot + view.system.sharing_layout().miss_slot[static_cast<std::size_t>(row)])]);
 }
 
+/// Sets Workspace::displaced to the bodies' positions with w as acceleration, and Workspace::shared_loads to zero. Must be called before
+/// the functions below.
 template <class T>
 void load_sharing(const StateView<T>& view, Workspace<T>* workspace) {
   for (int b : view.system.sharing_layout().bodies) {
@@ -40,6 +45,8 @@ void load_sharing(const StateView<T>& view, Workspace<T>* workspace) {
   }
 }
 
+/// Sets the rows of eta and mu of one constraint row, and subtracts mu from the row Phi'' itself, theory (23), (23b). Must be called after
+/// pair_residual() or coupling_residual() of that row. @param given its Phi_q w.
 template <class T>
 void share_row(const StateView<T>& view, int row, const T& given, VectorX<T>* G) {
   const SharingLayout& at = view.system.sharing_layout();
@@ -54,6 +61,7 @@ void share_row(const StateView<T>& view, int row, const T& given, VectorX<T>* G)
   (*G)[mu] = hold * view.state->z[mu] - drop * apart;
 }
 
+/// share_row() for all rows of a pair; adds the loads Phi_q^T eta to Workspace::shared_loads.
 template <class T>
 void share_pair(const StateView<T>& view, Workspace<T>* workspace, int index, VectorX<T>* G) {
   const Pair& pair = view.system.topology().pairs[static_cast<std::size_t>(index)];
@@ -80,6 +88,7 @@ void share_pair(const StateView<T>& view, Workspace<T>* workspace, int index, Ve
   }
 }
 
+/// share_row() for a coupling; adds its load J_k^T c_k eta to the rows of w.
 template <class T>
 void share_coupling(const StateView<T>& view, Workspace<T>* workspace, int index, VectorX<T>* G) {
   const auto k = static_cast<std::size_t>(index);
@@ -103,6 +112,7 @@ void share_coupling(const StateView<T>& view, Workspace<T>* workspace, int index
   share_row(view, row, given, G);
 }
 
+/// Sets all rows of shared reactions: of w, eta and mu. Must be called after the pairs and the couplings; only if rows are dropped.
 template <class T>
 void sharing_residual(const StateView<T>& view, Workspace<T>* workspace, VectorX<T>* G) {
   const SharingLayout& at = view.system.sharing_layout();

@@ -7,8 +7,11 @@
 
 namespace codesign {
 
-// Derivatives of the rows by which redundant constraints share reactions; theory (23).
+// The derivatives of sharing.h by positions and by the unknowns lambda, w, eta and mu; theory (23), (23b).
 
+/// Adds the derivatives of one entry of Phi_q w in the rows of eta and mu, and of Phi_q^T eta in the row of w.
+/// @param row of Phi. @param local coordinate of the body, 0 to 6. @param by_q, by_w derivatives of the entry. @param moves_q whether it
+/// depends on q at all.
 template <class T, class Sink>
 void assemble_given(const StateView<T>& view, int row, int body, int local, const T& by_q, const T& by_w, bool moves_q, Sink* sink) {
   if (body < 0) return;
@@ -29,6 +32,7 @@ void assemble_given(const StateView<T>& view, int row, int body, int local, cons
   sink->position(mu, q, T(-(drop * by_q)));
 }
 
+/// Adds the derivatives of share_row() by lambda, eta and mu.
 template <class T, class Sink>
 void assemble_shared_row(const StateView<T>& view, int row, Sink* sink) {
   const SharingLayout& at = view.system.sharing_layout();
@@ -46,6 +50,7 @@ void assemble_shared_row(const StateView<T>& view, int row, Sink* sink) {
   sink->rate(mu, lambda, drop);
 }
 
+/// Adds the derivatives of the product rows of a pair, and their loads to Workspace::shared_loads.
 template <class T, class Sink>
 void assemble_shared_products(const StateView<T>& view, Workspace<T>* workspace, int index, Sink* sink) {
   const Pair& pair = view.system.topology().pairs[static_cast<std::size_t>(index)];
@@ -83,6 +88,7 @@ void assemble_shared_products(const StateView<T>& view, Workspace<T>* workspace,
   }
 }
 
+/// Adds the derivatives of share_pair(), and its loads to Workspace::shared_loads.
 template <class T, class Sink>
 void assemble_shared_pair(const StateView<T>& view, Workspace<T>* workspace, int index, Sink* sink) {
   const Pair& pair = view.system.topology().pairs[static_cast<std::size_t>(index)];
@@ -107,6 +113,7 @@ void assemble_shared_pair(const StateView<T>& view, Workspace<T>* workspace, int
   assemble_shared_products(view, workspace, index, sink);
 }
 
+/// Adds the derivatives of share_coupling().
 template <class T, class Sink>
 void assemble_shared_coupling(const StateView<T>& view, Workspace<T>* workspace, int index, Sink* sink) {
   const auto k = static_cast<std::size_t>(index);
@@ -135,6 +142,7 @@ void assemble_shared_coupling(const StateView<T>& view, Workspace<T>* workspace,
   }
 }
 
+/// Adds the derivatives of sharing_residual(); only if rows are dropped.
 template <class T, class Sink>
 void assemble_sharing(const StateView<T>& view, Workspace<T>* workspace, Sink* sink) {
   const SharingLayout& at = view.system.sharing_layout();

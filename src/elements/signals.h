@@ -12,6 +12,10 @@
 
 namespace codesign {
 
+// The values of signals: what controllers, objectives and observers read of a state. Each function returns factor times one term, in the
+// term's SI unit, and appends factor times its gradient if `gradient` is not null.
+
+/// Position, velocity or acceleration of a joint coordinate, theory (8).
 template <class T>
 T joint_term(const StateView<T>& view, const SignalReference& term, const T& factor, OptionalGradient<T> gradient) {
   const bool position = term.kind == SignalKind::kJointPosition;
@@ -35,6 +39,7 @@ T joint_term(const StateView<T>& view, const SignalReference& term, const T& fac
   }
 }
 
+/// One component of the position, velocity or acceleration of a link's origin, or of its angular velocity, in ground axes.
 template <class T>
 T link_term(const StateView<T>& view, const SignalReference& term, const T& factor, OptionalGradient<T> gradient) {
   const int index = view.system.topology().link_body[static_cast<std::size_t>(term.link)], c = kBodySize * index;
@@ -45,7 +50,8 @@ T link_term(const StateView<T>& view, const SignalReference& term, const T& fact
   if (gradient && index >= 0) {
     typename SparseGradient<T>::Entries* const variables[3] = {&gradient->position, &gradient->velocity, &gradient->rate};
     if (!turning) variables[order]->push_back({c + term.axis, factor});
-    // The value is linear in the highest derivative of p, with B0; each lower one has the binomial coefficient.
+    // x = A(p) s has x' = B(p) p' and x'' = B(p) p'' + B(p') p' with B linear. So the derivative of x^(n) by p^(k) is the binomial
+    // coefficient (n over k) times B(p^(n-k)); likewise omega = 2 E(p) p', with -2 E(p') as its derivative by p.
     const Matrix34<T> B0 = turning ? Matrix34<T>(2.0 * ground_rate_matrix(k.p)) : rotated_vector_jacobian(k.p, s);
     const Matrix34<T> B1 = turning ? Matrix34<T>(T(-2.0) * ground_rate_matrix(k.pd)) : rotated_vector_jacobian(k.pd, s);
     const Matrix34<T> B2 = rotated_vector_jacobian(k.pdd, s);
@@ -61,7 +67,7 @@ T link_term(const StateView<T>& view, const SignalReference& term, const T& fact
   return factor * x[term.axis];
 }
 
-// The link's quaternion is that of its body times a constant one, so that it is linear in p.
+/// One component of a link's quaternion in the root's axes. It is the body's p times a constant quaternion, so the term is linear in p.
 template <class T>
 T orientation_term(const StateView<T>& view, const SignalReference& term, const T& factor, OptionalGradient<T> gradient) {
   const int index = view.system.topology().link_body[static_cast<std::size_t>(term.link)];
@@ -76,6 +82,7 @@ T orientation_term(const StateView<T>& view, const SignalReference& term, const 
   return factor * value;
 }
 
+/// The applied effort of a joint, positive along its coordinate, or its friction on the child, -L of theory (13).
 template <class T>
 T load_term(const StateView<T>& view, const SignalReference& term, const T& factor, OptionalGradient<T> gradient) {
   T sum(0.0);
@@ -87,7 +94,7 @@ T load_term(const StateView<T>& view, const SignalReference& term, const T& fact
       if (gradient) gradient->scale_from(before, factor);
       continue;
     }
-    // A copy without the list of controllers takes no memory.
+    // A copy of `load` would copy its lists too, which allocates.
     JointLoad friction;
     friction.pair = load.pair;
     friction.element = load.element;
@@ -101,13 +108,14 @@ T load_term(const StateView<T>& view, const SignalReference& term, const T& fact
   return sum;
 }
 
+/// Isotropic friction of a pair, minus its magnitude, or its speed of slip; theory (13a).
 template <class T>
 T contact_term(const StateView<T>& view, const SignalReference& term, const T& factor, OptionalGradient<T> gradient) {
   const ContactFriction<T> c = contact_at(view, term.pair);
   const bool friction = term.kind == SignalKind::kContactFriction;
   const T length = friction ? c.magnitude() : c.speed();
   if (gradient) {
-    // At rest the length has no derivative; zero is taken for it, as length_of() does.
+    // At rest the length has no derivative; zero takes its place, as in length_of().
     const T scale = is_less(T(0.0), length, true) ? T((friction ? -factor : factor) / length) : T(0.0);
     for (std::size_t k = 0; k < c.reported; ++k) {
       const T load = c.load[static_cast<Eigen::Index>(k)];
@@ -118,6 +126,7 @@ T contact_term(const StateView<T>& view, const SignalReference& term, const T& f
   return friction ? T(-factor * length) : T(factor * length);
 }
 
+/// An energy [J] or a power [W] of the whole mechanism, or a power of one joint, theory (14b), (14c); without a factor.
 template <class T>
 T energy_or_power(const StateView<T>& view, const SignalReference& term, OptionalGradient<T> gradient) {
   const auto power_of = [&](PowerKind kind) {
@@ -139,11 +148,12 @@ T energy_or_power(const StateView<T>& view, const SignalReference& term, Optiona
     default:
       break;
   }
-  // In this order for every scalar, as the gradient's entries are found again by it.
+  // Two statements, because the order in which entries are appended must not depend on the compiler: an assembly is recorded once.
   const T kinetic = kinetic_energy(view, gradient);
   return kinetic + potential_energy(view, gradient);
 }
 
+/// Any term of a signal.
 template <class T>
 T term_value(const StateView<T>& view, const SignalReference& term, const T& factor, OptionalGradient<T> gradient) {
   const auto before = mark(gradient);
@@ -202,6 +212,7 @@ T term_value(const StateView<T>& view, const SignalReference& term, const T& fac
   }
 }
 
+/// factor times a signal, the sum of its terms. Appends factor times its gradient.
 template <class T>
 T signal_value(const StateView<T>& view, const Signal& signal, const T& factor, OptionalGradient<T> gradient) {
   T sum(0.0);

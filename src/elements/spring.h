@@ -11,11 +11,10 @@
 
 namespace codesign {
 
-// Spring-dampers between two points, theory (13b). Their pull enters as the load of a multiplier does, theory (7), so that it must be added
-// before the bodies are assembled.
+// Spring-dampers between two points, theory (13b). The force F, which acts with + on body i and - on body j, enters the equations as the
+// load of a multiplier does, theory (7).
 
-// Spring-dampers between two points, theory (13b). Their pull enters as the load of a multiplier does, theory (7), so that it must be added
-// before the bodies are assembled.
+/// The force of the k-th spring-damper of the model at the loaded state, with its derivatives.
 template <class T>
 SpringForce<T> spring_at(const StateView<T>& view, std::size_t k) {
   const SpringDamperConstants<T>& c = view.design.constants.springs[k];
@@ -23,18 +22,22 @@ SpringForce<T> spring_at(const StateView<T>& view, std::size_t k) {
   return spring_damper<T>(d.x, d.xd, c.stiffness, c.damping, c.free_length);
 }
 
+/// Adds the force of a spring-damper to Workspace::loads. Must be called before body_residual().
 template <class T>
 void add_spring_load(const StateView<T>& view, Workspace<T>* workspace, std::size_t k, const SpringForce<T>& force) {
   const SpringDamperConstants<T>& c = view.design.constants.springs[k];
   add_vector_load(PairVector<T>::displacement(c.s_i, c.s_j), force.pull, workspace->load_on(c.body_i), workspace->load_on(c.body_j));
 }
 
+/// The two ends of a spring-damper, i then j, with the Jacobians of d.
 template <class T>
 std::array<internal::SpringEnd<T>, 2> spring_ends(const StateView<T>& view, std::size_t k) {
   const SpringDamperConstants<T>& c = view.design.constants.springs[k];
   return {internal::SpringEnd<T>{c.body_i, view.body(c.body_i), c.s_i, T(-1.0)}, {c.body_j, view.body(c.body_j), c.s_j, T(1.0)}};
 }
 
+/// Adds the force of a spring-damper to Workspace::loads, and its derivatives by d and d' to the rows of motion; assemble_body() must
+/// follow.
 template <class T, class Sink>
 void assemble_spring(const StateView<T>& view, Workspace<T>* workspace, std::size_t k, Sink* sink) {
   const Quantity& damping = view.system.robot().spring_dampers[k].damping;
@@ -56,6 +59,7 @@ void assemble_spring(const StateView<T>& view, Workspace<T>* workspace, std::siz
   }
 }
 
+/// The elastic energy k (l - l_0)^2/2 of a spring-damper [J]. Appends its gradient by positions.
 template <class T>
 T spring_energy_at(const StateView<T>& view, std::size_t k, OptionalGradient<T> gradient) {
   const SpringDamperConstants<T>& c = view.design.constants.springs[k];
@@ -67,7 +71,7 @@ T spring_energy_at(const StateView<T>& view, std::size_t k, OptionalGradient<T> 
   return codesign::spring_energy<T>(d, c.stiffness, c.free_length);
 }
 
-// The damper alone: c l' against l'.
+/// The power -c l'^2 of the damper [W], never positive. Appends its gradient by positions and velocities.
 template <class T>
 T spring_power(const StateView<T>& view, std::size_t k, OptionalGradient<T> gradient) {
   using std::sqrt;

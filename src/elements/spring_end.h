@@ -9,10 +9,11 @@
 namespace codesign {
 namespace internal {
 
-/// One end of a spring: its Jacobian D = +-[I, B(p, s)] and the part of d' that moves with the positions, +-[0, B(p', s)].
+/// One end of a spring-damper with the Jacobians of d, the vector from the first end to the second, theory (13b), by the coordinates of its
+/// body: D = d_q = +-[I, B(p, s)] and Dd = (d')_q = +-[0, B(p', s)], with the minus sign for body i.
 template <class T>
 struct SpringEnd {
-  int column = -1;  ///< of the body's coordinates; -1 on the ground
+  int column = -1;  ///< first coordinate of the body; -1 for the ground
   Eigen::Matrix<T, 3, kBodySize> D, Dd;
 
   SpringEnd(int body_index, const BodyKinematics<T>& body, const Vector3<T>& s, const T& sign)
@@ -23,7 +24,7 @@ struct SpringEnd {
     Dd.template rightCols<4>() = sign * rotated_vector_jacobian(body.pd, s);
   }
 
-  /// Appends the gradient of b . d over this body's coordinates, by D or by Dd.
+  /// Appends the gradient of b . d by this body's coordinates. @param jacobian D or Dd.
   void append(const Eigen::Matrix<T, 3, kBodySize>& jacobian, const Vector3<T>& b, typename SparseGradient<T>::Entries* entries) const {
     for (int k = 0; column >= 0 && k < kBodySize; ++k) entries->push_back({column + k, dot<T>(jacobian.col(k), b)});
   }

@@ -14,61 +14,70 @@
 
 namespace codesign {
 
-/// Memory that controllers compute in: one entry per node of the largest driven tree, rates where rotors need them.
+/// Workspace of the controllers that use inverse dynamics, theory (C4). The vectors have one entry per node of the largest driven tree.
 template <class T>
 struct ControlMemory {
   std::vector<InverseDynamics<T>> inverse_dynamics;  ///< per controller
+  /// alpha of (C6) and the derivative of the load by it; joint rates (set only for nodes with a rotor) and the derivative by them.
   std::vector<T> accelerations, by_acceleration, rates, by_rate;
 };
 
-/// A coordinate's motion, kept for the elements that ask for it at the same state.
+/// The motion of one joint coordinate, kept while design and state stay the same, because several elements ask for it.
 template <class T>
 struct KnownCoordinate {
-  std::uint64_t version = 0;
+  std::uint64_t version = 0;  ///< StateView::version when it was computed
   CoordinateDetail detail = CoordinateDetail::kRate;
   CoordinateMotion<T> motion;
 };
 
-/// All that elements read: the system, the numbers of one design, and the bodies' motion at one state. Elements get it const; Formulas
-/// loads designs and states. Not thread-safe: motions of coordinates are computed when they are first asked for.
+/// Everything that the elements read: the system, the constants of one design, and the motion of the bodies at one state.
+///
+/// Formulas sets the design and loads the state; the elements get the view as const. Order: set_design(), then load() for each state, then
+/// any number of elements. Not thread-safe, although const: motions of joint coordinates are computed when an element first asks for them.
+/// No allocation after set_design().
 template <class T>
 struct StateView {
+  /// @param of must outlive the view.
   explicit StateView(const System& of);
 
-  /// Takes the numbers of another design.
+  /// Evaluates all constants at `parameters` (all named parameters, order of Study::parameters). Allocates.
   void set_design(const std::vector<T>& parameters);
-  /// Takes another state, which must outlive its use.
+  /// Computes the motion of all bodies from q, v and the accelerations in z. @param at is kept as a pointer: it must stay alive and
+  /// unchanged while the view is read.
   void load(const State<T>& at);
-  /// A body's motion; -1 is the ground, a body at rest.
+  /// The motion of a body; -1 is the ground, a body at rest.
   const BodyKinematics<T>& body(int index) const { return kinematics[static_cast<std::size_t>(index < 0 ? layout.bodies : index)]; }
-  /// Global column of a local coordinate of a pair, or -1 on the ground.
+  /// The entry of q that belongs to one of the 14 local coordinates [r_i, p_i, r_j, p_j] of a pair; -1 if that body is the ground. The
+  /// same index is the row of motion in G and the column of the velocity and of the acceleration.
   int column(int pair, int local) const { return columns[static_cast<std::size_t>(pair)][static_cast<std::size_t>(local)]; }
+  /// The constants of a joint coordinate. @param element index in the pair's chain; a cylindrical loop has 0 (turn) and 1 (slide).
   const CoordinateConstants<T>& coordinate_constants(int pair, int element) const {
     return design.constants.pairs[static_cast<std::size_t>(pair)].coordinates[static_cast<std::size_t>(element)];
   }
-  /// Whether a coordinate depends on the bodies' r, as that of a slide does.
+  /// Whether a coordinate depends on r of the bodies. Only slides do; the entries of J by r are zero for all others.
   bool coordinate_moves_r(int pair, int element) const {
     return coordinate_constants(pair, element).kind == CoordinateConstants<T>::Kind::kSlide;
   }
-  /// The motion of a joint coordinate, as far as `detail` says.
+  /// The motion of a joint coordinate, theory (8), with the members that `detail` includes; the position counts whole turns. The object
+  /// behind the reference is overwritten when another state is loaded, or when more detail of the same coordinate is asked for.
   const CoordinateMotion<T>& coordinate(int pair, int element, CoordinateDetail detail = CoordinateDetail::kAll) const;
-  /// The position of a joint coordinate [m or rad], whole turns counted.
+  /// The position of a joint coordinate [m or rad], whole turns counted, when its rate and gradients are not needed.
   T coordinate_value(int pair, int element) const;
 
   const System& system;
   const Layout& layout;
   Design<T> design;
-  std::vector<std::array<int, kLocalSize>> columns;  ///< of each pair's local coordinates
-  const State<T>* state = nullptr;
-  std::vector<BodyKinematics<T>> kinematics;  ///< the ground last
+  std::vector<std::array<int, kLocalSize>> columns;  ///< per pair, see column()
+  const State<T>* state = nullptr;                   ///< set by load(); time, extra states, multipliers and turns are read from it
+  std::vector<BodyKinematics<T>> kinematics;         ///< one per body, the ground last
   mutable ControlMemory<T> control;
 
  private:
-  /// What to add to a position so that it continues its reference.
+  /// The multiple of 2 pi [rad] that brings a position nearest to its turn reference; zero for slides.
   T whole_turns(int pair, int element, const T& position) const;
 
   mutable std::vector<std::vector<KnownCoordinate<T>>> coordinates;  ///< per pair and chain element
-  std::uint64_t version = 0;                                         ///< of what coordinates depend on
+  std::uint64_t version = 0;                                         ///< counts changes of design and state
 };
 
 template <class T>

@@ -10,7 +10,11 @@
 
 namespace codesign {
 
-/// What elements write while the equations are evaluated: loads on bodies that several elements add to, and memory for gradients.
+/// Memory that the elements write to during one evaluation of the equations: the loads on the bodies, which several elements add up, and
+/// the gradient of the current element.
+///
+/// Order within one evaluation: clear_loads(); then every element that adds loads (pairs, spring-dampers, constant loads on links); then
+/// the bodies, which turn the sums into rows of the residual or of its derivatives, theory (7).
 template <class T>
 struct Workspace {
   explicit Workspace(const System& system) {
@@ -21,24 +25,30 @@ struct Workspace {
     displaced.back().at_rest = true;
   }
 
-  /// To be called before the first element adds to the loads.
+  /// Sets `loads` to zero, before the first element adds to them.
   void clear_loads() {
     for (BodyLoad<T>& load : loads) {
       load.force.setZero();
       load.W.setZero();
     }
   }
-  /// Null for the ground.
+  /// The sum of loads on a body, to be added to; null for the ground, whose loads nothing needs.
   BodyLoad<T>* load_on(int body) { return body < 0 ? nullptr : &loads[static_cast<std::size_t>(body)]; }
+  /// The same for `shared_loads`.
   BodyLoad<T>* shared_load_on(int body) { return body < 0 ? nullptr : &shared_loads[static_cast<std::size_t>(body)]; }
+  /// A body of `displaced`; -1 is the ground.
   const BodyKinematics<T>& displaced_body(int body) const {
     return body < 0 ? displaced.back() : displaced[static_cast<std::size_t>(body)];
   }
 
-  std::vector<BodyLoad<T>> loads;            ///< per body, of multipliers, springs and constant forces
-  std::vector<BodyLoad<T>> shared_loads;     ///< per body, of the loads eta; theory (23)
-  std::vector<BodyKinematics<T>> displaced;  ///< bodies at rest with the displacements w as accelerations, the ground last; theory (23)
-  SparseGradient<T> gradient;                ///< of the element that is being assembled
+  /// Per body: f and W of multipliers, spring-dampers and constant forces. They are terms of G, on the left, so the body feels -f.
+  std::vector<BodyLoad<T>> loads;
+  /// Per body: f and W of the unknowns eta of shared reactions, theory (23b). Empty if no row is dropped, as is `displaced`.
+  std::vector<BodyLoad<T>> shared_loads;
+  /// Per body, the ground last: its position without velocity, and the displacement w of (23b) in place of the acceleration.
+  std::vector<BodyKinematics<T>> displaced;
+  /// Gradient of the scalar that the current element computes; each assemble_... function clears it before use.
+  SparseGradient<T> gradient;
 };
 
 }  // namespace codesign

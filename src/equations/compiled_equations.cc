@@ -109,7 +109,7 @@ const CompiledFunction* CompiledEquations<T>::begin(EquationFunction function, b
   return code;
 }
 
-// Lanes of values and directions that stand in one array are read as its numbers.
+// A Lanes<N> is 1 + N doubles in a row, value first; the code reads arrays of them as arrays of doubles.
 template <class T>
 bool CompiledEquations<T>::run(EquationFunction function, double t, const std::vector<double>& turns, const T* const (&state)[4],
                                T* const (&results)[4]) {

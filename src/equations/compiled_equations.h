@@ -23,58 +23,70 @@ class EquationCode;
 struct CompiledFunction;
 struct NumberedRecording;
 
-/// The equations of one design run as code that was compiled for their mechanism; the same numbers as Equations gives, but for rounding.
-/// T: double or Lanes<N>. No allocation once warm; not thread-safe.
+/// The equations of one design, evaluated by machine code that was compiled for their mechanism (EquationCode). The results are those of
+/// Formulas but for rounding. T: double or Lanes<N>. No allocation after the first evaluation; not thread-safe.
+///
+/// The recording holds one branch of each decision. Every evaluation compares its decisions with the recorded ones and fails if one
+/// differs; Equations then evaluates the formulas.
 template <class T>
 class CompiledEquations {
  public:
   explicit CompiledEquations(const CompiledSystem& system) : system_(system) {}
 
+  /// Takes the values of all named parameters; the constants are evaluated when a function is first called.
   void set_design(const std::vector<T>& parameters);
-  /// False: leaves everything to Equations.
+  /// With false every function returns false at once, so that the formulas are used.
   void allow(bool allowed) { allowed_ = allowed; }
 
-  // As the functions of Equations. False where there is no code, or the state asks for a branch that was not recorded: then nothing is
-  // said about the results.
+  /// The functions of Equations of the same name. False if there is no code, or if the state needs a branch that was not recorded; the
+  /// results are then undefined.
   bool residual(const State<T>& state, VectorX<T>* G, T* g);
   bool linearize(const State<T>& state, Linearization<T>* derivatives);
   bool constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
 
-  /// Derivatives alone, N side by side for each number, where values and directions stand in arrays of their own; only of Lanes<N>.
-  /// @param values, directions of q, v, s and z, @param results as EquationFunction lists them.
+  /// The derivatives of one function along N directions of state and design, for T = Lanes<N> only; false as above, and for T = double. The
+  /// directions of the design are those of the parameters given to set_design().
+  /// @param turns State::turns. @param values of q, v, s and z. @param directions of the same vectors, N numbers side by side per entry.
+  /// @param results one array per result in the order of EquationFunction, N numbers side by side per entry.
   bool tangents(EquationFunction function, double t, const std::vector<double>& turns, const double* const (&values)[4],
                 const double* const (&directions)[4], double* const (&results)[4]);
 
  private:
+  /// Fetches the code and evaluates the constants of a new design. False if the code cannot be used for it.
   bool prepare();
-  /// Evaluates what depends on the design alone; false if a branch was not recorded for it.
+  /// Evaluates the recorded numbers that depend on the design alone; false if the design needs a branch that was not recorded.
   bool fill_numbers();
+  /// Evaluates the functions of time at `t` and copies the turn references to the code's inputs.
   void set_instant(double t, const std::vector<double>& turns);
 
-  /// Evaluations of a function whose branch was not recorded. After some in a row the code is not tried for a while.
+  /// Counts evaluations of a function that failed for a branch that was not recorded. After a few in a row the code is not tried for a
+  /// while, since a failed evaluation costs time.
   struct Misses {
     int in_a_row = 0, pause = 0;
   };
+  /// Whether the pause after failures is over; counts it down.
   bool is_worth_trying(EquationFunction function);
+  /// Counts the outcome of an evaluation and returns it.
   bool note(EquationFunction function, bool recorded);
 
-  /// The code of a function, made ready for an instant; null if there is none, or it had better not be tried.
+  /// The code of a function with its inputs set for an instant; null if there is none or the pause is not over.
   const CompiledFunction* begin(EquationFunction function, bool split, double t, const std::vector<double>& turns);
   bool run(EquationFunction function, double t, const std::vector<double>& turns, const T* const (&state)[4], T* const (&results)[4]);
 
   const CompiledSystem& system_;
   std::vector<T> parameters_;
   bool allowed_ = true;
-  bool known_ = false;  ///< whether code_ and numbers_ are those of parameters_
+  bool known_ = false;  ///< whether code_ and numbers_ belong to parameters_
   const EquationCode* code_ = nullptr;
   const NumberedRecording* numbered_ = nullptr;
-  std::vector<T> numbers_;
-  std::vector<std::variant<Reference<T>, ShapedInput<T>>> functions_;  ///< of time
-  std::array<Misses, 3> misses_;
-  LineVector slots_, rows_;
+  std::vector<T> numbers_;                                             ///< array EquationArrays::kNumbers
+  std::vector<std::variant<Reference<T>, ShapedInput<T>>> functions_;  ///< functions of time, order of the recording
+  std::array<Misses, 3> misses_;                                       ///< per EquationFunction
+  LineVector slots_, rows_;                                            ///< workspace of the code
 };
 
-/// For scalars that are only computed with to check others, or to record.
+/// The interface of CompiledEquations for scalars without code: complex numbers, which serve checks, and Traced, which records. Every
+/// function returns false.
 template <class T>
 class NoCompiledEquations {
  public:
@@ -94,6 +106,7 @@ class NoCompiledEquations {
   }
 };
 
+/// CompiledEquations where T has code, else NoCompiledEquations.
 template <class T>
 using CompiledEquationsOf =
     std::conditional_t<std::is_same_v<T, std::complex<double>> || std::is_same_v<T, Traced>, NoCompiledEquations<T>, CompiledEquations<T>>;

@@ -12,19 +12,22 @@ namespace codesign {
 class EquationCode;
 class LazyEquationCode;
 
-/// A system with what all evaluations of its equations share: the sparsity of their derivatives, and their machine code. Immutable,
-/// thread-safe.
+/// A System with everything that is made once for its equations and shared by all designs and threads: the sparsity patterns of their
+/// derivatives, and their machine code. Immutable and thread-safe. make_system() builds one from a model and a study.
 class CompiledSystem final : public System {
  public:
-  /// @param sharing how redundant constraints share reactions; theory (23).
-  /// @throws InputError for a mechanism or a study without equations of motion.
+  /// @param sharing which redundant rows are dropped and which share reactions, theory (23); by default none.
+  /// @throws InputError for a mechanism or a study without equations of motion, as System::System().
   CompiledSystem(const RobotDescription& robot, const Study& study, ReactionSharing sharing = {});
   ~CompiledSystem();
 
+  /// The patterns, and the nonzero that each call of Formulas::assemble() adds to.
   const AssemblyPlan& plan() const { return plan_; }
+  /// The patterns of G_q and G_s (position), G_v (velocity) and G_z (rate), with one more row for the integrand g.
   const ByVariable<Sparsity>& patterns() const { return plan_.patterns; }
 
-  /// The machine code of the equations, compiled by the first call; null where there is none. Thread-safe.
+  /// The machine code of the equations, recorded by the first call. Null on processors for which no code can be made, for very large
+  /// systems, and for equations that could not be recorded. Thread-safe.
   const EquationCode* equation_code() const;
 
  private:

@@ -10,7 +10,7 @@ void directional_derivative(const CompiledSystem& system, const Linearization<do
   const ByVariable<Sparsity>& patterns = system.patterns();
   const Layout& layout = system.layout();
   result->resize(patterns.rate.rows);
-  // Positions are (q, s); only these few lie apart.
+  // Columns of `position` are (q, s), which State keeps in two vectors, so row_product() does not serve.
   for (int row = 0; row < patterns.rate.rows; ++row) {
     double sum =
         row_product(patterns.velocity, d.velocity, row, direction.v.data()) + row_product(patterns.rate, d.rate, row, direction.z.data());

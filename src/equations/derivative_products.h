@@ -8,13 +8,13 @@
 
 namespace codesign {
 
-/// Derivative of (G, g) along a direction (q, s, v, z) of the state, G_q q + G_s s + G_v v + G_z z and the same of g behind it.
-/// @param result columns() + 1 entries, overwritten.
+/// The derivative of (G, g), theory (14), along a direction of the state: G_q q + G_s s + G_v v + G_z z; the last entry is the derivative
+/// of g. The time of `direction` is ignored.
+/// @param result resized to Layout::columns() + 1 and overwritten.
 void directional_derivative(const CompiledSystem& system, const Linearization<double>& derivatives, const State<double>& direction,
                             VectorX<double>* result);
 
-/// result -= factor * G_q q, on columns() entries.
-/// @param q n entries.
+/// result -= factor * G_q q. @param q n entries. @param result Layout::columns() entries; g has none.
 void subtract_position_product(const CompiledSystem& system, const Linearization<double>& derivatives, const double* q, double factor,
                                double* result);
 

@@ -12,11 +12,11 @@ namespace {
 
 using Arrays = EquationArrays;
 
-// Beyond these, code is longer than caches, and takes seconds to make.
+// Larger systems are not compiled: their code exceeds the processor's caches and takes seconds to make.
 constexpr int kMostColumns = 4000;
 constexpr std::size_t kMostBytes = 16 * 1024 * 1024;
 
-constexpr int kTurns = Recording::kTimed + 1;  // array of the leaves that count turns
+constexpr int kTurns = Recording::kTimed + 1;  // array of the leaves that are turn references
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
@@ -24,18 +24,20 @@ void leaves(int array, Recording* recording, VectorX<Traced>* x) {
   for (int k = 0; k < x->size(); ++k) (*x)[k] = Traced(recording, recording->leaf(array, k, true));
 }
 
-/// A place of the arrays as doubles: Lanes lie lanes + 1 numbers apart.
+/// The place of an entry in an array of Lanes, as an index of doubles: each entry takes lanes + 1 of them. The code's own workspaces are
+/// counted in doubles already.
 Place spread(const Place& place, int lanes) {
   if (place.array < 0 || place.array >= Arrays::kSlots) return place;
   return {place.array, place.index * (lanes + 1)};
 }
 
-/// Comes with the design or the instant.
+/// Whether a node is an entry of kNumbers: it depends on design, time or a turn reference, not on the state.
 bool is_number(const Recording::Node& node) {
   return !node.varies || (node.operation == Operation::kLeaf && node.a >= Recording::kSupplied);
 }
 
-/// Whether a derivative is given. What does not vary is a leaf to the tangents: its derivative is found with the design.
+/// Whether the derivative of a node is an input of the tangent code. Entries of the state and functions of time are, and so are nodes that
+/// depend on the design alone: their derivatives are computed with the design. Turn references and literals have no derivative.
 bool is_tangent_leaf(const Recording::Node& node) {
   return node.operation == Operation::kLeaf ? node.a != kTurns : !node.varies && node.operation != Operation::kLiteral;
 }
@@ -54,7 +56,7 @@ EquationCode::EquationCode(const System& system, const AssemblyPlan& plan) {
 void EquationCode::record(const System& system, const AssemblyPlan& plan) {
   Recording* const recording = &values_.recording;
   Formulas<Traced> formulas(system);
-  // One more than there are, so that a model without parameters finds the recording too.
+  // One parameter more than there are: with a model without parameters nothing else would refer to the recording.
   const int parameter = recording->leaf(Recording::kSupplied, -1, false);
   std::vector<Traced> parameters;
   for (double value : system.parameters()) parameters.emplace_back(recording, parameter, value);
@@ -64,7 +66,8 @@ void EquationCode::record(const System& system, const AssemblyPlan& plan) {
   state.resize(system.layout());
   for (std::size_t k = 0; k < state.turns.size(); ++k)
     state.turns[k] = Traced(recording, recording->leaf(kTurns, static_cast<int>(k), true));
-  state.t = std::numeric_limits<double>::quiet_NaN();  // only functions of time may depend on it
+  state.t = std::numeric_limits<double>::quiet_NaN();  // results must depend on time through functions of time alone: a NaN that is used
+                                                       // refuses the recording
   leaves(Arrays::kQ, recording, &state.q), leaves(Arrays::kV, recording, &state.v);
   leaves(Arrays::kS, recording, &state.s), leaves(Arrays::kZ, recording, &state.z);
 
@@ -161,7 +164,8 @@ const CompiledFunction* EquationCode::function(EquationFunction function, const 
   return known.code.get();
 }
 
-// Factors that are read off the state are copied where the sums find them too.
+// Tangents are sums of products, factor times derivative. With a split scalar the state's arrays hold directions while the tangents run, so
+// factors that are entries of the state are copied to slots before.
 ValueTask EquationCode::value_task(std::size_t function, const Scalar& scalar, std::vector<Place>* value_places) const {
   const NumberedRecording& from = numbered(scalar.lanes > 0);
   ValueTask task;

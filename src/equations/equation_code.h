@@ -19,67 +19,74 @@
 
 namespace codesign {
 
-/// The arrays that the code of the equations works on: the state, numbers that come with the design or the instant, results, and what only
-/// the code itself reads.
+/// The arrays that the compiled code reads and writes, by index: the state q, v, s, z; numbers that depend on design, time and turn
+/// references; up to four results (see EquationFunction); and two workspaces of the code.
 struct EquationArrays {
   static constexpr int kQ = 0, kV = 1, kS = 2, kZ = 3, kNumbers = 4, kResults = 5, kSlots = 9, kRows = 10;
 };
 
-/// One function compiled for one scalar: values, and for Lanes their derivatives.
+/// One function compiled for one scalar: code for the values and, for Lanes, code for the derivatives, which runs after it.
 struct CompiledFunction {
   std::unique_ptr<ValueCode> values;
   std::unique_ptr<StraightLine> tangents;
-  std::size_t slots = 0, rows = 0;  ///< numbers needed beside the results
+  std::size_t slots = 0, rows = 0;  ///< sizes of the workspaces kSlots and kRows [doubles]
 };
 
-/// A recording with a place for the number of each node that is not computed by the code itself.
+/// A recording, and the array and index of each of its nodes that the code reads as an input: entries of the state, and numbers that depend
+/// on the design, the time or a turn reference only.
 struct NumberedRecording {
   Recording recording;
-  std::array<std::unique_ptr<TangentProgram>, 3> tangents;  ///< of each EquationFunction, where derivatives were asked for
-  std::vector<int> numbers;                                 ///< the nodes that array kNumbers holds, in its order
-  std::vector<Place> homes;                                 ///< per node
+  std::array<std::unique_ptr<TangentProgram>, 3> tangents;  ///< per EquationFunction; null without derivatives
+  std::vector<int> numbers;                                 ///< the nodes of array kNumbers, in its order
+  std::vector<Place> homes;                                 ///< per node: its array and index; array -1 if the code computes it
 
-  /// First entry of kNumbers of each function of time (-1 if its derivative of that order is not used), and of each position's turns.
+  /// Per function of time, the entry of kNumbers of its value and of each of its derivatives; -1 if it is not used.
   std::vector<std::array<int, Recording::kFunctionOrders>> functions;
-  std::vector<std::array<int, 2>> turns;  ///< entry of State::turns, entry of kNumbers
+  std::vector<std::array<int, 2>> turns;  ///< per turn reference that is used: entry of State::turns, entry of kNumbers
 
+  /// Fills the members above from `recording`.
   void number_nodes();
 };
 
-/// The equations of one mechanism and study, recorded once; their derivatives, and code for each scalar, are made when they are first asked
-/// for. Immutable beside that, thread-safe, shared by all designs.
+/// The machine code of the equations of one mechanism and study, shared by all designs. The constructor records the formulas once, with the
+/// scalar Traced; the derivatives of the recording, and the code for each scalar, are made when they are first asked for. Thread-safe.
 class EquationCode {
  public:
-  /// For which scalar code is compiled.
+  /// The scalar that code is compiled for.
   struct Scalar {
     int lanes;   ///< 0 for double
-    bool split;  ///< derivatives alone, with the state's values and directions in arrays of their own
+    bool split;  ///< only derivatives are computed, from values and directions of the state in separate arrays
   };
 
-  /// Records the equations.
+  /// Records the equations. @param plan of record_assembly() for the same system.
   EquationCode(const System& system, const AssemblyPlan& plan);
 
-  /// Whether they could be recorded.
+  /// Whether the equations could be recorded: code can be made for this processor, the system is not too
+  /// large, and every decision of the formulas could be recorded as a guard.
   bool usable() const { return !values_.recording.refused(); }
-  /// Null if there is no code. Of split scalars, kQ to kZ are values to the one part and directions to the other.
+  /// The code of one function, compiled by the first call; null if that fails. For a split scalar the arrays kQ to kZ hold the state's
+  /// values while CompiledFunction::values runs, and the directions while `tangents` runs.
   const CompiledFunction* function(EquationFunction function, const Scalar& scalar) const;
 
-  /// What the code of values, or of values and derivatives, was made from.
+  /// The recording behind the code for values, or for values and derivatives.
   const NumberedRecording& numbered(bool with_derivatives) const;
-  /// Decisions that depend on the design alone.
+  /// The recorded decisions that depend on the design alone; the code may run only for designs with the same outcomes.
   const std::vector<Recording::Guard>& design_guards() const { return design_guards_; }
 
  private:
   static constexpr std::size_t kFunctions = 3;
 
+  /// The results of one function and the decisions that were made on the way to them.
   struct Recorded {
     std::vector<ValueTask::Output> outputs;
     std::vector<Recording::Guard> guards;
   };
   void record(const System& system, const AssemblyPlan& plan);
+  /// Sorts the guards of the recording from index `first` on: those that vary with the state to `function`, the others to design_guards_.
   void take_guards(std::size_t first, Recorded* function);
-  /// Notes what a function gave, and the guards from the first that is not noted yet on.
+  /// Keeps the results of a function and its guards. @param guards index of its first guard; moved behind its last one.
   void take(EquationFunction function, const std::vector<const VectorX<Traced>*>& results, std::size_t* guards);
+  /// Makes derivatives_ from values_.
   void differentiate() const;
   std::unique_ptr<CompiledFunction> compile(std::size_t function, const Scalar& scalar) const;
   ValueTask value_task(std::size_t function, const Scalar& scalar, std::vector<Place>* value_places) const;
@@ -90,18 +97,19 @@ class EquationCode {
   std::vector<Recording::Guard> design_guards_;
 
   mutable std::once_flag differentiated_;
-  mutable NumberedRecording derivatives_;  ///< values_ and what derivatives take besides
+  mutable NumberedRecording derivatives_;  ///< the nodes of values_, then those that derivatives need
   struct Known {
-    std::atomic<bool> tried{false};
+    std::atomic<bool> tried{false};  ///< compiled, or failed to compile
     std::unique_ptr<CompiledFunction> code;
   };
   mutable std::mutex mutex_;
-  mutable std::array<std::array<Known, 5>, kFunctions> known_;  ///< for double, Lanes<4>, Lanes<8>, and these split
+  mutable std::array<std::array<Known, 5>, kFunctions> known_;  ///< per function: double, Lanes<4>, Lanes<8>, then the two split ones
 };
 
-/// Records when first asked.
+/// An EquationCode that is recorded by the first call of get(), since many systems are only checked.
 class LazyEquationCode {
  public:
+  /// Null if the equations cannot be recorded. Thread-safe.
   const EquationCode* get(const System& system, const AssemblyPlan& plan) {
     std::call_once(once_, [&] { code_ = std::make_unique<EquationCode>(system, plan); });
     return code_->usable() ? code_.get() : nullptr;

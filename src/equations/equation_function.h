@@ -4,7 +4,7 @@
 
 namespace codesign {
 
-/// The functions of the equations that are compiled, with the arrays of their results.
+/// The compiled functions of Equations; each enumerator lists the arrays of results, in order.
 enum class EquationFunction {
   kResidual,         ///< G, g
   kLinearization,    ///< G_q, G_v, G_z, G_t

@@ -10,43 +10,46 @@
 
 namespace codesign {
 
-/// The equations of motion of one design, doc/theory.md (14): the formulas, and in their place the code that was compiled for this
-/// mechanism wherever it can run. T: double, std::complex<double> or Lanes<N>. No allocation once warm; not thread-safe.
+/// The equations of motion of one design, doc/theory.md (14), as integrators and sensitivities use them. residual(), linearize() and
+/// constraint_errors() run the machine code compiled for this mechanism where they can, else the Formulas; both give the same numbers but
+/// for rounding. T: double, std::complex<double> or Lanes<N>. Call set_design() first. No allocation after the first evaluation; not
+/// thread-safe: one per thread, while the CompiledSystem is shared.
 template <class T>
 class Equations {
  public:
   /// @param system must outlive the equations.
   explicit Equations(const CompiledSystem& system) : system_(system), formulas_(system), compiled_(system) {}
 
-  /// Evaluates all constants at `parameters` (all named parameters). Allocates.
+  /// Evaluates all constants at `parameters` (all named parameters, order of Study::parameters). Allocates.
   void set_design(const std::vector<T>& parameters) {
     compiled_.set_design(parameters);
     formulas_.set_design(parameters);
   }
+  /// The parameters, constants and constraint rows of the present design.
   const std::vector<T>& parameters() const { return formulas_.view().design.parameters; }
   const Constants<T>& constants() const { return formulas_.view().design.constants; }
   const PairRows<T>& rows(int pair) const { return formulas_.view().design.rows[static_cast<std::size_t>(pair)]; }
 
-  /// Residual G (Layout::columns() rows) and the objective's integrand g at a state.
+  /// The residual G (resized to Layout::columns()) and the objective's integrand g, theory (14), (21), at a state.
   void residual(const State<T>& state, VectorX<T>* G, T* g) {
     if (!compiled_.residual(state, G, g)) formulas_.residual(state, G, g);
   }
-  /// Derivatives of G and g, on CompiledSystem::patterns().
+  /// The derivatives of G and g at a state. @param derivatives of the size of CompiledSystem::patterns(); overwritten.
   void linearize(const State<T>& state, Linearization<T>* derivatives) {
     if (!compiled_.linearize(state, derivatives)) formulas_.linearize(state, system_.plan(), derivatives);
   }
-  /// Constraint values Phi(q) (m rows) and rates Phi_q v of a state, whose z is not used.
+  /// Constraint values Phi(q) and rates Phi_q v, both resized to Layout::m. The state's z is not used.
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
     if (!compiled_.constraint_errors(state, Phi, Phi_rate)) formulas_.constraint_errors(state, Phi, Phi_rate);
   }
 
-  /// Sets the turn references of a state to the present positions of its turning joints.
+  /// Sets the turn references of a state to its joint positions; integrators call it after each step.
   void track_turns(State<T>* state) { formulas_.track_turns(state); }
 
-  /// The formulas, for everything that is not compiled.
+  /// The formulas, for everything that is not compiled: signals, energies, friction, reactions.
   Formulas<T>& formulas() { return formulas_; }
   const Formulas<T>& formulas() const { return formulas_; }
-  /// The code that runs in their place.
+  /// The compiled code, for instance to switch it off.
   CompiledEquationsOf<T>& compiled() { return compiled_; }
 
  private:

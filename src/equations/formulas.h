@@ -13,67 +13,79 @@
 
 namespace codesign {
 
-/// The formulas of the equations of motion, evaluated element by element; doc/theory.md (14):
-///   rows 0..n:      M a + Phi_q^T lambda - Q - Q_Af = 0
-///   rows n..n+m:    Phi_q a + (Phi_q v)_q v = 0
-///   rows n+m..:     sigma - s' = 0, integrals of controllers, then states of friction laws
-/// T: double, std::complex<double>, Lanes<N> or Traced; the same code gives values, derivatives and the recording that is compiled. No
-/// allocation once warm; not thread-safe.
+/// The equations of motion G(q, v, s, t; z) = 0 of one mechanism and study, evaluated element by element; doc/theory.md (14):
+///   rows 0 to n-1:      M a + Phi_q^T lambda - Q - Q_Af    [N on r, N m on p]
+///   rows n to n+m-1:    Phi_q a + (Phi_q v)_q v            with redundant constraints the rows of theory (23), then those of (23b)
+///   rows n+m to end:    sigma - s'                         integrals of controllers, then states of friction laws
+/// Layout gives the place of each row and of each unknown of z = (a, lambda, sigma).
+///
+/// T is the scalar: double for values, std::complex<double> for checks by the complex step, Lanes<N> for N directional derivatives, Traced
+/// to record the operations that are compiled. Call set_design() first. No allocation after the first evaluation; not thread-safe.
 template <class T>
 class Formulas {
  public:
   /// @param system must outlive the formulas.
   explicit Formulas(const System& system);
 
-  /// Evaluates all constants at `parameters` (all named parameters). Allocates.
+  /// Evaluates all constants at `parameters` (all named parameters, order of Study::parameters). Allocates.
   void set_design(const std::vector<T>& parameters);
+  /// What the elements read; tests and the recording change its turn references.
   StateView<T>& view() { return view_; }
   const StateView<T>& view() const { return view_; }
 
-  /// Residual G (Layout::columns() rows) and the objective's integrand g at a state.
+  /// The residual G (Layout::columns() rows) and the objective's integrand g, theory (21), at a state.
   void residual(const State<T>& state, VectorX<T>* G, T* g);
-  /// Derivatives of G and g. @param plan of this system's assembly.
+  /// The derivatives of G and g (row Layout::columns()) by positions, velocities, rates and time. @param plan of record_assembly() for this
+  /// system. @param derivatives of the size of its patterns; overwritten.
   void linearize(const State<T>& state, const AssemblyPlan& plan, Linearization<T>* derivatives);
-  /// Assembles all derivatives at the loaded state through `sink->position(row, column, x)`, `velocity(...)`, `rate(...)` and
-  /// `time(row, x)`. The order of the calls depends on the system only, never on the state.
+  /// Hands all derivatives at the loaded state to `sink->position(row, column, x)`, `velocity(...)`, `rate(...)` and `time(row, x)`; values
+  /// for the same entry add up. The sequence of calls depends on the system alone, never on state or design, so it is recorded once.
   template <class Sink>
   void assemble(Sink* sink);
-  /// Constraint values Phi(q) (m rows) and rates Phi_q v of a state, whose z is not used.
+  /// Constraint values Phi(q) and rates Phi_q v, Layout::m entries each; those behind Layout::constraints() are zero. The state's z is not
+  /// used, but must have its size.
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
-  /// The same of one pair's rows, for bodies that move as given; the ground is a body at rest.
+  /// Phi and Phi_q v of one pair's rows, for bodies that move as given; the ground is a body at rest.
+  /// @param errors, rates receive one value per row of the pair.
   void pair_errors(int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, T* errors, T* rates) const;
 
-  /// Sets the turn references of a state to the present positions of its turning joints.
+  /// Sets the turn references of a state to its joint positions. To be called after each step, so that positions count whole turns.
   void track_turns(State<T>* state);
 
-  /// Terminal objective terms w at a state, with their gradient if asked for.
+  /// The sum w of the terminal terms of the objective, theory (21). @param gradient its gradient is appended, if not null; here and below.
   T terminal(const State<T>& state, SparseGradient<T>* gradient);
-  /// Value of a signal at a state, with its gradient if asked for.
+  /// The value of a signal at a state, in SI units.
   T signal(const Signal& signal, const State<T>& state, SparseGradient<T>* gradient = nullptr);
 
-  // The functions below are of the state that load() took last.
+  /// Makes a state the one that the functions below read. @param state must stay alive and unchanged while they are called.
   void load(const State<T>& state);
+  /// The motion of a body; -1 is the ground.
   const BodyKinematics<T>& body(int index) const { return view_.body(index); }
+  /// The motion of a joint coordinate, theory (8). @param element index in the pair's chain.
   const CoordinateMotion<T>& coordinate(int pair, int element, CoordinateDetail detail = CoordinateDetail::kAll) const;
+  /// The friction of a joint coordinate, theory (13); zero if it has none.
   FrictionState<T> friction(int pair, int element) const;
-  /// Isotropic friction of a pair among System::contacts().
+  /// Isotropic friction of a pair among System::contacts(), theory (13a).
   ContactFriction<T> contact(int pair, CoordinateDetail detail = CoordinateDetail::kGradient) const;
-  /// The k-th spring-damper of the description.
+  /// The force of the k-th spring-damper of RobotDescription::spring_dampers, theory (13b).
   SpringForce<T> spring(std::size_t k) const;
-  /// What controllers apply along a coordinate [N or N m].
+  /// The effort that controllers apply along a coordinate, within the actuator's limit (13c) [N or N m].
   T effort(int pair, int element) const;
-  /// Mechanical energy [J], and the power [W] that goes into the mechanism, with their gradients if asked for; theory (14b), (14c).
+  /// Mechanical energy T and V [J]; theory (14b).
   T kinetic_energy(SparseGradient<T>* gradient) const;
   T potential_energy(SparseGradient<T>* gradient) const;
+  /// The power of one kind that goes into the mechanism [W]; theory (14c).
   T power(PowerKind kind, SparseGradient<T>* gradient) const;
-  /// Of one joint: a pair and its chain element.
+  /// The part of one joint in power(). @param element index in the pair's chain.
   T joint_power(PowerKind kind, int pair, int element, SparseGradient<T>* gradient) const;
+  /// Setpoint r, output u [N or N m] before the actuator's limit, and error e = r - x of a controller; theory (C1)-(C8).
   T setpoint(int controller) const;
   T controller_output(int controller, SparseGradient<T>* gradient) const;
   T controller_error(int controller, SparseGradient<T>* gradient) const;
-  /// Reaction force [N] and torque [N m] on the child in the parent's joint axes, as far as the pair constrains them.
+  /// Reaction force F'' [N] and torque T'' [N m] in the joint axes of body i, theory (11); the child feels -F'' and -T''. Components that
+  /// the pair does not constrain are zero.
   void reaction(int pair, Vector3<T>* F, Vector3<T>* torque) const;
-  /// The share of the multipliers in a reaction signal; theory (11a).
+  /// The part of a reaction signal, theory (11a), that comes from multipliers: constraint rows and couplings.
   T multiplier_reaction(const SignalReference& term) const;
 
  private:

@@ -11,7 +11,9 @@
 
 namespace codesign {
 
-// The loop over the elements. Pairs, springs and link loads come before the bodies, which turn the loads that these add into rows.
+// The loop over the elements: the one place that lists them all. Pairs, spring-dampers and constant loads on links come before the bodies,
+// because they add to the loads that the bodies turn into rows; shared reactions come after the pairs and couplings, whose rows they
+// change. residual() and assemble() must list the same elements.
 
 template <class T>
 Formulas<T>::Formulas(const System& system) : view_(system), workspace_(system) {}

@@ -7,7 +7,7 @@
 
 namespace codesign {
 
-// What observers and objectives read of a state: one function of an element each.
+// The functions of Formulas that observers and objectives call. Each one calls one function of an element.
 
 template <class T>
 T Formulas<T>::terminal(const State<T>& state, SparseGradient<T>* gradient) {

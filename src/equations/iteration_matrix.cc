@@ -14,7 +14,8 @@ struct Entry {
   bool operator<(const Entry& other) const { return std::array<int, 2>{column, row} < std::array<int, 2>{other.column, other.row}; }
 };
 
-/// Notes the entries of one matrix, the integrand's row left out; `shift` moves its column to that of the rate it is eliminated by.
+/// Appends the entries of one matrix, without the row of the integrand. `shift` maps its column to the column of the rate that the variable
+/// is eliminated by, theory (16).
 template <class Shift>
 void collect(const Sparsity& pattern, int matrix, const Shift& shift, std::vector<Entry>* entries) {
   for (int row = 0; row + 1 < pattern.rows; ++row)
@@ -47,7 +48,8 @@ IterationMatrix::Pattern::Pattern(const CompiledSystem& system) {
 
 namespace {
 
-// The arrays of the compiled code, and the places of the coefficients, which it subtracts multiples by.
+// Indices of the arrays of the compiled code, and of the coefficients in kCoefficients. They are negative since the code subtracts
+// products.
 constexpr int kValues = 0, kPosition = 1, kVelocity = 2, kRate = 3, kCoefficients = 4;
 constexpr int kMinusCv = 0, kMinusCq = 1, kMinusCs = 2;
 

@@ -13,24 +13,27 @@ namespace codesign {
 
 class LazyStraightLine;
 
-/// The matrix G_z + c_v G_v + c_q G_q (G_sigma + c_s G_s for extra states) that every implicit solve needs, on one fixed pattern.
+/// The square matrix of every implicit solve for z = (a, lambda, sigma), with its LU factorization: G_z plus c_v G_v and c_q G_q in the
+/// columns of a and c_s G_s in those of sigma; theory (16). The row of the integrand is left out. The pattern is fixed.
 ///
-/// With c = 0 it gives accelerations and multipliers; with c_v = c_s = h gamma, c_q = (h gamma)^2 it is a Rosenbrock stage's; theory (16).
+/// c_v = c_q = c_s = 0 gives G_z, for accelerations and multipliers; c_v = c_s = h gamma, c_q = (h gamma)^2 the matrix of a Rosenbrock
+/// stage; c_v = c_s = 1/c_j, c_q = 1/c_j^2 the matrix of IDAS, theory (26).
 class IterationMatrix {
  public:
-  /// @param machine_code whether to compile the sums where that is possible; loops form them otherwise.
+  /// @param machine_code whether compiled code forms the sums, where it is available; else loops do.
   explicit IterationMatrix(const CompiledSystem& system, bool machine_code = true);
   ~IterationMatrix();
   IterationMatrix(IterationMatrix&&) noexcept;
   IterationMatrix& operator=(IterationMatrix&&) noexcept;
 
-  /// Forms and factors it. False if singular.
+  /// Forms the matrix and factors it. @param derivatives on CompiledSystem::patterns(). Returns false if the matrix is singular.
   bool factor(const Linearization<double>& derivatives, double c_v, double c_q, double c_s);
+  /// The factorization of the last factor().
   const SparseLu& lu() const { return lu_; }
 
-  /// The pattern by columns, as SparseLu takes it, and where the entries of the three matrices go.
+  /// The pattern in compressed-column form, as SparseLu takes it, and the nonzero (slot) that each entry of G_q, G_s, G_v and G_z adds to.
   struct Pattern {
-    /// An entry of one of the matrices (of the integrand's row there are none) and its slot.
+    /// An entry of one of the three matrices of a Linearization and the nonzero of this matrix that it adds to.
     struct Source {
       int entry, slot;
     };
@@ -41,11 +44,12 @@ class IterationMatrix {
   };
 
  private:
+  /// Forms values_ by loops.
   void add_up(const Linearization<double>& derivatives, double c_v, double c_q, double c_s);
 
   Pattern pattern_;
   std::vector<double> values_;
-  std::unique_ptr<LazyStraightLine> code_;  ///< that forms it
+  std::unique_ptr<LazyStraightLine> code_;  ///< forms values_, if available
   SparseLu lu_;
 };
 

@@ -7,8 +7,8 @@
 
 namespace codesign {
 
-/// Assembles the derivatives once and records where they go. Rows: Layout::columns() equations, then the integrand g. Columns:
-/// Layout::position_column() for positions, coordinates for velocities, Layout::columns() for rates.
+/// Assembles the derivatives once, Formulas::assemble(), and records which entry each call adds to. The patterns have Layout::columns()
+/// rows of G and one of the integrand g. Columns: Layout::positions() of (q, s), Layout::n of v, Layout::columns() of z.
 AssemblyPlan record_assembly(const System& system);
 
 }  // namespace codesign

@@ -38,7 +38,8 @@ class Simulation::Implementation {
     return status;
   }
 
-  // Within the study's duration the last step ends on it; a simulation may run on beyond.
+  // The integrator gets an end that its last step must hit: the study's duration, so that the state at the end is not interpolated. Beyond
+  // the duration the end is set one duration ahead.
   Status advance(double time) {
     const CpuTimer timer;
     const double duration = system_->study().duration;
@@ -53,7 +54,7 @@ class Simulation::Implementation {
     return status;
   }
 
-  // The interpolated accelerations and multipliers are of lower order; they are solved for anew from q, v and s.
+  // Interpolated accelerations and multipliers have a lower order than q, v and s, so they are solved for again from these.
   void sample(double time, Frame* frame) {
     double psi = 0.0;
     integrator_->interpolate(time, &sample_, &psi);

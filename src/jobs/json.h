@@ -11,18 +11,19 @@
 
 namespace codesign {
 
-/// Keys stay in the order in which they are set.
+/// A JSON object that keeps its keys in the order in which they are set.
 using Json = nlohmann::ordered_json;
 
-/// Values by name.
+/// An object with one number per name; of lists of different length the rest of the longer one is left out.
 Json by_name(const std::vector<std::string>& names, const std::vector<double>& values);
 Json by_name(const std::vector<std::string>& names, const Eigen::VectorXd& values);
 
-/// All named parameters.
+/// An object with the value of every named parameter. @param values order of Problem::all_parameters().
 Json parameters_json(const Problem& problem, const std::vector<double>& values);
 
-/// The object as JSON text with a line end, and before its own keys `version`, the version of this package. Doubles read back as the same
-/// doubles; NaN and infinity become null. Bytes that are not UTF-8, which a robot's name may hold, become the replacement character U+FFFD.
+/// The object as indented JSON text with a final line end. The first key is `version`, the version of this package. Doubles are written so
+/// that they read back as the same doubles; NaN and infinity become null. Bytes that are not UTF-8, which names in a model may contain,
+/// become the replacement character U+FFFD.
 std::string to_text(const Json& object);
 
 }  // namespace codesign

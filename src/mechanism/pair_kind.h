@@ -9,44 +9,45 @@
 
 namespace codesign {
 
-/// The relative motion that a pair allows. Body i is on the parent's side, j on the child's; z is the joint axis.
+/// The kind of a pair: the relative motion that it allows. Body i is on the parent's side, body j on the child's; z is the joint axis.
 enum class PairKind {
-  kFixed,
+  kFixed,          ///< none
   kRevolute,       ///< turn about z
   kPrismatic,      ///< slide along z
-  kCylindrical,    ///< both
+  kCylindrical,    ///< turn about z and slide along z
   kUniversal,      ///< turn about z_i and z_j, which keep their angle
   kSpherical,      ///< turn about any axis
   kTable,          ///< slide in the plane normal to z, no turn
   kPlanar,         ///< slide in the plane normal to z and turn about z
   kTranslational,  ///< slide anywhere, no turn
   kDistance,       ///< two points at a constant distance
-  kFree
+  kFree            ///< any motion
 };
 
-/// What the multipliers of a pair's first rows are: components of the reaction force F'', theory (11).
+/// The components of the reaction force F'', theory (11), that the multipliers of a pair's first rows are.
 enum class ForceRows {
-  kNone,
+  kNone,    ///< no row is a component of F''
   kAll,     ///< three rows of coincident points, in ground axes
   kAcross,  ///< two, along x'' and y''
   kAlong    ///< one, along z''
 };
 
-/// The law of the normal force in the bearing, theory (12).
+/// The formula of the normal force in the bearing, theory (12).
 enum class BearingLaw { kPin, kRevolute, kTranslational, kPlane, kBall };
 
-/// What the formulas know of a kind of pair. A new kind is an enumerator, a row of kPairTraits and its rows in pair_rows().
+/// The properties of a kind of pair that the formulas use. A new kind needs an enumerator, an entry of kPairTraits and its constraint rows
+/// in pair_rows().
 struct PairTraits {
-  JointType joint;         ///< the type of joint with this motion, whose friction law applies; kFloating, which has none, for the others
+  JointType joint;         ///< joint type with the same motion, whose friction law applies; kFloating (no friction) if there is none
   int rows;                ///< number of constraint rows
-  ForceRows force;         ///< in the order of pair_rows() they come first
-  bool torque_rows;        ///< whether the rows behind them hold the components (-y'', x'', z'') of the reaction torque T''
-  BearingLaw bearing;      ///< law of the normal force, of kinds that can have friction
-  int slip_coordinates;    ///< isotropic friction: the number of slip coordinates; 0: friction of each coordinate by itself, theory (13)
-  int slips_of_the_point;  ///< isotropic friction: how many of them make up the reported speed and friction
+  ForceRows force;         ///< what the first rows of pair_rows() are
+  bool torque_rows;        ///< whether the next rows are (T_y, -T_x, T_z) of the reaction torque T'', as far as there are rows
+  BearingLaw bearing;      ///< formula of the normal force; not used by kinds that cannot have friction
+  int slip_coordinates;    ///< number of slip coordinates of isotropic friction (13a); 0: each coordinate has its own friction, (13)
+  int slips_of_the_point;  ///< how many of them, from the first on, make up the reported speed and friction
 };
 
-/// In the order of PairKind.
+/// The properties of each kind, in the order of PairKind.
 constexpr std::array<PairTraits, 11> kPairTraits{{
     {JointType::kFixed, 6, ForceRows::kAll, true, BearingLaw::kPin, 0, 0},                   // fixed
     {JointType::kRevolute, 5, ForceRows::kAll, true, BearingLaw::kRevolute, 0, 0},           // revolute
@@ -63,16 +64,16 @@ constexpr std::array<PairTraits, 11> kPairTraits{{
 
 constexpr const PairTraits& traits_of(PairKind kind) { return kPairTraits[static_cast<std::size_t>(kind)]; }
 
-/// The kind of pair that a single joint or loop makes.
+/// The kind of pair that a single joint or loop of this type makes.
 constexpr PairKind kind_of(JointType type) {
   if (type == JointType::kContinuous) return PairKind::kRevolute;
-  // Of several kinds the last has all the freedoms of the joint type.
+  // Of several kinds with the same joint type, the last one allows every motion of that type; the others arise by folding.
   for (std::size_t k = kPairTraits.size(); k-- > 0;)
     if (kPairTraits[k].joint == type) return static_cast<PairKind>(k);
   return PairKind::kFree;
 }
 
-/// Whether the friction of such a pair follows one law for all directions of its slip, doc/theory.md (13a), instead of one law per
+/// Whether friction in such a pair is isotropic, one law for all directions of slip, doc/theory.md (13a), instead of one law per
 /// coordinate, (13).
 constexpr bool slips_isotropically(PairKind kind) { return traits_of(kind).slip_coordinates > 0; }
 

@@ -11,21 +11,22 @@
 
 namespace codesign {
 
-/// What a Problem holds. The robot and the study are those of the system.
+/// The members of a Problem. Its model and study are in `system`.
 struct Problem::Contents {
   SourceText urdf;
   std::vector<SourceText> overlays;
   SourceText study_text;
   std::shared_ptr<const CompiledSystem> system;
-  double setup_seconds = 0.0;
+  double setup_seconds = 0.0;  ///< processor time of reading and compiling [s]
   Warnings warnings;
 };
 
-/// load_problem() with a loader of recorded trajectories: it reads those that the study names in a bag. Without one they are refused.
+/// load_problem() for studies that may read trajectories from bags. @param loader reads such a trajectory; if it is empty, a study that
+/// names a bag is refused.
 Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
                      const ParameterSettings& settings, const TrajectoryLoader& loader);
 
-/// The problem compiled anew with another study of the same model. @throws InputError as load_problem().
+/// The problem compiled anew with another study of the same model; the texts stay those of `problem`. @throws InputError as load_problem().
 Problem with_study(const Problem& problem, Study study, const ParameterSettings& settings = {});
 
 }  // namespace codesign

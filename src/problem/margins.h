@@ -10,19 +10,21 @@
 
 namespace codesign {
 
-/// A constraint counts as met down to this margin: NLopt's algorithms end on a constraint, not inside of it.
+/// A parameter constraint counts as met if its margin is at least this. It is slightly negative because NLopt's algorithms end on the
+/// boundary of the constraints, where rounding may leave either sign.
 constexpr double kMet = -1e-7;
 
-/// The margins of the study's constraints; negative: not met. @param parameters all named parameters.
+/// The margins of the study's parameter constraints, in their order and in the unit of each; negative where one is violated.
+/// @param parameters all named parameters, order of Study::parameters.
 Eigen::VectorXd constraint_margins(const Study& study, const std::vector<double>& parameters);
 
-/// Whether all are met; one that is not a number is not.
+/// Whether every margin is at least kMet; a margin that is NaN is not.
 bool all_met(const Eigen::VectorXd& margins);
 
-/// The constraints that are not met with their margins, as a sentence.
+/// A sentence that lists the violated constraints with their margins, for the status of an optimization.
 std::string describe_unmet(const Study& study, const Eigen::VectorXd& margins);
 
-/// @throws InputError naming the first constraint whose margin is not a number at `parameters`, where a search is to start.
+/// @throws InputError naming the first constraint whose margin is not finite at `parameters`, the start of an optimization.
 void require_numbers_at_start(const Study& study, const std::vector<double>& parameters);
 
 }  // namespace codesign

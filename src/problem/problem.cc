@@ -39,7 +39,7 @@ void apply_settings(const ParameterSettings& settings, Study* study) {
   }
 }
 
-/// Compiles the equations of motion of what `contents` and the study say.
+/// Compiles the equations of motion of a model and a study with settings applied, and completes `contents`: system, warnings, time.
 Problem compile(const RobotDescription& robot, Study study, const ParameterSettings& settings, Problem::Contents contents) {
   apply_settings(settings, &study);
   const CpuTimer timer;

@@ -10,7 +10,7 @@ namespace {
 
 bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-/// The words inside `${...}`.
+/// Adds every word (letters, digits, underscores) inside `${...}` to `words`.
 void collect_words(const std::string& text, std::set<std::string>* words) {
   for (std::size_t at = text.find("${"); at != std::string::npos; at = text.find("${", at)) {
     const std::size_t end = std::min(text.find('}', at), text.size());
@@ -23,7 +23,7 @@ void collect_words(const std::string& text, std::set<std::string>* words) {
   }
 }
 
-/// The coefficients that a `basis` controller declares are used without being written.
+/// The parameters that `basis` controllers declare as their coefficients; they are used although no `${...}` names them.
 std::set<int> coefficients_of(const Study& study) {
   std::set<int> indices;
   for (const ControllerDescription& controller : study.controllers)

@@ -6,7 +6,9 @@
 
 namespace codesign {
 
-/// A warning `unused_parameter` for each tuned parameter that no `${...}` of model, overlays and study names.
+/// A warning `unused_parameter` for each tuned parameter that neither a `${...}` of model, overlays and study nor a `basis` controller
+/// uses.
+/// @param texts the files as read; @param study which parameters are tuned.
 Warnings unused_parameters(const Problem::Contents& texts, const Study& study);
 
 }  // namespace codesign

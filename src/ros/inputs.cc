@@ -20,7 +20,7 @@ SourceText read_model(const ros::NodeHandle& node, const ros::NodeHandle& privat
   if (!path.empty()) return read_source(path);
   XmlRpcValue value;
   if (!find_parameter(node, "robot_description", &value))
-    fail(private_node, "model", "no model given", "~model, the path of a URDF, or robot_description, its text");
+    fail(private_node, "model", "no model given", "~model with the path of a URDF file, or robot_description with its text");
   if (value.getType() != XmlRpcValue::TypeString) refuse_parameter(node, "robot_description", "not a text", value, "the text of a URDF");
   return {node.resolveName("robot_description"), text_of(value)};
 }
@@ -34,7 +34,7 @@ std::vector<SourceText> read_overlays(const ros::NodeHandle& private_node) {
 void read_study_source(const ros::NodeHandle& private_node, Inputs* inputs) {
   XmlRpcValue value;
   if (!find_parameter(private_node, "study", &value))
-    fail(private_node, "study", "no study given", "a path, or the study as a tree of parameters");
+    fail(private_node, "study", "no study given", "the path of a study, or the study as a tree of parameters");
   inputs->study_is_tree = value.getType() == XmlRpcValue::TypeStruct;
   if (inputs->study_is_tree)
     inputs->study = {private_node.resolveName("study"), to_yaml(value)};

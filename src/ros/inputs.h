@@ -11,12 +11,12 @@
 
 namespace codesign {
 
-/// What a node was told to work on, not yet read.
+/// The inputs of a node: the texts of model, overlays and study, not yet parsed, and the settings.
 struct Inputs {
   SourceText urdf;
   std::vector<SourceText> overlays;
   SourceText study;
-  bool study_is_tree = false;  ///< from the parameter server, not from a file
+  bool study_is_tree = false;  ///< the study comes from the parameter server, as a tree, not from a file
   ParameterSettings settings;
 };
 
@@ -28,14 +28,14 @@ struct Inputs {
 /// @throws InputError for a missing or ill-typed parameter or a file that cannot be read.
 Inputs read_inputs(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
-/// Makes sure that a study tunes what its author wrote.
+/// Checks that a study from the parameter server names every parameter of the model.
 ///
-/// The parameter server keeps no empty mapping: of `crank_length: {}`, "tune it between the model's bounds", nothing arrives. A study that
-/// comes as a tree must therefore name each parameter of the model, with `{tune: false}` those that stay as they are.
+/// The parameter server drops empty mappings: an entry `crank_length: {}`, which means "tune it between the model's bounds", does not
+/// arrive. A study that comes as a tree must therefore name each parameter of the model, with `{tune: false}` for those that stay fixed.
 /// @throws InputError for a parameter of the model that a tree does not name.
 void require_every_parameter(const Inputs& inputs, const RobotDescription& robot);
 
-/// The names of the parameters that read_inputs() knows.
+/// The names of the private parameters that read_inputs() reads.
 const std::vector<std::string>& input_parameters();
 
 }  // namespace codesign

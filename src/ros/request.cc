@@ -17,14 +17,14 @@ constexpr const char* kRequest = "request";
   throw InputError({{kRequest, 0}, field, message, value, allowed});
 }
 
-/// Refuses what no name can be, before anything looks for the nearest one.
+/// Refuses very long names, since the search for the nearest known name takes time proportional to their length.
 void check_length(const std::string& field, const std::string& text) {
   constexpr std::size_t kLongestName = 1000;
   if (text.size() > kLongestName)
     fail(field, "too long for a name", text.substr(0, 20) + "...", "at most " + std::to_string(kLongestName) + " letters");
 }
 
-/// A request holds no more names than there are parameters, whatever they are.
+/// Refuses lists of names that are longer than the list of parameters, and very long names.
 void check_names(const std::vector<std::string>& names, std::size_t known) {
   if (names.size() > known)
     fail("parameters", "more names than there are parameters", std::to_string(names.size()) + " names",
@@ -45,7 +45,7 @@ std::size_t index_of(const std::string& name, const std::vector<std::string>& kn
   return static_cast<std::size_t>(found - known.begin());
 }
 
-/// Pairs names with values, which must be as many; a name may stand there once.
+/// Pairs names with values. Both lists must have the same length, and no name may occur twice.
 ParameterSettings pair_up(const std::vector<std::string>& names, const std::vector<double>& values, const std::string& field) {
   if (values.size() != names.size())
     fail(field, "one value for each parameter is needed", std::to_string(values.size()) + " values",
@@ -71,10 +71,11 @@ void choose_options(const mechanism_codesign::OptimizeGoal& request, OptimizerOp
     options->where = {kRequest, 0};
   }
   if (request.max_evaluations > static_cast<unsigned>(std::numeric_limits<int>::max()))
-    fail("max_evaluations", "count out of range", std::to_string(request.max_evaluations), "0 (as the study says) to 2147483647");
+    fail("max_evaluations", "count out of range", std::to_string(request.max_evaluations), "0 (take the study's value) to 2147483647");
   if (request.max_evaluations > 0) options->max_evaluations = static_cast<int>(request.max_evaluations);
   if (!(request.relative_tolerance >= 0.0 && request.relative_tolerance < 1.0))
-    fail("relative_tolerance", "tolerance out of range", to_decimal(request.relative_tolerance), "0 (as the study says) to 1");
+    fail("relative_tolerance", "tolerance out of range", to_decimal(request.relative_tolerance),
+         "0 (take the study's value) or more, less than 1");
   if (request.relative_tolerance > 0.0) options->relative_tolerance = request.relative_tolerance;
 }
 

@@ -13,23 +13,26 @@
 
 namespace codesign {
 
-/// Refuses lists that no request can mean, before anything copies them or looks for names. @throws InputError naming the field.
-/// @param values_field the name of the field that holds `values`.
+/// Refuses lists with more entries than the problem has parameters, and names of more than 1000 letters, before the lists are copied or
+/// searched. @throws InputError naming the field of the request.
+/// @param values_field the name of the field that holds `values`, for the message.
 void check_size(const Problem& problem, const std::vector<std::string>& names, const std::vector<double>& values,
                 const std::string& values_field);
 
-/// What a request asks for: the loaded problem, with other parameters to tune or other starts where it names some, and the options of the
-/// optimizer.
+/// The problem and the optimizer options of one optimization job.
 struct OptimizationRequest {
   Problem problem;
   OptimizerOptions options;
 };
 
-/// @throws InputError naming the field of the request.
+/// Applies a goal to the loaded problem: the parameters to tune, their start values and the optimizer options, each where the goal gives
+/// it; everything else is as in the study.
+/// @throws InputError naming the field of the request, or if the study has no objective.
 OptimizationRequest apply_request(const Problem& problem, const mechanism_codesign::OptimizeGoal& request);
 
-/// The design an evaluation asks for: the study's start, with the parameters of the request at their values.
-/// @throws InputError naming the field of the request.
+/// The tuned parameters rho (order of Study::tuned) at which a request wants an evaluation: the values of the request, and start values for
+/// the parameters that it does not name.
+/// @throws InputError naming the field of the request, or if the study has no objective.
 Eigen::VectorXd design_of(const Problem& problem, const mechanism_codesign::EvaluateRequest& request);
 
 }  // namespace codesign

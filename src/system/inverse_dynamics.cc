@@ -59,7 +59,8 @@ T InverseDynamics<T>::load(const Constants<T>& constants, const std::vector<Body
   return dot<T>(motions_[driven()].axis, node(driven()).slides ? force : moment) + rotors;
 }
 
-// Its own rotor the joint turns over the gear. Those on the bodies that it moves ask for h' of these, theory (9a).
+// The driven joint turns its own rotor over the gear. Rotors of other joints, carried by bodies that it moves, need the rate h' of their
+// angular momentum, theory (9a), as a moment; a slide transmits no moment along its coordinate.
 template <class T>
 T InverseDynamics<T>::rotor_load(std::size_t k) const {
   const Motion& m = motions_[k];
@@ -70,7 +71,6 @@ T InverseDynamics<T>::rotor_load(std::size_t k) const {
   return coupling * dot<T>(motions_[driven()].axis, moment);
 }
 
-// Motion of a body from its parent's and its joint's acceleration.
 template <class T>
 void InverseDynamics<T>::move(std::size_t k, const T& acceleration) {
   const PairConstants<T>& pair = constants_->pairs[static_cast<std::size_t>(node(k).pair)];
@@ -131,7 +131,8 @@ void InverseDynamics<T>::append_gradient(const T& factor, SparseGradient<T>* gra
   for (std::size_t k = 0; k < tree_.nodes.size(); ++k) append_body(k, factor, gradient);
 }
 
-// Of axis . sum (moment + (r - P) x force), or of axis . sum force.
+// Adjoint of the sum axis . sum (moment + (r - P) x force) of a hinge, or axis . sum force of a slide. It sets the adjoints of the forces
+// and moments of all bodies that the driven joint moves.
 template <class T>
 void InverseDynamics<T>::reverse_sum() {
   const Motion& at = motions_[driven()];
@@ -158,7 +159,8 @@ void InverseDynamics<T>::reverse_sum() {
   parent_adjoint(driven()).W += on_point * constants_->pairs[static_cast<std::size_t>(node(driven()).pair)].s_i.transpose();
 }
 
-// Of rotor_load(). The parent's adjoints are still to be read, as is that of the axis.
+// Adjoint of rotor_load(). It must run before node k hands its adjoint of the axis on to its parent, and before the parent is processed,
+// since it adds to the adjoints of both.
 template <class T>
 void InverseDynamics<T>::reverse_rotor(std::size_t k, T* by_acceleration, T* by_rate) {
   const Motion &m = motions_[k], &parent = parent_motion(k);
@@ -180,7 +182,7 @@ void InverseDynamics<T>::reverse_rotor(std::size_t k, T* by_acceleration, T* by_
   adjoints_[driven()].axis += coupling * (accelerations_[k] * m.axis + rates_[k] * swing);
 }
 
-// Of force = m (r'' - g) and moment = J w' + w x J w with J = A J_body A^T.
+// Adjoint of force = m (r'' - g) and moment = J w' + w x J w with J = A J_body A^T.
 template <class T>
 void InverseDynamics<T>::reverse_weigh(std::size_t k) {
   const Motion& m = motions_[k];
@@ -198,7 +200,7 @@ void InverseDynamics<T>::reverse_weigh(std::size_t k) {
 
 namespace internal {
 
-/// Adjoints of w' x d + w x (w x d), which is multiplied by x.
+/// Adds the adjoints of w, w' and d for the acceleration w' x d + w x (w x d), whose own adjoint is x.
 template <class T>
 void reverse_carried(const Vector3<T>& omega, const Vector3<T>& omega_rate, const Vector3<T>& d, const Vector3<T>& x, Vector3<T>* on_omega,
                      Vector3<T>* on_omega_rate, Vector3<T>* on_d) {

@@ -12,41 +12,47 @@
 
 namespace codesign {
 
-/// The load that a joint of the tree must exert for given accelerations of the joints, by the Newton-Euler recursion on absolute
-/// coordinates; doc/theory.md (C4). Its gradient is the recursion run backwards, in about three times its cost.
-/// No allocation after construction; not thread-safe.
+/// The load tau_k that one joint of the tree must exert for given accelerations of all joints, by the Newton-Euler recursion on absolute
+/// coordinates; doc/theory.md (C4). The gradient is the adjoint of the recursion, evaluated from the last body back to the ground; with it
+/// the load costs about three times as much. No allocation after construction; not thread-safe.
 template <class T>
 class InverseDynamics {
  public:
   /// @param tree with a driven joint; must outlive this.
   explicit InverseDynamics(const DrivenTree& tree);
 
-  /// Force or torque along the driven joint's coordinate.
-  /// @param bodies kinematics of all bodies, the ground last. @param accelerations one per node, or nullptr: everything at rest, so that
-  /// gravity alone is balanced. @param rates likewise, of joints that rotors drive; nullptr: there are none.
+  /// The force [N] or torque [N m] along the driven joint's coordinate, positive along it.
+  /// @param bodies motion of all bodies, the ground last; must stay alive until append_gradient(). @param gravity in ground axes [m/s^2].
+  /// @param accelerations of the joints, one per node, or nullptr for (C5): everything at rest, only gravity is balanced.
+  /// @param rates of the joints, one per node, read for nodes with a rotor; nullptr if there are none.
   T load(const Constants<T>& constants, const std::vector<BodyKinematics<T>>& bodies, const Vector3<T>& gravity, const T* accelerations,
          const T* rates = nullptr);
 
-  /// Appends factor times the gradient of the last load() by positions and velocities.
-  /// @param by_acceleration its derivative by the acceleration of each node, not multiplied by the factor; may be nullptr.
-  /// @param by_rate likewise by the rates of joints that rotors drive.
+  /// Appends factor times the gradient of the last load() by positions and velocities of the bodies.
+  /// @param by_acceleration receives the derivative by the acceleration of each node, not multiplied by the factor; may be nullptr.
+  /// @param by_rate receives the derivative by the rate of each node with a rotor, not multiplied by the factor; may be nullptr.
   void append_gradient(const T& factor, SparseGradient<T>* gradient, T* by_acceleration, T* by_rate = nullptr);
 
  private:
-  /// One body's motion, and the adjoint of each quantity: the derivative of the load by it.
+  /// The motion of one body and the levers of its joint, in ground axes.
   struct Motion {
-    Vector3<T> omega, omega_rate, acceleration;  ///< in the ground frame
+    Vector3<T> omega, omega_rate, acceleration;  ///< angular velocity and acceleration; acceleration of the centre of mass
     Vector3<T> axis, lever_parent, lever;        ///< joint axis; from the parent's centre to the joint, from there to the body's centre
-    Vector3<T> force, moment;                    ///< that the motion takes
+    Vector3<T> force, moment;                    ///< F_b and N_b of (C4), which the motion needs
   };
+  /// The derivative of the load by each quantity of a body.
   struct Adjoint {
     Vector3<T> r, v, omega, omega_rate, acceleration, axis, force, moment;
-    Matrix3<T> W;  ///< sum of b s^T over b^T A s; theory (3)
+    Matrix3<T> W;  ///< sum of b s^T for every b^T A s that the load depends on; theory (3)
   };
 
+  // The steps of the recursion, and after them the adjoint of each. The adjoint of a step reads the adjoints of its results and adds to
+  // those of its arguments.
+  /// Motion of a body from the motion of its parent and the acceleration of its joint.
   void move(std::size_t k, const T& acceleration);
+  /// F_b and N_b from the motion of a body.
   void weigh(std::size_t k, const Vector3<T>& gravity);
-  /// What the spin of a joint's rotor asks of the driven joint.
+  /// The part of the load that the rotor of joint k needs; theory (C4), last paragraph.
   T rotor_load(std::size_t k) const;
   void reverse_sum();
   void reverse_rotor(std::size_t k, T* by_acceleration, T* by_rate);
@@ -65,17 +71,18 @@ class InverseDynamics {
   const BodyConstants<T>& mass_of(std::size_t k) const { return constants_->bodies[static_cast<std::size_t>(tree_.nodes[k].body)]; }
   /// The motion of a node's parent; at rest for the ground.
   const Motion& parent_motion(std::size_t k) const;
-  /// Where what a node hands to its parent adds up; what goes to the ground is never read.
+  /// The adjoint of a node's parent. The ground has one too, which is never read.
   Adjoint& parent_adjoint(std::size_t k);
+  /// The joint axis in the parent's body axes.
   Vector3<T> local_axis(std::size_t k) const;
 
   const DrivenTree& tree_;
   const Constants<T>* constants_ = nullptr;
   const std::vector<BodyKinematics<T>>* bodies_ = nullptr;
-  bool moving_ = false;
+  bool moving_ = false;  ///< whether accelerations were given
   std::vector<T> accelerations_, rates_;
   std::vector<Motion> motions_;    ///< one per node, the ground last
-  std::vector<Adjoint> adjoints_;  ///< likewise
+  std::vector<Adjoint> adjoints_;  ///< one per node, the ground last
 };
 
 }  // namespace codesign

@@ -8,7 +8,7 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 }  // namespace
 
-// A row of the tree never follows from other rows of the tree, so that only loops and couplings can be dropped.
+// Only rows of loops and couplings can be dropped: the rows of the tree's joints are independent of each other.
 SharingLayout::SharingLayout(const ReactionSharing& sharing, const Topology& topology, const Layout& layout) {
   first = layout.n + layout.constraints();
   body_slot.assign(at(layout.bodies), -1);

@@ -9,36 +9,37 @@
 
 namespace codesign {
 
-/// What becomes of redundant constraints: some rows are dropped, and all rows of the loops they belong to share the reactions with least
-/// norm; doc/theory.md (23).
+/// How redundant constraints are treated, doc/theory.md (23): which rows are dropped, and which pairs and couplings share the reactions in
+/// the solution of least norm. make_system() finds them; without redundancy everything is empty and zero.
 struct ReactionSharing {
-  double compliance = 0.0;     ///< epsilon of every row of a joint or coupling, Phi'' - epsilon lambda = 0
-  std::vector<int> pairs;      ///< that share, ascending
-  std::vector<int> couplings;  ///< that share, ascending
-  std::vector<int> dropped;    ///< rows of Phi that follow from the others, of loops and couplings that share
+  double compliance = 0.0;     ///< epsilon [1/kg] in every row of a joint or coupling, Phi'' - epsilon lambda = 0
+  std::vector<int> pairs;      ///< pairs that share reactions, ascending
+  std::vector<int> couplings;  ///< couplings that share reactions, ascending
+  std::vector<int> dropped;    ///< dropped rows of Phi, among the loops and couplings above
 
   ReactionSharing() = default;
-  /// Compliance alone: no row is dropped.
+  /// A compliance alone; no row is dropped.
   ReactionSharing(double epsilon) : compliance(epsilon) {}  // NOLINT(google-explicit-constructor)
 
   bool drops() const { return !dropped.empty(); }
 };
 
-/// Where the unknowns of the sharing stand, behind the multipliers of the constraints: displacements w (7 per body), loads eta (one per
-/// row, those of the unit Euler parameters too) and misses mu (one per row that can be dropped).
+/// The places of the unknowns of (23b) in z, behind the multipliers of the constraints: displacements w (7 per body), then loads eta (one
+/// per row that shares, the rows |p| = 1 of its bodies included), then mu (one per row that can be dropped; called miss in the code, since
+/// it takes up what a dropped row misses). The equations of each have the same places in G. All is empty if no row is dropped.
 struct SharingLayout {
-  std::vector<int> bodies;     ///< that the sharing pairs and couplings touch, ascending
-  std::vector<int> body_slot;  ///< per body; -1 if it takes no part
-  std::vector<int> row_slot;   ///< per row of Phi; -1 if it takes no part
-  std::vector<int> miss_slot;  ///< per row of Phi; -1 if it cannot be dropped
-  int rows = 0, misses = 0;
-  int first = 0;  ///< column of the first unknown
+  std::vector<int> bodies;     ///< bodies of the pairs and couplings that share, ascending
+  std::vector<int> body_slot;  ///< per body: its index in `bodies`; -1 if it is not among them
+  std::vector<int> row_slot;   ///< per row of Phi: its index among the eta; -1 if it does not share
+  std::vector<int> miss_slot;  ///< per row of Phi: its index among the mu; -1 if it cannot be dropped
+  int rows = 0, misses = 0;    ///< numbers of eta and of mu
+  int first = 0;               ///< column of the first unknown
 
   SharingLayout() = default;
   SharingLayout(const ReactionSharing& sharing, const Topology& topology, const Layout& layout);
 
   int size() const { return 7 * static_cast<int>(bodies.size()) + rows + misses; }
-  /// Columns, and rows of the equations.
+  /// Columns in z, and rows in G, of the first w of a body, and of eta and mu of a row of Phi.
   int displacement(int body) const { return first + 7 * body_slot[static_cast<std::size_t>(body)]; }
   int load(int row) const { return first + 7 * static_cast<int>(bodies.size()) + row_slot[static_cast<std::size_t>(row)]; }
   int miss(int row) const { return first + 7 * static_cast<int>(bodies.size()) + rows + miss_slot[static_cast<std::size_t>(row)]; }

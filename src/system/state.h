@@ -12,56 +12,58 @@
 
 namespace codesign {
 
-/// The type of a turn reference: turns are counted with values alone, and are inputs while equations are traced.
+/// The scalar of a turn reference. Whole turns are counted from values and have no derivative, so that it is double for every T; while
+/// the equations are traced it is Traced, so that the compiled code takes the references as inputs.
 template <class T>
 using TurnReference = std::conditional_t<std::is_same_v<T, Traced>, Traced, double>;
 
-/// Where everything stands in the vectors of a system.
+/// The places of all unknowns and equations of a system in its vectors.
 ///
-/// Positions are (q, s) and rates are z = (a, lambda, sigma): q' = v, v' = a, s' = sigma. The equations' rows are laid out as the rates:
-/// n rows of motion, m of constraint accelerations, one per extra state.
+/// Positions are (q, s), rates are z = (a, lambda, sigma), with q' = v, v' = a, s' = sigma. The rows of G have the places of the rates: n
+/// rows of motion, m rows of constraint accelerations, one row per extra state.
 struct Layout {
   int bodies = 0;
-  int n = 0;                  ///< 7 per body: r, p
-  int m = 0;                  ///< multipliers of the constraints: pairs in order, then couplings, then |p| = 1 per body; then `sharing`
-  int couplings = 0;          ///< `<mimic>` and `<coupling>`, one row each
-  int sharing = 0;            ///< of m: unknowns behind the constraints' multipliers by which redundant rows share reactions; theory (23)
-  int states = 0;             ///< extra first-order states s (integrals of controllers)
+  int n = 0;                  ///< number of coordinates, 7 per body: r, p
+  int m = 0;                  ///< number of multipliers: rows of pairs, then couplings, then |p| = 1 per body; then `sharing`
+  int couplings = 0;          ///< number of `<mimic>` and `<coupling>`, one row each
+  int sharing = 0;            ///< the last ones of m: unknowns w, eta, mu of shared reactions; theory (23b), SharingLayout
+  int states = 0;             ///< number of extra first-order states s: integrals of controllers, then states of friction laws
   std::vector<int> pair_row;  ///< first constraint row of each pair
 
-  std::vector<int> turn_slot;         ///< first of State::turns of each pair; one per chain element
-  int drop_slot = 0;                  ///< first of State::turns that are flags of dropped rows; theory (23)
-  std::vector<double> initial_turns;  ///< State::turns of a state that was not assembled yet
+  std::vector<int> turn_slot;         ///< per pair, its first entry of State::turns; one follows for each element of its chain
+  int drop_slot = 0;                  ///< first entry of State::turns that is a flag of a row that can be dropped; theory (23)
+  std::vector<double> initial_turns;  ///< State::turns before a start is assembled
 
   int turn(int pair, int element) const { return turn_slot[static_cast<std::size_t>(pair)] + element; }
-  int constraints() const { return m - sharing; }  ///< rows of Phi
-  int columns() const { return n + m + states; }
-  int positions() const { return n + states; }
-  int lambda_column(int row) const { return n + row; }
-  int state_column(int k) const { return n + m + k; }  ///< of sigma_k, and its row
-  int position_column(int k) const { return n + k; }   ///< of s_k
-  /// Of the rate that a position is eliminated by: a_k for q_k, sigma_k for s_k.
+  int constraints() const { return m - sharing; }       ///< number of rows of Phi
+  int columns() const { return n + m + states; }        ///< size of z and of G
+  int positions() const { return n + states; }          ///< size of (q, s)
+  int lambda_column(int row) const { return n + row; }  ///< in z of the multiplier of a row of Phi; also the row Phi'' in G
+  int state_column(int k) const { return n + m + k; }   ///< in z of sigma_k; also its row in G
+  int position_column(int k) const { return n + k; }    ///< in (q, s) of s_k
+  /// The place in z of the rate by which a position of (q, s) is eliminated, theory (16): a_k for q_k, sigma_k for s_k.
   int rate_column(int position) const { return position < n ? position : state_column(position - n); }
-  int norm_row(int body) const { return constraints() - bodies + body; }
-  int coupling_row(int k) const { return constraints() - bodies - couplings + k; }
-  /// One behind the last row of a pair.
+  int norm_row(int body) const { return constraints() - bodies + body; }            ///< row |p| = 1 of Phi of a body
+  int coupling_row(int k) const { return constraints() - bodies - couplings + k; }  ///< row of Phi of a coupling
+  /// One behind the last row of Phi of a pair.
   int pair_end(int pair) const {
     const auto next = static_cast<std::size_t>(pair) + 1;
     return next < pair_row.size() ? pair_row[next] : coupling_row(0);
   }
 };
 
-/// A point of the differential-algebraic system.
+/// The time and all unknowns of the equations of motion (14); coordinates and their units are described in doc/notation.md.
 template <class T>
 struct State {
   double t = 0.0;   ///< [s]
   VectorX<T> q, v;  ///< coordinates and velocities, n each
-  VectorX<T> s;     ///< extra states
-  VectorX<T> z;     ///< accelerations, multipliers and rates of s
-  /// Counts whole turns: the position of a turning joint is continued from the value nearest to its entry [rad]. The entries behind the
-  /// joints' are flags of redundant rows: 1 for a row that is dropped, 0 for one that holds; theory (23).
+  VectorX<T> s;     ///< extra states, Layout::states
+  VectorX<T> z;     ///< accelerations, multipliers and rates of s, Layout::columns()
+  /// Turn references: the position [rad] of a turning joint is reported in the whole turn nearest to its entry. Behind them stand the flags
+  /// of redundant rows: 1 for a dropped row, 0 for an enforced one; theory (23). They have no derivative.
   std::vector<TurnReference<T>> turns;
 
+  /// Sets all vectors to zero with the sizes of a layout.
   void resize(const Layout& layout) {
     q.setZero(layout.n);
     v.setZero(layout.n);

@@ -114,8 +114,8 @@ void System::collect_link_loads() {
     const LoadDescription& load = study_.loads[k];
     for (std::size_t joint = 0; joint < robot_.joints.size(); ++joint)
       if (robot_.joints[joint].name == load.joint && topology_.joint_pair[joint] < 0)
-        throw InputError(
-            {load.where, "loads", "the joint moves only a link without <inertial>, so that nothing can load it", load.joint, ""});
+        throw InputError({load.where, "loads", "the joint moves only a link without <inertial>, so a load on it has nothing to act on",
+                          load.joint, "a joint whose child link has an <inertial>"});
     for (std::size_t link = 0; link < robot_.links.size(); ++link) {
       if (robot_.links[link].name != load.link) continue;
       const int body = topology_.link_body[link];
@@ -221,7 +221,8 @@ void System::check_readable(const Signal& signal, const SignalDescription& descr
 void System::refuse_unsupported() const {
   if (topology_.bodies.empty())
     throw InputError({robot_.links[static_cast<std::size_t>(robot_.root)].where, "<robot name=\"" + robot_.name + "\">",
-                      "nothing moves: no link with an <inertial> hangs on a movable joint", "", ""});
+                      "nothing moves: no link with an <inertial> hangs on a movable joint", "",
+                      "at least one link with <inertial> below a joint that is not fixed"});
 }
 
 }  // namespace codesign

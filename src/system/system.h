@@ -15,76 +15,82 @@
 
 namespace codesign {
 
-/// One objective term, weight (signal - reference)^2.
+/// The signal of one objective term, weight (signal - reference)^2; theory (21).
 struct ResolvedTerm {
   Signal signal;
   int description = 0;  ///< index into Study::integral or Study::terminal
 };
 
-/// Friction or any other load that depends on a joint's own motion.
+/// The loads that act along one joint coordinate: which kinds there are, not their numbers; theory (13).
 struct JointLoad {
-  int pair = -1, element = -1;
+  int pair = -1, element = -1;     ///< the coordinate: index in Topology::pairs and in the pair's chain
   bool reaction_friction = false;  ///< an annotated friction law acts on this coordinate
   bool constant_friction = false;  ///< `<dynamics friction>`
   bool passive = false;            ///< damping or a torsion spring
   bool spring = false;             ///< a torsion spring, which depends on the position
   bool stop = false;               ///< `<limit lower upper>` as stops
   bool saturated = false;          ///< `<limit effort>` bounds what the controllers apply
-  std::vector<int> controllers;    ///< that drive this coordinate
+  std::vector<int> controllers;    ///< indices of the controllers that drive this coordinate
   std::vector<int> constant;       ///< indices into Study::loads
 
+  /// Whether the load depends on the position of the coordinate, not on its rate alone.
   bool needs_position() const { return spring || stop; }
 };
 
-/// A spinning rotor, theory (9a).
+/// The rotor of an actuator, theory (9a).
 struct Rotor {
-  int pair = -1, element = -1;  ///< of the joint that it drives
-  int body = -1;                ///< that carries it; -1: the ground
+  int pair = -1, element = -1;  ///< coordinate of the joint that it drives
+  int body = -1;                ///< body that carries it; -1: the ground
 };
 
-/// A constant wrench on a link, theory (13g).
+/// A constant load on a link, theory (13g).
 struct LinkLoad {
-  int load = -1;  ///< index into Study::loads
-  int body = -1, link = -1;
-  bool turns = false;  ///< its components turn with the link
+  int load = -1;             ///< index into Study::loads
+  int body = -1, link = -1;  ///< the link and the body that it is part of
+  bool turns = false;        ///< whether force and torque turn with the link
 };
 
-/// A mechanism and a study with every name resolved: the layout of the unknowns, and the loads, controllers and signals that act on them.
-/// Immutable. It knows which equations there are; the elements know what they say.
+/// A mechanism and a study with every name resolved to an index, the same for all designs: topology, layout of the unknowns, loads,
+/// controllers and signals. It says which equations there are; the elements (src/elements) evaluate them. Immutable and thread-safe.
 class System {
  public:
-  /// @param sharing what becomes of redundant constraints; none by default. theory (23).
-  /// @throws InputError for what cannot be compiled.
+  /// @param sharing how redundant constraints are treated, theory (23); by default there are none.
+  /// @throws InputError for a mechanism without moving mass, loads or actuators on joints without a coordinate of their own, and signals,
+  /// controllers or couplings that cannot be resolved.
   System(const RobotDescription& robot, const Study& study, ReactionSharing sharing = {});
   System(const System&) = delete;
   System& operator=(const System&) = delete;
 
+  /// The model, with the study's start rotations of floating joints.
   const RobotDescription& robot() const { return robot_; }
   const Study& study() const { return study_; }
   const Topology& topology() const { return topology_; }
   const Layout& layout() const { return layout_; }
   const std::vector<Controller>& controllers() const { return controllers_; }
+  /// One entry per joint coordinate on which anything acts.
   const std::vector<JointLoad>& loads() const { return loads_; }
   const std::vector<LinkLoad>& link_loads() const { return link_loads_; }
   const std::vector<Rotor>& rotors() const { return rotors_; }
-  /// Pairs with isotropic friction.
+  /// Indices of the pairs with isotropic friction, theory (13a).
   const std::vector<int>& contacts() const { return contacts_; }
-  /// Contacts whose friction law has states.
+  /// The coordinates and contacts whose friction law has states, theory (13e), (13f).
   const std::vector<BristleContact>& bristles() const { return bristles_; }
   /// The states of the friction law of a joint coordinate, or of a contact (element -1); null if the law has no states.
   const BristleContact* bristle(int pair, int element) const;
+  /// The terms of the integrand and the terminal terms of the objective, theory (21).
   const std::vector<ResolvedTerm>& integral() const { return integral_; }
   const std::vector<ResolvedTerm>& terminal() const { return terminal_; }
 
+  /// Redundant constraints, theory (23): how they are treated, the places of the unknowns, and epsilon [1/kg] (zero without redundancy).
   const ReactionSharing& sharing() const { return sharing_; }
   const SharingLayout& sharing_layout() const { return sharing_layout_; }
   double compliance() const { return sharing_.compliance; }
 
-  /// @throws InputError if a signal reads a coordinate that has no closed form (of a joint in a folded chain), or an integral that nobody
-  /// computes.
+  /// @throws InputError if a signal reads the coordinate of a joint in a folded chain that has no closed form, or the integral of a
+  /// controller without one. @param description of the signal, for the message.
   void check_readable(const Signal& signal, const SignalDescription& description) const;
 
-  /// Start values of all named parameters.
+  /// Start values of all named parameters, order of Study::parameters.
   std::vector<double> parameters() const;
   /// All named parameters, the tuned ones at `rho` (order of Study::tuned), the others at their start values.
   std::vector<double> parameters(const Eigen::VectorXd& rho) const;

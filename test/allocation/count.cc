@@ -19,7 +19,7 @@ std::int64_t allocations() { return count; }
 
 }  // namespace codesign
 
-// glibc's own functions under the names it keeps for whoever replaces the public ones.
+// The allocation functions of glibc, under the names that remain available when a program replaces malloc() and the others.
 extern "C" {
 
 void* __libc_malloc(std::size_t size);

@@ -6,7 +6,7 @@
 
 namespace codesign {
 
-/// How often this program asked for memory so far: malloc and its kin, which operator new and Eigen call.
+/// How often this program has allocated memory so far, by malloc(), calloc(), realloc() or memalign(); operator new and Eigen call these.
 std::int64_t allocations();
 
 }  // namespace codesign

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// No memory is asked for in the loop over time steps, once a first run has shown how much is needed.
+// The loop over time steps allocates no memory after a first run, which brings every workspace to its size.
 #include "allocation/count.h"
 #include "integration/integrator.h"
 #include "sensitivity/gradient_cases.h"
@@ -15,7 +15,7 @@ class StepLoop : public ::testing::TestWithParam<Parameter> {
   const char* const method = std::get<1>(GetParam());
 };
 
-/// Steps to the end; how often memory was asked for on the way.
+/// Steps to the end and returns the number of allocations.
 template <class Stepper, class Time>
 std::int64_t allocations_of_steps(Stepper* stepper, double duration, const Time& time) {
   Status status;
@@ -54,7 +54,7 @@ TEST_P(StepLoop, OfAGradientAsksForNoMemory) {
   }
 }
 
-/// Memory asked for by gradient() after a run that ended at `time`.
+/// The number of allocations in gradient() after a run that ended at `time`.
 std::int64_t allocations_of_way_back(GradientEngine* engine, const CompiledSystem& system, double time) {
   Eigen::VectorXd result;
   EXPECT_TRUE(engine->start(system.parameters(), true).ok());
@@ -64,7 +64,7 @@ std::int64_t allocations_of_way_back(GradientEngine* engine, const CompiledSyste
   return allocations() - before;
 }
 
-// The design is set up anew on each way back; its steps cost nothing.
+// Each backward run sets its design, which allocates; its steps do not, so a longer run allocates no more.
 TEST_P(StepLoop, BackwardsAsksForNoMoreMemoryOnALongerWay) {
   const auto system = test.compile(method, "adjoint");
   const auto engine = make_gradient_engine(*system);

@@ -13,7 +13,7 @@
 namespace codesign {
 namespace {
 
-/// Each kernel against what the equations of motion say, at an arbitrary point off the constraints.
+/// Each kernel against the equations of motion, at a generic point that does not satisfy the constraints.
 class ConstraintKernelsTest : public testing::TestWithParam<std::string> {
  protected:
   ConstraintKernelsTest()

@@ -16,7 +16,7 @@ TEST(Governor, ObjectiveAndGradientMeetTheReference) {
                    {90.464824, -483.002357, 81.199348, 638.318351, -75.829680, 542.933449, 733.520034}, 1e-5);
 }
 
-// The reference's hinges turn the other way round, and their speed is that of the surface at the pin's radius of 3 mm.
+// The hinges of the reference turn in the opposite direction, and their speeds are surface speeds at the pin radius of 3 mm.
 TEST(Governor, SeriesMeetTheReference) {
   expect_series(
       Shipped("governor"),
@@ -36,7 +36,7 @@ TEST(Governor, SeriesMeetTheReference) {
 
 TEST(Governor, TunesIntoItsFlatValley) {
   Shipped shipped("governor");
-  // Coarser than shipped: the valley needs no seven digits.
+  // Looser tolerances than shipped, to save time: the valley is flat.
   shipped.study.solver.relative_tolerance = 1e-6;
   shipped.study.solver.absolute_tolerance = 1e-7;
   shipped.study.solver.sensitivity_tolerance = 0.0;

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// The paper's model mismatch: gains tuned with and without friction, run without friction and on a surface of another law and coefficients.
+// The paper's model mismatch: gains tuned with and without friction, used without friction and on a surface with another friction law.
 #include <cmath>
 
 #include "assembly/make_system.h"
@@ -15,7 +15,7 @@ using Gains = std::vector<double>;
 const Gains kWith = {546.115, 623.979, 90.071}, kWithout = {427.73, 1.11, 65.22};
 
 struct Motion {
-  std::vector<double> error, force;  ///< sizes of the vectors of both controllers, at eleven instants
+  std::vector<double> error, force;  ///< magnitudes of the error and the force of both controllers, at eleven instants
 };
 
 Motion run(const Shipped& shipped, const Gains& gains) {
@@ -36,11 +36,11 @@ Motion run(const Shipped& shipped, const Gains& gains) {
 TEST(ModelMismatch, GainsTunedWithoutFrictionLeaveALastingOffsetOnTheRoughSurface) {
   const Shipped smooth("inverted_pendulum_frictionless"), rough("inverted_pendulum", "inverted_pendulum_gonthier");
   ASSERT_EQ(rough.robot.joints[0].friction->model, FrictionModel::kGonthier);
-  // Where they were tuned they settle sooner, and with less force.
+  // Without friction, the gains tuned without friction settle sooner and need less force.
   const Motion smooth_with = run(smooth, kWith), smooth_without = run(smooth, kWithout);
   EXPECT_LT(smooth_without.error[5], 0.2 * smooth_with.error[5]);
   EXPECT_LT(smooth_without.force[0], 0.8 * smooth_with.force[0]);
-  // On the rough surface: 9 cm that stay, against 1 mm.
+  // On the rough surface they leave an offset of 9 cm, the others 1 mm.
   const Motion rough_with = run(rough, kWith), rough_without = run(rough, kWithout);
   EXPECT_LT(rough_with.error.back(), 0.002);
   EXPECT_NEAR(rough_without.error.back(), 0.0874, 0.001);

@@ -53,7 +53,7 @@ TEST_P(ShippedStudies, GradientIsThatOfTheStepsTaken) {
   EXPECT_LT(check.largest_relative_difference, 1e-9);
 }
 
-// Each integrator is the other's check. Errors of steps add up: over a second to some tens of the tolerance.
+// The two integrators check each other. Errors of steps add up, over one second to some ten times the tolerance.
 TEST_P(ShippedStudies, BothIntegratorsAgree) {
   constexpr double kTolerance = 1e-7;
   shipped.study = Shipped(GetParam()).study;

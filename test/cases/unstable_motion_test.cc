@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Haug's slider-crank where it is hard: gains of the wrong sign, a stuck slider, a stiff controller. Counts of steps, no times.
+// Haug's slider-crank in difficult cases: gains of the wrong sign, a stuck slider, a stiff controller. Steps are counted, not times.
 #include <algorithm>
 
 #include "assembly/make_system.h"
@@ -18,7 +18,7 @@ class HardSliderCrank : public ::testing::Test {
     rho[kGain] = Kp;
     return Evaluator(make_system(shipped.robot, shipped.study)).evaluate(rho, with_gradient);
   }
-  /// The optimizer begins there.
+  /// Sets the gain at which the optimizer starts.
   void start_at(double Kp) { shipped.study.parameters[static_cast<std::size_t>(shipped.study.tuned[kGain])].value = Kp; }
 
   static Shipped by_rodas4() {
@@ -33,7 +33,7 @@ class HardSliderCrank : public ::testing::Test {
   Shipped shipped = by_rodas4();
 };
 
-// Without the watch: 55 000 steps for a gain of -0.1, 400 000 and more for the others.
+// Without MotionWatch these runs take 55 000 steps for a gain of -0.1, 400 000 and more for the others.
 TEST_F(HardSliderCrank, RunsAwayOnlyBriefly) {
   for (const double Kp : {-0.1, -1.0, -5.0}) {
     const Evaluation evaluation = evaluate(Kp);
@@ -52,7 +52,7 @@ TEST_F(HardSliderCrank, RunsAwayOnlyBrieflyWithIdas) {
   }
 }
 
-// The less effort the better: the search runs through Kp = 0 to gains of the wrong sign.
+// With the term for the error removed, less effort is always better, so the search passes Kp = 0 to gains of the wrong sign.
 TEST_F(HardSliderCrank, AnOptimizerThatStepsThereGoesOn) {
   shipped.study.tuned = {shipped.study.tuned[kGain]};
   shipped.study.constraints.clear();

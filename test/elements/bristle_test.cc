@@ -36,7 +36,7 @@ const char* const kMechanism = R"(
     <codesign:friction LUGRE joint_length="0.3" pin_radius="0.5"/></loop>
 </robot>)";
 
-/// Transition and stiffness such that all terms count at the fixture's states and speeds of order one.
+/// Transition velocity and stiffness for which all terms matter at states and speeds of order one.
 std::string mechanism(const std::string& gonthier = "gonthier", const std::string& lugre = "lugre") {
   const auto law = [](const std::string& model) {
     return "model=\"" + model + "\" mu_static=\"0.6\" mu_dynamic=\"0.4\" transition_velocity=\"1.2\"" +
@@ -68,7 +68,7 @@ class EquationsBristlesTest : public ::testing::Test, public EquationsFixture {
 };
 
 TEST_F(EquationsBristlesTest, StatesStandBehindTheControllers) {
-  // Integral of the servo; rail 1 + 1, hinge 1, sleeve 1 + 1; ball 3 + 1, puck 3, table 2 + 1.
+  // The servo's integral 1; rail 1 + 1, hinge 1, sleeve 1 + 1; ball 3 + 1, puck 3, table 2 + 1.
   EXPECT_EQ(system.layout().states, 1 + 2 + 1 + 2 + 4 + 3 + 3);
   int next = 1;
   for (const BristleContact& contact : system.bristles()) {
@@ -81,11 +81,11 @@ TEST_F(EquationsBristlesTest, StatesStandBehindTheControllers) {
 
 TEST_F(EquationsBristlesTest, EveryDerivativeIsExact) {
   expect_exact_derivatives(1e-9, false);
-  // Deflections small against what the dwell states hold: no law is cut off.
+  // Deflections so small that no friction reaches its bound F, theory (13e).
   for (Eigen::Index k = 0; k < state.s.size(); ++k) state.s[k] = 0.05 + 0.02 * static_cast<double>(k % 3);
   state.v *= 0.1;
   expect_exact_derivatives(1e-9, false);
-  // Sliding after a rest: what is recorded.
+  // Sliding with full dwell states: the recorded branches.
   state.v *= 50.0;
   for (const BristleContact& contact : system.bristles())
     if (contact.dwells()) state.s[contact.dwell_state()] = 0.999;
@@ -99,7 +99,7 @@ TEST(EquationsBristles, WithoutStatesTheLawIsBrownAndMcPhees) {
 }
 
 TEST_F(EquationsBristlesTest, AContactThatTurnsAsOneKeepsItsDeflection) {
-  // Both bodies of the ball turn at the same rate: in the ground's axes zeta turns with them, and nothing else happens to it.
+  // Both bodies of the ball turn at the same rate: in the ground's axes zeta turns with them and does not change otherwise.
   const auto ball = std::find_if(system.bristles().begin(), system.bristles().end(), [&](const BristleContact& c) {
     return system.topology().pairs[static_cast<std::size_t>(c.pair)].kind == PairKind::kSpherical;
   });

@@ -70,13 +70,13 @@ class EquationsContactsTest : public ::testing::Test, public EquationsFixture {
 TEST_F(EquationsContactsTest, EveryDerivativeIsExact) {
   ASSERT_EQ(system.contacts().size(), 4U);
   expect_exact_derivatives(1e-10, false);
-  state.v *= 1e3;  // all of them slip, as is recorded
+  state.v *= 1e3;  // all contacts slip: the recorded branches
   expect_exact_derivatives(1e-10);
 }
 
 TEST_F(EquationsContactsTest, EveryDerivativeIsExactAtRest) {
   state.v.setZero();
-  // The reported magnitudes have a corner at rest, where only the motion is smooth: the integrand stays out.
+  // At rest the reported magnitudes, which the integrand reads, are not differentiable, so only the rows of G are compared.
   using S = State<std::complex<double>>;
   Linearization<double> d;
   d.resize(system.patterns());
@@ -130,12 +130,12 @@ TEST(EquationsContacts, TheRateOfASlipIsNoSignal) {
 }
 
 TEST(EquationsContacts, HingesWithoutClosedFormAreRefused) {
-  // Three hinges through one point, not at right angles: a ball all the same, whose hinges cannot be read or driven one by one.
+  // Three hinges through one point, not at right angles: still folded into a ball, but the single hinges have no coordinates.
   const std::string skew = std::regex_replace(
       kMechanism, std::regex("<child link=\"ball_b\"/><axis xyz=\"0 1 0\"/><dynamics damping=\"0.3\" friction=\"0.1\"/>"),
       "<child link=\"ball_b\"/><axis xyz=\"0.5 1 0\"/>");
   ASSERT_NE(skew, kMechanism);
-  EXPECT_THROW(EquationsFixture(skew, study_with("{}", "table_x/position")), InputError);  // of the spring on ball_z
+  EXPECT_THROW(EquationsFixture(skew, study_with("{}", "table_x/position")), InputError);  // because of the spring on ball_z
   const std::string passive =
       std::regex_replace(std::regex_replace(skew, std::regex("<codesign:torsion_spring[^>]*free_position[^>]*>"), ""),
                          std::regex("<dynamics damping=\"0.05\"/>"), "");

@@ -40,7 +40,7 @@ TEST(EquationsControllers, GravityCompensationHasExactDerivatives) {
                                 std::string("{signal: ") + joint + "/effort}"));
 }
 
-// The bob's ball joint would stand in the way.
+/// The crane without its bob: computed torque needs a tree of hinges and slides, and the bob hangs on a ball joint.
 std::string arm() {
   std::string urdf = crane();
   const std::size_t begin = urdf.find("<joint name='ball_x'"), end = urdf.find("</robot>");
@@ -65,7 +65,7 @@ TEST(EquationsControllers, ComputedTorqueHasExactDerivatives) {
   expect_exact(arm(), study(torques({"turn", "wrist"}), "{signal: wrist/effort}"));
 }
 
-/// With a rotor for every joint.
+/// arm() with an actuator, and so a rotor, in every joint.
 std::string geared_arm() {
   return std::regex_replace(arm(), std::regex("</joint>"), "<codesign:actuator gear_ratio='-8' rotor_inertia='0.003'/></joint>");
 }
@@ -137,7 +137,7 @@ TEST_P(ComputedTorque, GivesEachJointTheAccelerationAskedFor) {
 
 INSTANTIATE_TEST_SUITE_P(Arms, ComputedTorque, ::testing::Bool(), [](const auto& c) { return c.param ? "WithRotors" : "Plain"; });
 
-// At the inner joint the whole double pendulum moves as one bar if the elbow's acceleration is asked to be nil: theory (C6).
+// At the inner joint the whole double pendulum moves as one bar if the elbow's acceleration is prescribed as zero; theory (C6).
 TEST(EquationsControllers, JointsWithoutComputedTorqueAreTakenToKeepTheirRates) {
   Compiled c(
       double_pendulum(),

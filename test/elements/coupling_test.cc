@@ -52,7 +52,7 @@ TEST_F(EquationsCouplingsTest, HasARowForEach) {
 
 TEST_F(EquationsCouplingsTest, EveryDerivativeIsExact) { expect_exact_derivatives(1e-11); }
 
-// Two flywheels about parallel axes, the second turning 20 times the first backwards, driven by a spring at the first.
+// Two flywheels about parallel axes, driven by a spring at the first. The second turns 20 times as fast, in the other direction.
 std::string gear(const std::string& coupling) {
   const auto wheel = [](const std::string& name, const std::string& izz) {
     return "<link name='" + name + "'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='" + izz +

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Energies and powers: their gradients, and that one is the other's rate along any motion.
+// Energies and powers, theory (14b), (14c): their gradients, and that the rate of the energy is the sum of the powers.
 #include <gtest/gtest.h>
 
 #include "equations/equations_fixture.h"
@@ -45,11 +45,11 @@ class EnergyConformance : public ::testing::TestWithParam<EnergyCase> {};
 TEST_P(EnergyConformance, EnergiesAndPowersHaveExactGradients) {
   for (const char* signals : {kEnergies, kPowers}) {
     EquationsFixture e(GetParam().urdf, study_of(signals, GetParam().study));
-    e.expect_exact_derivatives(1e-9, !e.system.study().limits.position);  // which the state exceeds
+    e.expect_exact_derivatives(1e-9, !e.system.study().limits.position);  // beyond a stop the code was not recorded
   }
 }
 
-// Where nothing has turned yet the branches are those that are recorded.
+// Where no joint has moved, every decision has its recorded outcome, so the compiled code must run.
 TEST_P(EnergyConformance, AreRecorded) {
   if (!ValueCode::is_available()) GTEST_SKIP() << "no machine code on this processor";
   for (const char* signals : {kEnergies, kPowers}) {

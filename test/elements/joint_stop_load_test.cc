@@ -40,7 +40,7 @@ class EquationsLimitsTest : public ::testing::TestWithParam<std::string>, public
 };
 
 TEST_P(EquationsLimitsTest, EveryDerivativeIsExact) {
-  // Beyond every limit: where there is one, this is not what is recorded.
+  // The state is beyond every limit. If the study enforces any, the recorded branches, which are within them, do not apply.
   expect_exact_derivatives(1e-10, GetParam() == "{}");
 }
 

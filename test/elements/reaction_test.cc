@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// What joints exert on their children, theory (11a): by hand, against Newton and Euler for every body, and the gradients.
+// The wrenches of joints on their children, theory (11a): against values by hand, against Newton-Euler for every body, and their gradients.
 #include <gtest/gtest.h>
 
 #include "cases/shipped.h"
@@ -15,8 +15,8 @@ namespace {
 struct ReactionCase {
   std::string name, urdf, study;
   ReactionSharing sharing;
-  bool loaded = true;    ///< the joints exert something
-  bool recorded = true;  ///< the generic state's branches are those that are recorded
+  bool loaded = true;    ///< whether the wrenches differ from zero
+  bool recorded = true;  ///< whether the compiled code applies at the generic state
 };
 
 void PrintTo(const ReactionCase& c, std::ostream* out) { *out << c.name; }
@@ -31,7 +31,7 @@ ReactionCase arm() {
   return {"arm", loaded_arm(), study, {}, true, false};
 }
 
-/// A parallelogram with friction in one hinge, of whose rows three are dropped.
+/// A parallelogram with friction in one hinge; three of its constraint rows are dropped.
 ReactionCase redundant_ring() {
   ReactionSharing sharing(1e-6);
   sharing.pairs = {0, 1, 2, 3};
@@ -84,7 +84,7 @@ double value(Compiled* c, const std::string& text) {
       resolve_signal(parse_signal(text, {}, "test"), c->system.robot(), c->system.topology(), c->system.study().controllers), c->state);
 }
 
-/// In ground axes, about the ground's origin.
+/// A wrench in ground axes, about the ground's origin.
 struct Wrench {
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
 
@@ -94,7 +94,7 @@ struct Wrench {
   }
 };
 
-/// The sum of what the signals say that joints exert on each body; the ground last.
+/// The sum of the wrenches of all joints on each body, read from the signals; the ground last.
 std::vector<Wrench> exerted(Compiled* c) {
   const auto bodies = static_cast<std::size_t>(c->system.layout().bodies);
   std::vector<Wrench> sums(bodies + 1);
@@ -118,7 +118,7 @@ std::vector<Wrench> exerted(Compiled* c) {
   return sums;
 }
 
-/// What Newton and Euler say must act on a body beside its weight, from its acceleration, less what springs and constant loads exert.
+/// The wrench that the joints must exert on each body: its inertia forces minus weight, springs and constant loads.
 std::vector<Wrench> demanded(Compiled* c) {
   std::vector<Wrench> sums(static_cast<std::size_t>(c->system.layout().bodies));
   const Eigen::Vector3d gravity(c->system.study().gravity.data());
@@ -187,7 +187,7 @@ TEST_P(ReactionConformance, GradientsAreExact) {
 
 INSTANTIATE_TEST_SUITE_P(AllJoints, ReactionConformance, ::testing::ValuesIn(cases()), [](const auto& c) { return c.param.name; });
 
-// A bar of 1 kg and 1 m at the angle a and the rate w: its own axes carry g and the centripetal force at half its length.
+// A bar of 1 kg and 1 m. In its own axes the hinge carries the weight and the inertia force of the centre of mass, at half its length.
 TEST(Reaction, OfAPendulumByHand) {
   for (const char* friction : {"", pin_friction()}) {
     Compiled c(pendulum(friction), let_go("{hinge: {position: 0.7, velocity: -3.0}}", "hinge/position"));
@@ -202,7 +202,7 @@ TEST(Reaction, OfAPendulumByHand) {
     if (*friction == '\0') continue;
     EXPECT_GT(std::abs(value(&c, "hinge/friction")), 0.01);
     EXPECT_NEAR(value(&c, "hinge/reaction_torque/y - hinge/friction"), 0.0, 1e-14);
-    // The pin's normal force is that at its two ends, where no moment tilts it.
+    // Without a tilting moment the normal force (12) is pi^3/24 times the transverse force.
     const double pin = std::hypot(value(&c, "hinge/reaction_force/x"), value(&c, "hinge/reaction_force/z"));
     EXPECT_NEAR(value(&c, "hinge/normal_force"), M_PI * M_PI * M_PI / 24.0 * pin, 1e-2 * pin);
   }
@@ -224,7 +224,7 @@ TEST(Reaction, HoldsTheNormalForceOfAPlaneAndOfABall) {
   EXPECT_NEAR(std::sqrt(square), value(&ball, "ball_x/normal_force"), 1e-9 * std::sqrt(square));
 }
 
-// The gear gives the wheel what its turning takes: the effort less what the rotor's own takes.
+// The torque on the wheel is its inertia times its acceleration: the effort minus the torque that accelerates the rotor.
 TEST(Reaction, OfAGearWithItsRotorByHand) {
   const std::string disc = "<inertial><mass value='1'/><inertia ixx='0.1' ixy='0' ixz='0' iyy='0.1' iyz='0' izz='0.2'/></inertial>";
   Compiled c(robot("<link name='wheel'>" + disc +

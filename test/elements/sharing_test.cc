@@ -25,7 +25,7 @@ ReactionSharing dropping(const std::vector<int>& rows) {
 
 const char* const kStudy = "duration: 1.0\nobjective: {integral: [{signal: left_hinge/friction + left_hinge/normal_force}]}\n";
 
-/// Rows of a coincidence and of a product, and that of the coupling.
+/// Drops a row of coincident points (16), a product row (18) and the row of the coupling (20).
 class EquationsSharing : public ::testing::Test, public EquationsFixture {
  protected:
   EquationsSharing() : EquationsFixture(coupled_ring(), kStudy, dropping({16, 18, 20})) {}
@@ -40,7 +40,7 @@ TEST_F(EquationsSharing, AllRowsShareAsIfTheyWereEqualSprings) {
   const Eigen::MatrixXd G_z = dense(system.patterns().rate, d.rate).topRows(system.layout().columns());
   const Layout& layout = system.layout();
   const SharingLayout& at = system.sharing_layout();
-  // What solves the equations of the sharing for multipliers that displacements make, those displacements solve.
+  // For any eta with eta_D = 0, w = -Phi_q^T eta and lambda = Phi_q w must solve (23b).
   const Eigen::MatrixXd Phi_q = G_z.block(layout.n, 0, layout.constraints(), layout.n);
   const int last = layout.norm_row(0);
   Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(layout.columns()), loads(layout.constraints());
@@ -49,7 +49,7 @@ TEST_F(EquationsSharing, AllRowsShareAsIfTheyWereEqualSprings) {
   const Eigen::VectorXd w = -Phi_q.transpose() * loads;
   ASSERT_EQ(at.bodies.size(), 3U);
   unknowns.segment(at.first, w.size()) = w;
-  for (int row = 0; row < layout.constraints(); ++row) unknowns[at.load(row)] = 1e-4 * loads[row];  // in their unit
+  for (int row = 0; row < layout.constraints(); ++row) unknowns[at.load(row)] = 1e-4 * loads[row];  // eta in units of 1/kLoadUnit
   unknowns.segment(layout.n, last) = (Phi_q * w).head(last);
   const Eigen::VectorXd left = G_z * unknowns;
   for (int row = 0; row < last; ++row) EXPECT_LT(std::abs(left[at.load(row)]), 1e-9) << row;

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// What was compiled against the formulas themselves, which complex numbers and lanes without code run through. Derivatives of every load
-// and controller are checked both ways by the tests of Equations.
+// The compiled code against the formulas. The tests of single elements also check the derivatives of both, for every load and controller.
 #include "equations/compiled_equations.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +35,7 @@ VectorX<T> as_vector(const std::vector<T>& x) {
   return Eigen::Map<const VectorX<T>>(x.data(), static_cast<Eigen::Index>(x.size()));
 }
 
-/// The same equations twice, one of them without code.
+/// The same equations twice: with compiled code, and with the formulas alone.
 template <class T>
 struct Twins {
   explicit Twins(const CompiledSystem& mechanism) : system(mechanism), with(system), without(system) { without.compiled().allow(false); }
@@ -72,7 +71,7 @@ struct Twins {
   Equations<T> with, without;
 };
 
-/// A state in general, with directions in general.
+/// A generic state; for Lanes with generic directions.
 template <class T>
 State<T> some_state(const Layout& layout) {
   State<T> state;
@@ -120,7 +119,7 @@ TEST_P(CompiledJoints, GiveTheSameEightDerivatives) { expect_same<Lanes<8>>(*sys
 
 INSTANTIATE_TEST_SUITE_P(AllJoints, CompiledJoints, ::testing::ValuesIn(joint_cases::all()), [](const auto& c) { return c.param.name; });
 
-/// Setpoints in motion, a shaped input with parameters, positions that turn, springs.
+/// Moving setpoints, a shaped input with parameters, positions of turning joints, springs.
 const char* const kDriven =
     "duration: 1.0\n"
     "parameters: {Kp: {initial: 3.0}, amplitude: {initial: 0.7}}\n"
@@ -171,7 +170,7 @@ TEST(CompiledEquations, GoBackToTheFormulasForADesignThatDecidesOtherwise) {
   }
 }
 
-/// A cylindrical joint has two coordinates whatever its chain.
+/// A cylindrical loop has two coordinates although its chain has one element; both must have a turn reference.
 TEST(CompiledEquations, CountTheTurnsOfEveryCoordinate) {
   SKIP_WITHOUT_CODE();
   const std::string loop = joint_cases::free("tip") + joint_cases::loop("codesign:cylindrical", "base");
@@ -185,7 +184,7 @@ TEST(CompiledEquations, CountTheTurnsOfEveryCoordinate) {
   twins.expect_same(state);
 }
 
-/// Half a turn from its reference an angle is continued the same way.
+/// An angle exactly half a turn from its reference must be rounded to the same turn by code and formulas.
 TEST(CompiledEquations, RoundHalfATurnAsTheFormulasDo) {
   SKIP_WITHOUT_CODE();
   const std::shared_ptr<const CompiledSystem> system = compile(pendulum(), motion_study(1.0, "{}", "hinge/position", "{}"));

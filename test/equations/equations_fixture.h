@@ -15,12 +15,12 @@
 
 namespace codesign {
 
-/// The equations of a mechanism at a generic state, with a complex twin that differentiates them.
+/// The equations of a mechanism at a generic state, and the same equations with complex numbers for derivatives by the complex step.
 class EquationsFixture {
  public:
   EquationsFixture(const std::string& urdf, const std::string& study, const ReactionSharing& sharing = {});
 
-  /// [G; g] as a function of one of the state's vectors.
+  /// The derivative of [G; g] by one of the state's vectors at `at`, by the complex step.
   Eigen::MatrixXd reference(VectorX<std::complex<double>> State<std::complex<double>>::*member, const VectorX<double>& at);
 
   /// d[G; g]/dt by extrapolated differences.
@@ -28,19 +28,19 @@ class EquationsFixture {
 
   static Eigen::MatrixXd dense(const Sparsity& pattern, const std::vector<double>& values);
 
-  /// All derivatives at `state` against the complex step, as compiled and without; those of lanes one against the other.
-  /// @param recorded whether the state's branches are those that are recorded.
+  /// Expects all derivatives at `state` to agree with the complex step, from code and from the formulas, and with each other in lanes.
+  /// @param recorded whether the compiled code applies at `state`; else its branches differ from the recorded ones.
   void expect_exact_derivatives(double tolerance, bool recorded = true);
 
   void expect_exact_derivatives_of_real(double tolerance);
 
-  /// That there is code, and that it is used at `state`.
+  /// Expects that the equations have code, and that it runs at `state` if `recorded`, else not.
   void expect_code(bool recorded);
 
-  /// Derivatives along some directions of state and design, from code and from the formulas.
+  /// Expects the same derivatives along directions of state and design from code and from the formulas.
   void expect_same_lanes();
 
-  /// [G; g] as the complex twin has it, which is never compiled.
+  /// Expects [G; g] to agree with the complex equations, which are never compiled.
   void expect_exact_residual();
 
   RobotDescription robot;

@@ -10,7 +10,7 @@
 
 namespace codesign {
 
-/// Some numbers between -1 and 1, always the same.
+/// Numbers between -1 and 1, the same in every run.
 inline Eigen::VectorXd waves(Eigen::Index size, double phase) {
   Eigen::VectorXd x(size);
   for (Eigen::Index k = 0; k < size; ++k) x[k] = std::sin(1.7 * static_cast<double>(k) + phase);
@@ -23,11 +23,11 @@ inline Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix) {
   return cod.compute(matrix).pseudoInverse();
 }
 
-/// Removes from a velocity what the constraints forbid.
+/// The part of a velocity that the constraints allow.
 inline Eigen::VectorXd allowed(const Eigen::MatrixXd& Phi_q, const Eigen::VectorXd& v) { return v - pseudo_inverse(Phi_q) * (Phi_q * v); }
 
-/// Takes a started mechanism to a position in general, with velocities in general and the accelerations and multipliers that belong to
-/// them. False if the constraints cannot be met there.
+/// Moves a started mechanism to a generic position with generic velocities, and solves for its accelerations and multipliers. False if the
+/// constraints cannot be satisfied there.
 inline bool scramble(Compiled* c, double amount = 0.4) {
   State<double>& state = c->state;
   Eigen::VectorXd Phi, Phi_rate;

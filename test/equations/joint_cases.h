@@ -13,10 +13,10 @@ namespace codesign {
 /// One kind of joint between two bodies that fly freely otherwise.
 struct JointCase {
   std::string name;
-  std::string content;   ///< between the bodies `base` and `tip`
-  int rows = 0;          ///< of the joint, and of what is coupled to it
-  bool reaction = true;  ///< Equations::reaction gives F'' and T'' in full
-  bool loaded = true;    ///< its reaction is not zero where the bodies fly freely
+  std::string content;   ///< elements between the bodies `base` and `tip`
+  int rows = 0;          ///< constraint rows of the joint and of its coupling
+  bool reaction = true;  ///< whether Formulas::reaction() gives all components of F'' and T''
+  bool loaded = true;    ///< whether its reaction differs from zero
 };
 
 inline void PrintTo(const JointCase& c, std::ostream* out) { *out << c.name; }

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// The same demands on every kind of joint, in the tree and as a loop, and on couplings.
+// The same tests for every kind of joint, in the tree and as a loop, and for couplings.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -31,7 +31,7 @@ class JointConformance : public ::testing::TestWithParam<JointCase> {
   const Layout& layout() const { return c.system.layout(); }
   Eigen::VectorXd accelerations() const { return c.state.z.head(layout().n); }
 
-  /// Phi along q, by the complex step.
+  /// Phi_q by the complex step.
   Eigen::MatrixXd position_jacobian() {
     return complex_step_jacobian(
         [&](const Eigen::VectorXcd& q) {
@@ -63,7 +63,7 @@ TEST_P(JointConformance, PhiQIsTheJacobianOfPhi) {
   const int own = layout().coupling_row(0);
   EXPECT_LT(compare_jacobians(Phi_q.topRows(own), reference.topRows(own)).largest, 1e-12);
   EXPECT_LT(compare_jacobians(Phi_q.bottomRows(layout().bodies), reference.bottomRows(layout().bodies)).largest, 1e-12);
-  // A turn's rate is taken from angular velocities: the same as the arc tangent's slope along what joints allow.
+  // The rate of a turn comes from angular velocities; it is the derivative of the arc tangent only along motions that the joint allows.
   Eigen::MatrixXd rigid(own + layout().bodies, layout().n);
   rigid << Phi_q.topRows(own), Phi_q.bottomRows(layout().bodies);
   const Eigen::MatrixXd motions = Eigen::FullPivLU<Eigen::MatrixXd>(rigid).kernel();
@@ -132,7 +132,7 @@ struct Wrench {
   Eigen::Vector3d force, torque;
 };
 
-/// What Newton and Euler say must act on a body beside its weight, from its acceleration alone.
+/// The wrench that must act on a body besides its weight, by Newton-Euler from its acceleration.
 Wrench demanded(const Compiled& c, int b) {
   const BodyConstants<double>& constants = c.equations.constants().bodies[static_cast<std::size_t>(b)];
   const Eigen::Vector3d gravity(c.system.study().gravity.data());
@@ -142,7 +142,7 @@ Wrench demanded(const Compiled& c, int b) {
   return {constants.mass * (c.state.z.segment<3>(kBodySize * b) - gravity), constants.J * alpha + omega.cross(constants.J * omega)};
 }
 
-/// What the multipliers exert on it: virtual work, with p' = G^T omega/2.
+/// The wrench of the multipliers on it, by virtual work with p' = G^T omega/2.
 Wrench exerted(const Compiled& c, const Eigen::MatrixXd& Phi_q, int b) {
   const Layout& layout = c.system.layout();
   const Eigen::VectorXd load = -Phi_q.transpose() * c.state.z.segment(layout.n, layout.m);

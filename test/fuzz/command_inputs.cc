@@ -19,7 +19,7 @@ std::string read(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// Runs are to be short: what matters here happens before and at their ends.
+/// Makes the runs short: the errors that are looked for occur before a run and at its end.
 std::string cut_short(std::string study) {
   study = std::regex_replace(study, std::regex("(^|\n)duration: *[0-9.e-]+"), "$1duration: 0.02");
   return std::regex_replace(study, std::regex("max_evaluations: *[0-9]+"), "max_evaluations: 3");
@@ -108,7 +108,7 @@ void change_words(std::vector<std::string>* words, Dice* dice) {
   if (words->empty()) words->emplace_back("check");
 }
 
-/// Puts a random expression in the place of one that is there.
+/// Replaces one of the expressions by a random one.
 std::string change_expression(const std::string& text, Dice* dice) {
   std::vector<std::size_t> places;
   for (std::size_t at = text.find("${"); at != std::string::npos; at = text.find("${", at + 2)) places.push_back(at + 2);

@@ -10,7 +10,7 @@
 
 namespace codesign::fuzz {
 
-/// A case that works: what inputs are made from.
+/// A valid case, from which inputs are made by changes.
 struct Seed {
   std::string name, urdf, study, overlay;
 };

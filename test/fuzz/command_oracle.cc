@@ -40,14 +40,14 @@ std::vector<std::string> words_of(const Input& input) {
   return words;
 }
 
-/// Whether some number is missing: what is not finite is printed as null.
+/// Whether a number is missing; numbers that are not finite are printed as null.
 bool has_null(const Json& json) {
   if (json.is_null()) return true;
   if (!json.is_structured()) return false;
   return std::any_of(json.begin(), json.end(), has_null);
 }
 
-/// Bad input names its file, and of a file that was read the line.
+/// Checks that a message on bad input names the file, and the line if the file could be read.
 std::string judge_bad_input(const Json& error, const Input& input) {
   if (error.value("code", "") == "bad_usage") return "";
   const std::string file = error.value("file", "");

@@ -9,9 +9,9 @@
 
 namespace codesign::fuzz {
 
-/// Runs a command line in an empty folder of its own and returns what is wrong with what came of it, empty if nothing is:
-/// an exit code but 0, 1, 2; a crash; too much time or memory; bad input without its file and line; a failure without a status of its own;
-/// a success whose numbers are not all finite; what the input expects and does not get.
+/// Runs a command line in an empty folder and returns a sentence on what is wrong, empty if nothing is. Wrong are: an exit code other than
+/// 0, 1, 2; a crash; too much time or memory; a message on bad input without file and line; a failure without a status; a success with
+/// numbers that are not finite; an exit code or a text other than the input expects.
 std::string run_command(const Input& input, const Limits& limits);
 
 }  // namespace codesign::fuzz

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Tries random inputs, or those kept in files, and says which go wrong. Exit code 1 if one does, 2 for a command line that makes no sense.
+// Tries random inputs, or inputs from files, and prints the ones that fail. Exit code 1 if one fails, 2 for an invalid command line.
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -58,7 +58,7 @@ int replay(const std::vector<std::string>& paths) {
   return failures > 0 ? 1 : 0;
 }
 
-/// One input, from its own number alone. Returns what is wrong with it.
+/// Tries one input, made from its number alone. Returns a sentence on what is wrong, empty if nothing is.
 std::string try_one(const std::vector<Seed>& seeds, std::uint64_t number, const std::string& keep) {
   Dice dice(number);
   if (number % 20 == 1) return run_isolated([&](const std::atomic<bool>&) { return try_expressions(300, &dice); }, default_limits());

@@ -12,8 +12,8 @@
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define CODESIGN_SANITIZED 1
-// A report ends the process by a signal, which no exit code of the program can be mistaken for. The child leaves without giving back
-// memory.
+// A sanitizer's report must end the process by a signal, so that it differs from every exit code of the program. Leaks are not detected,
+// because the child exits without freeing its memory.
 extern "C" const char* __asan_default_options() { return "abort_on_error=1:detect_leaks=0:allocator_may_return_null=0"; }
 extern "C" const char* __ubsan_default_options() { return "abort_on_error=1:print_stacktrace=1"; }
 #endif

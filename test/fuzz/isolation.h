@@ -9,21 +9,22 @@
 
 namespace codesign::fuzz {
 
-/// What a run may take. Sanitizers take several times more of both.
+/// Limits of time and memory for one run. With sanitizers a run needs several times more of both.
 struct Limits {
   double cancel_after = 2.0;  ///< seconds of processor time after which the run is cancelled
-  double obey_within = 1.0;   ///< and in which it must then end
-  long kilobytes = 500000;    ///< of memory; 0: unlimited
+  double obey_within = 1.0;   ///< seconds in which it must end after that
+  long kilobytes = 500000;    ///< memory; 0: unlimited
 };
 
-/// The limits for the way this program was compiled.
+/// The limits for this build, with or without sanitizers.
 Limits default_limits();
 
-/// What is done in a process of its own. Returns what is wrong with the outcome, empty if nothing is. The flag is set when time is up.
+/// The function to run in a separate process. It returns a sentence on what is wrong with the outcome, empty if nothing is. `cancel` is set
+/// when the time is up.
 using Body = std::function<std::string(const std::atomic<bool>& cancel)>;
 
-/// Runs `body` in a process of its own and returns what is wrong: what the body says, a crash, a sanitizer's report, too much time or
-/// memory. @param disk bytes that may be written to any file.
+/// Runs `body` in a separate process and returns a sentence on what is wrong, empty if nothing is: the result of the body, a crash, a
+/// sanitizer's report, too much time or memory. @param disk limit of the size of any file that is written [bytes].
 std::string run_isolated(const Body& body, const Limits& limits, std::optional<long> disk = std::nullopt);
 
 }  // namespace codesign::fuzz

@@ -30,7 +30,7 @@ void choose(const Problem& problem, Dice* dice, std::vector<std::string>* names,
     values->push_back(odd_number(parameter.value, dice));
   }
   if (dice->one_in(6)) values->push_back(1.0);
-  // Not of long names: the request alone would fill the memory that is allowed.
+  // No list of very long names: the request alone would exceed the memory limit.
   if (dice->one_in(12) && !names->empty() && names->front().size() < 1000) names->resize(20000, names->front());
 }
 

@@ -32,7 +32,7 @@ ROWS = [
     ["cli", "ros"],
 ]
 ROW_OF = {room: row for row, rooms in enumerate(ROWS) for room in rooms}
-# The room whose types each public header speaks of: who may include it follows from that.
+# The room that each public header belongs to; the rooms after it may include it.
 PUBLIC = {
     "counts.h": "assembly",
     "error.h": "text",
@@ -77,7 +77,7 @@ def room_of_file(name):
 
 
 def is_ros(header, in_brackets):
-    """Our own headers below src/ros/ stand in quotes, those of ROS in brackets."""
+    """Whether a header is from ROS. Our own headers below src/ros/ are included in quotes, those of ROS in brackets."""
     return bool((in_brackets and ROS_HEADER.match(header)) or OWN_MESSAGE.match(header))
 
 
@@ -99,7 +99,7 @@ def defining_rooms(sources):
 
 
 def check_declaration(room, line, room_of_class):
-    """Why `room` must not declare the class that a line declares, or None: a declaration leads up at run time where no include does."""
+    """Why `room` must not declare the class that a line declares, or None: a forward declaration can bypass the check of includes."""
     match = FORWARD_DECLARATION.match(line)
     other = room_of_class.get(match.group(1)) if match else None
     if other is None or room == other or ROW_OF[other] < ROW_OF[room]:

@@ -58,7 +58,8 @@ TEST(InverseDynamics, ItsDerivativeByAccelerationsIsTheMassMatrix) {
   EXPECT_NEAR(by_acceleration[1], 0.0834 + 0.25 + 0.5 * c, 1e-12);
 }
 
-// About parallel axes J_r (n theta'' + w') of each rotor: of the shoulder's own n^2 J_r, of the elbow's n J_r on the upper bar.
+// With parallel axes each rotor needs J_r (n theta'' + w'). Through the gear the shoulder's own rotor adds n^2 J_r; the elbow's rotor,
+// which the upper bar carries, adds n J_r.
 TEST(InverseDynamics, RotorsAddTheirShareOfTheMassMatrix) {
   Shoulder plain(true), geared(true, "<codesign:actuator gear_ratio='5' rotor_inertia='0.004'/>");
   for (DrivenTree::Node& node : geared.tree.nodes) node.rotor = true;
