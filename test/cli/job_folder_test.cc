@@ -9,12 +9,16 @@
 namespace codesign::cli {
 namespace {
 
-TEST(JobFolder, AFailedTrialLeavesItsNumbersEmpty) {
-  const ScratchFolder folder;
+Problem slider_crank() {
   Arguments arguments;
   arguments.model = shipped("urdf/slider_crank.urdf");
   arguments.study = shipped("config/slider_crank.yaml");
-  const Problem problem = load(arguments);
+  return load(arguments);
+}
+
+TEST(JobFolder, AFailedTrialLeavesItsNumbersEmpty) {
+  const ScratchFolder folder;
+  const Problem problem = slider_crank();
   JobFolder job(folder.path("job"), problem);
   Trial trial;
   trial.evaluation = 2;
@@ -27,7 +31,10 @@ TEST(JobFolder, AFailedTrialLeavesItsNumbersEmpty) {
   EXPECT_NE(text.find("\n2,1,assembly_failed,,0.25,,0.08,0.3,0.05,0.025,1\n"), std::string::npos) << text;
 }
 
-TEST(JobFolder, RefusesAFolderThatCannotBe) { EXPECT_THROW(JobFolder("/dev/null/job", Problem()), InputError); }
+TEST(JobFolder, RefusesAFolderThatCannotBe) {
+  const Problem problem = slider_crank();
+  EXPECT_THROW(JobFolder("/dev/null/job", problem), InputError);
+}
 
 }  // namespace
 }  // namespace codesign::cli

@@ -22,7 +22,7 @@ TEST(FiniteFrame, NamesWhatIsNot) {
   frame.signals = {1.0, 2.0};
   EXPECT_EQ(find_not_finite(names, frame), "");
   frame.signals[1] = std::nan("");
-  EXPECT_EQ(find_not_finite(names, frame), "signal number 2 of those asked for is not finite");
+  EXPECT_EQ(find_not_finite(names, frame), "signal number 2 of the requested ones is not finite");
   frame.links[1].position[2] = HUGE_VAL;
   EXPECT_EQ(find_not_finite(names, frame), "the pose of link \"arm\" is not finite");
   frame.controllers[0].output = -HUGE_VAL;
