@@ -8,11 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "codegen/traced.h"
 #include "description/expression.h"
 #include "math/scalar.h"
 
 namespace codesign {
+
+class Traced;
 
 /// The value of an expression at `parameters`.
 inline double value_at(const Expression& expression, const std::vector<double>& parameters) { return expression.value(parameters); }
@@ -38,11 +39,7 @@ Lanes<N> value_at(const Expression& expression, const std::vector<Lanes<N>>& par
 }
 /// For recorded equations an expression is an input that is supplied with each design. `parameters` are nodes of the recording; at least
 /// one.
-inline Traced value_at(const Expression& expression, const std::vector<Traced>& parameters) {
-  Recording* const recording = parameters.front().recording();
-  const std::vector<double> values = values_used(expression, parameters, [](const Traced& parameter) { return parameter.value(); });
-  return {recording, recording->supplied(SourceId(expression)), expression.value_of(values)};
-}
+Traced value_at(const Expression& expression, const std::vector<Traced>& parameters);
 
 /// A number of the model: a constant, or an expression of the parameters.
 class Quantity {

@@ -6,7 +6,6 @@
 
 #include "description/robot.h"
 #include "description/study.h"
-#include "equations/compiled_system.h"
 #include "mechanism_codesign/problem.h"
 
 namespace codesign {

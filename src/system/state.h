@@ -6,11 +6,12 @@
 
 #include <type_traits>
 
-#include "codegen/traced.h"
 #include "joints/local_row.h"
 #include "math/scalar.h"
 
 namespace codesign {
+
+class Traced;
 
 /// The scalar of a turn reference. Whole turns are counted from values and have no derivative, so that it is double for every T; while
 /// the equations are traced it is Traced, so that the compiled code takes the references as inputs.

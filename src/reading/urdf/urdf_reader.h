@@ -7,7 +7,6 @@
 
 #include "description/robot.h"
 #include "mechanism_codesign/source_text.h"
-#include "reading/urdf/urdf_reader.h"
 
 namespace codesign {
 

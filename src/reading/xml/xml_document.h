@@ -10,7 +10,8 @@
 #include <utility>
 
 #include "mechanism_codesign/error.h"
-#include "reading/urdf/urdf_reader.h"
+#include "mechanism_codesign/source_text.h"
+#include "mechanism_codesign/warning.h"
 
 namespace codesign {
 

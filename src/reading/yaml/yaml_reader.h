@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "mechanism_codesign/error.h"
-#include "reading/urdf/urdf_reader.h"
+#include "mechanism_codesign/source_text.h"
 
 namespace codesign {
 
