@@ -1,0 +1,35 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "equations/compiled_system.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <thread>
+
+#include "codegen/value_code.h"
+#include "integration/servo.h"
+
+namespace codesign {
+namespace {
+
+TEST(CompiledSystem, HasOneCodeForAllThreads) {
+  const auto system = servo("{}");
+  std::vector<const EquationCode*> found(4);
+  std::vector<std::thread> threads;
+  for (const EquationCode*& code : found) threads.emplace_back([&code, &system] { code = system->equation_code(); });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(std::set<const EquationCode*>(found.begin(), found.end()).size(), 1U);
+  EXPECT_EQ(found[0] != nullptr, ValueCode::is_available());
+}
+
+TEST(CompiledSystem, IsTheSystemWithItsPatterns) {
+  const auto system = servo("{}");
+  const System copy(system->robot(), system->study(), system->sharing());
+  EXPECT_EQ(copy.layout().columns(), system->layout().columns());
+  EXPECT_EQ(copy.layout().initial_turns, system->layout().initial_turns);
+  EXPECT_EQ(&system->patterns(), &system->plan().patterns);
+  EXPECT_GT(system->patterns().rate.nonzeros(), system->layout().columns());
+}
+
+}  // namespace
+}  // namespace codesign
