@@ -12,6 +12,7 @@
 #include "equations/equations.h"
 #include "equations/iteration_matrix.h"
 #include "mechanism_codesign/status.h"
+#include "text/cancel.h"
 
 namespace codesign {
 
@@ -83,7 +84,7 @@ class Assembly {
   Rest close(const std::vector<double>& parameters, Equations<double>* equations, double rank_tolerance);
   Rest newton(const std::vector<double>& parameters, Equations<double>* equations, const std::vector<int>& free, double rank_tolerance);
   void refine(const std::vector<double>& parameters, Equations<double>* equations);
-  bool cancelled() const { return cancel_ != nullptr && *cancel_; }
+  bool cancelled() const { return is_set(cancel_); }
   Status closure_failed() const;
   void note_miss(const VectorX<double>& errors, const Equations<double>& equations);
   /// Whether worst_miss_ is within solver.closure_tolerance.

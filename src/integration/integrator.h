@@ -8,6 +8,7 @@
 
 #include "assembly/assembly.h"
 #include "mechanism_codesign/simulation.h"
+#include "text/cancel.h"
 
 namespace codesign {
 
@@ -46,7 +47,7 @@ class Integrator {
   }
 
  protected:
-  bool cancelled() const { return cancel_ != nullptr && *cancel_; }
+  bool cancelled() const { return is_set(cancel_); }
 
  private:
   const std::atomic<bool>* cancel_ = nullptr;

@@ -9,6 +9,7 @@
 #include "integration/integrator.h"
 #include "math/cpu_timer.h"
 #include "observation/observer.h"
+#include "text/cancel.h"
 
 namespace codesign {
 namespace {
@@ -105,7 +106,7 @@ Status simulate(Simulation* simulation, double duration, int count, const FrameO
     status = simulation->advance(time);
     if (!status.ok()) break;
     simulation->sample(time, &frame);
-    if (cancel != nullptr && *cancel) return {StatusCode::kCancelled, time, "cancelled"};
+    if (is_set(cancel)) return {StatusCode::kCancelled, time, "cancelled"};
     if (std::string fault = find_not_finite(simulation->names(), frame); !fault.empty()) return {StatusCode::kNonFinite, time, fault};
     if (!observer(frame)) return {StatusCode::kCancelled, time, "cancelled"};
   }

@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensitivity/adjoint_gradient.h"
+#include "text/cancel.h"
 
 #include <algorithm>
 #include <limits>
@@ -80,7 +81,7 @@ bool AdjointGradient::reach(int k) {
   if (from == k) return true;
   const int spacing = path.make_room(from, k);
   for (int at = from; at < k; ++at) {
-    if (cancel_ != nullptr && *cancel_) return false;
+    if (is_set(cancel_)) return false;
     if (!take_up(at) || !step.attempt(path.step_size(at + 1))) return false;
     point = step.unprojected();
     if (at + 1 == k || (at + 1 - from) % spacing == 0) path.keep(at + 1, point);
@@ -150,7 +151,7 @@ bool AdjointGradient::plan_holds() {
 bool AdjointGradient::go_back() {
   prepare();
   for (int k = back_->path.size(); k-- > 0;) {
-    if (cancel_ != nullptr && *cancel_) return false;
+    if (is_set(cancel_)) return false;
     if (!step_back(k)) return false;
   }
   return true;

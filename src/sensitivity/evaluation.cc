@@ -6,6 +6,7 @@
 #include "equations/compiled_system.h"
 #include "math/cpu_timer.h"
 #include "sensitivity/gradient_engine.h"
+#include "text/cancel.h"
 
 namespace codesign {
 
@@ -49,7 +50,7 @@ class Evaluator::Implementation {
     }
     if (!with_gradient) return;
     engine_->gradient(&evaluation->gradient);
-    if (cancel && *cancel) {
+    if (is_set(cancel)) {
       evaluation->status = {StatusCode::kCancelled, time, "cancelled"};
       return;
     }
@@ -65,7 +66,7 @@ class Evaluator::Implementation {
     Status status = engine_->start(parameters, with_gradient);
     const double duration = system_->study().duration;
     while (status.ok() && engine_->time() < duration) {
-      if (cancel && *cancel) return {StatusCode::kCancelled, engine_->time(), "cancelled"};
+      if (is_set(cancel)) return {StatusCode::kCancelled, engine_->time(), "cancelled"};
       status = engine_->advance(duration);
     }
     return status;

@@ -7,6 +7,7 @@
 #include "math/ridders.h"
 #include "mechanism_codesign/gradient.h"
 #include "sensitivity/rosenbrock_gradient.h"
+#include "text/cancel.h"
 
 namespace codesign {
 namespace {
@@ -37,7 +38,7 @@ Complex replay(const CompiledSystem& system, const std::vector<Complex>& paramet
   integrator->assembly().extend(parameters, integrator->initial_state(), &step.equations(), &state);
   step.start(state);
   for (double h : steps) {
-    if (cancel && *cancel) break;
+    if (is_set(cancel)) break;
     step.attempt(h);
     step.accept();
     step.track_turns();
@@ -78,7 +79,7 @@ void check_by_complex_step(const CompiledSystem& system, const Eigen::VectorXd& 
     const double h = kComplexStep * std::max(1.0, std::abs(parameters[index]));
     perturbed[index] += Complex(0.0, h);
     check->reference[k] = replay(system, perturbed, steps, &integrator, parameters, cancel).imag() / h;
-    if (cancel && *cancel) check->status = {StatusCode::kCancelled, 0.0, "cancelled"};
+    if (is_set(cancel)) check->status = {StatusCode::kCancelled, 0.0, "cancelled"};
   }
 }
 

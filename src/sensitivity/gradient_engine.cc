@@ -6,6 +6,7 @@
 #include "sensitivity/gradient_cost.h"
 #include "sensitivity/idas_gradient.h"
 #include "sensitivity/rosenbrock_gradient.h"
+#include "text/cancel.h"
 
 namespace codesign {
 namespace {
@@ -31,7 +32,7 @@ bool prefers_adjoint(const CompiledSystem& system) { return backward_plan(system
 std::unique_ptr<GradientEngine> make_gradient_engine(const CompiledSystem& system, const std::atomic<bool>* cancel) {
   if (system.study().solver.integrator == IntegratorKind::kIdas) return std::make_unique<IdasGradient>(system);
   std::optional<LanePlan> plan = backward_plan(system, cancel);
-  if (cancel != nullptr && *cancel) return nullptr;
+  if (is_set(cancel)) return nullptr;
   if (plan) return std::make_unique<AdjointGradient>(system, std::move(*plan));
   return std::make_unique<RosenbrockGradient>(system);
 }

@@ -10,6 +10,7 @@
 
 #include "assembly/assembly.h"
 #include "sensitivity/lane_groups.h"
+#include "text/cancel.h"
 
 namespace codesign {
 namespace {
@@ -65,8 +66,6 @@ class RowProbe {
   State<Scalar> state_;
   std::vector<Scalar> touched_;
 };
-
-bool is_set(const std::atomic<bool>* flag) { return flag != nullptr && *flag; }
 
 std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
   std::vector<int> all;
