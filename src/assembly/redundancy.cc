@@ -59,7 +59,9 @@ class TestMotion {
  public:
   TestMotion(const CompiledSystem& system, Equations<double>* equations, const LoopJacobian& loops, const TreeLayout& tree,
              const std::vector<double>& parameters)
-      : system_(system), equations_(equations), loops_(loops), tree_(tree), parameters_(parameters) {}
+      : system_(system), equations_(equations), loops_(loops), tree_(tree), parameters_(parameters) {
+    state_.resize(system.layout());
+  }
 
   /// Removes from `rows` (rows of the LoopJacobian) those that are violated after a test motion along which the other rows hold.
   void sift(const VectorX<double>& theta, std::vector<int>* rows) {
