@@ -12,7 +12,7 @@ commands
   check MODEL [STUDY]      the table of equations, redundant constraints
   urdf MODEL [STUDY]       the URDF that is simulated: overlays merged, parameters at their values
   simulate MODEL STUDY     one run as CSV
-    --signals A,B          the signals to print; by default those of every joint, friction and controller
+    --signals A,B          the signals to print; by default of all joints, frictions, controllers
     --csv FILE             the file to write; by default standard output
     --samples N            number of equally spaced instants, at least 2; by default 101
   gradient MODEL STUDY     the objective and its gradient by direct sensitivities
