@@ -26,7 +26,7 @@ commands
 options of every command
   --overlay FILE           annotations to merge into the model; may be repeated
   --set PARAMETER=VALUE    replace a parameter's value, or the start of a tuned one; may be repeated
-  --json                   one JSON object on standard output; its key "version" is that of this program
+  --json                   one JSON object on standard output, with this program's version
 
 exit code: 0 success, 1 a failed run or output that cannot be written, 2 bad input
 the codes of failures (error.code in JSON) are listed in doc/study.md, Statuses
