@@ -14,8 +14,7 @@ const char* const kHold = "{hold: {type: pid, input: hinge/position, setpoint: 0
 struct Watched {
   explicit Watched(const std::string& solver, const std::string& controllers = kHold)
       : system(compile(pendulum(), "duration: 1\ncontrollers: " + controllers +
-                                             "\nparameters: {}\nobjective: {integral: [{signal: hinge/position}]}\nsolver: " + solver +
-                                             "\n")),
+                                       "\nparameters: {}\nobjective: {integral: [{signal: hinge/position}]}\nsolver: " + solver + "\n")),
         equations(*system),
         watch(*system) {
     equations.set_design({});

@@ -52,7 +52,8 @@ TEST(StudyReferences, Waypoints) {
   expect_refused("{type: waypoints, times: [0, 1, 1], positions: [0, 1, 2]}", ".times", "must ascend");
   expect_refused("{type: waypoints, times: [0, 1], positions: [0, 1, 2]}", ".positions", "found 3 values for 2 times");
   expect_refused("{type: waypoints, times: [0, 1], positions: [0, 1], accelerations: [1]}", ".accelerations", "found 1 values");
-  expect_refused("{type: waypoints, times: [0, 1], positions: [0, 1], velocities: [1, 1], interpolation: linear}", ".velocities", "does not use velocities");
+  expect_refused("{type: waypoints, times: [0, 1], positions: [0, 1], velocities: [1, 1], interpolation: linear}", ".velocities",
+                 "does not use velocities");
   expect_refused("{type: waypoints, times: [0, 1], positions: [0, 1], accelerations: [1, 1], interpolation: cubic}", ".accelerations",
                  "only quintic");
   expect_refused("{type: waypoints, times: [0, 1], positions: [0, 1], interpolation: cubik}", ".interpolation", "did you mean \"cubic\"");
