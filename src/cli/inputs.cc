@@ -1,16 +1,18 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/inputs.h"
 
+#include "jobs/inputs.h"
 #include "mechanism/signal_catalog.h"
 
 namespace codesign::cli {
 
 Problem load(const Arguments& arguments, const Console* console) {
-  const SourceText urdf = read_source(arguments.model);
-  std::vector<SourceText> overlays;
-  for (const std::string& path : arguments.overlays) overlays.push_back(read_source(path));
-  Problem problem = arguments.study.empty() ? load_mechanism(urdf, overlays, arguments.settings)
-                                            : load_problem(urdf, overlays, read_source(arguments.study), arguments.settings);
+  Inputs inputs;
+  inputs.urdf = read_source(arguments.model);
+  for (const std::string& path : arguments.overlays) inputs.overlays.push_back(read_source(path));
+  if (!arguments.study.empty()) inputs.study = read_source(arguments.study);
+  inputs.settings = arguments.settings;
+  Problem problem = codesign::load(inputs);
   if (console != nullptr && console->loaded != nullptr) console->loaded();
   return problem;
 }

@@ -6,10 +6,6 @@
 
 namespace codesign::cli {
 
-std::string describe(const Status& status) {
-  return std::string(name_of(status.code)) + " at t = " + readable(status.time) + " s" + (status.cause.empty() ? "" : ": " + status.cause);
-}
-
 void add_warnings(const Arguments& arguments, const Problem& problem, const Warnings& of_run, Json* object, const Console& console) {
   Warnings warnings = problem.warnings();
   append(of_run, &warnings);

@@ -8,12 +8,10 @@
 #include "cli/arguments.h"
 #include "cli/console.h"
 #include "cli/json_output.h"
+#include "jobs/sentences.h"
 #include "mechanism_codesign/status.h"
 
 namespace codesign::cli {
-
-/// `assembly_failed at t = 0 s: cause`
-std::string describe(const Status& status);
 
 /// Writes each warning as a line to the error stream and all of them to `warnings` of `object`; also sets its `setup_seconds`.
 /// @param of_run warnings of the run, in addition to those of the input files.

@@ -7,18 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "problem/load_problem.h"
+#include "jobs/inputs.h"
 
 namespace codesign {
-
-/// The inputs of a node: the texts of model, overlays and study, not yet parsed, and the settings.
-struct Inputs {
-  SourceText urdf;
-  std::vector<SourceText> overlays;
-  SourceText study;
-  bool study_is_tree = false;  ///< the study comes from the parameter server, as a tree, not from a file
-  ParameterSettings settings;
-};
 
 /// Reads the private parameters of a node:
 /// - `~model`: path of the URDF; without it the text in `robot_description`;

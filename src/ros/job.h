@@ -12,6 +12,7 @@
 #include <functional>
 #include <string>
 
+#include "jobs/sentences.h"
 #include "mechanism_codesign/status.h"
 #include "mechanism_codesign/version.h"
 #include "problem/load_problem.h"
@@ -49,7 +50,7 @@ void set_status(const Status& status, Reply* reply) {
   reply->version = version();
   reply->success = status.ok();
   reply->code = name_of(status.code);
-  if (!status.ok()) reply->message = status.cause + " (at t = " + std::to_string(status.time) + " s)";
+  if (!status.ok()) reply->message = reason(status);
 }
 
 /// Sets a reply without success: code, message and version.

@@ -74,8 +74,7 @@ void OptimizationNode::load() {
     options_.rate = read_positive(private_node_, "rate", options_.rate);
     const Inputs inputs = read_inputs(node_, private_node_);
     study_ = inputs.study.text;
-    Problem problem =
-        load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings, bag_trajectory_loader(study_folder(inputs)));
+    Problem problem = codesign::load(inputs, bag_trajectory_loader(study_folder(inputs)));
     require_every_parameter(inputs, problem.robot());
     check_recording(problem, options_.rate, private_node_.resolveName("rate"));
     for (const std::string& sentence : remove_leftovers(options_.output_directory)) ROS_WARN_STREAM(sentence);

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "jobs/output_error.h"
+#include "jobs/sentences.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/version.h"
@@ -29,8 +30,6 @@ namespace {
 constexpr std::uint32_t kQueueSize = 100;
 /// In the mode as_fast_as_possible, a subscriber that is slow for a second must not lose frames.
 constexpr std::uint32_t kLongQueueSize = 1000;
-
-std::string at_time(const Status& status) { return status.cause + " (at t = " + std::to_string(status.time) + " s)"; }
 
 std::vector<std::string> known_parameters() {
   std::vector<std::string> names = simulation_parameters();
@@ -62,7 +61,7 @@ void SimulationNode::load() {
   clock_ = RunClock(options_.time_scale);
   pace_ = Pace(options_.publish_limit);
   const Inputs inputs = read_inputs(node_, private_node_);
-  problem_ = load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings, bag_trajectory_loader(study_folder(inputs)));
+  problem_ = codesign::load(inputs, bag_trajectory_loader(study_folder(inputs)));
   check_duration(private_node_, options_, problem_->study().duration);
   state_.show("robot", problem_->robot().name);
   state_.warn("files", problem_->warnings());
@@ -121,7 +120,7 @@ void SimulationNode::run_all() {
     const Status status = run_once();
     close_bag();
     if (stopping()) return;
-    if (!status.ok()) return state_.set(NodeState::Level::kError, std::string(name_of(status.code)) + ": " + at_time(status));
+    if (!status.ok()) return state_.set(NodeState::Level::kError, std::string(name_of(status.code)) + ": " + reason(status));
     previous_duration = problem_->study().duration + 1.0 / options_.rate;
   } while (options_.loop);
   state_.set(NodeState::Level::kOk, "finished " + problem_->robot().name);

@@ -66,8 +66,6 @@ Inputs as_tree(const std::string& urdf, const std::string& study) {
   return inputs;
 }
 
-Problem load(const Inputs& inputs) { return load_problem(inputs.urdf, {}, inputs.study); }
-
 TEST(RequireEveryParameter, ATreeThatLostAnEmptyMappingIsRefused) {
   const Inputs inputs = as_tree(kPendulumUrdf, kPendulumStudy);
   const Problem problem = load(inputs);

@@ -1,0 +1,11 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/inputs.h"
+
+namespace codesign {
+
+Problem load(const Inputs& inputs, const TrajectoryLoader& loader) {
+  if (inputs.study.name.empty()) return load_mechanism(inputs.urdf, inputs.overlays, inputs.settings);
+  return load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings, loader);
+}
+
+}  // namespace codesign

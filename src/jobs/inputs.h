@@ -1,0 +1,26 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOBS_INPUTS_H_
+#define MECHANISM_CODESIGN_JOBS_INPUTS_H_
+
+#include <vector>
+
+#include "problem/load_problem.h"
+
+namespace codesign {
+
+/// The texts and settings that a job works on, as a command line or a node was given them.
+struct Inputs {
+  SourceText urdf;
+  std::vector<SourceText> overlays;
+  SourceText study;            ///< without a name: the mechanism alone
+  bool study_is_tree = false;  ///< from the parameter server, not from a file
+  ParameterSettings settings;
+};
+
+/// Reads and compiles the inputs. @param loader reads trajectories that the study names in a bag; without one they are refused.
+/// @throws InputError as load_problem().
+Problem load(const Inputs& inputs, const TrajectoryLoader& loader = {});
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOBS_INPUTS_H_

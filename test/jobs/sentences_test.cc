@@ -1,0 +1,17 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/sentences.h"
+
+#include <gtest/gtest.h>
+
+namespace codesign {
+namespace {
+
+TEST(Sentences, NameCodeTimeAndCause) {
+  const Status status{StatusCode::kTooManySteps, 0.25, "more than 7 steps"};
+  EXPECT_EQ(describe(status), "too_many_steps at t = 0.25 s: more than 7 steps");
+  EXPECT_EQ(describe({StatusCode::kCancelled, 1.0, ""}), "cancelled at t = 1 s");
+  EXPECT_EQ(reason(status), "more than 7 steps (at t = 0.25 s)");
+}
+
+}  // namespace
+}  // namespace codesign
