@@ -29,6 +29,7 @@ struct DerivativeProducts : ::testing::Test {
     Equations<Complex> complex(*system);
     complex.set_design({parameters.begin(), parameters.end()});
     State<Complex> moved;
+    cast_state(state, &moved);
     const auto move = [](const VectorX<double>& from, const VectorX<double>& along) { return (from + Complex(0.0, 1e-30) * along).eval(); };
     moved.q = move(state.q, direction.q);
     moved.v = move(state.v, direction.v);

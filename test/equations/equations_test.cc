@@ -89,9 +89,7 @@ TEST_F(EquationsTest, TerminalTermsHaveTheirGradient) {
   for (const auto& e : gradient.position)
     if (e.column < by_q.size()) by_q[e.column] += e.value;
   State<std::complex<double>> point;
-  point.v = state.v;
-  point.s = state.s;
-  point.z = state.z;
+  cast_state(state, &point);
   const Eigen::MatrixXd expected = complex_step_jacobian(
       [&](const Eigen::VectorXcd& q) {
         point.q = q;

@@ -98,6 +98,7 @@ class CheckTest(unittest.TestCase):
         self.compile_database("src/math/twice.cc")
         self.assertEqual(self.check("tidy", "src/math/twice.cc")[:2], (1, {"tidy": "FAILED"}))
 
+    @unittest.skipUnless(shutil.which("git"), "git is not installed")
     def test_tidy_looks_at_what_was_changed(self):
         self.program("clang-tidy", 'echo "tidy of ${!#}"\n')
         self.compile_database("src/math/twice.cc", "src/math/old.cc", "src/math/new.cc")
@@ -113,6 +114,7 @@ class CheckTest(unittest.TestCase):
         output = self.check("tidy")[2]
         self.assertEqual(sorted(re.findall("tidy of (.*)", output)), ["src/math/new.cc", "src/math/twice.cc"], output)
 
+    @unittest.skipUnless(all(shutil.which(name) for name in PROGRAMS), "a program is not installed")
     def test_without_arguments_missing_programs_are_skipped(self):
         for name in PROGRAMS:
             os.symlink(shutil.which(name), os.path.join(self.bin, name))
