@@ -62,7 +62,7 @@ void measure_parameters(Report* report) {
       {"parameters", "direct, ms", "in simulations", "beyond the simulation, per parameter", "adjoint, ms", "in simulations", "auto"},
       {}};
   for (std::size_t k = 0; k < kCounts.size(); ++k) {
-    const bool backwards = prefers_adjoint(*Case::load(kCounts[k], "auto").system);
+    const bool backwards = prefers_adjoint(*Case::load(kCounts[k], "auto").system());
     table.rows.push_back({std::to_string(kCounts[k]), three_digits(1e3 * seconds[1 + 2 * k]), three_digits(direct_at(k)),
                           three_digits((direct_at(k) - 1.0) / kCounts[k]), three_digits(1e3 * seconds[2 + 2 * k]),
                           three_digits(adjoint_at(k)), backwards ? "adjoint" : "direct"});

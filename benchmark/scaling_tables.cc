@@ -6,6 +6,7 @@
 #include "benchmark/report.h"
 #include "benchmark/timing.h"
 #include "equations/compiled_system.h"
+#include "mechanism_codesign/simulation.h"
 #include "problem/load_problem.h"
 
 namespace codesign {
@@ -16,12 +17,9 @@ constexpr double kStep = 1e-3;  // [s]; held by the study, so that every size do
 /// A simulation that takes one step per call.
 class Stepper {
  public:
-  explicit Stepper(const GeneratedCase& generated) {
-    Problem problem = load_problem(generated.urdf, {}, generated.study);
-    problem.study().solver.initial_step = problem.study().solver.maximum_step = kStep;
-    problem.study().solver.relative_tolerance = problem.study().solver.absolute_tolerance = 0.1;
-    problem_ = compile(std::move(problem), {});
-    simulation_ = std::make_unique<Simulation>(problem_.system(), problem_.parameters());
+  explicit Stepper(const GeneratedCase& generated)
+      : problem_(in_equal_steps(load_problem(generated.urdf, {}, generated.study))),
+        simulation_(std::make_unique<Simulation>(problem_, problem_.parameters())) {
     restart();
   }
 
@@ -39,11 +37,17 @@ class Stepper {
   }
 
  private:
+  static Problem in_equal_steps(const Problem& problem) {
+    Study study = problem.study();
+    study.solver.initial_step = study.solver.maximum_step = kStep;
+    study.solver.relative_tolerance = study.solver.absolute_tolerance = 0.1;
+    return with_study(problem, std::move(study));
+  }
   static void require(const Status& status) {
     if (!status.ok()) throw std::runtime_error(status.cause);
   }
 
-  Problem problem_;
+  const Problem problem_;
   std::unique_ptr<Simulation> simulation_;
   double time_ = 0.0;
 };

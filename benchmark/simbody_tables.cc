@@ -48,7 +48,7 @@ Contestant simbody(const Eigen::VectorXd& rho, const Reference& reference) {
 void measure_simbody(Report* report) {
   const Problem problem = with_dry_friction(load_slider_crank());
   const Problem tight = *with_solver(problem, "rodas5p", 1e-10);
-  const Evaluation evaluation = Evaluator(tight.system).evaluate(tight.start(), true);
+  const Evaluation evaluation = Evaluator(tight.system()).evaluate(tight.start(), true);
   if (!evaluation.status.ok()) throw std::runtime_error(evaluation.status.cause);
   const Reference reference{evaluation.objective, evaluation.gradient};
   const Eigen::VectorXd rho = problem.start();

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "description/solver_names.h"
+#include "description/solver_options.h"
 #include "mechanism_codesign/error.h"
 
 namespace codesign {
@@ -28,19 +28,25 @@ constexpr const char* kMasses = R"(<robot name="slider_crank_haug" xmlns:codesig
   <link name="slider"><inertial><mass value="2" codesign:value="${slider_mass}"/></inertial></link>
 </robot>)";
 
+RosenbrockMethod method_named(const std::string& name) {
+  for (std::size_t k = 0; k < kRosenbrockMethodNames.size(); ++k)
+    if (name == kRosenbrockMethodNames[k]) return static_cast<RosenbrockMethod>(k);
+  throw std::invalid_argument(name);
+}
+
 }  // namespace
 
 Problem load_slider_crank() { return load_problem(read_source(kUrdf), {}, read_source(kStudy)); }
 
 std::optional<Problem> with_solver(const Problem& problem, const std::string& name, double relative_tolerance) {
-  Problem changed = problem;
-  changed.study.solver.integrator = name == "idas" ? IntegratorKind::kIdas : IntegratorKind::kRosenbrock;
-  if (name != "idas") changed.study.solver.method = method_named(name == kControlled ? "rodas5p" : name);
-  changed.study.solver.sensitivity_tolerance = name == kControlled ? relative_tolerance : 0.0;
-  changed.study.solver.relative_tolerance = relative_tolerance;
-  changed.study.solver.absolute_tolerance = 0.1 * relative_tolerance;
+  Study changed = problem.study();
+  changed.solver.integrator = name == "idas" ? IntegratorKind::kIdas : IntegratorKind::kRosenbrock;
+  if (name != "idas") changed.solver.method = method_named(name == kControlled ? "rodas5p" : name);
+  changed.solver.sensitivity_tolerance = name == kControlled ? relative_tolerance : 0.0;
+  changed.solver.relative_tolerance = relative_tolerance;
+  changed.solver.absolute_tolerance = 0.1 * relative_tolerance;
   try {
-    return compile(std::move(changed), {});
+    return with_study(problem, std::move(changed));
   } catch (const InputError&) {
     return std::nullopt;
   }
@@ -49,10 +55,11 @@ std::optional<Problem> with_solver(const Problem& problem, const std::string& na
 Problem with_tuned(const Problem& problem, int tuned) {
   const SourceText study{kStudy, replaced(read_source(kStudy).text, "  Kp: {", "}\n",
                                           "  crank_mass: {}\n  rod_mass: {}\n  slider_mass: {}\n  Kp: {initial: 1.0}\n")};
-  Problem more = load_problem(problem.urdf(), {{"masses", kMasses}}, study);
-  more.study.solver = problem.study().solver;
-  more.study.tuned.resize(static_cast<std::size_t>(tuned));
-  return compile(std::move(more), {});
+  const Problem more = load_problem(problem.urdf(), {{"masses", kMasses}}, study);
+  Study changed = more.study();
+  changed.solver = problem.study().solver;
+  changed.tuned.resize(static_cast<std::size_t>(tuned));
+  return with_study(more, std::move(changed));
 }
 
 Problem with_dry_friction(const Problem& problem) {

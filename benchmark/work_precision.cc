@@ -60,7 +60,7 @@ Outcome outcome_of(const Reference& reference, bool with_gradient, double psi, c
 Contestant own_solver(const Problem& problem, const std::string& name, const Reference& reference) {
   return {name, [problem, name, reference](double tolerance, bool with_gradient) -> std::function<Outcome()> {
             const Problem changed = *with_solver(problem, name, tolerance);
-            const auto evaluator = std::make_shared<Evaluator>(changed.system);
+            const auto evaluator = std::make_shared<Evaluator>(changed.system());
             return [evaluator, reference, rho = changed.start(), with_gradient] {
               const Evaluation e = evaluator->evaluate(rho, with_gradient);
               return e.status.ok() ? outcome_of(reference, with_gradient, e.objective, e.gradient, static_cast<long>(e.statistics.steps))
