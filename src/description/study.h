@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "description/basis.h"
+#include "description/ensemble.h"
 #include "description/quantity.h"
 #include "description/reference.h"
 #include "description/solver_options.h"
@@ -136,6 +137,7 @@ struct Study {
   LimitOptions limits;
   SolverOptions solver;
   OptimizerOptions optimizer;
+  EnsembleDescription ensemble;
   std::string file;  ///< the file it was read from, for messages
 };
 
