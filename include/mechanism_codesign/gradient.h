@@ -37,6 +37,8 @@ class Evaluator {
   /// @param rho the tuned parameters, in the order of Problem::tuned_names(); the others keep their start values.
   /// @param cancel the evaluation ends with kCancelled soon after this is set, from any thread; null: never.
   Evaluation evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel = nullptr);
+  /// The same for values of all named parameters, in the order of Problem::all_parameters(); the gradient is still by the tuned ones.
+  Evaluation evaluate_design(const std::vector<double>& parameters, bool with_gradient, const std::atomic<bool>* cancel = nullptr);
 
  private:
   class Implementation;

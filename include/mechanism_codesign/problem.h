@@ -60,6 +60,7 @@ class Problem {
   const RobotDescription& robot() const;
   const Study& study() const;
   const std::shared_ptr<const CompiledSystem>& system() const;
+  const Contents& contents() const { return *contents_; }
 
  private:
   std::shared_ptr<const Contents> contents_;

@@ -10,10 +10,9 @@
 namespace codesign {
 
 /// The NLopt optimizer that `options.algorithm` names. @param study for its parameter constraints. @param dimension number of tuned
-/// parameters.
-/// @throws InputError for an unknown algorithm, for parameter constraints with an algorithm that takes none, or a relative tolerance out of
-/// range.
-nlopt::opt make_optimizer(const Study& study, const OptimizerOptions& options, unsigned dimension);
+/// parameters and slack variables. @param with_slack whether slack variables add constraints.
+/// @throws InputError for an unknown algorithm, for constraints with an algorithm that takes none, or a relative tolerance out of range.
+nlopt::opt make_optimizer(const Study& study, const OptimizerOptions& options, unsigned dimension, bool with_slack = false);
 
 /// Snake-case name of the reason for which NLopt stopped, e.g. objective_tolerance_reached.
 std::string termination_name(nlopt::result result);

@@ -16,6 +16,7 @@ struct Problem::Contents {
   std::vector<SourceText> overlays;
   SourceText study_text;
   std::shared_ptr<const CompiledSystem> system;
+  std::vector<std::shared_ptr<const CompiledSystem>> variants;  ///< of variant_of(); empty if there is only the study itself
   double setup_seconds = 0.0;  ///< processor time of reading and compiling [s]
   Warnings warnings;
 };
@@ -24,6 +25,10 @@ struct Problem::Contents {
 /// names a bag is refused.
 Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
                      const ParameterSettings& settings, const TrajectoryLoader& loader);
+
+/// The system compiled for one run of `Study::ensemble.runs` with one friction law for all joints.
+/// @param run index of the run; 0 if the study has no runs. @param law index in `laws` of the uncertain friction law; -1: the model's own.
+std::shared_ptr<const CompiledSystem> variant_of(const Problem& problem, int run, int law);
 
 /// The problem compiled anew with another study of the same model; the texts stay those of `problem`. @throws InputError as load_problem().
 Problem with_study(const Problem& problem, Study study, const ParameterSettings& settings = {});

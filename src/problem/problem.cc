@@ -10,6 +10,7 @@
 #include "problem/load_problem.h"
 #include "problem/margins.h"
 #include "problem/unused_parameters.h"
+#include "problem/variants.h"
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"
 #include "text/decimal.h"
@@ -46,6 +47,13 @@ Problem compile(const RobotDescription& robot, Study study, const ParameterSetti
   require_numbers_at_start(study, start_parameters(study));
   append(unused_parameters(contents, study), &contents.warnings);
   contents.system = make_system(robot, study, &contents.warnings);
+  for (RunDescription& run : study.ensemble.runs)
+    if (run.study) {
+      auto changed = std::make_shared<Study>(*run.study);
+      apply_settings(settings, changed.get());
+      run.study = std::move(changed);
+    }
+  contents.variants = make_variants(robot, study, contents.system, &contents.warnings);
   contents.setup_seconds += timer.seconds();
   return Problem(std::make_shared<const Problem::Contents>(std::move(contents)));
 }

@@ -23,7 +23,7 @@ class Evaluator::Implementation {
  public:
   explicit Implementation(std::shared_ptr<const CompiledSystem> system) : system_(std::move(system)) {}
 
-  Evaluation evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel) {
+  Evaluation evaluate(const std::vector<double>& parameters, bool with_gradient, const std::atomic<bool>* cancel) {
     Evaluation evaluation;
     if (!engine_) engine_ = make_gradient_engine(*system_, cancel);
     if (!engine_) {
@@ -32,13 +32,14 @@ class Evaluator::Implementation {
     }
     const CpuTimer timer;
     engine_->obey(cancel);
-    evaluation.status = run(system_->parameters(rho), with_gradient, cancel);
+    evaluation.status = run(parameters, with_gradient, cancel);
     if (evaluation.status.ok()) collect(with_gradient, cancel, &evaluation);
     evaluation.statistics = engine_->statistics();
     evaluation.warnings = engine_->warnings();
     evaluation.statistics.cpu_seconds = timer.seconds();
     return evaluation;
   }
+  const CompiledSystem& system() const { return *system_; }
 
  private:
   void collect(bool with_gradient, const std::atomic<bool>* cancel, Evaluation* evaluation) {
@@ -83,7 +84,11 @@ Evaluator::Evaluator(Evaluator&&) noexcept = default;
 Evaluator& Evaluator::operator=(Evaluator&&) noexcept = default;
 
 Evaluation Evaluator::evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel) {
-  return implementation_->evaluate(rho, with_gradient, cancel);
+  return implementation_->evaluate(implementation_->system().parameters(rho), with_gradient, cancel);
+}
+
+Evaluation Evaluator::evaluate_design(const std::vector<double>& parameters, bool with_gradient, const std::atomic<bool>* cancel) {
+  return implementation_->evaluate(parameters, with_gradient, cancel);
 }
 
 }  // namespace codesign

@@ -1,0 +1,25 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ENGINE_WORKER_H_
+#define MECHANISM_CODESIGN_ENGINE_WORKER_H_
+
+#include <map>
+
+#include "engine/evaluation_engine.h"
+
+namespace codesign {
+
+/// Does one evaluation after another. Keeps the workspace of each system, so that it is allocated once. Not thread-safe: one per thread.
+class EvaluationWorker {
+ public:
+  Evaluation evaluate(const EvaluationTask& task, const std::atomic<bool>* cancel) {
+    const auto [place, is_new] = evaluators_.try_emplace(task.system.get(), task.system);
+    return place->second.evaluate_design(task.parameters, task.with_gradient, cancel);
+  }
+
+ private:
+  std::map<const CompiledSystem*, Evaluator> evaluators_;  // an Evaluator shares its system, so no address is used twice
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ENGINE_WORKER_H_

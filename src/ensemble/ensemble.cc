@@ -1,0 +1,132 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "ensemble/ensemble.h"
+
+#include <algorithm>
+#include <string>
+
+#include "equations/compiled_system.h"
+#include "math/cpu_timer.h"
+#include "sampling/measure.h"
+
+namespace codesign {
+namespace {
+
+Scenario own_run(std::shared_ptr<const CompiledSystem> system) {
+  Scenario scenario;
+  scenario.system = std::move(system);
+  return scenario;
+}
+
+void add(const Statistics& statistics, Statistics* sum) {
+  sum->steps += statistics.steps;
+  sum->rejected_steps += statistics.rejected_steps;
+  sum->cpu_seconds += statistics.cpu_seconds;
+  sum->constraint_drift = std::max(sum->constraint_drift, statistics.constraint_drift);
+  sum->energy_error = std::max(sum->energy_error, statistics.energy_error);
+}
+
+void add_new(const Warnings& warnings, Warnings* all) {
+  for (const Warning& warning : warnings)
+    if (std::none_of(all->begin(), all->end(), [&warning](const Warning& known) { return known.code == warning.code; }))
+      all->push_back(warning);
+}
+
+Status named(const Status& status, const Scenario& scenario) {
+  return {status.code, status.time, scenario.name() + ": " + status.cause};
+}
+
+}  // namespace
+
+Ensemble::Ensemble(std::vector<Scenario> scenarios, const RobustOptions& options, std::shared_ptr<EvaluationEngine> engine)
+    : scenarios_(std::move(scenarios)),
+      options_(options),
+      weights_(static_cast<Eigen::Index>(scenarios_.size())),
+      engine_(std::move(engine)) {
+  for (std::size_t k = 0; k < scenarios_.size(); ++k) weights_[static_cast<Eigen::Index>(k)] = scenarios_[k].weight;
+}
+
+Ensemble::Ensemble(const Problem& problem)
+    : Ensemble(make_scenarios(problem), problem.study().ensemble.robust.value_or(RobustOptions{}), nullptr) {
+  engine_ = make_engine(problem.study().ensemble.engine, static_cast<int>(scenarios_.size()));
+}
+
+Ensemble::Ensemble(std::shared_ptr<const CompiledSystem> system)
+    : Ensemble({own_run(std::move(system))}, RobustOptions{}, make_engine({EngineKind::kSerial, 0}, 1)) {}
+
+EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel) {
+  std::vector<EvaluationTask> tasks;
+  tasks.reserve(scenarios_.size());
+  for (const Scenario& scenario : scenarios_) tasks.push_back({scenario.system, scenario.parameters(rho), with_gradient});
+  std::vector<Evaluation> members = engine_->evaluate(tasks, cancel);
+  EnsembleEvaluation result;
+  if (scenarios_.size() == 1) {
+    result.total = std::move(members.front());
+    if (!result.total.status.ok()) return result;
+    result.values = Eigen::VectorXd::Constant(1, result.total.objective);
+    if (with_gradient) result.gradients = result.total.gradient;
+    return result;
+  }
+  for (const Evaluation& member : members) {
+    add(member.statistics, &result.total.statistics);
+    add_new(member.warnings, &result.total.warnings);
+  }
+  if (!collect(&members, with_gradient, &result)) return result;
+  const Measured measured = measure(options_, result.values, weights_);
+  result.total.objective = measured.value;
+  result.threshold = measured.threshold;
+  if (with_gradient) result.total.gradient = result.gradients * measured.by_value;
+  return result;
+}
+
+/// Gathers values and gradients; false if a scenario failed that must not, with its status.
+bool Ensemble::collect(std::vector<Evaluation>* members, bool with_gradient, EnsembleEvaluation* result) const {
+  std::vector<std::size_t> failed;
+  const auto count = static_cast<Eigen::Index>(scenarios_.size());
+  result->values.resize(count);
+  for (std::size_t k = 0; k < members->size(); ++k) {
+    const Evaluation& member = (*members)[k];
+    const auto column = static_cast<Eigen::Index>(k);
+    if (!member.status.ok()) {
+      if (options_.failed == FailedSamples::kRefuse || member.status.code == StatusCode::kCancelled) {
+        result->total.status = named(member.status, scenarios_[k]);
+        if (member.status.code == StatusCode::kCancelled) result->total.status = member.status;
+        result->values.resize(0);
+        return false;
+      }
+      failed.push_back(k);
+      continue;
+    }
+    result->values[column] = member.objective;
+    if (!with_gradient) continue;
+    if (result->gradients.size() == 0) result->gradients.setZero(member.gradient.size(), count);
+    result->gradients.col(column) = member.gradient;
+  }
+  return failed.empty() || fill_tail(failed, *members, result);
+}
+
+/// Gives failed scenarios value and gradient of the worst of the others. False if more than the tail failed.
+bool Ensemble::fill_tail(const std::vector<std::size_t>& failed, const std::vector<Evaluation>& members, EnsembleEvaluation* result) const {
+  double weight = 0.0;
+  for (std::size_t k : failed) weight += scenarios_[k].weight;
+  if (weight > 1.0 - options_.level) {
+    result->total.status = named(members[failed.front()].status, scenarios_[failed.front()]);
+    result->total.status.cause += "; " + std::to_string(failed.size()) + " of " + std::to_string(scenarios_.size()) +
+                                  " scenarios failed, more than the tail holds";
+    result->values.resize(0);
+    return false;
+  }
+  Eigen::Index worst = -1;
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    if (members[k].status.ok() && (worst < 0 || result->values[column] > result->values[worst])) worst = column;
+  }
+  for (std::size_t k : failed) {
+    const auto column = static_cast<Eigen::Index>(k);
+    result->values[column] = result->values[worst];
+    if (result->gradients.size() > 0) result->gradients.col(column) = result->gradients.col(worst);
+  }
+  result->failed = static_cast<int>(failed.size());
+  return true;
+}
+
+}  // namespace codesign

@@ -1,0 +1,52 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ENSEMBLE_ENSEMBLE_H_
+#define MECHANISM_CODESIGN_ENSEMBLE_ENSEMBLE_H_
+
+#include <memory>
+#include <vector>
+
+#include "engine/evaluation_engine.h"
+#include "ensemble/scenario.h"
+
+namespace codesign {
+
+/// The objective of one design over all scenarios.
+struct EnsembleEvaluation {
+  /// Measure and its gradient; sums of the statistics; the warnings of all scenarios, each once. With one scenario it is that scenario's.
+  Evaluation total;
+  Eigen::VectorXd values;     ///< psi of each scenario; empty if one failed and `total` is not ok
+  Eigen::MatrixXd gradients;  ///< one column per scenario
+  double threshold = 0.0;     ///< of kCvar and kWorst: the value at risk
+  int failed = 0;             ///< scenarios that could not be integrated and count in the tail
+};
+
+/// Evaluates designs over scenarios: doc/theory.md gives the measures. Not thread-safe; several ensembles may share an engine.
+class Ensemble {
+ public:
+  /// @param engine does the evaluations. @param scenarios weights with sum 1.
+  Ensemble(std::vector<Scenario> scenarios, const RobustOptions& options, std::shared_ptr<EvaluationEngine> engine);
+  /// The scenarios of a problem, on an engine as its study asks for.
+  explicit Ensemble(const Problem& problem);
+  /// The one run of a compiled study.
+  explicit Ensemble(std::shared_ptr<const CompiledSystem> system);
+
+  EnsembleEvaluation evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel = nullptr);
+
+  const std::vector<Scenario>& scenarios() const { return scenarios_; }
+  const Eigen::VectorXd& weights() const { return weights_; }
+  const RobustOptions& options() const { return options_; }
+  const std::shared_ptr<EvaluationEngine>& engine() const { return engine_; }
+
+ private:
+  bool collect(std::vector<Evaluation>* members, bool with_gradient, EnsembleEvaluation* result) const;
+  bool fill_tail(const std::vector<std::size_t>& failed, const std::vector<Evaluation>& members, EnsembleEvaluation* result) const;
+
+  std::vector<Scenario> scenarios_;
+  RobustOptions options_;
+  Eigen::VectorXd weights_;
+  std::shared_ptr<EvaluationEngine> engine_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ENSEMBLE_ENSEMBLE_H_

@@ -1,0 +1,90 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "ensemble/scenario.h"
+
+#include <algorithm>
+
+#include "equations/compiled_system.h"
+#include "sampling/samples.h"
+
+namespace codesign {
+namespace {
+
+/// The study's runs; the study itself if it has none.
+std::vector<RunDescription> runs_of(const Study& study) {
+  if (!study.ensemble.runs.empty()) return study.ensemble.runs;
+  return {RunDescription{}};
+}
+
+int index_of(const Study& study, const std::string& name) {
+  const auto found = std::find_if(study.parameters.begin(), study.parameters.end(), [&name](const Parameter& p) { return p.name == name; });
+  return static_cast<int>(found - study.parameters.begin());
+}
+
+/// Sets what sample `row` says, one value per uncertain quantity. @param law receives the friction law, an index of the quantity's laws.
+void take_sample(const std::vector<UncertainQuantity>& uncertain, const std::vector<double>& row, Scenario* scenario, int* law) {
+  for (std::size_t k = 0; k < uncertain.size(); ++k) {
+    if (uncertain[k].parameter < 0)
+      *law = static_cast<int>(row[k]);
+    else
+      scenario->values.emplace_back(uncertain[k].parameter, row[k]);
+  }
+}
+
+std::vector<Scenario> combine(const Problem& problem, const std::vector<std::vector<double>>& samples) {
+  const Study& study = problem.study();
+  const std::vector<RunDescription> runs = runs_of(study);
+  double sum = 0.0;
+  for (const RunDescription& run : runs) sum += run.weight;
+  std::vector<Scenario> scenarios;
+  const std::size_t count = std::max<std::size_t>(1, samples.size());
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    for (std::size_t s = 0; s < count; ++s) {
+      Scenario scenario;
+      scenario.run = runs[r].name;
+      scenario.weight = runs[r].weight / sum / static_cast<double>(count);
+      for (const auto& [name, value] : runs[r].set) scenario.values.emplace_back(index_of(study, name), value);
+      int law = -1;
+      if (!samples.empty()) {
+        scenario.sample = static_cast<int>(s);
+        take_sample(study.ensemble.uncertain, samples[s], &scenario, &law);
+      }
+      scenario.system = variant_of(problem, static_cast<int>(r), law);
+      scenarios.push_back(std::move(scenario));
+    }
+  return scenarios;
+}
+
+// Any constant that no user's seed is likely to differ by.
+constexpr std::uint32_t kFresh = 0x9e3779b9u;
+
+}  // namespace
+
+std::vector<double> Scenario::parameters(const Eigen::VectorXd& rho) const {
+  std::vector<double> parameters = system->parameters(rho);
+  for (const auto& [index, value] : values) parameters[static_cast<std::size_t>(index)] = value;
+  return parameters;
+}
+
+std::string Scenario::name() const {
+  std::string text;
+  if (!run.empty()) text = "run \"" + run + "\"";
+  if (sample >= 0) text += (text.empty() ? "sample " : ", sample ") + std::to_string(sample + 1);
+  return text;
+}
+
+std::vector<Scenario> make_scenarios(const Problem& problem) {
+  const EnsembleDescription& ensemble = problem.study().ensemble;
+  const RobustOptions options = ensemble.robust.value_or(RobustOptions{});
+  // A single sample is the nominal one.
+  if (ensemble.uncertain.empty() || options.samples == 1) return combine(problem, {});
+  return combine(problem, draw(ensemble.uncertain, options.sampler, options.samples, options.seed));
+}
+
+std::vector<Scenario> make_validation_scenarios(const Problem& problem, int count) {
+  const EnsembleDescription& ensemble = problem.study().ensemble;
+  const RobustOptions options = ensemble.robust.value_or(RobustOptions{});
+  if (ensemble.uncertain.empty()) return combine(problem, {});
+  return combine(problem, draw(ensemble.uncertain, options.sampler, count, options.seed + kFresh));
+}
+
+}  // namespace codesign

@@ -1,0 +1,38 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ENSEMBLE_SCENARIO_H_
+#define MECHANISM_CODESIGN_ENSEMBLE_SCENARIO_H_
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "problem/load_problem.h"
+
+namespace codesign {
+
+/// One run at one sample of the uncertain quantities: what a design is evaluated on.
+struct Scenario {
+  std::string run;  ///< name of the run; empty if the study has none
+  int sample = -1;  ///< number of the sample from 0; -1: the nominal values
+  double weight = 1.0;
+  std::shared_ptr<const CompiledSystem> system;
+  std::vector<std::pair<int, double>> values;  ///< values of parameters (index in Study::parameters) that differ from their start values
+
+  /// All named parameters at a design.
+  std::vector<double> parameters(const Eigen::VectorXd& rho) const;
+  /// "run \"loaded\", sample 3", for messages; empty for the study's own run.
+  std::string name() const;
+};
+
+/// The scenarios of a problem, weights with sum 1: each run at each sample. Without `runs` and `uncertain` the one scenario is the study's
+/// own run. All runs share the same samples.
+std::vector<Scenario> make_scenarios(const Problem& problem);
+
+/// Each run at `count` fresh samples, to validate a design: the seed differs from the study's.
+std::vector<Scenario> make_validation_scenarios(const Problem& problem, int count);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ENSEMBLE_SCENARIO_H_

@@ -1,0 +1,18 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_OPTIMIZATION_LOCAL_SEARCH_H_
+#define MECHANISM_CODESIGN_OPTIMIZATION_LOCAL_SEARCH_H_
+
+#include "ensemble/ensemble.h"
+#include "mechanism_codesign/optimization.h"
+
+namespace codesign {
+
+/// Minimizes the ensemble's measure from `start` with NLopt, within bounds and parameter constraints.
+/// @param study of the problem: parameters, bounds, constraints. @param start of rho.
+/// @throws InputError as optimize().
+OptimizationResult search_locally(const Study& study, const OptimizerOptions& options, const Eigen::VectorXd& start, Ensemble* ensemble,
+                                  const TrialObserver& observer, const std::atomic<bool>* cancel);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_OPTIMIZATION_LOCAL_SEARCH_H_

@@ -1,0 +1,28 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_PROBLEM_VARIANTS_H_
+#define MECHANISM_CODESIGN_PROBLEM_VARIANTS_H_
+
+#include <memory>
+#include <vector>
+
+#include "description/robot.h"
+#include "description/study.h"
+#include "mechanism_codesign/warning.h"
+
+namespace codesign {
+
+class CompiledSystem;
+
+/// The systems that the runs and the uncertain friction law of a study need, run by run: first with the model's own friction laws, then with
+/// each law of the choice for all joints. Runs that change only values of parameters share the study's own system.
+/// @param own the system of the study itself. @param warnings receives warnings about the runs that are not yet among them.
+/// @throws InputError naming the run, for a run without equations of motion or whose start cannot be assembled.
+std::vector<std::shared_ptr<const CompiledSystem>> make_variants(const RobotDescription& robot, const Study& study,
+                                                                 const std::shared_ptr<const CompiledSystem>& own, Warnings* warnings);
+
+/// The number of friction laws to choose from; 0 if the law is certain.
+int count_laws(const Study& study);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_PROBLEM_VARIANTS_H_
