@@ -37,10 +37,7 @@ void SingularStart::load(const std::vector<double>& parameters, const VectorX<do
   L_.resize(count, 0);
   if (count == 0 || count * tree_.size > kLargest) return;
   J_ = loops_.evaluate(parameters, theta, *equations);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(J_);
-  qr.setThreshold(kRank);
-  const Eigen::MatrixXd Q = qr.householderQ();
-  L_ = Q.rightCols(count - qr.rank());
+  L_ = orthogonal_complement(J_, kRank);
 }
 
 // (J x)_theta x, by central differences of fourth order.
@@ -78,9 +75,7 @@ bool SingularStart::solve(const std::vector<int>& free, VectorX<double>* x) {
       const VectorX<double> unit = x->norm() * VectorX<double>::Unit(tree_.size, free[static_cast<std::size_t>(k)]);
       A.col(k) << J.col(free[static_cast<std::size_t>(k)]), (violation(*x + unit) - violation(*x - unit)) / (2.0 * x->norm());
     }
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod;
-    cod.setThreshold(1e-6);
-    const VectorX<double> step = cod.compute(A).solve(error);
+    const VectorX<double> step = LeastNorm(A, 1e-6).solve(error);
     for (Eigen::Index k = 0; k < count; ++k) (*x)[free[static_cast<std::size_t>(k)]] -= step[k];
     if (!x->allFinite()) return false;
   }
@@ -109,7 +104,7 @@ VectorX<double> SingularStart::tree_accelerations(const VectorX<double>& a) {
     rates(theta_, VectorX<double>::Unit(tree_.size, c));
     body_velocities.col(c) = state_.v;
   }
-  return body_velocities.colPivHouseholderQr().solve(a);
+  return least_norm(body_velocities).solve(a);
 }
 
 std::string SingularStart::joints() const {

@@ -82,8 +82,7 @@ void SingularityWatch::place(double time) {
 }
 
 int SingularityWatch::rank(Equations<double>* equations, const State<double>& state) const {
-  const Eigen::VectorXd values = Eigen::BDCSVD<Eigen::MatrixXd>(constraint_jacobian(system_, equations, state)).singularValues();
-  return static_cast<int>((values.array() > kRank * values[0]).count());
+  return static_cast<int>(pivot_columns(constraint_jacobian(system_, equations, state), kRank).rank);
 }
 
 void SingularityWatch::search(Equations<double>* equations) {
