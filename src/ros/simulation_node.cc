@@ -248,4 +248,6 @@ void SimulationNode::close_bag() {
   }
 }
 
+std::shared_ptr<void> make_simulation_node() { return std::make_shared<SimulationNode>(); }
+
 }  // namespace codesign
