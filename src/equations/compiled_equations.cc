@@ -2,6 +2,7 @@
 #include "equations/compiled_equations.h"
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 
 #include "codegen/operate.h"
@@ -132,6 +133,8 @@ bool CompiledEquations<T>::tangents(EquationFunction function, double t, const s
                                     const In<double> (&directions)[4], const Out<double> (&results)[4]) {
   const CompiledFunction* const code = kLanesOf<T> == 0 ? nullptr : begin(function, true, t, turns);
   if (!code) return false;
+  assert(std::equal(std::begin(values), std::end(values), std::begin(directions),
+                    [](In<double> x, In<double> along) { return along.size() == kLanesOf<T> * x.size(); }));
   const auto first = [](In<double> array) { return array.data(); };
   ValueCode::Arrays arrays{};
   std::transform(std::begin(values), std::end(values), arrays.begin(), first);

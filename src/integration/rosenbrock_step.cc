@@ -46,11 +46,11 @@ void RosenbrockStep<T>::stage_start(std::size_t i) {
   const auto add = [&](In<T> rate, int first) {
     combine(rate, In<double>(factors).first(static_cast<std::ptrdiff_t>(i)), increments_, first, Out<T>(u).subspan(first, rate.size()));
   };
-  const T zero(0.0);
   add(In<T>(stage.z).first(at_.n), at_.v());
   add(stage.v, at_.x());
   add(In<T>(stage.z).subspan(at_.z_size - at_.states, at_.states), at_.s());
-  add({&zero, 1}, at_.psi());
+  u[at_.psi()] = T(0.0);
+  add(In<T>(u).subspan(at_.psi(), 1), at_.psi());
   u.segment(at_.v(), at_.n) *= hg;
   u.segment(at_.x(), at_.n) = hg * (u.segment(at_.x(), at_.n) + u.segment(at_.v(), at_.n));
   u.segment(at_.s(), at_.states) *= hg;
