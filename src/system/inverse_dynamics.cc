@@ -42,9 +42,8 @@ Vector3<T> InverseDynamics<T>::local_axis(std::size_t k) const {
 template <class T>
 T InverseDynamics<T>::load(const Constants<T>& constants, const std::vector<BodyKinematics<T>>& bodies, const Vector3<T>& gravity,
                            In<T> accelerations, In<T> rates) {
-  const auto nodes = static_cast<std::ptrdiff_t>(tree_.nodes.size());
-  assert(accelerations.empty() || accelerations.size() == nodes);
-  assert(rates.empty() || rates.size() == nodes);
+  assert(accelerations.empty() || accelerations.size() == static_cast<std::ptrdiff_t>(accelerations_.size()));
+  assert(rates.empty() || rates.size() == static_cast<std::ptrdiff_t>(rates_.size()));
   constants_ = &constants;
   bodies_ = &bodies;
   moving_ = !accelerations.empty();
