@@ -308,7 +308,7 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
     if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0))
       return {StatusCode::kSingularMatrix, state->t, "the augmented matrix of the equations of motion is singular"};
     step = G;
-    matrix_.lu().solve(step.data());
+    matrix_.lu().solve(step);
     const double size = step.cwiseAbs().maxCoeff() / (1.0 + state->z.cwiseAbs().maxCoeff());
     state->z -= step;
     if (size < 1e-15 || (size < converged && size >= 0.5 * previous)) return {};
@@ -351,7 +351,7 @@ void Assembly::extend(const std::vector<T>& parameters, const State<double>& sta
   state->z = start.z.template cast<T>();
   equations->residual(*state, &G, &g);
   Eigen::MatrixXd step = directions_of(G);
-  for (Eigen::Index k = 0; k < step.cols(); ++k) matrix_.lu().solve(step.col(k).data());
+  for (auto column : step.colwise()) matrix_.lu().solve(column);
   add_directions(Eigen::MatrixXd(-step), &state->z);
 }
 

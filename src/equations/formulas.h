@@ -10,6 +10,7 @@
 #include "elements/state_view.h"
 #include "elements/workspace.h"
 #include "forces/spring_damper.h"
+#include "math/span.h"
 
 namespace codesign {
 
@@ -46,8 +47,8 @@ class Formulas {
   /// used, but must have its size.
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
   /// Phi and Phi_q v of one pair's rows, for bodies that move as given; the ground is a body at rest.
-  /// @param errors, rates receive one value per row of the pair.
-  void pair_errors(int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, T* errors, T* rates) const;
+  /// @param errors, rates one value per row of the pair.
+  void pair_errors(int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, Out<T> errors, Out<T> rates) const;
 
   /// Sets the turn references of a state to its joint positions. To be called after each step, so that positions count whole turns.
   void track_turns(State<T>* state);

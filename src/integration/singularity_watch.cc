@@ -49,7 +49,7 @@ double SingularityWatch::stiffness(Equations<double>* equations) {
   if (!matrix_->factor(derivatives_, 0.0, 0.0, 0.0)) return 0.0;
   response_.setZero(layout.columns());
   for (int row = 0; row < layout.m; ++row) response_[layout.n + row] = std::sin(1.0 + 7.0 * row);
-  matrix_->lu().solve(response_.data());
+  matrix_->lu().solve(response_);
   return 1.0 / response_.head(layout.n).norm();
 }
 

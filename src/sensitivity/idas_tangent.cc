@@ -103,7 +103,7 @@ void IdasTangent::solve_rates(std::vector<State<double>>* directions) {
     State<double>& direction = (*directions)[static_cast<std::size_t>(k)];
     direction.z.setZero();
     derivative(k, direction, &dG_);
-    matrix_.lu().solve(dG_.data());
+    matrix_.lu().solve(Out<double>(dG_).first(direction.z.size()));
     direction.z = -dG_.head(direction.z.size());
   }
 }
@@ -118,7 +118,7 @@ void IdasTangent::correct(const State<double>& state, VectorX<double> State<doub
     for (int k = 0; k < group->range.count; ++k) {
       dG_.setZero(layout.columns() + 1);
       for (int row = 0; row < layout.m; ++row) dG_[layout.n + row] = -(positions ? group->Phi : group->Phi_rate)[row].v[k];
-      matrix_.lu().solve(dG_.data());
+      matrix_.lu().solve(Out<double>(dG_).first(layout.columns()));
       (*directions)[static_cast<std::size_t>(group->range.first + k)].*part += dG_.head(layout.n);
     }
   });
