@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "math/scalar.h"
-#include "mechanism/signal_catalog.h"
 #include "reading/study/study_values.h"
 #include "text/decimal.h"
 #include "text/unknown_name.h"
@@ -30,10 +29,10 @@ const JointDescription& starting_joint(const std::string& name, const RobotDescr
   Names known;
   for (const JointDescription& joint : robot.joints) {
     const bool free = !joint.is_loop && has_pose(joint);
-    if (joint.name == name && (free || has_scalar_position(joint))) return joint;
+    if (joint.name == name && (free || has_one_coordinate(joint.type))) return joint;
     if (joint.name == name)
       value.fail("this joint has neither a single coordinate nor a pose", "a revolute, continuous, prismatic, planar or floating joint");
-    if (free || has_scalar_position(joint)) known.push_back(joint.name);
+    if (free || has_one_coordinate(joint.type)) known.push_back(joint.name);
   }
   throw unknown_name(value.where(), value.path(), "joint", name, known);
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "mechanism/signal_catalog.h"
 #include "text/unknown_name.h"
 
 namespace codesign {
@@ -56,7 +55,7 @@ QuantityVector read_vector(const YamlValue& value, const std::vector<Parameter>&
 const JointDescription& scalar_joint(const std::string& name, const RobotDescription& robot, const YamlValue& at) {
   std::vector<std::string> known;
   for (const JointDescription& joint : robot.joints) {
-    const bool scalar = has_scalar_position(joint);
+    const bool scalar = has_one_coordinate(joint.type);
     if (joint.name == name && !scalar) at.fail("this joint has no single coordinate", "a revolute, continuous or prismatic joint");
     if (joint.name == name) return joint;
     if (scalar) known.push_back(joint.name);
