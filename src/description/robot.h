@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -130,6 +131,7 @@ struct SpringDamperDescription {
 struct RobotDescription {
   std::string name;
   std::vector<Parameter> parameters;
+  std::set<int> used_parameters;  ///< indices of those that a number of the file depends on, visuals included
   std::vector<LinkDescription> links;
   int root = 0;                          ///< index of the root link, which is the ground
   std::vector<JointDescription> joints;  ///< tree joints in file order, then loops in file order
