@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "assembly/acceleration_block.h"
 #include "math/dense.h"
 #include "text/decimal.h"
 
@@ -102,14 +103,7 @@ class Motions {
     state_.q = q;
     state_.v.setZero();
     state_.z.setZero();
-    Linearization<double> d;
-    d.resize(system_.patterns());
-    equations_->linearize(state_, &d);
-    const Sparsity& G_z = system_.patterns().rate;
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int row = 0; row < system_.layout().n; ++row)
-      for (int e = G_z.first(row); e < G_z.first(row + 1); ++e)
-        if (G_z.column(e) < system_.layout().n) entries.emplace_back(row, G_z.column(e), d.rate[static_cast<std::size_t>(e)]);
+    const std::vector<Eigen::Triplet<double>> entries = acceleration_block(system_, equations_, state_, 0, system_.layout().n);
     Eigen::SparseMatrix<double> M(system_.layout().n, system_.layout().n);
     M.setFromTriplets(entries.begin(), entries.end());
     M_ = V_.transpose() * (M * V_);

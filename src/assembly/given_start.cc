@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "assembly/given_start.h"
 
+#include "codegen/number_types.h"
 #include "math/span.h"
 
 namespace codesign {
@@ -66,10 +67,7 @@ void set_given_start(const System& system, const TreeLayout& tree, const std::ve
 
 #define CODESIGN_INSTANTIATE(T) \
   template void set_given_start(const System&, const TreeLayout&, const std::vector<T>&, VectorX<T>*, VectorX<T>*);
-CODESIGN_INSTANTIATE(double)
-CODESIGN_INSTANTIATE(std::complex<double>)
-CODESIGN_INSTANTIATE(Lanes<4>)
-CODESIGN_INSTANTIATE(Lanes<8>)
+CODESIGN_FOR_EACH_VALUE_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 
 }  // namespace codesign

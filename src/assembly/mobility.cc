@@ -1,9 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "assembly/mobility.h"
-#include "math/dense.h"
 
 #include <algorithm>
 #include <random>
+
+#include "math/dense.h"
 
 namespace codesign {
 namespace {

@@ -1,9 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "assembly/singular_start.h"
-#include "math/dense.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "math/dense.h"
 
 namespace codesign {
 namespace {
@@ -24,9 +25,7 @@ SingularStart::SingularStart(const CompiledSystem& system, const TreeLayout& tre
 VectorX<double> SingularStart::rates(const VectorX<double>& theta, const VectorX<double>& x) {
   body_coordinates(system_, equations_->constants(), link_motions(system_.robot(), tree_, parameters_, theta, x), &state_.q, &state_.v);
   equations_->constraint_errors(state_, &Phi_, &Phi_rate_);
-  VectorX<double> part(loops_.rows());
-  for (int k = 0; k < loops_.rows(); ++k) part[k] = Phi_rate_[loops_.constraint_rows()[static_cast<std::size_t>(k)]];
-  return part;
+  return loops_.part_of(Phi_rate_);
 }
 
 void SingularStart::load(const std::vector<double>& parameters, const VectorX<double>& theta, Equations<double>* equations) {

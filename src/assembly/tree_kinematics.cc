@@ -6,7 +6,7 @@
 #include <queue>
 #include <utility>
 
-#include "codegen/traced.h"
+#include "codegen/number_types.h"
 #include "math/span.h"
 
 namespace codesign {
@@ -149,6 +149,17 @@ std::vector<CoordinateTwist> coordinate_twists(const RobotDescription& robot, co
   return twists;
 }
 
+void set_turns(const System& system, const TreeLayout& layout, const VectorX<double>& theta, State<double>* state) {
+  for (std::size_t p = 0; p < system.topology().pairs.size(); ++p) {
+    const Pair& pair = system.topology().pairs[p];
+    for (std::size_t e = 0; e < pair.chain.size(); ++e) {
+      const auto joint = static_cast<std::size_t>(pair.chain[e].joint);
+      state->turns[static_cast<std::size_t>(system.layout().turn(static_cast<int>(p), static_cast<int>(e)))] =
+          system.robot().joints[joint].is_loop ? 0.0 : theta[layout.offset[joint]];
+    }
+  }
+}
+
 template <class T>
 void body_coordinates(const System& system, const Constants<T>& constants, const std::vector<LinkMotion<T>>& links, VectorX<T>* q,
                       VectorX<T>* v) {
@@ -171,11 +182,7 @@ void body_coordinates(const System& system, const Constants<T>& constants, const
   template std::vector<LinkMotion<T>> link_motions(const RobotDescription&, const TreeLayout&, const std::vector<T>&, const VectorX<T>&, \
                                                    const VectorX<T>&);                                                                   \
   template void body_coordinates(const System&, const Constants<T>&, const std::vector<LinkMotion<T>>&, VectorX<T>*, VectorX<T>*);
-CODESIGN_INSTANTIATE(double)
-CODESIGN_INSTANTIATE(std::complex<double>)
-CODESIGN_INSTANTIATE(Lanes<4>)
-CODESIGN_INSTANTIATE(Lanes<8>)
-CODESIGN_INSTANTIATE(Traced)
+CODESIGN_FOR_EACH_NUMBER_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 
 }  // namespace codesign

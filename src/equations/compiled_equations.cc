@@ -20,6 +20,16 @@ constexpr int kLanesOf<Lanes<N>> = N;
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
+/// The arrays that the equations own; those of the state and of results are for the caller to set.
+template <class T>
+ValueCode::Arrays inner_arrays(const std::vector<T>& numbers, const LineVector& slots, const LineVector& rows) {
+  ValueCode::Arrays arrays{};
+  arrays[Arrays::kNumbers] = reinterpret_cast<const double*>(numbers.data());
+  arrays[Arrays::kSlots] = slots.data();
+  arrays[Arrays::kRows] = rows.data();
+  return arrays;
+}
+
 }  // namespace
 
 template <class T>
@@ -117,12 +127,9 @@ bool CompiledEquations<T>::run(EquationFunction function, double t, const std::v
   const CompiledFunction* const code = begin(function, false, t, turns);
   if (!code) return false;
   const auto numbers = [](In<T> array) { return reinterpret_cast<const double*>(array.data()); };
-  ValueCode::Arrays arrays{};
+  ValueCode::Arrays arrays = inner_arrays(numbers_, slots_, rows_);
   std::transform(std::begin(state), std::end(state), arrays.begin(), numbers);
   std::transform(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults, numbers);
-  arrays[Arrays::kNumbers] = numbers(numbers_);
-  arrays[Arrays::kSlots] = slots_.data();
-  arrays[Arrays::kRows] = rows_.data();
   if (!note(function, code->values->run(arrays))) return false;
   if (code->tangents) code->tangents->run(arrays);
   return true;
@@ -136,11 +143,8 @@ bool CompiledEquations<T>::tangents(EquationFunction function, double t, const s
   assert(std::equal(std::begin(values), std::end(values), std::begin(directions),
                     [](In<double> x, In<double> along) { return along.size() == kLanesOf<T> * x.size(); }));
   const auto first = [](In<double> array) { return array.data(); };
-  ValueCode::Arrays arrays{};
+  ValueCode::Arrays arrays = inner_arrays(numbers_, slots_, rows_);
   std::transform(std::begin(values), std::end(values), arrays.begin(), first);
-  arrays[Arrays::kNumbers] = reinterpret_cast<const double*>(numbers_.data());
-  arrays[Arrays::kSlots] = slots_.data();
-  arrays[Arrays::kRows] = rows_.data();
   if (!note(function, code->values->run(arrays))) return false;
   std::transform(std::begin(directions), std::end(directions), arrays.begin(), first);
   std::transform(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults, first);

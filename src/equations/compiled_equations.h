@@ -82,7 +82,7 @@ class CompiledEquations {
   const NumberedRecording* numbered_ = nullptr;
   std::vector<T> numbers_;                                             ///< array EquationArrays::kNumbers
   std::vector<std::variant<Reference<T>, ShapedInput<T>>> functions_;  ///< functions of time, order of the recording
-  std::array<Misses, 3> misses_;                                       ///< per EquationFunction
+  std::array<Misses, kEquationFunctions> misses_;                      ///< per EquationFunction
   LineVector slots_, rows_;                                            ///< workspace of the code
 };
 

@@ -30,9 +30,9 @@ class IdasEquations {
   /// Discards stored derivatives and the last failure.
   void start();
 
-  /// Conversion of (y, y'), size() entries each, to a state, and back.
-  /// Counts the whole turns of joints from the references of `state` on.
+  /// Counts the whole turns of joints from those of `state` on.
   void count_turns_from(const State<double>& state) { state_.turns = state.turns; }
+  /// Conversion of (y, y'), size() entries each, to a state, and back.
   void unpack(double t, In<double> y, In<double> y_dot, State<double>* state) const;
   void pack(const State<double>& state, Out<double> y, Out<double> y_dot) const;
 

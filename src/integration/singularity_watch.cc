@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assembly/redundancy.h"
+#include "assembly/acceleration_block.h"
 #include "math/dense.h"
 #include "text/decimal.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "assembly/redundancy.h"
+#include "assembly/acceleration_block.h"
 #include "equations/compiled_system.h"
 #include "math/dense.h"
 

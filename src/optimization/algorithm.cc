@@ -32,9 +32,13 @@ std::string names(bool constrained) {
 
 }  // namespace
 
+SourceLocation where_of(const OptimizerOptions& options, const Study& study) {
+  return options.where.file.empty() ? SourceLocation{study.file, 1} : options.where;
+}
+
 nlopt::opt make_optimizer(const Study& study, const OptimizerOptions& options, unsigned dimension) {
   const auto found = algorithms().find(options.algorithm);
-  const SourceLocation where = options.where.file.empty() ? SourceLocation{study.file, 1} : options.where;
+  const SourceLocation where = where_of(options, study);
   const InputFault fault{where, "optimizer.algorithm", "", options.algorithm, ""};
   if (found == algorithms().end()) throw InputError({fault.where, fault.element, "no such algorithm", fault.value, names(false)});
   if (!study.constraints.empty() && !found->second.takes_constraints)

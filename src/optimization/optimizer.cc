@@ -238,9 +238,7 @@ class Minimization {
 
 OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system, const OptimizerOptions& options,
                             const TrialObserver& observer, const std::atomic<bool>* cancel) {
-  const Study& study = system->study();
-  if (study.tuned.empty())
-    throw InputError({{study.file, 1}, "parameters", "the study has no parameter to tune", "", "at least one parameter"});
+  require_tuned(system->study());
   return Minimization(system, options, observer, cancel).run();
 }
 

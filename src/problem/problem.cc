@@ -44,7 +44,7 @@ Problem compile(const RobotDescription& robot, Study study, const ParameterSetti
   apply_settings(settings, &study);
   const CpuTimer timer;
   require_numbers_at_start(study, start_parameters(study));
-  append(unused_parameters(contents, study), &contents.warnings);
+  append(unused_parameters(study), &contents.warnings);
   contents.system = make_system(robot, study, &contents.warnings);
   contents.setup_seconds += timer.seconds();
   return Problem(std::make_shared<const Problem::Contents>(std::move(contents)));
@@ -86,6 +86,7 @@ Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& ov
   const RobotDescription robot = read_urdf(urdf, overlays);
   Study study;
   study.parameters = robot.parameters;
+  study.used_parameters = robot.used_parameters;
   study.file = urdf.name;
   return compile(robot, std::move(study), settings, {urdf, overlays, {}, nullptr, timer.seconds(), robot.warnings});
 }

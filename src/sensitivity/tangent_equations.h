@@ -16,7 +16,7 @@ class TangentEquations {
  public:
   explicit TangentEquations(const CompiledSystem& system);
 
-  /// The equations with lanes, which hold the design with its directions and the turn references.
+  /// The equations with lanes, which hold the design with its directions.
   Equations<Lanes<N>>& equations() { return equations_; }
 
   /// G', one column per row of G, and g' in the last column. @param y directions of the state, in the order of IncrementLayout.

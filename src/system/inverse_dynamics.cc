@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-#include "codegen/traced.h"
+#include "codegen/number_types.h"
 
 namespace codesign {
 
@@ -269,10 +269,8 @@ void InverseDynamics<T>::append_body(std::size_t k, const T& factor, SparseGradi
   for (int e = 0; e < 4; ++e) gradient->velocity.push_back({c + 3 + e, T(factor * on_pd[e])});
 }
 
-template class InverseDynamics<double>;
-template class InverseDynamics<std::complex<double>>;
-template class InverseDynamics<Lanes<4>>;
-template class InverseDynamics<Lanes<8>>;
-template class InverseDynamics<Traced>;
+#define CODESIGN_INSTANTIATE(T) template class InverseDynamics<T>;
+CODESIGN_FOR_EACH_NUMBER_TYPE(CODESIGN_INSTANTIATE)
+#undef CODESIGN_INSTANTIATE
 
 }  // namespace codesign

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "assembly/redundancy.h"
+#include "assembly/acceleration_block.h"
 #include "equations/compiled.h"
 #include "math/dense.h"
 
