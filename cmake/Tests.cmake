@@ -38,8 +38,7 @@ codesign_warnings(codesign_test_fixtures)
 codesign_precompile(codesign_test_fixtures <gtest/gtest.h>)
 
 set(many_cases reading elements equations integration sensitivity cli ros cases)
-foreach(folder text math codegen sparse description mechanism reading joints forces control system elements equations assembly observation problem integration sensitivity
-    optimization jobs cli ros benchmark cases allocation)
+foreach(folder IN LISTS codesign_rooms ITEMS cli ros benchmark cases allocation)
   file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${folder}/*.cc)
   list(FILTER test_sources EXCLUDE REGEX "_fixture\\.cc$")
   if(NOT test_sources OR (folder STREQUAL ros AND NOT TARGET codesign_ros))

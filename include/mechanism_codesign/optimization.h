@@ -3,7 +3,9 @@
 #define MECHANISM_CODESIGN_OPTIMIZATION_H_
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mechanism_codesign/gradient.h"
@@ -20,11 +22,47 @@ struct Trial {
   double gradient_norm = 0.0;   ///< norm of the gradient by the scaled variables x of (24)
   Eigen::VectorXd gradient;     ///< psi_rho
   Eigen::VectorXd rho;          ///< the trial point
+  int start = 0;                ///< of several starts: the number of the search, from 1, in the order in which searches began
   double best_objective = 0.0;  ///< at the best point so far; a point that meets the constraints is better than any that does not
 };
 
 /// Called after each trial point; returning false ends the search with kCancelled and the best point so far.
 using TrialObserver = std::function<bool(const Trial&)>;
+
+/// The objective of one run at one sample of the uncertain quantities, before and after the optimization.
+struct ScenarioResult {
+  std::string run;                                     ///< name of the run; empty if the study has none
+  int sample = -1;                                     ///< number of the sample from 0; -1: the nominal values
+  double weight = 1.0;                                 ///< w; the sum over all scenarios is 1
+  std::vector<std::pair<std::string, double>> values;  ///< the parameters that the run or the sample sets
+  double initial_objective = 0.0, objective = 0.0;     ///< psi at `initial_rho` and at `rho`
+};
+
+/// The best point on samples that the search has not seen.
+struct Validation {
+  int samples = 0;         ///< fresh samples of each run
+  int failed = 0;          ///< scenarios that could not be integrated; the numbers below are of the others
+  double promised = 0.0;   ///< the measure on the samples of the search
+  double objective = 0.0;  ///< the same measure on the fresh samples
+  double mean = 0.0, worst = 0.0;
+};
+
+/// One local search of several.
+struct StartResult {
+  Eigen::VectorXd start, rho;
+  double start_objective = 0.0, objective = 0.0;  ///< at `start` and `rho`
+  Status status;
+  std::string termination;
+  int evaluations = 0;
+  int optimum = -1;  ///< index in OptimizationResult::optima; -1: the search found none
+};
+
+/// A point at which one or several searches ended.
+struct Optimum {
+  Eigen::VectorXd rho;
+  double objective = 0.0;
+  int found = 0;  ///< by how many searches
+};
 
 /// The best point of an optimization and how the search ended.
 struct OptimizationResult {
@@ -46,6 +84,14 @@ struct OptimizationResult {
   Statistics statistics;         ///< sums over all evaluations; drift and energy error are the largest of any evaluation
   Warnings warnings;             ///< about the best point, and about the search: a parameter without influence or on its bound
   std::vector<bool> influences;  ///< per tuned parameter: whether the objective depended on it at any trial point
+  // Of a study with runs or uncertain parameters, else empty: psi of each scenario at `initial_rho` and `rho`, and what they are.
+  Eigen::VectorXd initial_values, values;
+  std::vector<ScenarioResult> scenarios;
+  std::optional<Validation> validation;  ///< if `robust.validate` asks for it
+  // Of a study with several starts, else empty: the searches, best start first, and the optima, best first.
+  std::vector<StartResult> starts;
+  std::vector<Optimum> optima;
+  int screened = 0, unusable = 0;  ///< points whose objective was computed to choose the starts, and those of them that failed
 };
 
 /// Minimizes psi(rho) within the bounds and the parameter constraints, from the parameters' start values.

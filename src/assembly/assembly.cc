@@ -76,18 +76,6 @@ void Assembly::follow_couplings(const Constants<double>& constants) {
   }
 }
 
-// Joint positions count whole turns, beginning at the tree's coordinate, so that a start beyond one turn is kept.
-void Assembly::set_turns(State<double>* state) const {
-  for (std::size_t p = 0; p < system_.topology().pairs.size(); ++p) {
-    const Pair& pair = system_.topology().pairs[p];
-    for (std::size_t e = 0; e < pair.chain.size(); ++e) {
-      const JointDescription& joint = system_.robot().joints[static_cast<std::size_t>(pair.chain[e].joint)];
-      state->turns[static_cast<std::size_t>(system_.layout().turn(static_cast<int>(p), static_cast<int>(e)))] =
-          joint.is_loop ? 0.0 : theta_[tree_.offset[static_cast<std::size_t>(pair.chain[e].joint)]];
-    }
-  }
-}
-
 std::vector<std::vector<int>> Assembly::by_preference(const std::vector<bool>& given) const {
   std::vector<std::vector<int>> lists(2);
   for (int c = 0; c < tree_.size; ++c)
@@ -96,17 +84,15 @@ std::vector<std::vector<int>> Assembly::by_preference(const std::vector<bool>& g
 }
 
 void Assembly::place(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) const {
-  set_turns(state);
+  set_turns(system_, tree_, theta_, state);
   body_coordinates(system_, equations->constants(), link_motions(system_.robot(), tree_, parameters, theta_, theta_rate_), &state->q,
                    &state->v);
 }
 
 Eigen::VectorXd Assembly::loop_part(const VectorX<double>& rows) const {
-  Eigen::VectorXd part(loops_.rows());
-  for (int k = 0; k < loops_.rows(); ++k) {
-    const auto row = static_cast<std::size_t>(k);
-    part[k] = drops_[row] && !all_rows_count_ ? 0.0 : rows[loops_.constraint_rows()[row]];
-  }
+  Eigen::VectorXd part = loops_.part_of(rows);
+  for (std::size_t k = 0; k < drops_.size(); ++k)
+    if (drops_[k] && !all_rows_count_) part[static_cast<Eigen::Index>(k)] = 0.0;
   return part;
 }
 
@@ -243,6 +229,8 @@ Status Assembly::solve_positions(const std::vector<double>& parameters, Equation
 }
 
 Status Assembly::solve_positions(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
+  warnings_.clear();
+  contradicting_.clear();
   state->resize(system_.layout());
   state->t = 0.0;
   set_start(parameters);
@@ -278,14 +266,16 @@ Status Assembly::solve_velocities(const std::vector<double>& parameters, Equatio
   return {};
 }
 
-Status Assembly::solve_motion(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
-  warnings_.clear();
-  contradicting_.clear();
-  if (Status status = solve_positions(parameters, equations, state); !status.ok()) return status;
+Status Assembly::solve_velocities(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
   if (Status status = solve_velocities(parameters, equations); !status.ok()) return status;
   const Status branch = choose_branch(parameters, equations);
   place(parameters, equations, state);
   return branch;
+}
+
+Status Assembly::solve_motion(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
+  const Status status = solve_positions(parameters, equations, state);
+  return status.ok() ? solve_velocities(parameters, equations, state) : status;
 }
 
 Status Assembly::solve(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
@@ -308,7 +298,7 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
     if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0))
       return {StatusCode::kSingularMatrix, state->t, "the augmented matrix of the equations of motion is singular"};
     step = G;
-    matrix_.lu().solve(step.data());
+    matrix_.lu().solve(step);
     const double size = step.cwiseAbs().maxCoeff() / (1.0 + state->z.cwiseAbs().maxCoeff());
     state->z -= step;
     if (size < 1e-15 || (size < converged && size >= 0.5 * previous)) return {};
@@ -320,11 +310,8 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
 
 template <class T>
 void Assembly::correct(const Dependents& dependents, const VectorX<T>& rows, VectorX<T>* coordinates) const {
-  const Eigen::MatrixXd all = directions_of(rows);
-  Eigen::MatrixXd loops(loops_.rows(), all.cols());
-  for (int k = 0; k < loops_.rows(); ++k) loops.row(k) = all.row(loops_.constraint_rows()[static_cast<std::size_t>(k)]);
-  const Eigen::MatrixXd step = dependents.solve(loops);
-  Eigen::MatrixXd full = Eigen::MatrixXd::Zero(coordinates->size(), all.cols());
+  const Eigen::MatrixXd step = dependents.solve(loops_.part_of(directions_of(rows)));
+  Eigen::MatrixXd full = Eigen::MatrixXd::Zero(coordinates->size(), step.cols());
   for (std::size_t k = 0; k < dependents.columns.size(); ++k) full.row(dependents.columns[k]) = -step.row(static_cast<Eigen::Index>(k));
   add_directions(full, coordinates);
 }
@@ -351,7 +338,7 @@ void Assembly::extend(const std::vector<T>& parameters, const State<double>& sta
   state->z = start.z.template cast<T>();
   equations->residual(*state, &G, &g);
   Eigen::MatrixXd step = directions_of(G);
-  for (Eigen::Index k = 0; k < step.cols(); ++k) matrix_.lu().solve(step.col(k).data());
+  for (auto column : step.colwise()) matrix_.lu().solve(column);
   add_directions(Eigen::MatrixXd(-step), &state->z);
 }
 

@@ -34,7 +34,7 @@ class Assembly {
 
   /// Finds positions, velocities, accelerations and multipliers and writes them to `state`, with t = 0 and the extra states zero.
   /// @param parameters all named parameters (Study::parameters order).
-  /// @param equations must hold the design at `parameters`; their turn references are set to the positions found.
+  /// @param equations must hold the design at `parameters`.
   Status solve(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
 
   /// Finds positions and velocities only; the accelerations and multipliers in `state` are zero.
@@ -42,6 +42,8 @@ class Assembly {
   /// Finds positions only. First every row of the loops and couplings counts, dropped ones too; if the system drops rows, the enforced rows
   /// are then solved to rounding. The rates in `state` are those given by the study, not solved for.
   Status solve_positions(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
+  /// Finds velocities at the positions that the last solve_positions() found, which `state` must hold.
+  Status solve_velocities(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
 
   /// Exact initial sensitivities, doc/theory.md (20): carries the first-order parts of `parameters` (complex step or lanes) through the
   /// last solution of solve(). `state` receives that solution with its derivatives.
@@ -95,7 +97,6 @@ class Assembly {
   void place(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) const;
   void set_start(const std::vector<double>& parameters);
   void follow_couplings(const Constants<double>& constants);
-  void set_turns(State<double>* state) const;
   std::vector<std::vector<int>> by_preference(const std::vector<bool>& given) const;
   ScaledLoops scaled_loops(const std::vector<double>& parameters, const Equations<double>& equations) const;
   /// The rows of the loops and couplings from all constraint rows; dropped rows are zero unless all_rows_count_.

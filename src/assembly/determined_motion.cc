@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "assembly/acceleration_block.h"
 #include "math/dense.h"
 #include "text/decimal.h"
 
@@ -22,7 +23,7 @@ std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 bool lacks_inertia(const BodyConstants<double>& body) {
   if (!(body.mass > 0.0)) return true;
-  const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.J, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::Vector3d moments = principal_moments(body.J);
   return !(moments[0] > kSingular * moments[2]) || !(moments[0] > kSmallestGyration * body.mass);
 }
 
@@ -40,10 +41,10 @@ class Motions {
   Eigen::VectorXd undetermined() const {
     if (allowed_.cols() == 0) return {};
     const Eigen::MatrixXd projected = allowed_.transpose() * scale_.asDiagonal() * M_ * scale_.asDiagonal() * allowed_;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(projected);
-    const Eigen::VectorXd& values = solver.eigenvalues();
+    const SymmetricEigen eigen = symmetric_eigen(projected);
+    const Eigen::VectorXd& values = eigen.values;
     if (values[0] > kSingular * std::max(values[values.size() - 1], 0.0)) return {};
-    return scale_.asDiagonal() * (allowed_ * solver.eigenvectors().col(0));
+    return scale_.asDiagonal() * (allowed_ * eigen.vectors.col(0));
   }
 
   [[noreturn]] void refuse(const Eigen::VectorXd& motion) const {
@@ -85,12 +86,10 @@ class Motions {
       const double size = v.norm();
       all.col(c) = size > 1e-12 ? Eigen::VectorXd(v / size) : Eigen::VectorXd(Eigen::VectorXd::Zero(v.size()));
     }
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-    qr.setThreshold(kRank);
-    qr.compute(all);
-    for (Eigen::Index k = 0; k < qr.rank(); ++k) coordinates_.push_back(qr.colsPermutation().indices()[k]);
+    const PivotedColumns pivots = pivot_columns(all, kRank);
+    coordinates_.assign(pivots.order.begin(), pivots.order.begin() + pivots.rank);
     std::sort(coordinates_.begin(), coordinates_.end());
-    V_.resize(all.rows(), qr.rank());
+    V_.resize(all.rows(), pivots.rank);
     for (std::size_t k = 0; k < coordinates_.size(); ++k) {
       body_coordinates(system_, equations_->constants(), unit_motion(coordinates_[k]), &state_.q, &v);
       V_.col(static_cast<Eigen::Index>(k)) = v;
@@ -104,14 +103,7 @@ class Motions {
     state_.q = q;
     state_.v.setZero();
     state_.z.setZero();
-    Linearization<double> d;
-    d.resize(system_.patterns());
-    equations_->linearize(state_, &d);
-    const Sparsity& G_z = system_.patterns().rate;
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int row = 0; row < system_.layout().n; ++row)
-      for (int e = G_z.first(row); e < G_z.first(row + 1); ++e)
-        if (G_z.column(e) < system_.layout().n) entries.emplace_back(row, G_z.column(e), d.rate[static_cast<std::size_t>(e)]);
+    const std::vector<Eigen::Triplet<double>> entries = acceleration_block(system_, equations_, state_, 0, system_.layout().n);
     Eigen::SparseMatrix<double> M(system_.layout().n, system_.layout().n);
     M.setFromTriplets(entries.begin(), entries.end());
     M_ = V_.transpose() * (M * V_);
@@ -150,13 +142,9 @@ class Motions {
       equations_->constraint_errors(state_, &errors, &rates);
       forbidden.col(k) = rates * scale_[k];
     }
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-    qr.setThreshold(kRank);
     const double rounding = 1e-12 * scale_.maxCoeff();
     forbidden = forbidden.unaryExpr([rounding](double x) { return std::abs(x) < rounding ? 0.0 : x; });
-    qr.compute(forbidden.transpose());
-    const Eigen::MatrixXd Q = qr.householderQ();
-    allowed_ = Q.rightCols(size - qr.rank());
+    allowed_ = orthogonal_complement(forbidden.transpose(), kRank);
   }
 
   std::string direction(int c) const {

@@ -1,6 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "assembly/given_start.h"
 
+#include "codegen/number_types.h"
+#include "math/span.h"
+
 namespace codesign {
 namespace {
 
@@ -11,7 +14,7 @@ void mark(std::vector<bool>* flags, int first, int count, bool given) {
 
 /// Writes a vector in the joint frame to the sliding coordinates of a planar (2) or floating (3) joint.
 template <class T>
-void set_slides(const JointDescription& joint, const QuantityVector& vector, const std::vector<T>& parameters, T* coordinates) {
+void set_slides(const JointDescription& joint, const QuantityVector& vector, const std::vector<T>& parameters, Out<T> coordinates) {
   const Vector3<T> x = vector_at(vector, parameters);
   if (joint.type == JointType::kFloating) {
     for (int k = 0; k < 3; ++k) coordinates[k] = x[k];
@@ -50,11 +53,12 @@ void set_given_start(const System& system, const TreeLayout& tree, const std::ve
     if (index < 0) continue;
     const JointDescription& joint = system.robot().joints[static_cast<std::size_t>(index)];
     const int c = tree.offset[static_cast<std::size_t>(index)];
+    const bool planar = joint.type == JointType::kPlanar;
+    const int slides = planar ? 2 : 3;
     if (initial.position) (*theta)[c] = initial.position->at(parameters);
     if (initial.velocity) (*rate)[c] = initial.velocity->at(parameters);
-    if (initial.translation) set_slides(joint, *initial.translation, parameters, theta->data() + c);
-    if (initial.linear_velocity) set_slides(joint, *initial.linear_velocity, parameters, rate->data() + c);
-    const bool planar = joint.type == JointType::kPlanar;
+    if (initial.translation) set_slides(joint, *initial.translation, parameters, Out<T>(*theta).subspan(c, slides));
+    if (initial.linear_velocity) set_slides(joint, *initial.linear_velocity, parameters, Out<T>(*rate).subspan(c, slides));
     if (initial.rotation && planar) (*theta)[c + 2] = (*initial.rotation)[2].at(parameters);
     if (initial.angular_velocity && planar) (*rate)[c + 2] = (*initial.angular_velocity)[2].at(parameters);
     if (initial.angular_velocity && !planar) rate->template segment<3>(c + 3) = vector_at(*initial.angular_velocity, parameters);
@@ -63,10 +67,7 @@ void set_given_start(const System& system, const TreeLayout& tree, const std::ve
 
 #define CODESIGN_INSTANTIATE(T) \
   template void set_given_start(const System&, const TreeLayout&, const std::vector<T>&, VectorX<T>*, VectorX<T>*);
-CODESIGN_INSTANTIATE(double)
-CODESIGN_INSTANTIATE(std::complex<double>)
-CODESIGN_INSTANTIATE(Lanes<4>)
-CODESIGN_INSTANTIATE(Lanes<8>)
+CODESIGN_FOR_EACH_VALUE_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 
 }  // namespace codesign

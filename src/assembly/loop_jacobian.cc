@@ -118,11 +118,13 @@ SparseMatrix LoopJacobian::evaluate(const std::vector<double>& parameters, const
   for (const Loop& loop : loops_) {
     const Pair& pair = system_.topology().pairs[at(loop.pair)];
     const BodyKinematics<double> i = standing(q, pair.body_i), j = standing(q, pair.body_j);
+    const int size = equations.rows(loop.pair).size();
     for (const Mover& mover : loop.movers) {
       BodyKinematics<double> moved = mover.moves_j ? j : i;
       move(twists[at(mover.coordinate)], &moved);
-      equations.formulas().pair_errors(loop.pair, mover.moves_j ? i : moved, mover.moves_j ? moved : j, errors, rates);
-      for (int k = 0; k < equations.rows(loop.pair).size(); ++k) entries.emplace_back(loop.first_row + k, mover.coordinate, rates[k]);
+      equations.formulas().pair_errors(loop.pair, mover.moves_j ? i : moved, mover.moves_j ? moved : j, Out<double>(errors).first(size),
+                                       Out<double>(rates).first(size));
+      for (int k = 0; k < size; ++k) entries.emplace_back(loop.first_row + k, mover.coordinate, rates[k]);
     }
   }
   for (std::size_t k = 0; k < system_.topology().couplings.size(); ++k)

@@ -34,6 +34,13 @@ class LoopJacobian {
   int rows() const { return static_cast<int>(constraint_rows_.size()); }
   /// The rows of Phi that forward kinematics of the tree does not satisfy: those of the loops in order, then those of the couplings.
   const std::vector<int>& constraint_rows() const { return constraint_rows_; }
+  /// The rows of this matrix out of all constraint rows, of a vector or matrix.
+  template <class Rows>
+  Rows part_of(const Rows& all) const {
+    Rows part(rows(), all.cols());
+    for (int k = 0; k < rows(); ++k) part.row(k) = all.row(constraint_rows_[static_cast<std::size_t>(k)]);
+    return part;
+  }
   /// Name of the loop or coupling that row `row` of this matrix belongs to.
   const std::string& owner(int row) const { return owners_[static_cast<std::size_t>(row)]; }
   /// Coordinates that a loop or coupling depends on, ascending; the others have empty columns.

@@ -2,6 +2,7 @@
 #include "assembly/make_system.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "assembly/determined_motion.h"
 #include "assembly/redundancy.h"
@@ -24,13 +25,14 @@ InputFault fault_of(const CompiledSystem& system, const std::string& name) {
   for (const Pair& pair : system.topology().pairs)
     for (const ChainElement& element : pair.chain)
       if (const JointDescription& loop = system.robot().joints[static_cast<std::size_t>(element.joint)]; pair.name == name && loop.is_loop)
-        return {loop.where, "<loop name=\"" + loop.name + "\">", "", "", ""};
+        return {loop.where, loop.element(), "", "", ""};
   const int root = system.robot().root;
   return {system.robot().links[static_cast<std::size_t>(root)].where, "initial_state", "", "", ""};
 }
 
 /// Throws for a start whose positions or velocities contradict a loop or coupling.
-[[noreturn]] void refuse_start(const CompiledSystem& system, const Assembly& assembly, const Status& status) {
+void require_start(const CompiledSystem& system, const Assembly& assembly, const Status& status) {
+  if (status.code != StatusCode::kAssemblyFailed && status.code != StatusCode::kInitialVelocityFailed) return;
   InputFault fault = fault_of(system, status.code == StatusCode::kAssemblyFailed ? assembly.worst_miss().owner : "");
   fault.message = status.cause;
   const std::vector<InitialJointState>& given = system.study().initial_state;
@@ -53,8 +55,7 @@ void warn_of_miss(const CompiledSystem& system, const LoopMiss& miss, Warnings* 
   InputFault fault = fault_of(system, miss.owner);
   fault.message =
       "the origins and axes around the loop do not close it exactly; redundant constraints are not enforced and stay violated by about "
-      "this "
-      "amount; to remove the warning, write lengths and angles with all their digits, a right angle as 1.5707963267948966";
+      "this amount; to remove the warning, write lengths and angles with all their digits, a right angle as 1.5707963267948966";
   fault.value = miss_text(miss);
   fault.allowed = "0, to rounding; solver.closure_tolerance " + to_decimal(system.study().solver.closure_tolerance);
   append({warn("inexact_loop", fault)}, warnings);
@@ -63,13 +64,11 @@ void warn_of_miss(const CompiledSystem& system, const LoopMiss& miss, Warnings* 
 void warn_of_friction(const CompiledSystem& system, const Redundancy& redundancy, Warnings* warnings) {
   for (int joint : redundancy.chosen_joints) {
     const JointDescription& description = system.robot().joints[static_cast<std::size_t>(joint)];
-    append({warn("undetermined_friction",
-                 {description.where, (description.is_loop ? "<loop name=\"" : "<joint name=\"") + description.name + "\">",
-                  "friction depends on a reaction that is not unique, because the loop has redundant constraints; the reactions of least "
-                  "norm are "
-                  "used; to remove the warning, give one joint of the loop the freedom that it has in reality, as codesign:spherical or "
-                  "codesign:cylindrical",
-                  "", ""})},
+    append({warn("undetermined_friction", {description.where, description.element(),
+                                           "friction depends on a reaction that is not unique, because the loop has redundant constraints; "
+                                           "the reactions of least norm are used; to remove the warning, give one joint of the loop the "
+                                           "freedom that it has in reality, as codesign:spherical or codesign:cylindrical",
+                                           "", ""})},
            warnings);
   }
 }
@@ -91,39 +90,40 @@ bool must_drop(const LoopMiss& miss, const Redundancy& redundancy) {
   return std::max(miss.length, miss.angle) > kExact || !redundancy.friction_chosen.empty();
 }
 
-/// The system with its redundant constraints handled, doc/theory.md (23). Throws if the study's own design cannot be assembled; a later
-/// design that cannot is a trial point with a failed status.
-std::shared_ptr<const CompiledSystem> with_sharing(std::shared_ptr<const CompiledSystem> system, Warnings* warnings) {
-  StartWorkspace start(*system, system->parameters());
-  const Status status = start.solve_positions();
-  if (!status.ok()) refuse_start(*system, start.assembly, status);
-  require_determined_motion(*system, start.parameters, start.assembly, &start.equations);
-  const LoopMiss& miss = start.assembly.worst_miss();
-  warn_of_miss(*system, miss, warnings);
-  Redundancy redundancy = analyse_redundancy(*system, &start.equations, start.assembly, start.parameters, start.state);
-  if (redundancy.rows.empty()) return system;
-  warn_of_friction(*system, redundancy, warnings);
-  append(warn_of_open_reactions(*system, redundancy, start.state, signals_of(system->study()), &start.equations), warnings);
+/// How redundant constraints are handled, doc/theory.md (23); nothing if there are none. @param start positions at which they are found.
+std::optional<ReactionSharing> find_sharing(const CompiledSystem& system, StartWorkspace* start, Warnings* warnings) {
+  const LoopMiss& miss = start->assembly.worst_miss();
+  warn_of_miss(system, miss, warnings);
+  Redundancy redundancy = analyse_redundancy(system, &start->equations, start->assembly, start->parameters, start->state);
+  if (redundancy.rows.empty()) return std::nullopt;
+  warn_of_friction(system, redundancy, warnings);
+  append(warn_of_open_reactions(system, redundancy, start->state, signals_of(system.study()), &start->equations), warnings);
   if (!must_drop(miss, redundancy)) redundancy.sharing = ReactionSharing();
-  redundancy.sharing.compliance = compliance_of(start.equations);
-  return std::make_shared<const CompiledSystem>(system->robot(), system->study(), redundancy.sharing);
-}
-
-void check_start(const CompiledSystem& system) {
-  StartWorkspace start(system, system.parameters());
-  const Status status = start.solve_motion();
-  if (status.code == StatusCode::kAssemblyFailed || status.code == StatusCode::kInitialVelocityFailed)
-    refuse_start(system, start.assembly, status);
+  redundancy.sharing.compliance = compliance_of(start->equations);
+  return redundancy.sharing;
 }
 
 }  // namespace
 
+// The study's own design must start; a later design that cannot is a trial point with a failed status.
 std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot, const Study& study, Warnings* warnings) {
   Warnings found;
-  std::shared_ptr<const CompiledSystem> system = with_sharing(std::make_shared<const CompiledSystem>(robot, study), &found);
-  check_start(*system);
+  const auto system = std::make_shared<const CompiledSystem>(robot, study);
+  StartWorkspace start(*system, system->parameters());
+  require_start(*system, start.assembly, start.solve_positions());
+  require_determined_motion(*system, start.parameters, start.assembly, &start.equations);
+  const std::optional<ReactionSharing> sharing = find_sharing(*system, &start, &found);
+  std::shared_ptr<const CompiledSystem> result = system;
+  if (sharing) result = std::make_shared<const CompiledSystem>(system->robot(), system->study(), *sharing);
+  if (result->sharing().drops()) {
+    // With fewer rows enforced, other positions can start, and other velocities contradict.
+    StartWorkspace enforced(*result, result->parameters());
+    require_start(*result, enforced.assembly, enforced.solve_motion());
+  } else {
+    require_start(*system, start.assembly, start.solve_velocities());
+  }
   if (warnings) append(found, warnings);
-  return system;
+  return result;
 }
 
 }  // namespace codesign

@@ -1,9 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "assembly/mobility.h"
-#include "math/dense.h"
 
 #include <algorithm>
 #include <random>
+
+#include "math/dense.h"
 
 namespace codesign {
 namespace {
@@ -35,7 +36,7 @@ Eigen::VectorXd root_from(const Forms& forms, Eigen::VectorXd y) {
     const Eigen::MatrixXd rows = gradients(forms, y);
     const Eigen::VectorXd values = 0.5 * (rows * y);
     if (values.cwiseAbs().maxCoeff() < 1e-14) return y;
-    y -= rows.completeOrthogonalDecomposition().solve(values);
+    y -= least_norm(rows).solve(values);
     if (!(y.norm() > 1e-3)) return {};
     y.normalize();
   }
@@ -46,9 +47,9 @@ Eigen::VectorXd root_from(const Forms& forms, Eigen::VectorXd y) {
 Eigen::MatrixXd tangents_beside(const Eigen::MatrixXd& rows, const Eigen::VectorXd& y, double threshold) {
   Eigen::MatrixXd stacked(rows.rows() + 1, rows.cols());
   stacked << rows, y.transpose();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(stacked, Eigen::ComputeFullV);
-  const Eigen::Index rank = (svd.singularValues().array() > threshold).count();
-  return svd.matrixV().rightCols(rows.cols() - rank);
+  const SingularValues svd = singular_values(stacked, SingularVectors::kRight);
+  const Eigen::Index rank = (svd.values.array() > threshold).count();
+  return svd.V.rightCols(rows.cols() - rank);
 }
 
 int dimension(const Forms& forms, Eigen::Index size, int starts);
@@ -59,12 +60,12 @@ int dimension_at(const Forms& forms, const Eigen::VectorXd& y, int starts) {
   constexpr double kVanishes = 1e-5;  // a double root is found to the square root of rounding
   const Eigen::MatrixXd rows = gradients(forms, y);
   const Eigen::MatrixXd tangents = tangents_beside(rows, y, kVanishes);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullU);
-  const Eigen::Index rank = (svd.singularValues().array() > kVanishes).count();
+  const SingularValues svd = singular_values(rows, SingularVectors::kLeft);
+  const Eigen::Index rank = (svd.values.array() > kVanishes).count();
   Forms left;
   for (Eigen::Index c = rank; c < rows.rows(); ++c) {
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(y.size(), y.size());
-    for (std::size_t k = 0; k < forms.size(); ++k) sum += svd.matrixU()(static_cast<Eigen::Index>(k), c) * forms[k];
+    for (std::size_t k = 0; k < forms.size(); ++k) sum += svd.U(static_cast<Eigen::Index>(k), c) * forms[k];
     left.emplace_back(tangents.transpose() * sum * tangents);
   }
   return 1 + dimension(left, tangents.cols(), std::max(4, starts / 4));
@@ -99,10 +100,10 @@ int motions_lost_to_curvature(const std::vector<double>& parameters, const Assem
   const auto jacobian = [&](const VectorX<double>& theta) { return Eigen::MatrixXd(loops.evaluate(parameters, theta, equations)); };
   const VectorX<double> theta = assembly.theta();
   const Eigen::MatrixXd J = jacobian(theta);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(J, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::VectorXd& values = svd.singularValues();
+  const SingularValues svd = singular_values(J, SingularVectors::kBoth);
+  const Eigen::VectorXd& values = svd.values;
   const Eigen::Index rank = (values.array() > kRank * std::max(values[0], 1e-300)).count();
-  const Eigen::MatrixXd N = svd.matrixV().rightCols(J.cols() - rank), U = svd.matrixU().rightCols(J.rows() - rank);
+  const Eigen::MatrixXd N = svd.V.rightCols(J.cols() - rank), U = svd.U.rightCols(J.rows() - rank);
   if (N.cols() == 0 || U.cols() == 0) return 0;
   Forms forms(static_cast<std::size_t>(U.cols()), Eigen::MatrixXd(N.cols(), N.cols()));
   for (Eigen::Index a = 0; a < N.cols(); ++a) {

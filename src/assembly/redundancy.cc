@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 
+#include "assembly/acceleration_block.h"
 #include "math/euler_parameters.h"
 
 namespace codesign {
@@ -96,19 +97,12 @@ class TestMotion {
   }
 
   Eigen::VectorXd errors(const VectorX<double>& theta, const LoopScales& scales) {
-    for (std::size_t p = 0; p < system_.topology().pairs.size(); ++p)
-      for (std::size_t e = 0; e < system_.topology().pairs[p].chain.size(); ++e) {
-        const int joint = system_.topology().pairs[p].chain[e].joint;
-        const bool in_loop = system_.robot().joints[at(joint)].is_loop;
-        state_.turns[at(system_.layout().turn(static_cast<int>(p), static_cast<int>(e)))] = in_loop ? 0.0 : theta[tree_.offset[at(joint)]];
-      }
+    set_turns(system_, tree_, theta, &state_);
     body_coordinates(system_, equations_->constants(),
                      link_motions(system_.robot(), tree_, parameters_, theta, VectorX<double>(VectorX<double>::Zero(theta.size()))),
                      &state_.q, &state_.v);
     equations_->constraint_errors(state_, &Phi_, &Phi_rate_);
-    Eigen::VectorXd part(loops_.rows());
-    for (int k = 0; k < loops_.rows(); ++k) part[k] = scales.rows[k] * Phi_[loops_.constraint_rows()[at(k)]];
-    return part;
+    return scales.rows.cwiseProduct(loops_.part_of(Phi_));
   }
 
   /// False if the other rows could not be satisfied after a motion of this size.
@@ -154,9 +148,9 @@ class Analysis {
       : system_(system), layout_(system.layout()), equations_(equations) {}
 
   ConstraintRow describe(int row) const {
-    if (row >= layout_.norm_row(0)) return {system_.topology().bodies[index(row - layout_.norm_row(0))].name, 1, "unit Euler parameters"};
+    if (row >= layout_.norm_row(0)) return {system_.topology().bodies[at(row - layout_.norm_row(0))].name, 1, "unit Euler parameters"};
     if (row >= layout_.coupling_row(0)) {
-      const Coupling& coupling = system_.topology().couplings[index(row - layout_.coupling_row(0))];
+      const Coupling& coupling = system_.topology().couplings[at(row - layout_.coupling_row(0))];
       return {coupling.name, 1, coupling.is_mimic ? "mimic" : "coupling"};
     }
     std::size_t pair = layout_.pair_row.size() - 1;
@@ -166,7 +160,7 @@ class Analysis {
   }
 
   /// Notes the joints, loops and couplings that the self-stresses (layout.constraints() x any number) load.
-  void find_undetermined(const Eigen::MatrixXd& stress, double threshold, Redundancy* result) const {
+  void note_loaded(const Eigen::MatrixXd& stress, double threshold, Redundancy* result) const {
     const auto moves = [&](int first, int last) {
       return last > first && stress.middleRows(first, last - first).cwiseAbs().maxCoeff() > threshold;
     };
@@ -188,12 +182,10 @@ class Analysis {
   }
 
  private:
-  static std::size_t index(int k) { return static_cast<std::size_t>(k); }
-
   std::string pair_row_kind(std::size_t pair, int within) const {
     const PairRows<double>& rows = equations_.rows(static_cast<int>(pair));
     if (rows.coincident && within < 3) return std::string("coincident points, ground ") + "xyz"[within];
-    return product_kind(rows.products[index(within - (rows.coincident ? 3 : 0))]);
+    return product_kind(rows.products[at(within - (rows.coincident ? 3 : 0))]);
   }
 
   const CompiledSystem& system_;
@@ -223,7 +215,7 @@ SparseMatrix loads_of_rows(const CompiledSystem& system, const SparseMatrix& Phi
 }
 
 /// Finds self-stresses: random loads of the redundant rows, with the loads of the other rows that balance them.
-void find_undetermined(const CompiledSystem& system, Equations<double>* equations, const State<double>& state,
+void find_undetermined(const CompiledSystem& system, Equations<double>* equations, const State<double>& state, const Analysis& analysis,
                        const std::vector<int>& redundant, const ReactionSharing& sharing, Redundancy* result) {
   const Layout& layout = system.layout();
   std::vector<int> others;
@@ -244,26 +236,11 @@ void find_undetermined(const CompiledSystem& system, Equations<double>* equation
   for (std::size_t k = 0; k < redundant.size(); ++k) stress.row(redundant[k]) = chosen.row(static_cast<Eigen::Index>(k));
   for (std::size_t k = 0; k < others.size(); ++k) stress.row(others[k]) = answer.row(static_cast<Eigen::Index>(k));
   result->stress_threshold = kTakesPart * stress.cwiseAbs().maxCoeff() + 100.0 * left;
-  Analysis(system, *equations).find_undetermined(stress, result->stress_threshold, result);
+  analysis.note_loaded(stress, result->stress_threshold, result);
   result->self_stress = std::move(stress);
 }
 
 }  // namespace
-
-SparseMatrix constraint_jacobian(const CompiledSystem& system, Equations<double>* equations, const State<double>& state) {
-  Linearization<double> d;
-  d.resize(system.patterns());
-  equations->linearize(state, &d);
-  const Layout& layout = system.layout();
-  const Sparsity& G_z = system.patterns().rate;
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int row = 0; row < layout.constraints(); ++row)
-    for (int e = G_z.first(layout.lambda_column(row)); e < G_z.first(layout.lambda_column(row) + 1); ++e)
-      if (G_z.column(e) < layout.n) entries.emplace_back(row, G_z.column(e), d.rate[at(e)]);
-  SparseMatrix Phi_q(layout.constraints(), layout.n);
-  Phi_q.setFromTriplets(entries.begin(), entries.end());
-  return Phi_q;
-}
 
 Redundancy analyse_redundancy(const CompiledSystem& system, Equations<double>* equations, const Assembly& assembly,
                               const std::vector<double>& parameters, const State<double>& state) {
@@ -287,7 +264,7 @@ Redundancy analyse_redundancy(const CompiledSystem& system, Equations<double>* e
   std::sort(redundant.begin(), redundant.end());
   const Analysis analysis(system, *equations);
   for (int row : redundant) result.rows.push_back(analysis.describe(row));
-  find_undetermined(system, equations, state, redundant, result.sharing, &result);
+  find_undetermined(system, equations, state, analysis, redundant, result.sharing, &result);
   TestMotion(system, equations, loops, assembly.tree(), parameters).sift(assembly.theta(), &rows);
   for (int row : rows) result.sharing.dropped.push_back(loops.constraint_rows()[at(row)]);
   std::sort(result.sharing.dropped.begin(), result.sharing.dropped.end());

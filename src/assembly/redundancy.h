@@ -22,9 +22,6 @@ struct Redundancy {
   ReactionSharing sharing;        ///< compliance not set; `dropped` lacks rows that are redundant only at this very position
 };
 
-/// Phi_q at a state, constraints x n. `equations` must hold the design.
-SparseMatrix constraint_jacobian(const CompiledSystem& system, Equations<double>* equations, const State<double>& state);
-
 /// Finds the redundant rows of loops and couplings by a pivoted QR factorization of each part of LoopJacobian::parts(). A row is redundant
 /// if less than 1e-3 of it (in the scaling of LoopScales) is independent of the other rows, and is dropped if it also holds after motions
 /// of 0.2 rad along which the other rows hold. A multiplier is not unique if a self-stress, a set of loads that balance each other, changes

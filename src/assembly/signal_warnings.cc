@@ -16,13 +16,11 @@ Warnings warn_of_open_reactions(const CompiledSystem& system, const Redundancy& 
     resolved.push_back(resolve_signal(signal, system.robot(), system.topology(), system.study().controllers));
   Warnings warnings;
   for (std::size_t k : open_reactions(system, redundancy, state, resolved, equations))
-    append({warn("undetermined_reaction",
-                 {signals[k].where, "signal",
-                  "the signal reads a reaction that is not unique, because the loop has redundant constraints; the one of least norm is "
-                  "used; to "
-                  "remove the warning, give one joint of the loop the freedom that it has in reality, as codesign:spherical or "
-                  "codesign:cylindrical",
-                  signals[k].text, ""})},
+    append({warn("undetermined_reaction", {signals[k].where, "signal",
+                                           "the signal reads a reaction that is not unique, because the loop has redundant constraints; "
+                                           "the one of least norm is used; to remove the warning, give one joint of the loop the freedom "
+                                           "that it has in reality, as codesign:spherical or codesign:cylindrical",
+                                           signals[k].text, ""})},
            &warnings);
   return warnings;
 }

@@ -1,9 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "assembly/singular_start.h"
-#include "math/dense.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "math/dense.h"
 
 namespace codesign {
 namespace {
@@ -24,9 +25,7 @@ SingularStart::SingularStart(const CompiledSystem& system, const TreeLayout& tre
 VectorX<double> SingularStart::rates(const VectorX<double>& theta, const VectorX<double>& x) {
   body_coordinates(system_, equations_->constants(), link_motions(system_.robot(), tree_, parameters_, theta, x), &state_.q, &state_.v);
   equations_->constraint_errors(state_, &Phi_, &Phi_rate_);
-  VectorX<double> part(loops_.rows());
-  for (int k = 0; k < loops_.rows(); ++k) part[k] = Phi_rate_[loops_.constraint_rows()[static_cast<std::size_t>(k)]];
-  return part;
+  return loops_.part_of(Phi_rate_);
 }
 
 void SingularStart::load(const std::vector<double>& parameters, const VectorX<double>& theta, Equations<double>* equations) {
@@ -37,10 +36,7 @@ void SingularStart::load(const std::vector<double>& parameters, const VectorX<do
   L_.resize(count, 0);
   if (count == 0 || count * tree_.size > kLargest) return;
   J_ = loops_.evaluate(parameters, theta, *equations);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(J_);
-  qr.setThreshold(kRank);
-  const Eigen::MatrixXd Q = qr.householderQ();
-  L_ = Q.rightCols(count - qr.rank());
+  L_ = orthogonal_complement(J_, kRank);
 }
 
 // (J x)_theta x, by central differences of fourth order.
@@ -78,9 +74,7 @@ bool SingularStart::solve(const std::vector<int>& free, VectorX<double>* x) {
       const VectorX<double> unit = x->norm() * VectorX<double>::Unit(tree_.size, free[static_cast<std::size_t>(k)]);
       A.col(k) << J.col(free[static_cast<std::size_t>(k)]), (violation(*x + unit) - violation(*x - unit)) / (2.0 * x->norm());
     }
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod;
-    cod.setThreshold(1e-6);
-    const VectorX<double> step = cod.compute(A).solve(error);
+    const VectorX<double> step = LeastNorm(A, 1e-6).solve(error);
     for (Eigen::Index k = 0; k < count; ++k) (*x)[free[static_cast<std::size_t>(k)]] -= step[k];
     if (!x->allFinite()) return false;
   }
@@ -109,7 +103,7 @@ VectorX<double> SingularStart::tree_accelerations(const VectorX<double>& a) {
     rates(theta_, VectorX<double>::Unit(tree_.size, c));
     body_velocities.col(c) = state_.v;
   }
-  return body_velocities.colPivHouseholderQr().solve(a);
+  return least_norm(body_velocities).solve(a);
 }
 
 std::string SingularStart::joints() const {

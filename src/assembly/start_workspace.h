@@ -21,6 +21,7 @@ struct StartWorkspace {
 
   /// The functions of Assembly of the same name, for this design; they fill `state`.
   Status solve_positions() { return assembly.solve_positions(parameters, &equations, &state); }
+  Status solve_velocities() { return assembly.solve_velocities(parameters, &equations, &state); }
   Status solve_motion() { return assembly.solve_motion(parameters, &equations, &state); }
   Status solve() { return assembly.solve(parameters, &equations, &state); }
 

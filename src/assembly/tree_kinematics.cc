@@ -1,11 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "assembly/tree_kinematics.h"
-#include "codegen/traced.h"
 
 #include <cmath>
 #include <functional>
 #include <queue>
 #include <utility>
+
+#include "codegen/number_types.h"
+#include "math/span.h"
 
 namespace codesign {
 
@@ -47,7 +49,7 @@ struct JointMotion {
 };
 
 template <class T>
-JointMotion<T> joint_motion(const JointDescription& joint, const std::vector<T>& parameters, const T* theta, const T* rate) {
+JointMotion<T> joint_motion(const JointDescription& joint, const std::vector<T>& parameters, In<T> theta, In<T> rate) {
   JointMotion<T> m;
   const auto slide = [&m, theta, rate](const Vector3<T>& axis, int k) {
     m.X.t += axis * theta[k];
@@ -116,9 +118,9 @@ std::vector<LinkMotion<T>> link_motions(const RobotDescription& robot, const Tre
     const JointDescription& joint = robot.joints[static_cast<std::size_t>(k)];
     const LinkMotion<T>& parent = links[static_cast<std::size_t>(joint.parent)];
     LinkMotion<T>& child = links[static_cast<std::size_t>(joint.child)];
-    const int first = layout.offset[static_cast<std::size_t>(k)];
+    const int first = layout.offset[static_cast<std::size_t>(k)], count = coordinates_of(joint.type);
     const Pose<T> X_GF = parent.X * pose_at(joint.origin, parameters);
-    const JointMotion<T> m = joint_motion(joint, parameters, theta.data() + first, theta_rate.data() + first);
+    const JointMotion<T> m = joint_motion(joint, parameters, In<T>(theta).subspan(first, count), In<T>(theta_rate).subspan(first, count));
     child.X = X_GF * m.X;
     child.omega = parent.omega + X_GF.R * m.omega;
     child.velocity = parent.velocity + cross<T>(parent.omega, child.X.t - parent.X.t) + X_GF.R * m.velocity;
@@ -139,12 +141,23 @@ std::vector<CoordinateTwist> coordinate_twists(const RobotDescription& robot, co
     double unit[6] = {};
     for (int c = 0; c < count; ++c) {
       unit[c] = 1.0;
-      const JointMotion<double> m = joint_motion(joint, parameters, theta.data() + first, unit);
+      const JointMotion<double> m = joint_motion(joint, parameters, In<double>(theta).subspan(first, count), unit);
       twists[static_cast<std::size_t>(first + c)] = {R * m.omega, R * m.velocity, links[static_cast<std::size_t>(joint.child)].X.t};
       unit[c] = 0.0;
     }
   }
   return twists;
+}
+
+void set_turns(const System& system, const TreeLayout& layout, const VectorX<double>& theta, State<double>* state) {
+  for (std::size_t p = 0; p < system.topology().pairs.size(); ++p) {
+    const Pair& pair = system.topology().pairs[p];
+    for (std::size_t e = 0; e < pair.chain.size(); ++e) {
+      const auto joint = static_cast<std::size_t>(pair.chain[e].joint);
+      state->turns[static_cast<std::size_t>(system.layout().turn(static_cast<int>(p), static_cast<int>(e)))] =
+          system.robot().joints[joint].is_loop ? 0.0 : theta[layout.offset[joint]];
+    }
+  }
 }
 
 template <class T>
@@ -169,11 +182,7 @@ void body_coordinates(const System& system, const Constants<T>& constants, const
   template std::vector<LinkMotion<T>> link_motions(const RobotDescription&, const TreeLayout&, const std::vector<T>&, const VectorX<T>&, \
                                                    const VectorX<T>&);                                                                   \
   template void body_coordinates(const System&, const Constants<T>&, const std::vector<LinkMotion<T>>&, VectorX<T>*, VectorX<T>*);
-CODESIGN_INSTANTIATE(double)
-CODESIGN_INSTANTIATE(std::complex<double>)
-CODESIGN_INSTANTIATE(Lanes<4>)
-CODESIGN_INSTANTIATE(Lanes<8>)
-CODESIGN_INSTANTIATE(Traced)
+CODESIGN_FOR_EACH_NUMBER_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 
 }  // namespace codesign

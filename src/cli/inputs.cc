@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/inputs.h"
 
+#include "description/tuned_parameters.h"
 #include "jobs/inputs.h"
 #include "mechanism/signal_catalog.h"
 
@@ -20,8 +21,7 @@ Problem load(const Arguments& arguments, const Console* console) {
 Problem load_tunable(const Arguments& arguments, const Console* console) {
   Problem problem = load(arguments, console);
   require_objective(problem);
-  if (problem.study().tuned.empty())
-    throw InputError({{problem.study().file, 1}, "parameters", "the study tunes no parameter", "", "at least one parameter to tune"});
+  require_tuned(problem.study());
   return problem;
 }
 

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/job_folder.h"
-#include "reading/urdf/urdf_reader.h"
 
 #include <unistd.h>
 
@@ -12,6 +11,7 @@
 #include "cli/output_file.h"
 #include "jobs/run_recorder.h"
 #include "jobs/whole_file.h"
+#include "reading/urdf/urdf_reader.h"
 #include "text/decimal.h"
 
 namespace codesign::cli {

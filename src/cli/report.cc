@@ -1,9 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/report.h"
 
-#include "cli/table.h"
-#include "text/number_text.h"
-
 namespace codesign::cli {
 
 void add_warnings(const Arguments& arguments, const Problem& problem, const Warnings& of_run, Json* object, const Console& console) {

@@ -1,8 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <fstream>
-#include <locale>
 #include <optional>
-#include <sstream>
 
 #include "assembly/signal_warnings.h"
 #include "cli/commands.h"
@@ -27,21 +25,12 @@ Json series_json(const std::vector<std::string>& names, const std::vector<std::v
   return series;
 }
 
-/// The value with three significant digits.
-std::string brief(double value) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(3);
-  text << value;
-  return text.str();
-}
-
 void summarize(const RunSummary& run, double duration, double setup_seconds, std::ostream& err) {
   err << "simulated " << readable(duration) << " s in " << run.statistics.steps << " steps (" << run.statistics.rejected_steps
       << " rejected), " << readable(run.statistics.cpu_seconds) << " s of processor time, set-up " << readable(setup_seconds) << " s"
       << std::endl;
-  err << "energy error " << brief(run.statistics.energy_error) << " of the largest energy; constraint drift at most "
-      << brief(run.statistics.constraint_drift) << " times the error tolerance" << std::endl;
+  err << "energy error " << readable(run.statistics.energy_error, 3) << " of the largest energy; constraint drift at most "
+      << readable(run.statistics.constraint_drift, 3) << " times the error tolerance" << std::endl;
   for (const LimitCrossing& crossing : run.crossings) err << describe(crossing) << std::endl;
 }
 

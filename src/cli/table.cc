@@ -2,8 +2,6 @@
 #include "cli/table.h"
 
 #include <algorithm>
-#include <locale>
-#include <sstream>
 
 namespace codesign::cli {
 

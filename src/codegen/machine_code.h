@@ -69,6 +69,8 @@ class MachineCode : protected Xbyak::CodeGenerator {
   }
   Xbyak::Address number(const Place& place) { return qword[base(place.array) + 8 * place.index]; }
 
+  // Pointers, not spans, here and in what calls it: the code loads the addresses as they lie and has the indices built in. It writes to its
+  // targets, as if the numbers were not const.
   int call(const double* const* arrays) const { return run_(arrays); }
 
  private:

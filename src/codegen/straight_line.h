@@ -35,7 +35,7 @@ class StraightLine {
     int stride, offset;
   };
   using RowLayouts = std::array<RowLayout, kCodeArrays>;
-  using Arrays = std::array<const double*, kCodeArrays>;
+  using Arrays = std::array<const double*, kCodeArrays>;  ///< addresses, as MachineCode loads them
 
   /// With more products than this the code is certainly longer than half a megabyte, since each takes at least four bytes.
   static constexpr std::size_t kMostProducts = std::size_t{128} * 1024;

@@ -1,9 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "codegen/tangent_program.h"
-#include "codegen/traced.h"
 
 #include <algorithm>
 #include <utility>
+
+#include "codegen/traced.h"
 
 namespace codesign {
 namespace {

@@ -13,7 +13,7 @@ namespace codesign {
 /// memory (Belady's rule).
 class ValueCode {
  public:
-  using Arrays = std::array<const double*, kCodeArrays>;
+  using Arrays = std::array<const double*, kCodeArrays>;  ///< addresses, as MachineCode loads them
 
   virtual ~ValueCode() = default;
 

@@ -6,8 +6,6 @@
 namespace codesign {
 namespace {
 
-bool zero(const Quantity& q) { return q.is_constant() && q.nominal() == 0.0; }
-
 bool reads(const Signal& signal, SignalKind kind, int controller) {
   return std::any_of(signal.begin(), signal.end(),
                      [&](const SignalReference& term) { return term.kind == kind && term.controller == controller; });
@@ -71,14 +69,14 @@ class Resolver {
   void provide_rate(std::size_t k) {
     const ControllerDescription& description = study_.controllers[k];
     if (!has_error(description.kind)) return;
-    bool wanted = !zero(description.d);
+    bool wanted = !description.d.is_zero();
     for (const Controller& other : controllers_)
       wanted = wanted || reads(other.input_rate, SignalKind::kControllerErrorRate, static_cast<int>(k));
     if (wanted) controllers_[k].input_rate = differentiate(controllers_[k].input, description.input, element(k) + ".input");
   }
 
   bool needs_integral(int k, const std::vector<Signal>& observed) const {
-    if (!zero(study_.controllers[static_cast<std::size_t>(k)].i)) return true;
+    if (!study_.controllers[static_cast<std::size_t>(k)].i.is_zero()) return true;
     const auto integral = [k](const Signal& signal) { return reads(signal, SignalKind::kControllerIntegral, k); };
     return std::any_of(observed.begin(), observed.end(), integral) ||
            std::any_of(controllers_.begin(), controllers_.end(), [&integral](const Controller& other) {
@@ -106,7 +104,7 @@ class Resolver {
   bool has_rotor(int pair) const {
     const int joint = topology_.pairs[static_cast<std::size_t>(pair)].chain.front().joint;
     const auto& actuator = robot_.joints[static_cast<std::size_t>(joint)].actuator;
-    return actuator && !zero(actuator->rotor_inertia);
+    return actuator && !actuator->rotor_inertia.is_zero();
   }
 
   const Study& study_;

@@ -1,10 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "control/reference.h"
-#include "codegen/traced.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "codegen/number_types.h"
 
 namespace codesign {
 namespace {
@@ -158,9 +159,8 @@ Reference<Traced>::Reference(const ReferenceDescription& description, const std:
   motion_ = {order(0), order(1), order(2), order(3)};
 }
 
-template class Reference<double>;
-template class Reference<std::complex<double>>;
-template class Reference<Lanes<4>>;
-template class Reference<Lanes<8>>;
+#define CODESIGN_INSTANTIATE(T) template class Reference<T>;
+CODESIGN_FOR_EACH_VALUE_TYPE(CODESIGN_INSTANTIATE)
+#undef CODESIGN_INSTANTIATE
 
 }  // namespace codesign

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "control/shaped_input.h"
-#include "codegen/traced.h"
+
+#include "codegen/number_types.h"
 
 namespace codesign {
 
@@ -27,9 +28,8 @@ ShapedInput<Traced>::ShapedInput(const BasisDescription& basis, const std::vecto
   motion_.rate = Traced(recording, recording->timed(SourceId(basis), 1));
 }
 
-template class ShapedInput<double>;
-template class ShapedInput<std::complex<double>>;
-template class ShapedInput<Lanes<4>>;
-template class ShapedInput<Lanes<8>>;
+#define CODESIGN_INSTANTIATE(T) template class ShapedInput<T>;
+CODESIGN_FOR_EACH_VALUE_TYPE(CODESIGN_INSTANTIATE)
+#undef CODESIGN_INSTANTIATE
 
 }  // namespace codesign

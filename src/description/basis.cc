@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "math/span.h"
+
 namespace codesign {
 namespace {
 
@@ -15,7 +17,7 @@ double knot(const BasisDescription& basis, int i) {
 }
 
 /// The degree + 1 B-splines of `degree` that are not zero on the knot span `span`, at t, by de Boor's recurrence.
-void spline_values(const BasisDescription& basis, int span, int degree, double t, double* values) {
+void spline_values(const BasisDescription& basis, int span, int degree, double t, Out<double> values) {
   values[0] = 1.0;
   for (int d = 1; d <= degree; ++d) {
     double carried = 0.0;
@@ -43,7 +45,7 @@ BasisWeights basis_weights(const BasisDescription& basis, double t) {
   weights.first = std::clamp(static_cast<int>(std::floor(inside / basis.duration * spans)), 0, spans - 1);
   weights.count = degree + 1;
   const int span = weights.first + degree;
-  spline_values(basis, span, degree, inside, weights.value.data());
+  spline_values(basis, span, degree, inside, weights.value);
   if (t > basis.duration) return weights;
   // B_k' = p (b_k / (t_(k+p) - t_k) - b_(k+1) / (t_(k+p+1) - t_(k+1))) with b_k of degree p - 1.
   double lower[4];

@@ -20,14 +20,14 @@ struct Expression::Program {
   ExpressionSteps steps;
   std::size_t stack = 0;
 
-  Complex evaluate(const Complex* variables) const {
+  Complex evaluate(In<Complex> variables) const {
     constexpr std::size_t kSmall = 32;
     if (stack <= kSmall) {
       Complex numbers[kSmall];
       return run(steps, variables, numbers);
     }
     std::vector<Complex> numbers(stack);
-    return run(steps, variables, numbers.data());
+    return run(steps, variables, numbers);
   }
 };
 
@@ -58,7 +58,7 @@ std::complex<double> Expression::value(const std::vector<std::complex<double>>& 
   std::vector<Complex> values;
   values.reserve(dependencies_.size());
   for (int index : dependencies_) values.push_back(parameters.at(static_cast<std::size_t>(index)));
-  return program_->evaluate(values.data());
+  return program_->evaluate(values);
 }
 
 double Expression::derivative(int index, const std::vector<double>& parameters) const {
@@ -72,13 +72,13 @@ double Expression::derivative(int index, const std::vector<double>& parameters) 
 
 double Expression::value_of(const std::vector<double>& values) const {
   const std::vector<Complex> variables(values.begin(), values.end());
-  return real_part(program_->evaluate(variables.data()));
+  return real_part(program_->evaluate(variables));
 }
 
 double Expression::derivative_of(std::size_t k, const std::vector<double>& values) const {
   std::vector<Complex> variables(values.begin(), values.end());
   variables.at(k) += Complex(0.0, kStep);
-  return program_->evaluate(variables.data()).imag() / kStep;
+  return program_->evaluate(variables).imag() / kStep;
 }
 
 }  // namespace codesign

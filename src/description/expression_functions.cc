@@ -9,10 +9,10 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double kPi = 3.14159265358979323846;
 
-Complex extreme(const Complex* z, int count, double sign) {
+Complex extreme(In<Complex> z, double sign) {
   Complex best = z[0];
-  for (int k = 1; k < count; ++k)
-    if (sign * z[k].real() > sign * best.real()) best = z[k];
+  for (const Complex& one : z)
+    if (sign * one.real() > sign * best.real()) best = one;
   return best;
 }
 
@@ -20,22 +20,22 @@ Complex extreme(const Complex* z, int count, double sign) {
 /// this gives an infinite derivative at an end of the domain where the slope is infinite.
 Complex first_order(const Complex& z, double value, double slope) { return {value, z.imag() == 0.0 ? 0.0 : slope * z.imag()}; }
 
-Complex square_root(const Complex* z, int) {
-  const double x = z->real(), root = std::sqrt(x);
-  return x >= 0.0 ? first_order(*z, root, 0.5 / root) : std::sqrt(*z);
+Complex square_root(In<Complex> z) {
+  const double x = z[0].real(), root = std::sqrt(x);
+  return x >= 0.0 ? first_order(z[0], root, 0.5 / root) : std::sqrt(z[0]);
 }
 
-Complex arc_sine(const Complex* z, int) {
-  const double x = z->real();
-  return std::abs(x) <= 1.0 ? first_order(*z, std::asin(x), 1.0 / std::sqrt(1.0 - x * x)) : std::asin(*z);
+Complex arc_sine(In<Complex> z) {
+  const double x = z[0].real();
+  return std::abs(x) <= 1.0 ? first_order(z[0], std::asin(x), 1.0 / std::sqrt(1.0 - x * x)) : std::asin(z[0]);
 }
 
-Complex arc_cosine(const Complex* z, int) {
-  const double x = z->real();
-  return std::abs(x) <= 1.0 ? first_order(*z, std::acos(x), -1.0 / std::sqrt(1.0 - x * x)) : std::acos(*z);
+Complex arc_cosine(In<Complex> z) {
+  const double x = z[0].real();
+  return std::abs(x) <= 1.0 ? first_order(z[0], std::acos(x), -1.0 / std::sqrt(1.0 - x * x)) : std::acos(z[0]);
 }
 
-Complex arc_tangent2(const Complex* z, int) {
+Complex arc_tangent2(In<Complex> z) {
   const double y = z[0].real(), x = z[1].real();
   if (z[0].imag() == 0.0 && z[1].imag() == 0.0) return std::atan2(y, x);  // defined at the origin too, where the derivative is not
   return {std::atan2(y, x), (x * z[0].imag() - y * z[1].imag()) / (x * x + y * y)};
@@ -45,7 +45,7 @@ double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : 0.0); }
 
 }  // namespace
 
-std::complex<double> expression_power(const std::complex<double>* z, int) {
+std::complex<double> expression_power(In<std::complex<double>> z) {
   const Complex base = z[0], exponent = z[1];
   const double n = exponent.real();
   if (exponent.imag() == 0.0 && base.imag() == 0.0) return std::pow(base.real(), n);
@@ -61,28 +61,28 @@ std::complex<double> expression_quotient(std::complex<double> a, std::complex<do
 const std::vector<ExpressionFunction>& expression_function_table() {
   static const std::vector<ExpressionFunction> kTable = {
       {"sqrt", 1, square_root},
-      {"sin", 1, [](const Complex* z, int) { return std::sin(*z); }},
-      {"cos", 1, [](const Complex* z, int) { return std::cos(*z); }},
-      {"tan", 1, [](const Complex* z, int) { return std::tan(*z); }},
+      {"sin", 1, [](In<Complex> z) { return std::sin(z[0]); }},
+      {"cos", 1, [](In<Complex> z) { return std::cos(z[0]); }},
+      {"tan", 1, [](In<Complex> z) { return std::tan(z[0]); }},
       {"asin", 1, arc_sine},
       {"acos", 1, arc_cosine},
-      {"atan", 1, [](const Complex* z, int) { return std::atan(*z); }},
+      {"atan", 1, [](In<Complex> z) { return std::atan(z[0]); }},
       {"atan2", 2, arc_tangent2},
-      {"sinh", 1, [](const Complex* z, int) { return std::sinh(*z); }},
-      {"cosh", 1, [](const Complex* z, int) { return std::cosh(*z); }},
-      {"tanh", 1, [](const Complex* z, int) { return std::tanh(*z); }},
-      {"exp", 1, [](const Complex* z, int) { return std::exp(*z); }},
-      {"log", 1, [](const Complex* z, int) { return std::log(*z); }},
-      {"log10", 1, [](const Complex* z, int) { return std::log10(*z); }},
+      {"sinh", 1, [](In<Complex> z) { return std::sinh(z[0]); }},
+      {"cosh", 1, [](In<Complex> z) { return std::cosh(z[0]); }},
+      {"tanh", 1, [](In<Complex> z) { return std::tanh(z[0]); }},
+      {"exp", 1, [](In<Complex> z) { return std::exp(z[0]); }},
+      {"log", 1, [](In<Complex> z) { return std::log(z[0]); }},
+      {"log10", 1, [](In<Complex> z) { return std::log10(z[0]); }},
       {"pow", 2, expression_power},
-      {"abs", 1, [](const Complex* z, int) { return z->real() >= 0.0 ? *z : -*z; }},
-      {"sign", 1, [](const Complex* z, int) { return Complex(sign_of(z->real())); }},
-      {"min", -1, [](const Complex* z, int count) { return extreme(z, count, -1.0); }},
-      {"max", -1, [](const Complex* z, int count) { return extreme(z, count, 1.0); }},
-      {"floor", 1, [](const Complex* z, int) { return Complex(std::floor(z->real())); }},
-      {"ceil", 1, [](const Complex* z, int) { return Complex(std::ceil(z->real())); }},
-      {"radians", 1, [](const Complex* z, int) { return *z * (kPi / 180.0); }},
-      {"degrees", 1, [](const Complex* z, int) { return *z * (180.0 / kPi); }},
+      {"abs", 1, [](In<Complex> z) { return z[0].real() >= 0.0 ? z[0] : -z[0]; }},
+      {"sign", 1, [](In<Complex> z) { return Complex(sign_of(z[0].real())); }},
+      {"min", -1, [](In<Complex> z) { return extreme(z, -1.0); }},
+      {"max", -1, [](In<Complex> z) { return extreme(z, 1.0); }},
+      {"floor", 1, [](In<Complex> z) { return Complex(std::floor(z[0].real())); }},
+      {"ceil", 1, [](In<Complex> z) { return Complex(std::ceil(z[0].real())); }},
+      {"radians", 1, [](In<Complex> z) { return z[0] * (kPi / 180.0); }},
+      {"degrees", 1, [](In<Complex> z) { return z[0] * (180.0 / kPi); }},
   };
   return kTable;
 }

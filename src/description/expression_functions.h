@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "math/span.h"
+
 namespace codesign {
 
 /// A function that expressions may call. All functions propagate a complex step exactly to first order; those that are not analytic (abs,
 /// min, max, floor, ...) branch by the real part.
 struct ExpressionFunction {
-  using Law = std::complex<double> (*)(const std::complex<double>* arguments, int count);
+  using Law = std::complex<double> (*)(In<std::complex<double>> arguments);
   const char* name;
   int count;  ///< number of arguments; -1: one or more
   Law law;
@@ -24,7 +26,7 @@ const std::vector<ExpressionFunction>& expression_function_table();
 int find_expression_function(const std::string& name);
 
 /// z[0] to the power of z[1].
-std::complex<double> expression_power(const std::complex<double>* z, int count);
+std::complex<double> expression_power(In<std::complex<double>> z);
 
 /// a / b. For real numbers the result is that of doubles, infinities and NaN included.
 std::complex<double> expression_quotient(std::complex<double> a, std::complex<double> b);

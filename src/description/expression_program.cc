@@ -23,7 +23,7 @@ Complex combine(Code code, const Complex& a, const Complex& b) {
     case Code::kDivide:
       return expression_quotient(a, b);
     case Code::kPower:
-      return expression_power(pair, 2);
+      return expression_power(pair);
     case Code::kLess:
       return a.real() < b.real() ? 1.0 : 0.0;
     case Code::kLessOrEqual:
@@ -67,8 +67,8 @@ int stack_size(const ExpressionSteps& steps) {
   return largest;
 }
 
-std::complex<double> run(const ExpressionSteps& steps, const std::complex<double>* variables, std::complex<double>* stack) {
-  Complex* top = stack;  // past the topmost number
+std::complex<double> run(const ExpressionSteps& steps, In<std::complex<double>> variables, Out<std::complex<double>> stack) {
+  Complex* top = stack.data();  // past the topmost number
   for (std::size_t at = 0; at < steps.size(); ++at) {
     const ExpressionStep& step = steps[at];
     switch (step.code) {
@@ -83,7 +83,7 @@ std::complex<double> run(const ExpressionSteps& steps, const std::complex<double
         break;
       case Code::kCall: {
         top -= step.count;
-        const Complex value = expression_function_table()[static_cast<std::size_t>(step.index)].law(top, step.count);
+        const Complex value = expression_function_table()[static_cast<std::size_t>(step.index)].law({top, step.count});
         *top++ = value;
         break;
       }

@@ -5,6 +5,8 @@
 #include <complex>
 #include <vector>
 
+#include "math/span.h"
+
 namespace codesign {
 
 /// One operation of a stack machine on numbers. Operators replace their operands on the stack by the result; comparisons give 1 or 0.
@@ -40,7 +42,7 @@ using ExpressionSteps = std::vector<ExpressionStep>;
 int stack_size(const ExpressionSteps& steps);
 
 /// Executes the steps and returns the result. @param variables their values, by index. @param stack memory for stack_size() numbers.
-std::complex<double> run(const ExpressionSteps& steps, const std::complex<double>* variables, std::complex<double>* stack);
+std::complex<double> run(const ExpressionSteps& steps, In<std::complex<double>> variables, Out<std::complex<double>> stack);
 
 }  // namespace codesign
 

@@ -9,6 +9,11 @@ namespace codesign {
 /// The types of joints and loops, as files name them.
 enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic, kPlanar, kFloating, kSpherical, kUniversal, kCylindrical, kDistance };
 
+/// Whether the only coordinate of a type is an angle.
+constexpr bool is_turn(JointType type) { return type == JointType::kRevolute || type == JointType::kContinuous; }
+/// Whether a type has exactly one coordinate, and with it a scalar position, velocity, acceleration and effort.
+constexpr bool has_one_coordinate(JointType type) { return is_turn(type) || type == JointType::kPrismatic; }
+
 /// Where a type may stand, and how it is spelled there.
 struct JointTypeName {
   JointType type;

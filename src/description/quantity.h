@@ -50,6 +50,8 @@ class Quantity {
   /// The value at the parameters' default values, as written in the plain attribute.
   double nominal() const { return nominal_; }
   bool is_constant() const { return expression_ == nullptr; }
+  /// Whether it is the constant zero, which stands for what is absent. An expression is not, whatever its value.
+  bool is_zero() const { return is_constant() && nominal_ == 0.0; }
   const Expression* expression() const { return expression_.get(); }
 
   /// The value at `parameters`: all named parameters in the order of Study::parameters (the model's first, then the study's own).

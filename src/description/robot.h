@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -53,12 +54,10 @@ struct LimitDescription {
   Quantity lower, upper;      ///< position [rad or m]
   Quantity effort, velocity;  ///< [N m or N], [rad/s or m/s]
 
-  /// Whether a number is given: it is not zero, or an expression.
-  static bool given(const Quantity& q) { return !q.is_constant() || q.nominal() != 0.0; }
   /// False if both limits are zero or missing.
-  bool bounds_position() const { return given(lower) || given(upper); }
-  bool bounds_effort() const { return given(effort); }
-  bool bounds_velocity() const { return given(velocity); }
+  bool bounds_position() const { return !lower.is_zero() || !upper.is_zero(); }
+  bool bounds_effort() const { return !effort.is_zero(); }
+  bool bounds_velocity() const { return !velocity.is_zero(); }
 };
 
 /// `<mimic>`: theta = multiplier * theta_joint + offset, with theta_joint of the joint that is followed; theory (8a).
@@ -101,6 +100,9 @@ struct JointDescription {
   /// kFloating: the child's orientation at zero turning coordinates, as rpy in the joint frame [rad]; taken from the study's initial state.
   QuantityVector start_rotation;
   SourceLocation where;
+
+  /// The element for messages: `<joint name="crank_joint">` or `<loop name="close">`.
+  std::string element() const { return (is_loop ? "<loop name=\"" : "<joint name=\"") + name + "\">"; }
 };
 
 /// Whether `<limit lower upper>` bounds the joint's position. On a continuous joint URDF ignores both.
@@ -129,6 +131,7 @@ struct SpringDamperDescription {
 struct RobotDescription {
   std::string name;
   std::vector<Parameter> parameters;
+  std::set<int> used_parameters;  ///< indices of those that a number of the file depends on, visuals included
   std::vector<LinkDescription> links;
   int root = 0;                          ///< index of the root link, which is the ground
   std::vector<JointDescription> joints;  ///< tree joints in file order, then loops in file order

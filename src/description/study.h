@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -130,6 +131,9 @@ struct Study {
   std::vector<LoadDescription> loads;
   /// All named parameters: the model's in their order, then the study's own. `parameters[tuned[k]]` is rho_k.
   std::vector<Parameter> parameters;
+  /// Indices of the parameters that a number of model or study depends on. Those of constraints do not count: a constraint alone moves
+  /// nothing.
+  std::set<int> used_parameters;
   std::vector<int> tuned;               ///< indices of the tuned parameters; p of them
   std::vector<ObjectiveTerm> integral;  ///< terms of the integrand g; theory (21)
   std::vector<ObjectiveTerm> terminal;  ///< terms at the end of the study, w; theory (21)

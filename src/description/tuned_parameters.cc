@@ -23,6 +23,11 @@ Eigen::VectorXd start_of(const Study& study) {
   return rho;
 }
 
+void require_tuned(const Study& study) {
+  if (study.tuned.empty())
+    throw InputError({{study.file, 1}, "parameters", "the study tunes no parameter", "", "at least one parameter to tune"});
+}
+
 std::vector<std::string> tuned_names(const Study& study) {
   std::vector<std::string> names;
   names.reserve(study.tuned.size());

@@ -20,6 +20,9 @@ std::vector<double> parameters_at(const Study& study, const Eigen::VectorXd& rho
 /// The start of rho: the start values of the p tuned parameters, in the order of Study::tuned.
 Eigen::VectorXd start_of(const Study& study);
 
+/// Checks that the study has something to tune. @throws InputError if not.
+void require_tuned(const Study& study);
+
 /// Names of the tuned parameters, in the order of rho.
 std::vector<std::string> tuned_names(const Study& study);
 

@@ -6,6 +6,7 @@
 #include "elements/gradient_rows.h"
 #include "elements/state_view.h"
 #include "elements/workspace.h"
+#include "math/span.h"
 
 namespace codesign {
 
@@ -59,15 +60,18 @@ T pid_output(const StateView<T>& view, int controller, OptionalGradient<T> gradi
 
 /// The load tau_k of (C4) [N or N m] along the coordinate that the controller drives. Appends its gradient by positions and velocities, and
 /// leaves those by the accelerations and rates of the nodes in ControlMemory::by_acceleration and by_rate, for the caller to apply.
-/// @param accelerations one per node of the driven tree, or null for (C5): everything at rest. With accelerations the caller must fill
+/// @param accelerations one per node of the driven tree, or none for (C5): everything at rest. With accelerations the caller must fill
 /// ControlMemory::rates before.
 template <class T>
-T inverse_dynamics_load(const StateView<T>& view, int controller, const T* accelerations, OptionalGradient<T> gradient) {
+T inverse_dynamics_load(const StateView<T>& view, int controller, In<T> accelerations, OptionalGradient<T> gradient) {
   const auto c = static_cast<std::size_t>(controller);
+  // ControlMemory has room for the largest tree.
+  const auto nodes = static_cast<std::ptrdiff_t>(view.system.controllers()[c].tree.nodes.size());
   const T load = view.control.inverse_dynamics[c].load(view.design.constants, view.kinematics, view.design.gravity, accelerations,
-                                                       view.control.rates.data());
+                                                       In<T>(view.control.rates).first(nodes));
   if (gradient)
-    view.control.inverse_dynamics[c].append_gradient(T(1.0), gradient, view.control.by_acceleration.data(), view.control.by_rate.data());
+    view.control.inverse_dynamics[c].append_gradient(T(1.0), gradient, Out<T>(view.control.by_acceleration).first(nodes),
+                                                     Out<T>(view.control.by_rate).first(nodes));
   return load;
 }
 
@@ -89,7 +93,8 @@ T computed_torque(const StateView<T>& view, int controller, OptionalGradient<T> 
   const CoordinateDetail detail = gradient ? CoordinateDetail::kGradient : CoordinateDetail::kRate;
   for (std::size_t k = 0; k < nodes.size(); ++k)
     if (nodes[k].rotor) view.control.rates[k] = view.coordinate(nodes[k].pair, 0, detail).rate;
-  const T load = inverse_dynamics_load(view, controller, view.control.accelerations.data(), gradient);
+  const T load =
+      inverse_dynamics_load(view, controller, In<T>(view.control.accelerations).first(static_cast<std::ptrdiff_t>(nodes.size())), gradient);
   for (std::size_t k = 0; gradient && k < nodes.size(); ++k) {
     if (nodes[k].controller < 0) continue;
     const auto before = mark(gradient);
@@ -136,7 +141,7 @@ T controller_output(const StateView<T>& view, int controller, OptionalGradient<T
     case ControllerKind::kPdGravity: {
       // Two statements, because the order in which entries are appended must not depend on the compiler: an assembly is recorded once.
       const T feedback = pid_output(view, controller, gradient);
-      return feedback + inverse_dynamics_load(view, controller, static_cast<const T*>(nullptr), gradient);
+      return feedback + inverse_dynamics_load(view, controller, {}, gradient);
     }
     case ControllerKind::kComputedTorque:
       return computed_torque(view, controller, gradient);

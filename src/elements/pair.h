@@ -2,9 +2,12 @@
 #ifndef MECHANISM_CODESIGN_ELEMENTS_PAIR_H_
 #define MECHANISM_CODESIGN_ELEMENTS_PAIR_H_
 
+#include <cassert>
+
 #include "elements/state_view.h"
 #include "elements/workspace.h"
 #include "joints/pair_motion.h"
+#include "math/span.h"
 
 namespace codesign {
 
@@ -98,21 +101,23 @@ void pair_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_
 }
 
 /// Constraint values Phi and rates Phi_q v of one pair's rows, for bodies that move as given; the ground is a body at rest.
-/// @param errors, rates receive as many values as the pair has rows.
+/// @param errors, rates one value per row of the pair.
 template <class T>
-void pair_errors(const StateView<T>& view, int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, T* errors, T* rates) {
+void pair_errors(const StateView<T>& view, int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, Out<T> errors, Out<T> rates) {
   const PairRows<T>& rows = view.design.rows[static_cast<std::size_t>(pair)];
+  assert(errors.size() == rows.size() && rates.size() == rows.size());
+  T *error = errors.data(), *rate = rates.data();
   if (rows.coincident) {
     const VectorMotion<T> d = displacement_motion(i, rows.point(Side::kI), j, rows.point(Side::kJ));
     for (int k = 0; k < 3; ++k) {
-      *errors++ = d.x[k];
-      *rates++ = d.xd[k];
+      *error++ = d.x[k];
+      *rate++ = d.xd[k];
     }
   }
   for (const ProductRow<T>& product : rows.products) {
     const ProductMotion<T> phi = product_motion(motion_of(product.X, i, j), motion_of(product.Y, i, j));
-    *errors++ = product.scale * (phi.phi - product.offset);
-    *rates++ = product.scale * phi.phid;
+    *error++ = product.scale * (phi.phi - product.offset);
+    *rate++ = product.scale * phi.phid;
   }
 }
 

@@ -41,7 +41,7 @@ std::array<internal::SpringEnd<T>, 2> spring_ends(const StateView<T>& view, std:
 template <class T, class Sink>
 void assemble_spring(const StateView<T>& view, Workspace<T>* workspace, std::size_t k, Sink* sink) {
   const Quantity& damping = view.system.robot().spring_dampers[k].damping;
-  const bool damped = !damping.is_constant() || damping.nominal() != 0.0;
+  const bool damped = !damping.is_zero();
   const SpringForce<T> force = spring_at(view, k);
   add_spring_load(view, workspace, k, force);
   const std::array<internal::SpringEnd<T>, 2> ends = spring_ends(view, k);

@@ -29,8 +29,8 @@ class EvaluationEngine {
   virtual int workers() const = 0;
 };
 
-/// The engine that a study asks for by `engine:`. @param most_useful the largest number of evaluations that will wait at the same time; more
-/// workers are not made.
+/// The engine that a study asks for by `engine:`. @param most_useful the largest number of evaluations that will wait at the same time;
+/// more workers are not made.
 std::unique_ptr<EvaluationEngine> make_engine(const EngineOptions& options, int most_useful);
 
 }  // namespace codesign

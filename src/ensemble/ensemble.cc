@@ -31,9 +31,7 @@ void add_new(const Warnings& warnings, Warnings* all) {
       all->push_back(warning);
 }
 
-Status named(const Status& status, const Scenario& scenario) {
-  return {status.code, status.time, scenario.name() + ": " + status.cause};
-}
+Status named(const Status& status, const Scenario& scenario) { return {status.code, status.time, scenario.name() + ": " + status.cause}; }
 
 }  // namespace
 
@@ -110,8 +108,8 @@ bool Ensemble::fill_tail(const std::vector<std::size_t>& failed, const std::vect
   for (std::size_t k : failed) weight += scenarios_[k].weight;
   if (weight > 1.0 - options_.level) {
     result->total.status = named(members[failed.front()].status, scenarios_[failed.front()]);
-    result->total.status.cause += "; " + std::to_string(failed.size()) + " of " + std::to_string(scenarios_.size()) +
-                                  " scenarios failed, more than the tail holds";
+    result->total.status.cause +=
+        "; " + std::to_string(failed.size()) + " of " + std::to_string(scenarios_.size()) + " scenarios failed, more than the tail holds";
     result->values.resize(0);
     return false;
   }

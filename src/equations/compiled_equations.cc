@@ -2,6 +2,7 @@
 #include "equations/compiled_equations.h"
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 
 #include "codegen/operate.h"
@@ -18,6 +19,16 @@ template <int N>
 constexpr int kLanesOf<Lanes<N>> = N;
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+/// The arrays that the equations own; those of the state and of results are for the caller to set.
+template <class T>
+ValueCode::Arrays inner_arrays(const std::vector<T>& numbers, const LineVector& slots, const LineVector& rows) {
+  ValueCode::Arrays arrays{};
+  arrays[Arrays::kNumbers] = reinterpret_cast<const double*>(numbers.data());
+  arrays[Arrays::kSlots] = slots.data();
+  arrays[Arrays::kRows] = rows.data();
+  return arrays;
+}
 
 }  // namespace
 
@@ -111,35 +122,32 @@ const CompiledFunction* CompiledEquations<T>::begin(EquationFunction function, b
 
 // A Lanes<N> is 1 + N doubles in a row, value first; the code reads arrays of them as arrays of doubles.
 template <class T>
-bool CompiledEquations<T>::run(EquationFunction function, double t, const std::vector<double>& turns, const T* const (&state)[4],
-                               T* const (&results)[4]) {
+bool CompiledEquations<T>::run(EquationFunction function, double t, const std::vector<double>& turns, const In<T> (&state)[4],
+                               const Out<T> (&results)[4]) {
   const CompiledFunction* const code = begin(function, false, t, turns);
   if (!code) return false;
-  const auto numbers = [](const T* first) { return reinterpret_cast<const double*>(first); };
-  ValueCode::Arrays arrays{};
+  const auto numbers = [](In<T> array) { return reinterpret_cast<const double*>(array.data()); };
+  ValueCode::Arrays arrays = inner_arrays(numbers_, slots_, rows_);
   std::transform(std::begin(state), std::end(state), arrays.begin(), numbers);
   std::transform(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults, numbers);
-  arrays[Arrays::kNumbers] = numbers(numbers_.data());
-  arrays[Arrays::kSlots] = slots_.data();
-  arrays[Arrays::kRows] = rows_.data();
   if (!note(function, code->values->run(arrays))) return false;
   if (code->tangents) code->tangents->run(arrays);
   return true;
 }
 
 template <class T>
-bool CompiledEquations<T>::tangents(EquationFunction function, double t, const std::vector<double>& turns, const double* const (&values)[4],
-                                    const double* const (&directions)[4], double* const (&results)[4]) {
+bool CompiledEquations<T>::tangents(EquationFunction function, double t, const std::vector<double>& turns, const In<double> (&values)[4],
+                                    const In<double> (&directions)[4], const Out<double> (&results)[4]) {
   const CompiledFunction* const code = kLanesOf<T> == 0 ? nullptr : begin(function, true, t, turns);
   if (!code) return false;
-  ValueCode::Arrays arrays{};
-  std::copy(std::begin(values), std::end(values), arrays.begin());
-  arrays[Arrays::kNumbers] = reinterpret_cast<const double*>(numbers_.data());
-  arrays[Arrays::kSlots] = slots_.data();
-  arrays[Arrays::kRows] = rows_.data();
+  assert(std::equal(std::begin(values), std::end(values), std::begin(directions),
+                    [](In<double> x, In<double> along) { return along.size() == kLanesOf<T> * x.size(); }));
+  const auto first = [](In<double> array) { return array.data(); };
+  ValueCode::Arrays arrays = inner_arrays(numbers_, slots_, rows_);
+  std::transform(std::begin(values), std::end(values), arrays.begin(), first);
   if (!note(function, code->values->run(arrays))) return false;
-  std::copy(std::begin(directions), std::end(directions), arrays.begin());
-  std::copy(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults);
+  std::transform(std::begin(directions), std::end(directions), arrays.begin(), first);
+  std::transform(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults, first);
   code->tangents->run(arrays);
   return true;
 }
@@ -147,22 +155,20 @@ bool CompiledEquations<T>::tangents(EquationFunction function, double t, const s
 template <class T>
 bool CompiledEquations<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
   G->resize(system_.layout().columns());
-  return run(EquationFunction::kResidual, state.t, state.turns, {state.q.data(), state.v.data(), state.s.data(), state.z.data()},
-             {G->data(), g, nullptr, nullptr});
+  return run(EquationFunction::kResidual, state.t, state.turns, {state.q, state.v, state.s, state.z}, {*G, {g, 1}, {}, {}});
 }
 
 template <class T>
 bool CompiledEquations<T>::linearize(const State<T>& state, Linearization<T>* derivatives) {
-  return run(EquationFunction::kLinearization, state.t, state.turns, {state.q.data(), state.v.data(), state.s.data(), state.z.data()},
-             {derivatives->position.data(), derivatives->velocity.data(), derivatives->rate.data(), derivatives->time.data()});
+  return run(EquationFunction::kLinearization, state.t, state.turns, {state.q, state.v, state.s, state.z},
+             {derivatives->position, derivatives->velocity, derivatives->rate, derivatives->time});
 }
 
 template <class T>
 bool CompiledEquations<T>::constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
   Phi->resize(system_.layout().m);
   Phi_rate->resize(system_.layout().m);
-  return run(EquationFunction::kConstraintErrors, 0.0, state.turns, {state.q.data(), state.v.data(), nullptr, nullptr},
-             {Phi->data(), Phi_rate->data(), nullptr, nullptr});
+  return run(EquationFunction::kConstraintErrors, 0.0, state.turns, {state.q, state.v, {}, {}}, {*Phi, *Phi_rate, {}, {}});
 }
 
 template class CompiledEquations<double>;

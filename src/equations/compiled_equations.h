@@ -14,6 +14,7 @@
 #include "equations/compiled_system.h"
 #include "equations/equation_function.h"
 #include "math/line_vector.h"
+#include "math/span.h"
 #include "sparse/sparsity.h"
 #include "system/state.h"
 
@@ -47,9 +48,9 @@ class CompiledEquations {
   /// The derivatives of one function along N directions of state and design, for T = Lanes<N> only; false as above, and for T = double. The
   /// directions of the design are those of the parameters given to set_design().
   /// @param turns State::turns. @param values of q, v, s and z. @param directions of the same vectors, N numbers side by side per entry.
-  /// @param results one array per result in the order of EquationFunction, N numbers side by side per entry.
-  bool tangents(EquationFunction function, double t, const std::vector<double>& turns, const double* const (&values)[4],
-                const double* const (&directions)[4], double* const (&results)[4]);
+  /// @param results one array per result in the order of EquationFunction, N numbers side by side per entry; empty ones behind the last.
+  bool tangents(EquationFunction function, double t, const std::vector<double>& turns, const In<double> (&values)[4],
+                const In<double> (&directions)[4], const Out<double> (&results)[4]);
 
  private:
   /// Fetches the code and evaluates the constants of a new design. False if the code cannot be used for it.
@@ -71,7 +72,7 @@ class CompiledEquations {
 
   /// The code of a function with its inputs set for an instant; null if there is none or the pause is not over.
   const CompiledFunction* begin(EquationFunction function, bool split, double t, const std::vector<double>& turns);
-  bool run(EquationFunction function, double t, const std::vector<double>& turns, const T* const (&state)[4], T* const (&results)[4]);
+  bool run(EquationFunction function, double t, const std::vector<double>& turns, const In<T> (&state)[4], const Out<T> (&results)[4]);
 
   const CompiledSystem& system_;
   std::vector<T> parameters_;
@@ -81,7 +82,7 @@ class CompiledEquations {
   const NumberedRecording* numbered_ = nullptr;
   std::vector<T> numbers_;                                             ///< array EquationArrays::kNumbers
   std::vector<std::variant<Reference<T>, ShapedInput<T>>> functions_;  ///< functions of time, order of the recording
-  std::array<Misses, 3> misses_;                                       ///< per EquationFunction
+  std::array<Misses, kEquationFunctions> misses_;                      ///< per EquationFunction
   LineVector slots_, rows_;                                            ///< workspace of the code
 };
 

@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_EQUATIONS_DERIVATIVE_PRODUCTS_H_
 
 #include "equations/compiled_system.h"
+#include "math/span.h"
 #include "sparse/sparsity.h"
 #include "system/state.h"
 
@@ -15,8 +16,8 @@ void directional_derivative(const CompiledSystem& system, const Linearization<do
                             VectorX<double>* result);
 
 /// result -= factor * G_q q. @param q n entries. @param result Layout::columns() entries; g has none.
-void subtract_position_product(const CompiledSystem& system, const Linearization<double>& derivatives, const double* q, double factor,
-                               double* result);
+void subtract_position_product(const CompiledSystem& system, const Linearization<double>& derivatives, In<double> q, double factor,
+                               Out<double> result);
 
 }  // namespace codesign
 

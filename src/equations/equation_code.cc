@@ -113,7 +113,7 @@ void EquationCode::take_guards(std::size_t first, Recorded* function) {
 void EquationCode::differentiate() const {
   Recording& recording = derivatives_.recording;
   recording = values_.recording;
-  for (std::size_t f = 0; f < kFunctions; ++f) {
+  for (std::size_t f = 0; f < kEquationFunctions; ++f) {
     std::vector<bool> is_leaf(at(recording.size()));
     for (int n = 0; n < recording.size(); ++n) is_leaf[at(n)] = is_tangent_leaf(recording.node(n));
     derivatives_.tangents[f] = std::make_unique<TangentProgram>(&recording, functions_[f].outputs, is_leaf);

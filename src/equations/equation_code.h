@@ -36,9 +36,9 @@ struct CompiledFunction {
 /// on the design, the time or a turn reference only.
 struct NumberedRecording {
   Recording recording;
-  std::array<std::unique_ptr<TangentProgram>, 3> tangents;  ///< per EquationFunction; null without derivatives
-  std::vector<int> numbers;                                 ///< the nodes of array kNumbers, in its order
-  std::vector<Place> homes;                                 ///< per node: its array and index; array -1 if the code computes it
+  std::array<std::unique_ptr<TangentProgram>, kEquationFunctions> tangents;  ///< per EquationFunction; null without derivatives
+  std::vector<int> numbers;                                                  ///< the nodes of array kNumbers, in its order
+  std::vector<Place> homes;  ///< per node: its array and index; array -1 if the code computes it
 
   /// Per function of time, the entry of kNumbers of its value and of each of its derivatives; -1 if it is not used.
   std::vector<std::array<int, Recording::kFunctionOrders>> functions;
@@ -74,8 +74,6 @@ class EquationCode {
   const std::vector<Recording::Guard>& design_guards() const { return design_guards_; }
 
  private:
-  static constexpr std::size_t kFunctions = 3;
-
   /// The results of one function and the decisions that were made on the way to them.
   struct Recorded {
     std::vector<ValueTask::Output> outputs;
@@ -93,7 +91,7 @@ class EquationCode {
   std::vector<Sum> tangent_sums(std::size_t function, const std::vector<Place>& value_places) const;
 
   NumberedRecording values_;
-  std::array<Recorded, kFunctions> functions_;
+  std::array<Recorded, kEquationFunctions> functions_;
   std::vector<Recording::Guard> design_guards_;
 
   mutable std::once_flag differentiated_;
@@ -103,7 +101,8 @@ class EquationCode {
     std::unique_ptr<CompiledFunction> code;
   };
   mutable std::mutex mutex_;
-  mutable std::array<std::array<Known, 5>, kFunctions> known_;  ///< per function: double, Lanes<4>, Lanes<8>, then the two split ones
+  mutable std::array<std::array<Known, 5>, kEquationFunctions>
+      known_;  ///< per function: double, Lanes<4>, Lanes<8>, then the two split ones
 };
 
 /// An EquationCode that is recorded by the first call of get(), since many systems are only checked.

@@ -2,6 +2,8 @@
 #ifndef MECHANISM_CODESIGN_EQUATIONS_EQUATION_FUNCTION_H_
 #define MECHANISM_CODESIGN_EQUATIONS_EQUATION_FUNCTION_H_
 
+#include <cstddef>
+
 namespace codesign {
 
 /// The compiled functions of Equations; each enumerator lists the arrays of results, in order.
@@ -10,6 +12,7 @@ enum class EquationFunction {
   kLinearization,    ///< G_q, G_v, G_z, G_t
   kConstraintErrors  ///< Phi, Phi_q v
 };
+constexpr std::size_t kEquationFunctions = 3;  ///< number of enumerators
 
 }  // namespace codesign
 

@@ -43,7 +43,7 @@ class Equations {
     if (!compiled_.constraint_errors(state, Phi, Phi_rate)) formulas_.constraint_errors(state, Phi, Phi_rate);
   }
 
-  /// Sets the turn references of a state to its joint positions; integrators call it after each step.
+  /// Sets State::turns to the joint positions of the state; integrators call it after each step.
   void track_turns(State<T>* state) { formulas_.track_turns(state); }
 
   /// The formulas, for everything that is not compiled: signals, energies, friction, reactions.

@@ -10,6 +10,7 @@
 #include "elements/state_view.h"
 #include "elements/workspace.h"
 #include "forces/spring_damper.h"
+#include "math/span.h"
 
 namespace codesign {
 
@@ -29,8 +30,7 @@ class Formulas {
 
   /// Evaluates all constants at `parameters` (all named parameters, order of Study::parameters). Allocates.
   void set_design(const std::vector<T>& parameters);
-  /// What the elements read; tests and the recording change its turn references.
-  StateView<T>& view() { return view_; }
+  /// What the elements read.
   const StateView<T>& view() const { return view_; }
 
   /// The residual G (Layout::columns() rows) and the objective's integrand g, theory (21), at a state.
@@ -46,10 +46,10 @@ class Formulas {
   /// used, but must have its size.
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
   /// Phi and Phi_q v of one pair's rows, for bodies that move as given; the ground is a body at rest.
-  /// @param errors, rates receive one value per row of the pair.
-  void pair_errors(int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, T* errors, T* rates) const;
+  /// @param errors, rates one value per row of the pair.
+  void pair_errors(int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, Out<T> errors, Out<T> rates) const;
 
-  /// Sets the turn references of a state to its joint positions. To be called after each step, so that positions count whole turns.
+  /// Sets State::turns to the joint positions of the state. To be called after each step, so that positions count whole turns.
   void track_turns(State<T>* state);
 
   /// The sum w of the terminal terms of the objective, theory (21). @param gradient its gradient is appended, if not null; here and below.
@@ -76,8 +76,6 @@ class Formulas {
   T potential_energy(SparseGradient<T>* gradient) const;
   /// The power of one kind that goes into the mechanism [W]; theory (14c).
   T power(PowerKind kind, SparseGradient<T>* gradient) const;
-  /// The part of one joint in power(). @param element index in the pair's chain.
-  T joint_power(PowerKind kind, int pair, int element, SparseGradient<T>* gradient) const;
   /// Setpoint r, output u [N or N m] before the actuator's limit, and error e = r - x of a controller; theory (C1)-(C8).
   T setpoint(int controller) const;
   T controller_output(int controller, SparseGradient<T>* gradient) const;

@@ -87,15 +87,16 @@ void Formulas<T>::constraint_errors(const State<T>& state, VectorX<T>* Phi, Vect
   Phi_rate->setZero(layout.m);
   for (std::size_t k = 0; k < view_.design.rows.size(); ++k) {
     const Pair& pair = view_.system.topology().pairs[k];
-    const int row = layout.pair_row[k];
-    pair_errors(static_cast<int>(k), body(pair.body_i), body(pair.body_j), Phi->data() + row, Phi_rate->data() + row);
+    const int row = layout.pair_row[k], size = view_.design.rows[k].size();
+    pair_errors(static_cast<int>(k), body(pair.body_i), body(pair.body_j), Out<T>(*Phi).subspan(row, size),
+                Out<T>(*Phi_rate).subspan(row, size));
   }
   for (std::size_t k = 0; k < view_.design.constants.couplings.size(); ++k) coupling_error(view_, k, Phi, Phi_rate);
   for (int b = 0; b < layout.bodies; ++b) norm_error(view_, b, Phi, Phi_rate);
 }
 
 template <class T>
-void Formulas<T>::pair_errors(int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, T* errors, T* rates) const {
+void Formulas<T>::pair_errors(int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, Out<T> errors, Out<T> rates) const {
   codesign::pair_errors(view_, pair, i, j, errors, rates);
 }
 

@@ -62,11 +62,6 @@ T Formulas<T>::power(PowerKind kind, SparseGradient<T>* gradient) const {
 }
 
 template <class T>
-T Formulas<T>::joint_power(PowerKind kind, int pair, int element, SparseGradient<T>* gradient) const {
-  return codesign::joint_power(view_, kind, pair, element, gradient);
-}
-
-template <class T>
 T Formulas<T>::setpoint(int controller) const {
   return view_.design.controllers[static_cast<std::size_t>(controller)].setpoint.at(view_.state->t).value;
 }

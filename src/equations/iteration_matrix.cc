@@ -86,7 +86,7 @@ bool IterationMatrix::factor(const Linearization<double>& d, double c_v, double 
   } else {
     add_up(d, c_v, c_q, c_s);
   }
-  return lu_.factor(values_.data());
+  return lu_.factor(values_);
 }
 
 void IterationMatrix::add_up(const Linearization<double>& d, double c_v, double c_q, double c_s) {

@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "integration/applied_work.h"
 
+#include <cassert>
+
 namespace codesign {
 namespace {
 
@@ -37,9 +39,10 @@ BodyEnergy BodyMotion::energy(const VectorX<double>& q, const VectorX<double>& v
 }
 
 // The velocity term 8 G'^T J G p' of (9) has no power, since G' p' = 0.
-double BodyMotion::power(const VectorX<double>& q, const VectorX<double>& v, const double* a) const {
+double BodyMotion::power(const VectorX<double>& q, const VectorX<double>& v, In<double> z) const {
+  assert(q.size() == v.size() && z.size() >= v.size());
   double power = 0.0;
-  const double *r = q.data(), *rate = v.data();
+  const double *r = q.data(), *rate = v.data(), *a = z.data();
   for (const Body& body : bodies_) {
     power += body.mass * vector(rate).dot(vector(a) - gravity_) + spin(r + 3, rate + 3).dot(body.J * spin(r + 3, a + 3));
     r += kBodySize;
@@ -59,20 +62,21 @@ StepWork::StepWork(const CompiledSystem& system, const RosenbrockTableau& tablea
   for (VectorX<double>* part : {&q_, &v_, &a_}) part->setZero(system.layout().n);
 }
 
-void StepWork::start(const State<double>& state, const BodyMotion& motion) { power_ = motion.power(state.q, state.v, state.z.data()); }
+void StepWork::start(const State<double>& state, const BodyMotion& motion) { power_ = motion.power(state.q, state.v, state.z); }
 
 double StepWork::over(const RosenbrockStep<double>& step, const BodyMotion& motion) {
   const IncrementLayout& at = step.increment_layout();
   const State<double>&from = step.previous(), &to = step.state();
+  const auto stages = static_cast<std::ptrdiff_t>(step.stages().size());
   const auto middle = [&](const VectorX<double>& y, int first, VectorX<double>* part) {
-    combine(y.data(), middle_.data(), step.increments(), step.stages().size(), first, at.n, part->data());
+    combine(In<double>(y).first(at.n), In<double>(middle_).first(stages), step.increments(), first, *part);
   };
   middle(from.q, at.x(), &q_);
   middle(from.v, at.v(), &v_);
   middle(from.z, at.z(), &a_);
   const double begun = power_;
-  power_ = motion.power(to.q, to.v, to.z.data());
-  return step.step_size() / 6.0 * (begun + 4.0 * motion.power(q_, v_, a_.data()) + power_);
+  power_ = motion.power(to.q, to.v, to.z);
+  return step.step_size() / 6.0 * (begun + 4.0 * motion.power(q_, v_, a_) + power_);
 }
 
 }  // namespace codesign

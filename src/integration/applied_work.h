@@ -20,8 +20,8 @@ class BodyMotion {
   void set_design(const Constants<double>& constants);
   BodyEnergy energy(const VectorX<double>& q, const VectorX<double>& v) const;
   /// W' of (17a), v^T M a - sum of m g . r' [W]: the power of all forces but gravity, if the motion satisfies the constraints.
-  /// @param a accelerations, n entries.
-  double power(const VectorX<double>& q, const VectorX<double>& v, const double* a) const;
+  /// @param z of the state, or its first n entries, the accelerations.
+  double power(const VectorX<double>& q, const VectorX<double>& v, In<double> z) const;
 
  private:
   struct Body {

@@ -8,10 +8,9 @@
 namespace codesign {
 namespace {
 
-using ConstMap = Eigen::Map<const VectorX<double>>;
-using Map = Eigen::Map<VectorX<double>>;
-
-const double* read(N_Vector vector) { return N_VGetArrayPointer(vector); }
+/// `size` entries of an array from the `first` on, as a vector.
+Eigen::Map<const VectorX<double>> part(In<double> from, int first, int size) { return {from.subspan(first, size).data(), size}; }
+Eigen::Map<VectorX<double>> part(Out<double> from, int first, int size) { return {from.subspan(first, size).data(), size}; }
 
 // Return values of callbacks: success; retry with a smaller step; stop with a failure.
 constexpr int kDone = 0, kRetry = 1, kGiveUp = -1;
@@ -51,87 +50,88 @@ void IdasEquations::start() {
   failure_.clear();
 }
 
-void IdasEquations::unpack(double t, const double* y, const double* y_dot, State<double>* state) const {
+void IdasEquations::unpack(double t, In<double> y, In<double> y_dot, State<double>* state) const {
   const int n = layout_.n, m = layout_.m, states = layout_.states;
   state->t = t;
-  state->q = ConstMap(y, n);
-  state->v = ConstMap(y + n, n);
-  state->s = ConstMap(y + 2 * n, states);
-  state->z.head(n) = ConstMap(y_dot + n, n);
-  state->z.segment(n, m) = ConstMap(y + 2 * n + states, m);
-  state->z.tail(states) = ConstMap(y_dot + 2 * n, states);
+  state->q = part(y, 0, n);
+  state->v = part(y, n, n);
+  state->s = part(y, 2 * n, states);
+  state->z.head(n) = part(y_dot, n, n);
+  state->z.segment(n, m) = part(y, 2 * n + states, m);
+  state->z.tail(states) = part(y_dot, 2 * n, states);
 }
 
 // lambda' does not appear in F; zero makes the first predictor keep the multipliers.
-void IdasEquations::pack(const State<double>& state, double* y, double* y_dot) const {
+void IdasEquations::pack(const State<double>& state, Out<double> y, Out<double> y_dot) const {
   const int n = layout_.n, m = layout_.m, states = layout_.states;
-  Map(y, n) = state.q;
-  Map(y + n, n) = state.v;
-  Map(y + 2 * n, states) = state.s;
-  Map(y + 2 * n + states, m) = state.z.segment(n, m);
-  Map(y_dot, n) = state.v;
-  Map(y_dot + n, n) = state.z.head(n);
-  Map(y_dot + 2 * n, states) = state.z.tail(states);
-  Map(y_dot + 2 * n + states, m).setZero();
+  part(y, 0, n) = state.q;
+  part(y, n, n) = state.v;
+  part(y, 2 * n, states) = state.s;
+  part(y, 2 * n + states, m) = state.z.segment(n, m);
+  part(y_dot, 0, n) = state.v;
+  part(y_dot, n, n) = state.z.head(n);
+  part(y_dot, 2 * n, states) = state.z.tail(states);
+  part(y_dot, 2 * n + states, m).setZero();
 }
 
-int IdasEquations::residual(double t, const double* y, const double* y_dot, double* F) {
+int IdasEquations::residual(double t, In<double> y, In<double> y_dot, Out<double> F) {
   double g = 0.0;
   unpack(t, y, y_dot, &state_);
   equations_.residual(state_, &G_, &g);
   equations_.constraint_errors(state_, &Phi_, &Phi_rate_);
   G_.segment(layout_.n, layout_.m) += 2.0 * kappa_ * Phi_rate_ + kappa_ * kappa_ * Phi_;
-  Map(F, layout_.n) = ConstMap(y_dot, layout_.n) - state_.v;
-  Map(F + layout_.n, layout_.columns()) = G_;
+  part(F, 0, layout_.n) = part(y_dot, 0, layout_.n) - state_.v;
+  part(F, layout_.n, layout_.columns()) = G_;
   return std::isfinite(G_.sum()) ? kDone : kRetry;
 }
 
-int IdasEquations::jacobian(double t, double c_j, const double* y, const double* y_dot) {
+int IdasEquations::jacobian(double t, double c_j, In<double> y, In<double> y_dot) {
   unpack(t, y, y_dot, &state_);
   equations_.linearize(state_, newton_.derivatives());
   newton_.set_rates(c_j, kappa_);
   return kDone;
 }
 
-int IdasEquations::integrand(double t, const double* y, const double* y_dot, double* g) {
+int IdasEquations::integrand(double t, In<double> y, In<double> y_dot, Out<double> g) {
   unpack(t, y, y_dot, &state_);
-  equations_.residual(state_, &G_, g);
+  equations_.residual(state_, &G_, &g[0]);
   equations_.constraint_errors(state_, &Phi_, &Phi_rate_);
   // W' of (17a). lambda^T Phi_q v - v^T G corrects for violated constraints, so that the work that they do appears as an energy error.
-  g[1] = motion_->power(state_.q, state_.v, state_.z.data()) + state_.z.segment(layout_.n, layout_.m).dot(Phi_rate_) -
+  g[1] = motion_->power(state_.q, state_.v, state_.z) + state_.z.segment(layout_.n, layout_.m).dot(Phi_rate_) -
          state_.v.dot(G_.head(layout_.n));
-  return std::isfinite(*g) ? kDone : kRetry;
+  return std::isfinite(g[0]) ? kDone : kRetry;
 }
 
-void IdasEquations::visit(double t, const double* y, const double* y_dot) {
-  double* known = visited_.data();
-  if (known[0] == t && std::equal(y, y + size(), known + 1) && std::equal(y_dot, y_dot + size(), known + 1 + size())) return;
+void IdasEquations::visit(double t, In<double> y, In<double> y_dot) {
+  const Out<double> known = visited_, known_y = known.subspan(1, size()), known_y_dot = known.subspan(1 + size(), size());
+  if (known[0] == t && std::equal(y.begin(), y.end(), known_y.begin()) && std::equal(y_dot.begin(), y_dot.end(), known_y_dot.begin()))
+    return;
   known[0] = t;
-  std::copy(y, y + size(), known + 1);
-  std::copy(y_dot, y_dot + size(), known + 1 + size());
+  std::copy(y.begin(), y.end(), known_y.begin());
+  std::copy(y_dot.begin(), y_dot.end(), known_y_dot.begin());
   unpack(t, y, y_dot, &state_);
   sensitivities_->linearize(state_, kappa_, &equations_);
 }
 
-void IdasEquations::derivative(int k, const double* y_rho, const double* y_dot_rho) {
+void IdasEquations::derivative(int k, In<double> y_rho, In<double> y_dot_rho) {
   unpack(state_.t, y_rho, y_dot_rho, &direction_);
   sensitivities_->derivative(k, direction_, &dG_);
 }
 
 int IdasEquations::residual(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector F, void* self) {
   auto* equations = static_cast<IdasEquations*>(self);
-  return guarded(&equations->failure_, [&] { return equations->residual(t, read(y), read(y_dot), N_VGetArrayPointer(F)); });
+  return guarded(&equations->failure_, [&] { return equations->residual(t, span_of(y), span_of(y_dot), span_of(F)); });
 }
 
 int IdasEquations::jacobian(sunrealtype t, sunrealtype c_j, N_Vector y, N_Vector y_dot, N_Vector, SUNMatrix, void* self, N_Vector, N_Vector,
                             N_Vector) {
   auto* equations = static_cast<IdasEquations*>(self);
-  return guarded(&equations->failure_, [&] { return equations->jacobian(t, c_j, read(y), read(y_dot)); });
+  return guarded(&equations->failure_, [&] { return equations->jacobian(t, c_j, span_of(y), span_of(y_dot)); });
 }
 
 int IdasEquations::integrand(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector g, void* self) {
   auto* equations = static_cast<IdasEquations*>(self);
-  return guarded(&equations->failure_, [&] { return equations->integrand(t, read(y), read(y_dot), N_VGetArrayPointer(g)); });
+  return guarded(&equations->failure_, [&] { return equations->integrand(t, span_of(y), span_of(y_dot), span_of(g)); });
 }
 
 int IdasEquations::sensitivity_residual(int count, sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector, N_Vector* y_rho,
@@ -140,12 +140,12 @@ int IdasEquations::sensitivity_residual(int count, sunrealtype t, N_Vector y, N_
   return guarded(&equations->failure_, [&] {
     const Layout& layout = equations->layout_;
     bool finite = true;
-    equations->visit(t, read(y), read(y_dot));
+    equations->visit(t, span_of(y), span_of(y_dot));
     for (int k = 0; k < count; ++k) {
-      double* F = N_VGetArrayPointer(F_rho[k]);
-      equations->derivative(k, read(y_rho[k]), read(y_dot_rho[k]));
-      Map(F, layout.n) = ConstMap(read(y_dot_rho[k]), layout.n) - equations->direction_.v;
-      Map(F + layout.n, layout.columns()) = equations->dG_.head(layout.columns());
+      const Span<double> F = span_of(F_rho[k]);
+      equations->derivative(k, span_of(y_rho[k]), span_of(y_dot_rho[k]));
+      part(F, 0, layout.n) = part(span_of(y_dot_rho[k]), 0, layout.n) - equations->direction_.v;
+      part(F, layout.n, layout.columns()) = equations->dG_.head(layout.columns());
       finite = finite && std::isfinite(equations->dG_.sum());
     }
     return finite ? kDone : kRetry;
@@ -156,11 +156,11 @@ int IdasEquations::sensitivity_integrand(int count, sunrealtype t, N_Vector y, N
                                          N_Vector, N_Vector* g_rho, void* self, N_Vector, N_Vector, N_Vector) {
   auto* equations = static_cast<IdasEquations*>(self);
   return guarded(&equations->failure_, [&] {
-    equations->visit(t, read(y), read(y_dot));
+    equations->visit(t, span_of(y), span_of(y_dot));
     for (int k = 0; k < count; ++k) {
-      equations->derivative(k, read(y_rho[k]), read(y_dot_rho[k]));
-      N_VGetArrayPointer(g_rho[k])[0] = equations->dG_[equations->layout_.columns()];
-      N_VGetArrayPointer(g_rho[k])[1] = 0.0;
+      equations->derivative(k, span_of(y_rho[k]), span_of(y_dot_rho[k]));
+      span_of(g_rho[k])[0] = equations->dG_[equations->layout_.columns()];
+      span_of(g_rho[k])[1] = 0.0;
     }
     return kDone;
   });

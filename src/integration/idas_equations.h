@@ -30,11 +30,11 @@ class IdasEquations {
   /// Discards stored derivatives and the last failure.
   void start();
 
-  /// Conversion of (y, y'), size() entries each, to a state, and back.
-  /// Counts the whole turns of joints from the references of `state` on.
+  /// Counts the whole turns of joints from those of `state` on.
   void count_turns_from(const State<double>& state) { state_.turns = state.turns; }
-  void unpack(double t, const double* y, const double* y_dot, State<double>* state) const;
-  void pack(const State<double>& state, double* y, double* y_dot) const;
+  /// Conversion of (y, y'), size() entries each, to a state, and back.
+  void unpack(double t, In<double> y, In<double> y_dot, State<double>* state) const;
+  void pack(const State<double>& state, Out<double> y, Out<double> y_dot) const;
 
   /// Message of an exception inside a callback; empty if there was none.
   const std::string& failure() const { return failure_; }
@@ -49,12 +49,12 @@ class IdasEquations {
                                    N_Vector* g_rho, void* self, N_Vector, N_Vector, N_Vector);
 
  private:
-  int residual(double t, const double* y, const double* y_dot, double* F);
-  int jacobian(double t, double c_j, const double* y, const double* y_dot);
-  int integrand(double t, const double* y, const double* y_dot, double* g);
+  int residual(double t, In<double> y, In<double> y_dot, Out<double> F);
+  int jacobian(double t, double c_j, In<double> y, In<double> y_dot);
+  int integrand(double t, In<double> y, In<double> y_dot, Out<double> g);
   /// Computes the derivatives at a point unless they are stored: the sensitivity corrector calls repeatedly at the same point.
-  void visit(double t, const double* y, const double* y_dot);
-  void derivative(int k, const double* y_rho, const double* y_dot_rho);
+  void visit(double t, In<double> y, In<double> y_dot);
+  void derivative(int k, In<double> y_rho, In<double> y_dot_rho);
 
   const Layout& layout_;
   IdasNewton& newton_;

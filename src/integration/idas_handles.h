@@ -13,6 +13,7 @@
 #include <type_traits>
 
 #include "integration/sundials_compatibility.h"
+#include "math/span.h"
 
 namespace codesign {
 
@@ -34,6 +35,9 @@ using VectorHandle = std::unique_ptr<std::remove_pointer_t<N_Vector>, Release<N_
 using MatrixHandle = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, Release<SUNMatDestroy>>;
 using LinearSolverHandle = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, Release<SUNLinSolFree>>;
 
+/// The numbers of a vector of SUNDIALS. Its callbacks do not mark those that are only read.
+inline Span<double> span_of(N_Vector vector) { return {N_VGetArrayPointer(vector), N_VGetLength(vector)}; }
+
 /// An owned array of vectors for the sensitivity functions of SUNDIALS.
 class VectorArray {
  public:
@@ -46,7 +50,7 @@ class VectorArray {
   VectorArray& operator=(const VectorArray&) = delete;
 
   N_Vector* get() { return vectors_; }
-  double* data(int k) const { return N_VGetArrayPointer(vectors_[k]); }
+  Span<double> span(int k) const { return span_of(vectors_[k]); }
 
  private:
   int count_;

@@ -65,11 +65,11 @@ class IdasIntegrator::Implementation {
   Status advance(double limit);
   Status take_step(double limit);
   void interpolate(double time, State<double>* state, double* psi);
-  void sensitivity(int k, State<double>* direction) const { equations_.unpack(state_.t, y_rho_->data(k), y_dot_rho_->data(k), direction); }
+  void sensitivity(int k, State<double>* direction) const { equations_.unpack(state_.t, y_rho_->span(k), y_dot_rho_->span(k), direction); }
 
   const State<double>& state() const { return state_; }
-  double psi() const { return *N_VGetArrayPointer(psi_.get()); }
-  double psi_sensitivity(int k) const { return *psi_rho_->data(k); }
+  double psi() const { return span_of(psi_.get())[0]; }
+  double psi_sensitivity(int k) const { return psi_rho_->span(k)[0]; }
   double largest_drift() const { return largest_drift_; }
   Equations<double>& equations() { return equations_.equations(); }
   Assembly& assembly() { return assembly_; }
@@ -90,6 +90,11 @@ class IdasIntegrator::Implementation {
   void restart_solver();
   Status project();
   void warn_of_restart();
+  /// The part of the multipliers, the last in y.
+  Span<double> multipliers_of(const VectorHandle& y) const {
+    const int m = system_.layout().m;
+    return span_of(y.get()).subspan(equations_.size() - m, m);
+  }
   bool with_sensitivities() const { return carried_ && carried_->count() > 0; }
   void take_over(double time);
   Status check_run();
@@ -129,7 +134,8 @@ void IdasIntegrator::Implementation::set_up() {
   void* ida = ida_.get();
   const VectorHandle differential = make_vector(equations_.size(), context_.get());
   N_VConst(1.0, differential.get());
-  std::fill_n(N_VGetArrayPointer(differential.get()) + equations_.size() - system_.layout().m, system_.layout().m, 0.0);
+  const Span<double> multipliers = multipliers_of(differential);
+  std::fill(multipliers.begin(), multipliers.end(), 0.0);
   require(keep_last_message(ida, context_.get(), &message_), "keep_last_message");
   require(IDAInit(ida, IdasEquations::residual, 0.0, y_.get(), y_dot_.get()), "IDAInit");
   require(IDASetUserData(ida, &equations_), "IDASetUserData");
@@ -150,8 +156,8 @@ void IdasIntegrator::Implementation::set_up() {
 void IdasIntegrator::Implementation::set_tolerances() {
   const VectorHandle absolute = make_vector(equations_.size(), context_.get());
   N_VConst(options_.absolute_tolerance, absolute.get());
-  const int m = system_.layout().m;
-  if (system_.compliance() > 0.0) std::fill_n(N_VGetArrayPointer(absolute.get()) + equations_.size() - m, m, kAnyMultiplier);
+  const Span<double> multipliers = multipliers_of(absolute);
+  if (system_.compliance() > 0.0) std::fill(multipliers.begin(), multipliers.end(), kAnyMultiplier);
   require(IDASVtolerances(ida_.get(), options_.relative_tolerance, absolute.get()), "IDASVtolerances");
 }
 
@@ -164,7 +170,7 @@ Status IdasIntegrator::Implementation::start(const std::vector<double>& paramete
   equations_.start();
   if (Status status = assemble_start(system_, parameters, &assembly_, &equations(), &initial_); !status.ok()) return status;
   equations_.count_turns_from(initial_);
-  equations_.pack(initial_, N_VGetArrayPointer(y_.get()), N_VGetArrayPointer(y_dot_.get()));
+  equations_.pack(initial_, span_of(y_.get()), span_of(y_dot_.get()));
   N_VConst(0.0, psi_.get());
   state_ = initial_;
   start_sensitivities(parameters);
@@ -192,8 +198,8 @@ void IdasIntegrator::Implementation::start_sensitivities(const std::vector<doubl
   }
   carried_->start(parameters, initial_, owner_, &directions_, &scales_);
   for (int k = 0; k < count; ++k) {
-    equations_.pack(directions_[static_cast<std::size_t>(k)], y_rho_->data(k), y_dot_rho_->data(k));
-    *psi_rho_->data(k) = 0.0;
+    equations_.pack(directions_[static_cast<std::size_t>(k)], y_rho_->span(k), y_dot_rho_->span(k));
+    psi_rho_->span(k)[0] = 0.0;
   }
   if (!first) return;
   // The simultaneous corrector fails in the first steps, and without the error test the sensitivities are inaccurate at the higher orders.
@@ -222,14 +228,14 @@ Status IdasIntegrator::Implementation::project() {
   if (!projection_.apply(&equations(), &state_))
     return {StatusCode::kSingularMatrix, state_.t, "the augmented matrix of the equations of motion is singular"};
   if (Status status = assembly_.solve_rates(&equations(), &state_); !status.ok()) return status;
-  equations_.pack(state_, N_VGetArrayPointer(y_.get()), N_VGetArrayPointer(y_dot_.get()));
+  equations_.pack(state_, span_of(y_.get()), span_of(y_dot_.get()));
   if (with_sensitivities()) {
     warn_of_restart();
     for (int k = 0; k < carried_->count(); ++k) sensitivity(k, &directions_[static_cast<std::size_t>(k)]);
     if (!carried_->project(state_, &equations(), &directions_))
       return {StatusCode::kSingularMatrix, state_.t, "the augmented matrix of the equations of motion is singular"};
     for (int k = 0; k < carried_->count(); ++k)
-      equations_.pack(directions_[static_cast<std::size_t>(k)], y_rho_->data(k), y_dot_rho_->data(k));
+      equations_.pack(directions_[static_cast<std::size_t>(k)], y_rho_->span(k), y_dot_rho_->span(k));
   }
   before_restart_ = statistics_;
   restart_solver();
@@ -273,7 +279,7 @@ Status IdasIntegrator::Implementation::take_step(double limit) {
 }
 
 void IdasIntegrator::Implementation::take_over(double time) {
-  equations_.unpack(time, N_VGetArrayPointer(y_.get()), N_VGetArrayPointer(y_dot_.get()), &state_);
+  equations_.unpack(time, span_of(y_.get()), span_of(y_dot_.get()), &state_);
   double reached = time;
   require(IDAGetQuad(ida_.get(), &reached, psi_.get()), "IDAGetQuad");
   if (with_sensitivities()) {
@@ -290,7 +296,7 @@ void IdasIntegrator::Implementation::take_over(double time) {
 // The corrections use the last Newton matrix, which differs from G_z of the projection (17) by terms of the order of the step.
 Status IdasIntegrator::Implementation::check_run() {
   const double before = work_;
-  work_ = N_VGetArrayPointer(psi_.get())[1];
+  work_ = span_of(psi_.get())[1];
   newton_.correct(drift_, &position_correction_);
   newton_.correct(drift_rate_, &velocity_correction_);
   drift_size_ = run_watch_.drift(state_, position_correction_, velocity_correction_);
@@ -318,13 +324,14 @@ void IdasIntegrator::Implementation::interpolate(double time, State<double>* sta
   if (statistics_.steps == 0) return;
   require(IDAGetDky(ida_.get(), time, 0, dense_.get()), "IDAGetDky");
   require(IDAGetDky(ida_.get(), time, 1, dense_dot_.get()), "IDAGetDky");
-  equations_.unpack(time, N_VGetArrayPointer(dense_.get()), N_VGetArrayPointer(dense_dot_.get()), state);
+  equations_.unpack(time, span_of(dense_.get()), span_of(dense_dot_.get()), state);
   double at_end = this->psi();
   require(IDAGetQuadDky(ida_.get(), time, 0, psi_.get()), "IDAGetQuadDky");
   std::swap(*psi, at_end);
-  *psi = *N_VGetArrayPointer(psi_.get());
-  *N_VGetArrayPointer(psi_.get()) = at_end;
-  N_VGetArrayPointer(psi_.get())[1] = work_;
+  const Span<double> integrals = span_of(psi_.get());
+  *psi = integrals[0];
+  integrals[0] = at_end;
+  integrals[1] = work_;
 }
 
 IdasIntegrator::IdasIntegrator(const CompiledSystem& system) : implementation_(std::make_unique<Implementation>(system, this)) {}

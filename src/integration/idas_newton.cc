@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "integration/idas_newton.h"
 
+#include <cassert>
+
 #include "equations/derivative_products.h"
 
 namespace codesign {
@@ -40,21 +42,22 @@ int IdasNewton::setup(SUNLinearSolver solver, SUNMatrix) {
 }
 
 int IdasNewton::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, sunrealtype) {
-  static_cast<IdasNewton*>(solver->content)->solve(N_VGetArrayPointer(b), N_VGetArrayPointer(x));
+  static_cast<IdasNewton*>(solver->content)->solve(span_of(b), span_of(x));
   return kSundialsSuccess;
 }
 
-void IdasNewton::solve(const double* b, double* x) {
+void IdasNewton::solve(In<double> b, Out<double> x) {
   const Layout& layout = system_.layout();
   const double h = 1.0 / c_j_;
-  u_ = Eigen::Map<const VectorX<double>>(b + layout.n, layout.columns());
-  subtract_position_product(system_, derivatives_, b, h, u_.data());
+  assert(b.size() == layout.n + layout.columns() && x.size() == b.size());
+  u_ = Eigen::Map<const VectorX<double>>(b.data() + layout.n, layout.columns());
+  subtract_position_product(system_, derivatives_, b.first(layout.n), h, u_);
   u_.segment(layout.n, layout.m) /= (1.0 + kappa_ * h) * (1.0 + kappa_ * h);
-  reduced_.lu().solve(u_.data());
-  Eigen::Map<VectorX<double>> x_q(x, layout.n), x_v(x + layout.n, layout.n), x_s(x + 2 * layout.n, layout.states),
-      x_lambda(x + 2 * layout.n + layout.states, layout.m);
+  reduced_.lu().solve(u_);
+  Eigen::Map<VectorX<double>> x_q(x.data(), layout.n), x_v(x.data() + layout.n, layout.n), x_s(x.data() + 2 * layout.n, layout.states),
+      x_lambda(x.data() + 2 * layout.n + layout.states, layout.m);
   x_v = h * u_.head(layout.n);
-  x_q = h * (x_v + Eigen::Map<const VectorX<double>>(b, layout.n));
+  x_q = h * (x_v + Eigen::Map<const VectorX<double>>(b.data(), layout.n));
   x_s = h * u_.tail(layout.states);
   x_lambda = u_.segment(layout.n, layout.m);
 }
@@ -63,7 +66,7 @@ void IdasNewton::correct(const VectorX<double>& error, VectorX<double>* correcti
   const Layout& layout = system_.layout();
   correction->setZero(layout.columns());
   correction->segment(layout.n, layout.m) = -error;
-  reduced_.lu().solve(correction->data());
+  reduced_.lu().solve(*correction);
 }
 
 }  // namespace codesign

@@ -39,7 +39,7 @@ class IdasNewton {
  private:
   static int setup(SUNLinearSolver solver, SUNMatrix matrix);
   static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b, sunrealtype tolerance);
-  void solve(const double* b, double* x);
+  void solve(In<double> b, Out<double> x);
 
   const CompiledSystem& system_;
   IterationMatrix reduced_;

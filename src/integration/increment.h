@@ -2,11 +2,13 @@
 #ifndef MECHANISM_CODESIGN_INTEGRATION_INCREMENT_H_
 #define MECHANISM_CODESIGN_INTEGRATION_INCREMENT_H_
 
+#include <cassert>
 #include <type_traits>
 #include <vector>
 
 #include "integration/tableau.h"
 #include "math/lanes.h"
+#include "math/span.h"
 #include "system/state.h"
 
 namespace codesign {
@@ -55,29 +57,31 @@ void combine_up_to(std::size_t count, const T* from, const double* factors, cons
 
 }  // namespace internal
 
-/// to = from + sum over j < count of factors[j] parts[j], for `length` numbers, in one pass; count <= RosenbrockTableau::kMaximumStages.
-/// `to` may be `from`. The count becomes a template parameter, so that the loop over the parts is unrolled.
+/// to = from + sum of factors[j] parts[j] in one pass, for as many factors as there are, at most RosenbrockTableau::kMaximumStages. `to`
+/// may be `from`. The count becomes a template parameter, so that the loop over the parts is unrolled.
+/// @param parts where each part begins, as the inner loop takes it; each is as long as `to`.
 template <class T>
-void combine(const T* from, const double* factors, const T* const* parts, std::size_t count, int length, T* to) {
-  internal::combine_up_to<RosenbrockTableau::kMaximumStages>(count, from, factors, parts, length, to);
+void combine(In<T> from, In<double> factors, const T* const (&parts)[RosenbrockTableau::kMaximumStages], Out<T> to) {
+  assert(from.size() == to.size() && factors.size() <= RosenbrockTableau::kMaximumStages);
+  internal::combine_up_to<RosenbrockTableau::kMaximumStages>(static_cast<std::size_t>(factors.size()), from.data(), factors.data(), parts,
+                                                             static_cast<int>(to.size()), to.data());
 }
 
-/// to = from + sum over j < count of factors[j] u_j, for the entries [first, first + size) of each u_j.
+/// to = from + sum of factors[j] u_j, for the entries of each u_j from `first` on.
 template <class T>
-void combine(const T* from, const double* factors, const std::vector<VectorX<T>>& u, std::size_t count, int first, int size, T* to) {
+void combine(In<T> from, In<double> factors, const std::vector<VectorX<T>>& u, int first, Out<T> to) {
   const T* parts[RosenbrockTableau::kMaximumStages];
-  for (std::size_t j = 0; j < count; ++j) parts[j] = u[j].data() + first;
-  combine(from, factors, parts, count, size, to);
+  for (std::ptrdiff_t j = 0; j < factors.size(); ++j) parts[j] = In<T>(u[static_cast<std::size_t>(j)]).subspan(first, to.size()).data();
+  combine(from, factors, parts, to);
 }
 
-/// to = from + sum over j < count of factors[j] u_j, for the parts q, s, v and z of the state.
+/// to = from + sum of factors[j] u_j, for the parts q, s, v and z of the state.
 template <class T>
-void combine(const IncrementLayout& at, const State<T>& from, const double* factors, const std::vector<VectorX<T>>& u, std::size_t count,
-             State<T>* to) {
-  combine(from.q.data(), factors, u, count, at.x(), at.n, to->q.data());
-  combine(from.s.data(), factors, u, count, at.s(), at.states, to->s.data());
-  combine(from.v.data(), factors, u, count, at.v(), at.n, to->v.data());
-  combine(from.z.data(), factors, u, count, at.z(), at.z_size, to->z.data());
+void combine(const IncrementLayout& at, const State<T>& from, In<double> factors, const std::vector<VectorX<T>>& u, State<T>* to) {
+  combine(from.q, factors, u, at.x(), to->q);
+  combine(from.s, factors, u, at.s(), to->s);
+  combine(from.v, factors, u, at.v(), to->v);
+  combine(from.z, factors, u, at.z(), to->z);
 }
 
 }  // namespace codesign

@@ -15,7 +15,7 @@ Projection::Projection(const CompiledSystem& system) : layout_(system.layout()),
 void Projection::correct(const VectorX<double>& error, VectorX<double>* target) {
   correction_.setZero(layout_.columns());
   correction_.segment(layout_.n, layout_.m) = -error;
-  matrix_.lu().solve(correction_.data());
+  matrix_.lu().solve(correction_);
   *target += correction_.head(layout_.n);
 }
 

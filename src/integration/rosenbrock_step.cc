@@ -41,13 +41,16 @@ void RosenbrockStep<T>::stage_start(std::size_t i) {
   const T hg(h_ * tableau_.gamma);
   const State<T>& stage = stages_[i];
   VectorX<T>& u = increments_[i];
-  double factors[RosenbrockTableau::kMaximumStages];
+  RosenbrockTableau::Row factors;
   for (std::size_t j = 0; j < i; ++j) factors[j] = tableau_.c[i][j] / h_;
-  combine(stage.z.data(), factors, increments_, i, at_.v(), at_.n, u.data() + at_.v());
-  combine(stage.v.data(), factors, increments_, i, at_.x(), at_.n, u.data() + at_.x());
-  combine(stage.z.data() + at_.z_size - at_.states, factors, increments_, i, at_.s(), at_.states, u.data() + at_.s());
+  const auto add = [&](In<T> rate, int first) {
+    combine(rate, In<double>(factors).first(static_cast<std::ptrdiff_t>(i)), increments_, first, Out<T>(u).subspan(first, rate.size()));
+  };
+  add(In<T>(stage.z).first(at_.n), at_.v());
+  add(stage.v, at_.x());
+  add(In<T>(stage.z).subspan(at_.z_size - at_.states, at_.states), at_.s());
   u[at_.psi()] = T(0.0);
-  combine(&u[at_.psi()], factors, increments_, i, at_.psi(), 1, &u[at_.psi()]);
+  add(In<T>(u).subspan(at_.psi(), 1), at_.psi());
   u.segment(at_.v(), at_.n) *= hg;
   u.segment(at_.x(), at_.n) = hg * (u.segment(at_.x(), at_.n) + u.segment(at_.v(), at_.n));
   u.segment(at_.s(), at_.states) *= hg;
@@ -59,14 +62,14 @@ bool RosenbrockStep<T>::solve_stage(std::size_t i) {
   VectorX<T>& u = increments_[i];
   const T hg(h_ * tableau_.gamma), time_shift(h_ * tableau_.gamma_i[i]);
   T g(0.0);
-  combine(at_, state_, tableau_.a[i].data(), increments_, i, &stages_[i]);
+  combine(at_, state_, In<double>(tableau_.a[i]).first(static_cast<std::ptrdiff_t>(i)), increments_, &stages_[i]);
   stages_[i].t = state_.t + tableau_.alpha[i] * h_;
   equations_.residual(stages_[i], &residual_, &g);
   stage_start(i);
   const ByVariable<Sparsity>& patterns = system_.patterns();
-  const T *const x = u.data(), *const v = x + at_.v();
+  const In<T> all = u, x = all.first(at_.x_size), v = all.subspan(at_.v(), at_.n), z = all.subspan(at_.z(), at_.z_size);
   z_ = -residual_ - time_shift * derivatives_.time.head(at_.z_size);
-  product_.subtract(derivatives_, x, z_.data());
+  product_.subtract(derivatives_, all.first(at_.z()), z_);
   stage_matrix_.solve(&z_);
   u.segment(at_.z(), at_.z_size) = z_;
   u.segment(at_.v(), at_.n) += hg * z_.head(at_.n);
@@ -74,9 +77,8 @@ bool RosenbrockStep<T>::solve_stage(std::size_t i) {
   u.segment(at_.s(), at_.states) += hg * z_.tail(at_.states);
   const int last = at_.z_size;
   u[at_.psi()] =
-      hg *
-      (g + u[at_.psi()] + time_shift * derivatives_.time[last] + row_product(patterns.position, derivatives_.position, last, x) +
-       row_product(patterns.velocity, derivatives_.velocity, last, v) + row_product(patterns.rate, derivatives_.rate, last, x + at_.z()));
+      hg * (g + u[at_.psi()] + time_shift * derivatives_.time[last] + row_product(patterns.position, derivatives_.position, last, x) +
+            row_product(patterns.velocity, derivatives_.velocity, last, v) + row_product(patterns.rate, derivatives_.rate, last, z));
   return std::isfinite(value_of(u[at_.psi()])) && std::isfinite(value_of(z_.sum()));
 }
 
@@ -89,7 +91,7 @@ bool RosenbrockStep<T>::attempt(double h) {
   end_.turns = state_.turns;
   for (std::size_t i = 0; i < stages_.size(); ++i)
     if (!solve_stage(i)) return false;
-  combine(at_, state_, tableau_.weights.data(), increments_, increments_.size(), &end_);
+  combine(at_, state_, In<double>(tableau_.weights).first(tableau_.stages), increments_, &end_);
   end_.t = state_.t + h;
   return true;
 }
@@ -154,7 +156,7 @@ void RosenbrockStep<T>::interpolate(double theta, State<T>* state, T* psi) const
   blend(previous_.s, state_.s, &state->s);
   blend(previous_.z, state_.z, &state->z);
   *psi = left * previous_psi_ + right * psi_;
-  double weights[RosenbrockTableau::kMaximumStages];
+  RosenbrockTableau::Row weights;
   for (std::size_t j = 0; j < increments_.size(); ++j) {
     double weight = 0.0;
     for (int k = tableau_.dense_terms - 1; k >= 0; --k) weight = weight * theta + tableau_.dense[static_cast<std::size_t>(k)][j];
@@ -162,7 +164,7 @@ void RosenbrockStep<T>::interpolate(double theta, State<T>* state, T* psi) const
     weights[j] = weight;
     *psi += T(weight) * increments_[j][at_.psi()];
   }
-  combine(at_, *state, weights, increments_, increments_.size(), state);
+  combine(at_, *state, In<double>(weights).first(tableau_.stages), increments_, state);
   state->t = previous_.t + theta * h_;
 }
 

@@ -2,11 +2,10 @@
 #include "integration/run_watch.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 
 #include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {
@@ -18,12 +17,8 @@ constexpr int kPatience = 20;
 // Relative rounding error of the sums of energy and work, with a margin.
 constexpr double kRounding = 1e-9;
 
-/// The value with three significant digits.
-std::string rounded(double value) {
-  std::array<char, 32> text;
-  const auto result = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3);
-  return std::string(text.data(), result.ptr);
-}
+/// For messages, where three digits suffice.
+std::string rounded(double value) { return readable(value, 3); }
 
 std::string advice(const SolverOptions& options) {
   const std::string other = options.integrator == IntegratorKind::kIdas ? "rosenbrock" : "idas";

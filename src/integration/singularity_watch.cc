@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assembly/redundancy.h"
+#include "assembly/acceleration_block.h"
 #include "math/dense.h"
 #include "text/decimal.h"
 
@@ -49,7 +49,7 @@ double SingularityWatch::stiffness(Equations<double>* equations) {
   if (!matrix_->factor(derivatives_, 0.0, 0.0, 0.0)) return 0.0;
   response_.setZero(layout.columns());
   for (int row = 0; row < layout.m; ++row) response_[layout.n + row] = std::sin(1.0 + 7.0 * row);
-  matrix_->lu().solve(response_.data());
+  matrix_->lu().solve(response_);
   return 1.0 / response_.head(layout.n).norm();
 }
 
@@ -82,8 +82,7 @@ void SingularityWatch::place(double time) {
 }
 
 int SingularityWatch::rank(Equations<double>* equations, const State<double>& state) const {
-  const Eigen::VectorXd values = Eigen::BDCSVD<Eigen::MatrixXd>(constraint_jacobian(system_, equations, state)).singularValues();
-  return static_cast<int>((values.array() > kRank * values[0]).count());
+  return static_cast<int>(pivot_columns(constraint_jacobian(system_, equations, state), kRank).rank);
 }
 
 void SingularityWatch::search(Equations<double>* equations) {

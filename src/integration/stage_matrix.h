@@ -18,7 +18,7 @@ class StageMatrix<double> {
  public:
   explicit StageMatrix(const CompiledSystem& system) : matrix_(system) {}
   bool factor(const Linearization<double>& d, double c_v, double c_q, double c_s) { return matrix_.factor(d, c_v, c_q, c_s); }
-  void solve(VectorX<double>* x) const { matrix_.lu().solve(x->data()); }
+  void solve(VectorX<double>* x) const { matrix_.lu().solve(*x); }
   const SparseLu& lu() const { return matrix_.lu(); }
 
  private:

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "equations/compiled_system.h"
+#include "math/span.h"
 #include "sparse/sparsity.h"
 
 namespace codesign {
@@ -23,15 +24,15 @@ class StageProduct {
 
   /// y -= G_q x + G_v v over the rows of the equations, for N vectors stored row by row. xv is [x | v] with x = (q, s). N is 1, 4 or 8.
   template <int N>
-  void subtract(const Linearization<double>& derivatives, const double* xv, double* y) const;
+  void subtract(const Linearization<double>& derivatives, In<double> xv, Out<double> y) const;
 
   /// The same for one complex vector, which only derivative checks use.
-  void subtract(const Linearization<std::complex<double>>& derivatives, const std::complex<double>* xv, std::complex<double>* y) const;
-  void subtract(const Linearization<double>& derivatives, const double* xv, double* y) const { subtract<1>(derivatives, xv, y); }
+  void subtract(const Linearization<std::complex<double>>& derivatives, In<std::complex<double>> xv, Out<std::complex<double>> y) const;
+  void subtract(const Linearization<double>& derivatives, In<double> xv, Out<double> y) const { subtract<1>(derivatives, xv, y); }
 
  private:
   template <class T>
-  void subtract_rows(const Linearization<T>& derivatives, const T* xv, T* y) const;
+  void subtract_rows(const Linearization<T>& derivatives, In<T> xv, Out<T> y) const;
 
   const ByVariable<Sparsity>* patterns_;
   int rows_;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "assembly/redundancy.h"
+#include "assembly/acceleration_block.h"
 #include "equations/compiled_system.h"
 #include "math/dense.h"
 
@@ -18,8 +18,6 @@ constexpr double kNever = 20000.0;     // remaining steps from which a run count
 constexpr double kSingular = 0.02, kNearby = 0.1;
 constexpr double kTakesPart = 0.1;  // a pair is named if its load in the self-stress exceeds this fraction of the largest
 constexpr int kLargest = 400;       // larger numbers of coordinates are not analysed, since the decomposition is dense
-
-using Svd = Eigen::JacobiSVD<Eigen::MatrixXd>;
 
 bool may_be_singular(StatusCode code) {
   return code == StatusCode::kStepSizeTooSmall || code == StatusCode::kSingularMatrix || code == StatusCode::kConstraintDrift ||
@@ -61,7 +59,7 @@ Eigen::MatrixXd enforced_part(const CompiledSystem& system, const Eigen::MatrixX
 }
 
 /// The singular value number `rank` (from 1) in descending order.
-double singular_value(const Eigen::MatrixXd& rows, Eigen::Index rank) { return Svd(rows).singularValues()[rank - 1]; }
+double singular_value(const Eigen::MatrixXd& rows, Eigen::Index rank) { return singular_values(rows).values[rank - 1]; }
 
 void add_name(const std::string& name, std::string* list) { *list += (list->empty() ? "'" : ", '") + name + "'"; }
 
@@ -92,9 +90,8 @@ std::string frictions_in_loops(const CompiledSystem& system) {
 }
 
 std::string cause(const CompiledSystem& system, const Eigen::MatrixXd& rows, bool all_lose_rank) {
-  const Svd svd(rows, Eigen::ComputeThinU);
-  const std::string names = loaded_pairs(system, svd.matrixU().col(svd.singularValues().size() - 1)),
-                    frictions = frictions_in_loops(system);
+  const SingularValues svd = singular_values(rows, SingularVectors::kLeft);
+  const std::string names = loaded_pairs(system, svd.U.col(svd.values.size() - 1)), frictions = frictions_in_loops(system);
   const std::string rank = std::to_string(rows.rows() - 1), usual = std::to_string(rows.rows());
   if (!all_lose_rank)
     return "the constraints that were independent at the start have rank " + rank + " instead of " + usual +

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/best_record.h"
-#include "reading/urdf/urdf_reader.h"
 
 #include <unistd.h>
 
 #include "jobs/json.h"
 #include "jobs/whole_file.h"
+#include "reading/urdf/urdf_reader.h"
 
 namespace codesign {
 

@@ -2,7 +2,6 @@
 #ifndef MECHANISM_CODESIGN_JOBS_JSON_RECORDS_H_
 #define MECHANISM_CODESIGN_JOBS_JSON_RECORDS_H_
 
-#include <ostream>
 #include <string>
 #include <vector>
 

@@ -1,8 +1,82 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "math/dense.h"
 
-template class Eigen::BDCSVD<Eigen::MatrixXd>;
-template class Eigen::JacobiSVD<Eigen::MatrixXd>;
-template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
-template class Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
-template class Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+
+namespace codesign {
+namespace {
+
+using Qr = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
+
+Qr factor(const Eigen::MatrixXd& A, double threshold) {
+  Qr qr;
+  qr.setThreshold(threshold);
+  qr.compute(A);
+  return qr;
+}
+
+unsigned options(SingularVectors vectors) {
+  unsigned flags = 0;
+  if (vectors == SingularVectors::kLeft || vectors == SingularVectors::kBoth) flags |= Eigen::ComputeFullU;
+  if (vectors == SingularVectors::kRight || vectors == SingularVectors::kBoth) flags |= Eigen::ComputeFullV;
+  return flags;
+}
+
+}  // namespace
+
+double default_threshold(const Eigen::MatrixXd& A) {
+  return Eigen::NumTraits<double>::epsilon() * static_cast<double>(std::min(A.rows(), A.cols()));
+}
+
+SingularValues singular_values(const Eigen::MatrixXd& A, SingularVectors vectors) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, options(vectors));
+  SingularValues result;
+  result.values = svd.singularValues();
+  if (svd.computeU()) result.U = svd.matrixU();
+  if (svd.computeV()) result.V = svd.matrixV();
+  return result;
+}
+
+PivotedColumns pivot_columns(const Eigen::MatrixXd& A, double threshold) {
+  const Qr qr = factor(A, threshold);
+  const auto& indices = qr.colsPermutation().indices();
+  return {qr.rank(), std::vector<int>(indices.data(), indices.data() + indices.size()), qr.matrixQR().diagonal().cwiseAbs()};
+}
+
+Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& A, double threshold) {
+  const Qr qr = factor(A, threshold);
+  const Eigen::MatrixXd Q = qr.householderQ();
+  return Q.rightCols(A.rows() - qr.rank());
+}
+
+struct LeastNorm::Implementation {
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors;
+};
+
+LeastNorm::LeastNorm() : implementation_(std::make_unique<Implementation>()) {}
+LeastNorm::LeastNorm(const Eigen::MatrixXd& A, double threshold) : LeastNorm() {
+  implementation_->factors.setThreshold(threshold);
+  implementation_->factors.compute(A);
+}
+LeastNorm::~LeastNorm() = default;
+LeastNorm::LeastNorm(LeastNorm&&) noexcept = default;
+LeastNorm& LeastNorm::operator=(LeastNorm&&) noexcept = default;
+
+Eigen::Index LeastNorm::rank() const { return implementation_->factors.rank(); }
+Eigen::MatrixXd LeastNorm::solve(const Eigen::MatrixXd& b) const { return implementation_->factors.solve(b); }
+
+LeastNorm least_norm(const Eigen::MatrixXd& A) { return {A, default_threshold(A)}; }
+
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+Eigen::Vector3d principal_moments(const Eigen::Matrix3d& J) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(J, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+}  // namespace codesign

@@ -2,16 +2,69 @@
 #ifndef MECHANISM_CODESIGN_MATH_DENSE_H_
 #define MECHANISM_CODESIGN_MATH_DENSE_H_
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SVD>
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
 
-// Eigen's decompositions of dense matrices take seconds to compile. dense.cc compiles them once; files that include this header in place of
-// Eigen's do not compile them again.
-extern template class Eigen::BDCSVD<Eigen::MatrixXd>;
-extern template class Eigen::JacobiSVD<Eigen::MatrixXd>;
-extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
-extern template class Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
-extern template class Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
+namespace codesign {
+
+// Decompositions of dense matrices, by Eigen. Eigen's templates take seconds to compile in each file that uses them; dense.cc compiles once
+// what is needed here. None of these functions belongs into a loop over steps: they allocate.
+
+/// The threshold below which Eigen counts a pivot, relative to the largest one, as zero by default.
+double default_threshold(const Eigen::MatrixXd& A);
+
+/// A = U diag(values) V^T, values in descending order; U and V are square and orthogonal.
+struct SingularValues {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd U, V;  ///< empty where they were not asked for
+};
+enum class SingularVectors { kNone, kLeft, kRight, kBoth };
+SingularValues singular_values(const Eigen::MatrixXd& A, SingularVectors vectors = SingularVectors::kNone);
+
+/// Householder QR decomposition with column pivoting, A P = Q R.
+struct PivotedColumns {
+  Eigen::Index rank;         ///< number of pivots above the threshold
+  std::vector<int> order;    ///< column of A that is column k of A P
+  Eigen::VectorXd diagonal;  ///< |R_kk|, min(rows, columns) entries
+};
+/// @param threshold a pivot counts as zero below this fraction of the largest one.
+PivotedColumns pivot_columns(const Eigen::MatrixXd& A, double threshold);
+
+/// An orthonormal basis (one vector per column) of the vectors orthogonal to all columns of A. @param threshold as pivot_columns().
+Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& A, double threshold);
+
+/// Least-squares solutions of least norm, A x = b, by the complete orthogonal decomposition.
+class LeastNorm {
+ public:
+  LeastNorm();
+  /// @param threshold as pivot_columns().
+  LeastNorm(const Eigen::MatrixXd& A, double threshold);
+  ~LeastNorm();
+  LeastNorm(LeastNorm&&) noexcept;
+  LeastNorm& operator=(LeastNorm&&) noexcept;
+
+  Eigen::Index rank() const;
+  /// @param b one right-hand side per column, as many rows as A. @returns one solution per column.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+/// The same with Eigen's default threshold.
+LeastNorm least_norm(const Eigen::MatrixXd& A);
+
+/// Eigenvalues, ascending, and orthonormal eigenvectors (columns) of a symmetric matrix, of which the lower triangle is read.
+struct SymmetricEigen {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;
+};
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A);
+
+/// Principal moments, ascending, of an inertia tensor [kg m^2].
+Eigen::Vector3d principal_moments(const Eigen::Matrix3d& J);
+
+}  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_MATH_DENSE_H_

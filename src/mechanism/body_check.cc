@@ -51,8 +51,7 @@ void check_cancelled_mass(const RobotDescription& robot, const MassProperties<do
 MassFault find_mass_fault(const MassProperties<double>& body) {
   constexpr double kRounding = 1e-9, kTriangle = 1e-6;
   if (body.mass < 0.0) return {"negative_mass", "the mass is negative", to_decimal(body.mass)};
-  const Eigen::SelfAdjointEigenSolver<Matrix3<double>> solver(body.inertia, Eigen::EigenvaluesOnly);
-  const Vector3<double>& moments = solver.eigenvalues();
+  const Vector3<double> moments = principal_moments(body.inertia);
   const std::string text = "principal moments " + format_numbers({moments[0], moments[1], moments[2]});
   // Moments below those of a radius of gyration of a micrometre (1e-12 m^2 times the mass) come from rounding in the file.
   const double rounding = kRounding * std::max(std::abs(moments[0]), std::abs(moments[2])) + 1e-12 * body.mass;

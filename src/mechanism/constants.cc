@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "codegen/traced.h"
+#include "codegen/number_types.h"
 #include "mechanism/body_check.h"
 #include "mechanism/default_values.h"
 #include "mechanism/mass_properties.h"
@@ -150,11 +150,7 @@ std::string find_impossible(const RobotDescription& robot, const Topology& topol
 
 #define CODESIGN_INSTANTIATE(T) \
   template Constants<T> evaluate_constants<T>(const RobotDescription&, const Topology&, const std::vector<T>&);
-CODESIGN_INSTANTIATE(double)
-CODESIGN_INSTANTIATE(std::complex<double>)
-CODESIGN_INSTANTIATE(Lanes<4>)
-CODESIGN_INSTANTIATE(Lanes<8>)
-CODESIGN_INSTANTIATE(Traced)
+CODESIGN_FOR_EACH_NUMBER_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 
 }  // namespace codesign

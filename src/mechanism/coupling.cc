@@ -45,10 +45,6 @@ Coupling mimic_coupling(const RobotDescription& robot, const Topology& topology,
   return coupling;
 }
 
-bool has_one_coordinate(JointType type) {
-  return type == JointType::kRevolute || type == JointType::kContinuous || type == JointType::kPrismatic;
-}
-
 /// The joints that are not fixed between a link and one of its ancestors, starting at the link.
 std::vector<int> moving_joints(const RobotDescription& robot, const Topology& topology, int link, int ancestor, const Coupling& coupling) {
   std::vector<int> joints;

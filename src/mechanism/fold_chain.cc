@@ -68,13 +68,10 @@ std::optional<PairKind> fold_axes(const Axes& axes) {
     names += (names.empty() ? "" : ", ") + robot.joints[static_cast<std::size_t>(element.joint)].name;
   const JointDescription& joint = robot.joints[static_cast<std::size_t>(chain.front().joint)];
   throw InputError(
-      {joint.where, "<joint name=\"" + joint.name + "\">", "a chain of links without <inertial> that cannot be folded into one joint",
-       names,
+      {joint.where, joint.element(), "a chain of links without <inertial> that cannot be folded into one joint", names,
        "concurrent revolutes (universal, spherical), a coaxial revolute and prismatic, two or three prismatics, two prismatics with a "
        "revolute normal to them; or give the links an <inertial>"});
 }
-
-bool is_turn(JointType type) { return type == JointType::kRevolute || type == JointType::kContinuous; }
 
 std::optional<PairKind> kind_of_chain(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain) {
   const ChainGeometry<double> geometry = chain_geometry(robot, topology, chain, default_values(robot));
@@ -93,11 +90,9 @@ std::optional<PairKind> kind_of_chain(const RobotDescription& robot, const Topol
   return fold_axes(axes);
 }
 
-bool zero(const Quantity& q) { return q.is_constant() && q.nominal() == 0.0; }
-
 bool needs_coordinate(const RobotDescription& robot, const Topology& topology, int k) {
   const JointDescription& joint = robot.joints[static_cast<std::size_t>(k)];
-  if (!zero(joint.damping) || !zero(joint.dry_friction) || joint.spring || joint.actuator || joint.mimic) return true;
+  if (!joint.damping.is_zero() || !joint.dry_friction.is_zero() || joint.spring || joint.actuator || joint.mimic) return true;
   for (const JointDescription& other : robot.joints)
     if (other.mimic && other.mimic->joint == joint.name) return true;
   for (const CouplingDescription& coupling : robot.couplings) {

@@ -2,16 +2,10 @@
 #include "mechanism/friction_geometry.h"
 
 namespace codesign {
-namespace {
-
-/// The reader accepts only positive dimensions, so zero means absent.
-bool is_missing(const Quantity& dimension) { return dimension.is_constant() && dimension.nominal() == 0.0; }
-
-}  // namespace
 
 void check_friction_geometry(const FrictionDescription& friction, JointType type, const std::string& element) {
   const auto require = [&](const Quantity& dimension, const char* name) {
-    if (is_missing(dimension))
+    if (dimension.is_zero())  // the reader accepts only positive dimensions
       throw InputError({friction.where, element, std::string("the friction of this joint type needs the attribute ") + name, "", "> 0"});
   };
   switch (type) {

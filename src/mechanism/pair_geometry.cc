@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "codegen/traced.h"
+#include "codegen/number_types.h"
 #include "mechanism/chain_geometry.h"
 
 namespace codesign {
@@ -17,7 +17,7 @@ class PairBuilder {
     for (std::size_t k = 0; k < pair.chain.size(); ++k) {
       const JointType type = joint(k).type;
       if (type == JointType::kPrismatic) slides_.push_back(k);
-      if (type == JointType::kRevolute || type == JointType::kContinuous) turns_.push_back(k);
+      if (is_turn(type)) turns_.push_back(k);
     }
   }
 
@@ -116,7 +116,7 @@ class PairBuilder {
     Coordinate c;
     const JointType type = joint(k).type;
     if (type == JointType::kPrismatic) c = slide(k, R_ji);
-    if (type == JointType::kRevolute || type == JointType::kContinuous) c = turn(k, R_ji);
+    if (is_turn(type)) c = turn(k, R_ji);
     if (pair_.chain[k].reversed) c.sign = -c.sign;
     return c;
   }
@@ -257,7 +257,7 @@ class PairBuilder {
     const FrictionDescription& f = *robot_.joints[static_cast<std::size_t>(pair_.friction_joint)].friction;
     FrictionConstants<T> c;
     const auto evaluate = [this, &c](const FrictionNumberRule& rule, const Quantity& q, T& number) {
-      const bool missing = q.is_constant() && q.nominal() == 0.0;
+      const bool missing = q.is_zero();
       if (missing && rule.missing == FrictionNumberRule::Missing::kLengthOfOne)
         number = T(1.0);
       else if (missing && rule.missing == FrictionNumberRule::Missing::kPinRadius)
@@ -288,11 +288,7 @@ PairConstants<T> pair_constants(const RobotDescription& robot, const Topology& t
 #define CODESIGN_INSTANTIATE(T)                                                                                                            \
   template PairConstants<T> pair_constants<T>(const RobotDescription&, const Topology&, const Pair&, const Vector3<T>&, const Vector3<T>&, \
                                               const std::vector<T>&);
-CODESIGN_INSTANTIATE(double)
-CODESIGN_INSTANTIATE(std::complex<double>)
-CODESIGN_INSTANTIATE(Lanes<4>)
-CODESIGN_INSTANTIATE(Lanes<8>)
-CODESIGN_INSTANTIATE(Traced)
+CODESIGN_FOR_EACH_NUMBER_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 
 }  // namespace codesign

@@ -44,7 +44,7 @@ const Names& mechanism_quantities() {
 
 void add_joint(const JointDescription& joint, Offer* offer) {
   offer->exists = true;
-  if (has_scalar_position(joint))
+  if (has_one_coordinate(joint.type))
     offer->scalars = {"position", "velocity", "acceleration", "effort", "actuator_power", "damping_power", "load_power"};
   if (has_friction(joint))
     for (const char* quantity : {"friction", "normal_force", "sliding_velocity", "friction_power"}) offer->scalars.emplace_back(quantity);
@@ -132,13 +132,7 @@ bool is_of_mechanism(const SignalTerm& term) {
 
 bool is_reaction(const SignalTerm& term) { return contains(reactions(), term.quantity); }
 
-bool has_scalar_position(const JointDescription& joint) {
-  return joint.type == JointType::kRevolute || joint.type == JointType::kContinuous || joint.type == JointType::kPrismatic;
-}
-
-bool has_friction(const JointDescription& joint) {
-  return joint.friction.has_value() || !joint.dry_friction.is_constant() || joint.dry_friction.nominal() != 0.0;
-}
+bool has_friction(const JointDescription& joint) { return joint.friction.has_value() || !joint.dry_friction.is_zero(); }
 
 void check_signal(const SignalDescription& signal, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers,
                   const std::string& element) {
@@ -154,7 +148,7 @@ std::vector<std::string> default_signals(const RobotDescription& robot, const st
   Names signals;
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {
     const JointDescription& joint = robot.joints[i];
-    if (!has_scalar_position(joint) || pairs[i] < 0) continue;
+    if (!has_one_coordinate(joint.type) || pairs[i] < 0) continue;
     signals.push_back(joint.name + "/position");
     signals.push_back(joint.name + "/velocity");
   }

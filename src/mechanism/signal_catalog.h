@@ -10,9 +10,6 @@
 
 namespace codesign {
 
-/// Whether a joint has exactly one coordinate, and with it a scalar position, velocity, acceleration and effort.
-bool has_scalar_position(const JointDescription& joint);
-
 /// Whether a joint or loop has friction, from `<codesign:friction>` or `<dynamics friction>`.
 bool has_friction(const JointDescription& joint);
 

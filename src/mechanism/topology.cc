@@ -21,10 +21,6 @@ struct Edge {
 
 bool has_mass(const LinkDescription& link) { return link.inertial.has_value(); }
 
-std::string joint_element(const JointDescription& joint) {
-  return (joint.is_loop ? "<loop name=\"" : "<joint name=\"") + joint.name + "\">";
-}
-
 class TopologyBuilder {
  public:
   explicit TopologyBuilder(const RobotDescription& robot) : robot_(robot) {}
@@ -85,7 +81,7 @@ class TopologyBuilder {
       edges_.push_back(single_edge(static_cast<int>(k)));
       if (edges_.back().from == edges_.back().to)
         throw InputError(
-            {joint.where, joint_element(joint), "both ends lie on the same rigid body", robot_.links[index(joint.parent)].name, ""});
+            {joint.where, joint.element(), "both ends lie on the same rigid body", robot_.links[index(joint.parent)].name, ""});
     }
   }
 
@@ -215,15 +211,15 @@ class TopologyBuilder {
     const JointDescription& description = robot_.joints[index(joint)];
     if (!description.friction) return;
     if (pair->friction_joint >= 0)
-      throw InputError({description.friction->where, joint_element(description), "a second <codesign:friction> on one folded joint",
-                        pair->name, "one for the whole chain of massless links"});
+      throw InputError({description.friction->where, description.element(), "a second <codesign:friction> on one folded joint", pair->name,
+                        "one for the whole chain of massless links"});
     pair->friction_joint = joint;
   }
 
   // The URDF reader checks ordinary joints only, not those folded from a chain.
   void check_friction(const Pair& pair) const {
     const JointDescription& joint = robot_.joints[index(pair.friction_joint)];
-    check_friction_geometry(*joint.friction, traits_of(pair.kind).joint, joint_element(joint) + " <codesign:friction>");
+    check_friction_geometry(*joint.friction, traits_of(pair.kind).joint, joint.element() + " <codesign:friction>");
   }
 
   const RobotDescription& robot_;

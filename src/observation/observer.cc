@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "mechanism/signal_catalog.h"
-
 namespace codesign {
 
 Observer::Observer(const CompiledSystem& system, const std::vector<SignalDescription>& signals) : system_(system), tree_(system.robot()) {
@@ -22,7 +20,7 @@ Observer::Observer(const CompiledSystem& system, const std::vector<SignalDescrip
 void Observer::name_joints() {
   const RobotDescription& robot = system_.robot();
   for (std::size_t k = 0; k < robot.joints.size(); ++k) {
-    if (!has_scalar_position(robot.joints[k])) continue;
+    if (!has_one_coordinate(robot.joints[k].type)) continue;
     JointSource source;
     source.joint = static_cast<int>(k);
     source.pair = system_.topology().joint_pair[k];

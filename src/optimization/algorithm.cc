@@ -32,16 +32,20 @@ std::string names(bool constrained) {
 
 }  // namespace
 
+SourceLocation where_of(const OptimizerOptions& options, const Study& study) {
+  return options.where.file.empty() ? SourceLocation{study.file, 1} : options.where;
+}
+
 nlopt::opt make_optimizer(const Study& study, const OptimizerOptions& options, unsigned dimension, bool with_slack) {
   const auto found = algorithms().find(options.algorithm);
-  const SourceLocation where = options.where.file.empty() ? SourceLocation{study.file, 1} : options.where;
+  const SourceLocation where = where_of(options, study);
   const InputFault fault{where, "optimizer.algorithm", "", options.algorithm, ""};
   if (found == algorithms().end()) throw InputError({fault.where, fault.element, "no such algorithm", fault.value, names(false)});
   if (!study.constraints.empty() && !found->second.takes_constraints)
     throw InputError({fault.where, fault.element, "this algorithm takes no constraints on parameters", fault.value, names(true)});
   if (with_slack && !found->second.takes_constraints)
-    throw InputError({fault.where, fault.element,
-                      "this algorithm takes no constraints, which robust.measure worst and cvar are solved by", fault.value, names(true)});
+    throw InputError({fault.where, fault.element, "this algorithm takes no constraints, which robust.measure worst and cvar are solved by",
+                      fault.value, names(true)});
   // Checked here because the tolerance may also come from a request of a ROS client. Smaller ones are below rounding.
   constexpr double kLeast = 1e-15;
   if (!(options.relative_tolerance >= kLeast && options.relative_tolerance < 1.0))

@@ -9,6 +9,9 @@
 
 namespace codesign {
 
+/// Where the options stand; the study's first line if they come from elsewhere.
+SourceLocation where_of(const OptimizerOptions& options, const Study& study);
+
 /// The NLopt optimizer that `options.algorithm` names. @param study for its parameter constraints. @param dimension number of tuned
 /// parameters and slack variables. @param with_slack whether slack variables add constraints.
 /// @throws InputError for an unknown algorithm, for constraints with an algorithm that takes none, or a relative tolerance out of range.

@@ -260,7 +260,7 @@ class Minimization {
       trial.gradient_norm = scaling_.gradient_norm(evaluation.gradient);
       for (std::size_t k = 0; k < result_.influences.size(); ++k)
         if ((all.gradients.row(static_cast<Eigen::Index>(k)).array() != 0.0).any()) result_.influences[k] = true;
-      take_best(evaluation, rho);
+      take_best(all, rho);
     } else {
       ++result_.failed_evaluations;
       if (result_.evaluations == 1) first_failure_ = evaluation.status;
@@ -271,10 +271,12 @@ class Minimization {
   }
 
   // A start that violates the constraints is the best point only until a feasible point is found.
-  void take_best(const Evaluation& evaluation, const Eigen::VectorXd& rho) {
+  void take_best(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
+    const Evaluation& evaluation = all.total;
     const bool inside = all_met(constraint_margins(study_, parameters_at(study_, rho))), first = !have_best_;
     if (first) {
       result_.initial_objective = evaluation.objective;
+      result_.initial_values = all.values;
       result_.initial_gradient = evaluation.gradient;
     }
     const bool better = first || (inside && !best_feasible_) || (inside == best_feasible_ && evaluation.objective < result_.objective);
@@ -283,6 +285,7 @@ class Minimization {
     have_best_ = true;
     best_feasible_ = inside;
     result_.objective = evaluation.objective;
+    result_.values = all.values;
     result_.gradient = evaluation.gradient;
     result_.warnings = evaluation.warnings;
     result_.rho = rho;

@@ -4,6 +4,7 @@
 #include "mechanism_codesign/optimization.h"
 #include "optimization/local_search.h"
 #include "optimization/multistart.h"
+#include "optimization/scenario_results.h"
 
 namespace codesign {
 
@@ -25,7 +26,7 @@ OptimizationResult optimize(const Problem& problem, const OptimizerOptions& opti
   if (problem.study().ensemble.multistart.starts > 0) return search_from_many_starts(problem, options, observer, cancel);
   Ensemble ensemble(problem);
   OptimizationResult result = search_locally(problem.study(), options, problem.start(), &ensemble, observer, cancel);
-  describe_scenarios(problem, &ensemble, cancel, &result);
+  describe_scenarios(problem, ensemble, cancel, &result);
   return result;
 }
 

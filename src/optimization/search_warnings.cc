@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "description/study.h"
+#include "optimization/algorithm.h"
 #include "text/decimal.h"
 
 namespace codesign {
@@ -14,10 +15,9 @@ constexpr double kOnBound = 1e-6;
 
 void add_evaluations_warning(const Study& study, const OptimizerOptions& options, const OptimizationResult& result, Warnings* warnings) {
   if (result.termination != "max_evaluations_reached") return;
-  const SourceLocation where = options.where.file.empty() ? SourceLocation{study.file, 1} : options.where;
   warnings->push_back(
       warn("max_evaluations_reached",
-           {where, "optimizer.max_evaluations",
+           {where_of(options, study), "optimizer.max_evaluations",
             "the search stopped at the limit of evaluations before it converged; the best point so far is returned; allow more "
             "evaluations or a larger optimizer.relative_tolerance",
             std::to_string(options.max_evaluations), ""}));

@@ -17,7 +17,7 @@ struct Problem::Contents {
   SourceText study_text;
   std::shared_ptr<const CompiledSystem> system;
   std::vector<std::shared_ptr<const CompiledSystem>> variants;  ///< of variant_of(); empty if there is only the study itself
-  double setup_seconds = 0.0;  ///< processor time of reading and compiling [s]
+  double setup_seconds = 0.0;                                   ///< processor time of reading and compiling [s]
   Warnings warnings;
 };
 

@@ -45,7 +45,7 @@ Problem compile(const RobotDescription& robot, Study study, const ParameterSetti
   apply_settings(settings, &study);
   const CpuTimer timer;
   require_numbers_at_start(study, start_parameters(study));
-  append(unused_parameters(contents, study), &contents.warnings);
+  append(unused_parameters(study), &contents.warnings);
   contents.system = make_system(robot, study, &contents.warnings);
   for (RunDescription& run : study.ensemble.runs)
     if (run.study) {
@@ -86,7 +86,7 @@ Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& over
   const CpuTimer timer;
   const RobotDescription robot = read_urdf(urdf, overlays);
   Study read = read_study(study, robot, loader);
-  return compile(robot, std::move(read), settings, {urdf, overlays, study, nullptr, timer.seconds(), robot.warnings});
+  return compile(robot, std::move(read), settings, {urdf, overlays, study, nullptr, {}, timer.seconds(), robot.warnings});
 }
 
 Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& overlays, const ParameterSettings& settings) {
@@ -94,15 +94,16 @@ Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& ov
   const RobotDescription robot = read_urdf(urdf, overlays);
   Study study;
   study.parameters = robot.parameters;
+  study.used_parameters = robot.used_parameters;
   study.file = urdf.name;
-  return compile(robot, std::move(study), settings, {urdf, overlays, {}, nullptr, timer.seconds(), robot.warnings});
+  return compile(robot, std::move(study), settings, {urdf, overlays, {}, nullptr, {}, timer.seconds(), robot.warnings});
 }
 
 Problem with_settings(const Problem& problem, const ParameterSettings& settings) { return with_study(problem, problem.study(), settings); }
 
 Problem with_study(const Problem& problem, Study study, const ParameterSettings& settings) {
   return compile(problem.robot(), std::move(study), settings,
-                 {problem.urdf(), problem.overlays(), problem.study_text(), nullptr, problem.setup_seconds(), problem.warnings()});
+                 {problem.urdf(), problem.overlays(), problem.study_text(), nullptr, {}, problem.setup_seconds(), problem.warnings()});
 }
 
 void require_objective(const Problem& problem) {

@@ -2,14 +2,13 @@
 #ifndef MECHANISM_CODESIGN_PROBLEM_UNUSED_PARAMETERS_H_
 #define MECHANISM_CODESIGN_PROBLEM_UNUSED_PARAMETERS_H_
 
-#include "problem/load_problem.h"
+#include "description/study.h"
+#include "mechanism_codesign/warning.h"
 
 namespace codesign {
 
-/// A warning `unused_parameter` for each tuned parameter that neither a `${...}` of model, overlays and study nor a `basis` controller
-/// uses.
-/// @param texts the files as read; @param study which parameters are tuned.
-Warnings unused_parameters(const Problem::Contents& texts, const Study& study);
+/// A warning `unused_parameter` for each tuned parameter on which no number of model or study depends.
+Warnings unused_parameters(const Study& study);
 
 }  // namespace codesign
 

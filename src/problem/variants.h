@@ -13,8 +13,8 @@ namespace codesign {
 
 class CompiledSystem;
 
-/// The systems that the runs and the uncertain friction law of a study need, run by run: first with the model's own friction laws, then with
-/// each law of the choice for all joints. Runs that change only values of parameters share the study's own system.
+/// The systems that the runs and the uncertain friction law of a study need, run by run: first with the model's own friction laws, then
+/// with each law of the choice for all joints. Runs that change only values of parameters share the study's own system.
 /// @param own the system of the study itself. @param warnings receives warnings about the runs that are not yet among them.
 /// @throws InputError naming the run, for a run without equations of motion or whose start cannot be assembled.
 std::vector<std::shared_ptr<const CompiledSystem>> make_variants(const RobotDescription& robot, const Study& study,

@@ -13,7 +13,7 @@ extern "C" void on_termination(int) { ros::requestShutdown(); }
 
 }  // namespace
 
-std::optional<int> start_node(int argc, char** argv, const std::string& name, const std::string& help) {
+int run_node(int argc, char** argv, const std::string& name, const std::string& help, const std::function<std::shared_ptr<void>()>& make) {
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word != "--help" && word != "-h") continue;
@@ -26,7 +26,9 @@ std::optional<int> start_node(int argc, char** argv, const std::string& name, co
     return 2;
   }
   std::signal(SIGTERM, on_termination);
-  return std::nullopt;
+  const std::shared_ptr<void> node = make();
+  ros::spin();
+  return 0;
 }
 
 }  // namespace codesign

@@ -2,14 +2,21 @@
 #ifndef MECHANISM_CODESIGN_ROS_NODE_ARGUMENTS_H_
 #define MECHANISM_CODESIGN_ROS_NODE_ARGUMENTS_H_
 
-#include <optional>
+#include <functional>
+#include <memory>
 #include <string>
 
 namespace codesign {
 
-/// Initializes a ROS node. SIGTERM ends it in the same way as SIGINT, so that results are kept.
-/// @return nullopt if the node is to run; else the exit code: 0 after printing `help` for `--help`, 2 for an unknown argument.
-std::optional<int> start_node(int argc, char** argv, const std::string& name, const std::string& help);
+/// Runs a ROS node until it is shut down: initializes ROS, makes the node, and serves callbacks. SIGTERM ends it in the same way as SIGINT,
+/// so that results are kept.
+/// @param make called once ROS is initialized; the node lives until the shutdown.
+/// @return the exit code of the process: 0, also after printing `help` for `--help`; 2 for an unknown argument.
+int run_node(int argc, char** argv, const std::string& name, const std::string& help, const std::function<std::shared_ptr<void>()>& make);
+
+/// The nodes, for run_node(). Their headers, with those of ROS, stay out of the files with main().
+std::shared_ptr<void> make_simulation_node();
+std::shared_ptr<void> make_optimization_node();
 
 }  // namespace codesign
 

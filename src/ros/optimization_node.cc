@@ -208,4 +208,6 @@ void OptimizationNode::on_cancel(const GoalHandle& goal) {
   if (status == actionlib_msgs::GoalStatus::RECALLING || status == actionlib_msgs::GoalStatus::PREEMPTING) optimizer_.cancel();
 }
 
+std::shared_ptr<void> make_optimization_node() { return std::make_shared<OptimizationNode>(); }
+
 }  // namespace codesign

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/recorded_run.h"
-#include "mechanism_codesign/simulation.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <cstdint>
 
 #include "mechanism/signal_catalog.h"
+#include "mechanism_codesign/simulation.h"
 #include "ros/advance.h"
 #include "ros/run_clock.h"
 #include "text/decimal.h"

@@ -1,7 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/simulation_node.h"
-#include "mechanism_codesign/simulation.h"
-#include "reading/urdf/urdf_reader.h"
 
 #include <rosgraph_msgs/Clock.h>
 #include <std_msgs/String.h>
@@ -15,7 +13,9 @@
 #include "jobs/sentences.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/error.h"
+#include "mechanism_codesign/simulation.h"
 #include "mechanism_codesign/version.h"
+#include "reading/urdf/urdf_reader.h"
 #include "ros/advance.h"
 #include "ros/description.h"
 #include "ros/inputs.h"
@@ -247,5 +247,7 @@ void SimulationNode::close_bag() {
     give_up_bag(error);
   }
 }
+
+std::shared_ptr<void> make_simulation_node() { return std::make_shared<SimulationNode>(); }
 
 }  // namespace codesign

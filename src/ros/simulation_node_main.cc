@@ -1,8 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include <ros/ros.h>
-
 #include "ros/node_arguments.h"
-#include "ros/simulation_node.h"
 
 namespace {
 
@@ -30,9 +27,4 @@ parameters
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  if (const std::optional<int> code = codesign::start_node(argc, argv, "simulation", kHelp)) return *code;
-  const codesign::SimulationNode node;
-  ros::spin();
-  return 0;
-}
+int main(int argc, char** argv) { return codesign::run_node(argc, argv, "simulation", kHelp, codesign::make_simulation_node); }

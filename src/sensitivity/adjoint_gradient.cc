@@ -1,9 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensitivity/adjoint_gradient.h"
-#include "text/cancel.h"
 
 #include <algorithm>
 #include <limits>
+
+#include "text/cancel.h"
 
 namespace codesign {
 

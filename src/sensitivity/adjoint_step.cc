@@ -55,9 +55,10 @@ void AdjointStep::clear() {
 void AdjointStep::add_products(const Linearization<double>& derivatives, RowRange rows, const VectorX<double>& mu,
                                VectorX<double>* adjoint) const {
   const ByVariable<Sparsity>& patterns = system_.patterns();
-  add_transposed_product(patterns.position, derivatives.position, rows, 1.0, mu.data(), adjoint->data() + at_.x());
-  add_transposed_product(patterns.velocity, derivatives.velocity, rows, 1.0, mu.data(), adjoint->data() + at_.v());
-  add_transposed_product(patterns.rate, derivatives.rate, rows, 1.0, mu.data(), adjoint->data() + at_.z());
+  const Out<double> all = *adjoint;
+  add_transposed_product(patterns.position, derivatives.position, rows, 1.0, mu, all.subspan(at_.x(), at_.x_size));
+  add_transposed_product(patterns.velocity, derivatives.velocity, rows, 1.0, mu, all.subspan(at_.v(), at_.n));
+  add_transposed_product(patterns.rate, derivatives.rate, rows, 1.0, mu, all.subspan(at_.z(), at_.z_size));
 }
 
 // Reverses u_psi = h gamma (g + Sigma_psi + g_y u).
@@ -77,13 +78,13 @@ void AdjointStep::reverse_solve(std::size_t i, const RosenbrockStep<double>& ste
   z_ = u.segment(at_.z(), at_.z_size);
   z_.head(at_.n) += hg * u.segment(at_.v(), at_.n) + hg * hg * u.segment(at_.x(), at_.n);
   z_.tail(at_.states) += hg * u.segment(at_.s(), at_.states);
-  step.stage_matrix().lu().solve_transposed_rows<1>(z_.data());
+  step.stage_matrix().lu().solve_transposed_rows<1>(z_);
   mu.head(at_.z_size) = -z_;
   const ByVariable<Sparsity>& patterns = system_.patterns();
   const Linearization<double>& matrices = step.derivatives();
   const RowRange rows{0, at_.z_size};
-  add_transposed_product(patterns.position, matrices.position, rows, 1.0, mu.data(), u.data() + at_.x());
-  add_transposed_product(patterns.velocity, matrices.velocity, rows, 1.0, mu.data(), u.data() + at_.v());
+  add_transposed_product(patterns.position, matrices.position, rows, 1.0, mu, Out<double>(u).subspan(at_.x(), at_.x_size));
+  add_transposed_product(patterns.velocity, matrices.velocity, rows, 1.0, mu, Out<double>(u).subspan(at_.v(), at_.n));
 }
 
 // Reverses w_q = h gamma (v + Sigma_q + w_v), w_v = h gamma (a + Sigma_v), w_s = h gamma (sigma + Sigma_s).
@@ -137,7 +138,7 @@ void AdjointStep::add_pair(int k, const VectorX<double>& u, const VectorX<double
 void AdjointStep::solve_projection(const RosenbrockStep<double>& step, int first, WeightedPoint* errors) {
   z_.setZero();
   z_.head(at_.n) = adjoint_.segment(first, at_.n);
-  step.projection_matrix().lu().solve_transposed_rows<1>(z_.data());
+  step.projection_matrix().lu().solve_transposed_rows<1>(z_);
   errors->mu.head(at_.z_size) = -z_;
   errors->mu[at_.z_size] = 0.0;
 }
@@ -145,13 +146,14 @@ void AdjointStep::solve_projection(const RosenbrockStep<double>& step, int first
 // Uses that (Phi_q v)_q is half the derivative of the acceleration rows by v, theory (6).
 void AdjointStep::reverse_velocity_errors(const State<double>& start, const RosenbrockStep<double>& step) {
   const RowRange constraints{layout_.n, layout_.n + layout_.m};
-  const double* const mu = velocity_errors_.mu.data();
+  const VectorX<double>& mu = velocity_errors_.mu;
   velocity_errors_.point = start;
   velocity_errors_.point.q = step.state().q;
   equations_.linearize(velocity_errors_.point, &derivatives_);
-  add_transposed_product(system_.patterns().velocity, derivatives_.velocity, constraints, 0.5, mu, adjoint_.data() + at_.x());
+  add_transposed_product(system_.patterns().velocity, derivatives_.velocity, constraints, 0.5, mu,
+                         Out<double>(adjoint_).subspan(at_.x(), at_.n));
   z_.setZero();
-  add_transposed_product(system_.patterns().rate, derivatives_.rate, constraints, 1.0, mu, z_.data());
+  add_transposed_product(system_.patterns().rate, derivatives_.rate, constraints, 1.0, mu, z_);
   adjoint_.segment(at_.v(), at_.n) += z_.head(at_.n);
 }
 
@@ -165,8 +167,8 @@ void AdjointStep::reverse_projection(const State<double>& start, const Rosenbroc
   solve_projection(step, at_.x(), &position_errors_);
   position_errors_.point = start;
   z_.setZero();
-  add_transposed_product(system_.patterns().rate, step.derivatives().rate, {layout_.n, layout_.n + layout_.m}, 1.0,
-                         position_errors_.mu.data(), z_.data());
+  add_transposed_product(system_.patterns().rate, step.derivatives().rate, {layout_.n, layout_.n + layout_.m}, 1.0, position_errors_.mu,
+                         z_);
   adjoint_.segment(at_.x(), at_.n) += z_.head(at_.n);
   direction_.segment(at_.z(), at_.z_size) = step.position_correction();
   add_pair(first_pair + kPositionPair, direction_, position_errors_.mu);

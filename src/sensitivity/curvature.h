@@ -25,7 +25,7 @@ class Curvature {
   /// Sets pair k. @param u in the order of IncrementLayout. @param mu one per row of G, then the one of the integrand's row.
   void set(int k, const VectorX<double>& u, const VectorX<double>& mu);
 
-  /// adjoint += dTheta/dy at a state. @param equations for their turn references.
+  /// adjoint += dTheta/dy at a state.
   void add_state_gradient(const State<double>& at, VectorX<double>* adjoint);
 
   /// adjoint += d/dy of the sum of weights[row] G_t[row], the integrand's row last. Differentiates along one unit vector per coordinate,

@@ -12,18 +12,16 @@ IdasTangent::Group<N>::Group(const CompiledSystem& system, LaneRange<N> lanes) :
 
 template <int N>
 void IdasTangent::Group<N>::load(const State<double>& at, const std::vector<State<double>>* directions) {
-  state.t = at.t;
-  state.turns = at.turns;
-  for (VectorX<double> State<double>::*part : {&State<double>::q, &State<double>::v, &State<double>::s, &State<double>::z}) {
-    VectorX<Lanes<N>>& lanes = part == &State<double>::q   ? state.q
-                               : part == &State<double>::v ? state.v
-                               : part == &State<double>::s ? state.s
-                                                           : state.z;
-    for (Eigen::Index i = 0; i < lanes.size(); ++i) {
-      lanes[i] = (at.*part)[i];
-      for (int k = 0; directions && k < range.count; ++k)
-        lanes[i].v[k] = ((*directions)[static_cast<std::size_t>(range.first + k)].*part)[i];
-    }
+  cast_state(at, &state);
+  for (int k = 0; directions && k < range.count; ++k) {
+    const State<double>& direction = (*directions)[static_cast<std::size_t>(range.first + k)];
+    const auto put = [k](const VectorX<double>& from, VectorX<Scalar>* lanes) {
+      for (Eigen::Index i = 0; i < from.size(); ++i) (*lanes)[i].v[k] = from[i];
+    };
+    put(direction.q, &state.q);
+    put(direction.v, &state.v);
+    put(direction.s, &state.s);
+    put(direction.z, &state.z);
   }
 }
 
@@ -103,7 +101,7 @@ void IdasTangent::solve_rates(std::vector<State<double>>* directions) {
     State<double>& direction = (*directions)[static_cast<std::size_t>(k)];
     direction.z.setZero();
     derivative(k, direction, &dG_);
-    matrix_.lu().solve(dG_.data());
+    matrix_.lu().solve(Out<double>(dG_).first(direction.z.size()));
     direction.z = -dG_.head(direction.z.size());
   }
 }
@@ -118,7 +116,7 @@ void IdasTangent::correct(const State<double>& state, VectorX<double> State<doub
     for (int k = 0; k < group->range.count; ++k) {
       dG_.setZero(layout.columns() + 1);
       for (int row = 0; row < layout.m; ++row) dG_[layout.n + row] = -(positions ? group->Phi : group->Phi_rate)[row].v[k];
-      matrix_.lu().solve(dG_.data());
+      matrix_.lu().solve(Out<double>(dG_).first(layout.columns()));
       (*directions)[static_cast<std::size_t>(group->range.first + k)].*part += dG_.head(layout.n);
     }
   });

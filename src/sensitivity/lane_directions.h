@@ -7,6 +7,7 @@
 
 #include "math/lanes.h"
 #include "math/line_vector.h"
+#include "math/span.h"
 
 namespace codesign {
 
@@ -36,6 +37,10 @@ class Directions : public Eigen::Map<Eigen::Matrix<double, N, Eigen::Dynamic>> {
   /// The N derivatives of one component as a vector of the processor.
   Vector& vector(int column) { return *reinterpret_cast<Vector*>(this->data() + N * column); }
   const Vector& vector(int column) const { return *reinterpret_cast<const Vector*>(this->data() + N * column); }
+
+  /// The derivatives of `count` components from the `first` on, N side by side for each.
+  Span<double> part(int first, int count) { return Span<double>(numbers_).subspan(N * first, N * count); }
+  Span<const double> part(int first, int count) const { return Span<const double>(numbers_).subspan(N * first, N * count); }
 
  private:
   LineVector numbers_;

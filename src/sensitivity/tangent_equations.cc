@@ -32,10 +32,10 @@ TangentEquations<N>::TangentEquations(const CompiledSystem& system)
 
 template <int N>
 bool TangentEquations<N>::run_compiled(EquationFunction function, const State<double>& state, const Directions<N>& y,
-                                       double* const (&results)[4]) {
-  const auto direction = [&y](int component) { return y.data() + std::ptrdiff_t{N} * component; };
-  return equations_.compiled().tangents(function, state.t, state.turns, {state.q.data(), state.v.data(), state.s.data(), state.z.data()},
-                                        {direction(at_.x()), direction(at_.v()), direction(at_.s()), direction(at_.z())}, results);
+                                       const Out<double> (&results)[4]) {
+  return equations_.compiled().tangents(
+      function, state.t, state.turns, {state.q, state.v, state.s, state.z},
+      {y.part(at_.x(), at_.n), y.part(at_.v(), at_.n), y.part(at_.s(), at_.states), y.part(at_.z(), at_.z_size)}, results);
 }
 
 template <int N>
@@ -48,8 +48,7 @@ template <int N>
 void TangentEquations<N>::residual(const State<double>& state, const Directions<N>& y, Directions<N>* result) {
   const int last = layout_.columns();
   result->resize(last + 1);
-  if (run_compiled(EquationFunction::kResidual, state, y, {result->data(), result->data() + std::ptrdiff_t{N} * last, nullptr, nullptr}))
-    return;
+  if (run_compiled(EquationFunction::kResidual, state, y, {result->part(0, last), result->part(last, 1), {}, {}})) return;
   Lanes<N> g;
   equations_.formulas().residual(lanes(state, y), &residual_, &g);
   take_directions<N>(residual_, result);
@@ -58,8 +57,7 @@ void TangentEquations<N>::residual(const State<double>& state, const Directions<
 
 template <int N>
 void TangentEquations<N>::linearize(const State<double>& state, const Directions<N>& y) {
-  if (run_compiled(EquationFunction::kLinearization, state, y,
-                   {changes_.position.data(), changes_.velocity.data(), changes_.rate.data(), time_changes_.data()}))
+  if (run_compiled(EquationFunction::kLinearization, state, y, {changes_.position, changes_.velocity, changes_.rate, time_changes_}))
     return;
   equations_.formulas().linearize(lanes(state, y), plan_, &derivatives_);
   take_directions<N>(derivatives_.position, &changes_.position);
@@ -73,7 +71,7 @@ void TangentEquations<N>::constraint_errors(const State<double>& state, const Di
                                             Directions<N>* Phi_rate) {
   Phi->resize(layout_.m);
   Phi_rate->resize(layout_.m);
-  if (run_compiled(EquationFunction::kConstraintErrors, state, y, {Phi->data(), Phi_rate->data(), nullptr, nullptr})) return;
+  if (run_compiled(EquationFunction::kConstraintErrors, state, y, {*Phi, *Phi_rate, {}, {}})) return;
   const State<Lanes<N>>& both = lanes(state, y);
   equations_.formulas().constraint_errors(both, &errors_, &rates_);
   take_directions<N>(errors_, Phi);

@@ -4,6 +4,7 @@
 
 #include "equations/equations.h"
 #include "integration/increment.h"
+#include "math/span.h"
 #include "sensitivity/lane_directions.h"
 
 namespace codesign {
@@ -15,7 +16,7 @@ class TangentEquations {
  public:
   explicit TangentEquations(const CompiledSystem& system);
 
-  /// The equations with lanes, which hold the design with its directions and the turn references.
+  /// The equations with lanes, which hold the design with its directions.
   Equations<Lanes<N>>& equations() { return equations_; }
 
   /// G', one column per row of G, and g' in the last column. @param y directions of the state, in the order of IncrementLayout.
@@ -33,7 +34,7 @@ class TangentEquations {
   const State<Lanes<N>>& lanes(const State<double>& state, const Directions<N>& y);
 
  private:
-  bool run_compiled(EquationFunction function, const State<double>& state, const Directions<N>& y, double* const (&results)[4]);
+  bool run_compiled(EquationFunction function, const State<double>& state, const Directions<N>& y, const Out<double> (&results)[4]);
 
   const Layout& layout_;
   const AssemblyPlan& plan_;

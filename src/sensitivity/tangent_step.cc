@@ -2,6 +2,7 @@
 #include "sensitivity/tangent_step.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "sparse/row_product.h"
@@ -55,10 +56,10 @@ void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assemb
 }
 
 template <int N>
-void TangentStep<N>::combine(const double* from, const double* factors, std::size_t count, int first, int size, double* to) const {
+void TangentStep<N>::combine(In<double> from, In<double> factors, int first, Out<double> to) const {
   const double* parts[RosenbrockTableau::kMaximumStages];
-  for (std::size_t j = 0; j < count; ++j) parts[j] = stages_[j].data() + std::ptrdiff_t{N} * first;
-  codesign::combine(from, factors, parts, count, N * size, to);
+  for (std::ptrdiff_t j = 0; j < factors.size(); ++j) parts[j] = stages_[static_cast<std::size_t>(j)].data() + std::ptrdiff_t{N} * first;
+  codesign::combine(from, factors, parts, to);
 }
 
 // Sets w' in increment i, the derivative of RosenbrockStep::stage_start().
@@ -66,17 +67,16 @@ template <int N>
 void TangentStep<N>::stage_start(std::size_t i, double h) {
   const double hg = h * tableau_.gamma;
   Directions<N>& u = stages_[i];
-  double factors[RosenbrockTableau::kMaximumStages];
+  RosenbrockTableau::Row factors;
   for (std::size_t j = 0; j < i; ++j) factors[j] = tableau_.c[i][j] / h;
-  const auto add = [&](int rate, int first, int size) {
-    combine(stage_y_.data() + std::ptrdiff_t{N} * rate, factors, i, first, size, u.data() + std::ptrdiff_t{N} * first);
+  const auto add = [&](const Directions<N>& from, int rate, int first, int size) {
+    combine(from.part(rate, size), In<double>(factors).first(static_cast<std::ptrdiff_t>(i)), first, u.part(first, size));
   };
-  add(at_.z(), at_.v(), at_.n);
-  add(at_.v(), at_.x(), at_.n);
-  add(at_.sigma(), at_.s(), at_.states);
+  add(stage_y_, at_.z(), at_.v(), at_.n);
+  add(stage_y_, at_.v(), at_.x(), at_.n);
+  add(stage_y_, at_.sigma(), at_.s(), at_.states);
   u.vector(at_.psi()) = Vector{};
-  double* const psi = u.data() + std::ptrdiff_t{N} * at_.psi();
-  combine(psi, factors, i, at_.psi(), 1, psi);
+  add(u, at_.psi(), at_.psi(), 1);
   for (int k = 0; k < at_.n; ++k) {
     const Vector u_v = hg * u.vector(at_.v() + k);
     u.vector(at_.v() + k) = u_v;
@@ -92,13 +92,13 @@ template <std::size_t together>
 void TangentStep<N>::change_matrices(const RosenbrockStep<double>& step) {
   const ByVariable<Sparsity>& patterns = system_.patterns();
   for (std::size_t first = 0; first < stages_.size(); first += together) {
-    const double* u[together];
-    for (std::size_t k = 0; k < together; ++k) u[k] = step.increments()[first + k].data();
+    In<double> u[together];
+    for (std::size_t k = 0; k < together; ++k) u[k] = step.increments()[first + k];
     for (int row = 0; row <= at_.z_size; ++row) {
       Vector sums[together] = {};
-      add_row_tangents<N, together>(patterns.position, equations_.changes().position.data(), row, u, at_.x(), sums);
-      add_row_tangents<N, together>(patterns.velocity, equations_.changes().velocity.data(), row, u, at_.v(), sums);
-      add_row_tangents<N, together>(patterns.rate, equations_.changes().rate.data(), row, u, at_.z(), sums);
+      add_row_tangents<N, together>(patterns.position, equations_.changes().position, row, u, at_.x(), sums);
+      add_row_tangents<N, together>(patterns.velocity, equations_.changes().velocity, row, u, at_.v(), sums);
+      add_row_tangents<N, together>(patterns.rate, equations_.changes().rate, row, u, at_.z(), sums);
       for (std::size_t k = 0; k < together; ++k)
         matrix_changes_[first + k].vector(row) =
             sums[k] + (step.step_size() * tableau_.gamma_i[first + k]) * equations_.time_changes().vector(row);
@@ -111,14 +111,14 @@ void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& 
   const double hg = step.step_size() * tableau_.gamma;
   const ByVariable<Sparsity>& patterns = system_.patterns();
   const Linearization<double>& matrices = step.derivatives();
-  combine(y_.data(), tableau_.a[i].data(), i, 0, at_.psi(), stage_y_.data());
+  combine(y_.part(0, at_.psi()), In<double>(tableau_.a[i]).first(static_cast<std::ptrdiff_t>(i)), 0, stage_y_.part(0, at_.psi()));
   equations_.residual(step.stages()[i], stage_y_, &residual_);
   stage_start(i, step.step_size());
   Directions<N>& u = stages_[i];
-  const double *const x = u.data() + N * at_.x(), *const v = u.data() + N * at_.v();
-  double* const z = u.data() + N * at_.z();
+  const In<double> x = u.part(at_.x(), at_.x_size), v = u.part(at_.v(), at_.n);
+  const Out<double> z = u.part(at_.z(), at_.z_size);
   for (int row = 0; row < at_.z_size; ++row) u.vector(at_.z() + row) = -(residual_.vector(row) + matrix_changes_[i].vector(row));
-  step.product().template subtract<N>(matrices, x, z);
+  step.product().template subtract<N>(matrices, u.part(0, at_.z()), z);
   step.stage_matrix().lu().template solve_rows<N>(z);
   for (int k = 0; k < at_.n; ++k) {
     const Vector change = hg * u.vector(at_.z() + k);
@@ -164,30 +164,32 @@ void TangentStep<N>::measure() {
 
 // Differentiates the projection [G_a G_lambda; Phi_q 0] [delta; mu] = [0; -error], (17), and adds delta' to the directions at `target`.
 template <int N>
-void TangentStep<N>::project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu, double* target) {
+void TangentStep<N>::project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu, Out<double> target) {
+  assert(target.size() == N * layout_.n);
   for (int row = 0; row < at_.z_size; ++row) {
     Vector sum[1] = {};
-    const double* const x[1] = {correction.data()};
-    add_row_tangents<N, 1>(system_.patterns().rate, equations_.changes().rate.data(), row, x, 0, sum);
+    const In<double> x[1] = {correction};
+    add_row_tangents<N, 1>(system_.patterns().rate, equations_.changes().rate, row, x, 0, sum);
     const int constraint = row - layout_.n;
     if (constraint >= 0 && constraint < layout_.m) sum[0] += errors.vector(constraint);
     rows_.vector(row) = -sum[0];
   }
-  lu.template solve_rows<N>(rows_.data());
-  for (int k = 0; k < N * layout_.n; ++k) target[k] += rows_.data()[k];
+  const Out<double> delta = rows_.part(0, at_.z_size);
+  lu.template solve_rows<N>(delta);
+  for (int k = 0; k < N * layout_.n; ++k) target[k] += delta[k];
 }
 
 template <int N>
 void TangentStep<N>::accept(const RosenbrockStep<double>& step) {
-  combine(y_.data(), tableau_.weights.data(), stages_.size(), 0, at_.size(), y_.data());
+  combine(y_, In<double>(tableau_.weights).first(tableau_.stages), 0, y_);
   const SparseLu& lu = step.projection_matrix().lu();
   equations_.linearize(step.unprojected(), y_);
   equations_.constraint_errors(step.unprojected(), y_, &errors_, &rates_);
-  project(step.position_correction(), errors_, lu, y_.data() + N * at_.x());
+  project(step.position_correction(), errors_, lu, y_.part(at_.x(), at_.n));
   projected_ = step.unprojected();
   projected_.q = step.state().q;
   equations_.constraint_errors(projected_, y_, &errors_, &rates_);
-  project(step.velocity_correction(), rates_, lu, y_.data() + N * at_.v());
+  project(step.velocity_correction(), rates_, lu, y_.part(at_.v(), at_.n));
   measure();
 }
 

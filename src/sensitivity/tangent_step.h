@@ -42,15 +42,15 @@ class TangentStep {
 
  private:
   using Vector = typename Lanes<N>::Vector;
-  /// to = from + sum over j < count of factors[j] u'_j, of `size` components from the `first` of u' on.
-  void combine(const double* from, const double* factors, std::size_t count, int first, int size, double* to) const;
+  /// to = from + sum of factors[j] u'_j, for the components of u' from the `first` on.
+  void combine(In<double> from, In<double> factors, int first, Out<double> to) const;
   /// For as many stages at a time as divide their number.
   template <std::size_t together>
   void change_matrices(const RosenbrockStep<double>& step);
   void stage_start(std::size_t i, double h);
   void stage_tangent(std::size_t i, const RosenbrockStep<double>& step);
   void measure();
-  void project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu, double* target);
+  void project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu, Out<double> target);
 
   const CompiledSystem& system_;
   const Layout& layout_;

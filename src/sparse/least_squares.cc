@@ -12,9 +12,6 @@ namespace {
 
 constexpr Eigen::Index kDense = 256;  // columns up to which dense factorizations are faster
 
-using DenseQr = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
-using DenseFactors = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
-
 double largest_column(const SparseMatrix& A) {
   double largest = 0.0;
   for (Eigen::Index k = 0; k < A.cols(); ++k) largest = std::max(largest, A.col(k).norm());
@@ -28,16 +25,8 @@ std::vector<int> ascending(std::vector<int> columns) {
   return columns;
 }
 
-Eigen::MatrixXd shortest_solution(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b, double tolerance) {
-  DenseFactors factors;
-  factors.setThreshold(tolerance);
-  return factors.compute(A).solve(b);
-}
-
 std::vector<int> independent_dense_columns(const SparseMatrix& A, const ColumnPreferences& preferences, double tolerance) {
-  DenseQr qr;
-  qr.setThreshold(tolerance);
-  const Eigen::Index rank = qr.compute(Eigen::MatrixXd(A)).rank();
+  const Eigen::Index rank = pivot_columns(Eigen::MatrixXd(A), tolerance).rank;
   std::vector<int> chosen;
   for (const std::vector<int>& candidates : preferences) {
     // Choose by what is left of the candidates after projection onto the columns chosen so far.
@@ -45,10 +34,11 @@ std::vector<int> independent_dense_columns(const SparseMatrix& A, const ColumnPr
     if (missing <= 0 || candidates.empty()) continue;
     const Eigen::MatrixXd taken = dense_columns(A, chosen);
     Eigen::MatrixXd rest = dense_columns(A, candidates);
-    if (taken.cols() > 0) rest -= taken * shortest_solution(taken, rest, tolerance);
-    qr.compute(rest);
-    const Eigen::Index take = std::min(missing, qr.rank());
-    for (Eigen::Index k = 0; k < take; ++k) chosen.push_back(candidates[static_cast<std::size_t>(qr.colsPermutation().indices()[k])]);
+    if (taken.cols() > 0) rest -= taken * LeastNorm(taken, tolerance).solve(rest);
+    const PivotedColumns pivots = pivot_columns(rest, tolerance);
+    const Eigen::Index take = std::min(missing, pivots.rank);
+    for (Eigen::Index k = 0; k < take; ++k)
+      chosen.push_back(candidates[static_cast<std::size_t>(pivots.order[static_cast<std::size_t>(k)])]);
   }
   return ascending(chosen);
 }
@@ -70,7 +60,7 @@ std::vector<int> first_independent_columns(const SparseMatrix& A, const ColumnPr
 struct LeastSquares::Implementation {
   bool dense = true;
   Eigen::Index columns = 0;
-  DenseFactors dense_factors;
+  LeastNorm dense_factors;
   SparseQr sparse_factors;
 };
 
@@ -84,8 +74,7 @@ void LeastSquares::factor(const SparseMatrix& A, double tolerance) {
   implementation_->dense = A.cols() <= kDense;
   if (A.rows() == 0 || A.cols() == 0) return;
   if (implementation_->dense) {
-    implementation_->dense_factors.setThreshold(tolerance);
-    implementation_->dense_factors.compute(Eigen::MatrixXd(A));
+    implementation_->dense_factors = LeastNorm(Eigen::MatrixXd(A), tolerance);
     return;
   }
   implementation_->sparse_factors.factor(A, tolerance * largest_column(A));
@@ -109,10 +98,10 @@ std::vector<int> dependent_columns(const SparseMatrix& A, double tolerance) {
     dependent.resize(static_cast<std::size_t>(A.cols()));
     std::iota(dependent.begin(), dependent.end(), 0);
   } else if (A.cols() <= 2 * kDense) {
-    const DenseQr qr{Eigen::MatrixXd(A)};
-    Eigen::Index rank = 0;
-    while (rank < std::min(A.rows(), A.cols()) && std::abs(qr.matrixQR()(rank, rank)) > tolerance) ++rank;
-    for (Eigen::Index k = rank; k < A.cols(); ++k) dependent.push_back(static_cast<int>(qr.colsPermutation().indices()[k]));
+    const PivotedColumns pivots = pivot_columns(Eigen::MatrixXd(A), tolerance);
+    const auto zero =
+        std::find_if(pivots.diagonal.begin(), pivots.diagonal.end(), [tolerance](double pivot) { return !(pivot > tolerance); });
+    dependent.assign(pivots.order.begin() + (zero - pivots.diagonal.begin()), pivots.order.end());
   } else {
     SparseQr qr;
     qr.factor(A, tolerance);

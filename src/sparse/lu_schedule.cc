@@ -2,6 +2,7 @@
 #include "sparse/lu_schedule.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -135,9 +136,10 @@ std::vector<Sum> LuSchedule::solution_sums() const {
   return sums;
 }
 
-LuSchedule::Quality LuSchedule::refactor(const double* values) {
+LuSchedule::Quality LuSchedule::refactor(In<double> values) {
+  assert(values.size() == static_cast<std::ptrdiff_t>(source_slot_.size()));
   if (const StraightLine* const code = elimination_.get([this] { return elimination_sums(); }, 1))
-    code->run({values, factors_.data(), inverse_scale_.data(), nullptr, nullptr});
+    code->run({values.data(), factors_.data(), inverse_scale_.data(), nullptr, nullptr});
   else
     eliminate(values);
   return quality();
@@ -177,9 +179,10 @@ void LuSchedule::eliminate_rows(const BeginRow& begin_row, Target target) {
   }
 }
 
-void LuSchedule::eliminate(const double* values) {
+void LuSchedule::eliminate(In<double> values) {
+  const double* const value = values.data();
   std::fill(factors_.begin(), factors_.end(), 0.0);
-  for (std::size_t e = 0; e < source_slot_.size(); ++e) factors_[at(source_slot_[e])] = source_scale_[e] * values[e];
+  for (std::size_t e = 0; e < source_slot_.size(); ++e) factors_[at(source_slot_[e])] = source_scale_[e] * value[e];
   if (entry_of_.empty()) {
     eliminate_rows([](std::size_t) {}, [next = target_.data()](int) mutable { return *next++; });
     return;
@@ -256,16 +259,17 @@ void spread_products(const double* factors, const int* column, int first, int la
 }  // namespace
 
 template <int N>
-void LuSchedule::solve(double* x) const {
+void LuSchedule::solve(Out<double> x) const {
+  assert(x.size() == static_cast<std::ptrdiff_t>(N * n_));
   if (const StraightLine* const code = solution_.get([this] { return solution_sums(); }, N))
-    code->run({x, factors_.data(), inverse_scale_.data(), work_.data(), nullptr});
+    code->run({x.data(), factors_.data(), inverse_scale_.data(), work_.data(), nullptr});
   else
     solve_by_lists<N>(x);
 }
 
 template <int N>
-void LuSchedule::solve_by_lists(double* x) const {
-  double* const y = work_.data();
+void LuSchedule::solve_by_lists(Out<double> in_place) const {
+  double *const x = in_place.data(), *const y = work_.data();
   const double* const f = factors_.data();
   const int *const column = column_.data(), *const start = start_.data(), *const diagonal = diagonal_.data();
   for (std::size_t k = 0; k < n_; ++k) {
@@ -285,8 +289,9 @@ void LuSchedule::solve_by_lists(double* x) const {
 
 // R^-1 A = P^T L U Q^T, so A^T x = b is solved with U^T first, then L^T. Their columns are the rows of the stored factors.
 template <int N>
-void LuSchedule::solve_transposed(double* x) const {
-  double* const y = work_.data();
+void LuSchedule::solve_transposed(Out<double> in_place) const {
+  assert(in_place.size() == static_cast<std::ptrdiff_t>(N * n_));
+  double *const x = in_place.data(), *const y = work_.data();
   const double* const f = factors_.data();
   const int *const column = column_.data(), *const start = start_.data(), *const diagonal = diagonal_.data();
   for (std::size_t k = 0; k < n_; ++k) Row<N>(x + N * at(column_of_[k])).store(y + N * k);
@@ -304,9 +309,9 @@ void LuSchedule::solve_transposed(double* x) const {
   }
 }
 
-#define CODESIGN_INSTANTIATE(N)                      \
-  template void LuSchedule::solve<N>(double*) const; \
-  template void LuSchedule::solve_transposed<N>(double*) const;
+#define CODESIGN_INSTANTIATE(N)                          \
+  template void LuSchedule::solve<N>(Out<double>) const; \
+  template void LuSchedule::solve_transposed<N>(Out<double>) const;
 CODESIGN_INSTANTIATE(1)
 CODESIGN_INSTANTIATE(4)
 CODESIGN_INSTANTIATE(8)

@@ -7,6 +7,7 @@
 
 #include "codegen/straight_line.h"
 #include "math/line_vector.h"
+#include "math/span.h"
 
 namespace codesign {
 
@@ -35,13 +36,13 @@ class LuSchedule {
   };
 
   /// Factors the matrix with these nonzeros, in the order of row_index.
-  Quality refactor(const double* values);
+  Quality refactor(In<double> values);
   /// Solves A x = b in place for N right-hand sides stored row by row: x[N row + k]. N is 1, 4 or 8.
   template <int N>
-  void solve(double* x) const;
+  void solve(Out<double> x) const;
   /// Solves A^T x = b likewise.
   template <int N>
-  void solve_transposed(double* x) const;
+  void solve_transposed(Out<double> x) const;
 
  private:
   void lay_out(const LuPattern& pattern);
@@ -49,12 +50,12 @@ class LuSchedule {
   void list_targets();
   std::vector<Sum> elimination_sums() const;
   std::vector<Sum> solution_sums() const;
-  void eliminate(const double* values);
+  void eliminate(In<double> values);
   template <class BeginRow, class Target>
   void eliminate_rows(const BeginRow& begin_row, Target target);
   Quality quality() const;
   template <int N>
-  void solve_by_lists(double* x) const;
+  void solve_by_lists(Out<double> x) const;
 
   std::size_t n_;
   std::vector<int> row_of_, column_of_;

@@ -4,6 +4,7 @@
 #include <suitesparse/klu.h>
 
 #include <algorithm>
+#include <cassert>
 #include <functional>
 #include <queue>
 #include <utility>
@@ -32,7 +33,7 @@ constexpr double kThreshold = 0.1;
 /// One run of KLU; owns its results.
 class Run {
  public:
-  Run(const Proposal& proposal, const std::vector<int>& column_start, const std::vector<int>& row_index, const double* values)
+  Run(const Proposal& proposal, const std::vector<int>& column_start, const std::vector<int>& row_index, In<double> values)
       : n_(static_cast<int>(column_start.size()) - 1) {
     klu_defaults(&common_);
     common_.btf = proposal.blocks ? 1 : 0;
@@ -41,7 +42,7 @@ class Run {
     // KLU does not write to the pattern and the values, although its pointers are not const.
     int *const starts = const_cast<int*>(column_start.data()), *const rows = const_cast<int*>(row_index.data());
     symbolic_ = klu_analyze(n_, starts, rows, &common_);
-    if (symbolic_) numeric_ = klu_factor(starts, rows, const_cast<double*>(values), symbolic_, &common_);
+    if (symbolic_) numeric_ = klu_factor(starts, rows, const_cast<double*>(values.data()), symbolic_, &common_);
   }
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
@@ -123,7 +124,8 @@ std::int64_t count_products(const LuPattern& pattern) {
   return products;
 }
 
-std::optional<LuPattern> choose_pivots(const std::vector<int>& column_start, const std::vector<int>& row_index, const double* values) {
+std::optional<LuPattern> choose_pivots(const std::vector<int>& column_start, const std::vector<int>& row_index, In<double> values) {
+  assert(values.size() == static_cast<std::ptrdiff_t>(row_index.size()));
   std::optional<LuPattern> best;
   std::pair<std::int64_t, int> least;  // products, preference
   double fewest = 0.0;

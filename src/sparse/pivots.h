@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "math/span.h"
 #include "sparse/lu_schedule.h"
 
 namespace codesign {
@@ -25,7 +26,7 @@ std::int64_t count_products(const LuPattern& pattern);
 
 /// Pivots for a matrix with these values: the cheapest (count_products()) of those that KLU finds with several orderings. std::nullopt if
 /// KLU finds the matrix singular with each.
-std::optional<LuPattern> choose_pivots(const std::vector<int>& column_start, const std::vector<int>& row_index, const double* values);
+std::optional<LuPattern> choose_pivots(const std::vector<int>& column_start, const std::vector<int>& row_index, In<double> values);
 
 }  // namespace codesign
 

@@ -26,7 +26,7 @@ struct SparseLu::Implementation {
   LuSchedule& schedule() { return schedules.back(); }
 
   // Earlier pivots are kept since a mechanism that swings returns to positions for which they were chosen.
-  bool refactor(const double* values) {
+  bool refactor(In<double> values) {
     for (std::size_t tried = 0; tried < schedules.size(); ++tried) {
       const LuSchedule::Quality quality = schedule().refactor(values);
       if (quality.growth <= kLargestMultiplier && quality.pivot_ratio > kSingular) return true;
@@ -35,7 +35,7 @@ struct SparseLu::Implementation {
     return false;
   }
 
-  bool factor(const double* values) {
+  bool factor(In<double> values) {
     ++full_factorizations;
     const std::optional<LuPattern> pattern = choose_pivots(starts, rows, values);
     if (!pattern) return false;
@@ -56,23 +56,23 @@ SparseLu::~SparseLu() = default;
 SparseLu::SparseLu(SparseLu&&) noexcept = default;
 SparseLu& SparseLu::operator=(SparseLu&&) noexcept = default;
 
-bool SparseLu::factor(const double* values) { return implementation_->refactor(values) || implementation_->factor(values); }
+bool SparseLu::factor(In<double> values) { return implementation_->refactor(values) || implementation_->factor(values); }
 
 template <int N>
-void SparseLu::solve_rows(double* x) const {
+void SparseLu::solve_rows(Out<double> x) const {
   implementation_->schedule().solve<N>(x);
 }
 
 template <int N>
-void SparseLu::solve_transposed_rows(double* x) const {
+void SparseLu::solve_transposed_rows(Out<double> x) const {
   implementation_->schedule().solve_transposed<N>(x);
 }
 
 std::int64_t SparseLu::full_factorizations() const { return implementation_->full_factorizations; }
 
-#define CODESIGN_INSTANTIATE(N)                         \
-  template void SparseLu::solve_rows<N>(double*) const; \
-  template void SparseLu::solve_transposed_rows<N>(double*) const;
+#define CODESIGN_INSTANTIATE(N)                             \
+  template void SparseLu::solve_rows<N>(Out<double>) const; \
+  template void SparseLu::solve_transposed_rows<N>(Out<double>) const;
 CODESIGN_INSTANTIATE(1)
 CODESIGN_INSTANTIATE(4)
 CODESIGN_INSTANTIATE(8)

@@ -6,6 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "math/span.h"
+
 namespace codesign {
 
 /// LU factorization of square sparse matrices that share one pattern. Pivots are chosen once (choose_pivots()); later matrices are
@@ -22,16 +24,16 @@ class SparseLu {
   SparseLu& operator=(SparseLu&&) noexcept;
 
   /// Factors the matrix with these nonzeros, in the order of row_index. False if it is singular to working precision.
-  bool factor(const double* values);
+  bool factor(In<double> values);
 
-  /// Solves A x = b in place.
-  void solve(double* x) const { solve_rows<1>(x); }
+  /// Solves A x = b in place, n numbers.
+  void solve(Out<double> x) const { solve_rows<1>(x); }
   /// Solves in place for N right-hand sides, stored row by row: x[N row + k]. N is 1, 4 or 8.
   template <int N>
-  void solve_rows(double* x) const;
+  void solve_rows(Out<double> x) const;
   /// Solves A^T x = b likewise.
   template <int N>
-  void solve_transposed_rows(double* x) const;
+  void solve_transposed_rows(Out<double> x) const;
 
   /// How often pivots were chosen since construction.
   std::int64_t full_factorizations() const;

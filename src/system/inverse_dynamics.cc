@@ -1,6 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "system/inverse_dynamics.h"
-#include "codegen/traced.h"
+
+#include <cassert>
+
+#include "codegen/number_types.h"
 
 namespace codesign {
 
@@ -38,12 +41,14 @@ Vector3<T> InverseDynamics<T>::local_axis(std::size_t k) const {
 
 template <class T>
 T InverseDynamics<T>::load(const Constants<T>& constants, const std::vector<BodyKinematics<T>>& bodies, const Vector3<T>& gravity,
-                           const T* accelerations, const T* rates) {
+                           In<T> accelerations, In<T> rates) {
+  assert(accelerations.empty() || accelerations.size() == static_cast<std::ptrdiff_t>(accelerations_.size()));
+  assert(rates.empty() || rates.size() == static_cast<std::ptrdiff_t>(rates_.size()));
   constants_ = &constants;
   bodies_ = &bodies;
-  moving_ = accelerations != nullptr;
-  if (moving_) accelerations_.assign(accelerations, accelerations + tree_.nodes.size());
-  if (moving_ && rates) rates_.assign(rates, rates + tree_.nodes.size());
+  moving_ = !accelerations.empty();
+  if (moving_) accelerations_.assign(accelerations.begin(), accelerations.end());
+  if (moving_ && !rates.empty()) rates_.assign(rates.begin(), rates.end());
   Vector3<T> force = Vector3<T>::Zero(), moment = Vector3<T>::Zero();
   T rotors(0.0);
   for (std::size_t k = 0; k < tree_.nodes.size(); ++k) {
@@ -111,7 +116,7 @@ void InverseDynamics<T>::weigh(std::size_t k, const Vector3<T>& gravity) {
 }
 
 template <class T>
-void InverseDynamics<T>::append_gradient(const T& factor, SparseGradient<T>* gradient, T* by_acceleration, T* by_rate) {
+void InverseDynamics<T>::append_gradient(const T& factor, SparseGradient<T>* gradient, Out<T> by_acceleration, Out<T> by_rate) {
   for (Adjoint& x : adjoints_) {
     for (Vector3<T>* part : {&x.r, &x.v, &x.omega, &x.omega_rate, &x.acceleration, &x.axis, &x.force, &x.moment}) part->setZero();
     x.W.setZero();
@@ -123,7 +128,8 @@ void InverseDynamics<T>::append_gradient(const T& factor, SparseGradient<T>* gra
       if (node(k).moved) reverse_weigh(k);
       node(k).slides ? reverse_slide(k) : reverse_turn(k);
       const Adjoint& x = adjoints_[k];
-      if (by_acceleration) by_acceleration[k] = dot<T>(motions_[k].axis, node(k).slides ? x.acceleration : x.omega_rate);
+      if (!by_acceleration.empty())
+        by_acceleration[static_cast<std::ptrdiff_t>(k)] = dot<T>(motions_[k].axis, node(k).slides ? x.acceleration : x.omega_rate);
       if (node(k).rotor) reverse_rotor(k, by_acceleration, by_rate);
     }
     parent_adjoint(k).W += adjoints_[k].axis * local_axis(k).transpose();
@@ -162,21 +168,22 @@ void InverseDynamics<T>::reverse_sum() {
 // Adjoint of rotor_load(). It must run before node k hands its adjoint of the axis on to its parent, and before the parent is processed,
 // since it adds to the adjoints of both.
 template <class T>
-void InverseDynamics<T>::reverse_rotor(std::size_t k, T* by_acceleration, T* by_rate) {
+void InverseDynamics<T>::reverse_rotor(std::size_t k, Out<T> by_acceleration, Out<T> by_rate) {
+  const auto entry = static_cast<std::ptrdiff_t>(k);
   const Motion &m = motions_[k], &parent = parent_motion(k);
   Adjoint &x = adjoints_[k], &up = parent_adjoint(k);
   const T coupling = actuator(k).gear_ratio * actuator(k).rotor_inertia;
-  if (by_rate) by_rate[k] = T(0.0);
+  if (!by_rate.empty()) by_rate[entry] = T(0.0);
   if (k == driven()) {
-    if (by_acceleration) by_acceleration[k] += coupling * actuator(k).gear_ratio;
+    if (!by_acceleration.empty()) by_acceleration[entry] += coupling * actuator(k).gear_ratio;
     x.axis += coupling * parent.omega_rate;
     up.omega_rate += coupling * m.axis;
     return;
   }
   if (node(driven()).slides) return;
   const Vector3<T> on_moment = coupling * motions_[driven()].axis, swing = cross<T>(parent.omega, m.axis);
-  if (by_acceleration) by_acceleration[k] += dot<T>(on_moment, m.axis);
-  if (by_rate) by_rate[k] = dot<T>(on_moment, swing);
+  if (!by_acceleration.empty()) by_acceleration[entry] += dot<T>(on_moment, m.axis);
+  if (!by_rate.empty()) by_rate[entry] = dot<T>(on_moment, swing);
   x.axis += accelerations_[k] * on_moment + rates_[k] * cross<T>(on_moment, parent.omega);
   up.omega += rates_[k] * cross<T>(m.axis, on_moment);
   adjoints_[driven()].axis += coupling * (accelerations_[k] * m.axis + rates_[k] * swing);
@@ -262,10 +269,8 @@ void InverseDynamics<T>::append_body(std::size_t k, const T& factor, SparseGradi
   for (int e = 0; e < 4; ++e) gradient->velocity.push_back({c + 3 + e, T(factor * on_pd[e])});
 }
 
-template class InverseDynamics<double>;
-template class InverseDynamics<std::complex<double>>;
-template class InverseDynamics<Lanes<4>>;
-template class InverseDynamics<Lanes<8>>;
-template class InverseDynamics<Traced>;
+#define CODESIGN_INSTANTIATE(T) template class InverseDynamics<T>;
+CODESIGN_FOR_EACH_NUMBER_TYPE(CODESIGN_INSTANTIATE)
+#undef CODESIGN_INSTANTIATE
 
 }  // namespace codesign

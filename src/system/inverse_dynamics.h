@@ -6,6 +6,7 @@
 
 #include "joints/body_kinematics.h"
 #include "joints/local_row.h"
+#include "math/span.h"
 #include "mechanism/constants.h"
 #include "mechanism/driven_tree.h"
 #include "sparse/sparsity.h"
@@ -23,15 +24,15 @@ class InverseDynamics {
 
   /// The force [N] or torque [N m] along the driven joint's coordinate, positive along it.
   /// @param bodies motion of all bodies, the ground last; must stay alive until append_gradient(). @param gravity in ground axes [m/s^2].
-  /// @param accelerations of the joints, one per node, or nullptr for (C5): everything at rest, only gravity is balanced.
-  /// @param rates of the joints, one per node, read for nodes with a rotor; nullptr if there are none.
-  T load(const Constants<T>& constants, const std::vector<BodyKinematics<T>>& bodies, const Vector3<T>& gravity, const T* accelerations,
-         const T* rates = nullptr);
+  /// @param accelerations of the joints, one per node, or none for (C5): everything at rest, only gravity is balanced.
+  /// @param rates of the joints, one per node, read for nodes with a rotor; empty if there are none.
+  T load(const Constants<T>& constants, const std::vector<BodyKinematics<T>>& bodies, const Vector3<T>& gravity, In<T> accelerations,
+         In<T> rates = {});
 
   /// Appends factor times the gradient of the last load() by positions and velocities of the bodies.
-  /// @param by_acceleration receives the derivative by the acceleration of each node, not multiplied by the factor; may be nullptr.
-  /// @param by_rate receives the derivative by the rate of each node with a rotor, not multiplied by the factor; may be nullptr.
-  void append_gradient(const T& factor, SparseGradient<T>* gradient, T* by_acceleration, T* by_rate = nullptr);
+  /// @param by_acceleration receives the derivative by the acceleration of each node, not multiplied by the factor; may be empty.
+  /// @param by_rate receives the derivative by the rate of each node with a rotor, not multiplied by the factor; may be empty.
+  void append_gradient(const T& factor, SparseGradient<T>* gradient, Out<T> by_acceleration, Out<T> by_rate = {});
 
  private:
   /// The motion of one body and the levers of its joint, in ground axes.
@@ -55,7 +56,7 @@ class InverseDynamics {
   /// The part of the load that the rotor of joint k needs; theory (C4), last paragraph.
   T rotor_load(std::size_t k) const;
   void reverse_sum();
-  void reverse_rotor(std::size_t k, T* by_acceleration, T* by_rate);
+  void reverse_rotor(std::size_t k, Out<T> by_acceleration, Out<T> by_rate);
   void reverse_weigh(std::size_t k);
   void reverse_turn(std::size_t k);
   void reverse_slide(std::size_t k);

@@ -8,11 +8,6 @@
 #include "system/start_rotations.h"
 
 namespace codesign {
-namespace {
-
-bool zero(const Quantity& q) { return q.is_constant() && q.nominal() == 0.0; }
-
-}  // namespace
 
 System::System(const RobotDescription& robot, const Study& study, ReactionSharing sharing)
     : robot_(with_start_rotations(robot, study)), study_(study), topology_(derive_topology(robot_)), sharing_(std::move(sharing)) {
@@ -83,17 +78,16 @@ void System::collect_loads() {
     const Pair& pair = topology_.pairs[p];
     const bool contact = pair.friction_joint >= 0 && slips_isotropically(pair.kind);
     if (contact) contacts_.push_back(static_cast<int>(p));
-    const std::size_t elements = pair.kind == PairKind::kCylindrical ? 2 : pair.chain.size();
-    for (std::size_t e = 0; e < elements; ++e) {
+    for (std::size_t e = 0; e < has_coordinate_[p].size(); ++e) {
       JointLoad load;
       load.pair = static_cast<int>(p);
       load.element = static_cast<int>(e);
       load.reaction_friction = pair.friction_joint >= 0 && !contact;
       if (e < pair.chain.size()) {
         const JointDescription& joint = robot_.joints[static_cast<std::size_t>(pair.chain[e].joint)];
-        load.constant_friction = !zero(joint.dry_friction);
+        load.constant_friction = !joint.dry_friction.is_zero();
         load.spring = joint.spring.has_value();
-        load.passive = !zero(joint.damping) || load.spring;
+        load.passive = !joint.damping.is_zero() || load.spring;
         load.stop = study_.limits.position && has_stops(joint);
         load.saturated = study_.limits.effort && joint.limit && joint.limit->bounds_effort();
         for (std::size_t k = 0; k < study_.loads.size(); ++k)
@@ -132,9 +126,9 @@ void System::collect_link_loads() {
 void System::collect_rotors() {
   for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
     const JointDescription& joint = robot_.joints[j];
-    if (!joint.actuator || zero(joint.actuator->rotor_inertia)) continue;
+    if (!joint.actuator || joint.actuator->rotor_inertia.is_zero()) continue;
     const auto refuse = [&joint](const std::string& fault, const std::string& value) {
-      throw InputError({joint.actuator->where, "<joint name=\"" + joint.name + "\"> <codesign:actuator>", fault, value,
+      throw InputError({joint.actuator->where, joint.element() + " <codesign:actuator>", fault, value,
                         "a link with <inertial>, which holds the rotor's mass and its inertia as if it did not spin"});
     };
     const int pair = topology_.joint_pair[j], body = topology_.link_body[static_cast<std::size_t>(joint.parent)];
@@ -189,7 +183,7 @@ void System::refuse_load(int pair, int element) const {
   const ChainElement& in_chain = topology_.pairs[static_cast<std::size_t>(pair)].chain[static_cast<std::size_t>(element)];
   const JointDescription& joint = robot_.joints[static_cast<std::size_t>(in_chain.joint)];
   throw InputError(
-      {joint.where, "<joint name=\"" + joint.name + "\">",
+      {joint.where, joint.element(),
        "a controller, load, actuator, spring, damping, stop or stock friction on a joint without a scalar coordinate of its own",
        topology_.pairs[static_cast<std::size_t>(pair)].name,
        "revolute, continuous and prismatic joints; in a ball joint of three hinges those at right angles to each other"});

@@ -53,10 +53,10 @@ bool ends_with(const std::string& text, const std::string& tail) {
   return text.size() >= tail.size() && text.compare(text.size() - tail.size(), tail.size(), tail) == 0;
 }
 
-std::string readable(double value) {
+std::string readable(double value, int digits) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
-  text.precision(10);
+  text.precision(digits);
   text << value;
   return text.str();
 }

@@ -15,8 +15,8 @@ std::optional<double> parse_number(const std::string& text);
 /// The values as to_decimal() writes them, separated by spaces.
 std::string format_numbers(const std::vector<double>& values);
 
-/// The value with ten significant digits, for output that people read.
-std::string readable(double value);
+/// The value with so many significant digits, for output that people read.
+std::string readable(double value, int digits = 10);
 
 bool ends_with(const std::string& text, const std::string& tail);
 

@@ -22,7 +22,7 @@ Eigen::MatrixXd by_motions(Compiled* c) {
     body_coordinates(c->system, c->equations.constants(), link_motions(c->system.robot(), tree, parameters, c->assembly.theta(), unit),
                      &state.q, &state.v);
     c->equations.constraint_errors(state, &errors, &rates);
-    for (int row = 0; row < loops.rows(); ++row) expected(row, k) = rates[loops.constraint_rows()[static_cast<std::size_t>(row)]];
+    expected.col(k) = loops.part_of(rates);
   }
   return expected;
 }

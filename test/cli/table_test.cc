@@ -1,10 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/table.h"
-#include "text/number_text.h"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
+
+#include "text/number_text.h"
 
 namespace codesign::cli {
 namespace {

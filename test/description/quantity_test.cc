@@ -24,6 +24,13 @@ TEST(Quantity, ConstantIsTheSameEverywhere) {
   EXPECT_EQ(lanes.v[1], 0.0);
 }
 
+TEST(Quantity, OnlyTheConstantZeroIsZero) {
+  EXPECT_TRUE(Quantity().is_zero());
+  EXPECT_TRUE(Quantity(-0.0).is_zero());
+  EXPECT_FALSE(Quantity(1e-300).is_zero());
+  EXPECT_FALSE(Quantity(0.0, std::make_shared<const Expression>("x", std::vector<std::string>{"x"})).is_zero());
+}
+
 TEST(Quantity, LanesCarryTheChainRule) {
   const Quantity product(6.0, std::make_shared<const Expression>("x*y", std::vector<std::string>{"x", "y"}));
   EXPECT_EQ(product.nominal(), 6.0);

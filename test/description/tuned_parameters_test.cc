@@ -20,5 +20,14 @@ TEST(TunedParameters, StandInTheOrderOfTheStudy) {
   EXPECT_EQ(parameters_at(study, Eigen::Vector2d(30.0, 10.0)), (std::vector<double>{10.0, 2.0, 30.0}));
 }
 
+TEST(TunedParameters, AreRequiredForASearch) {
+  Study study;
+  study.file = "study.yaml";
+  EXPECT_THROW(require_tuned(study), InputError);
+  study.parameters.emplace_back();
+  study.tuned = {0};
+  EXPECT_NO_THROW(require_tuned(study));
+}
+
 }  // namespace
 }  // namespace codesign

@@ -262,9 +262,8 @@ TEST(CompiledEquations, GiveDerivativesAloneFromArraysOfTheirOwn) {
   Eigen::Matrix<double, 4, Eigen::Dynamic> result(4, system->layout().columns());
   Eigen::Vector4d g_result;
   ASSERT_TRUE(twins.with.compiled().tangents(EquationFunction::kResidual, state.t, state.turns,
-                                             {values[0].data(), values[1].data(), values[2].data(), values[3].data()},
-                                             {directions[0].data(), directions[1].data(), directions[2].data(), directions[3].data()},
-                                             {result.data(), g_result.data(), nullptr, nullptr}));
+                                             {values[0], values[1], values[2], values[3]},
+                                             {directions[0], directions[1], directions[2], directions[3]}, {result, g_result, {}, {}}));
   VectorX<Lanes<4>> expected;
   Lanes<4> g;
   twins.without.residual(state, &expected, &g);

@@ -62,7 +62,7 @@ TEST_F(DerivativeProducts, ThePositionProductIsThatOfPositionsAlone) {
   direction.z.setZero();
   const int columns = system->layout().columns();
   VectorX<double> result = VectorX<double>::Ones(columns);
-  subtract_position_product(*system, derivatives, direction.q.data(), 2.0, result.data());
+  subtract_position_product(*system, derivatives, direction.q, 2.0, result);
   const VectorX<double> expected = VectorX<double>::Ones(columns) - 2.0 * reference().head(columns);
   EXPECT_LT((result - expected).cwiseAbs().maxCoeff(), 1e-11 * (1.0 + expected.cwiseAbs().maxCoeff()));
 }

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "assembly/redundancy.h"
+#include "assembly/acceleration_block.h"
 #include "equations/compiled.h"
 #include "math/dense.h"
 
@@ -18,9 +18,7 @@ inline Eigen::VectorXd waves(Eigen::Index size, double phase) {
 }
 
 inline Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix) {
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod;
-  cod.setThreshold(1e-9);
-  return cod.compute(matrix).pseudoInverse();
+  return LeastNorm(matrix, 1e-9).solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.rows()));
 }
 
 /// The part of a velocity that the constraints allow.

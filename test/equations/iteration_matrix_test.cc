@@ -31,14 +31,14 @@ TEST_P(IterationMatrixTest, SolvesItsCombinationOfTheThreeMatrices) {
   ASSERT_TRUE(matrix.factor(d, c_v, c_q, c_s));
   const VectorX<double> b = VectorX<double>::LinSpaced(layout.columns(), -1.0, 1.0);
   VectorX<double> z = b;
-  matrix.lu().solve(z.data());
+  matrix.lu().solve(z);
   VectorX<double> x(layout.positions());
   x << c_q * z.head(layout.n), c_s * z.tail(layout.states);
   const VectorX<double> v = c_v * z.head(layout.n);
   for (int row = 0; row < layout.columns(); ++row) {
-    const double product = row_product(system->patterns().rate, d.rate, row, z.data()) +
-                           row_product(system->patterns().velocity, d.velocity, row, v.data()) +
-                           row_product(system->patterns().position, d.position, row, x.data());
+    const double product = row_product(system->patterns().rate, d.rate, row, z) +
+                           row_product(system->patterns().velocity, d.velocity, row, v) +
+                           row_product(system->patterns().position, d.position, row, x);
     EXPECT_NEAR(product, b[row], 1e-9) << row;
   }
 }

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <complex>
 
+#include "assembly/redundancy.h"
 #include "equations/generic_state.h"
 #include "equations/joint_cases.h"
 #include "math/derivative_check.h"

@@ -38,7 +38,7 @@ TEST(BodyMotion, PowerIsThatOfEverythingButGravity) {
     BodyMotion motion(*system);
     motion.set_design(integrator.equations().constants());
     const State<double>& state = integrator.state();
-    EXPECT_NEAR(motion.power(state.q, state.v, state.z.data()), -damping * 9.0, 1e-11);
+    EXPECT_NEAR(motion.power(state.q, state.v, state.z), -damping * 9.0, 1e-11);
   }
 }
 

@@ -32,10 +32,10 @@ struct IdasEquationsTest : ::testing::Test {
     for (VectorHandle* vector : {&y, &y_dot, &F}) *vector = make_vector(equations.size(), context.get());
     equations.pack(state, data(y), data(y_dot));
   }
-  static double* data(const VectorHandle& vector) { return N_VGetArrayPointer(vector.get()); }
+  static Span<double> data(const VectorHandle& vector) { return span_of(vector.get()); }
   Eigen::Map<VectorX<double>> residual() {
     EXPECT_EQ(IdasEquations::residual(0.0, y.get(), y_dot.get(), F.get(), &equations), 0);
-    return {data(F), equations.size()};
+    return {data(F).data(), equations.size()};
   }
 
   std::shared_ptr<const CompiledSystem> system;

@@ -19,7 +19,7 @@ TEST(Increment, PartsFollowEachOther) {
   y.resize(layout);
   const VectorX<double> u = VectorX<double>::LinSpaced(at.size(), 0.0, at.size() - 1.0);
   const double factors[] = {3.0, -1.0};
-  combine(at, y, factors, {u, u}, 2, &y);
+  combine(at, y, factors, {u, u}, &y);
   EXPECT_EQ(y.q[6], 12.0);
   EXPECT_EQ(y.s[0], 14.0);
   EXPECT_EQ(y.v[0], 18.0);

@@ -1,13 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 // Linkages whose constraints are redundant move as their closed forms say.
 #include "integration/linkages.h"
-#include "mechanism_codesign/simulation.h"
 
 #include <gtest/gtest.h>
 
 #include "assembly/count_equations.h"
 #include "integration/energy_balance.h"
 #include "integration/servo.h"
+#include "mechanism_codesign/simulation.h"
 
 namespace codesign {
 namespace {

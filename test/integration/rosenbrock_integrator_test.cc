@@ -3,9 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <vector>
-
 #include <cmath>
+#include <vector>
 
 #include "equations/compiled.h"
 

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "integration/run_watch.h"
-#include "mechanism_codesign/simulation.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,7 @@
 #include "integration/linkages.h"
 #include "integration/rosenbrock_integrator.h"
 #include "integration/servo.h"
+#include "mechanism_codesign/simulation.h"
 
 namespace codesign {
 namespace {

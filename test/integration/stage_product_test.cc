@@ -28,10 +28,10 @@ class StageProductTest : public ::testing::TestWithParam<bool> {
     for (int lane = 0; lane < N; ++lane) {
       const VectorX<double> x = xv.row(lane).head(layout.positions()), v = xv.row(lane).tail(layout.n);
       for (int row = 0; row < layout.columns(); ++row)
-        expected(lane, row) -= row_product(system->patterns().position, derivatives.position, row, x.data()) +
-                               row_product(system->patterns().velocity, derivatives.velocity, row, v.data());
+        expected(lane, row) -= row_product(system->patterns().position, derivatives.position, row, x) +
+                               row_product(system->patterns().velocity, derivatives.velocity, row, v);
     }
-    product.subtract<N>(derivatives, xv.data(), y.data());
+    product.subtract<N>(derivatives, xv, y);
     EXPECT_LT((y - expected).cwiseAbs().maxCoeff(), 1e-13);
   }
 

@@ -1,11 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "integration/tableau.h"
-#include "description/solver_names.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
+
+#include "description/solver_names.h"
 
 namespace codesign {
 namespace {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace codesign {
 namespace {
 
@@ -17,23 +19,60 @@ Eigen::MatrixXd matrix() {
 
 TEST(Dense, DecompositionsAgreeOnTheRank) {
   const Eigen::MatrixXd m = matrix();
-  const Eigen::VectorXd values = Eigen::BDCSVD<Eigen::MatrixXd>(m).singularValues();
-  EXPECT_LT((values - Eigen::JacobiSVD<Eigen::MatrixXd>(m).singularValues()).norm(), 1e-14);
-  EXPECT_LT(values[3], 1e-14);
-  EXPECT_EQ(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(m).rank(), 3);
-  EXPECT_EQ(Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(m).rank(), 3);
+  EXPECT_LT(singular_values(m).values[3], 1e-14);
+  EXPECT_GT(singular_values(m).values[2], 1e-3);
+  EXPECT_EQ(pivot_columns(m, 1e-9).rank, 3);
+  EXPECT_EQ(LeastNorm(m, 1e-9).rank(), 3);
+  EXPECT_EQ(least_norm(m).rank(), 3);
+  EXPECT_EQ(orthogonal_complement(m, 1e-9).cols(), 2);
+}
+
+TEST(Dense, SingularVectorsGiveTheMatrixBack) {
+  const Eigen::MatrixXd m = matrix();
+  const SingularValues both = singular_values(m, SingularVectors::kBoth);
+  ASSERT_EQ(both.U.rows(), 5);
+  ASSERT_EQ(both.U.cols(), 5);
+  EXPECT_LT((both.U.leftCols(4) * both.values.asDiagonal() * both.V.transpose() - m).norm(), 1e-13);
+  EXPECT_EQ(singular_values(m, SingularVectors::kLeft).V.size(), 0);
+  EXPECT_LT((singular_values(m, SingularVectors::kLeft).U - both.U).norm(), 1e-12);
+  EXPECT_LT((singular_values(m, SingularVectors::kRight).V.leftCols(3) - both.V.leftCols(3)).norm(), 1e-12);
+}
+
+TEST(Dense, PivotsComeLargestFirst) {
+  const Eigen::MatrixXd m = matrix();
+  const PivotedColumns pivots = pivot_columns(m, 1e-9);
+  Eigen::Index longest = 0;
+  m.colwise().norm().maxCoeff(&longest);
+  EXPECT_EQ(pivots.order[0], longest);
+  EXPECT_NEAR(pivots.diagonal[0], m.col(longest).norm(), 1e-14);
+  EXPECT_LT(pivots.diagonal[3], 1e-13);
+}
+
+TEST(Dense, ComplementIsOrthonormalAndOrthogonalToTheColumns) {
+  const Eigen::MatrixXd m = matrix(), complement = orthogonal_complement(m, 1e-9);
+  EXPECT_LT((complement.transpose() * complement - Eigen::Matrix2d::Identity()).norm(), 1e-14);
+  EXPECT_LT((m.transpose() * complement).norm(), 1e-13);
 }
 
 TEST(Dense, SolutionsOfLeastNormAndEigenvaluesAreExact) {
   const Eigen::MatrixXd m = matrix();
   const Eigen::Vector4d x(1.0, 2.0, 3.0, 0.5);
-  const Eigen::VectorXd found = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(m).solve(m * x);
+  const Eigen::VectorXd found = least_norm(m).solve(m * x);
   EXPECT_LT((m * (found - x)).norm(), 1e-13);
-  EXPECT_LE(found.norm(), x.norm());
+  EXPECT_LT(found.norm(), x.norm());
   const Eigen::MatrixXd square = m.transpose() * m;
-  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(square).eigenvalues();
-  EXPECT_NEAR(values.sum(), square.trace(), 1e-13);
-  EXPECT_NEAR(values[0], 0.0, 1e-14);
+  const SymmetricEigen eigen = symmetric_eigen(square);
+  EXPECT_NEAR(eigen.values.sum(), square.trace(), 1e-13);
+  EXPECT_NEAR(eigen.values[0], 0.0, 1e-14);
+  EXPECT_LT((square * eigen.vectors - eigen.vectors * eigen.values.asDiagonal()).norm(), 1e-13);
+}
+
+TEST(Dense, PrincipalMomentsDoNotDependOnTheAxes) {
+  const Eigen::Vector3d moments(1.0, 2.0, 2.5);
+  const double c = std::cos(0.3), s = std::sin(0.3);
+  Eigen::Matrix3d R;
+  R << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
+  EXPECT_LT((principal_moments(R * moments.asDiagonal() * R.transpose()) - moments).norm(), 1e-14);
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/advance.h"
-#include "mechanism_codesign/simulation.h"
 
 #include <gtest/gtest.h>
 
+#include "mechanism_codesign/simulation.h"
 #include "ros/pendulum.h"
 
 namespace codesign {

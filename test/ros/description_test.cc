@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/description.h"
-#include "reading/urdf/urdf_reader.h"
 
 #include <gtest/gtest.h>
 
+#include "reading/urdf/urdf_reader.h"
 #include "ros/pendulum.h"
 
 namespace codesign {

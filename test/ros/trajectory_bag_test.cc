@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/trajectory_bag.h"
-#include "mechanism_codesign/simulation.h"
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <std_msgs/String.h>
 #include <trajectory_msgs/JointTrajectory.h>
 
+#include "mechanism_codesign/simulation.h"
 #include "ros/pendulum.h"
 #include "temporary_directory.h"
 

@@ -1,10 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sparse/least_squares.h"
-#include "math/dense.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "math/dense.h"
 
 namespace codesign {
 namespace {

@@ -30,18 +30,18 @@ class LuScheduleTest : public ::testing::TestWithParam<bool> {};
 TEST_P(LuScheduleTest, SolvesForOneAndForSeveralRightHandSides) {
   LuSchedule lu(kPattern, kStart, kRows, GetParam());
   for (double corner : {5.0, -1.0}) {
-    const LuSchedule::Quality quality = lu.refactor(values(corner).data());
+    const LuSchedule::Quality quality = lu.refactor(values(corner));
     EXPECT_GT(quality.pivot_ratio, 0.0);
     EXPECT_LT(quality.growth, 10.0);
     const Eigen::Vector3d b(1, 2, 3);
     Eigen::Vector3d x = b, y = b;
-    lu.solve<1>(x.data());
-    lu.solve_transposed<1>(y.data());
+    lu.solve<1>(x);
+    lu.solve_transposed<1>(y);
     EXPECT_LT((matrix(corner) * x - b).norm(), 1e-13);
     EXPECT_LT((matrix(corner).transpose() * y - b).norm(), 1e-13);
     Eigen::Matrix<double, 8, 3> many = Eigen::Matrix<double, 8, 1>::LinSpaced(1.0, 8.0) * b.transpose(), transposed = many;
-    lu.solve<8>(many.data());
-    lu.solve_transposed<8>(transposed.data());
+    lu.solve<8>(many);
+    lu.solve_transposed<8>(transposed);
     for (int k = 0; k < 8; ++k) {
       EXPECT_LT((many.row(k).transpose() - (k + 1.0) * x).norm(), 1e-12);
       EXPECT_LT((transposed.row(k).transpose() - (k + 1.0) * y).norm(), 1e-12);
@@ -58,16 +58,16 @@ TEST_P(LuScheduleTest, EliminatesMoreProductsThanAreListed) {
     for (int r = 0; r < n; ++r) rows.push_back(r);
     start.push_back(static_cast<int>(rows.size()));
   }
-  const std::optional<LuPattern> pattern = choose_pivots(start, rows, A.data());
+  const std::optional<LuPattern> pattern = choose_pivots(start, rows, {A.data(), A.size()});
   ASSERT_TRUE(pattern.has_value());
   EXPECT_GT(count_products(*pattern), 4000000);
   LuSchedule lu(*pattern, start, rows, GetParam());
   for (int time = 0; time < 2; ++time) {
-    const LuSchedule::Quality quality = lu.refactor(A.data());
+    const LuSchedule::Quality quality = lu.refactor({A.data(), A.size()});
     EXPECT_GT(quality.pivot_ratio, 0.1);
     const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, -1.0, 2.0);
     Eigen::VectorXd x = b;
-    lu.solve<1>(x.data());
+    lu.solve<1>(x);
     EXPECT_LT((A * x - b).norm(), 1e-12);
   }
 }
@@ -75,7 +75,7 @@ TEST_P(LuScheduleTest, EliminatesMoreProductsThanAreListed) {
 TEST_P(LuScheduleTest, AVanishedPivotIsNoQuality) {
   LuSchedule lu(kPattern, kStart, kRows, GetParam());
   // The last pivot is corner + 4.
-  const LuSchedule::Quality quality = lu.refactor(values(-4.0).data());
+  const LuSchedule::Quality quality = lu.refactor(values(-4.0));
   EXPECT_FALSE(quality.growth <= 1e6 && quality.pivot_ratio > 1e-17);
 }
 
@@ -97,21 +97,21 @@ TEST_P(LuScheduleTest, TakesFillAndPermutationsOfALargeMatrix) {
       }
     start.push_back(static_cast<int>(rows.size()));
   }
-  const std::optional<LuPattern> pattern = choose_pivots(start, rows, entries.data());
+  const std::optional<LuPattern> pattern = choose_pivots(start, rows, entries);
   ASSERT_TRUE(pattern.has_value());
   LuSchedule lu(*pattern, start, rows, GetParam());
   for (double factor : {1.0, 0.3}) {
     for (double& entry : entries) entry *= factor;
     A *= factor;
-    EXPECT_GT(lu.refactor(entries.data()).pivot_ratio, 1e-6);
+    EXPECT_GT(lu.refactor(entries).pivot_ratio, 1e-6);
     const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, -1.0, 2.0);
     Eigen::VectorXd x = b, y = b;
-    lu.solve<1>(x.data());
-    lu.solve_transposed<1>(y.data());
+    lu.solve<1>(x);
+    lu.solve_transposed<1>(y);
     EXPECT_LT((A * x - b).norm(), 1e-11);
     EXPECT_LT((A.transpose() * y - b).norm(), 1e-11);
     Eigen::Matrix<double, 4, Eigen::Dynamic> many = Eigen::Vector4d(1.0, 2.0, 3.0, 4.0) * b.transpose();
-    lu.solve<4>(many.data());
+    lu.solve<4>(many);
     EXPECT_LT((many.row(2).transpose() - 3.0 * x).norm(), 1e-11);
   }
 }

@@ -26,7 +26,7 @@ TEST(Pivots, EliminationFillsTheMatrix) {
 }
 
 TEST(Pivots, TheCheapestProposalIsTaken) {
-  const auto chosen = choose_pivots(kStart, kRows, kValues.data());
+  const auto chosen = choose_pivots(kStart, kRows, kValues);
   ASSERT_TRUE(chosen);
   EXPECT_EQ(count_products(*chosen), 3);
 }
@@ -35,7 +35,7 @@ TEST(Pivots, ThereAreNoneForASingularMatrix) {
   std::vector<double> values = kValues;
   // The last two rows become multiples of the first unit vector.
   values[7] = values[9] = 0.0;
-  EXPECT_FALSE(choose_pivots(kStart, kRows, values.data()));
+  EXPECT_FALSE(choose_pivots(kStart, kRows, values));
 }
 
 }  // namespace

@@ -25,13 +25,13 @@ TEST(RowProduct, OfSeveralVectorsAndOfTangents) {
   std::vector<double> derivatives(8, 0.0);
   derivatives[6] = 7.0;
   const double u[] = {1.0, 100.0, 2.0, 0.0, 0.0, 0.0, 0.0};
-  const double* const both[] = {u, x};
+  const In<double> both[] = {u, x};
   Lanes<4>::Vector tangents[2] = {};
-  add_row_tangents<4>(kPattern, derivatives.data(), 0, both, 0, tangents);
+  add_row_tangents<4>(kPattern, derivatives, 0, both, 0, tangents);
   EXPECT_EQ(tangents[0][2], 14.0);
   EXPECT_EQ(tangents[0][0], 0.0);
   EXPECT_EQ(tangents[1][2], 14.0);
-  add_row_tangents<4>(kPattern, derivatives.data(), 0, both, 4, tangents);
+  add_row_tangents<4>(kPattern, derivatives, 0, both, 4, tangents);
   EXPECT_EQ(tangents[1][2], 14.0 + 42.0);
 }
 

@@ -21,11 +21,11 @@ TEST(SparseLu, SolvesAndRefactors) {
   SparseLu lu(kStart, kRows);
   for (double corner : {4.0, 3.0, -2.0}) {
     const Eigen::Matrix4d m = matrix(corner);
-    ASSERT_TRUE(lu.factor(m.data()));
+    ASSERT_TRUE(lu.factor(m));
     const Eigen::Vector4d b(1, 2, 3, 4);
     Eigen::Vector4d x = b, y = b;
-    lu.solve(x.data());
-    lu.solve_transposed_rows<1>(y.data());
+    lu.solve(x);
+    lu.solve_transposed_rows<1>(y);
     EXPECT_LT((m * x - b).norm(), 1e-13);
     EXPECT_LT((m.transpose() * y - b).norm(), 1e-13);
   }
@@ -34,20 +34,20 @@ TEST(SparseLu, SolvesAndRefactors) {
 
 TEST(SparseLu, FallsBackWhenOldPivotsVanish) {
   SparseLu lu(kStart, kRows);
-  ASSERT_TRUE(lu.factor(matrix(1e8).data()));
+  ASSERT_TRUE(lu.factor(matrix(1e8)));
   Eigen::Matrix4d m = matrix(0.0);
   m(1, 1) = 0.0;
-  ASSERT_TRUE(lu.factor(m.data()));
+  ASSERT_TRUE(lu.factor(m));
   Eigen::Vector4d x(1, 2, 3, 4);
   const Eigen::Vector4d b = x;
-  lu.solve(x.data());
+  lu.solve(x);
   EXPECT_LT((m * x - b).norm(), 1e-12);
   EXPECT_EQ(lu.full_factorizations(), 2);
 
   // Both choices of pivots are kept by now.
   for (double corner : {1e8, 4.0}) {
-    ASSERT_TRUE(lu.factor(matrix(corner).data()));
-    ASSERT_TRUE(lu.factor(m.data()));
+    ASSERT_TRUE(lu.factor(matrix(corner)));
+    ASSERT_TRUE(lu.factor(m));
   }
   EXPECT_EQ(lu.full_factorizations(), 2);
 }
@@ -56,8 +56,8 @@ TEST(SparseLu, ReportsSingularMatrices) {
   SparseLu lu(kStart, kRows);
   Eigen::Matrix4d m = matrix(4.0);
   m.col(3) = m.col(2);
-  EXPECT_FALSE(lu.factor(m.data()));
-  EXPECT_TRUE(lu.factor(matrix(4.0).data()));
+  EXPECT_FALSE(lu.factor(m));
+  EXPECT_TRUE(lu.factor(matrix(4.0)));
 }
 
 }  // namespace

@@ -11,10 +11,10 @@ TEST(TransposedProduct, AddsTheRowsAskedFor) {
   const Sparsity pattern{3, 3, {0, 2, 3, 5}, {0, 2, 1, 0, 1}};
   const std::vector<double> values = {1.0, 2.0, 3.0, 4.0, 5.0}, y = {1.0, 10.0, 100.0};
   std::vector<double> x = {0.5, 0.0, 0.0};
-  add_transposed_product(pattern, values, {0, 3}, 2.0, y.data(), x.data());
+  add_transposed_product(pattern, values, {0, 3}, 2.0, y, x);
   EXPECT_EQ(x, (std::vector<double>{802.5, 1060.0, 4.0}));
   x.assign(3, 0.0);
-  add_transposed_product(pattern, values, {1, 2}, 1.0, y.data(), x.data());
+  add_transposed_product(pattern, values, {1, 2}, 1.0, y, x);
   EXPECT_EQ(x, (std::vector<double>{0.0, 30.0, 0.0}));
 }
 

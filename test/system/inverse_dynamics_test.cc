@@ -20,7 +20,7 @@ struct Shoulder : Compiled {
     bodies = {equations.formulas().body(0), equations.formulas().body(1), equations.formulas().body(-1)};
   }
 
-  double load(const double* accelerations, const double* rates = nullptr) {
+  double load(In<double> accelerations, In<double> rates = {}) {
     return inverse.load(equations.constants(), bodies, {0.0, 0.0, -9.81}, accelerations, rates);
   }
 
@@ -31,7 +31,7 @@ struct Shoulder : Compiled {
 
 TEST(InverseDynamics, AtRestItIsTheMomentOfTheWeights) {
   Shoulder s(false);
-  EXPECT_NEAR(s.load(nullptr), 9.81 * (0.5 * std::sin(0.3) + std::sin(0.3) + 0.5 * std::sin(0.8)), 1e-12);
+  EXPECT_NEAR(s.load({}), 9.81 * (0.5 * std::sin(0.3) + std::sin(0.3) + 0.5 * std::sin(0.8)), 1e-12);
 }
 
 // Textbook double pendulum, bars of 1 kg, 1 m, J = 0.0834 about their centres, relative angles.
@@ -79,8 +79,8 @@ TEST(InverseDynamics, RotorsAddTheirShareOfTheMassMatrix) {
 TEST(InverseDynamics, MovingEverythingChangesNothing) {
   Shoulder s(false);
   SparseGradient<double> gradient;
-  s.load(nullptr);
-  s.inverse.append_gradient(2.0, &gradient, nullptr);
+  s.load({});
+  s.inverse.append_gradient(2.0, &gradient, {});
   double along_x = 0.0;
   for (const auto& e : gradient.position)
     if (e.column % kBodySize == 0) along_x += e.value;

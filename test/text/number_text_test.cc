@@ -32,6 +32,14 @@ TEST(NumberText, FormatsAndSplits) {
   EXPECT_EQ(split_words("  a\tb\n c "), (std::vector<std::string>{"a", "b", "c"}));
 }
 
+TEST(NumberText, ReadableHasAsManyDigitsAsAsked) {
+  EXPECT_EQ(readable(0.1), "0.1");
+  EXPECT_EQ(readable(1.0 / 3.0), "0.3333333333");
+  EXPECT_EQ(readable(1.0 / 3.0, 3), "0.333");
+  EXPECT_EQ(readable(12345.0, 3), "1.23e+04");
+  EXPECT_EQ(readable(-0.0, 3), "-0");
+}
+
 TEST(NumberText, EndsAreComparedWhole) {
   EXPECT_TRUE(ends_with("drake:ball_constraint", "_constraint"));
   EXPECT_TRUE(ends_with("same", "same"));

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""How tools/build calls CMake, with a stand-in for it; that tools/sanitize names tests that exist; which home folder tools/environment chooses.
+"""How tools/build calls CMake, with a stand-in for it; how many jobs tools/jobs allows; that tools/sanitize names tests that exist; which home
+folder tools/environment chooses.
 
 Usage: build_test.py [-v]
 """
@@ -72,6 +73,26 @@ def words_of(pattern, *path):
     """The words of a list in one of our files."""
     with open(os.path.join(ROOT, *path)) as file:
         return re.search(pattern, file.read()).group(1).split()
+
+
+class JobsTest(unittest.TestCase):
+    @staticmethod
+    def jobs(processors, memory, **environment):
+        """What tools/jobs says with so many processors, and memory for so many compilers."""
+        with tempfile.TemporaryDirectory() as folder:
+            program(folder, "nproc", f"echo {processors}\n")
+            program(folder, "awk", f"echo {memory}\n")
+            result = subprocess.run(["bash", "-ec", '. tools/jobs; echo "$jobs"'], cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True,
+                                    env={"PATH": folder + ":" + os.environ["PATH"], **environment})
+        return int(result.stdout)
+
+    def test_processors_and_memory_limit_them(self):
+        self.assertEqual(self.jobs(4, 9), 4)
+        self.assertEqual(self.jobs(64, 3), 3)
+        self.assertEqual(self.jobs(4, 0), 1)
+
+    def test_a_wish_is_respected(self):
+        self.assertEqual(self.jobs(4, 2, JOBS="7"), 7)
 
 
 class SanitizeTest(unittest.TestCase):

@@ -4,7 +4,6 @@
 #include <unordered_set>
 
 #include "description/expression.h"
-#include "description/parameter_constraint.h"
 #include "reading/study/study_parameters.h"
 #include "reading/study/study_values.h"
 
@@ -71,25 +70,21 @@ void declare_coefficients(const YamlValue& study_value, Study* study) {
     if (asks_for_parameters(value)) declare(name, value.at("coefficients"), study);
 }
 
-BasisDescription read_basis(const std::string& controller, const YamlValue& value, const Study& study) {
+BasisDescription read_basis(const std::string& controller, const YamlValue& value, const ParameterTable& table, double study_duration) {
   BasisDescription basis;
   const auto shape = value.find("shape");
   if (shape && shape->choice("shape", {"linear", "cubic"}) == "cubic") basis.shape = BasisShape::kCubic;
   const auto duration = value.find("duration");
-  basis.duration = duration ? duration->number() : study.duration;
+  basis.duration = duration ? duration->number() : study_duration;
   if (duration && !(basis.duration > 0.0)) duration->fail("the duration must be positive", "more than 0 s");
   const YamlValue coefficients = value.at("coefficients");
   if (coefficients.is_map()) {
-    // The coefficients of a controller have consecutive indices.
-    const ExpressionScope scope = scope_of(study.parameters);
-    const auto first = static_cast<std::size_t>(scope.find(coefficient_name(controller, 0)));
     for (std::size_t k = 0; k < read_count(coefficients); ++k) {
-      const ExpressionScope this_one{[&](const std::string&) { return static_cast<int>(first + k); }, scope.names};
-      basis.coefficients.emplace_back(study.parameters[first + k].value,
-                                      std::make_shared<const Expression>(coefficient_name(controller, k), this_one));
+      const std::string name = coefficient_name(controller, k);
+      basis.coefficients.emplace_back(table.values[static_cast<std::size_t>(table.index.at(name))], table.parse(name));
     }
   } else {
-    for (const YamlValue& item : coefficients.items()) basis.coefficients.push_back(read_quantity(item, study.parameters));
+    for (const YamlValue& item : coefficients.items()) basis.coefficients.push_back(read_quantity(item, table));
   }
   if (basis.count() <= basis.degree())
     coefficients.fail("found " + std::to_string(basis.count()) + " coefficients", "at least 2 for linear, 4 for cubic");

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "description/study.h"
+#include "reading/parameter_table.h"
 #include "reading/yaml/yaml_reader.h"
 
 namespace codesign {
@@ -13,9 +14,9 @@ namespace codesign {
 /// a controller `push` they are push_c0, push_c1, ... @throws InputError
 void declare_coefficients(const YamlValue& study_value, Study* study);
 
-/// Reads the keys of one basis controller, after declare_coefficients(). @param study its duration and parameters are used.
+/// Reads the keys of one basis controller, after declare_coefficients(). @param table of Study::parameters.
 /// @throws InputError
-BasisDescription read_basis(const std::string& controller, const YamlValue& value, const Study& study);
+BasisDescription read_basis(const std::string& controller, const YamlValue& value, const ParameterTable& table, double study_duration);
 
 }  // namespace codesign
 

@@ -15,19 +15,20 @@ namespace {
 /// What the readers of one controller use.
 struct Context {
   const RobotDescription& robot;
+  const ParameterTable& table;
   const TrajectoryLoader& loader;
   const Study& study;
 };
 
-void read_gains(const YamlValue& gains, const std::vector<std::string>& known, const std::vector<Parameter>& parameters,
+void read_gains(const YamlValue& gains, const std::vector<std::string>& known, const ParameterTable& table,
                 ControllerDescription* controller) {
   gains.require_keys({}, known);
   std::string all;
   for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
   if (gains.entries().empty()) gains.fail("a controller needs at least one gain", all);
-  if (const auto p = gains.find("p")) controller->p = read_quantity(*p, parameters);
-  if (const auto i = gains.find("i")) controller->i = read_quantity(*i, parameters);
-  if (const auto d = gains.find("d")) controller->d = read_quantity(*d, parameters);
+  if (const auto p = gains.find("p")) controller->p = read_quantity(*p, table);
+  if (const auto i = gains.find("i")) controller->i = read_quantity(*i, table);
+  if (const auto d = gains.find("d")) controller->d = read_quantity(*d, table);
 }
 
 /// A controller must not have the name of a joint or link, since signals would be ambiguous.
@@ -53,23 +54,22 @@ SignalDescription own_position(const ControllerDescription& controller) {
 void read_pid(const YamlValue& value, const Context& context, ControllerDescription* controller) {
   value.require_keys({"type", "input", "setpoint", "output", "gains"}, {});
   controller->input = read_signal(value.at("input"), context);
-  controller->setpoint = read_reference(value.at("setpoint"), context.study.parameters, context.loader);
-  read_gains(value.at("gains"), {"p", "i", "d"}, context.study.parameters, controller);
+  controller->setpoint = read_reference(value.at("setpoint"), context.table, context.loader);
+  read_gains(value.at("gains"), {"p", "i", "d"}, context.table, controller);
 }
 
 /// Gravity compensation and computed torque; their input is the position of the joint that they drive.
 void read_model_based(const YamlValue& value, const Context& context, ControllerDescription* controller) {
   value.require_keys({"type", "setpoint", "output", "gains"}, {});
   controller->input = own_position(*controller);
-  controller->setpoint = read_reference(value.at("setpoint"), context.study.parameters, context.loader);
-  read_gains(value.at("gains"), {"p", "d"}, context.study.parameters, controller);
+  controller->setpoint = read_reference(value.at("setpoint"), context.table, context.loader);
+  read_gains(value.at("gains"), {"p", "d"}, context.table, controller);
 }
 
 void read_state_feedback(const YamlValue& value, const Context& context, ControllerDescription* controller) {
   value.require_keys({"type", "output"}, {"feedback", "feedforward"});
-  const std::vector<Parameter>& parameters = context.study.parameters;
   if (const auto feedforward = value.find("feedforward"))
-    controller->feedforward = read_reference(*feedforward, parameters, context.loader);
+    controller->feedforward = read_reference(*feedforward, context.table, context.loader);
   const auto feedback = value.find("feedback");
   const std::vector<YamlValue> terms = feedback ? feedback->items() : std::vector<YamlValue>{};
   if (terms.empty() && !value.find("feedforward"))
@@ -78,15 +78,15 @@ void read_state_feedback(const YamlValue& value, const Context& context, Control
     item.require_keys({"signal", "gain"}, {"reference"});
     FeedbackTerm term;
     term.signal = read_signal(item.at("signal"), context);
-    term.gain = read_quantity(item.at("gain"), parameters);
-    if (const auto reference = item.find("reference")) term.reference = read_reference(*reference, parameters, context.loader);
+    term.gain = read_quantity(item.at("gain"), context.table);
+    if (const auto reference = item.find("reference")) term.reference = read_reference(*reference, context.table, context.loader);
     controller->feedback.push_back(term);
   }
 }
 
 void read_basis_controller(const YamlValue& value, const Context& context, ControllerDescription* controller) {
   value.require_keys({"type", "output", "coefficients"}, {"shape", "duration"});
-  controller->basis = read_basis(controller->name, value, context.study);
+  controller->basis = read_basis(controller->name, value, context.table, context.study.duration);
 }
 
 ControllerDescription read_controller(const std::string& name, const YamlValue& value, const Context& context) {
@@ -115,11 +115,12 @@ ControllerDescription read_controller(const std::string& name, const YamlValue& 
 
 }  // namespace
 
-void read_controllers(const YamlValue& study_value, const RobotDescription& robot, const TrajectoryLoader& loader, Study* study) {
+void read_controllers(const YamlValue& study_value, const RobotDescription& robot, const ParameterTable& table,
+                      const TrajectoryLoader& loader, Study* study) {
   const auto controllers = study_value.find("controllers");
   if (!controllers) return;
   for (const auto& [name, value] : controllers->entries())
-    study->controllers.push_back(read_controller(name, value, Context{robot, loader, *study}));
+    study->controllers.push_back(read_controller(name, value, Context{robot, table, loader, *study}));
 }
 
 }  // namespace codesign

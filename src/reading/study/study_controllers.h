@@ -4,13 +4,15 @@
 
 #include "description/robot.h"
 #include "description/study.h"
+#include "reading/parameter_table.h"
 #include "reading/yaml/yaml_reader.h"
 
 namespace codesign {
 
-/// Reads `controllers:`. Study::duration and Study::parameters, with the coefficients of basis controllers, must have been read.
-/// @throws InputError
-void read_controllers(const YamlValue& study_value, const RobotDescription& robot, const TrajectoryLoader& loader, Study* study);
+/// Reads `controllers:`. Study::duration must have been read.
+/// @param table of Study::parameters, with the coefficients of basis controllers. @throws InputError
+void read_controllers(const YamlValue& study_value, const RobotDescription& robot, const ParameterTable& table,
+                      const TrajectoryLoader& loader, Study* study);
 
 }  // namespace codesign
 

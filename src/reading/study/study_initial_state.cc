@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "math/scalar.h"
-#include "mechanism/signal_catalog.h"
 #include "reading/study/study_values.h"
 #include "text/decimal.h"
 #include "text/unknown_name.h"
@@ -30,17 +29,17 @@ const JointDescription& starting_joint(const std::string& name, const RobotDescr
   Names known;
   for (const JointDescription& joint : robot.joints) {
     const bool free = !joint.is_loop && has_pose(joint);
-    if (joint.name == name && (free || has_scalar_position(joint))) return joint;
+    if (joint.name == name && (free || has_one_coordinate(joint.type))) return joint;
     if (joint.name == name)
       value.fail("this joint has neither a single coordinate nor a pose", "a revolute, continuous, prismatic, planar or floating joint");
-    if (free || has_scalar_position(joint)) known.push_back(joint.name);
+    if (free || has_one_coordinate(joint.type)) known.push_back(joint.name);
   }
   throw unknown_name(value.where(), value.path(), "joint", name, known);
 }
 
-void read_scalar_start(const YamlValue& value, const Study& study, InitialJointState* state) {
-  if (const auto position = value.find("position")) state->position = read_quantity(*position, study.parameters);
-  if (const auto velocity = value.find("velocity")) state->velocity = read_quantity(*velocity, study.parameters);
+void read_scalar_start(const YamlValue& value, const ParameterTable& table, InitialJointState* state) {
+  if (const auto position = value.find("position")) state->position = read_quantity(*position, table);
+  if (const auto velocity = value.find("velocity")) state->velocity = read_quantity(*velocity, table);
   const auto guess = value.find("guess");
   if (guess && state->position) guess->fail("a joint has either a position or a guess of it");
   if (guess) state->guess = guess->number();
@@ -55,19 +54,19 @@ void check_in_plane(const YamlValue& value, const QuantityVector& vector, const 
                "a vector normal to the joint's <axis>");
 }
 
-void read_pose_start(const YamlValue& value, const JointDescription& joint, const Study& study, InitialJointState* state) {
+void read_pose_start(const YamlValue& value, const JointDescription& joint, const ParameterTable& table, InitialJointState* state) {
   const bool planar = joint.type == JointType::kPlanar;
   const auto slide = [&](const char* key, std::optional<QuantityVector>* result) {
     const auto found = value.find(key);
     if (!found) return;
-    *result = read_vector(*found, study.parameters);
+    *result = read_vector(*found, table);
     if (planar) check_in_plane(*found, **result, joint);
   };
   const auto turn = [&](const char* key, std::optional<QuantityVector>* result) {
     const auto found = value.find(key);
     if (!found) return;
     if (planar && found->is_list()) found->fail("a planar joint turns only about its normal", "one number");
-    *result = planar ? QuantityVector{0.0, 0.0, read_quantity(*found, study.parameters)} : read_vector(*found, study.parameters);
+    *result = planar ? QuantityVector{0.0, 0.0, read_quantity(*found, table)} : read_vector(*found, table);
   };
   slide("translation", &state->translation);
   slide("linear_velocity", &state->linear_velocity);
@@ -77,7 +76,8 @@ void read_pose_start(const YamlValue& value, const JointDescription& joint, cons
   if (state->angular_velocity && !state->rotation) state->rotation.emplace();
 }
 
-InitialJointState read_joint_start(const std::string& name, const YamlValue& value, const RobotDescription& robot, const Study& study) {
+InitialJointState read_joint_start(const std::string& name, const YamlValue& value, const RobotDescription& robot,
+                                   const ParameterTable& table) {
   const JointDescription& joint = starting_joint(name, robot, value);
   const Names& keys = has_pose(joint) ? pose_keys() : scalar_keys();
   const Names& others = has_pose(joint) ? scalar_keys() : pose_keys();
@@ -89,16 +89,16 @@ InitialJointState read_joint_start(const std::string& name, const YamlValue& val
   InitialJointState state;
   state.joint = joint.name;
   state.where = value.where();
-  has_pose(joint) ? read_pose_start(value, joint, study, &state) : read_scalar_start(value, study, &state);
+  has_pose(joint) ? read_pose_start(value, joint, table, &state) : read_scalar_start(value, table, &state);
   return state;
 }
 
 }  // namespace
 
-void read_initial_state(const YamlValue& study_value, const RobotDescription& robot, Study* study) {
+void read_initial_state(const YamlValue& study_value, const RobotDescription& robot, const ParameterTable& table, Study* study) {
   const auto initial_state = study_value.find("initial_state");
   if (!initial_state) return;
-  for (const auto& [name, value] : initial_state->entries()) study->initial_state.push_back(read_joint_start(name, value, robot, *study));
+  for (const auto& [name, value] : initial_state->entries()) study->initial_state.push_back(read_joint_start(name, value, robot, table));
 }
 
 }  // namespace codesign

@@ -4,12 +4,13 @@
 
 #include "description/robot.h"
 #include "description/study.h"
+#include "reading/parameter_table.h"
 #include "reading/yaml/yaml_reader.h"
 
 namespace codesign {
 
-/// Reads `initial_state:`. Study::parameters must have been read. @throws InputError
-void read_initial_state(const YamlValue& study_value, const RobotDescription& robot, Study* study);
+/// Reads `initial_state:`. @param table of Study::parameters. @throws InputError
+void read_initial_state(const YamlValue& study_value, const RobotDescription& robot, const ParameterTable& table, Study* study);
 
 }  // namespace codesign
 

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/study/study_reader.h"
 
+#include "reading/parameter_table.h"
 #include "reading/study/study_basis.h"
 #include "reading/study/study_controllers.h"
 #include "reading/study/study_initial_state.h"
@@ -43,10 +44,13 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot, const Tr
     at.fail("too many parameters to tune: " + std::to_string(study.tuned.size()), "at most " + std::to_string(kMostTuned));
   }
   read_constraints(root, &study);
-  read_initial_state(root, robot, &study);
-  read_controllers(root, robot, loader, &study);
-  read_loads(root, robot, &study);
-  read_objective(root, robot, loader, &study);
+  const ParameterTable table(study.parameters);
+  read_initial_state(root, robot, table, &study);
+  read_controllers(root, robot, table, loader, &study);
+  read_loads(root, robot, table, &study);
+  read_objective(root, robot, table, loader, &study);
+  study.used_parameters = robot.used_parameters;
+  study.used_parameters.insert(table.used.begin(), table.used.end());
   if (const auto limits = root.find("limits")) study.limits = read_limit_options(*limits);
   if (const auto solver = root.find("solver")) study.solver = read_solver_options(*solver);
   if (const auto optimizer = root.find("optimizer")) study.optimizer = read_optimizer_options(*optimizer);

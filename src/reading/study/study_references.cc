@@ -6,20 +6,20 @@
 namespace codesign {
 namespace {
 
-ReferenceDescription read_sine(const YamlValue& value, const std::vector<Parameter>& parameters) {
+ReferenceDescription read_sine(const YamlValue& value, const ParameterTable& table) {
   value.require_keys({"type", "amplitude"}, {"frequency", "period", "phase", "offset"});
   ReferenceDescription reference;
   reference.kind = ReferenceDescription::Kind::kSine;
   SineDescription& sine = reference.sine;
-  sine.amplitude = read_quantity(value.at("amplitude"), parameters);
+  sine.amplitude = read_quantity(value.at("amplitude"), table);
   const auto frequency = value.find("frequency"), period = value.find("period");
   if (frequency.has_value() == period.has_value()) value.fail("a sine has either a frequency or a period", "frequency [Hz] or period [s]");
   sine.is_period = period.has_value();
   const YamlValue& pace = frequency ? *frequency : *period;
-  sine.frequency = read_quantity(pace, parameters);
+  sine.frequency = read_quantity(pace, table);
   if (!(sine.frequency.nominal() > 0.0)) pace.fail("not above zero", frequency ? "more than 0 Hz" : "more than 0 s");
-  if (const auto phase = value.find("phase")) sine.phase = read_quantity(*phase, parameters);
-  if (const auto offset = value.find("offset")) sine.offset = read_quantity(*offset, parameters);
+  if (const auto phase = value.find("phase")) sine.phase = read_quantity(*phase, table);
+  if (const auto offset = value.find("offset")) sine.offset = read_quantity(*offset, table);
   return reference;
 }
 
@@ -35,12 +35,11 @@ void check_times(const std::vector<double>& times, const YamlValue& value) {
     if (!(times[k - 1] < times[k])) value.fail("the times must ascend, and way-point " + std::to_string(k) + " does not come later");
 }
 
-std::vector<Quantity> read_list(const YamlValue& value, const std::string& key, std::size_t count,
-                                const std::vector<Parameter>& parameters) {
+std::vector<Quantity> read_list(const YamlValue& value, const std::string& key, std::size_t count, const ParameterTable& table) {
   std::vector<Quantity> list;
   const auto items = value.find(key);
   if (!items) return list;
-  for (const YamlValue& item : items->items()) list.push_back(read_quantity(item, parameters));
+  for (const YamlValue& item : items->items()) list.push_back(read_quantity(item, table));
   if (list.size() != count)
     items->fail("found " + std::to_string(list.size()) + " values for " + std::to_string(count) + " times", "one per time");
   return list;
@@ -55,7 +54,7 @@ void refuse_unused(const YamlValue& value, Interpolation interpolation) {
     accelerations->fail("only quintic interpolation uses accelerations", "quintic");
 }
 
-ReferenceDescription read_waypoints(const YamlValue& value, const std::vector<Parameter>& parameters) {
+ReferenceDescription read_waypoints(const YamlValue& value, const ParameterTable& table) {
   value.require_keys({"type", "times", "positions"}, {"velocities", "accelerations", "interpolation"});
   ReferenceDescription reference;
   reference.kind = ReferenceDescription::Kind::kWaypoints;
@@ -65,9 +64,9 @@ ReferenceDescription read_waypoints(const YamlValue& value, const std::vector<Pa
   const YamlValue times = value.at("times");
   for (const YamlValue& item : times.items()) points.times.push_back(item.number());
   check_times(points.times, times);
-  points.positions = read_list(value, "positions", points.times.size(), parameters);
-  points.velocities = read_list(value, "velocities", points.times.size(), parameters);
-  points.accelerations = read_list(value, "accelerations", points.times.size(), parameters);
+  points.positions = read_list(value, "positions", points.times.size(), table);
+  points.velocities = read_list(value, "velocities", points.times.size(), table);
+  points.accelerations = read_list(value, "accelerations", points.times.size(), table);
   return reference;
 }
 
@@ -94,11 +93,11 @@ ReferenceDescription read_trajectory(const YamlValue& value, const TrajectoryLoa
 
 }  // namespace
 
-ReferenceDescription read_reference(const YamlValue& value, const std::vector<Parameter>& parameters, const TrajectoryLoader& loader) {
-  if (!value.is_map()) return read_quantity(value, parameters);
+ReferenceDescription read_reference(const YamlValue& value, const ParameterTable& table, const TrajectoryLoader& loader) {
+  if (!value.is_map()) return read_quantity(value, table);
   const std::string type = value.at("type").choice("type of reference", {"sine", "waypoints", "trajectory"});
-  if (type == "sine") return read_sine(value, parameters);
-  return type == "waypoints" ? read_waypoints(value, parameters) : read_trajectory(value, loader);
+  if (type == "sine") return read_sine(value, table);
+  return type == "waypoints" ? read_waypoints(value, table) : read_trajectory(value, loader);
 }
 
 }  // namespace codesign

@@ -2,17 +2,15 @@
 #ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_REFERENCES_H_
 #define MECHANISM_CODESIGN_READING_STUDY_STUDY_REFERENCES_H_
 
-#include <vector>
-
 #include "description/reference.h"
-#include "mechanism_codesign/parameter.h"
+#include "reading/parameter_table.h"
 #include "reading/yaml/yaml_reader.h"
 
 namespace codesign {
 
 /// Reads a function of time: a quantity, or a map whose `type` is sine, waypoints or trajectory.
 /// @param loader for trajectories; may be empty. @throws InputError
-ReferenceDescription read_reference(const YamlValue& value, const std::vector<Parameter>& parameters, const TrajectoryLoader& loader);
+ReferenceDescription read_reference(const YamlValue& value, const ParameterTable& table, const TrajectoryLoader& loader);
 
 }  // namespace codesign
 

@@ -1,11 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/study/study_values.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "mechanism/signal_catalog.h"
 #include "text/unknown_name.h"
 
 namespace codesign {
@@ -17,16 +15,7 @@ std::vector<std::string> names_of(const std::vector<Parameter>& parameters) {
   return names;
 }
 
-ExpressionScope scope_of(const std::vector<Parameter>& parameters) {
-  return {[&parameters](const std::string& name) {
-            const auto found =
-                std::find_if(parameters.begin(), parameters.end(), [&name](const Parameter& parameter) { return parameter.name == name; });
-            return found == parameters.end() ? -1 : static_cast<int>(found - parameters.begin());
-          },
-          [&parameters] { return names_of(parameters); }};
-}
-
-Quantity read_quantity(const YamlValue& value, const std::vector<Parameter>& parameters) {
+Quantity read_quantity(const YamlValue& value, const ParameterTable& table) {
   constexpr const char* kAllowed = "a finite number or \"${expression}\" of the parameters";
   const std::string text = value.text();
   if (const std::optional<double> number = number_in(text)) {
@@ -36,27 +25,26 @@ Quantity read_quantity(const YamlValue& value, const std::vector<Parameter>& par
   if (text.size() < 4 || text.compare(0, 2, "${") != 0 || text.back() != '}') value.fail("not a number", kAllowed);
   std::shared_ptr<const Expression> expression;
   try {
-    expression = std::make_shared<const Expression>(text.substr(2, text.size() - 3), scope_of(parameters));
+    expression = table.parse(text.substr(2, text.size() - 3));
   } catch (const std::invalid_argument& error) {
     value.fail(error.what(), kAllowed);
   }
-  const double nominal =
-      expression->value_of(values_used(*expression, parameters, [](const Parameter& parameter) { return parameter.value; }));
+  const double nominal = expression->value_of(values_used(*expression, table.values, [](double start) { return start; }));
   if (!std::isfinite(nominal)) value.fail("not finite at the parameters' start", kAllowed);
   return Quantity(nominal, std::move(expression));
 }
 
-QuantityVector read_vector(const YamlValue& value, const std::vector<Parameter>& parameters) {
+QuantityVector read_vector(const YamlValue& value, const ParameterTable& table) {
   if (!value.is_list()) value.fail("three components are needed", "[x, y, z]");
   const std::vector<YamlValue> items = value.items();
   if (items.size() != 3) value.fail("three components are needed, found " + std::to_string(items.size()), "[x, y, z]");
-  return {read_quantity(items[0], parameters), read_quantity(items[1], parameters), read_quantity(items[2], parameters)};
+  return {read_quantity(items[0], table), read_quantity(items[1], table), read_quantity(items[2], table)};
 }
 
 const JointDescription& scalar_joint(const std::string& name, const RobotDescription& robot, const YamlValue& at) {
   std::vector<std::string> known;
   for (const JointDescription& joint : robot.joints) {
-    const bool scalar = has_scalar_position(joint);
+    const bool scalar = has_one_coordinate(joint.type);
     if (joint.name == name && !scalar) at.fail("this joint has no single coordinate", "a revolute, continuous or prismatic joint");
     if (joint.name == name) return joint;
     if (scalar) known.push_back(joint.name);

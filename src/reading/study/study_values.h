@@ -7,6 +7,7 @@
 
 #include "description/robot.h"
 #include "description/study.h"
+#include "reading/parameter_table.h"
 #include "reading/yaml/yaml_reader.h"
 
 namespace codesign {
@@ -14,14 +15,11 @@ namespace codesign {
 /// The names of the parameters, in order.
 std::vector<std::string> names_of(const std::vector<Parameter>& parameters);
 
-/// The names, for parsing expressions. `parameters` must outlive the scope.
-ExpressionScope scope_of(const std::vector<Parameter>& parameters);
-
 /// A number, or `${expression}` of all named parameters. @throws InputError if it is invalid or not finite at the parameters' start.
-Quantity read_quantity(const YamlValue& value, const std::vector<Parameter>& parameters);
+Quantity read_quantity(const YamlValue& value, const ParameterTable& table);
 
 /// A list of three quantities. @throws InputError
-QuantityVector read_vector(const YamlValue& value, const std::vector<Parameter>& parameters);
+QuantityVector read_vector(const YamlValue& value, const ParameterTable& table);
 
 /// The joint or loop named `name`. @throws InputError, located at `at`, if there is none or it does not have exactly one coordinate.
 const JointDescription& scalar_joint(const std::string& name, const RobotDescription& robot, const YamlValue& at);

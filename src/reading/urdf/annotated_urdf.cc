@@ -128,6 +128,7 @@ RobotDescription read_robot(const XmlDocument& document) {
     robot.spring_dampers.push_back(read_spring_damper(spring, context));
   read_transmissions(element, &robot);
   check_twins(element, "robot", context.table);
+  robot.used_parameters = context.table.used;
   check_names(robot);
   robot.root = find_root(robot);
   warn_of_foreign_loops(element, robot, &robot.warnings);

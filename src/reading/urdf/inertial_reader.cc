@@ -24,8 +24,8 @@ InertialDescription read_numbers(const XmlElement& inertial, const ParameterTabl
 }
 
 bool is_massless(const InertialDescription& inertial) {
-  const auto is_zero = [](const Quantity& quantity) { return quantity.is_constant() && quantity.nominal() == 0.0; };
-  return is_zero(inertial.mass) && std::all_of(inertial.inertia.begin(), inertial.inertia.end(), is_zero);
+  const auto is_zero = [](const Quantity& quantity) { return quantity.is_zero(); };
+  return inertial.mass.is_zero() && std::all_of(inertial.inertia.begin(), inertial.inertia.end(), is_zero);
 }
 
 InertialDescription read_from_shapes(const XmlElement& link, const XmlElement& inertial, const ParameterTable& table) {

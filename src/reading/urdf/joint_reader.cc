@@ -11,10 +11,6 @@ namespace {
 
 JointType read_type(const XmlElement& element) { return read_joint_type(element, &JointTypeName::of_joints, "joint type"); }
 
-bool has_one_coordinate(JointType type) {
-  return type == JointType::kRevolute || type == JointType::kContinuous || type == JointType::kPrismatic;
-}
-
 /// A number that must not be negative. A negative one is an error in an overlay; in a vendor's file it is taken as zero with a warning,
 /// since exporters write it for unknown values.
 Quantity read_magnitude(const XmlElement& element, const std::string& attribute, const ReadContext& context) {
@@ -105,7 +101,7 @@ void read_dynamics(const XmlElement& dynamics, const ReadContext& context, Joint
   joint->dry_friction = read_magnitude_or_zero(dynamics, "friction", context);
   const bool several = joint->type == JointType::kPlanar || joint->type == JointType::kFloating;
   if (!several || joint->is_loop || dynamics.in_overlay()) return;
-  if (LimitDescription::given(joint->damping) || LimitDescription::given(joint->dry_friction))
+  if (!joint->damping.is_zero() || !joint->dry_friction.is_zero())
     context.warnings->push_back(dynamics.warning("dynamics_ignored",
                                                  "damping and friction of a joint with several coordinates are ignored: it moves freely",
                                                  "", "remove the element"));

@@ -12,10 +12,7 @@
 namespace codesign {
 namespace {
 
-std::string label(const JointDescription& joint) {
-  return std::string(joint.is_loop ? "<loop" : "<joint") + " name=\"" + joint.name + "\">";
-}
-std::string label(const LinkDescription& link) { return "<link name=\"" + link.name + "\">"; }
+std::string element_of(const LinkDescription& link) { return "<link name=\"" + link.name + "\">"; }
 
 void insert_unique(const std::string& name, const SourceLocation& where, const std::string& kind, std::set<std::string>* names) {
   if (!names->insert(name).second) throw InputError({where, "<" + kind + ">", "a second " + kind + " of this name", name, "unique names"});
@@ -29,7 +26,7 @@ std::vector<const JointDescription*> joints_above(const RobotDescription& robot)
     const JointDescription*& slot = above[static_cast<std::size_t>(joint.child)];
     const std::string& link = robot.links[static_cast<std::size_t>(joint.child)].name;
     if (slot != nullptr)
-      throw InputError({joint.where, label(joint), "its child " + link + " is already the child of the joint " + slot->name, link,
+      throw InputError({joint.where, joint.element(), "its child " + link + " is already the child of the joint " + slot->name, link,
                         "one joint above each link; close the ring with a <loop>"});
     slot = &joint;
   }
@@ -56,10 +53,11 @@ std::optional<InputError> mimic_fault(const JointDescription& joint, const std::
                                       const std::vector<std::string>& names) {
   std::size_t steps = 0;
   for (const JointDescription* at = &joint; at->mimic; at = targets.at(at->mimic->joint)) {
-    const std::string element = label(*at) + " <mimic>";
+    const std::string element = at->element() + " <mimic>";
     if (targets.count(at->mimic->joint) == 0) return unknown_name(at->mimic->where, element, "joint to mimic", at->mimic->joint, names);
     if (++steps > names.size())
-      return InputError({joint.mimic->where, label(joint) + " <mimic>", "the joints mimic each other in a ring", joint.mimic->joint, ""});
+      return InputError(
+          {joint.mimic->where, joint.element() + " <mimic>", "the joints mimic each other in a ring", joint.mimic->joint, ""});
   }
   return std::nullopt;
 }
@@ -84,11 +82,10 @@ void close_with_second_parents(RobotDescription* robot) {
     JointDescription& joint = robot->joints[k];
     if (in_tree[k] || parents[static_cast<std::size_t>(joint.child)] < 2 || joint.where.file != robot->file) continue;
     const std::string& child = robot->links[static_cast<std::size_t>(joint.child)].name;
-    robot->warnings.push_back(
-        warn("second_parent", {joint.where, label(joint),
-                               "its child is already the child of another joint, so this one is read as a loop; to silence "
-                               "this: write a <loop> with predecessor and successor",
-                               child, ""}));
+    robot->warnings.push_back(warn("second_parent", {joint.where, joint.element(),
+                                                     "its child is already the child of another joint, so this one is read as a loop; to "
+                                                     "silence this: write a <loop> with predecessor and successor",
+                                                     child, ""}));
     joint.is_loop = true;
     joint.limit.reset();
     joint.mimic.reset();
@@ -102,7 +99,7 @@ int find_root(const RobotDescription& robot) {
   for (std::size_t k = 0; k < robot.links.size(); ++k) {
     if (above[k] != nullptr) continue;
     if (root >= 0)
-      throw InputError({robot.links[k].where, label(robot.links[k]), "a second root: no joint has this link as its child",
+      throw InputError({robot.links[k].where, element_of(robot.links[k]), "a second root: no joint has this link as its child",
                         robot.links[static_cast<std::size_t>(root)].name + ", " + robot.links[k].name, "one root link"});
     root = static_cast<int>(k);
   }
@@ -110,8 +107,8 @@ int find_root(const RobotDescription& robot) {
     std::size_t link = k, steps = 0;
     while (above[link] != nullptr && steps++ <= robot.links.size()) link = static_cast<std::size_t>(above[link]->parent);
     if (above[link] != nullptr)
-      throw InputError({above[k]->where, label(*above[k]), "the joints form a ring that is not connected to the root", robot.links[k].name,
-                        "a tree from one root link; close rings with <loop>"});
+      throw InputError({above[k]->where, above[k]->element(), "the joints form a ring that is not connected to the root",
+                        robot.links[k].name, "a tree from one root link; close rings with <loop>"});
   }
   return root;
 }
@@ -141,7 +138,7 @@ void check_friction(const RobotDescription& robot) {
   for (const JointDescription& joint : robot.joints) {
     if (!joint.friction) continue;
     const bool ordinary = joint.is_loop || (is_body(joint.parent) && is_body(joint.child));
-    if (ordinary) check_friction_geometry(*joint.friction, joint.type, label(joint) + " <codesign:friction>");
+    if (ordinary) check_friction_geometry(*joint.friction, joint.type, joint.element() + " <codesign:friction>");
   }
 }
 

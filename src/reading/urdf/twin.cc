@@ -42,12 +42,11 @@ std::string expression_inside(const std::string& word) {
 Quantity parse_expression(const XmlElement& element, const std::string& attribute, const std::string& word, const ParameterTable& table) {
   const std::string inner = expression_inside(word);
   if (inner.empty()) element.fail_at(attribute, "'" + word + "' is not an expression", "a number, ${expression} or -${expression}");
-  const ExpressionScope scope = table.scope();
   std::shared_ptr<const Expression> expression;
   try {
     // Check the expression by itself: unbalanced brackets in it could be balanced by those that are put around it for the sign.
-    expression = std::make_shared<const Expression>(inner, scope);
-    if (word[0] == '-') expression = std::make_shared<const Expression>("-(" + inner + ")", scope);
+    expression = table.parse(inner);
+    if (word[0] == '-') expression = table.parse("-(" + inner + ")");
   } catch (const std::invalid_argument& error) {
     element.fail_at(attribute, std::string(error.what()), "an expression of the model's parameters");
   }
@@ -75,22 +74,6 @@ std::string nominal_text(const std::vector<Quantity>& quantities) {
 }
 
 }  // namespace
-
-ParameterTable::ParameterTable(const std::vector<Parameter>& parameters) {
-  for (const Parameter& parameter : parameters) {
-    index.emplace(parameter.name, static_cast<int>(names.size()));
-    names.push_back(parameter.name);
-    values.push_back(parameter.value);
-  }
-}
-
-ExpressionScope ParameterTable::scope() const {
-  return {[this](const std::string& name) {
-            const auto found = index.find(name);
-            return found == index.end() ? -1 : found->second;
-          },
-          [this] { return names; }};
-}
 
 std::vector<Quantity> parse_quantities(const XmlElement& element, const std::string& attribute, std::size_t count,
                                        const ParameterTable& table) {

@@ -4,27 +4,13 @@
 
 #include <cstddef>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
-#include "description/expression.h"
 #include "description/quantity.h"
-#include "mechanism_codesign/parameter.h"
+#include "reading/parameter_table.h"
 #include "reading/xml/xml_element.h"
 
 namespace codesign {
-
-/// The parameters that expressions may use, with their default values.
-struct ParameterTable {
-  ParameterTable() = default;
-  explicit ParameterTable(const std::vector<Parameter>& parameters);
-  /// The names, for parsing expressions. The table must outlive the scope.
-  ExpressionScope scope() const;
-
-  std::vector<std::string> names;
-  std::vector<double> values;
-  std::unordered_map<std::string, int> index;  ///< from name to index in `names` and `values`
-};
 
 /// The prefix of our elements and attributes.
 inline const char kPrefix[] = "codesign:";

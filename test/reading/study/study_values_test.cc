@@ -6,7 +6,9 @@
 namespace codesign {
 namespace {
 
-Quantity read(const std::string& yaml) { return read_quantity(YamlValue::parse({"study.yaml", yaml}).at("x"), study_robot().parameters); }
+Quantity read(const std::string& yaml) {
+  return read_quantity(YamlValue::parse({"study.yaml", yaml}).at("x"), ParameterTable(study_robot().parameters));
+}
 
 TEST(StudyValues, AQuantityIsANumberOrAnExpression) {
   EXPECT_EQ(read("x: -2.5").nominal(), -2.5);

@@ -2,23 +2,10 @@
 #include "reading/urdf/shape_reader.h"
 
 #include "mechanism/mass_properties.h"
-#include "reading/urdf/urdf_fixture.h"
+#include "reading/urdf/inertial_text.h"
 
 namespace codesign {
 namespace {
-
-SourceText with_inertial(const std::string& inertial, const std::string& visual = "") {
-  return robot_text("<link name=\"a\">\n" + inertial + visual + "</link>");
-}
-
-const char kBox[] = R"(<visual><origin xyz="0 0 0.1" codesign:xyz="0 0 ${length/2}"/>
-    <geometry><box size="0.1 0.1 0.2" codesign:size="0.1 0.1 ${length}"/></geometry></visual>)";
-
-std::string from_shape(const std::string& density, const std::string& mass, const std::string& ixx = "0.0083333333333333332") {
-  return "<inertial codesign:density=\"" + density + "\" codesign:from=\"visual\"><origin xyz=\"0 0 0.1\"/><mass value=\"" + mass +
-         "\"/><inertia ixx=\"" + ixx +
-         "\" ixy=\"0\" ixz=\"0\" iyy=\"0.0083333333333333332\" iyz=\"0\" izz=\"0.0033333333333333335\"/></inertial>";
-}
 
 TEST(ShapeReader, ShapesWithoutMass) {
   const auto with_shape = [](const std::string& shape) {

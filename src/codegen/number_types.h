@@ -1,0 +1,24 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_CODEGEN_NUMBER_TYPES_H_
+#define MECHANISM_CODESIGN_CODEGEN_NUMBER_TYPES_H_
+
+#include <complex>
+
+#include "codegen/traced.h"
+#include "math/lanes.h"
+
+// Templates over the scalar that stand in a .cc file are instantiated for these types; INSTANTIATE is a macro of one type.
+
+/// The types that hold values: real numbers, the complex step, and several directions at once.
+#define CODESIGN_FOR_EACH_VALUE_TYPE(INSTANTIATE) \
+  INSTANTIATE(double)                             \
+  INSTANTIATE(std::complex<double>)               \
+  INSTANTIATE(Lanes<4>)                           \
+  INSTANTIATE(Lanes<8>)
+
+/// The types of every formula that is also recorded for machine code.
+#define CODESIGN_FOR_EACH_NUMBER_TYPE(INSTANTIATE) \
+  CODESIGN_FOR_EACH_VALUE_TYPE(INSTANTIATE)        \
+  INSTANTIATE(Traced)
+
+#endif  // MECHANISM_CODESIGN_CODEGEN_NUMBER_TYPES_H_

@@ -1,0 +1,80 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MATH_SPAN_H_
+#define MECHANISM_CODESIGN_MATH_SPAN_H_
+
+#include <cassert>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+namespace codesign {
+namespace internal {
+
+/// Whether the entries of a container lie side by side. Those of Eigen's expressions need not: a row of a matrix, a block of one.
+template <class Container, class = void>
+inline constexpr bool kIsContiguous = true;
+template <class Container>
+inline constexpr bool kIsContiguous<Container, std::void_t<decltype(Container::InnerStrideAtCompileTime)>> =
+    Container::IsVectorAtCompileTime ? int{Container::InnerStrideAtCompileTime} == 1
+                                     : int{Container::OuterStrideAtCompileTime} == int{Container::InnerSizeAtCompileTime} &&
+                                           int{Container::OuterStrideAtCompileTime} > 0;
+
+template <class From, class To>
+using IfSameEntries = std::enable_if_t<std::is_convertible_v<From (*)[], To (*)[]>>;
+template <class Container, class To>
+using IfHolds = std::enable_if_t<kIsContiguous<Container> &&
+                                 std::is_convertible_v<std::remove_pointer_t<decltype(std::declval<Container&>().data())> (*)[], To (*)[]>>;
+
+}  // namespace internal
+
+/// An array of someone else's: a pointer to its first entry and its size. The twin of C++20's std::span, but with signed sizes, as Layout
+/// and Eigen have them. Debug builds check every index.
+///
+/// Functions take arrays by value as In<T> or Out<T>, which say who may write. Kernels whose time counts take data() once and check sizes
+/// before.
+template <class T>
+class Span {
+ public:
+  Span() = default;
+  Span(T* first, std::ptrdiff_t size) : data_(first), size_(size) { assert(size >= 0); }
+  // NOLINTBEGIN(google-explicit-constructor): an array is passed as it is.
+  template <class Entry, std::size_t size, class = internal::IfSameEntries<Entry, T>>
+  Span(Entry (&array)[size]) : Span(array, std::ptrdiff_t{size}) {}
+  /// Vectors, arrays and spans, and what of Eigen's lies side by side. A temporary can be read from only.
+  template <class Container, class = internal::IfHolds<Container, T>>
+  Span(Container& from) : Span(from.data(), static_cast<std::ptrdiff_t>(from.size())) {}
+  template <class Container, class = internal::IfHolds<const Container, T>>
+  Span(const Container& from) : Span(from.data(), static_cast<std::ptrdiff_t>(from.size())) {}
+  // NOLINTEND(google-explicit-constructor)
+
+  T* data() const { return data_; }
+  std::ptrdiff_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  T* begin() const { return data_; }
+  T* end() const { return data_ + size_; }
+  T& operator[](std::ptrdiff_t k) const {
+    assert(0 <= k && k < size_);
+    return data_[k];
+  }
+
+  Span first(std::ptrdiff_t count) const { return subspan(0, count); }
+  Span subspan(std::ptrdiff_t offset, std::ptrdiff_t count) const {
+    assert(0 <= offset && 0 <= count && offset + count <= size_);
+    return {data_ + offset, count};
+  }
+
+ private:
+  T* data_ = nullptr;
+  std::ptrdiff_t size_ = 0;
+};
+
+/// An array that a function reads. T is not deduced from the argument, so that every container converts.
+template <class T>
+using In = Span<const std::common_type_t<T>>;
+/// An array that a function writes; it may read it as well, as a solve in place does.
+template <class T>
+using Out = Span<std::common_type_t<T>>;
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MATH_SPAN_H_

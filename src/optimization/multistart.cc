@@ -1,0 +1,227 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "optimization/multistart.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "description/tuned_parameters.h"
+#include "engine/side_by_side.h"
+#include "optimization/local_search.h"
+#include "optimization/scaling.h"
+#include "optimization/scenario_results.h"
+#include "optimization/shared_observer.h"
+#include "problem/margins.h"
+#include "sampling/sampler.h"
+#include "text/cancel.h"
+
+namespace codesign {
+namespace {
+
+constexpr int kMostDraws = 10;  // points drawn per point asked for, before screening gives up
+
+/// One search over starts: what its stages share.
+class Multistart {
+ public:
+  Multistart(const Problem& problem, const OptimizerOptions& options, const TrialObserver& observer, const std::atomic<bool>* cancel)
+      : problem_(problem),
+        study_(problem.study()),
+        asked_(study_.ensemble.multistart),
+        options_(options),
+        cancel_(cancel),
+        observer_(observer),
+        scenarios_(make_scenarios(problem)),
+        engine_(make_engine(study_.ensemble.engine, asked_.screen * static_cast<int>(scenarios_.size()))),
+        scaling_(study_) {}
+
+  OptimizationResult run() {
+    screen();
+    std::vector<OptimizationResult> found = search();
+    OptimizationResult result = combine(&found);
+    result.screened = static_cast<int>(objectives_.size()) + unusable_;
+    result.unusable = unusable_;
+    result.failed_evaluations += unusable_;
+    if (is_set(cancel_) || observer_.is_stopped()) {
+      result.status = {StatusCode::kCancelled, 0.0, "cancelled; the best point so far is kept"};
+      result.termination = "cancelled";
+    }
+    return result;
+  }
+
+ private:
+  Ensemble ensemble() const { return {scenarios_, study_.ensemble.robust.value_or(RobustOptions{}), engine_}; }
+
+  /// Draws points until `screen` of them are usable.
+  void screen() {
+    Sampler sampler(asked_.sampler, static_cast<int>(study_.tuned.size()), asked_.seed, asked_.screen);
+    int drawn = 0;
+    while (static_cast<int>(points_.size()) < asked_.screen && drawn < kMostDraws * asked_.screen && !is_set(cancel_)) {
+      std::vector<Eigen::VectorXd> round;
+      while (static_cast<int>(points_.size() + round.size()) < asked_.screen)
+        round.push_back(drawn++ == 0 ? problem_.start() : at(sampler.next()));
+      evaluate(round);
+    }
+    order_.resize(points_.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::stable_sort(order_.begin(), order_.end(), [this](std::size_t a, std::size_t b) { return objectives_[a] < objectives_[b]; });
+    order_.resize(std::min(order_.size(), static_cast<std::size_t>(asked_.starts)));
+  }
+
+  /// A point of the unit cube within the bounds.
+  Eigen::VectorXd at(const std::vector<double>& u) const {
+    Eigen::VectorXd rho(static_cast<Eigen::Index>(u.size()));
+    for (std::size_t k = 0; k < u.size(); ++k) {
+      const Parameter& p = study_.parameters[static_cast<std::size_t>(study_.tuned[k])];
+      rho[static_cast<Eigen::Index>(k)] = p.lower + u[k] * (p.upper - p.lower);
+    }
+    return rho;
+  }
+
+  /// Evaluates points and keeps those that are usable.
+  void evaluate(const std::vector<Eigen::VectorXd>& round) {
+    std::vector<EnsembleEvaluation> results(round.size());
+    side_by_side(round.size(), engine_->workers(), [&](std::size_t k) {
+      if (all_met(constraint_margins(study_, parameters_at(study_, round[k])))) results[k] = ensemble().evaluate(round[k], false, cancel_);
+    });
+    for (std::size_t k = 0; k < round.size(); ++k) {
+      const Evaluation& total = results[k].total;
+      statistics_.steps += total.statistics.steps;
+      statistics_.rejected_steps += total.statistics.rejected_steps;
+      statistics_.cpu_seconds += total.statistics.cpu_seconds;
+      if (results[k].values.size() == 0) {
+        ++unusable_;
+        if (first_failure_.ok() && !total.status.ok()) first_failure_ = total.status;
+        continue;
+      }
+      points_.push_back(round[k]);
+      objectives_.push_back(total.objective);
+    }
+  }
+
+  std::vector<OptimizationResult> search() {
+    std::vector<OptimizationResult> found(order_.size());
+    side_by_side(order_.size(), engine_->workers(), [&](std::size_t k) {
+      if (is_set(cancel_) || observer_.is_stopped()) return;
+      Ensemble own = ensemble();
+      found[k] = search_locally(study_, options_, points_[order_[k]], &own, observer_.of(static_cast<int>(k) + 1), cancel_);
+    });
+    return found;
+  }
+
+  /// The best of the results, with the list of all searches.
+  OptimizationResult combine(std::vector<OptimizationResult>* found) {
+    std::vector<StartResult> starts;
+    std::vector<std::vector<double>> scaled;
+    for (std::size_t k = 0; k < found->size(); ++k) {
+      const OptimizationResult& result = (*found)[k];
+      const bool has_point = result.gradient.size() > 0;
+      starts.push_back({points_[order_[k]], has_point ? result.rho : points_[order_[k]], objectives_[order_[k]],
+                        has_point ? result.objective : objectives_[order_[k]], result.status,
+                        result.evaluations > 0 ? result.termination : "not_started", result.evaluations, -1});
+      scaled.push_back(scaling_.to_scaled(starts.back().rho));
+    }
+    std::vector<Optimum> optima = cluster_optima(scaled, asked_.cluster, &starts);
+    OptimizationResult best = choose(found);
+    best.starts = std::move(starts);
+    best.optima = std::move(optima);
+    add_sums(*found, &best);
+    take_study_start(&best);
+    describe_scenarios(problem_, ensemble(), cancel_, &best);
+    return best;
+  }
+
+  OptimizationResult choose(std::vector<OptimizationResult>* found) const {
+    const OptimizationResult* best = nullptr;
+    for (const OptimizationResult& result : *found) {
+      if (result.gradient.size() == 0) continue;
+      const bool met = result.status.code != StatusCode::kInfeasible, best_met = best && best->status.code != StatusCode::kInfeasible;
+      if (!best || (met && !best_met) || (met == best_met && result.objective < best->objective)) best = &result;
+    }
+    if (best) return *best;
+    OptimizationResult none;
+    none.status = first_failure_.ok() ? Status{StatusCode::kInfeasible, 0.0, "no point that meets the constraints could be evaluated"}
+                                      : first_failure_;
+    none.termination = "start_failed";
+    none.initial_rho = none.rho = problem_.start();
+    none.margins = constraint_margins(study_, problem_.parameters());
+    none.influences.assign(study_.tuned.size(), false);
+    return none;
+  }
+
+  void add_sums(const std::vector<OptimizationResult>& found, OptimizationResult* best) const {
+    best->evaluations = static_cast<int>(objectives_.size()) + unusable_;
+    best->failed_evaluations = 0;
+    best->statistics = statistics_;
+    for (const OptimizationResult& result : found) {
+      best->evaluations += result.evaluations;
+      best->failed_evaluations += result.failed_evaluations;
+      best->statistics.steps += result.statistics.steps;
+      best->statistics.rejected_steps += result.statistics.rejected_steps;
+      best->statistics.cpu_seconds += result.statistics.cpu_seconds;
+      best->statistics.constraint_drift = std::max(best->statistics.constraint_drift, result.statistics.constraint_drift);
+      best->statistics.energy_error = std::max(best->statistics.energy_error, result.statistics.energy_error);
+    }
+  }
+
+  /// What a result says about the initial design is about the study's start, if that can be evaluated.
+  void take_study_start(OptimizationResult* best) const {
+    if (best->gradient.size() == 0 || is_set(cancel_)) return;
+    const EnsembleEvaluation start = ensemble().evaluate(problem_.start(), true, cancel_);
+    if (!start.total.status.ok()) return;
+    best->initial_rho = problem_.start();
+    best->initial_objective = start.total.objective;
+    best->initial_gradient = start.total.gradient;
+    best->initial_values = start.values;
+  }
+
+  const Problem& problem_;
+  const Study& study_;
+  const MultistartOptions& asked_;
+  const OptimizerOptions& options_;
+  const std::atomic<bool>* cancel_;
+  SharedObserver observer_;
+  const std::vector<Scenario> scenarios_;
+  const std::shared_ptr<EvaluationEngine> engine_;
+  const Scaling scaling_;
+  std::vector<Eigen::VectorXd> points_;  // usable points in the order drawn, and their objectives
+  std::vector<double> objectives_;
+  std::vector<std::size_t> order_;  // the starts: indices of points, best first
+  int unusable_ = 0;
+  Status first_failure_;
+  Statistics statistics_;
+};
+
+}  // namespace
+
+OptimizationResult search_from_many_starts(const Problem& problem, const OptimizerOptions& options, const TrialObserver& observer,
+                                           const std::atomic<bool>* cancel) {
+  return Multistart(problem, options, observer, cancel).run();
+}
+
+std::vector<Optimum> cluster_optima(const std::vector<std::vector<double>>& scaled, double distance, std::vector<StartResult>* starts) {
+  std::vector<std::size_t> order(starts->size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [starts](std::size_t a, std::size_t b) { return (*starts)[a].objective < (*starts)[b].objective; });
+  std::vector<Optimum> optima;
+  std::vector<std::size_t> representatives;
+  for (std::size_t k : order) {
+    StartResult& start = (*starts)[k];
+    if (!start.status.ok()) continue;
+    const auto is_near = [&](std::size_t other) {
+      double largest = 0.0;
+      for (std::size_t c = 0; c < scaled[k].size(); ++c) largest = std::max(largest, std::abs(scaled[k][c] - scaled[other][c]));
+      return largest <= distance;
+    };
+    const auto known = std::find_if(representatives.begin(), representatives.end(), is_near);
+    start.optimum = static_cast<int>(known - representatives.begin());
+    if (known == representatives.end()) {
+      representatives.push_back(k);
+      optima.push_back({start.rho, start.objective, 0});
+    }
+    ++optima[static_cast<std::size_t>(start.optimum)].found;
+  }
+  return optima;
+}
+
+}  // namespace codesign

@@ -1,0 +1,60 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "optimization/scenario_results.h"
+
+#include "sampling/measure.h"
+#include "text/cancel.h"
+
+namespace codesign {
+namespace {
+
+ScenarioResult describe(const Study& study, const Scenario& scenario, double initial, double final) {
+  ScenarioResult result{scenario.run, scenario.sample, scenario.weight, {}, initial, final};
+  for (const auto& [index, value] : scenario.values)
+    result.values.emplace_back(study.parameters[static_cast<std::size_t>(index)].name, value);
+  return result;
+}
+
+/// The design on fresh samples. Unlike in the search, a sample that fails does not refuse the design; it is counted.
+Validation validate(const Problem& problem, const Ensemble& ensemble, const OptimizationResult& design, const std::atomic<bool>* cancel) {
+  const RobustOptions& options = ensemble.options();
+  std::vector<Scenario> scenarios = make_validation_scenarios(problem, options.validate), usable;
+  std::vector<EvaluationTask> tasks;
+  for (const Scenario& scenario : scenarios) tasks.push_back({scenario.system, scenario.parameters(design.rho), false});
+  const std::vector<Evaluation> members = ensemble.engine()->evaluate(tasks, cancel);
+  Validation validation;
+  validation.samples = options.validate;
+  validation.promised = design.objective;
+  std::vector<double> values, weights;
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    if (!members[k].status.ok()) {
+      ++validation.failed;
+      continue;
+    }
+    values.push_back(members[k].objective);
+    weights.push_back(scenarios[k].weight);
+  }
+  if (values.empty()) return validation;
+  const Eigen::VectorXd psi = Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  Eigen::VectorXd w = Eigen::Map<Eigen::VectorXd>(weights.data(), psi.size());
+  w /= w.sum();
+  validation.objective = measure(options, psi, w).value;
+  validation.mean = w.dot(psi);
+  validation.worst = psi.maxCoeff();
+  return validation;
+}
+
+}  // namespace
+
+void describe_scenarios(const Problem& problem, const Ensemble& ensemble, const std::atomic<bool>* cancel, OptimizationResult* result) {
+  const std::vector<Scenario>& scenarios = ensemble.scenarios();
+  const bool known =
+      result->values.size() == static_cast<Eigen::Index>(scenarios.size()) && result->initial_values.size() == result->values.size();
+  if (!problem.study().ensemble.is_ensemble() || !known) return;
+  for (std::size_t k = 0; k < scenarios.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    result->scenarios.push_back(describe(problem.study(), scenarios[k], result->initial_values[i], result->values[i]));
+  }
+  if (ensemble.options().validate > 0 && !is_set(cancel)) result->validation = validate(problem, ensemble, *result, cancel);
+}
+
+}  // namespace codesign

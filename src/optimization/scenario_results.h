@@ -1,0 +1,17 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_OPTIMIZATION_SCENARIO_RESULTS_H_
+#define MECHANISM_CODESIGN_OPTIMIZATION_SCENARIO_RESULTS_H_
+
+#include "ensemble/ensemble.h"
+#include "mechanism_codesign/optimization.h"
+
+namespace codesign {
+
+/// Completes the result of a study with runs or uncertain parameters: names its scenarios, and validates its best point on fresh samples if
+/// `robust.validate` asks for it. Does nothing for other studies, and for a result without a point.
+/// @param ensemble of the search, whose engine does the validation.
+void describe_scenarios(const Problem& problem, const Ensemble& ensemble, const std::atomic<bool>* cancel, OptimizationResult* result);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_OPTIMIZATION_SCENARIO_RESULTS_H_

@@ -1,0 +1,53 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_OPTIMIZATION_SHARED_OBSERVER_H_
+#define MECHANISM_CODESIGN_OPTIMIZATION_SHARED_OBSERVER_H_
+
+#include <algorithm>
+#include <mutex>
+
+#include "mechanism_codesign/optimization.h"
+
+namespace codesign {
+
+/// Lets searches in several threads tell one observer of their trials, one at a time, numbered through, with the best objective of all.
+class SharedObserver {
+ public:
+  explicit SharedObserver(const TrialObserver& observer) : observer_(observer) {}
+
+  /// The observer of one search. @param start number of the search from 1.
+  TrialObserver of(int start) {
+    return [this, start](const Trial& trial) { return tell(trial, start); };
+  }
+  /// Whether the observer has ended the job; all searches then end at their next trial.
+  bool is_stopped() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return stopped_;
+  }
+
+ private:
+  bool tell(Trial trial, int start) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (stopped_) return false;
+    trial.start = start;
+    trial.evaluation = ++evaluations_;
+    if (trial.status.ok() && (!has_best_ || trial.best_objective < best_)) {
+      if (has_best_) ++iterations_;
+      has_best_ = true;
+      best_ = trial.best_objective;
+    }
+    trial.iteration = iterations_;
+    trial.best_objective = best_;
+    stopped_ = observer_ && !observer_(trial);
+    return !stopped_;
+  }
+
+  const TrialObserver& observer_;
+  std::mutex mutex_;
+  int evaluations_ = 0, iterations_ = 0;
+  double best_ = 0.0;
+  bool has_best_ = false, stopped_ = false;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_OPTIMIZATION_SHARED_OBSERVER_H_

@@ -1,0 +1,33 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_PARAMETER_TABLE_H_
+#define MECHANISM_CODESIGN_READING_PARAMETER_TABLE_H_
+
+#include <memory>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "description/expression.h"
+#include "mechanism_codesign/parameter.h"
+
+namespace codesign {
+
+/// The parameters that the expressions of one file may use, with their default values. Every expression of model and study is parsed here,
+/// so that the table knows which parameters are used. Not thread-safe.
+struct ParameterTable {
+  ParameterTable() = default;
+  explicit ParameterTable(const std::vector<Parameter>& parameters);
+
+  /// The expression that stands inside `${...}`; from now on its parameters are used. @throws std::invalid_argument as Expression.
+  std::shared_ptr<const Expression> parse(const std::string& text) const;
+
+  std::vector<std::string> names;
+  std::vector<double> values;
+  std::unordered_map<std::string, int> index;  ///< from name to index in `names` and `values`
+  mutable std::set<int> used;                  ///< indices of the parameters on which a parsed expression depends
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_PARAMETER_TABLE_H_
