@@ -2,11 +2,13 @@
 #include "ensemble/ensemble.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "equations/compiled_system.h"
 #include "math/cpu_timer.h"
 #include "sampling/measure.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {
@@ -61,6 +63,7 @@ EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, bool with_grad
     result.total = std::move(members.front());
     if (!result.total.status.ok()) return result;
     result.values = Eigen::VectorXd::Constant(1, result.total.objective);
+    result.by_value = Eigen::VectorXd::Ones(1);
     if (with_gradient) result.gradients = result.total.gradient;
     return result;
   }
@@ -71,6 +74,7 @@ EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, bool with_grad
   if (!collect(&members, with_gradient, &result)) return result;
   const Measured measured = measure(options_, result.values, weights_);
   result.total.objective = measured.value;
+  result.by_value = measured.by_value;
   result.threshold = measured.threshold;
   if (with_gradient) result.total.gradient = result.gradients * measured.by_value;
   return result;
@@ -125,6 +129,29 @@ bool Ensemble::fill_tail(const std::vector<std::size_t>& failed, const std::vect
   }
   result->failed = static_cast<int>(failed.size());
   return true;
+}
+
+GradientCheck check_gradient(Ensemble* ensemble, const Eigen::VectorXd& rho, CheckMethod method, const std::atomic<bool>* cancel) {
+  EnsembleEvaluation all = ensemble->evaluate(rho, true, cancel);
+  GradientCheck check;
+  check.evaluation = std::move(all.total);
+  check.status = check.evaluation.status;
+  if (!check.status.ok()) return check;
+  check.reference.setZero(rho.size());
+  check.reference_error.setZero(rho.size());
+  for (std::size_t k = 0; k < ensemble->scenarios().size(); ++k) {
+    const double factor = all.by_value[static_cast<Eigen::Index>(k)];
+    const Scenario& scenario = ensemble->scenarios()[k];
+    if (factor == 0.0) continue;
+    const GradientCheck one = check_design(scenario.system, scenario.parameters(rho), method, cancel);
+    check.method = one.method;
+    check.status = one.status;
+    if (!check.status.ok()) return check;
+    check.reference += factor * one.reference;
+    check.reference_error += std::abs(factor) * one.reference_error;
+  }
+  compare(&check);
+  return check;
 }
 
 }  // namespace codesign

@@ -16,6 +16,7 @@ struct EnsembleEvaluation {
   Evaluation total;
   Eigen::VectorXd values;     ///< psi of each scenario; empty if one failed and `total` is not ok
   Eigen::MatrixXd gradients;  ///< one column per scenario
+  Eigen::VectorXd by_value;   ///< derivative of the measure by psi of each scenario
   double threshold = 0.0;     ///< of kCvar and kWorst: the value at risk
   int failed = 0;             ///< scenarios that could not be integrated and count in the tail
 };
@@ -46,6 +47,10 @@ class Ensemble {
   Eigen::VectorXd weights_;
   std::shared_ptr<EvaluationEngine> engine_;
 };
+
+/// check_gradient() for the measure of an ensemble: the reference is the derivative of the measure by each scenario's psi, times the
+/// reference of that scenario's gradient. Scenarios on which the measure does not depend are not computed.
+GradientCheck check_gradient(Ensemble* ensemble, const Eigen::VectorXd& rho, CheckMethod method, const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 
 #include "description/tuned_parameters.h"
@@ -18,7 +19,7 @@
 namespace codesign {
 namespace {
 
-constexpr int kMostDraws = 10;  // points drawn per point asked for, before screening gives up
+constexpr std::uint32_t kRounds = 10;  // of screening, before it gives up to replace unusable points
 
 /// One search over starts: what its stages share.
 class Multistart {
@@ -51,15 +52,14 @@ class Multistart {
  private:
   Ensemble ensemble() const { return {scenarios_, study_.ensemble.robust.value_or(RobustOptions{}), engine_}; }
 
-  /// Draws points until `screen` of them are usable.
+  /// Draws points until `screen` of them are usable: each round replaces those that were not in the round before.
   void screen() {
-    Sampler sampler(asked_.sampler, static_cast<int>(study_.tuned.size()), asked_.seed, asked_.screen);
-    int drawn = 0;
-    while (static_cast<int>(points_.size()) < asked_.screen && drawn < kMostDraws * asked_.screen && !is_set(cancel_)) {
-      std::vector<Eigen::VectorXd> round;
-      while (static_cast<int>(points_.size() + round.size()) < asked_.screen)
-        round.push_back(drawn++ == 0 ? problem_.start() : at(sampler.next()));
-      evaluate(round);
+    const int dimension = static_cast<int>(study_.tuned.size());
+    for (std::uint32_t round = 0; round < kRounds && missing() > 0 && !is_set(cancel_); ++round) {
+      const Eigen::MatrixXd unit = unit_points(asked_.sampler, missing(), dimension, asked_.seed + round);
+      std::vector<Eigen::VectorXd> points;
+      for (Eigen::Index k = 0; k < unit.cols(); ++k) points.push_back(k == 0 && round == 0 ? problem_.start() : at(unit.col(k)));
+      evaluate(points);
     }
     order_.resize(points_.size());
     std::iota(order_.begin(), order_.end(), std::size_t{0});
@@ -67,12 +67,14 @@ class Multistart {
     order_.resize(std::min(order_.size(), static_cast<std::size_t>(asked_.starts)));
   }
 
+  int missing() const { return asked_.screen - static_cast<int>(points_.size()); }
+
   /// A point of the unit cube within the bounds.
-  Eigen::VectorXd at(const std::vector<double>& u) const {
-    Eigen::VectorXd rho(static_cast<Eigen::Index>(u.size()));
-    for (std::size_t k = 0; k < u.size(); ++k) {
-      const Parameter& p = study_.parameters[static_cast<std::size_t>(study_.tuned[k])];
-      rho[static_cast<Eigen::Index>(k)] = p.lower + u[k] * (p.upper - p.lower);
+  Eigen::VectorXd at(const Eigen::VectorXd& u) const {
+    Eigen::VectorXd rho(u.size());
+    for (Eigen::Index k = 0; k < u.size(); ++k) {
+      const Parameter& p = study_.parameters[static_cast<std::size_t>(study_.tuned[static_cast<std::size_t>(k)])];
+      rho[k] = p.lower + u[k] * (p.upper - p.lower);
     }
     return rho;
   }

@@ -46,13 +46,15 @@ Problem compile(const RobotDescription& robot, Study study, const ParameterSetti
   const CpuTimer timer;
   require_numbers_at_start(study, start_parameters(study));
   append(unused_parameters(study), &contents.warnings);
-  contents.system = make_system(robot, study, &contents.warnings);
   for (RunDescription& run : study.ensemble.runs)
     if (run.study) {
+      // Settings and requests change values and choice of the tuned parameters, for all runs alike.
       auto changed = std::make_shared<Study>(*run.study);
-      apply_settings(settings, changed.get());
+      changed->parameters = study.parameters;
+      changed->tuned = study.tuned;
       run.study = std::move(changed);
     }
+  contents.system = make_system(robot, study, &contents.warnings);
   contents.variants = make_variants(robot, study, contents.system, &contents.warnings);
   contents.setup_seconds += timer.seconds();
   return Problem(std::make_shared<const Problem::Contents>(std::move(contents)));

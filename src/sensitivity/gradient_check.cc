@@ -1,4 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sensitivity/gradient_check.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -46,16 +48,6 @@ Complex replay(const CompiledSystem& system, const std::vector<Complex>& paramet
   return step.psi() + step.equations().formulas().terminal(step.state(), nullptr);
 }
 
-void compare(GradientCheck* check) {
-  if (check->reference.size() == 0) return;
-  const double scale = 1e-3 * check->reference.cwiseAbs().maxCoeff();
-  for (Eigen::Index k = 0; k < check->reference.size(); ++k) {
-    const double difference = std::abs(check->evaluation.gradient[k] - check->reference[k]);
-    const double size = std::max(std::abs(check->reference[k]), scale);
-    if (difference > 0.0) check->largest_relative_difference = std::max(check->largest_relative_difference, difference / size);
-  }
-}
-
 /// Sets a failure if a component of the reference is not finite.
 void refuse_non_finite(const CompiledSystem& system, GradientCheck* check) {
   for (Eigen::Index k = 0; k < check->reference.size(); ++k) {
@@ -67,13 +59,12 @@ void refuse_non_finite(const CompiledSystem& system, GradientCheck* check) {
   }
 }
 
-void check_by_complex_step(const CompiledSystem& system, const Eigen::VectorXd& rho, const std::atomic<bool>* cancel,
+void check_by_complex_step(const CompiledSystem& system, const std::vector<double>& parameters, const std::atomic<bool>* cancel,
                            GradientCheck* check) {
   RosenbrockIntegrator integrator(system);
   std::vector<double> steps;
-  const std::vector<double> parameters = system.parameters(rho);
   check->status = record_steps(system, parameters, cancel, &steps);
-  for (Eigen::Index k = 0; check->status.ok() && k < rho.size(); ++k) {
+  for (Eigen::Index k = 0; check->status.ok() && k < check->reference.size(); ++k) {
     std::vector<Complex> perturbed(parameters.begin(), parameters.end());
     const auto index = static_cast<std::size_t>(system.study().tuned[static_cast<std::size_t>(k)]);
     const double h = kComplexStep * std::max(1.0, std::abs(parameters[index]));
@@ -85,7 +76,8 @@ void check_by_complex_step(const CompiledSystem& system, const Eigen::VectorXd& 
 
 /// Reference by Ridders' extrapolated differences [9]. The error of the objective must be far below the differences, so tolerances are
 /// tightened.
-void check_by_differences(const CompiledSystem& system, const Eigen::VectorXd& rho, const std::atomic<bool>* cancel, GradientCheck* check) {
+void check_by_differences(const CompiledSystem& system, const std::vector<double>& parameters, const std::atomic<bool>* cancel,
+                          GradientCheck* check) {
   Study study = system.study();
   study.solver.relative_tolerance = std::min(study.solver.relative_tolerance, 1e-10);
   study.solver.absolute_tolerance = std::min(study.solver.absolute_tolerance, 1e-11);
@@ -93,15 +85,17 @@ void check_by_differences(const CompiledSystem& system, const Eigen::VectorXd& r
   study.solver.method = RosenbrockMethod::kRodas5P;
   study.solver.maximum_steps = std::max(study.solver.maximum_steps, 2000000);
   Evaluator evaluator(std::make_shared<const CompiledSystem>(system.robot(), study, system.sharing()));
-  for (Eigen::Index k = 0; check->status.ok() && k < rho.size(); ++k) {
+  for (Eigen::Index k = 0; check->status.ok() && k < check->reference.size(); ++k) {
+    const auto index = static_cast<std::size_t>(study.tuned[static_cast<std::size_t>(k)]);
     const auto objective = [&](double value) {
-      Eigen::VectorXd moved = rho;
-      moved[k] = value;
-      const Evaluation evaluation = evaluator.evaluate(moved, false, cancel);
+      std::vector<double> moved = parameters;
+      moved[index] = value;
+      const Evaluation evaluation = evaluator.evaluate_design(moved, false, cancel);
       if (!evaluation.status.ok()) check->status = evaluation.status;
       return evaluation.objective;
     };
-    const RiddersDerivative derivative = ridders_derivative(objective, rho[k], 1e-2 * std::max(std::abs(rho[k]), 1e-3));
+    const double start = parameters[index];
+    const RiddersDerivative derivative = ridders_derivative(objective, start, 1e-2 * std::max(std::abs(start), 1e-3));
     check->reference[k] = derivative.value;
     check->reference_error[k] = derivative.error;
   }
@@ -115,17 +109,33 @@ GradientCheck check_gradient(const Problem& problem, const Eigen::VectorXd& rho,
 
 GradientCheck check_gradient(const std::shared_ptr<const CompiledSystem>& system, const Eigen::VectorXd& rho, CheckMethod method,
                              const std::atomic<bool>* cancel) {
+  return check_design(system, system->parameters(rho), method, cancel);
+}
+
+void compare(GradientCheck* check) {
+  if (check->reference.size() == 0) return;
+  const double scale = 1e-3 * check->reference.cwiseAbs().maxCoeff();
+  for (Eigen::Index k = 0; k < check->reference.size(); ++k) {
+    const double difference = std::abs(check->evaluation.gradient[k] - check->reference[k]);
+    const double size = std::max(std::abs(check->reference[k]), scale);
+    if (difference > 0.0) check->largest_relative_difference = std::max(check->largest_relative_difference, difference / size);
+  }
+}
+
+GradientCheck check_design(const std::shared_ptr<const CompiledSystem>& system, const std::vector<double>& parameters, CheckMethod method,
+                           const std::atomic<bool>* cancel) {
+  const auto count = static_cast<Eigen::Index>(system->study().tuned.size());
   GradientCheck check;
   check.method = system->study().solver.integrator == IntegratorKind::kIdas ? CheckMethod::kRidders : method;
-  check.reference.setZero(rho.size());
-  check.reference_error.setZero(rho.size());
-  check.evaluation = Evaluator(system).evaluate(rho, true, cancel);
+  check.reference.setZero(count);
+  check.reference_error.setZero(count);
+  check.evaluation = Evaluator(system).evaluate_design(parameters, true, cancel);
   check.status = check.evaluation.status;
   if (!check.status.ok()) return check;
   if (check.method == CheckMethod::kComplexStep) {
-    check_by_complex_step(*system, rho, cancel, &check);
+    check_by_complex_step(*system, parameters, cancel, &check);
   } else {
-    check_by_differences(*system, rho, cancel, &check);
+    check_by_differences(*system, parameters, cancel, &check);
   }
   if (check.status.ok()) refuse_non_finite(*system, &check);
   if (check.status.ok()) compare(&check);

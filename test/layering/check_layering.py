@@ -27,6 +27,8 @@ ROWS = [
     ["problem"],
     ["integration"],
     ["sensitivity"],
+    ["engine"],
+    ["ensemble"],
     ["optimization"],
     ["jobs"],
     ["cli", "ros"],
