@@ -1,0 +1,32 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOBS_ENSEMBLE_RECORDS_H_
+#define MECHANISM_CODESIGN_JOBS_ENSEMBLE_RECORDS_H_
+
+#include <string>
+#include <vector>
+
+#include "jobs/json.h"
+#include "mechanism_codesign/optimization.h"
+
+namespace codesign {
+
+/// Adds what an optimization says about several runs, samples and starts: `scenarios`, `validation`, `multistart`. Adds nothing for a study
+/// with one run and one start.
+void add_ensemble(const Problem& problem, const OptimizationResult& result, Json* object);
+
+/// The same as sentences for people, one per line; empty for a study with one run and one start.
+std::vector<std::string> ensemble_sentences(const Problem& problem, const OptimizationResult& result);
+
+/// Columns and rows of starts.csv: number, objectives at start and end, status, termination, evaluations, optimum (from 1; 0: none), then
+/// the tuned parameters at the start and at the end.
+std::vector<std::string> start_columns(const Problem& problem);
+std::vector<std::vector<std::string>> start_rows(const OptimizationResult& result);
+
+/// Columns and rows of scenarios.csv: run, sample (from 1; 0: nominal), weight, objective before and after, then the parameters that any
+/// scenario sets; a cell is empty where a scenario does not set the parameter.
+std::vector<std::string> scenario_columns(const OptimizationResult& result);
+std::vector<std::vector<std::string>> scenario_rows(const OptimizationResult& result);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOBS_ENSEMBLE_RECORDS_H_
