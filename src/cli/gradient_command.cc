@@ -3,6 +3,7 @@
 #include "cli/inputs.h"
 #include "cli/report.h"
 #include "cli/table.h"
+#include "ensemble/ensemble.h"
 #include "text/number_text.h"
 
 namespace codesign::cli {
@@ -11,9 +12,10 @@ namespace {
 const char* name_of(CheckMethod method) { return method == CheckMethod::kComplexStep ? "complex_step" : "ridders"; }
 
 GradientCheck compute(const Arguments& arguments, const Problem& problem, const Console& console) {
-  if (arguments.verify) return check_gradient(problem.system(), problem.start(), arguments.method, &console.cancel);
+  Ensemble ensemble(problem);
+  if (arguments.verify) return check_gradient(&ensemble, problem.start(), arguments.method, &console.cancel);
   GradientCheck result;
-  result.evaluation = Evaluator(problem.system()).evaluate(problem.start(), true, &console.cancel);
+  result.evaluation = ensemble.evaluate(problem.start(), true, &console.cancel).total;
   result.status = result.evaluation.status;
   return result;
 }

@@ -9,6 +9,7 @@
 
 #include "cli/inputs.h"
 #include "cli/output_file.h"
+#include "jobs/ensemble_records.h"
 #include "jobs/run_recorder.h"
 #include "jobs/whole_file.h"
 #include "reading/urdf/urdf_reader.h"
@@ -36,7 +37,7 @@ JobFolder::JobFolder(const std::string& path, const Problem& problem) : path_(pa
 std::string JobFolder::in_folder(const std::string& name) const { return (std::filesystem::path(path_) / name).string(); }
 
 void JobFolder::make_room() {
-  for (const char* name : {"result.json", "tuned.urdf", "initial.csv", "tuned.csv"}) {
+  for (const char* name : {"result.json", "tuned.urdf", "initial.csv", "tuned.csv", "starts.csv", "scenarios.csv"}) {
     unlink(in_folder(name).c_str());
     unlink((in_folder(name) + kPartSuffix).c_str());
   }
@@ -78,12 +79,24 @@ void JobFolder::write_run(const std::string& name, const std::vector<double>& pa
   write_whole_file(in_folder(name), text.str());
 }
 
-std::vector<Failure> JobFolder::finish(const Json& result, const Eigen::VectorXd& rho, const std::atomic<bool>& cancel) {
+void JobFolder::write_table(const std::string& name, const std::vector<std::string>& columns,
+                            const std::vector<std::vector<std::string>>& rows) {
+  try_to([&] {
+    std::ostringstream text;
+    CsvWriter csv(text, columns, in_folder(name));
+    for (const std::vector<std::string>& row : rows) csv.write(row);
+    write_whole_file(in_folder(name), text.str());
+  });
+}
+
+std::vector<Failure> JobFolder::finish(const Json& object, const OptimizationResult& result, const std::atomic<bool>& cancel) {
   const std::atomic<bool>* const watched = cancel ? nullptr : &cancel;
-  const std::vector<double> tuned = problem_.parameters(rho);
+  const std::vector<double> tuned = problem_.parameters(result.rho);
   const std::size_t before = failures_.size();
-  try_to([&] { write_whole_file(in_folder("result.json"), to_text(result)); });
+  try_to([&] { write_whole_file(in_folder("result.json"), to_text(object)); });
   try_to([&] { write_whole_file(in_folder("tuned.urdf"), write_tuned_urdf(problem_.urdf(), problem_.overlays(), tuned)); });
+  if (!result.starts.empty()) write_table("starts.csv", start_columns(problem_), start_rows(result));
+  if (!result.scenarios.empty()) write_table("scenarios.csv", scenario_columns(result), scenario_rows(result));
   if (failures_.size() == before) best_.remove();
   try_to([&] { write_run("initial.csv", problem_.parameters(), watched); });
   try_to([&] { write_run("tuned.csv", tuned, watched); });

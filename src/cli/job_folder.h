@@ -33,16 +33,18 @@ class JobFolder {
   /// Records a trial point. A file that cannot be written does not end the optimization; finish() reports it.
   void add(const Trial& trial);
 
-  /// Writes the remaining files; a failure of one does not affect the others. @param rho the best point.
+  /// Writes the remaining files; a failure of one does not affect the others. @param object for result.json. @param result has the best
+  /// point, and the searches and scenarios for starts.csv and scenarios.csv.
   /// @returns one failure for each file that is missing, or incomplete because its run failed; empty on success.
   /// @param cancel if it is set during this call, the recorded runs end early. If it was set before (a cancelled optimization), it is
   /// ignored and the runs are recorded in full.
-  std::vector<Failure> finish(const Json& result, const Eigen::VectorXd& rho, const std::atomic<bool>& cancel);
+  std::vector<Failure> finish(const Json& object, const OptimizationResult& result, const std::atomic<bool>& cancel);
 
  private:
   std::string in_folder(const std::string& name) const;
   void make_room();
   void write_run(const std::string& name, const std::vector<double>& parameters, const std::atomic<bool>* cancel);
+  void write_table(const std::string& name, const std::vector<std::string>& columns, const std::vector<std::vector<std::string>>& rows);
   void try_to(const std::function<void()>& write);
 
   std::string path_;

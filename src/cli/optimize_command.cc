@@ -6,6 +6,7 @@
 #include "cli/job_folder.h"
 #include "cli/report.h"
 #include "cli/table.h"
+#include "jobs/ensemble_records.h"
 #include "mechanism_codesign/optimization.h"
 #include "text/number_text.h"
 
@@ -13,6 +14,7 @@ namespace codesign::cli {
 namespace {
 
 void print_trial(const Trial& trial, std::ostream& err) {
+  if (trial.start > 0) err << "search " << trial.start << ", ";
   err << "trial " << trial.evaluation << ": ";
   if (trial.status.ok())
     err << "objective " << readable(trial.objective) << ", scaled gradient " << readable(trial.gradient_norm);
@@ -52,6 +54,7 @@ void print_result(const Problem& problem, const OptimizationResult& result, std:
   print_design(problem, result, out);
   if (is_evaluated(problem, result))
     out << "objective " << readable(result.initial_objective) << " -> " << readable(result.objective) << '\n';
+  for (const std::string& sentence : ensemble_sentences(problem, result)) out << sentence << '\n';
   out << result.termination << " after " << result.iterations << " iterations, " << result.evaluations << " evaluations ("
       << result.failed_evaluations << " failed), " << result.statistics.steps << " steps, " << readable(result.statistics.cpu_seconds)
       << " s of processor time\n";
@@ -83,6 +86,7 @@ Json result_json(const Problem& problem, const OptimizationResult& result) {
   object["failed_evaluations"] = result.failed_evaluations;
   object["termination"] = result.termination;
   add_statistics(result.statistics, &object);
+  add_ensemble(problem, result, &object);
   if (has_design(problem, result)) add_counts(problem, problem.parameters(result.rho), &object);
   return object;
 }
@@ -113,7 +117,7 @@ int optimize(const Arguments& arguments, const Console& console) {
   if (!result.status.ok()) object["error"] = to_json(result.status);
   std::vector<Failure> failures;
   // The files are written before the output, so that the output reports missing ones.
-  if (folder && designed) failures = folder->finish(object, result.rho, console.cancel);
+  if (folder && designed) failures = folder->finish(object, result, console.cancel);
   return finish(arguments, result.status, std::move(object), console, failures);
 }
 

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <cstdint>
 
+#include "ensemble/ensemble.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/gradient.h"
 #include "ros/conversions.h"
@@ -21,11 +22,12 @@ void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& 
              mechanism_codesign::EvaluateResponse* reply) {
   const Eigen::VectorXd rho = design_of(problem, request);
   GradientCheck check;
+  Ensemble ensemble(problem);
   if (request.check.empty()) {
-    check.evaluation = Evaluator(problem.system()).evaluate(rho, !request.objective_only, &cancel);
+    check.evaluation = ensemble.evaluate(rho, !request.objective_only, &cancel).total;
     check.status = check.evaluation.status;
   } else {
-    check = check_gradient(problem.system(), rho, method_of(request.check), &cancel);
+    check = check_gradient(&ensemble, rho, method_of(request.check), &cancel);
   }
   set_status(check.status, reply);
   reply->parameters = problem.tuned_names();
