@@ -38,7 +38,7 @@ codesign_warnings(codesign_test_fixtures)
 codesign_precompile(codesign_test_fixtures <gtest/gtest.h>)
 
 set(many_cases reading elements equations integration sensitivity cli ros cases)
-foreach(folder text math codegen sparse description mechanism reading joints forces control system elements equations assembly observation problem integration sensitivity
+foreach(folder text math codegen sparse description sampling mechanism reading joints forces control system elements equations assembly observation problem integration sensitivity
     optimization jobs cli ros benchmark cases allocation)
   file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${folder}/*.cc)
   list(FILTER test_sources EXCLUDE REGEX "_fixture\\.cc$")
