@@ -30,6 +30,8 @@ endfunction()
 
 codesign_import(klu klu.h suitesparse klu amd colamd btf suitesparseconfig)
 codesign_import(spqr SuiteSparseQR.hpp suitesparse spqr cholmod)
+# Headers alone: Boost's libraries are not linked.
+codesign_import(boost boost/random/sobol.hpp "")
 
 # Xbyak compiles equations and sparse factorizations to machine code on x86-64. Without it, templates and loops are used instead.
 find_path(XBYAK_INCLUDE_DIR xbyak/xbyak.h)

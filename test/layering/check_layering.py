@@ -16,6 +16,7 @@ ROWS = [
     ["codegen"],
     ["sparse"],
     ["description"],
+    ["sampling"],
     ["mechanism"],
     ["reading"],
     ["joints", "forces", "control"],

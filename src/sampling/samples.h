@@ -1,0 +1,19 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SAMPLING_SAMPLES_H_
+#define MECHANISM_CODESIGN_SAMPLING_SAMPLES_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "description/ensemble.h"
+
+namespace codesign {
+
+/// `count` samples of uncertain quantities, equally likely: the quantiles of unit_points(), doc/theory.md (24b). Nothing is special about a
+/// single sample: whoever wants the nominal values instead takes them. A set that is to be independent of this one takes another seed.
+/// @return count rows with one value per quantity, in their order; of a friction law, its index in `laws`
+std::vector<std::vector<double>> draw(const std::vector<UncertainQuantity>& quantities, SamplerKind sampler, int count, std::uint32_t seed);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SAMPLING_SAMPLES_H_

@@ -1,0 +1,22 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SAMPLING_SOBOL_H_
+#define MECHANISM_CODESIGN_SAMPLING_SOBOL_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace codesign {
+
+/// Largest dimension of sobol_points(): that of Boost's table of direction numbers.
+constexpr int kMaxSobolDimension = 3667;
+
+/// The first `count` points of a scrambled Sobol sequence, one per row; doc/theory.md (24b). A larger `count` adds rows and a larger
+/// `dimension` columns to the same numbers. If `count` is 2^k, each column has exactly one number in each interval [i, i + 1) / 2^k.
+/// @param count 0 or more
+/// @param dimension from 0 to kMaxSobolDimension, otherwise std::invalid_argument
+/// @return count x dimension, odd multiples of 2^-33 inside (0, 1), the same on every platform
+Eigen::MatrixXd sobol_points(int count, int dimension, std::uint32_t seed);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SAMPLING_SOBOL_H_
