@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 
 #include "description/quantity.h"
 #include "mechanism_codesign/error.h"
@@ -12,6 +13,14 @@ namespace codesign {
 
 /// The friction laws: theory (10), (13e) and (13f). The laws of Gonthier and LuGre have states.
 enum class FrictionModel { kBrownMcPhee, kGonthier, kLuGre };
+/// The spelling of each in files, in the order of the enumerators.
+constexpr std::array<const char*, 3> kFrictionModelNames{"brown_mcphee", "gonthier", "lugre"};
+/// The law of a name; std::nullopt if there is none.
+inline std::optional<FrictionModel> friction_model(const std::string& name) {
+  for (std::size_t k = 0; k < kFrictionModelNames.size(); ++k)
+    if (name == kFrictionModelNames[k]) return static_cast<FrictionModel>(k);
+  return std::nullopt;
+}
 
 /// The numbers of `<codesign:friction>` in SI units; doc/annotations.md describes them. Value is Quantity in a description, which may
 /// depend on parameters, and a scalar in a design. To add a number, add a member here and a row in visit_friction_numbers(); the reader,

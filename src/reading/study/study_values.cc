@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "mechanism/signal_catalog.h"
+#include "text/decimal.h"
 #include "text/unknown_name.h"
 
 namespace codesign {
@@ -24,6 +26,30 @@ ExpressionScope scope_of(const std::vector<Parameter>& parameters) {
             return found == parameters.end() ? -1 : static_cast<int>(found - parameters.begin());
           },
           [&parameters] { return names_of(parameters); }};
+}
+
+std::string range_of(const Parameter& parameter) { return "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"; }
+
+int untuned_parameter(const std::string& name, const Study& study, const YamlValue& at, const std::vector<std::string>& others) {
+  std::vector<std::string> allowed = others;
+  const std::set<int> tuned(study.tuned.begin(), study.tuned.end());
+  for (int index = 0; index < static_cast<int>(study.parameters.size()); ++index) {
+    const std::string& known = study.parameters[static_cast<std::size_t>(index)].name;
+    const bool is_tuned = tuned.count(index) > 0;
+    if (known == name && !is_tuned) return index;
+    if (known == name)
+      throw InputError(
+          {at.where(), at.path(), "this parameter is tuned, so its value is the search's", name, "a parameter that is not tuned"});
+    if (!is_tuned) allowed.push_back(known);
+  }
+  throw unknown_name(at.where(), at.path(), "parameter", name, allowed);
+}
+
+double read_within_bounds(const YamlValue& value, const Parameter& parameter) {
+  const double number = value.number();
+  if (number < parameter.lower || number > parameter.upper)
+    value.fail("the value lies outside the bounds of the parameter " + parameter.name, range_of(parameter));
+  return number;
 }
 
 Quantity read_quantity(const YamlValue& value, const std::vector<Parameter>& parameters) {
