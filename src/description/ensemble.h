@@ -70,7 +70,7 @@ struct RobustOptions {
   RobustMeasure measure = RobustMeasure::kMean;
   double level = 0.9;   ///< of kCvar, in (0, 1)
   double factor = 1.0;  ///< of kMeanPlusDeviation, 0 or more
-  int samples = 32;     ///< per run, at least 1
+  int samples = 32;     ///< per run, at least 1; 1 if nothing is uncertain
   SamplerKind sampler = SamplerKind::kSobol;
   std::uint32_t seed = 1;
   int validate = 0;  ///< fresh samples at the optimum; 0: none
@@ -109,7 +109,7 @@ struct EngineOptions {
 struct EnsembleDescription {
   std::vector<RunDescription> runs;
   std::vector<UncertainQuantity> uncertain;
-  std::optional<RobustOptions> robust;
+  std::optional<RobustOptions> robust;  ///< set exactly if is_ensemble()
   MultistartOptions multistart;
   EngineOptions engine;
 

@@ -1,8 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/study/study_options.h"
 
-#include <algorithm>
-
+#include "reading/study/study_fields.h"
 #include "text/decimal.h"
 
 namespace codesign {
@@ -42,15 +41,6 @@ void read_positive(const YamlValue& parent, const std::string& key, bool zero_al
   if (!value) return;
   *number = value->number();
   if (*number < 0.0 || (*number == 0.0 && !zero_allowed)) value->fail(key + " out of range", zero_allowed ? "0 or more" : "more than 0");
-}
-
-/// Sets `*option` to the enumerator named at `key`, if the key exists. @param names in the order of the enumerators.
-template <class Enumeration, std::size_t N>
-void read_choice(const YamlValue& parent, const std::string& key, const std::array<const char*, N>& names, Enumeration* option) {
-  const auto value = parent.find(key);
-  if (!value) return;
-  const std::string name = value->choice(key, {names.begin(), names.end()});
-  *option = static_cast<Enumeration>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
 /// Reads `gradient:`. The adjoint exists for the steps of the Rosenbrock integrator only, and cannot take part in their error test.

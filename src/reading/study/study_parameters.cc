@@ -6,13 +6,10 @@
 #include "description/expression.h"
 #include "description/parameter_constraint.h"
 #include "reading/study/study_values.h"
-#include "text/decimal.h"
 #include "text/nearest_name.h"
 
 namespace codesign {
 namespace {
-
-std::string range_of(const Parameter& parameter) { return "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"; }
 
 /// A name that the model does not have is a new parameter only if the study gives `initial`; otherwise it is most likely misspelt.
 Parameter new_parameter(const std::string& name, const YamlValue& value, const std::vector<Parameter>& model) {

@@ -4,6 +4,7 @@
 #include "reading/parameter_table.h"
 #include "reading/study/study_basis.h"
 #include "reading/study/study_controllers.h"
+#include "reading/study/study_ensemble.h"
 #include "reading/study/study_initial_state.h"
 #include "reading/study/study_loads.h"
 #include "reading/study/study_objective.h"
@@ -26,14 +27,10 @@ std::array<double, 3> read_gravity(const YamlValue& value) {
   return {items[0].number(), items[1].number(), items[2].number()};
 }
 
-}  // namespace
-
-Study read_study(const SourceText& yaml, const RobotDescription& robot, const TrajectoryLoader& loader) {
-  const YamlValue root = YamlValue::parse(yaml);
-  root.require_keys({"duration"}, {"gravity", "initial_state", "controllers", "loads", "parameters", "objective", "constraints", "limits",
-                                   "solver", "optimizer"});
+/// Reads what one run and its optimization need: all but the blocks of read_ensemble(). Does not check the keys of the root.
+Study read_single_run(const YamlValue& root, const std::string& file, const RobotDescription& robot, const TrajectoryLoader& loader) {
   Study study;
-  study.file = yaml.name;
+  study.file = file;
   study.duration = read_duration(root.at("duration"));
   if (const auto gravity = root.find("gravity")) study.gravity = read_gravity(*gravity);
   read_parameters(root, robot, &study);
@@ -54,6 +51,18 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot, const Tr
   if (const auto limits = root.find("limits")) study.limits = read_limit_options(*limits);
   if (const auto solver = root.find("solver")) study.solver = read_solver_options(*solver);
   if (const auto optimizer = root.find("optimizer")) study.optimizer = read_optimizer_options(*optimizer);
+  return study;
+}
+
+}  // namespace
+
+Study read_study(const SourceText& yaml, const RobotDescription& robot, const TrajectoryLoader& loader) {
+  const YamlValue root = YamlValue::parse(yaml);
+  root.require_keys({"duration"}, {"gravity", "initial_state", "controllers", "loads", "parameters", "objective", "constraints", "limits",
+                                   "solver", "optimizer", "runs", "uncertain", "robust", "multistart", "engine"});
+  const auto read_run = [&](const YamlValue& study_value) { return read_single_run(study_value, yaml.name, robot, loader); };
+  Study study = read_run(root);
+  study.ensemble = read_ensemble(root, robot, read_run, study);
   return study;
 }
 

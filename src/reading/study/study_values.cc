@@ -2,8 +2,11 @@
 #include "reading/study/study_values.h"
 
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
+#include "mechanism/signal_catalog.h"
+#include "text/decimal.h"
 #include "text/unknown_name.h"
 
 namespace codesign {
@@ -13,6 +16,30 @@ std::vector<std::string> names_of(const std::vector<Parameter>& parameters) {
   names.reserve(parameters.size());
   for (const Parameter& parameter : parameters) names.push_back(parameter.name);
   return names;
+}
+
+std::string range_of(const Parameter& parameter) { return "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"; }
+
+int untuned_parameter(const std::string& name, const Study& study, const YamlValue& at, const std::vector<std::string>& others) {
+  std::vector<std::string> allowed = others;
+  const std::set<int> tuned(study.tuned.begin(), study.tuned.end());
+  for (int index = 0; index < static_cast<int>(study.parameters.size()); ++index) {
+    const std::string& known = study.parameters[static_cast<std::size_t>(index)].name;
+    const bool is_tuned = tuned.count(index) > 0;
+    if (known == name && !is_tuned) return index;
+    if (known == name)
+      throw InputError(
+          {at.where(), at.path(), "this parameter is tuned, so its value is the search's", name, "a parameter that is not tuned"});
+    if (!is_tuned) allowed.push_back(known);
+  }
+  throw unknown_name(at.where(), at.path(), "parameter", name, allowed);
+}
+
+double read_within_bounds(const YamlValue& value, const Parameter& parameter) {
+  const double number = value.number();
+  if (number < parameter.lower || number > parameter.upper)
+    value.fail("the value lies outside the bounds of the parameter " + parameter.name, range_of(parameter));
+  return number;
 }
 
 Quantity read_quantity(const YamlValue& value, const ParameterTable& table) {

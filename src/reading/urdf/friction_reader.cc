@@ -13,10 +13,9 @@ namespace {
 
 FrictionModel read_model(const XmlElement& element) {
   const std::string name = element.find("model").value_or("brown_mcphee");
-  if (name == "brown_mcphee") return FrictionModel::kBrownMcPhee;
-  if (name == "gonthier") return FrictionModel::kGonthier;
-  if (name == "lugre") return FrictionModel::kLuGre;
-  throw unknown_name(element.where("model"), element.label(), "friction model", name, {"brown_mcphee", "gonthier", "lugre"});
+  if (const auto model = friction_model(name)) return *model;
+  throw unknown_name(element.where("model"), element.label(), "friction model", name,
+                     {kFrictionModelNames.begin(), kFrictionModelNames.end()});
 }
 
 /// A number of the element. An attribute that the model does not use is an error, since it would have no effect.

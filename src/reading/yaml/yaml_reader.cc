@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "text/number_text.h"
@@ -101,10 +102,35 @@ void YamlValue::require_map() const {
 SourceLocation YamlValue::key_place(const std::string& key) const {
   for (const auto& entry : node_)
     if (entry.first.Scalar() == key) return {*file_, entry.first.Mark().line + 1};
-  return where();
+  return base_ ? base_->key_place(key) : where();
+}
+
+YamlValue YamlValue::merged(const YamlValue& change) const {
+  if (!is_map() || !change.is_map()) return change;
+  const auto type = find("type"), new_type = change.find("type");
+  if (type && new_type && type->is_scalar() && new_type->is_scalar() && type->node_.Scalar() != new_type->node_.Scalar()) return change;
+  YamlValue result = change;
+  result.base_ = std::make_shared<const YamlValue>(*this);
+  return result;
 }
 
 std::vector<std::pair<std::string, YamlValue>> YamlValue::entries() const {
+  const std::vector<std::pair<std::string, YamlValue>> own = own_entries();
+  if (!base_) return own;
+  std::map<std::string, const YamlValue*> changes;
+  for (const auto& [key, value] : own) changes.emplace(key, &value);
+  std::vector<std::pair<std::string, YamlValue>> result;
+  for (const auto& [key, value] : base_->entries()) {
+    const auto change = changes.find(key);
+    result.emplace_back(key, change == changes.end() ? value : value.merged(*change->second));
+    if (change != changes.end()) changes.erase(change);
+  }
+  for (const auto& entry : own)
+    if (changes.count(entry.first) > 0) result.push_back(entry);
+  return result;
+}
+
+std::vector<std::pair<std::string, YamlValue>> YamlValue::own_entries() const {
   require_map();
   std::vector<std::pair<std::string, YamlValue>> result;
   std::set<std::string> seen;
@@ -130,8 +156,9 @@ void YamlValue::require_keys(const std::vector<std::string>& required, const std
 std::optional<YamlValue> YamlValue::find(const std::string& key) const {
   require_map();
   const YAML::Node node = node_[key];
-  if (!node.IsDefined()) return std::nullopt;
-  return child(node, key);
+  const std::optional<YamlValue> base = base_ ? base_->find(key) : std::nullopt;
+  if (!node.IsDefined()) return base;
+  return base ? base->merged(child(node, key)) : child(node, key);
 }
 
 YamlValue YamlValue::at(const std::string& key) const {

@@ -23,6 +23,13 @@ class YamlValue {
   /// The root of a text that consists of one document. @throws InputError if it is not YAML, empty or too deeply nested.
   static YamlValue parse(const SourceText& source);
 
+  YamlValue(const YamlValue&) = default;
+  YamlValue(YamlValue&&) = default;
+  // Assigning a YAML::Node changes the tree that both nodes belong to.
+  YamlValue& operator=(const YamlValue&) = delete;
+  YamlValue& operator=(YamlValue&&) = delete;
+  ~YamlValue() = default;
+
   /// `objective.integral[0].signal`; empty for the root.
   const std::string& path() const { return path_; }
   SourceLocation where() const;
@@ -41,6 +48,11 @@ class YamlValue {
   SourceLocation key_place(const std::string& key) const;
   /// Keys and values of a map in the order written; a repeated key is an error.
   std::vector<std::pair<std::string, YamlValue>> entries() const;
+
+  /// This value with a change laid over it: maps are merged key by key, everything else is replaced, and so is a map whose `type` the
+  /// change gives another value. What comes from the change, and each merged map, keeps line and path of the change; the rest keeps its
+  /// own.
+  YamlValue merged(const YamlValue& change) const;
 
   /// The items of a list.
   std::vector<YamlValue> items() const;
@@ -64,10 +76,13 @@ class YamlValue {
   YamlValue child(const YAML::Node& node, const std::string& key) const;
   void require_map() const;
   std::string shown_value() const;
+  /// entries() of the value as written.
+  std::vector<std::pair<std::string, YamlValue>> own_entries() const;
 
   YAML::Node node_;
   std::shared_ptr<const std::string> file_;
   std::string path_;
+  std::shared_ptr<const YamlValue> base_;  ///< the map over which this one is laid; null for a value as written
 };
 
 /// The number that the whole text spells in YAML's notation (`.inf`, `.nan` included); std::nullopt if it is not a number.

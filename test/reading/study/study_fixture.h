@@ -26,6 +26,8 @@ inline RobotDescription study_robot() {
   add("slider_joint", JointType::kPrismatic);
   add("ball_joint", JointType::kPlanar);
   robot.joints[1].friction.emplace();
+  robot.joints[1].friction->mu_static = Quantity(0.3);
+  robot.joints[1].friction->mu_dynamic = Quantity(0.2);
   return robot;
 }
 

@@ -34,5 +34,23 @@ TEST(StudyValues, SaysWhatAQuantityMayBe) {
   }
 }
 
+TEST(StudyValues, FindsParametersThatAreNotTuned) {
+  const YamlValue at = YamlValue::parse({"study.yaml", "set: {rod_length: 0.25, short: 0.1}"}).at("set");
+  Study study;
+  study.parameters = study_robot().parameters;
+  study.tuned = {0};
+  EXPECT_EQ(untuned_parameter("rod_length", study, at), 1);
+  EXPECT_THROW(untuned_parameter("crank_length", study, at), InputError);
+  try {
+    untuned_parameter("rod", study, at, {"another"});
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.fault().allowed, "another, rod_length");
+  }
+  EXPECT_EQ(range_of(study.parameters[1]), "[0.2, 0.4]");
+  EXPECT_EQ(read_within_bounds(at.at("rod_length"), study.parameters[1]), 0.25);
+  EXPECT_THROW(read_within_bounds(at.at("short"), study.parameters[1]), InputError);
+}
+
 }  // namespace
 }  // namespace codesign

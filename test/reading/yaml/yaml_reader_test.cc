@@ -70,6 +70,38 @@ TEST(YamlReader, ChecksKeys) {
   EXPECT_EQ(fault_of([&] { parse("? [a, b]\n: 3\n").entries(); }).message, "a key must be a plain word, found a list");
 }
 
+TEST(YamlReader, MergesMapsKeyByKey) {
+  const YamlValue root = parse("base:\n  a: {x: 1, y: 2}\n  b: [1, 2]\n  c: 3\nchange:\n  d: 4\n  b: [5]\n  a:\n    y: 6\n");
+  const YamlValue merged = root.at("base").merged(root.at("change"));
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : merged.entries()) keys.push_back(key);
+  EXPECT_EQ(keys, (std::vector<std::string>{"a", "b", "c", "d"}));
+  EXPECT_EQ(merged.entries().at(0).second.at("y").number(), 6.0);
+  EXPECT_EQ(merged.at("a").at("x").path(), "base.a.x");
+  EXPECT_EQ(merged.at("a").at("x").where().line, 2);
+  EXPECT_EQ(merged.at("a").at("y").path(), "change.a.y");
+  EXPECT_EQ(merged.at("a").at("y").where().line, 9);
+  EXPECT_EQ(merged.at("a").key_place("y").line, 9);
+  EXPECT_EQ(merged.at("a").key_place("x").line, 2);
+  EXPECT_EQ(merged.at("b").items().size(), 1U);
+  EXPECT_EQ(merged.at("c").number(), 3.0);
+  EXPECT_EQ(merged.path(), "change");
+  merged.require_keys({"a", "b", "c", "d"}, {});
+  EXPECT_EQ(fault_of([&] { merged.require_keys({"a", "b", "d"}, {}); }).element, "base.c");
+  EXPECT_EQ(root.at("base").at("a").at("y").number(), 2.0);
+  EXPECT_EQ(root.at("base").entries().size(), 3U);
+}
+
+TEST(YamlReader, AMapOfAnotherTypeReplacesTheWhole) {
+  const YamlValue root =
+      parse("{base: {f: {type: sine, phase: 1}}, same: {f: {type: sine, offset: 2}}, other: {f: {type: line, slope: 2}}, none: {f: 3}}");
+  EXPECT_EQ(root.at("base").merged(root.at("same")).at("f").entries().size(), 3U);
+  const YamlValue other = root.at("base").merged(root.at("other")).at("f");
+  EXPECT_EQ(other.entries().size(), 2U);
+  EXPECT_FALSE(other.find("phase").has_value());
+  EXPECT_EQ(root.at("base").merged(root.at("none")).at("f").number(), 3.0);
+}
+
 TEST(YamlReader, RefusesTextThatIsNotOneDocument) {
   EXPECT_EQ(fault_of([] { parse("a: [1, 2\nb: 3\n"); }).message.substr(0, 8), "not YAML");
   EXPECT_EQ(fault_of([] { parse("a: 1\n\tb: 3\n"); }).where.line, 2);

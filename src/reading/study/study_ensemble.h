@@ -1,0 +1,19 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_ENSEMBLE_H_
+#define MECHANISM_CODESIGN_READING_STUDY_STUDY_ENSEMBLE_H_
+
+#include "description/robot.h"
+#include "description/study.h"
+#include "reading/study/study_runs.h"
+#include "reading/yaml/yaml_reader.h"
+
+namespace codesign {
+
+/// Reads `runs:`, `uncertain:`, `robust:`, `multistart:` and `engine:`. All else of the study must have been read. `robust` is set exactly
+/// if the study has runs or uncertain quantities. @throws InputError
+EnsembleDescription read_ensemble(const YamlValue& study_value, const RobotDescription& robot, const RunReader& read_run,
+                                  const Study& study);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_ENSEMBLE_H_

@@ -1,0 +1,15 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_MULTISTART_H_
+#define MECHANISM_CODESIGN_READING_STUDY_STUDY_MULTISTART_H_
+
+#include "description/study.h"
+#include "reading/yaml/yaml_reader.h"
+
+namespace codesign {
+
+/// Reads `multistart:` of a study whose parameters have been read. Every tuned parameter needs finite bounds. @throws InputError
+MultistartOptions read_multistart(const YamlValue& study_value, const Study& study);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_MULTISTART_H_

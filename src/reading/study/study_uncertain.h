@@ -1,0 +1,20 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_UNCERTAIN_H_
+#define MECHANISM_CODESIGN_READING_STUDY_STUDY_UNCERTAIN_H_
+
+#include <vector>
+
+#include "description/robot.h"
+#include "description/study.h"
+#include "reading/yaml/yaml_reader.h"
+
+namespace codesign {
+
+/// Reads the map `uncertain:`.
+/// @param study with its parameters. @param runs of the study; what they set cannot be uncertain. @throws InputError
+std::vector<UncertainQuantity> read_uncertain(const YamlValue& uncertain, const RobotDescription& robot, const Study& study,
+                                              const std::vector<RunDescription>& runs);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_UNCERTAIN_H_
