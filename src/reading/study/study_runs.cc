@@ -61,7 +61,7 @@ void require_same_parameters(const YamlValue& run, const Study& changed, const S
 std::shared_ptr<const Study> read_changed(const YamlValue& study_value, const std::string& name, const YamlValue& run, const Study& study,
                                           const RunReader& read_run) {
   try {
-    const auto changed = std::make_shared<const Study>(read_run(study_value.merged(run)));
+    auto changed = std::make_shared<const Study>(read_run(study_value.merged(run)));
     require_same_parameters(run, *changed, study);
     return changed;
   } catch (const InputError& error) {
@@ -98,6 +98,7 @@ std::vector<RunDescription> read_runs(const YamlValue& study_value, const Study&
   if (entries.empty() || entries.size() > kMostRuns)
     runs.fail("found " + std::to_string(entries.size()) + " runs", "1 to " + std::to_string(kMostRuns) + ", each NAME: {set: {...}, ...}");
   std::vector<RunDescription> result;
+  result.reserve(entries.size());
   for (const auto& [name, value] : entries) result.push_back(read_run_entry(study_value, name, value, study, read_run));
   return result;
 }

@@ -45,7 +45,7 @@ void read_normal(const YamlValue& value, const Parameter& parameter, Distributio
 }
 
 std::vector<YamlValue> choices_at(const YamlValue& choice) {
-  const std::vector<YamlValue> items = choice.items();
+  std::vector<YamlValue> items = choice.items();
   if (items.size() < 2) choice.fail("found " + std::to_string(items.size()) + " to choose from", "at least two");
   return items;
 }

@@ -115,7 +115,7 @@ YamlValue YamlValue::merged(const YamlValue& change) const {
 }
 
 std::vector<std::pair<std::string, YamlValue>> YamlValue::entries() const {
-  const std::vector<std::pair<std::string, YamlValue>> own = own_entries();
+  std::vector<std::pair<std::string, YamlValue>> own = own_entries();
   if (!base_) return own;
   std::map<std::string, const YamlValue*> changes;
   for (const auto& [key, value] : own) changes.emplace(key, &value);
@@ -156,7 +156,7 @@ void YamlValue::require_keys(const std::vector<std::string>& required, const std
 std::optional<YamlValue> YamlValue::find(const std::string& key) const {
   require_map();
   const YAML::Node node = node_[key];
-  const std::optional<YamlValue> base = base_ ? base_->find(key) : std::nullopt;
+  std::optional<YamlValue> base = base_ ? base_->find(key) : std::nullopt;
   if (!node.IsDefined()) return base;
   return base ? base->merged(child(node, key)) : child(node, key);
 }
