@@ -1,0 +1,94 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "ensemble/ensemble.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "ensemble/ensemble_fixture.h"
+
+namespace codesign {
+namespace {
+
+const char* const kUncertain = "uncertain: {mu: {uniform: [0.2, 0.4]}}\n";
+
+TEST(Ensemble, OneRunIsTheEvaluationBitForBit) {
+  for (const char* text : {"", "uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {samples: 1, measure: worst}\n", "runs: {only: {}}\n"}) {
+    const Problem problem = block(text);
+    const Evaluation one = Evaluator(problem).evaluate(problem.start(), true);
+    const EnsembleEvaluation all = Ensemble(problem).evaluate(problem.start(), true);
+    EXPECT_EQ(all.total.objective, one.objective);
+    EXPECT_EQ(all.total.gradient, one.gradient);
+    EXPECT_EQ(all.total.statistics.steps, one.statistics.steps);
+  }
+}
+
+TEST(Ensemble, TheMeanWeighsTheRuns) {
+  const Problem problem = block("runs: {light: {set: {mass: 1.0}}, heavy: {set: {mass: 4.0}, weight: 3.0}}\n");
+  const EnsembleEvaluation all = Ensemble(problem).evaluate(problem.start(), true);
+  std::vector<double> light = problem.parameters(), heavy = light;
+  light[1] = 1.0;
+  heavy[1] = 4.0;
+  Evaluator evaluator(problem);
+  const Evaluation a = evaluator.evaluate_design(light, true), b = evaluator.evaluate_design(heavy, true);
+  EXPECT_DOUBLE_EQ(all.total.objective, 0.25 * a.objective + 0.75 * b.objective);
+  EXPECT_LT((all.total.gradient - (0.25 * a.gradient + 0.75 * b.gradient)).norm(), 1e-14 * b.gradient.norm());
+  EXPECT_EQ(all.total.statistics.steps, a.statistics.steps + b.statistics.steps);
+}
+
+TEST(Ensemble, GradientsOfAllMeasuresAgreeWithTheComplexStep) {
+  for (const char* measure : {"mean", "worst", "cvar, level: 0.6", "mean_plus_deviation, factor: 2.0"}) {
+    const Problem problem = block(std::string(kUncertain) + "robust: {samples: 6, measure: " + measure + "}\n");
+    Ensemble ensemble(problem);
+    const GradientCheck check = check_gradient(&ensemble, problem.start(), CheckMethod::kComplexStep);
+    ASSERT_TRUE(check.status.ok()) << check.status.cause;
+    EXPECT_GT(check.reference.norm(), 0.0);
+    EXPECT_LT(check.largest_relative_difference, 1e-8) << measure;
+  }
+}
+
+// The complex step of the scenarios does not check the measure itself: differences of the measure do.
+TEST(Ensemble, GradientsOfMeasuresAgreeWithDifferences) {
+  for (const char* measure : {"worst", "cvar, level: 0.6", "mean_plus_deviation, factor: 2.0"}) {
+    const Problem problem = block(std::string(kUncertain) + "robust: {samples: 6, measure: " + measure + "}\n" +
+                                  "solver: {relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}\n");
+    Ensemble ensemble(problem);
+    const Eigen::VectorXd gradient = ensemble.evaluate(problem.start(), true).total.gradient;
+    for (Eigen::Index k = 0; k < 2; ++k) {
+      const double h = 1e-3;
+      Eigen::VectorXd step = Eigen::VectorXd::Unit(2, k) * h;
+      const double ahead = ensemble.evaluate(problem.start() + step, false).total.objective;
+      const double behind = ensemble.evaluate(problem.start() - step, false).total.objective;
+      EXPECT_NEAR((ahead - behind) / (2.0 * h), gradient[k], 1e-5 * gradient.norm()) << measure;
+    }
+  }
+}
+
+TEST(Ensemble, AFailedSampleRefusesTheDesignOrCountsInTheTail) {
+  // A mass of the second run that no body can have.
+  const std::string runs = "runs: {a: {}, b: {weight: 0.05, set: {mu: 0.4}}, c: {set: {mu: 0.2}}}\n";
+  const Problem problem = block(runs + "robust: {measure: cvar, level: 0.9}\n");
+  std::vector<Scenario> scenarios = make_scenarios(problem);
+  scenarios[1].values = {{1, -1.0}};
+  RobustOptions options = *problem.study().ensemble.robust;
+  const auto engine = std::shared_ptr<EvaluationEngine>(make_engine({}, 3));
+  const EnsembleEvaluation refused = Ensemble(scenarios, options, engine).evaluate(problem.start(), true);
+  EXPECT_EQ(refused.total.status.code, StatusCode::kInvalidDesign);
+  EXPECT_NE(refused.total.status.cause.find("run \"b\""), std::string::npos) << refused.total.status.cause;
+  options.failed = FailedSamples::kTail;
+  const EnsembleEvaluation counted = Ensemble(scenarios, options, engine).evaluate(problem.start(), true);
+  ASSERT_TRUE(counted.total.status.ok()) << counted.total.status.cause;
+  EXPECT_EQ(counted.failed, 1);
+  EXPECT_EQ(counted.values[1], std::max(counted.values[0], counted.values[2]));
+  scenarios[0].values = {{1, -1.0}};
+  EXPECT_FALSE(Ensemble(scenarios, options, engine).evaluate(problem.start(), true).total.status.ok()) << "half of all is no tail";
+}
+
+TEST(Ensemble, CancelledIsCancelled) {
+  const Problem problem = block(kUncertain);
+  const std::atomic<bool> cancel{true};
+  EXPECT_EQ(Ensemble(problem).evaluate(problem.start(), true, &cancel).total.status.code, StatusCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,45 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "optimization/local_search.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "ensemble/ensemble_fixture.h"
+
+namespace codesign {
+namespace {
+
+const std::string kRuns =
+    "runs: {near: {}, far: {controllers: {hold: {setpoint: 0.7}}}, slow: {initial_state: {slide: {velocity: 0.2}}}}\n";
+
+OptimizationResult tune(const std::string& robust, const std::string& optimizer) {
+  return optimize(block(kRuns + "robust: {" + robust + "}\n", optimizer));
+}
+
+TEST(LocalSearch, TheWorstCaseIsLowerThanThatOfTheMean) {
+  const std::string slsqp = "{algorithm: slsqp, relative_tolerance: 1.0e-9}";
+  const OptimizationResult mean = tune("measure: mean", slsqp), worst = tune("measure: worst", slsqp);
+  ASSERT_TRUE(mean.status.ok()) << mean.status.cause;
+  ASSERT_TRUE(worst.status.ok()) << worst.status.cause;
+  EXPECT_EQ(worst.objective, worst.values.maxCoeff());
+  EXPECT_LE(worst.objective, mean.values.maxCoeff() * (1.0 + 1e-9));
+  EXPECT_LE(mean.objective, worst.values.mean() * (1.0 + 1e-9)) << "and the mean is lowest where the mean was minimized";
+  EXPECT_LT(worst.objective, worst.initial_objective);
+}
+
+TEST(LocalSearch, AlgorithmsWithConstraintsAgreeOnTheTail) {
+  const OptimizationResult slsqp = tune("measure: cvar, level: 0.5", "{algorithm: slsqp, relative_tolerance: 1.0e-9}");
+  const OptimizationResult mma = tune("measure: cvar, level: 0.5", "{algorithm: mma, relative_tolerance: 1.0e-9, max_evaluations: 400}");
+  ASSERT_TRUE(slsqp.status.ok()) << slsqp.status.cause;
+  ASSERT_TRUE(mma.status.ok()) << mma.status.cause;
+  EXPECT_NEAR(mma.objective, slsqp.objective, 1e-4 * slsqp.objective);
+}
+
+TEST(LocalSearch, MeasuresWithConstraintsRefuseOtherAlgorithms) {
+  EXPECT_THROW(tune("measure: worst", "{algorithm: lbfgs}"), InputError);
+  EXPECT_TRUE(tune("measure: mean", "{algorithm: lbfgs}").status.ok());
+}
+
+}  // namespace
+}  // namespace codesign

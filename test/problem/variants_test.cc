@@ -1,0 +1,39 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "problem/variants.h"
+
+#include <gtest/gtest.h>
+
+#include "ensemble/ensemble_fixture.h"
+#include "equations/compiled_system.h"
+
+namespace codesign {
+namespace {
+
+TEST(Variants, OneStudyIsItsOwn) {
+  const Problem problem = block("");
+  EXPECT_EQ(variant_of(problem, 0, -1), problem.system());
+  EXPECT_EQ(count_laws(problem.study()), 0);
+}
+
+TEST(Variants, EachRunHasEachLaw) {
+  const Problem problem = block(R"(
+runs: {own: {set: {mass: 1.0}}, far: {controllers: {hold: {setpoint: 0.9}}}}
+uncertain: {friction_law: {choice: [gonthier, lugre]}}
+)");
+  ASSERT_EQ(count_laws(problem.study()), 2);
+  EXPECT_EQ(variant_of(problem, 0, -1), problem.system());
+  EXPECT_EQ(variant_of(problem, 0, 0)->robot().joints[0].friction->model, FrictionModel::kGonthier);
+  EXPECT_EQ(variant_of(problem, 1, 1)->robot().joints[0].friction->model, FrictionModel::kLuGre);
+  EXPECT_EQ(variant_of(problem, 1, -1)->robot().joints[0].friction->model, FrictionModel::kBrownMcPhee);
+  EXPECT_EQ(variant_of(problem, 1, 1)->study().controllers[0].setpoint.constant.nominal(), 0.9);
+  EXPECT_EQ(variant_of(problem, 0, 1)->study().controllers[0].setpoint.constant.nominal(), 0.5);
+}
+
+TEST(Variants, SettingsReachTheRuns) {
+  const Problem problem = with_settings(block("runs: {far: {controllers: {hold: {setpoint: 0.9}}}}\n"), {{"mass", 3.0}, {"Kp", 7.0}});
+  EXPECT_EQ(variant_of(problem, 0, -1)->study().parameters[1].value, 3.0);
+  EXPECT_EQ(variant_of(problem, 0, -1)->study().parameters[2].value, 7.0);
+}
+
+}  // namespace
+}  // namespace codesign
