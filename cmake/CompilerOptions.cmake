@@ -56,15 +56,19 @@ function(codesign_optimize target)
   endif()
   set(hot sparse/lu_schedule equations/formulas_double equations/derivative_products integration/rosenbrock_step
     integration/applied_work integration/run_watch sensitivity/tangent_step)
-  # Lanes run through machine code; where there is none, their formulas are in the time loop too. Compiling them this way takes a minute.
-  get_target_property(definitions codesign_xbyak INTERFACE_COMPILE_DEFINITIONS)
-  if(NOT definitions)
-    list(APPEND hot equations/formulas_lanes4 equations/formulas_lanes8)
-  endif()
   list(TRANSFORM hot PREPEND ${PROJECT_SOURCE_DIR}/src/)
   list(TRANSFORM hot APPEND .cc)
   list(APPEND hot ${PROJECT_SOURCE_DIR}/benchmark/kernel_tables.cc)
   set_source_files_properties(${hot} PROPERTIES COMPILE_OPTIONS "$<$<NOT:$<CONFIG:Debug>>:${hot_options}>" SKIP_PRECOMPILE_HEADERS ON)
+  # Lanes mostly run through machine code, so the inlining that takes half of the time to compile them is not worth it; where there is no
+  # machine code, it is.
+  get_target_property(definitions codesign_xbyak INTERFACE_COMPILE_DEFINITIONS)
+  set(lanes_options ${hot_options})
+  if(definitions)
+    list(FILTER lanes_options EXCLUDE REGEX "^--param")
+  endif()
+  set_source_files_properties(${PROJECT_SOURCE_DIR}/src/equations/formulas_lanes4.cc ${PROJECT_SOURCE_DIR}/src/equations/formulas_lanes8.cc
+    PROPERTIES COMPILE_OPTIONS "$<$<NOT:$<CONFIG:Debug>>:${lanes_options}>" SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
 # Headers of the standard library and of Eigen are half of what a small source file compiles. Our own are not among them: they change.
@@ -73,6 +77,18 @@ set(codesign_headers <Eigen/Core> <algorithm> <array> <atomic> <cmath> <complex>
 function(codesign_precompile target)
   if(CODESIGN_PRECOMPILED_HEADERS)
     target_precompile_headers(${target} PRIVATE ${codesign_headers} ${ARGN})
+  endif()
+endfunction()
+
+# Small files that are not in the time loop compile together: most of their time goes into headers that all of them include.
+option(CODESIGN_UNITY "Compile the small files of a room together" ON)
+# codesign_unite(TARGET GROUP FILE...): the files become one translation unit. GROUP begins with the name of the room.
+function(codesign_unite target group)
+  if(CODESIGN_UNITY AND NOT CODESIGN_SANITIZE AND NOT CMAKE_VERSION VERSION_LESS 3.18)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${group})
+    # In such a unit GCC takes each file for a header, whose anonymous namespace would be another one in every unit.
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
   endif()
 endfunction()
 

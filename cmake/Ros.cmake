@@ -35,6 +35,12 @@ target_include_directories(codesign_ros
 target_include_directories(codesign_ros SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/include ${catkin_INCLUDE_DIRS})
 target_link_libraries(codesign_ros PUBLIC codesign_core ${catkin_LIBRARIES} PRIVATE yaml-cpp)
 codesign_warnings(codesign_ros)
+# Two units, for two processors.
+set(ros_jobs ${ros_sources})
+list(FILTER ros_jobs INCLUDE REGEX "(job|bag|record|request|progress)")
+list(REMOVE_ITEM ros_sources ${ros_jobs})
+codesign_unite(codesign_ros ros_jobs ${ros_jobs})
+codesign_unite(codesign_ros ros_nodes ${ros_sources})
 codesign_sanitize(codesign_ros)
 codesign_precompile(codesign_ros <ros/ros.h>)
 

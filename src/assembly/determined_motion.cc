@@ -9,17 +9,16 @@
 
 #include "assembly/acceleration_block.h"
 #include "math/dense.h"
+#include "math/to_index.h"
 #include "text/decimal.h"
 
 namespace codesign {
 namespace {
 
-constexpr double kRank = 1e-9;
+constexpr double kRankOfMotions = 1e-9;
 constexpr double kSingular = 1e-12;  // smaller eigenvalues of M, relative to the largest, count as zero
 constexpr double kSmallestGyration =
     1e-14;  // square of a radius of gyration [m^2]; smaller ones are rounding of the tool that wrote the file
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 bool lacks_inertia(const BodyConstants<double>& body) {
   if (!(body.mass > 0.0)) return true;
@@ -56,7 +55,7 @@ class Motions {
         rates += (rates.empty() ? "" : ", ") + joint_of(coordinates_[static_cast<std::size_t>(k)]).name + ": " +
                  to_decimal(std::round(motion[k] / motion[largest] * 1e6) / 1e6);
     const int c = coordinates_[static_cast<std::size_t>(largest)];
-    const LinkDescription& link = system_.robot().links[index(joint_of(c).child)];
+    const LinkDescription& link = system_.robot().links[to_index(joint_of(c).child)];
     throw InputError({link.inertial ? link.inertial->where : link.where, "<link name=\"" + link.name + "\">",
                       "nothing with inertia resists the link " + direction(c) + ", so that this motion is not determined at the start",
                       "rates of the joints that move: " + rates,
@@ -66,9 +65,9 @@ class Motions {
  private:
   const JointDescription& joint_of(int coordinate) const {
     for (int k : tree_.joint_order) {
-      const int first = tree_.offset[index(k)];
-      if (coordinate >= first && coordinate < first + coordinates_of(system_.robot().joints[index(k)].type))
-        return system_.robot().joints[index(k)];
+      const int first = tree_.offset[to_index(k)];
+      if (coordinate >= first && coordinate < first + coordinates_of(system_.robot().joints[to_index(k)].type))
+        return system_.robot().joints[to_index(k)];
     }
     return system_.robot().joints.front();
   }
@@ -86,7 +85,7 @@ class Motions {
       const double size = v.norm();
       all.col(c) = size > 1e-12 ? Eigen::VectorXd(v / size) : Eigen::VectorXd(Eigen::VectorXd::Zero(v.size()));
     }
-    const PivotedColumns pivots = pivot_columns(all, kRank);
+    const PivotedColumns pivots = pivot_columns(all, kRankOfMotions);
     coordinates_.assign(pivots.order.begin(), pivots.order.begin() + pivots.rank);
     std::sort(coordinates_.begin(), coordinates_.end());
     V_.resize(all.rows(), pivots.rank);
@@ -127,7 +126,7 @@ class Motions {
     double mass = 0.0;
     const std::vector<LinkMotion<double>> motions = unit_motion(coordinates_[static_cast<std::size_t>(k)]);
     for (std::size_t b = 0; b < system_.topology().bodies.size(); ++b)
-      if (motions[index(system_.topology().bodies[b].base_link)].omega.norm() > 0.0)
+      if (motions[to_index(system_.topology().bodies[b].base_link)].omega.norm() > 0.0)
         mass += std::abs(equations_->constants().bodies[b].mass);
     return std::abs(M_(k, k)) > kSmallestGyration * mass ? M_(k, k) : 0.0;
   }
@@ -144,13 +143,13 @@ class Motions {
     }
     const double rounding = 1e-12 * scale_.maxCoeff();
     forbidden = forbidden.unaryExpr([rounding](double x) { return std::abs(x) < rounding ? 0.0 : x; });
-    allowed_ = orthogonal_complement(forbidden.transpose(), kRank);
+    allowed_ = orthogonal_complement(forbidden.transpose(), kRankOfMotions);
   }
 
   std::string direction(int c) const {
     const JointDescription& joint = joint_of(c);
     const std::vector<LinkMotion<double>> motions = unit_motion(c);
-    const LinkMotion<double>&child = motions[index(joint.child)], &parent = motions[index(joint.parent)];
+    const LinkMotion<double>&child = motions[to_index(joint.child)], &parent = motions[to_index(joint.parent)];
     const Vector3<double> turn = child.omega - parent.omega;
     const Vector3<double> axis = turn.norm() > 0.5 ? turn : child.velocity - parent.velocity;
     std::string text;

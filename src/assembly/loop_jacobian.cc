@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "math/to_index.h"
+
 namespace codesign {
 namespace {
-
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 constexpr int kMostRows = 6;  // constraint rows of one pair
 
@@ -17,10 +17,10 @@ class Sets {
  public:
   explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
   int find(int k) {
-    while (parent_[at(k)] != k) k = parent_[at(k)] = parent_[at(parent_[at(k)])];
+    while (parent_[to_index(k)] != k) k = parent_[to_index(k)] = parent_[to_index(parent_[to_index(k)])];
     return k;
   }
-  void join(int a, int b) { parent_[at(find(a))] = find(b); }
+  void join(int a, int b) { parent_[to_index(find(a))] = find(b); }
 
  private:
   std::vector<int> parent_;
@@ -46,14 +46,14 @@ BodyKinematics<double> standing(const VectorX<double>& q, int body) {
 }  // namespace
 
 LoopJacobian::LoopJacobian(const CompiledSystem& system, const TreeLayout& tree)
-    : system_(system), tree_(tree), joint_of_(at(tree.size), -1), slides_(at(tree.size), false) {
+    : system_(system), tree_(tree), joint_of_(to_index(tree.size), -1), slides_(to_index(tree.size), false) {
   for (int joint : tree.joint_order) {
-    const JointType type = system.robot().joints[at(joint)].type;
-    const int first = tree.offset[at(joint)], count = coordinates_of(type);
+    const JointType type = system.robot().joints[to_index(joint)].type;
+    const int first = tree.offset[to_index(joint)], count = coordinates_of(type);
     const int sliding = type == JointType::kPrismatic ? 1 : type == JointType::kPlanar ? 2 : type == JointType::kFloating ? 3 : 0;
     for (int k = 0; k < count; ++k) {
-      joint_of_[at(first + k)] = joint;
-      slides_[at(first + k)] = k < sliding;
+      joint_of_[to_index(first + k)] = joint;
+      slides_[to_index(first + k)] = k < sliding;
     }
   }
   const Topology& topology = system.topology();
@@ -62,7 +62,7 @@ LoopJacobian::LoopJacobian(const CompiledSystem& system, const TreeLayout& tree)
   first_coupling_row_ = rows();
   for (std::size_t k = 0; k < topology.couplings.size(); ++k) {
     add_row(system.layout().coupling_row(static_cast<int>(k)), topology.couplings[k].name);
-    for (const CouplingTerm& term : topology.couplings[k].terms) coordinates_.push_back(tree.offset[at(term.joint)]);
+    for (const CouplingTerm& term : topology.couplings[k].terms) coordinates_.push_back(tree.offset[to_index(term.joint)]);
   }
   std::sort(coordinates_.begin(), coordinates_.end());
   coordinates_.erase(std::unique(coordinates_.begin(), coordinates_.end()), coordinates_.end());
@@ -76,12 +76,12 @@ void LoopJacobian::add_row(int row, const std::string& owner) {
 // Collects the joints from both bodies towards the root; joints on both ways move the loop as a whole and are left out.
 void LoopJacobian::add_loop(int index) {
   const Topology& topology = system_.topology();
-  const Pair& pair = topology.pairs[at(index)];
+  const Pair& pair = topology.pairs[to_index(index)];
   const auto joints_above = [&](int body) {
     std::vector<int> joints;
     if (body < 0) return joints;
-    for (int joint = topology.link_parent_joint[at(topology.bodies[at(body)].base_link)]; joint >= 0;
-         joint = topology.link_parent_joint[at(system_.robot().joints[at(joint)].parent)])
+    for (int joint = topology.link_parent_joint[to_index(topology.bodies[to_index(body)].base_link)]; joint >= 0;
+         joint = topology.link_parent_joint[to_index(system_.robot().joints[to_index(joint)].parent)])
       joints.push_back(joint);
     return joints;
   };
@@ -93,14 +93,14 @@ void LoopJacobian::add_loop(int index) {
   Loop loop{index, rows(), {}};
   const auto add = [&](const std::vector<int>& joints, bool moves_j) {
     for (int joint : joints)
-      for (int k = 0; k < coordinates_of(system_.robot().joints[at(joint)].type); ++k) {
-        loop.movers.push_back({tree_.offset[at(joint)] + k, moves_j});
+      for (int k = 0; k < coordinates_of(system_.robot().joints[to_index(joint)].type); ++k) {
+        loop.movers.push_back({tree_.offset[to_index(joint)] + k, moves_j});
         coordinates_.push_back(loop.movers.back().coordinate);
       }
   };
   add(above_i, false);
   add(above_j, true);
-  for (int row = system_.layout().pair_row[at(index)]; row < system_.layout().pair_end(index); ++row) add_row(row, pair.name);
+  for (int row = system_.layout().pair_row[to_index(index)]; row < system_.layout().pair_end(index); ++row) add_row(row, pair.name);
   loops_.push_back(loop);
 }
 
@@ -116,12 +116,12 @@ SparseMatrix LoopJacobian::evaluate(const std::vector<double>& parameters, const
   std::vector<Eigen::Triplet<double>> entries;
   double errors[kMostRows], rates[kMostRows];
   for (const Loop& loop : loops_) {
-    const Pair& pair = system_.topology().pairs[at(loop.pair)];
+    const Pair& pair = system_.topology().pairs[to_index(loop.pair)];
     const BodyKinematics<double> i = standing(q, pair.body_i), j = standing(q, pair.body_j);
     const int size = equations.rows(loop.pair).size();
     for (const Mover& mover : loop.movers) {
       BodyKinematics<double> moved = mover.moves_j ? j : i;
-      move(twists[at(mover.coordinate)], &moved);
+      move(twists[to_index(mover.coordinate)], &moved);
       equations.formulas().pair_errors(loop.pair, mover.moves_j ? i : moved, mover.moves_j ? moved : j, Out<double>(errors).first(size),
                                        Out<double>(rates).first(size));
       for (int k = 0; k < size; ++k) entries.emplace_back(loop.first_row + k, mover.coordinate, rates[k]);
@@ -129,7 +129,8 @@ SparseMatrix LoopJacobian::evaluate(const std::vector<double>& parameters, const
   }
   for (std::size_t k = 0; k < system_.topology().couplings.size(); ++k)
     for (std::size_t t = 0; t < system_.topology().couplings[k].terms.size(); ++t)
-      entries.emplace_back(first_coupling_row_ + static_cast<int>(k), tree_.offset[at(system_.topology().couplings[k].terms[t].joint)],
+      entries.emplace_back(first_coupling_row_ + static_cast<int>(k),
+                           tree_.offset[to_index(system_.topology().couplings[k].terms[t].joint)],
                            equations.constants().couplings[k].coefficients[t]);
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
@@ -138,7 +139,7 @@ SparseMatrix LoopJacobian::evaluate(const std::vector<double>& parameters, const
 int LoopJacobian::power(const Loop& loop, int within, const Equations<double>& equations) {
   const PairRows<double>& kinds = equations.rows(loop.pair);
   if (kinds.coincident && within < 3) return 1;
-  const ProductRow<double>& product = kinds.products[at(within - (kinds.coincident ? 3 : 0))];
+  const ProductRow<double>& product = kinds.products[to_index(within - (kinds.coincident ? 3 : 0))];
   return (product.X.terms == 2 ? 1 : 0) + (product.Y.terms == 2 ? 1 : 0);
 }
 
@@ -175,22 +176,23 @@ std::vector<LoopMiss> LoopJacobian::misses(const VectorX<double>& errors, const 
   std::vector<LoopMiss> misses;
   for (const Loop& loop : loops_) {
     LoopMiss& miss = misses.emplace_back();
-    miss.owner = system_.topology().pairs[at(loop.pair)].name;
+    miss.owner = system_.topology().pairs[to_index(loop.pair)].name;
     for (int k = 0; k < rows_of(loop); ++k) {
-      const double error = std::abs(errors[constraint_rows_[at(loop.first_row + k)]]);
+      const double error = std::abs(errors[constraint_rows_[to_index(loop.first_row + k)]]);
       const int order = power(loop, k, equations);
-      const double length = order == 2 ? equations.constants().pairs[at(loop.pair)].distance : 1.0;
+      const double length = order == 2 ? equations.constants().pairs[to_index(loop.pair)].distance : 1.0;
       double& part = order == 0 ? miss.angle : miss.length;
       part = std::max(part, length > 0.0 ? error / length : std::sqrt(2.0 * error));
     }
   }
-  for (int k = first_coupling_row_; k < rows(); ++k) misses.push_back({owners_[at(k)], 0.0, std::abs(errors[constraint_rows_[at(k)]])});
+  for (int k = first_coupling_row_; k < rows(); ++k)
+    misses.push_back({owners_[to_index(k)], 0.0, std::abs(errors[constraint_rows_[to_index(k)]])});
   return misses;
 }
 
 std::vector<LoopJacobian::Part> LoopJacobian::parts() const {
   const Topology& topology = system_.topology();
-  Sets sets(at(tree_.size + rows()));  // coordinates, then rows
+  Sets sets(to_index(tree_.size + rows()));  // coordinates, then rows
   for (const Loop& loop : loops_) {
     const int count = rows_of(loop);
     for (int k = 0; k < count; ++k) sets.join(tree_.size + loop.first_row + k, tree_.size + loop.first_row);
@@ -198,32 +200,32 @@ std::vector<LoopJacobian::Part> LoopJacobian::parts() const {
   }
   for (std::size_t k = 0; k < topology.couplings.size(); ++k)
     for (const CouplingTerm& term : topology.couplings[k].terms)
-      sets.join(tree_.offset[at(term.joint)], tree_.size + first_coupling_row_ + static_cast<int>(k));
+      sets.join(tree_.offset[to_index(term.joint)], tree_.size + first_coupling_row_ + static_cast<int>(k));
   std::vector<Part> parts;
-  std::vector<int> part_of(at(tree_.size + rows()), -1);
+  std::vector<int> part_of(to_index(tree_.size + rows()), -1);
   for (int row = 0; row < rows(); ++row) {
-    int& part = part_of[at(sets.find(tree_.size + row))];
+    int& part = part_of[to_index(sets.find(tree_.size + row))];
     if (part < 0) {
       part = static_cast<int>(parts.size());
       parts.emplace_back();
     }
-    parts[at(part)].rows.push_back(row);
-    if (row >= first_coupling_row_) parts[at(part)].couplings.push_back(row - first_coupling_row_);
+    parts[to_index(part)].rows.push_back(row);
+    if (row >= first_coupling_row_) parts[to_index(part)].couplings.push_back(row - first_coupling_row_);
   }
   std::vector<int> pair_part(topology.pairs.size(), -1);
   for (const Loop& loop : loops_)
-    if (rows_of(loop) > 0) pair_part[at(loop.pair)] = part_of[at(sets.find(tree_.size + loop.first_row))];
+    if (rows_of(loop) > 0) pair_part[to_index(loop.pair)] = part_of[to_index(sets.find(tree_.size + loop.first_row))];
   for (int c : coordinates_) {
-    const int pair = topology.joint_pair[at(joint_of_[at(c)])];
-    if (pair >= 0) pair_part[at(pair)] = part_of[at(sets.find(c))];
+    const int pair = topology.joint_pair[to_index(joint_of_[to_index(c)])];
+    if (pair >= 0) pair_part[to_index(pair)] = part_of[to_index(sets.find(c))];
   }
   for (std::size_t pair = 0; pair < pair_part.size(); ++pair)
-    if (pair_part[pair] >= 0) parts[at(pair_part[pair])].pairs.push_back(static_cast<int>(pair));
+    if (pair_part[pair] >= 0) parts[to_index(pair_part[pair])].pairs.push_back(static_cast<int>(pair));
   return parts;
 }
 
 int LoopJacobian::rows_of(const Loop& loop) const {
-  return system_.layout().pair_end(loop.pair) - system_.layout().pair_row[at(loop.pair)];
+  return system_.layout().pair_end(loop.pair) - system_.layout().pair_row[to_index(loop.pair)];
 }
 
 }  // namespace codesign

@@ -9,10 +9,10 @@
 namespace codesign {
 namespace {
 
-constexpr double kRank = 1e-9;     // smaller singular values, relative to the largest, count as zero
-constexpr double kNothing = 1e-7;  // forms below this times the largest count as zero: the error of the differences
-constexpr double kStep = 1e-4;     // of central differences [rad or m]
-constexpr int kStarts = 16;        // random starts of the search for branches; fewer within a branch
+constexpr double kRankOfLoops = 1e-9;  // smaller singular values, relative to the largest, count as zero
+constexpr double kNothing = 1e-7;      // forms below this times the largest count as zero: the error of the differences
+constexpr double kStep = 1e-4;         // of central differences [rad or m]
+constexpr int kStarts = 16;            // random starts of the search for branches; fewer within a branch
 
 using Forms = std::vector<Eigen::MatrixXd>;
 
@@ -102,7 +102,7 @@ int motions_lost_to_curvature(const std::vector<double>& parameters, const Assem
   const Eigen::MatrixXd J = jacobian(theta);
   const SingularValues svd = singular_values(J, SingularVectors::kBoth);
   const Eigen::VectorXd& values = svd.values;
-  const Eigen::Index rank = (values.array() > kRank * std::max(values[0], 1e-300)).count();
+  const Eigen::Index rank = (values.array() > kRankOfLoops * std::max(values[0], 1e-300)).count();
   const Eigen::MatrixXd N = svd.V.rightCols(J.cols() - rank), U = svd.U.rightCols(J.rows() - rank);
   if (N.cols() == 0 || U.cols() == 0) return 0;
   Forms forms(static_cast<std::size_t>(U.cols()), Eigen::MatrixXd(N.cols(), N.cols()));

@@ -8,18 +8,18 @@
 
 #include "assembly/acceleration_block.h"
 #include "math/euler_parameters.h"
+#include "math/to_index.h"
 
 namespace codesign {
 namespace {
 
-constexpr double kRank = 1e-3;  // rank tolerance of the loops' scaled Jacobian: rounded angles and lengths leave less of a redundant row
-constexpr double kTakesPart = 1e-7;  // smaller components of a self-stress, relative to the largest, count as zero; far above rounding
+constexpr double kRankOfRows =
+    1e-3;                         // rank tolerance of the loops' scaled Jacobian: rounded angles and lengths leave less of a redundant row
+constexpr double kLoaded = 1e-7;  // smaller components of a self-stress, relative to the largest, count as zero; far above rounding
 constexpr double kTestMotion = 0.2;  // [rad], or this fraction of a loop's longest lever
 // Allowed error of a redundant row after the test motion; a row that is redundant at a singular start only misses ten times as much.
 constexpr double kTestMiss = 2e-3;
 constexpr int kTrials = 3;  // number of test motions, and of random self-stresses
-
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 std::string vector_name(const PairVector<double>& x) {
   if (x.terms == 2) return "d";
@@ -86,7 +86,7 @@ class TestMotion {
     l->scales = loops_.scales(l->matrix, *equations_);
     l->matrix =
         columns_of(held_.cwiseProduct(l->scales.rows).asDiagonal() * l->matrix * l->scales.columns.asDiagonal(), loops_.coordinates());
-    l->inverse.factor(l->matrix, kRank);
+    l->inverse.factor(l->matrix, kRankOfRows);
   }
 
   void add(const Eigen::VectorXd& step, const LoopScales& scales, VectorX<double>* theta) const {
@@ -148,9 +148,10 @@ class Analysis {
       : system_(system), layout_(system.layout()), equations_(equations) {}
 
   ConstraintRow describe(int row) const {
-    if (row >= layout_.norm_row(0)) return {system_.topology().bodies[at(row - layout_.norm_row(0))].name, 1, "unit Euler parameters"};
+    if (row >= layout_.norm_row(0))
+      return {system_.topology().bodies[to_index(row - layout_.norm_row(0))].name, 1, "unit Euler parameters"};
     if (row >= layout_.coupling_row(0)) {
-      const Coupling& coupling = system_.topology().couplings[at(row - layout_.coupling_row(0))];
+      const Coupling& coupling = system_.topology().couplings[to_index(row - layout_.coupling_row(0))];
       return {coupling.name, 1, coupling.is_mimic ? "mimic" : "coupling"};
     }
     std::size_t pair = layout_.pair_row.size() - 1;
@@ -185,7 +186,7 @@ class Analysis {
   std::string pair_row_kind(std::size_t pair, int within) const {
     const PairRows<double>& rows = equations_.rows(static_cast<int>(pair));
     if (rows.coincident && within < 3) return std::string("coincident points, ground ") + "xyz"[within];
-    return product_kind(rows.products[at(within - (rows.coincident ? 3 : 0))]);
+    return product_kind(rows.products[to_index(within - (rows.coincident ? 3 : 0))]);
   }
 
   const CompiledSystem& system_;
@@ -223,7 +224,7 @@ void find_undetermined(const CompiledSystem& system, Equations<double>* equation
     for (int row = first; row < last; ++row)
       if (!std::binary_search(redundant.begin(), redundant.end(), row)) others.push_back(row);
   };
-  for (int pair : sharing.pairs) add(layout.pair_row[at(pair)], layout.pair_end(pair));
+  for (int pair : sharing.pairs) add(layout.pair_row[to_index(pair)], layout.pair_end(pair));
   for (int coupling : sharing.couplings) add(layout.coupling_row(coupling), layout.coupling_row(coupling) + 1);
   const SparseMatrix Phi_q = constraint_jacobian(system, equations, state);
   const SparseMatrix kept = loads_of_rows(system, Phi_q, state.q, others), open = loads_of_rows(system, Phi_q, state.q, redundant);
@@ -235,7 +236,7 @@ void find_undetermined(const CompiledSystem& system, Equations<double>* equation
   Eigen::MatrixXd stress = Eigen::MatrixXd::Zero(layout.constraints(), kTrials);
   for (std::size_t k = 0; k < redundant.size(); ++k) stress.row(redundant[k]) = chosen.row(static_cast<Eigen::Index>(k));
   for (std::size_t k = 0; k < others.size(); ++k) stress.row(others[k]) = answer.row(static_cast<Eigen::Index>(k));
-  result->stress_threshold = kTakesPart * stress.cwiseAbs().maxCoeff() + 100.0 * left;
+  result->stress_threshold = kLoaded * stress.cwiseAbs().maxCoeff() + 100.0 * left;
   analysis.note_loaded(stress, result->stress_threshold, result);
   result->self_stress = std::move(stress);
 }
@@ -252,21 +253,21 @@ Redundancy analyse_redundancy(const CompiledSystem& system, Equations<double>* e
   const Eigen::SparseMatrix<double, Eigen::RowMajor> scaled = scales.rows.asDiagonal() * jacobian * scales.columns.asDiagonal();
   std::vector<int> rows, redundant;
   for (const LoopJacobian::Part& part : loops.parts()) {
-    const std::vector<int> dependent = dependent_columns(rows_as_columns(scaled, part.rows), kRank);
+    const std::vector<int> dependent = dependent_columns(rows_as_columns(scaled, part.rows), kRankOfRows);
     if (dependent.empty()) continue;
-    for (int k : dependent) rows.push_back(part.rows[at(k)]);
+    for (int k : dependent) rows.push_back(part.rows[to_index(k)]);
     result.sharing.pairs.insert(result.sharing.pairs.end(), part.pairs.begin(), part.pairs.end());
     result.sharing.couplings.insert(result.sharing.couplings.end(), part.couplings.begin(), part.couplings.end());
   }
   if (rows.empty()) return result;
   for (std::vector<int>* list : {&result.sharing.pairs, &result.sharing.couplings}) std::sort(list->begin(), list->end());
-  for (int row : rows) redundant.push_back(loops.constraint_rows()[at(row)]);
+  for (int row : rows) redundant.push_back(loops.constraint_rows()[to_index(row)]);
   std::sort(redundant.begin(), redundant.end());
   const Analysis analysis(system, *equations);
   for (int row : redundant) result.rows.push_back(analysis.describe(row));
   find_undetermined(system, equations, state, analysis, redundant, result.sharing, &result);
   TestMotion(system, equations, loops, assembly.tree(), parameters).sift(assembly.theta(), &rows);
-  for (int row : rows) result.sharing.dropped.push_back(loops.constraint_rows()[at(row)]);
+  for (int row : rows) result.sharing.dropped.push_back(loops.constraint_rows()[to_index(row)]);
   std::sort(result.sharing.dropped.begin(), result.sharing.dropped.end());
   return result;
 }

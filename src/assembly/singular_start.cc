@@ -9,9 +9,9 @@
 namespace codesign {
 namespace {
 
-constexpr double kRank = 1e-4;        // a position that is solved for can be off the singular one by the square root of its tolerance
-constexpr double kIsMotion = 1e-3;    // allowed norm of L^T (J x)_theta x, relative to (J x)_theta x
-constexpr double kDifference = 1e-3;  // step [rad or m] of the fourth-order differences, whose error is about 1e-12
+constexpr double kRankAtStart = 1e-4;  // a position that is solved for can be off the singular one by the square root of its tolerance
+constexpr double kIsMotion = 1e-3;     // allowed norm of L^T (J x)_theta x, relative to (J x)_theta x
+constexpr double kDifference = 1e-3;   // step [rad or m] of the fourth-order differences, whose error is about 1e-12
 constexpr int kIterations = 50;
 constexpr Eigen::Index kLargest = 250000;  // entries of J; a larger J is not analysed, since its QR factorization is dense
 
@@ -36,7 +36,7 @@ void SingularStart::load(const std::vector<double>& parameters, const VectorX<do
   L_.resize(count, 0);
   if (count == 0 || count * tree_.size > kLargest) return;
   J_ = loops_.evaluate(parameters, theta, *equations);
-  L_ = orthogonal_complement(J_, kRank);
+  L_ = orthogonal_complement(J_, kRankAtStart);
 }
 
 // (J x)_theta x, by central differences of fourth order.

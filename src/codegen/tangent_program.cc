@@ -5,11 +5,10 @@
 #include <utility>
 
 #include "codegen/traced.h"
+#include "math/to_index.h"
 
 namespace codesign {
 namespace {
-
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 /// One term of a derivative: the derivative of `node` times `factor`.
 struct Part {
@@ -85,7 +84,7 @@ class Accumulation {
     find_active();
     count_uses();
     for (int n = 0; n < size_; ++n)
-      if (active_[at(n)] && uses_[at(n)] > 0 && !is_leaf_[at(n)]) accumulate(n);
+      if (active_[to_index(n)] && uses_[to_index(n)] > 0 && !is_leaf_[to_index(n)]) accumulate(n);
     for (const ValueTask::Output& output : outputs_) append(-1, output, of(output.node, Traced(1.0)));
     std::sort(program->factors.begin(), program->factors.end());
     program->factors.erase(std::unique(program->factors.begin(), program->factors.end()), program->factors.end());
@@ -96,31 +95,31 @@ class Accumulation {
     active_ = is_leaf_;
     for (int n = 0; n < size_; ++n) {
       const Recording::Node& node = recording_->node(n);
-      if (active_[at(n)] || node.operation == Operation::kLeaf || node.operation == Operation::kLiteral ||
+      if (active_[to_index(n)] || node.operation == Operation::kLeaf || node.operation == Operation::kLiteral ||
           node.operation == Operation::kRound)
         continue;
-      active_[at(n)] = active_[at(node.a)] || (node.b >= 0 && active_[at(node.b)]);
+      active_[to_index(n)] = active_[to_index(node.a)] || (node.b >= 0 && active_[to_index(node.b)]);
     }
   }
 
   void count_uses() {
-    for (const ValueTask::Output& output : outputs_) ++uses_[at(output.node)];
+    for (const ValueTask::Output& output : outputs_) ++uses_[to_index(output.node)];
     for (int n = size_ - 1; n >= 0; --n) {
-      if (!active_[at(n)] || uses_[at(n)] == 0 || is_leaf_[at(n)]) continue;
+      if (!active_[to_index(n)] || uses_[to_index(n)] == 0 || is_leaf_[to_index(n)]) continue;
       const Recording::Node& node = recording_->node(n);
       for (int operand : {node.a, node.b}) {
         if (operand < 0) continue;
-        ++uses_[at(operand)];
-        if (!only_adds(node.operation)) only_added_[at(operand)] = false;
+        ++uses_[to_index(operand)];
+        if (!only_adds(node.operation)) only_added_[to_index(operand)] = false;
       }
     }
   }
 
   /// The derivative of `node` times `factor`, in terms of derivatives of leaves and of nodes with a sum.
   Parts of(int node, const Traced& factor) const {
-    if (!active_[at(node)]) return {};
-    if (is_leaf_[at(node)] || program_->row[at(node)] >= 0) return {{node, factor}};
-    Parts parts = parts_[at(node)];
+    if (!active_[to_index(node)]) return {};
+    if (is_leaf_[to_index(node)] || program_->row[to_index(node)] >= 0) return {{node, factor}};
+    Parts parts = parts_[to_index(node)];
     for (Part& part : parts) part.factor = folded(recording_, factor * part.factor);
     return parts;
   }
@@ -129,12 +128,12 @@ class Accumulation {
     Parts sum;
     for (const Part& partial : partials(recording_, n))
       for (const Part& part : of(partial.node, folded(recording_, partial.factor))) add(part, &sum);
-    const bool inlined = sum.size() <= 1 || (uses_[at(n)] == 1 && only_added_[at(n)]);
+    const bool inlined = sum.size() <= 1 || (uses_[to_index(n)] == 1 && only_added_[to_index(n)]);
     if (!inlined) {
       append(n, {}, sum);
-      program_->row[at(n)] = program_->rows++;
+      program_->row[to_index(n)] = program_->rows++;
     } else {
-      parts_[at(n)] = std::move(sum);
+      parts_[to_index(n)] = std::move(sum);
     }
   }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "math/to_index.h"
 #endif
 
 namespace codesign {
@@ -17,8 +19,6 @@ constexpr std::size_t kBytesPerInstruction = 64;      // with loads, spills and 
 constexpr std::size_t kBytesPerCall = 256;
 constexpr int kRegisters = 16;
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
 using Instruction = ValueProgram::Instruction;
 using Kind = ValueProgram::Kind;
 
@@ -26,19 +26,19 @@ using Kind = ValueProgram::Kind;
 class Uses {
  public:
   Uses() = default;
-  Uses(const ValueProgram& program, int nodes) : positions_(at(nodes)), next_(at(nodes), 0) {
+  Uses(const ValueProgram& program, int nodes) : positions_(to_index(nodes)), next_(to_index(nodes), 0) {
     for (std::size_t k = 0; k < program.instructions.size(); ++k)
       for (int n : {program.instructions[k].a, program.instructions[k].b, program.instructions[k].c})
-        if (n >= 0) positions_[at(n)].push_back(static_cast<int>(k));
+        if (n >= 0) positions_[to_index(n)].push_back(static_cast<int>(k));
   }
 
   /// The next instruction that reads the node, after those passed.
   int next(int node) const {
-    const std::vector<int>& positions = positions_[at(node)];
-    return next_[at(node)] < positions.size() ? positions[next_[at(node)]] : std::numeric_limits<int>::max();
+    const std::vector<int>& positions = positions_[to_index(node)];
+    return next_[to_index(node)] < positions.size() ? positions[next_[to_index(node)]] : std::numeric_limits<int>::max();
   }
-  bool is_read_again(int node) const { return next_[at(node)] < positions_[at(node)].size(); }
-  void pass(int node) { ++next_[at(node)]; }
+  bool is_read_again(int node) const { return next_[to_index(node)] < positions_[to_index(node)].size(); }
+  void pass(int node) { ++next_[to_index(node)]; }
 
  private:
   std::vector<std::vector<int>> positions_;
@@ -54,10 +54,10 @@ class Code final : public ValueCode, private MachineCode {
         program_(&program),
         slot_array_(slot_array),
         uses_(program, recording.size()),
-        register_of_(at(recording.size()), -1),
-        stored_(at(recording.size()), false),
-        kept_(at(recording.size()), false) {
-    for (int n : task.kept) kept_[at(n)] = true;
+        register_of_(to_index(recording.size()), -1),
+        stored_(to_index(recording.size()), false),
+        kept_(to_index(recording.size()), false) {
+    for (int n : task.kept) kept_[to_index(n)] = true;
     held_.fill(-1);
     enter();
     for (std::size_t k = 0; k < program.instructions.size(); ++k) emit(program.instructions[k], program.stores[k]);
@@ -79,44 +79,44 @@ class Code final : public ValueCode, private MachineCode {
   // Places of values.
 
   Place memory_of(int node) const {
-    const Place& home = task_->homes[at(node)];
-    return home.array >= 0 ? home : Place{slot_array_, program_->slot[at(node)]};
+    const Place& home = task_->homes[to_index(node)];
+    return home.array >= 0 ? home : Place{slot_array_, program_->slot[to_index(node)]};
   }
-  bool in_memory(int node) const { return task_->homes[at(node)].array >= 0 || stored_[at(node)]; }
-  bool in_register(int node) const { return register_of_[at(node)] >= 0; }
-  Xmm register_of(int node) const { return Xmm(register_of_[at(node)]); }
+  bool in_memory(int node) const { return task_->homes[to_index(node)].array >= 0 || stored_[to_index(node)]; }
+  bool in_register(int node) const { return register_of_[to_index(node)] >= 0; }
+  Xmm register_of(int node) const { return Xmm(register_of_[to_index(node)]); }
 
   void release(int node) {
-    held_[at(register_of_[at(node)])] = -1;
-    register_of_[at(node)] = -1;
+    held_[to_index(register_of_[to_index(node)])] = -1;
+    register_of_[to_index(node)] = -1;
   }
 
   void save(int node) {
     if (in_memory(node)) return;
     vmovsd(number(memory_of(node)), register_of(node));
-    stored_[at(node)] = true;
+    stored_[to_index(node)] = true;
   }
 
   /// A register to write to, not one that the present instruction uses. Its value is saved to memory if it is not there yet.
   int free_register() {
     int best = -1, farthest = -1;
     for (int r = 0; r < kRegisters; ++r) {
-      if (busy_[at(r)]) continue;
-      if (held_[at(r)] < 0) return r;
-      if (const int next = uses_.next(held_[at(r)]); next > farthest) {
+      if (busy_[to_index(r)]) continue;
+      if (held_[to_index(r)] < 0) return r;
+      if (const int next = uses_.next(held_[to_index(r)]); next > farthest) {
         farthest = next;
         best = r;
       }
     }
-    const int victim = held_[at(best)];
+    const int victim = held_[to_index(best)];
     save(victim);
     release(victim);
     return best;
   }
 
   void hold(int node, int r) {
-    held_[at(r)] = node;
-    register_of_[at(node)] = r;
+    held_[to_index(r)] = node;
+    register_of_[to_index(node)] = r;
   }
 
   /// A register with the value of the node; it stays unchanged during the present instruction.
@@ -126,7 +126,7 @@ class Code final : public ValueCode, private MachineCode {
       vmovsd(Xmm(r), number(memory_of(node)));
       hold(node, r);
     }
-    busy_[at(register_of_[at(node)])] = true;
+    busy_[to_index(register_of_[to_index(node)])] = true;
     return register_of(node);
   }
 
@@ -143,9 +143,9 @@ class Code final : public ValueCode, private MachineCode {
   /// Frees the register of an operand that is not read again, for use as the result's.
   void drop(int node) {
     if (node >= 0 && in_register(node) && !uses_.is_read_again(node)) {
-      const int r = register_of_[at(node)];
+      const int r = register_of_[to_index(node)];
       release(node);
-      busy_[at(r)] = true;  // until the instruction is written
+      busy_[to_index(r)] = true;  // until the instruction is written
       last_dropped_ = r;
     }
   }
@@ -153,7 +153,7 @@ class Code final : public ValueCode, private MachineCode {
   /// A register for the result: that of a dropped operand if there is one.
   Xmm result_register() {
     const int r = last_dropped_ >= 0 ? last_dropped_ : free_register();
-    busy_[at(r)] = true;
+    busy_[to_index(r)] = true;
     return Xmm(r);
   }
 
@@ -181,7 +181,7 @@ class Code final : public ValueCode, private MachineCode {
         break;
     }
     for (const Place& place : stores) vmovsd(number(place), register_of(i.node));
-    if (kept_[at(i.node)]) save(i.node);
+    if (kept_[to_index(i.node)]) save(i.node);
     if (!uses_.is_read_again(i.node)) release(i.node);
   }
 
@@ -261,13 +261,13 @@ class Code final : public ValueCode, private MachineCode {
     const Xmm x = in_some_register(first);
     int r = -1;
     if (in_register(i.c) && !uses_.is_read_again(i.c) && i.c != first && i.c != second) {
-      r = register_of_[at(i.c)];
+      r = register_of_[to_index(i.c)];
       release(i.c);
-      busy_[at(r)] = true;
+      busy_[to_index(r)] = true;
     }
     const Operand& y = operand(second);
     if (r < 0) {
-      if (in_register(i.c)) busy_[at(register_of_[at(i.c)])] = true;
+      if (in_register(i.c)) busy_[to_index(register_of_[to_index(i.c)])] = true;
       r = free_register();
       in_register(i.c) ? vmovapd(Xmm(r), register_of(i.c)) : vmovsd(Xmm(r), number(memory_of(i.c)));
     }
@@ -303,7 +303,7 @@ class Code final : public ValueCode, private MachineCode {
   // A call may change every register.
   void emit_call(Operation operation, const Instruction& i) {
     for (int r = 0; r < kRegisters; ++r) {
-      const int node = held_[at(r)];
+      const int node = held_[to_index(r)];
       if (node < 0) continue;
       if (uses_.is_read_again(node) || node == i.a || node == i.b) save(node);
       release(node);

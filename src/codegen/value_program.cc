@@ -5,15 +5,19 @@
 #include <map>
 #include <utility>
 
+#include "math/to_index.h"
+
 namespace codesign {
 namespace {
-
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 class Compiler {
  public:
   Compiler(const Recording& recording, const ValueTask& task)
-      : recording_(recording), task_(task), uses_(at(recording.size()), 0), fixed_(at(recording.size()), false), stores_(uses_.size()) {
+      : recording_(recording),
+        task_(task),
+        uses_(to_index(recording.size()), 0),
+        fixed_(to_index(recording.size()), false),
+        stores_(uses_.size()) {
     for (const Recording::Guard& guard : task.guards) guards_.emplace(std::max(guard.a, guard.b), guard);
   }
 
@@ -23,8 +27,8 @@ class Compiler {
     program->slots = task_.reserved_slots;
     for (int n = 0; n < recording_.size(); ++n) {
       if (is_computed(n) && !is_absorbed(n)) {
-        program->slot[at(n)] = program->slots++;
-        append(instruction(n), std::move(stores_[at(n)]), program);
+        program->slot[to_index(n)] = program->slots++;
+        append(instruction(n), std::move(stores_[to_index(n)]), program);
       }
       append_guards(n, program);
     }
@@ -35,31 +39,31 @@ class Compiler {
  private:
   using Instruction = ValueProgram::Instruction;
 
-  bool has_home(int n) const { return task_.homes[at(n)].array >= 0; }
-  bool is_computed(int n) const { return uses_[at(n)] > 0 && !has_home(n); }
+  bool has_home(int n) const { return task_.homes[to_index(n)].array >= 0; }
+  bool is_computed(int n) const { return uses_[to_index(n)] > 0 && !has_home(n); }
 
   // From the last node to the first, so that uses by unused nodes are not counted.
   void count_uses() {
     const auto fix = [this](int n) {
-      ++uses_[at(n)];
-      fixed_[at(n)] = true;
+      ++uses_[to_index(n)];
+      fixed_[to_index(n)] = true;
     };
     for (const ValueTask::Output& output : task_.outputs) {
       fix(output.node);
-      if (!has_home(output.node)) stores_[at(output.node)].push_back(output.place);
+      if (!has_home(output.node)) stores_[to_index(output.node)].push_back(output.place);
     }
     for (int n : task_.kept) fix(n);
     for (const Recording::Guard& guard : task_.guards) fix(guard.a), fix(guard.b);
     for (int n = recording_.size() - 1; n >= 0; --n) {
       if (!is_computed(n)) continue;
       const Recording::Node& node = recording_.node(n);
-      if (node.a >= 0) ++uses_[at(node.a)];
-      if (node.b >= 0) ++uses_[at(node.b)];
+      if (node.a >= 0) ++uses_[to_index(node.a)];
+      if (node.b >= 0) ++uses_[to_index(node.b)];
     }
   }
 
   bool is_lone_product(int n) const {
-    return recording_.node(n).operation == Operation::kMultiply && !has_home(n) && uses_[at(n)] == 1 && !fixed_[at(n)];
+    return recording_.node(n).operation == Operation::kMultiply && !has_home(n) && uses_[to_index(n)] == 1 && !fixed_[to_index(n)];
   }
 
   /// Which operand of a sum is a product to be fused with it: 1 the first, 2 the second, 0 none.
@@ -74,7 +78,7 @@ class Compiler {
   bool is_absorbed(int n) {
     if (!is_lone_product(n)) return false;
     if (user_.empty()) find_users();
-    const int user = user_[at(n)];
+    const int user = user_[to_index(n)];
     if (user < 0) return false;
     const int operand = absorbed_operand(user);
     return (operand == 1 && recording_.node(user).a == n) || (operand == 2 && recording_.node(user).b == n);
@@ -85,20 +89,21 @@ class Compiler {
     for (int n = 0; n < recording_.size(); ++n) {
       if (!is_computed(n)) continue;
       const Recording::Node& node = recording_.node(n);
-      if (node.a >= 0) user_[at(node.a)] = n;
-      if (node.b >= 0) user_[at(node.b)] = n;
+      if (node.a >= 0) user_[to_index(node.a)] = n;
+      if (node.b >= 0) user_[to_index(node.b)] = n;
     }
   }
 
   Instruction instruction(int n) const {
-    using Kind = ValueProgram::Kind;
     const Recording::Node& node = recording_.node(n);
     const int operand = absorbed_operand(n);
-    if (operand == 0) return {Kind::kOperation, n, node.a, node.b, -1};
+    if (operand == 0) return {ValueProgram::Kind::kOperation, n, node.a, node.b, -1};
     const Recording::Node& product = recording_.node(operand == 1 ? node.a : node.b);
     const int other = operand == 1 ? node.b : node.a;
     const bool minus = node.operation == Operation::kSubtract;
-    const Kind kind = !minus ? Kind::kProductPlus : operand == 1 ? Kind::kProductMinus : Kind::kMinusProduct;
+    const ValueProgram::Kind kind = !minus         ? ValueProgram::Kind::kProductPlus
+                                    : operand == 1 ? ValueProgram::Kind::kProductMinus
+                                                   : ValueProgram::Kind::kMinusProduct;
     return {kind, n, product.a, product.b, other};
   }
 

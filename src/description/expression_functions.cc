@@ -7,7 +7,6 @@ namespace codesign {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double kPi = 3.14159265358979323846;
 
 Complex extreme(In<Complex> z, double sign) {
   Complex best = z[0];

@@ -16,7 +16,6 @@ namespace {
 using Code = ExpressionStep::Code;
 using Kind = ExpressionToken::Kind;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kDeepest = 200;  // recursive calls of the parser; bounds its use of the stack
 
 std::vector<std::string> function_names() {

@@ -6,7 +6,7 @@
 namespace codesign {
 namespace {
 
-constexpr const char* kSpelling = "<expression> >= <expression> or <expression> <= <expression>";
+constexpr const char* kFormOfConstraint = "<expression> >= <expression> or <expression> <= <expression>";
 
 /// Positions of the `>=` and `<=` outside parentheses. Those inside belong to conditional expressions.
 std::vector<std::size_t> find_operators(const std::string& text) {
@@ -26,7 +26,7 @@ std::vector<std::size_t> find_operators(const std::string& text) {
 ParameterConstraint parse_constraint(const std::string& text, const std::vector<std::string>& names, const SourceLocation& where,
                                      const std::string& element) {
   const std::vector<std::size_t> operators = find_operators(text);
-  if (operators.size() != 1) throw InputError({where, element, "a constraint needs exactly one >= or <=", text, kSpelling});
+  if (operators.size() != 1) throw InputError({where, element, "a constraint needs exactly one >= or <=", text, kFormOfConstraint});
   const std::string left = text.substr(0, operators[0]);
   const std::string right = text.substr(operators[0] + 2);
   try {
@@ -38,7 +38,7 @@ ParameterConstraint parse_constraint(const std::string& text, const std::vector<
     if (expression->dependencies().empty()) throw std::invalid_argument("no parameter appears in the constraint");
     return {text, std::move(expression), where};
   } catch (const std::invalid_argument& error) {
-    throw InputError({where, element, error.what(), text, kSpelling});
+    throw InputError({where, element, error.what(), text, kFormOfConstraint});
   }
 }
 

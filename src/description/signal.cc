@@ -8,7 +8,7 @@
 namespace codesign {
 namespace {
 
-constexpr const char* kSpelling =
+constexpr const char* kFormOfSignal =
     "<joint>/<quantity>, <link>/<quantity>/{x,y,z}, <controller>/<quantity>, and sums and differences of them";
 
 std::string trimmed(const std::string& text) {
@@ -110,7 +110,7 @@ class SignalParser {
     return term;
   }
 
-  [[noreturn]] void fail(const std::string& message) const { throw InputError({where_, element_, message, text_, kSpelling}); }
+  [[noreturn]] void fail(const std::string& message) const { throw InputError({where_, element_, message, text_, kFormOfSignal}); }
 
   const std::string& text_;
   const SourceLocation& where_;

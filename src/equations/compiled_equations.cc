@@ -7,6 +7,7 @@
 
 #include "codegen/operate.h"
 #include "equations/equation_code.h"
+#include "math/to_index.h"
 
 namespace codesign {
 namespace {
@@ -17,8 +18,6 @@ template <class T>
 constexpr int kLanesOf = 0;
 template <int N>
 constexpr int kLanesOf<Lanes<N>> = N;
-
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 /// The arrays that the equations own; those of the state and of results are for the caller to set.
 template <class T>
@@ -78,23 +77,23 @@ bool CompiledEquations<T>::prepare() {
 template <class T>
 bool CompiledEquations<T>::fill_numbers() {
   const Recording& recording = numbered_->recording;
-  std::vector<T> values(at(recording.size()), T(0.0));
+  std::vector<T> values(to_index(recording.size()), T(0.0));
   numbers_.assign(numbered_->numbers.size(), T(0.0));
   for (std::size_t k = 0; k < numbers_.size(); ++k) {
     const int n = numbered_->numbers[k];
     const Recording::Node& node = recording.node(n);
-    T& value = values[at(n)];
+    T& value = values[to_index(n)];
     if (node.operation == Operation::kLiteral)
       value = T(node.literal);
     else if (node.operation != Operation::kLeaf)
-      value = operate<T>(node.operation, values[at(node.a)], node.b < 0 ? T(0.0) : values[at(node.b)]);
+      value = operate<T>(node.operation, values[to_index(node.a)], node.b < 0 ? T(0.0) : values[to_index(node.b)]);
     else if (node.a == Recording::kSupplied && node.b >= 0)
-      value = value_at(*recording.supplied_sources()[at(node.b)].as<Expression>(), parameters_);
+      value = value_at(*recording.supplied_sources()[to_index(node.b)].as<Expression>(), parameters_);
     numbers_[k] = value;
   }
   const std::vector<Recording::Guard>& guards = code_->design_guards();
   return std::all_of(guards.begin(), guards.end(), [&values](const Recording::Guard& guard) {
-    return (value_of(values[at(guard.a)]) < value_of(values[at(guard.b)])) == guard.outcome;
+    return (value_of(values[to_index(guard.a)]) < value_of(values[to_index(guard.b)])) == guard.outcome;
   });
 }
 
@@ -104,9 +103,9 @@ void CompiledEquations<T>::set_instant(double t, const std::vector<double>& turn
     const ReferenceMotion<T> motion = std::visit([t](const auto& function) { return function.at(t); }, functions_[k]);
     const T* const orders[] = {&motion.value, &motion.rate, &motion.acceleration, &motion.jerk};
     for (std::size_t order = 0; order < Recording::kFunctionOrders; ++order)
-      if (const int entry = numbered_->functions[k][order]; entry >= 0) numbers_[at(entry)] = *orders[order];
+      if (const int entry = numbered_->functions[k][order]; entry >= 0) numbers_[to_index(entry)] = *orders[order];
   }
-  for (const auto& [slot, entry] : numbered_->turns) numbers_[at(entry)] = T(turns[at(slot)]);
+  for (const auto& [slot, entry] : numbered_->turns) numbers_[to_index(entry)] = T(turns[to_index(slot)]);
 }
 
 template <class T>

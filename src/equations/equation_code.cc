@@ -6,6 +6,7 @@
 
 #include "codegen/traced.h"
 #include "equations/formulas.h"
+#include "math/to_index.h"
 
 namespace codesign {
 namespace {
@@ -17,8 +18,6 @@ constexpr int kMostColumns = 4000;
 constexpr std::size_t kMostBytes = 16 * 1024 * 1024;
 
 constexpr int kTurns = Recording::kTimed + 1;  // array of the leaves that are turn references
-
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 void leaves(int array, Recording* recording, VectorX<Traced>* x) {
   for (int k = 0; k < x->size(); ++k) (*x)[k] = Traced(recording, recording->leaf(array, k, true));
@@ -114,8 +113,8 @@ void EquationCode::differentiate() const {
   Recording& recording = derivatives_.recording;
   recording = values_.recording;
   for (std::size_t f = 0; f < kEquationFunctions; ++f) {
-    std::vector<bool> is_leaf(at(recording.size()));
-    for (int n = 0; n < recording.size(); ++n) is_leaf[at(n)] = is_tangent_leaf(recording.node(n));
+    std::vector<bool> is_leaf(to_index(recording.size()));
+    for (int n = 0; n < recording.size(); ++n) is_leaf[to_index(n)] = is_tangent_leaf(recording.node(n));
     derivatives_.tangents[f] = std::make_unique<TangentProgram>(&recording, functions_[f].outputs, is_leaf);
   }
   derivatives_.number_nodes();
@@ -130,32 +129,33 @@ const NumberedRecording& EquationCode::numbered(bool with_derivatives) const {
 void NumberedRecording::number_nodes() {
   functions.resize(recording.timed_sources().size());
   for (auto& orders : functions) orders.fill(-1);
-  homes.resize(at(recording.size()));
+  homes.resize(to_index(recording.size()));
   std::vector<bool> used(homes.size());
   for (int n = 0; n < recording.size(); ++n) {
     const Recording::Node& node = recording.node(n);
     if (node.operation == Operation::kLeaf) continue;
     for (int operand : {node.a, node.b})
-      if (operand >= 0) used[at(operand)] = true;
+      if (operand >= 0) used[to_index(operand)] = true;
   }
   for (int n = 0; n < recording.size(); ++n) {
     const Recording::Node& node = recording.node(n);
     if (!is_number(node)) {
-      if (node.operation == Operation::kLeaf) homes[at(n)] = {node.a, node.b};
+      if (node.operation == Operation::kLeaf) homes[to_index(n)] = {node.a, node.b};
       continue;
     }
     const auto entry = static_cast<int>(numbers.size());
-    homes[at(n)] = {Arrays::kNumbers, entry};
+    homes[to_index(n)] = {Arrays::kNumbers, entry};
     numbers.push_back(n);
     if (node.operation != Operation::kLeaf) continue;
-    if (node.a == Recording::kTimed) functions[at(node.b / Recording::kFunctionOrders)][at(node.b % Recording::kFunctionOrders)] = entry;
-    if (node.a == kTurns && used[at(n)]) turns.push_back({node.b, entry});
+    if (node.a == Recording::kTimed)
+      functions[to_index(node.b / Recording::kFunctionOrders)][to_index(node.b % Recording::kFunctionOrders)] = entry;
+    if (node.a == kTurns && used[to_index(n)]) turns.push_back({node.b, entry});
   }
 }
 
 const CompiledFunction* EquationCode::function(EquationFunction function, const Scalar& scalar) const {
   const auto f = static_cast<std::size_t>(function);
-  Known& known = known_[f][at(scalar.lanes / 4 + (scalar.split ? 2 : 0))];
+  Known& known = known_[f][to_index(scalar.lanes / 4 + (scalar.split ? 2 : 0))];
   if (!known.tried.load(std::memory_order_acquire)) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!known.tried.load(std::memory_order_relaxed)) known.code = compile(f, scalar);
@@ -178,7 +178,7 @@ ValueTask EquationCode::value_task(std::size_t function, const Scalar& scalar, s
   *value_places = task.homes;
   if (scalar.lanes == 0) return task;
   for (int n : from.tangents[function]->factors) {
-    Place& place = (*value_places)[at(n)];
+    Place& place = (*value_places)[to_index(n)];
     if (place.array < 0) {
       task.kept.push_back(n);
     } else if (scalar.split && place.array != Arrays::kNumbers) {
@@ -192,15 +192,15 @@ ValueTask EquationCode::value_task(std::size_t function, const Scalar& scalar, s
 std::vector<Sum> EquationCode::tangent_sums(std::size_t function, const std::vector<Place>& value_places) const {
   const TangentProgram& tangent = *derivatives_.tangents[function];
   const auto row_place = [&](int n) {
-    const bool has_sum = at(n) < tangent.row.size() && tangent.row[at(n)] >= 0;
-    return has_sum ? Place{Arrays::kRows, tangent.row[at(n)]} : derivatives_.homes[at(n)];
+    const bool has_sum = to_index(n) < tangent.row.size() && tangent.row[to_index(n)] >= 0;
+    return has_sum ? Place{Arrays::kRows, tangent.row[to_index(n)]} : derivatives_.homes[to_index(n)];
   };
   std::vector<Sum> sums;
   for (const TangentProgram::Sum& from : tangent.sums) {
     Sum& sum = sums.emplace_back();
     sum.target = from.node < 0 ? from.output.place : row_place(from.node);
     for (const TangentProgram::Term& term : from.terms)
-      sum.products.push_back({row_place(term.row), term.factor < 0 ? Place{} : value_places[at(term.factor)], term.added});
+      sum.products.push_back({row_place(term.row), term.factor < 0 ? Place{} : value_places[to_index(term.factor)], term.added});
   }
   return sums;
 }
@@ -211,16 +211,16 @@ std::unique_ptr<CompiledFunction> EquationCode::compile(std::size_t function, co
   const ValueTask task = value_task(function, scalar, &value_places);
   const ValueProgram program(from.recording, task);
   auto compiled = std::make_unique<CompiledFunction>();
-  compiled->slots = at(program.slots);
+  compiled->slots = to_index(program.slots);
   compiled->values = ValueCode::compile(from.recording, task, program, Arrays::kSlots);
   if (!compiled->values) return nullptr;
   if (scalar.lanes == 0) return compiled;
-  for (int n : task.kept) value_places[at(n)] = {Arrays::kSlots, program.slot[at(n)]};
+  for (int n : task.kept) value_places[to_index(n)] = {Arrays::kSlots, program.slot[to_index(n)]};
   StraightLine::RowLayouts layouts;
   layouts.fill(scalar.split ? StraightLine::RowLayout{scalar.lanes, 0} : StraightLine::RowLayout{scalar.lanes + 1, 1});
-  layouts[at(Arrays::kNumbers)] = {scalar.lanes + 1, 1};
-  layouts[at(Arrays::kRows)] = {scalar.lanes, 0};
-  compiled->rows = at(from.tangents[function]->rows * scalar.lanes);
+  layouts[to_index(Arrays::kNumbers)] = {scalar.lanes + 1, 1};
+  layouts[to_index(Arrays::kRows)] = {scalar.lanes, 0};
+  compiled->rows = to_index(from.tangents[function]->rows * scalar.lanes);
   compiled->tangents = StraightLine::compile(tangent_sums(function, value_places), scalar.lanes, layouts, kMostBytes);
   return compiled->tangents ? std::move(compiled) : nullptr;
 }

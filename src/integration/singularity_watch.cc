@@ -20,7 +20,7 @@ constexpr double kLarge = 4.0;         // upper limit of the mean drift in the t
 constexpr double kRank = 3e-4;         // smaller singular values, relative to the largest, count as zero
 constexpr double kLeastDrift = 1e-12;  // smaller drifts count as this in the geometric mean
 constexpr int kIterations = 40;        // of the golden-section search, a factor 0.618 each
-constexpr int kLargest = 400;          // the rank is computed up to this number of coordinates
+constexpr int kLargestRanked = 400;    // the rank is computed up to this number of coordinates
 
 }  // namespace
 
@@ -119,7 +119,7 @@ void SingularityWatch::search(Equations<double>* equations) {
   }
   place(0.5 * (a + b));
   std::string ranks;
-  if (system_.layout().n <= kLargest)
+  if (system_.layout().n <= kLargestRanked)
     ranks = ", where its constraints have rank " + std::to_string(rank(equations, between_)) + " instead of " +
             std::to_string(rank(equations, initial_));
   warnings_.push_back(

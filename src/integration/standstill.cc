@@ -10,14 +10,14 @@
 namespace codesign {
 namespace {
 
-constexpr std::int64_t kWindow = 100;  // the pace is checked once in this number of steps
-constexpr double kNever = 20000.0;     // remaining steps from which a run counts as stalled
-// Smallest singular value, relative to its value at the start, below which the position counts as singular: kSingular for a stalled run,
+constexpr std::int64_t kPaceWindow = 100;  // the pace is checked once in this number of steps
+constexpr double kNever = 20000.0;         // remaining steps from which a run counts as stalled
+// Smallest singular value, relative to its value at the start, below which the position counts as singular: kStalled for a stalled run,
 // where reactions are then fifty times as large as at the start; kNearby for a failed one, since friction can lock a mechanism before the
 // position.
-constexpr double kSingular = 0.02, kNearby = 0.1;
-constexpr double kTakesPart = 0.1;  // a pair is named if its load in the self-stress exceeds this fraction of the largest
-constexpr int kLargest = 400;       // larger numbers of coordinates are not analysed, since the decomposition is dense
+constexpr double kStalled = 0.02, kNearby = 0.1;
+constexpr double kTakesPart = 0.1;     // a pair is named if its load in the self-stress exceeds this fraction of the largest
+constexpr int kLargestAnalysed = 400;  // larger numbers of coordinates are not analysed, since the decomposition is dense
 
 bool may_be_singular(StatusCode code) {
   return code == StatusCode::kStepSizeTooSmall || code == StatusCode::kSingularMatrix || code == StatusCode::kConstraintDrift ||
@@ -107,13 +107,13 @@ std::string cause(const CompiledSystem& system, const Eigen::MatrixXd& rows, boo
 
 Status judge_standstill(const Status& status, const CompiledSystem& system, const State<double>& initial, const State<double>& state,
                         double step_size, const Statistics& statistics, Equations<double>* equations) {
-  if (!system.sharing().drops() || system.layout().n > kLargest) return status;
-  const bool slow = statistics.steps % kWindow == 0 && system.study().duration - state.t > kNever * step_size;
+  if (!system.sharing().drops() || system.layout().n > kLargestAnalysed) return status;
+  const bool slow = statistics.steps % kPaceWindow == 0 && system.study().duration - state.t > kNever * step_size;
   if (!(status.ok() ? slow : may_be_singular(status.code)) || !state.q.allFinite()) return status;
   const Eigen::MatrixXd all = scaled_jacobian(system, state, equations), before = scaled_jacobian(system, initial, equations);
   const Eigen::MatrixXd rows = enforced_part(system, all);
   const Eigen::Index rank = rows.rows();
-  const double limit = status.ok() ? kSingular : kNearby;
+  const double limit = status.ok() ? kStalled : kNearby;
   if (singular_value(rows, rank) > limit * singular_value(enforced_part(system, before), rank)) return status;
   const bool all_lose_rank = singular_value(all, rank) <= 2.0 * limit * singular_value(before, rank);
   return {StatusCode::kSingularConfiguration, state.t, cause(system, rows, all_lose_rank)};

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "codegen/number_types.h"
+#include "math/to_index.h"
 #include "mechanism/body_check.h"
 #include "mechanism/default_values.h"
 #include "mechanism/mass_properties.h"
@@ -14,8 +15,6 @@
 namespace codesign {
 namespace {
 
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
-
 template <class T>
 BodyConstants<T> body_constants(const RobotDescription& robot, const Topology& topology, const Body& body,
                                 const std::vector<T>& parameters) {
@@ -25,7 +24,7 @@ BodyConstants<T> body_constants(const RobotDescription& robot, const Topology& t
 
 template <class T>
 Vector3<T> centre_of(const Constants<T>& constants, int body) {
-  return body < 0 ? Vector3<T>(Vector3<T>::Zero()) : constants.bodies[index(body)].centre;
+  return body < 0 ? Vector3<T>(Vector3<T>::Zero()) : constants.bodies[to_index(body)].centre;
 }
 
 template <class T>
@@ -33,11 +32,11 @@ SpringDamperConstants<T> spring_constants(const RobotDescription& robot, const T
                                           const Constants<T>& constants, const std::vector<T>& parameters) {
   SpringDamperConstants<T> result;
   const auto attach = [&](int link, const PoseDescription& origin, int* body, Vector3<T>* s) {
-    *body = topology.link_body[index(link)];
+    *body = topology.link_body[to_index(link)];
     if (*body == Topology::kMassless)
       throw InputError({spring.where, "<codesign:spring_damper name=\"" + spring.name + "\">",
-                        "a spring cannot pull on a link without <inertial>", robot.links[index(link)].name, ""});
-    *s = constants.links[index(link)].R * vector_at(origin.xyz, parameters) + constants.links[index(link)].s;
+                        "a spring cannot pull on a link without <inertial>", robot.links[to_index(link)].name, ""});
+    *s = constants.links[to_index(link)].R * vector_at(origin.xyz, parameters) + constants.links[to_index(link)].s;
   };
   attach(spring.predecessor, spring.predecessor_origin, &result.body_i, &result.s_i);
   attach(spring.successor, spring.successor_origin, &result.body_j, &result.s_j);
@@ -86,7 +85,7 @@ std::string friction_fault(const Pair& pair, const FrictionConstants<double>& f)
 
 std::string joint_fault(const RobotDescription& robot, const Pair& pair, const PairConstants<double>& constants) {
   for (std::size_t e = 0; e < pair.chain.size(); ++e) {
-    const JointDescription& joint = robot.joints[index(pair.chain[e].joint)];
+    const JointDescription& joint = robot.joints[to_index(pair.chain[e].joint)];
     const JointDynamicsConstants<double>& d = constants.dynamics[e];
     if (joint.limit && !(d.lower <= d.upper && d.effort >= 0.0))
       return "a limit of joint '" + joint.name + "' is out of range (allowed: lower <= upper, effort >= 0)";
@@ -110,8 +109,8 @@ Constants<T> evaluate_constants(const RobotDescription& robot, const Topology& t
   }
   for (const JointDescription& joint : robot.joints) {
     LinkConstants<T>& frame = constants.joint_frames.emplace_back();
-    if (topology.link_body[index(joint.child)] == Topology::kMassless) continue;
-    const LinkConstants<T>& child = constants.links[index(joint.child)];
+    if (topology.link_body[to_index(joint.child)] == Topology::kMassless) continue;
+    const LinkConstants<T>& child = constants.links[to_index(joint.child)];
     frame = child;
     if (!joint.is_loop) continue;
     const Pose<T> X = pose_at(joint.child_origin, parameters);

@@ -3,22 +3,21 @@
 
 #include <algorithm>
 
+#include "math/to_index.h"
 #include "mechanism/joints_between.h"
 #include "mechanism/topology.h"
 
 namespace codesign {
 namespace {
 
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
-
 CouplingTerm term_of(const RobotDescription& robot, const Topology& topology, int joint, const Coupling& coupling) {
   CouplingTerm term;
   term.joint = joint;
-  term.pair = topology.joint_pair[index(joint)];
+  term.pair = topology.joint_pair[to_index(joint)];
   if (term.pair < 0)
     throw InputError({coupling.where, coupling.element(), "the joint moves only a link without <inertial>, so nothing can be coupled to it",
-                      robot.joints[index(joint)].name, "joints that move a mass"});
-  const std::vector<ChainElement>& chain = topology.pairs[index(term.pair)].chain;
+                      robot.joints[to_index(joint)].name, "joints that move a mass"});
+  const std::vector<ChainElement>& chain = topology.pairs[to_index(term.pair)].chain;
   const auto found = std::find_if(chain.begin(), chain.end(), [joint](const ChainElement& e) { return e.joint == joint; });
   term.element = static_cast<int>(found - chain.begin());
   return term;
@@ -30,7 +29,7 @@ int joint_named(const RobotDescription& robot, const std::string& name) {
 }
 
 Coupling mimic_coupling(const RobotDescription& robot, const Topology& topology, int follower) {
-  const JointDescription& joint = robot.joints[index(follower)];
+  const JointDescription& joint = robot.joints[to_index(follower)];
   Coupling coupling;
   coupling.name = joint.name;
   coupling.is_mimic = true;
@@ -38,7 +37,7 @@ Coupling mimic_coupling(const RobotDescription& robot, const Topology& topology,
   coupling.offset = joint.mimic->offset;
   coupling.terms.push_back(term_of(robot, topology, follower, coupling));
   const int leader = joint_named(robot, joint.mimic->joint);
-  if (robot.joints[index(leader)].type == JointType::kFixed) return coupling;  // the fixed joint's coordinate is zero
+  if (robot.joints[to_index(leader)].type == JointType::kFixed) return coupling;  // the fixed joint's coordinate is zero
   coupling.terms.push_back(term_of(robot, topology, leader, coupling));
   coupling.terms.back().sign = -1.0;
   coupling.terms.back().factor = joint.mimic->multiplier;
@@ -49,8 +48,8 @@ Coupling mimic_coupling(const RobotDescription& robot, const Topology& topology,
 std::vector<int> moving_joints(const RobotDescription& robot, const Topology& topology, int link, int ancestor, const Coupling& coupling) {
   std::vector<int> joints;
   for (int at = link; at != ancestor;) {
-    const int k = topology.link_parent_joint[index(at)];
-    const JointDescription& joint = robot.joints[index(k)];
+    const int k = topology.link_parent_joint[to_index(at)];
+    const JointDescription& joint = robot.joints[to_index(k)];
     at = joint.parent;
     if (joint.type == JointType::kFixed) continue;
     if (!has_one_coordinate(joint.type))
@@ -71,7 +70,7 @@ Coupling plus_coupling(const RobotDescription& robot, const Topology& topology, 
   const std::vector<int> driven = moving_joints(robot, topology, description.successor, ancestor, coupling);
   if (driven.empty())
     throw InputError({coupling.where, coupling.element(), "no joint moves the successor relative to the links' nearest common ancestor",
-                      robot.links[index(description.successor)].name, "swap predecessor and successor, and invert the ratio"});
+                      robot.links[to_index(description.successor)].name, "swap predecessor and successor, and invert the ratio"});
   for (int joint : driven) coupling.terms.push_back(term_of(robot, topology, joint, coupling));
   for (int joint : moving_joints(robot, topology, description.predecessor, ancestor, coupling)) {
     coupling.terms.push_back(term_of(robot, topology, joint, coupling));

@@ -3,16 +3,14 @@
 
 #include <algorithm>
 
+#include "math/to_index.h"
+
 namespace codesign {
-namespace {
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<int> links_above(const RobotDescription& robot, const std::vector<int>& link_parent_joint, int link) {
   std::vector<int> links = {link};
-  for (int joint; (joint = link_parent_joint[index(links.back())]) >= 0;) links.push_back(robot.joints[index(joint)].parent);
+  for (int joint; (joint = link_parent_joint[to_index(links.back())]) >= 0;) links.push_back(robot.joints[to_index(joint)].parent);
   return links;
 }
 
@@ -23,9 +21,9 @@ std::vector<int> joints_between(const RobotDescription& robot, const std::vector
   std::vector<int> joints;
   for (int end : {predecessor, successor}) {
     for (int link = end; link != ancestor;) {
-      const int joint = link_parent_joint[index(link)];
-      if (robot.joints[index(joint)].type != JointType::kFixed) joints.push_back(joint);
-      link = robot.joints[index(joint)].parent;
+      const int joint = link_parent_joint[to_index(link)];
+      if (robot.joints[to_index(joint)].type != JointType::kFixed) joints.push_back(joint);
+      link = robot.joints[to_index(joint)].parent;
     }
   }
   return joints;

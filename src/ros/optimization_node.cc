@@ -24,7 +24,7 @@ namespace {
 /// Threads for callbacks: two callbacks may wait for their workers, the others answer `busy`.
 constexpr unsigned kDoorThreads = 4;
 
-std::vector<std::string> known_parameters() {
+std::vector<std::string> optimization_parameters() {
   std::vector<std::string> names = input_parameters();
   names.insert(names.end(), {"output_directory", "rate", "diagnostic_period"});
   return names;
@@ -69,7 +69,7 @@ OptimizationNode::~OptimizationNode() {
 
 void OptimizationNode::load() {
   try {
-    state_.warn("parameters", unknown_parameters(private_node_, known_parameters()));
+    state_.warn("parameters", unknown_parameters(private_node_, optimization_parameters()));
     options_.output_directory = read_path(private_node_, "output_directory", default_output_directory());
     options_.rate = read_positive(private_node_, "rate", options_.rate);
     const Inputs inputs = read_inputs(node_, private_node_);

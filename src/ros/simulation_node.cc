@@ -31,7 +31,7 @@ constexpr std::uint32_t kQueueSize = 100;
 /// In the mode as_fast_as_possible, a subscriber that is slow for a second must not lose frames.
 constexpr std::uint32_t kLongQueueSize = 1000;
 
-std::vector<std::string> known_parameters() {
+std::vector<std::string> all_parameters() {
   std::vector<std::string> names = simulation_parameters();
   names.insert(names.end(), input_parameters().begin(), input_parameters().end());
   names.emplace_back("diagnostic_period");
@@ -56,7 +56,7 @@ SimulationNode::~SimulationNode() {
 }
 
 void SimulationNode::load() {
-  state_.warn("parameters", unknown_parameters(private_node_, known_parameters()));
+  state_.warn("parameters", unknown_parameters(private_node_, all_parameters()));
   options_ = read_simulation_options(private_node_);
   clock_ = RunClock(options_.time_scale);
   pace_ = Pace(options_.publish_limit);

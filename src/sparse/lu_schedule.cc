@@ -8,13 +8,12 @@
 #include <utility>
 
 #include "math/lanes.h"
+#include "math/to_index.h"
 
 namespace codesign {
 namespace {
 
 constexpr int kWidest = 8;
-
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 }  // namespace
 
@@ -35,8 +34,8 @@ LuSchedule::LuSchedule(const LuPattern& pattern, const std::vector<int>& column_
 void LuSchedule::lay_out(const LuPattern& pattern) {
   std::vector<std::vector<int>> lower(n_), upper(n_);
   for (std::size_t k = 0; k < n_; ++k) {
-    for (int row : pattern.L[k]) lower[at(row)].push_back(static_cast<int>(k));
-    for (int row : pattern.U[k]) upper[at(row)].push_back(static_cast<int>(k));
+    for (int row : pattern.L[k]) lower[to_index(row)].push_back(static_cast<int>(k));
+    for (int row : pattern.U[k]) upper[to_index(row)].push_back(static_cast<int>(k));
   }
   start_.push_back(0);
   for (std::size_t k = 0; k < n_; ++k) {
@@ -54,16 +53,16 @@ void LuSchedule::lay_out(const LuPattern& pattern) {
 
 void LuSchedule::place_sources(const std::vector<int>& column_start, const std::vector<int>& row_index) {
   std::vector<int> pivot_of_row(n_);
-  for (std::size_t k = 0; k < n_; ++k) pivot_of_row[at(row_of_[k])] = static_cast<int>(k);
+  for (std::size_t k = 0; k < n_; ++k) pivot_of_row[to_index(row_of_[k])] = static_cast<int>(k);
   source_slot_.resize(row_index.size());
   source_scale_.resize(row_index.size());
   for (std::size_t k = 0; k < n_; ++k) {
-    const std::size_t column = at(column_of_[k]);
+    const std::size_t column = to_index(column_of_[k]);
     for (int e = column_start[column]; e < column_start[column + 1]; ++e) {
-      const std::size_t pivot = at(pivot_of_row[at(row_index[at(e)])]);
+      const std::size_t pivot = to_index(pivot_of_row[to_index(row_index[to_index(e)])]);
       const auto first = column_.begin() + start_[pivot], last = column_.begin() + start_[pivot + 1];
-      source_slot_[at(e)] = static_cast<int>(std::lower_bound(first, last, static_cast<int>(k)) - column_.begin());
-      source_scale_[at(e)] = inverse_scale_[pivot];
+      source_slot_[to_index(e)] = static_cast<int>(std::lower_bound(first, last, static_cast<int>(k)) - column_.begin());
+      source_scale_[to_index(e)] = inverse_scale_[pivot];
     }
   }
 }
@@ -72,7 +71,8 @@ void LuSchedule::list_targets() {
   constexpr std::size_t kMostListed = 4'000'000;  // 16 MB
   std::vector<int> slot(n_);
   std::size_t products = 0;
-  for (int l : multiplier_) products += at(start_[at(column_[at(l)]) + 1] - diagonal_[at(column_[at(l)])] - 1);
+  for (int l : multiplier_)
+    products += to_index(start_[to_index(column_[to_index(l)]) + 1] - diagonal_[to_index(column_[to_index(l)])] - 1);
   // Lists that are certainly too long for machine code are not even generated.
   if (products > StraightLine::kMostProducts) elimination_ = LazyStraightLine(false);
   if (column_.size() > StraightLine::kMostProducts) solution_ = LazyStraightLine(false);
@@ -82,10 +82,10 @@ void LuSchedule::list_targets() {
   }
   target_.reserve(products);
   for (std::size_t k = 0; k < n_; ++k) {
-    for (int e = start_[k]; e < start_[k + 1]; ++e) slot[at(column_[at(e)])] = e;
+    for (int e = start_[k]; e < start_[k + 1]; ++e) slot[to_index(column_[to_index(e)])] = e;
     for (int l = start_[k]; l < diagonal_[k]; ++l) {
-      const std::size_t j = at(column_[at(l)]);
-      for (int u = diagonal_[j] + 1; u < start_[j + 1]; ++u) target_.push_back(slot[at(column_[at(u)])]);
+      const std::size_t j = to_index(column_[to_index(l)]);
+      for (int u = diagonal_[j] + 1; u < start_[j + 1]; ++u) target_.push_back(slot[to_index(column_[to_index(u)])]);
     }
   }
 }
@@ -101,20 +101,21 @@ constexpr int kValues = 0, kRightHandSides = 0, kFactors = 1, kScales = 2, kWork
 // in column c; entries of L are then divided by the pivot of their column.
 std::vector<Sum> LuSchedule::elimination_sums() const {
   std::vector<Sum> sums(factors_.size());
-  for (std::size_t e = 0; e < source_slot_.size(); ++e) sums[at(source_slot_[e])].start = {kValues, static_cast<int>(e)};
+  for (std::size_t e = 0; e < source_slot_.size(); ++e) sums[to_index(source_slot_[e])].start = {kValues, static_cast<int>(e)};
   std::size_t next = 0;
   for (std::size_t k = 0; k < n_; ++k) {
     const Place row_scale{kScales, static_cast<int>(k)};
     for (int e = start_[k]; e < start_[k + 1]; ++e) {
-      sums[at(e)].target = {kFactors, e};
-      if (sums[at(e)].start.array >= 0) sums[at(e)].start_scale = row_scale;
-      if (e < diagonal_[k]) sums[at(e)].scale = {kFactors, diagonal_[at(column_[at(e)])]};
+      sums[to_index(e)].target = {kFactors, e};
+      if (sums[to_index(e)].start.array >= 0) sums[to_index(e)].start_scale = row_scale;
+      if (e < diagonal_[k]) sums[to_index(e)].scale = {kFactors, diagonal_[to_index(column_[to_index(e)])]};
     }
     for (int l = start_[k]; l < diagonal_[k]; ++l) {
-      const std::size_t j = at(column_[at(l)]);
-      for (int u = diagonal_[j] + 1; u < start_[j + 1]; ++u) sums[at(target_[next++])].products.push_back({{kFactors, l}, {kFactors, u}});
+      const std::size_t j = to_index(column_[to_index(l)]);
+      for (int u = diagonal_[j] + 1; u < start_[j + 1]; ++u)
+        sums[to_index(target_[next++])].products.push_back({{kFactors, l}, {kFactors, u}});
     }
-    sums[at(diagonal_[k])].reciprocal = true;
+    sums[to_index(diagonal_[k])].reciprocal = true;
   }
   return sums;
 }
@@ -123,14 +124,14 @@ std::vector<Sum> LuSchedule::solution_sums() const {
   std::vector<Sum> sums;
   for (std::size_t k = 0; k < n_; ++k) {
     Sum sum{{kWork, static_cast<int>(k)}, {kRightHandSides, row_of_[k]}, {kScales, static_cast<int>(k)}, {}, false, {}};
-    for (int e = start_[k]; e < diagonal_[k]; ++e) sum.products.push_back({{kWork, column_[at(e)]}, {kFactors, e}});
+    for (int e = start_[k]; e < diagonal_[k]; ++e) sum.products.push_back({{kWork, column_[to_index(e)]}, {kFactors, e}});
     sums.push_back(std::move(sum));
   }
   for (std::size_t k = n_; k-- > 0;) {
     Sum sum{{kRightHandSides, column_of_[k]}, {kWork, static_cast<int>(k)}, {}, {kFactors, diagonal_[k]}, false, {}};
     // Descending: the component that was computed last is needed last, so that the sum need not wait for it.
     for (int e = start_[k + 1]; e-- > diagonal_[k] + 1;)
-      sum.products.push_back({{kRightHandSides, column_of_[at(column_[at(e)])]}, {kFactors, e}});
+      sum.products.push_back({{kRightHandSides, column_of_[to_index(column_[to_index(e)])]}, {kFactors, e}});
     sums.push_back(std::move(sum));
   }
   return sums;
@@ -148,9 +149,9 @@ LuSchedule::Quality LuSchedule::refactor(In<double> values) {
 LuSchedule::Quality LuSchedule::quality() const {
   Quality quality;
   double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
-  for (int place : multiplier_) quality.growth = std::max(quality.growth, std::abs(factors_[at(place)]));
+  for (int place : multiplier_) quality.growth = std::max(quality.growth, std::abs(factors_[to_index(place)]));
   for (int diagonal : diagonal_) {
-    const double inverse = std::abs(factors_[at(diagonal)]);
+    const double inverse = std::abs(factors_[to_index(diagonal)]);
     // A vanished pivot has an infinite inverse; inf - inf and NaN - NaN make the growth NaN.
     smallest = std::min(smallest, inverse);
     largest = std::max(largest, inverse);
@@ -182,13 +183,13 @@ void LuSchedule::eliminate_rows(const BeginRow& begin_row, Target target) {
 void LuSchedule::eliminate(In<double> values) {
   const double* const value = values.data();
   std::fill(factors_.begin(), factors_.end(), 0.0);
-  for (std::size_t e = 0; e < source_slot_.size(); ++e) factors_[at(source_slot_[e])] = source_scale_[e] * value[e];
+  for (std::size_t e = 0; e < source_slot_.size(); ++e) factors_[to_index(source_slot_[e])] = source_scale_[e] * value[e];
   if (entry_of_.empty()) {
     eliminate_rows([](std::size_t) {}, [next = target_.data()](int) mutable { return *next++; });
     return;
   }
   const auto note_row = [this](std::size_t k) {
-    for (int e = start_[k]; e < start_[k + 1]; ++e) entry_of_[at(column_[at(e)])] = e;
+    for (int e = start_[k]; e < start_[k + 1]; ++e) entry_of_[to_index(column_[to_index(e)])] = e;
   };
   eliminate_rows(note_row, [entry = entry_of_.data(), column = column_.data()](int u) { return entry[column[u]]; });
 }
@@ -273,7 +274,7 @@ void LuSchedule::solve_by_lists(Out<double> in_place) const {
   const double* const f = factors_.data();
   const int *const column = column_.data(), *const start = start_.data(), *const diagonal = diagonal_.data();
   for (std::size_t k = 0; k < n_; ++k) {
-    Row<N> sum(x + N * at(row_of_[k]));
+    Row<N> sum(x + N * to_index(row_of_[k]));
     sum.scale(inverse_scale_[k]);
     subtract_products<N>(f, column, start[k], diagonal[k], y, &sum);
     sum.store(y + N * k);
@@ -283,7 +284,7 @@ void LuSchedule::solve_by_lists(Out<double> in_place) const {
     subtract_products<N>(f, column, diagonal[k] + 1, start[k + 1], y, &sum);
     sum.scale(f[diagonal[k]]);
     sum.store(y + N * k);
-    sum.store(x + N * at(column_of_[k]));
+    sum.store(x + N * to_index(column_of_[k]));
   }
 }
 
@@ -294,7 +295,7 @@ void LuSchedule::solve_transposed(Out<double> in_place) const {
   double *const x = in_place.data(), *const y = work_.data();
   const double* const f = factors_.data();
   const int *const column = column_.data(), *const start = start_.data(), *const diagonal = diagonal_.data();
-  for (std::size_t k = 0; k < n_; ++k) Row<N>(x + N * at(column_of_[k])).store(y + N * k);
+  for (std::size_t k = 0; k < n_; ++k) Row<N>(x + N * to_index(column_of_[k])).store(y + N * k);
   for (std::size_t k = 0; k < n_; ++k) {
     Row<N> own(y + N * k);
     own.scale(f[diagonal[k]]);
@@ -305,7 +306,7 @@ void LuSchedule::solve_transposed(Out<double> in_place) const {
     Row<N> own(y + N * k);
     spread_products<N>(f, column, start[k], diagonal[k], own, y);
     own.scale(inverse_scale_[k]);
-    own.store(x + N * at(row_of_[k]));
+    own.store(x + N * to_index(row_of_[k]));
   }
 }
 

@@ -2,7 +2,7 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """Checks the order of the rooms in the compiled library: no object uses a function that an object of a room above it defines.
 
-Usage: check_symbols.py OBJECT_DIRECTORY. Its folders are the rooms. Templates and inline functions, which every object holds, are left out.
+Usage: check_symbols.py OBJECT_DIRECTORY. Its folders are the rooms; units of several files are named unity_ROOM..., in Unity/. Templates and inline functions, which every object holds, are left out.
 """
 import pathlib
 import subprocess
@@ -25,6 +25,14 @@ def symbols(path):
     return defined, undefined
 
 
+def room_of(path, root):
+    """The room whose code an object holds; None for none of the core's."""
+    folder = path.relative_to(root).parts[0]
+    if folder == "Unity":
+        folder = path.name.split("_")[1]
+    return folder if folder in check_layering.ROW_OF else None
+
+
 def check(used_by, defined_by):
     """Violations, from the names that each room uses and the room that defines each name."""
     rows = check_layering.ROW_OF
@@ -38,8 +46,8 @@ def main():
     root = pathlib.Path(sys.argv[1])
     used_by, defined_by, objects = {}, {}, sorted(root.glob("**/*.o"))
     for path in objects:
-        room = path.relative_to(root).parts[0]
-        if room not in check_layering.ROW_OF:
+        room = room_of(path, root)
+        if room is None:
             continue
         defined, undefined = symbols(path)
         used_by.setdefault(room, set()).update(undefined)

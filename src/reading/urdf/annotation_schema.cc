@@ -13,7 +13,6 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-bool contains(const Names& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
 bool is_prefixed(const std::string& name) { return name.rfind(kPrefix, 0) == 0; }
 
 Names prefixed_attributes(const ElementRule* rule) {
@@ -78,6 +77,10 @@ void check_unprefixed(const XmlElement& element) {
 }
 
 }  // namespace
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 void check_namespace(const XmlDocument& document) {
   const XmlElement robot(document.robot(), &document);

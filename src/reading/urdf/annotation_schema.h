@@ -6,6 +6,9 @@
 
 namespace codesign {
 
+/// Whether a list has a name.
+bool contains(const std::vector<std::string>& names, const std::string& name);
+
 /// Checks that `<robot>` declares `xmlns:codesign` if the file has names with that prefix. Called for each file before they are merged.
 /// @throws InputError
 void check_namespace(const XmlDocument& document);

@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-JointType read_type(const XmlElement& element) { return read_joint_type(element, &JointTypeName::of_joints, "joint type"); }
+JointType read_tree_type(const XmlElement& element) { return read_joint_type(element, &JointTypeName::of_joints, "joint type"); }
 
 /// A number that must not be negative. A negative one is an error in an overlay; in a vendor's file it is taken as zero with a warning,
 /// since exporters write it for unknown values.
@@ -143,7 +143,7 @@ JointDescription read_joint(const XmlElement& element, const ReadContext& contex
   JointDescription joint;
   joint.where = element.where();
   joint.name = element.text("name");
-  joint.type = read_type(element);
+  joint.type = read_tree_type(element);
   const XmlElement child = element.only("child");
   joint.parent = context.link(element.only("parent"), "link");
   joint.child = context.link(child, "link");

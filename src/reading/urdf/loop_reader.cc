@@ -8,7 +8,7 @@
 namespace codesign {
 namespace {
 
-JointType read_type(const XmlElement& element) { return read_joint_type(element, &JointTypeName::of_loops, "loop type"); }
+JointType read_loop_type(const XmlElement& element) { return read_joint_type(element, &JointTypeName::of_loops, "loop type"); }
 
 void read_type_specific(const XmlElement& element, const ReadContext& context, JointDescription* loop) {
   const std::optional<XmlElement> second_axis = element.child("codesign:second_axis"), length = element.child("codesign:length");
@@ -28,7 +28,7 @@ JointDescription read_loop(const XmlElement& element, const ReadContext& context
   loop.is_loop = true;
   loop.where = element.where();
   loop.name = element.text("name");
-  loop.type = read_type(element);
+  loop.type = read_loop_type(element);
   std::tie(loop.parent, loop.child) = context.ends(element);
   loop.origin = read_origin(element.only("predecessor"), context.table);
   loop.child_origin = read_origin(element.only("successor"), context.table);

@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-constexpr const char* kRemedy = "<codesign:actuator gear_ratio=\"...\">, which makes the transmission irrelevant";
+constexpr const char* kGearRatio = "<codesign:actuator gear_ratio=\"...\">, which makes the transmission irrelevant";
 
 /// The type of a transmission: `<type>NAME</type>`, or the attribute `type` as in PR2's files.
 std::string type_of(const XmlElement& transmission) {
@@ -73,7 +73,7 @@ class TransmissionReader {
   }
 
   void doubt(const char* code, const XmlElement& at, const std::string& value, const std::string& message) {
-    robot_->warnings.push_back(warn(code, {at.where(), at.label(), message, value, kRemedy}));
+    robot_->warnings.push_back(warn(code, {at.where(), at.label(), message, value, kGearRatio}));
   }
 
   RobotDescription* robot_;

@@ -17,7 +17,6 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-bool contains(const Names& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
 bool has_prefix(const std::string& name) { return name.find(':') != std::string::npos; }
 bool is_ours(const std::string& name) { return name.rfind(kPrefix, 0) == 0; }
 

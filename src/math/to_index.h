@@ -1,0 +1,14 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MATH_TO_INDEX_H_
+#define MECHANISM_CODESIGN_MATH_TO_INDEX_H_
+
+#include <cstddef>
+
+namespace codesign {
+
+/// A number that is known not to be negative, as an index of the standard library's containers.
+constexpr std::size_t to_index(int k) { return static_cast<std::size_t>(k); }
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MATH_TO_INDEX_H_
