@@ -43,7 +43,8 @@ set(alone assembly/singular_start_test.cc elements/sharing_test.cc integration/i
   description/parameter_constraint_test.cc elements/contact_test.cc elements/coupling_test.cc elements/link_load_test.cc elements/reaction_test.cc
   elements/spring_test.cc forces/isotropic_friction_test.cc forces/spring_damper_test.cc integration/friction_models_test.cc math/lanes_test.cc
   math/scalar_test.cc mechanism/coupling_test.cc mechanism/pair_geometry_test.cc reading/study/study_objective_test.cc
-  reading/study/study_options_test.cc reading/study/study_parameters_test.cc reading/study/study_references_test.cc ros/friction_markers_test.cc
+  reading/study/study_options_test.cc reading/study/study_multistart_test.cc reading/study/study_parameters_test.cc
+  reading/study/study_references_test.cc reading/study/study_robust_test.cc reading/study/study_runs_test.cc reading/study/study_uncertain_test.cc ros/friction_markers_test.cc
   sensitivity/gradient_engine_test.cc sparse/pivots_test.cc sparse/row_product_test.cc sparse/sparse_lu_test.cc)
 set(many_cases reading elements equations integration sensitivity cli ros cases)
 foreach(folder IN LISTS codesign_rooms ITEMS cli ros benchmark cases allocation)
