@@ -58,7 +58,8 @@ class Multistart {
     for (std::uint32_t round = 0; round < kRounds && missing() > 0 && !is_set(cancel_); ++round) {
       const Eigen::MatrixXd unit = unit_points(asked_.sampler, missing(), dimension, asked_.seed + round);
       std::vector<Eigen::VectorXd> points;
-      for (Eigen::Index k = 0; k < unit.rows(); ++k) points.push_back(k == 0 && round == 0 ? problem_.start() : at(unit.row(k).transpose()));
+      for (Eigen::Index k = 0; k < unit.rows(); ++k)
+        points.push_back(k == 0 && round == 0 ? problem_.start() : at(unit.row(k).transpose()));
       evaluate(points);
     }
     order_.resize(points_.size());
