@@ -37,15 +37,8 @@ target_link_libraries(codesign_test_fixtures PUBLIC codesign_test_settings)
 codesign_warnings(codesign_test_fixtures)
 codesign_precompile(codesign_test_fixtures <gtest/gtest.h>)
 
-# Files whose names for small things (kStudy, matrix()) are also those of a neighbour compile alone.
-set(alone assembly/singular_start_test.cc elements/sharing_test.cc integration/idas_integrator_test.cc joints/body_kinematics_test.cc
-  math/tanh_ratio_test.cc reading/urdf/vocabulary_check_test.cc cli/job_folder_test.cc description/expression_syntax_test.cc description/expression_test.cc
-  description/parameter_constraint_test.cc elements/contact_test.cc elements/coupling_test.cc elements/link_load_test.cc elements/reaction_test.cc
-  elements/spring_test.cc forces/isotropic_friction_test.cc forces/spring_damper_test.cc integration/friction_models_test.cc math/lanes_test.cc
-  math/scalar_test.cc mechanism/coupling_test.cc mechanism/pair_geometry_test.cc reading/study/study_objective_test.cc
-  reading/study/study_options_test.cc reading/study/study_multistart_test.cc reading/study/study_parameters_test.cc
-  reading/study/study_references_test.cc reading/study/study_robust_test.cc reading/study/study_runs_test.cc reading/study/study_uncertain_test.cc ros/friction_markers_test.cc
-  sensitivity/gradient_engine_test.cc sparse/pivots_test.cc sparse/row_product_test.cc sparse/sparse_lu_test.cc)
+# Files whose names for small things are also those of a neighbour compile alone.
+set(alone math/lanes_test.cc math/scalar_test.cc math/tanh_ratio_test.cc reading/urdf/vocabulary_check_test.cc)
 set(many_cases reading elements equations integration sensitivity cli ros cases)
 foreach(folder IN LISTS codesign_rooms ITEMS cli ros benchmark cases allocation)
   file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${folder}/*.cc)
@@ -56,12 +49,12 @@ foreach(folder IN LISTS codesign_rooms ITEMS cli ros benchmark cases allocation)
   set(target test_${folder})
   add_executable(${target} EXCLUDE_FROM_ALL ${test_sources})
   target_link_libraries(${target} PRIVATE codesign_test_fixtures codesign_test_paths GTest::gtest_main)
-  # Units of ten files each.
+  # Units of twelve files each.
   set(unit 0)
   foreach(file IN LISTS test_sources)
     file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR}/test ${file})
     if(NOT name IN_LIST alone)
-      math(EXPR group "${unit} / 10")
+      math(EXPR group "${unit} / 12")
       math(EXPR unit "${unit} + 1")
       codesign_unite(${target} ${folder}_${group} ${file})
     endif()

@@ -2,6 +2,7 @@
 #include "problem/variants.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "assembly/make_system.h"
 #include "description/friction.h"
@@ -29,7 +30,32 @@ void add_new(const Warnings& warnings, Warnings* all) {
       all->push_back(warning);
 }
 
+bool is_tuned(const Study& study, const std::string& name) {
+  return std::any_of(study.tuned.begin(), study.tuned.end(),
+                     [&](int index) { return study.parameters[static_cast<std::size_t>(index)].name == name; });
+}
+
+[[noreturn]] void refuse_tuned(const SourceLocation& where, const std::string& block, const std::string& name) {
+  throw InputError(
+      {where, block + "." + name, "this parameter is tuned, so its value is the search's", name, "a parameter that is not tuned"});
+}
+
 }  // namespace
+
+void require_compatible(const Study& study) {
+  for (const RunDescription& run : study.ensemble.runs)
+    for (const auto& [name, value] : run.set)
+      if (is_tuned(study, name)) refuse_tuned(run.where, "runs." + run.name + ".set", name);
+  for (const UncertainQuantity& quantity : study.ensemble.uncertain)
+    if (quantity.parameter >= 0 && is_tuned(study, quantity.name)) refuse_tuned(quantity.where, "uncertain", quantity.name);
+  if (study.ensemble.multistart.starts == 0) return;
+  for (int index : study.tuned) {
+    const Parameter& parameter = study.parameters[static_cast<std::size_t>(index)];
+    if (!std::isfinite(parameter.lower) || !std::isfinite(parameter.upper))
+      throw InputError(
+          {parameter.where, "parameters." + parameter.name, "many starts need bounds to start in", "", "a lower and an upper bound"});
+  }
+}
 
 int count_laws(const Study& study) {
   const UncertainQuantity* const law = uncertain_law(study);

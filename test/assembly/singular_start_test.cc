@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-constexpr double kCompliance = 1e-9;
+constexpr double kStartCompliance = 1e-9;
 
 /// A parallelogram: two hinged bars and a coupler as long as the distance of the hinges. Flat, at a quarter turn, the bars may turn in the
 /// same or in opposite directions.
@@ -41,7 +41,7 @@ std::string flat(const std::string& left, const std::string& right) {
 
 struct Start {
   Start(const std::string& urdf, const std::string& initial, const std::string& signal)
-      : compiled(urdf, let_go(initial, signal), kCompliance), status(compiled.start()) {}
+      : compiled(urdf, let_go(initial, signal), kStartCompliance), status(compiled.start()) {}
   /// Rates of the tree's coordinates, computed from the bodies' angular velocities about y, omega = 2 G p'.
   double turn_rate(int body) const {
     const auto p = compiled.state.q.segment<4>(7 * body + 3), rate = compiled.state.v.segment<4>(7 * body + 3);

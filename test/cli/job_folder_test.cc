@@ -9,7 +9,7 @@
 namespace codesign::cli {
 namespace {
 
-Problem slider_crank() {
+Problem loaded_slider_crank() {
   Arguments arguments;
   arguments.model = shipped("urdf/slider_crank.urdf");
   arguments.study = shipped("config/slider_crank.yaml");
@@ -18,7 +18,7 @@ Problem slider_crank() {
 
 TEST(JobFolder, AFailedTrialLeavesItsNumbersEmpty) {
   const ScratchFolder folder;
-  const Problem problem = slider_crank();
+  const Problem problem = loaded_slider_crank();
   JobFolder job(folder.path("job"), problem);
   Trial trial;
   trial.evaluation = 2;
@@ -32,7 +32,7 @@ TEST(JobFolder, AFailedTrialLeavesItsNumbersEmpty) {
 }
 
 TEST(JobFolder, RefusesAFolderThatCannotBe) {
-  const Problem problem = slider_crank();
+  const Problem problem = loaded_slider_crank();
   EXPECT_THROW(JobFolder("/dev/null/job", problem), InputError);
 }
 

@@ -10,12 +10,12 @@
 namespace codesign {
 namespace {
 
-const std::vector<std::string> kNames = {"x", "y", "i", "e"};
-const std::vector<double> kAt = {0.7, -1.3, 2.0, 5.0};
+const std::vector<std::string> kSyntaxNames = {"x", "y", "i", "e"};
+const std::vector<double> kSyntaxAt = {0.7, -1.3, 2.0, 5.0};
 
 std::string complaint(const std::string& text) {
   try {
-    Expression(text, kNames).value(kAt);
+    Expression(text, kSyntaxNames).value(kSyntaxAt);
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
@@ -80,7 +80,7 @@ TEST(ExpressionSyntax, RefusesWhatLooksLikeSomethingElse) {
   expect_complaint("min(1, 2", "expected a comma or a closing parenthesis, found the end at position 9");
   expect_complaint("atan2(x)", "takes 2 arguments, not 1");
   expect_complaint("sqrt(x, y)", "takes 1 argument, not 2");
-  EXPECT_DOUBLE_EQ(Expression("x\n+\ny", kNames).value(kAt), 0.7 - 1.3) << "a line break is white space like any other";
+  EXPECT_DOUBLE_EQ(Expression("x\n+\ny", kSyntaxNames).value(kSyntaxAt), 0.7 - 1.3) << "a line break is white space like any other";
 }
 
 TEST(ExpressionSyntax, EndsWhateverItsSize) {
@@ -96,8 +96,8 @@ TEST(ExpressionSyntax, EndsWhateverItsSize) {
   EXPECT_LT(complaint(std::string(1000000, 'q')).size(), 400U) << "a message is for people";
   std::string sum = "0";
   for (int k = 0; k < 250000; ++k) sum += "+1";
-  EXPECT_DOUBLE_EQ(Expression(sum, kNames).value(kAt), 250000.0);
-  EXPECT_DOUBLE_EQ(Expression(std::string(1000001, '-') + "1", kNames).value(kAt), -1.0);
+  EXPECT_DOUBLE_EQ(Expression(sum, kSyntaxNames).value(kSyntaxAt), 250000.0);
+  EXPECT_DOUBLE_EQ(Expression(std::string(1000001, '-') + "1", kSyntaxNames).value(kSyntaxAt), -1.0);
 }
 
 TEST(ExpressionSyntax, SaysWhichNamesParametersCannotHave) {

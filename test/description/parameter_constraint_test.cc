@@ -6,10 +6,10 @@
 namespace codesign {
 namespace {
 
-const std::vector<std::string> kNames = {"crank_length", "rod_length"};
+const std::vector<std::string> kLengths = {"crank_length", "rod_length"};
 
 double margin(const std::string& text, double crank, double rod) {
-  return parse_constraint(text, kNames, {"study.yaml", 4}, "constraints[0]").margin->value(std::vector<double>{crank, rod});
+  return parse_constraint(text, kLengths, {"study.yaml", 4}, "constraints[0]").margin->value(std::vector<double>{crank, rod});
 }
 
 TEST(ParameterConstraint, MarginIsWhatIsLeftBeforeTheLimit) {
@@ -19,16 +19,16 @@ TEST(ParameterConstraint, MarginIsWhatIsLeftBeforeTheLimit) {
 }
 
 TEST(ParameterConstraint, KeepsItsText) {
-  EXPECT_EQ(parse_constraint("rod_length >= 0.1", kNames, {"s", 1}, "constraints[0]").text, "rod_length >= 0.1");
+  EXPECT_EQ(parse_constraint("rod_length >= 0.1", kLengths, {"s", 1}, "constraints[0]").text, "rod_length >= 0.1");
 }
 
 TEST(ParameterConstraint, LeavesComparisonsInParenthesesToTheExpression) {
   EXPECT_DOUBLE_EQ(margin("(crank_length >= 0.05 ? rod_length : 0) >= 0.25", 0.08, 0.3), 0.05);
 }
 
-void expect_refused(const std::string& text, const std::string& reason) {
+void expect_bad_constraint(const std::string& text, const std::string& reason) {
   try {
-    parse_constraint(text, kNames, {"study.yaml", 4}, "constraints[0]");
+    parse_constraint(text, kLengths, {"study.yaml", 4}, "constraints[0]");
     ADD_FAILURE() << text;
   } catch (const InputError& error) {
     EXPECT_NE(error.fault().message.find(reason), std::string::npos) << error.what();
@@ -39,13 +39,13 @@ void expect_refused(const std::string& text, const std::string& reason) {
 }
 
 TEST(ParameterConstraint, RefusesWhatIsNone) {
-  expect_refused("rod_length - crank_length", "exactly one");
-  expect_refused("rod_length > crank_length", "exactly one");
-  expect_refused("0.1 <= rod_length <= 0.2", "exactly one");
-  expect_refused("rod_lenght >= 0.2", "rod_length");
-  expect_refused("rod_length >= ", "");
-  expect_refused("(rod_length) - ( >= 0.2)", "");
-  expect_refused("1 >= 0", "no parameter");
+  expect_bad_constraint("rod_length - crank_length", "exactly one");
+  expect_bad_constraint("rod_length > crank_length", "exactly one");
+  expect_bad_constraint("0.1 <= rod_length <= 0.2", "exactly one");
+  expect_bad_constraint("rod_lenght >= 0.2", "rod_length");
+  expect_bad_constraint("rod_length >= ", "");
+  expect_bad_constraint("(rod_length) - ( >= 0.2)", "");
+  expect_bad_constraint("1 >= 0", "no parameter");
 }
 
 }  // namespace

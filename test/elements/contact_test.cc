@@ -8,7 +8,7 @@ namespace {
 
 /// A table, a ball folded from hinges, a planar joint with a turning contact, and a spherical loop, all with friction; loads on the
 /// coordinates of the folded ball and of a universal joint.
-const char* const kMechanism = R"(
+const char* const kContactMechanism = R"(
 <robot name="contacts" xmlns:codesign="urn:test"><link name="ground"/>
   <link name="cross"/>
   <link name="plate"><inertial><origin xyz="0.1 0 0.05"/><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.02"/></inertial></link>
@@ -39,7 +39,7 @@ const char* const kMechanism = R"(
     <codesign:friction mu_static="0.3" mu_dynamic="0.2" transition_velocity="0.5" pin_radius="0.1"/></loop>
 </robot>)";
 
-const char* const kStudy = R"(
+const char* const kContactStudy = R"(
 duration: 1.0
 initial_state: {}
 controllers:
@@ -59,7 +59,7 @@ optimizer: {algorithm: lbfgs}
 
 class EquationsContactsTest : public ::testing::Test, public EquationsFixture {
  protected:
-  EquationsContactsTest() : EquationsFixture(kMechanism, kStudy) {}
+  EquationsContactsTest() : EquationsFixture(kContactMechanism, kContactStudy) {}
   int pair_of(const std::string& joint) const {
     for (std::size_t k = 0; k < robot.joints.size(); ++k)
       if (robot.joints[k].name == joint) return system.topology().joint_pair[k];
@@ -123,18 +123,19 @@ std::string study_with(const std::string& controllers, const std::string& signal
 
 TEST(EquationsContacts, TheRateOfASlipIsNoSignal) {
   // A d gain would need the time derivative of a speed.
-  EXPECT_THROW(EquationsFixture(kMechanism, study_with("{c: {type: pid, input: table_y/sliding_velocity, setpoint: 0.0, output: table_x, "
-                                                       "gains: {d: 1.0}}}",
-                                                       "table_x/position")),
-               InputError);
+  EXPECT_THROW(
+      EquationsFixture(kContactMechanism, study_with("{c: {type: pid, input: table_y/sliding_velocity, setpoint: 0.0, output: table_x, "
+                                                     "gains: {d: 1.0}}}",
+                                                     "table_x/position")),
+      InputError);
 }
 
 TEST(EquationsContacts, HingesWithoutClosedFormAreRefused) {
   // Three hinges through one point, not at right angles: still folded into a ball, but the single hinges have no coordinates.
   const std::string skew = std::regex_replace(
-      kMechanism, std::regex("<child link=\"ball_b\"/><axis xyz=\"0 1 0\"/><dynamics damping=\"0.3\" friction=\"0.1\"/>"),
+      kContactMechanism, std::regex("<child link=\"ball_b\"/><axis xyz=\"0 1 0\"/><dynamics damping=\"0.3\" friction=\"0.1\"/>"),
       "<child link=\"ball_b\"/><axis xyz=\"0.5 1 0\"/>");
-  ASSERT_NE(skew, kMechanism);
+  ASSERT_NE(skew, kContactMechanism);
   EXPECT_THROW(EquationsFixture(skew, study_with("{}", "table_x/position")), InputError);  // because of the spring on ball_z
   const std::string passive =
       std::regex_replace(std::regex_replace(skew, std::regex("<codesign:torsion_spring[^>]*free_position[^>]*>"), ""),

@@ -19,7 +19,7 @@ std::string joint(const std::string& name, const std::string& type, const std::s
 std::string mimic(const std::string& other, const std::string& numbers) { return "<mimic joint='" + other + "' " + numbers + "/>"; }
 
 /// Turns, slides on either side of a turn, the hinges of a universal and of a ball joint, each coupled to another.
-std::string mechanism() {
+std::string geared_mechanism() {
   return robot(
       "<codesign:parameter name='m' value='0.7'/>" + link("cart") + link("arm", "0.7") + "<link name='fork'/>" + link("tip", "0.3") +
       "<link name='b1'/><link name='b2'/>" + link("ball", "0.4") + "<link name='stage'/>" + link("table") +
@@ -36,11 +36,11 @@ std::string mechanism() {
       "codesign:value='${m/2}'/></coupling>");
 }
 
-const char* const kStudy = "duration: 1.0\nobjective: {integral: [{signal: hinge/velocity}]}\n";
+const char* const kGearStudy = "duration: 1.0\nobjective: {integral: [{signal: hinge/velocity}]}\n";
 
 class EquationsCouplingsTest : public ::testing::Test, public EquationsFixture {
  protected:
-  EquationsCouplingsTest() : EquationsFixture(mechanism(), kStudy) {}
+  EquationsCouplingsTest() : EquationsFixture(geared_mechanism(), kGearStudy) {}
 };
 
 TEST_F(EquationsCouplingsTest, HasARowForEach) {

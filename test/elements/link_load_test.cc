@@ -16,7 +16,7 @@ std::string flyer() {
       "izz='0.25'/></inertial></link><joint name='free' type='floating'><parent link='ground'/><child link='box'/></joint>");
 }
 
-std::string study(const std::string& loads) {
+std::string loaded_study(const std::string& loads) {
   return "duration: 1.0\ngravity: [0, 0, 0]\nobjective: {integral: [{signal: box/position/x}, {signal: mechanism/load_power}]}\nloads: [" +
          loads + "]\n";
 }
@@ -27,7 +27,7 @@ const char* const kInLink =
 
 TEST(ConstantLoads, DerivativesAreExact) {
   for (const std::string& loads : {std::string(kInRoot), std::string(kInLink), std::string(kInRoot) + ", " + kInLink}) {
-    EquationsFixture e(flyer(), study(loads));
+    EquationsFixture e(flyer(), loaded_study(loads));
     e.expect_exact_derivatives(1e-10);
   }
   EquationsFixture arm(double_pendulum(pin_friction()), let_go("{}", "elbow/velocity", "loads: [{joint: elbow, effort: 2.0}]\n"));
@@ -36,7 +36,7 @@ TEST(ConstantLoads, DerivativesAreExact) {
 
 /// Newton's and Euler's accelerations of the box under a wrench in ground axes at its start, where the axes agree.
 void expect_accelerations(const std::string& loads, const Eigen::Vector3d& force, const Eigen::Vector3d& torque) {
-  Compiled c(flyer(), study(loads));
+  Compiled c(flyer(), loaded_study(loads));
   ASSERT_TRUE(c.start().ok());
   EXPECT_LT((c.state.z.head<3>() - force / 2.0).norm(), 1e-14);
   const Eigen::Vector3d inertia(0.1, 0.2, 0.25), spin = 2.0 * c.state.z.segment<3>(4);
@@ -54,7 +54,7 @@ TEST(ConstantLoads, AWrenchOnABodyByHand) {
 TEST(ConstantLoads, FramesOfAWrench) {
   const std::string turned = "initial_state: {free: {rotation: [0, 0, 1.5707963267948966]}}\n";
   const auto acceleration = [&](const std::string& loads) {
-    Compiled c(flyer(), study(loads) + turned);
+    Compiled c(flyer(), loaded_study(loads) + turned);
     EXPECT_TRUE(c.start().ok());
     return Eigen::Vector3d(c.state.z.head<3>());
   };

@@ -21,7 +21,7 @@ struct ReactionCase {
 
 void PrintTo(const ReactionCase& c, std::ostream* out) { *out << c.name; }
 
-ReactionCase arm() {
+ReactionCase reaction_arm() {
   const char* const study =
       "limits: {position: true, effort: true, stiffness: 50.0, width: 0.01, dissipation: 0.4}\n"
       "controllers:\n  servo: {type: pid, input: elbow/position, output: elbow, setpoint: 0.4, gains: {p: 3.0, d: 0.2}}\n"
@@ -40,7 +40,7 @@ ReactionCase redundant_ring() {
   return {"ring", four_bar(pin_friction()), start, sharing};
 }
 
-std::vector<ReactionCase> cases() {
+std::vector<ReactionCase> reaction_cases() {
   std::vector<ReactionCase> all;
   for (const JointCase& joint : joint_cases::all()) all.push_back({joint.name, joint_cases::model(joint), "", {}, joint.loaded});
   const std::string rotor = std::string(joint_cases::kOrigin) + "<codesign:actuator gear_ratio='3' rotor_inertia='0.01'/>";
@@ -50,7 +50,7 @@ std::vector<ReactionCase> cases() {
                    "",
                    {},
                    true});
-  all.push_back(arm());
+  all.push_back(reaction_arm());
   all.push_back({"puck", puck(), "", {}});
   all.push_back({"lugre_puck", with_friction_model(puck(), "lugre"), "", {}});
   all.push_back({"ball", ball_pendulum(), "loads: [{joint: ball_y, effort: 0.4}]\n", {}});
@@ -79,7 +79,7 @@ std::string study_of(const ReactionCase& c) {
   return "duration: 1.0\nobjective: {integral: [" + terms + "]}\n" + c.study;
 }
 
-double value(Compiled* c, const std::string& text) {
+double reaction_value(Compiled* c, const std::string& text) {
   return c->equations.formulas().signal(
       resolve_signal(parse_signal(text, {}, "test"), c->system.robot(), c->system.topology(), c->system.study().controllers), c->state);
 }
@@ -102,8 +102,8 @@ std::vector<Wrench> exerted(Compiled* c) {
     const std::string& name = c->system.robot().joints[static_cast<std::size_t>(j)].name;
     Eigen::Vector3d force, torque;
     for (int k = 0; k < 3; ++k) {
-      force[k] = value(c, name + "/reaction_force/" + "xyz"[k]);
-      torque[k] = value(c, name + "/reaction_torque/" + "xyz"[k]);
+      force[k] = reaction_value(c, name + "/reaction_force/" + "xyz"[k]);
+      torque[k] = reaction_value(c, name + "/reaction_torque/" + "xyz"[k]);
     }
     const Pair& pair = c->system.topology().pairs[static_cast<std::size_t>(c->system.topology().joint_pair[static_cast<std::size_t>(j)])];
     const int child = c->system.topology().link_body[static_cast<std::size_t>(c->system.robot().joints[static_cast<std::size_t>(j)].child)];
@@ -185,26 +185,26 @@ TEST_P(ReactionConformance, GradientsAreExact) {
   e.expect_exact_derivatives(1e-9, GetParam().recorded);
 }
 
-INSTANTIATE_TEST_SUITE_P(AllJoints, ReactionConformance, ::testing::ValuesIn(cases()), [](const auto& c) { return c.param.name; });
+INSTANTIATE_TEST_SUITE_P(AllJoints, ReactionConformance, ::testing::ValuesIn(reaction_cases()), [](const auto& c) { return c.param.name; });
 
 // A bar of 1 kg and 1 m. In its own axes the hinge carries the weight and the inertia force of the centre of mass, at half its length.
 TEST(Reaction, OfAPendulumByHand) {
   for (const char* friction : {"", pin_friction()}) {
     Compiled c(pendulum(friction), let_go("{hinge: {position: 0.7, velocity: -3.0}}", "hinge/position"));
     ASSERT_TRUE(c.start().ok());
-    const double alpha = value(&c, "hinge/acceleration");
-    EXPECT_NEAR(value(&c, "hinge/reaction_force/x"), -0.5 * alpha - 9.81 * std::sin(0.7), 1e-12);
-    EXPECT_NEAR(value(&c, "hinge/reaction_force/y"), 0.0, 1e-12);
-    EXPECT_NEAR(value(&c, "hinge/reaction_force/z"), 0.5 * 9.0 + 9.81 * std::cos(0.7), 1e-12);
-    EXPECT_NEAR(value(&c, "hinge/reaction_torque/x"), 0.0, 1e-12);
-    EXPECT_NEAR(value(&c, "hinge/reaction_torque/z"), 0.0, 1e-12);
-    EXPECT_NEAR(value(&c, "hinge/reaction_torque/y"), (0.0834 + 0.25) * alpha + 0.5 * 9.81 * std::sin(0.7), 1e-12);
+    const double alpha = reaction_value(&c, "hinge/acceleration");
+    EXPECT_NEAR(reaction_value(&c, "hinge/reaction_force/x"), -0.5 * alpha - 9.81 * std::sin(0.7), 1e-12);
+    EXPECT_NEAR(reaction_value(&c, "hinge/reaction_force/y"), 0.0, 1e-12);
+    EXPECT_NEAR(reaction_value(&c, "hinge/reaction_force/z"), 0.5 * 9.0 + 9.81 * std::cos(0.7), 1e-12);
+    EXPECT_NEAR(reaction_value(&c, "hinge/reaction_torque/x"), 0.0, 1e-12);
+    EXPECT_NEAR(reaction_value(&c, "hinge/reaction_torque/z"), 0.0, 1e-12);
+    EXPECT_NEAR(reaction_value(&c, "hinge/reaction_torque/y"), (0.0834 + 0.25) * alpha + 0.5 * 9.81 * std::sin(0.7), 1e-12);
     if (*friction == '\0') continue;
-    EXPECT_GT(std::abs(value(&c, "hinge/friction")), 0.01);
-    EXPECT_NEAR(value(&c, "hinge/reaction_torque/y - hinge/friction"), 0.0, 1e-14);
+    EXPECT_GT(std::abs(reaction_value(&c, "hinge/friction")), 0.01);
+    EXPECT_NEAR(reaction_value(&c, "hinge/reaction_torque/y - hinge/friction"), 0.0, 1e-14);
     // Without a tilting moment the normal force (12) is pi^3/24 times the transverse force.
-    const double pin = std::hypot(value(&c, "hinge/reaction_force/x"), value(&c, "hinge/reaction_force/z"));
-    EXPECT_NEAR(value(&c, "hinge/normal_force"), M_PI * M_PI * M_PI / 24.0 * pin, 1e-2 * pin);
+    const double pin = std::hypot(reaction_value(&c, "hinge/reaction_force/x"), reaction_value(&c, "hinge/reaction_force/z"));
+    EXPECT_NEAR(reaction_value(&c, "hinge/normal_force"), M_PI * M_PI * M_PI / 24.0 * pin, 1e-2 * pin);
   }
 }
 
@@ -213,15 +213,15 @@ TEST(Reaction, HoldsTheNormalForceOfAPlaneAndOfABall) {
   ASSERT_TRUE(plane.start().ok() && ball.start().ok());
   ASSERT_TRUE(scramble(&plane) && scramble(&ball));
   const auto smoothing = [](const Compiled& c) { return c.equations.constants().pairs[0].friction.smoothing; };
-  const double N = value(&plane, "slope/normal_force");
+  const double N = reaction_value(&plane, "slope/normal_force");
   EXPECT_GT(N, 1.0);
-  EXPECT_NEAR(std::hypot(value(&plane, "slope/reaction_force/z"), smoothing(plane)), N, 1e-11 * N);
-  EXPECT_NEAR(std::hypot(value(&plane, "slope/reaction_force/x"), value(&plane, "slope/reaction_force/y")),
-              std::abs(value(&plane, "slope/friction")), 1e-9 * N)
+  EXPECT_NEAR(std::hypot(reaction_value(&plane, "slope/reaction_force/z"), smoothing(plane)), N, 1e-11 * N);
+  EXPECT_NEAR(std::hypot(reaction_value(&plane, "slope/reaction_force/x"), reaction_value(&plane, "slope/reaction_force/y")),
+              std::abs(reaction_value(&plane, "slope/friction")), 1e-9 * N)
       << "in the plane the joint rubs and no more";
   double square = smoothing(ball) * smoothing(ball);
-  for (const char* axis : {"x", "y", "z"}) square += std::pow(value(&ball, std::string("ball_z/reaction_force/") + axis), 2);
-  EXPECT_NEAR(std::sqrt(square), value(&ball, "ball_x/normal_force"), 1e-9 * std::sqrt(square));
+  for (const char* axis : {"x", "y", "z"}) square += std::pow(reaction_value(&ball, std::string("ball_z/reaction_force/") + axis), 2);
+  EXPECT_NEAR(std::sqrt(square), reaction_value(&ball, "ball_x/normal_force"), 1e-9 * std::sqrt(square));
 }
 
 // The torque on the wheel is its inertia times its acceleration: the effort minus the torque that accelerates the rotor.
@@ -232,7 +232,7 @@ TEST(Reaction, OfAGearWithItsRotorByHand) {
                    "<codesign:actuator gear_ratio='5' rotor_inertia='0.004'/></joint>"),
              "duration: 1.0\nloads: [{joint: drive, effort: 0.3}]\ngravity: [0, 0, 0]\n");
   ASSERT_TRUE(c.start().ok());
-  EXPECT_NEAR(value(&c, "drive/reaction_torque/z"), 0.3 * 0.2 / (0.2 + 25.0 * 0.004), 1e-14);
+  EXPECT_NEAR(reaction_value(&c, "drive/reaction_torque/z"), 0.3 * 0.2 / (0.2 + 25.0 * 0.004), 1e-14);
 }
 
 TEST(Reaction, AroundTheLoopOfTheSpatialSliderCrank) {
@@ -241,10 +241,10 @@ TEST(Reaction, AroundTheLoopOfTheSpatialSliderCrank) {
              {});
   ASSERT_TRUE(c.start().ok());
   expect_balance(&c, 1e-9);
-  const double friction = value(&c, "slider_joint/friction");
+  const double friction = reaction_value(&c, "slider_joint/friction");
   EXPECT_GT(std::abs(friction), 0.1);
-  EXPECT_NEAR(value(&c, "slider_joint/reaction_force/x"), friction, 1e-12 * std::abs(friction));
-  EXPECT_NEAR(value(&c, "crank_joint/reaction_torque/x"), 0.2, 1e-12);
+  EXPECT_NEAR(reaction_value(&c, "slider_joint/reaction_force/x"), friction, 1e-12 * std::abs(friction));
+  EXPECT_NEAR(reaction_value(&c, "crank_joint/reaction_torque/x"), 0.2, 1e-12);
 }
 
 }  // namespace

@@ -23,12 +23,12 @@ ReactionSharing dropping(const std::vector<int>& rows) {
   return sharing;
 }
 
-const char* const kStudy = "duration: 1.0\nobjective: {integral: [{signal: left_hinge/friction + left_hinge/normal_force}]}\n";
+const char* const kRingStudy = "duration: 1.0\nobjective: {integral: [{signal: left_hinge/friction + left_hinge/normal_force}]}\n";
 
 /// Drops a row of coincident points (16), a product row (18) and the row of the coupling (20).
 class EquationsSharing : public ::testing::Test, public EquationsFixture {
  protected:
-  EquationsSharing() : EquationsFixture(coupled_ring(), kStudy, dropping({16, 18, 20})) {}
+  EquationsSharing() : EquationsFixture(coupled_ring(), kRingStudy, dropping({16, 18, 20})) {}
 };
 
 TEST_F(EquationsSharing, EveryDerivativeIsExact) { expect_exact_derivatives(1e-11); }

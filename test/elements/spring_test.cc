@@ -5,7 +5,7 @@ namespace codesign {
 namespace {
 
 /// Springs between two bodies (damped) and between the ground and a body (not damped).
-const char* const kMechanism = R"(
+const char* const kSpringMechanism = R"(
 <robot name="springs" xmlns:codesign="urn:test">
   <codesign:parameter name="k" value="30"/>
   <link name="ground"/>
@@ -20,7 +20,7 @@ const char* const kMechanism = R"(
     <successor link="a"/></codesign:spring_damper>
 </robot>)";
 
-const char* const kStudy = R"(
+const char* const kSpringStudy = R"(
 duration: 1.0
 initial_state: {}
 controllers: {}
@@ -32,7 +32,7 @@ optimizer: {algorithm: lbfgs}
 
 class EquationsSpringsTest : public ::testing::Test, public EquationsFixture {
  protected:
-  EquationsSpringsTest() : EquationsFixture(kMechanism, kStudy) {}
+  EquationsSpringsTest() : EquationsFixture(kSpringMechanism, kSpringStudy) {}
 };
 
 TEST_F(EquationsSpringsTest, EveryDerivativeIsExact) { expect_exact_derivatives(1e-11); }

@@ -8,25 +8,25 @@
 namespace codesign {
 namespace {
 
-constexpr double kStiffness = 1000.0, kDamping = 50.0, kFree = 0.1;
+constexpr double kSpringStiffness = 1000.0, kSpringDamping = 50.0, kSpringFree = 0.1;
 
 TEST(SpringDamper, ByHand) {
   // Length 0.5 m, 0.4 m above the free length; its rate is 0.6 * 0.1 - 0.8 * 0.2 = -0.1 m/s.
-  const auto s = spring_damper<double>({0.3, 0.0, -0.4}, {0.1, 5.0, 0.2}, kStiffness, kDamping, kFree);
+  const auto s = spring_damper<double>({0.3, 0.0, -0.4}, {0.1, 5.0, 0.2}, kSpringStiffness, kSpringDamping, kSpringFree);
   EXPECT_NEAR(s.length, 0.5, 1e-15);
   EXPECT_NEAR(s.tension, 400.0 - 5.0, 1e-11);
   EXPECT_NEAR((s.pull - 395.0 * Eigen::Vector3d(0.6, 0.0, -0.8)).norm(), 0.0, 1e-11);
-  EXPECT_NEAR(spring_energy<double>({0.3, 0.0, -0.4}, kStiffness, kFree), 0.5 * 1000.0 * 0.16, 1e-12);
+  EXPECT_NEAR(spring_energy<double>({0.3, 0.0, -0.4}, kSpringStiffness, kSpringFree), 0.5 * 1000.0 * 0.16, 1e-12);
 }
 
 TEST(SpringDamper, PointsThatMeetFeelNothing) {
-  const auto s = spring_damper<double>(Eigen::Vector3d::Zero(), {0.1, 5.0, 0.2}, kStiffness, kDamping, kFree);
+  const auto s = spring_damper<double>(Eigen::Vector3d::Zero(), {0.1, 5.0, 0.2}, kSpringStiffness, kSpringDamping, kSpringFree);
   EXPECT_EQ(s.pull.norm(), 0.0);
   EXPECT_TRUE(s.by_d.allFinite());
   // Without a free length the spring is linear through zero: pull = k d.
   const Eigen::Vector3d d(1e-12, -3e-10, 2e-9);
-  const auto zero_length = spring_damper<double>(d, Eigen::Vector3d::Zero(), kStiffness, 0.0, 0.0);
-  EXPECT_NEAR((zero_length.pull - kStiffness * d).norm(), 0.0, 1e-18);
+  const auto zero_length = spring_damper<double>(d, Eigen::Vector3d::Zero(), kSpringStiffness, 0.0, 0.0);
+  EXPECT_NEAR((zero_length.pull - kSpringStiffness * d).norm(), 0.0, 1e-18);
 }
 
 TEST(SpringDamper, DerivativesAreExact) {
@@ -34,12 +34,12 @@ TEST(SpringDamper, DerivativesAreExact) {
   for (double scale : {1.0, 1e-2, 0.0}) {
     Eigen::VectorXd x(6);
     x << 0.3 * scale, -0.2 * scale, 0.5 * scale, 0.4, 0.7, -0.1;
-    const auto s = spring_damper<double>(x.head<3>(), x.tail<3>(), kStiffness, kDamping, kFree);
+    const auto s = spring_damper<double>(x.head<3>(), x.tail<3>(), kSpringStiffness, kSpringDamping, kSpringFree);
     Eigen::MatrixXd J(3, 6);
     J << s.by_d, s.by_rate;
     const auto law = [](const Eigen::VectorXcd& z) {
       return Eigen::VectorXcd(
-          spring_damper<C>(Vector3<C>(z.head<3>()), Vector3<C>(z.tail<3>()), C(kStiffness), C(kDamping), C(kFree)).pull);
+          spring_damper<C>(Vector3<C>(z.head<3>()), Vector3<C>(z.tail<3>()), C(kSpringStiffness), C(kSpringDamping), C(kSpringFree)).pull);
     };
     EXPECT_LT(compare_jacobians(J, complex_step_jacobian(law, x)).largest, 1e-12) << scale;
   }

@@ -10,8 +10,8 @@
 namespace codesign {
 namespace {
 
-const char* const kIdas = "{integrator: idas, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}";
-const char* const kRosenbrock = "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}";
+const char* const kTightIdas = "{integrator: idas, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}";
+const char* const kTightRosenbrock = "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}";
 
 /// Integrates to the end, taking dense output at each of `times` on the way.
 Status run(Integrator* integrator, const CompiledSystem& system, const std::vector<double>& times = {},
@@ -37,7 +37,7 @@ void expect_agreement(const std::string& urdf, const std::string& study_with_sol
   std::vector<double> psi[2];
   State<double> end[2];
   for (int k = 0; k < 2; ++k) {
-    const auto system = compile(urdf, study_with_solver_left_out + "solver: " + (k ? kIdas : kRosenbrock) + "\n");
+    const auto system = compile(urdf, study_with_solver_left_out + "solver: " + (k ? kTightIdas : kTightRosenbrock) + "\n");
     const auto integrator = make_integrator(*system);
     const Status status = run(integrator.get(), *system, times, &samples[k], &psi[k]);
     ASSERT_TRUE(status.ok()) << status.cause;
@@ -90,7 +90,7 @@ TEST(IdasIntegrator, DriftStaysOfTheOrderOfTheTolerance) {
 }
 
 TEST(IdasIntegrator, StartsAnewToTheLastBit) {
-  const auto system = servo(kIdas);
+  const auto system = servo(kTightIdas);
   IdasIntegrator integrator(*system);
   ASSERT_TRUE(run(&integrator, *system).ok());
   const State<double> first = integrator.state();
@@ -109,7 +109,7 @@ TEST(IdasIntegrator, StartsAnewToTheLastBit) {
 }
 
 TEST(IdasIntegrator, StopsAtEveryLimitAndGoesOn) {
-  const auto system = servo(kIdas);
+  const auto system = servo(kTightIdas);
   IdasIntegrator integrator(*system);
   ASSERT_TRUE(integrator.start(system->parameters()).ok());
   for (double limit : {0.1, 0.1000001, 0.25, 0.6, 1.3}) {

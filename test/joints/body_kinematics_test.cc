@@ -8,11 +8,11 @@
 namespace codesign {
 namespace {
 
-using Body = BodyKinematics<double>;
+using MovingBody = BodyKinematics<double>;
 
 /// A body that moves and turns smoothly, at time t, with derivatives written by hand.
-Body on_a_path(double t) {
-  Body b;
+MovingBody on_a_path(double t) {
+  MovingBody b;
   b.r = {std::sin(t), t * t, 1.0};
   b.rd = {std::cos(t), 2.0 * t, 0.0};
   b.rdd = {-std::sin(t), 2.0, 0.0};
@@ -26,7 +26,7 @@ Body on_a_path(double t) {
 }
 
 TEST(BodyKinematics, TheGroundRests) {
-  Body ground;
+  MovingBody ground;
   ground.update_rotation();
   EXPECT_EQ(ground.A, Eigen::Matrix3d::Identity());
   EXPECT_EQ(ground.Ad, Eigen::Matrix3d::Zero());
@@ -43,7 +43,7 @@ TEST(BodyKinematics, ATurnAboutZAndItsDerivatives) {
 }
 
 TEST(BodyKinematics, DisplacementRunsFromIToJ) {
-  const Body i = on_a_path(0.7), j = on_a_path(1.1);
+  const MovingBody i = on_a_path(0.7), j = on_a_path(1.1);
   const Vector3<double> s_i(0.1, 0.2, 0.3), s_j(-0.4, 0.5, 0.6);
   const VectorMotion<double> d = displacement_motion(i, s_i, j, s_j);
   const VectorMotion<double> a_i = direction_motion(i, s_i), a_j = direction_motion(j, s_j);

@@ -9,7 +9,7 @@ namespace codesign {
 namespace {
 
 /// ground - shoulder - upper - elbow - lower, and ground - motor - rotor.
-std::string arm(const std::string& more, const std::string& elbow = "") {
+std::string coupled_arm(const std::string& more, const std::string& elbow = "") {
   return kGround + link_with("upper") + link_with("lower") + link_with("rotor") + joint_with("shoulder", "continuous", "ground", "upper") +
          joint_with("elbow", "continuous", "upper", "lower", elbow) + joint_with("motor", "continuous", "ground", "rotor") + "\n" + more;
 }
@@ -19,7 +19,7 @@ std::string coupling(const std::string& predecessor, const std::string& successo
          "\"/><ratio value=\"0.4\" codesign:value=\"${2*length}\"/></coupling>";
 }
 
-std::string fault_of(const SourceText& urdf) {
+std::string coupling_fault(const SourceText& urdf) {
   try {
     derive_topology(read_urdf(urdf));
   } catch (const InputError& error) {
@@ -30,8 +30,8 @@ std::string fault_of(const SourceText& urdf) {
 }
 
 TEST(Coupling, AMimicFollowsWithItsMultiplierAndOffset) {
-  const RobotDescription robot =
-      read_urdf(robot_text(arm("", "<mimic joint=\"shoulder\" multiplier=\"-0.2\" codesign:multiplier=\"${-length}\" offset=\"0.3\"/>")));
+  const RobotDescription robot = read_urdf(
+      robot_text(coupled_arm("", "<mimic joint=\"shoulder\" multiplier=\"-0.2\" codesign:multiplier=\"${-length}\" offset=\"0.3\"/>")));
   const Topology topology = derive_topology(robot);
   ASSERT_EQ(topology.couplings.size(), 1U);
   const Coupling& c = topology.couplings[0];
@@ -45,7 +45,7 @@ TEST(Coupling, AMimicFollowsWithItsMultiplierAndOffset) {
 }
 
 TEST(Coupling, SumsTheJointsFromTheNearestCommonAncestor) {
-  const RobotDescription robot = read_urdf(robot_text(arm(coupling("lower", "rotor"))));
+  const RobotDescription robot = read_urdf(robot_text(coupled_arm(coupling("lower", "rotor"))));
   const Topology topology = derive_topology(robot);
   ASSERT_EQ(topology.couplings.size(), 1U);
   std::vector<std::string> joints;
@@ -56,7 +56,7 @@ TEST(Coupling, SumsTheJointsFromTheNearestCommonAncestor) {
 }
 
 TEST(Coupling, OfALinkAndOneBelowItTakesTheJointsBetween) {
-  const RobotDescription robot = read_urdf(robot_text(arm(coupling("upper", "lower"))));
+  const RobotDescription robot = read_urdf(robot_text(coupled_arm(coupling("upper", "lower"))));
   const Topology topology = derive_topology(robot);
   ASSERT_EQ(topology.couplings.size(), 1U);
   ASSERT_EQ(topology.couplings[0].terms.size(), 1U) << "the predecessor is the nearest common ancestor";
@@ -64,17 +64,17 @@ TEST(Coupling, OfALinkAndOneBelowItTakesTheJointsBetween) {
 }
 
 TEST(Coupling, WhatCannotBeCoupledIsNamedWithItsPlace) {
-  EXPECT_NE(
-      fault_of(robot_text(arm(coupling("lower", "upper")))).find("test.urdf:3: <coupling name=\"belt\">: no joint moves the successor"),
-      std::string::npos);
+  EXPECT_NE(coupling_fault(robot_text(coupled_arm(coupling("lower", "upper"))))
+                .find("test.urdf:3: <coupling name=\"belt\">: no joint moves the successor"),
+            std::string::npos);
   const std::string floating = link_with("base") + joint_with("free", "floating", "ground", "base");
-  EXPECT_NE(fault_of(robot_text(arm(coupling("upper", "base") + floating))).find("more than one coordinate (value: free"),
+  EXPECT_NE(coupling_fault(robot_text(coupled_arm(coupling("upper", "base") + floating))).find("more than one coordinate (value: free"),
             std::string::npos);
 }
 
 TEST(Coupling, ALinkWithoutMassThatIsCoupledIsABody) {
   const std::string frame = link_with("frame", "") + joint_with("sensor", "continuous", "lower", "frame");
-  const RobotDescription robot = read_urdf(robot_text(arm(coupling("upper", "frame") + frame)));
+  const RobotDescription robot = read_urdf(robot_text(coupled_arm(coupling("upper", "frame") + frame)));
   const Topology topology = derive_topology(robot);
   EXPECT_EQ(topology.couplings.at(0).terms.size(), 2U);
   EXPECT_EQ(topology.bodies.back().name, "frame");
@@ -84,18 +84,18 @@ TEST(Coupling, WhatFollowsAJointWithoutMassKeepsIt) {
   // The driving finger has no inertial, the one that mimics it has; the coupling needs both coordinates.
   const std::string fingers = link_with("driver", "") + joint_with("drive", "continuous", "lower", "driver") + link_with("follower") +
                               joint_with("follow", "continuous", "lower", "follower", "<mimic joint=\"drive\" multiplier=\"-1\"/>");
-  const Topology topology = derive_topology(read_urdf(robot_text(arm(fingers))));
+  const Topology topology = derive_topology(read_urdf(robot_text(coupled_arm(fingers))));
   ASSERT_EQ(topology.couplings.size(), 1U);
   EXPECT_EQ(topology.couplings[0].terms.size(), 2U);
   const std::string light = link_with("driver", "") + joint_with("drive", "continuous", "lower", "driver") + link_with("follower", "") +
                             joint_with("follow", "continuous", "lower", "follower", "<mimic joint=\"drive\"/>");
-  EXPECT_TRUE(derive_topology(read_urdf(robot_text(arm(light)))).couplings.empty()) << "nobody has mass";
+  EXPECT_TRUE(derive_topology(read_urdf(robot_text(coupled_arm(light)))).couplings.empty()) << "nobody has mass";
 }
 
 TEST(Coupling, AMimicOfAFixedJointStandsAtItsOffset) {
   const std::string more = link_with("plate") + joint_with("weld", "fixed", "lower", "plate") + link_with("tip") +
                            joint_with("wrist", "continuous", "lower", "tip", "<mimic joint=\"weld\" offset=\"0.4\"/>");
-  const RobotDescription robot = read_urdf(robot_text(arm(more)));
+  const RobotDescription robot = read_urdf(robot_text(coupled_arm(more)));
   const Topology topology = derive_topology(robot);
   ASSERT_EQ(topology.couplings.size(), 1U);
   EXPECT_EQ(topology.couplings[0].terms.size(), 1U);
@@ -104,7 +104,7 @@ TEST(Coupling, AMimicOfAFixedJointStandsAtItsOffset) {
 
 TEST(Coupling, AMimicThatMovesNoMassNeedsNoRow) {
   const std::string frame = link_with("frame", "") + joint_with("sensor", "continuous", "lower", "frame", "<mimic joint=\"elbow\"/>");
-  EXPECT_TRUE(derive_topology(read_urdf(robot_text(arm(frame)))).couplings.empty());
+  EXPECT_TRUE(derive_topology(read_urdf(robot_text(coupled_arm(frame)))).couplings.empty());
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "ensemble/ensemble_fixture.h"
 #include "equations/compiled_system.h"
 
@@ -27,6 +29,26 @@ uncertain: {friction_law: {choice: [gonthier, lugre]}}
   EXPECT_EQ(variant_of(problem, 1, -1)->robot().joints[0].friction->model, FrictionModel::kBrownMcPhee);
   EXPECT_EQ(variant_of(problem, 1, 1)->study().controllers[0].setpoint.constant.nominal(), 0.9);
   EXPECT_EQ(variant_of(problem, 0, 1)->study().controllers[0].setpoint.constant.nominal(), 0.5);
+}
+
+// As a request to a node does.
+Problem tuning(const Problem& problem, int parameter) {
+  Study study = problem.study();
+  study.tuned.push_back(parameter);
+  return with_study(problem, study);
+}
+
+TEST(Variants, ARequestCannotTuneWhatARunSetsOrWhatIsUncertain) {
+  EXPECT_NO_THROW(tuning(block("runs: {light: {set: {mass: 1.0}}}\n"), 0));
+  EXPECT_THROW(tuning(block("runs: {light: {set: {mass: 1.0}}}\n"), 1), InputError);
+  EXPECT_THROW(tuning(block("uncertain: {mu: {uniform: [0.2, 0.4]}}\n"), 0), InputError);
+}
+
+TEST(Variants, ManyStartsNeedBounds) {
+  const Problem problem = block("multistart: {starts: 2}\n");
+  Study study = problem.study();
+  study.parameters[2].upper = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(with_study(problem, study), InputError);
 }
 
 TEST(Variants, SettingsReachTheRuns) {

@@ -8,11 +8,11 @@
 namespace codesign {
 namespace {
 
-const MessageContext kContext{ros::Time(1.0), "ground"};
+const MessageContext kMarkerContext{ros::Time(1.0), "ground"};
 constexpr MarkerStyle kStyle{0.05, 0.25, 0.01};
 
 TEST(FrictionMarkers, AnArrowStartsAtTheJointAndIsAsLongAsTheForceIsLarge) {
-  const auto message = friction_markers(sample_names(), sample_frame(0.0), kContext, kStyle);
+  const auto message = friction_markers(sample_names(), sample_frame(0.0), kMarkerContext, kStyle);
   ASSERT_EQ(message.markers.size(), 2U);
   const auto& force = message.markers[0];
   EXPECT_EQ(force.header.frame_id, "ground");
@@ -27,7 +27,7 @@ TEST(FrictionMarkers, AnArrowStartsAtTheJointAndIsAsLongAsTheForceIsLarge) {
 }
 
 TEST(FrictionMarkers, ATorqueIsDrawnAlongItsAxisInAnotherColour) {
-  const auto message = friction_markers(sample_names(), sample_frame(0.0), kContext, kStyle);
+  const auto message = friction_markers(sample_names(), sample_frame(0.0), kMarkerContext, kStyle);
   const auto& torque = message.markers[1];
   EXPECT_DOUBLE_EQ(torque.points[1].z, 0.6 - 2.0 * 0.25);
   EXPECT_NE(torque.color.b, message.markers[0].color.b);
@@ -36,9 +36,9 @@ TEST(FrictionMarkers, ATorqueIsDrawnAlongItsAxisInAnotherColour) {
 TEST(FrictionMarkers, AnArrowTooShortToSeeIsTakenAway) {
   Frame frame = sample_frame(0.0);
   frame.frictions[0].force = {0.19, 0.0, 0.0};
-  EXPECT_EQ(friction_markers(sample_names(), frame, kContext, kStyle).markers[0].action, visualization_msgs::Marker::DELETE);
+  EXPECT_EQ(friction_markers(sample_names(), frame, kMarkerContext, kStyle).markers[0].action, visualization_msgs::Marker::DELETE);
   frame.frictions[0].force = {0.21, 0.0, 0.0};
-  EXPECT_EQ(friction_markers(sample_names(), frame, kContext, kStyle).markers[0].action, visualization_msgs::Marker::ADD);
+  EXPECT_EQ(friction_markers(sample_names(), frame, kMarkerContext, kStyle).markers[0].action, visualization_msgs::Marker::ADD);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace codesign {
 namespace {
 
-const char* const kRosenbrock = "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}";
+const char* const kEngineRosenbrock = "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}";
 
 std::string idas(const std::string& tolerance) {
   return "{integrator: idas, relative_tolerance: " + tolerance + ", absolute_tolerance: " + tolerance + "}";
@@ -44,7 +44,7 @@ TEST(GradientEngine, ManyLocalParametersGoBackwards) {
 }
 
 TEST(GradientEngine, TheIntegratorsAgreeToTheToleranceAskedFor) {
-  const auto exact = servo(kRosenbrock);
+  const auto exact = servo(kEngineRosenbrock);
   const GradientRun reference = run_gradient(make_gradient_engine(*exact).get(), *exact, exact->parameters());
   ASSERT_TRUE(reference.status.ok()) << reference.status.cause;
   const double scale = reference.gradient.cwiseAbs().maxCoeff();

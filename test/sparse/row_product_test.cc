@@ -7,19 +7,19 @@ namespace codesign {
 namespace {
 
 // One row (3, 0, 5).
-const Sparsity kPattern{1, 3, {0, 2}, {0, 2}};
-const std::vector<double> kValues{3.0, 5.0};
+const Sparsity kProductPattern{1, 3, {0, 2}, {0, 2}};
+const std::vector<double> kProductValues{3.0, 5.0};
 
 TEST(RowProduct, OfOneVector) {
   const double x[] = {1.0, 100.0, 2.0};
-  EXPECT_EQ(row_product(kPattern, kValues, 0, x), 13.0);
+  EXPECT_EQ(row_product(kProductPattern, kProductValues, 0, x), 13.0);
 }
 
 TEST(RowProduct, OfSeveralVectorsAndOfTangents) {
   double x[12];
   for (int k = 0; k < 12; ++k) x[k] = k;
   Lanes<4>::Vector sum{};
-  add_row_product<4>(kPattern, kValues, 0, x, &sum);
+  add_row_product<4>(kProductPattern, kProductValues, 0, x, &sum);
   for (int k = 0; k < 4; ++k) EXPECT_EQ(sum[k], 3.0 * k + 5.0 * (8 + k));
 
   std::vector<double> derivatives(8, 0.0);
@@ -27,11 +27,11 @@ TEST(RowProduct, OfSeveralVectorsAndOfTangents) {
   const double u[] = {1.0, 100.0, 2.0, 0.0, 0.0, 0.0, 0.0};
   const In<double> both[] = {u, x};
   Lanes<4>::Vector tangents[2] = {};
-  add_row_tangents<4>(kPattern, derivatives, 0, both, 0, tangents);
+  add_row_tangents<4>(kProductPattern, derivatives, 0, both, 0, tangents);
   EXPECT_EQ(tangents[0][2], 14.0);
   EXPECT_EQ(tangents[0][0], 0.0);
   EXPECT_EQ(tangents[1][2], 14.0);
-  add_row_tangents<4>(kPattern, derivatives, 0, both, 4, tangents);
+  add_row_tangents<4>(kProductPattern, derivatives, 0, both, 4, tangents);
   EXPECT_EQ(tangents[1][2], 14.0 + 42.0);
 }
 

@@ -9,18 +9,18 @@ namespace codesign {
 namespace {
 
 // A full 4 x 4 pattern, column by column.
-const std::vector<int> kStart{0, 4, 8, 12, 16}, kRows{0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+const std::vector<int> kLuStart{0, 4, 8, 12, 16}, kLuRows{0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 
-Eigen::Matrix4d matrix(double corner) {
+Eigen::Matrix4d dense_matrix(double corner) {
   Eigen::Matrix4d m;
   m << corner, 2, 0, 1, 2, 5, 1, 0, 0, 1, 3, 4, 1, 0, 4, 0;
   return m;
 }
 
 TEST(SparseLu, SolvesAndRefactors) {
-  SparseLu lu(kStart, kRows);
+  SparseLu lu(kLuStart, kLuRows);
   for (double corner : {4.0, 3.0, -2.0}) {
-    const Eigen::Matrix4d m = matrix(corner);
+    const Eigen::Matrix4d m = dense_matrix(corner);
     ASSERT_TRUE(lu.factor(m));
     const Eigen::Vector4d b(1, 2, 3, 4);
     Eigen::Vector4d x = b, y = b;
@@ -33,9 +33,9 @@ TEST(SparseLu, SolvesAndRefactors) {
 }
 
 TEST(SparseLu, FallsBackWhenOldPivotsVanish) {
-  SparseLu lu(kStart, kRows);
-  ASSERT_TRUE(lu.factor(matrix(1e8)));
-  Eigen::Matrix4d m = matrix(0.0);
+  SparseLu lu(kLuStart, kLuRows);
+  ASSERT_TRUE(lu.factor(dense_matrix(1e8)));
+  Eigen::Matrix4d m = dense_matrix(0.0);
   m(1, 1) = 0.0;
   ASSERT_TRUE(lu.factor(m));
   Eigen::Vector4d x(1, 2, 3, 4);
@@ -46,18 +46,18 @@ TEST(SparseLu, FallsBackWhenOldPivotsVanish) {
 
   // Both choices of pivots are kept by now.
   for (double corner : {1e8, 4.0}) {
-    ASSERT_TRUE(lu.factor(matrix(corner)));
+    ASSERT_TRUE(lu.factor(dense_matrix(corner)));
     ASSERT_TRUE(lu.factor(m));
   }
   EXPECT_EQ(lu.full_factorizations(), 2);
 }
 
 TEST(SparseLu, ReportsSingularMatrices) {
-  SparseLu lu(kStart, kRows);
-  Eigen::Matrix4d m = matrix(4.0);
+  SparseLu lu(kLuStart, kLuRows);
+  Eigen::Matrix4d m = dense_matrix(4.0);
   m.col(3) = m.col(2);
   EXPECT_FALSE(lu.factor(m));
-  EXPECT_TRUE(lu.factor(matrix(4.0)));
+  EXPECT_TRUE(lu.factor(dense_matrix(4.0)));
 }
 
 }  // namespace

@@ -6,12 +6,14 @@
 namespace codesign {
 namespace {
 
-const std::string kStudy = kLeastStudy + "parameters: {crank_length: {}, Kp: {initial: 1, lower: 0, upper: 2}}\n";
+const std::string kTunedStudy = kLeastStudy + "parameters: {crank_length: {}, Kp: {initial: 1, lower: 0, upper: 2}}\n";
 
-MultistartOptions multistart_of(const std::string& text) { return read_text(kStudy + "multistart: " + text + "\n").ensemble.multistart; }
+MultistartOptions multistart_of(const std::string& text) {
+  return read_text(kTunedStudy + "multistart: " + text + "\n").ensemble.multistart;
+}
 
-void expect_refused(const std::string& text, const std::string& element, const std::string& message) {
-  expect_fault(kStudy + "multistart: " + text + "\n", element, message, 4);
+void expect_bad_multistart(const std::string& text, const std::string& element, const std::string& message) {
+  expect_fault(kTunedStudy + "multistart: " + text + "\n", element, message, 4);
 }
 
 TEST(StudyMultistart, ReadsAllKeys) {
@@ -30,20 +32,20 @@ TEST(StudyMultistart, TheRestHasDefaults) {
   EXPECT_EQ(options.seed, 1U);
   EXPECT_EQ(options.screen, 28);
   EXPECT_EQ(options.cluster, 1e-4);
-  EXPECT_EQ(read_text(kStudy).ensemble.multistart.starts, 0);
+  EXPECT_EQ(read_text(kTunedStudy).ensemble.multistart.starts, 0);
 }
 
 TEST(StudyMultistart, RefusesBadValues) {
-  expect_refused("{}", "multistart.starts", "required key is missing");
-  expect_refused("{starts: 0}", "multistart.starts", "out of range");
-  expect_refused("{starts: 100001}", "multistart.starts", "out of range");
-  expect_refused("{starts: 10, screen: 9}", "multistart.screen", "out of range");
-  EXPECT_EQ(fault_in(kStudy + "multistart: {starts: 10, screen: 9}").allowed, "a whole number from 10 to 10000000");
-  expect_refused("{starts: 10, cluster: 0}", "multistart.cluster", "out of range");
-  expect_refused("{starts: 10, cluster: 1}", "multistart.cluster", "out of range");
-  expect_refused("{starts: 10, sampler: grid}", "multistart.sampler", "unknown sampler");
-  expect_refused("{starts: 10, seed: 0.5}", "multistart.seed", "not an integer");
-  expect_refused("{starts: 10, screens: 40}", "multistart.screens", "did you mean \"screen\"");
+  expect_bad_multistart("{}", "multistart.starts", "required key is missing");
+  expect_bad_multistart("{starts: 0}", "multistart.starts", "out of range");
+  expect_bad_multistart("{starts: 100001}", "multistart.starts", "out of range");
+  expect_bad_multistart("{starts: 10, screen: 9}", "multistart.screen", "out of range");
+  EXPECT_EQ(fault_in(kTunedStudy + "multistart: {starts: 10, screen: 9}").allowed, "a whole number from 10 to 10000000");
+  expect_bad_multistart("{starts: 10, cluster: 0}", "multistart.cluster", "out of range");
+  expect_bad_multistart("{starts: 10, cluster: 1}", "multistart.cluster", "out of range");
+  expect_bad_multistart("{starts: 10, sampler: grid}", "multistart.sampler", "unknown sampler");
+  expect_bad_multistart("{starts: 10, seed: 0.5}", "multistart.seed", "not an integer");
+  expect_bad_multistart("{starts: 10, screens: 40}", "multistart.screens", "did you mean \"screen\"");
 }
 
 TEST(StudyMultistart, NeedsBoundsOfAllTunedParameters) {

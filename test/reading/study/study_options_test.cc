@@ -6,12 +6,12 @@
 namespace codesign {
 namespace {
 
-std::string with(const std::string& line) { return kLeastStudy + line + "\n"; }
+std::string with_line(const std::string& line) { return kLeastStudy + line + "\n"; }
 
 TEST(StudyOptions, ReadsTheSolver) {
   const SolverOptions solver =
-      read_text(with("solver: {integrator: idas, method: rodas5p, relative_tolerance: 1e-9, absolute_tolerance: 1e-10, "
-                     "initial_step: 1e-5, maximum_step: 0.01, maximum_steps: 500, maximum_speed: 50, gradient: direct}"))
+      read_text(with_line("solver: {integrator: idas, method: rodas5p, relative_tolerance: 1e-9, absolute_tolerance: 1e-10, "
+                          "initial_step: 1e-5, maximum_step: 0.01, maximum_steps: 500, maximum_speed: 50, gradient: direct}"))
           .solver;
   EXPECT_EQ(solver.integrator, IntegratorKind::kIdas);
   EXPECT_EQ(solver.method, RosenbrockMethod::kRodas5P);
@@ -26,32 +26,34 @@ TEST(StudyOptions, ReadsTheSolver) {
 }
 
 TEST(StudyOptions, ReadsTheOptimizer) {
-  const OptimizerOptions optimizer = read_text(with("optimizer: {algorithm: mma, max_evaluations: 7, relative_tolerance: 1e-3}")).optimizer;
+  const OptimizerOptions optimizer =
+      read_text(with_line("optimizer: {algorithm: mma, max_evaluations: 7, relative_tolerance: 1e-3}")).optimizer;
   EXPECT_EQ(optimizer.algorithm, "mma");
   EXPECT_EQ(optimizer.max_evaluations, 7);
   EXPECT_EQ(optimizer.relative_tolerance, 1e-3);
 }
 
 TEST(StudyOptions, RefusesBadSolverValues) {
-  expect_fault(with("solver: {integrator: euler}"), "solver.integrator", "unknown integrator", 3);
-  expect_fault(with("solver: {method: rodas4p}"), "solver.method", "did you mean", 3);
-  expect_fault(with("solver: {relative_tolerance: 0}"), "solver.relative_tolerance", "out of range", 3);
-  expect_fault(with("solver: {absolute_tolerance: 1}"), "solver.absolute_tolerance", "out of range", 3);
-  expect_fault(with("solver: {initial_step: -1}"), "solver.initial_step", "out of range", 3);
-  expect_fault(with("solver: {maximum_step: -1}"), "solver.maximum_step", "out of range", 3);
-  expect_fault(with("solver: {maximum_steps: 0}"), "solver.maximum_steps", "out of range", 3);
-  expect_fault(with("solver: {maximum_steps: 2.5}"), "solver.maximum_steps", "not an integer", 3);
-  expect_fault(with("solver: {maximum_speed: -1}"), "solver.maximum_speed", "out of range", 3);
-  expect_fault(with("solver: {gradient: backward}"), "solver.gradient", "unknown gradient", 3);
-  expect_fault(with("solver: {integrator: idas, gradient: adjoint}"), "solver.gradient", "integrator rosenbrock only", 3);
-  expect_fault(with("solver: {sensitivity_tolerance: 1e-4, gradient: adjoint}"), "solver.gradient", "no sensitivities", 3);
-  expect_fault(with("solver: {tolerance: 1e-6}"), "solver.tolerance", "unknown key", 3);
+  expect_fault(with_line("solver: {integrator: euler}"), "solver.integrator", "unknown integrator", 3);
+  expect_fault(with_line("solver: {method: rodas4p}"), "solver.method", "did you mean", 3);
+  expect_fault(with_line("solver: {relative_tolerance: 0}"), "solver.relative_tolerance", "out of range", 3);
+  expect_fault(with_line("solver: {absolute_tolerance: 1}"), "solver.absolute_tolerance", "out of range", 3);
+  expect_fault(with_line("solver: {initial_step: -1}"), "solver.initial_step", "out of range", 3);
+  expect_fault(with_line("solver: {maximum_step: -1}"), "solver.maximum_step", "out of range", 3);
+  expect_fault(with_line("solver: {maximum_steps: 0}"), "solver.maximum_steps", "out of range", 3);
+  expect_fault(with_line("solver: {maximum_steps: 2.5}"), "solver.maximum_steps", "not an integer", 3);
+  expect_fault(with_line("solver: {maximum_speed: -1}"), "solver.maximum_speed", "out of range", 3);
+  expect_fault(with_line("solver: {gradient: backward}"), "solver.gradient", "unknown gradient", 3);
+  expect_fault(with_line("solver: {integrator: idas, gradient: adjoint}"), "solver.gradient", "integrator rosenbrock only", 3);
+  expect_fault(with_line("solver: {sensitivity_tolerance: 1e-4, gradient: adjoint}"), "solver.gradient", "no sensitivities", 3);
+  expect_fault(with_line("solver: {tolerance: 1e-6}"), "solver.tolerance", "unknown key", 3);
 }
 
 TEST(StudyOptions, ReadsTheLimits) {
   const LimitOptions none = read_text(kLeastStudy).limits;
   EXPECT_FALSE(none.effort || none.position);
-  const LimitOptions limits = read_text(with("limits: {effort: true, position: true, stiffness: 2e3, dissipation: 0, width: 1e-2}")).limits;
+  const LimitOptions limits =
+      read_text(with_line("limits: {effort: true, position: true, stiffness: 2e3, dissipation: 0, width: 1e-2}")).limits;
   EXPECT_TRUE(limits.effort && limits.position);
   EXPECT_EQ(limits.stiffness, 2e3);
   EXPECT_EQ(limits.dissipation, 0.0);
@@ -59,18 +61,18 @@ TEST(StudyOptions, ReadsTheLimits) {
 }
 
 TEST(StudyOptions, RefusesBadLimits) {
-  expect_fault(with("limits: {effort: 3}"), "limits.effort", "not a truth value", 3);
-  expect_fault(with("limits: {stiffness: 0}"), "limits.stiffness", "out of range", 3);
-  expect_fault(with("limits: {dissipation: -1}"), "limits.dissipation", "out of range", 3);
-  expect_fault(with("limits: {width: 0}"), "limits.width", "out of range", 3);
-  expect_fault(with("limits: {positions: true}"), "limits.positions", "unknown key", 3);
+  expect_fault(with_line("limits: {effort: 3}"), "limits.effort", "not a truth value", 3);
+  expect_fault(with_line("limits: {stiffness: 0}"), "limits.stiffness", "out of range", 3);
+  expect_fault(with_line("limits: {dissipation: -1}"), "limits.dissipation", "out of range", 3);
+  expect_fault(with_line("limits: {width: 0}"), "limits.width", "out of range", 3);
+  expect_fault(with_line("limits: {positions: true}"), "limits.positions", "unknown key", 3);
 }
 
 TEST(StudyOptions, RefusesBadOptimizerValues) {
-  expect_fault(with("optimizer: {algorithm: slqsp}"), "optimizer.algorithm", "did you mean \"slsqp\"", 3);
-  expect_fault(with("optimizer: {max_evaluations: 0}"), "optimizer.max_evaluations", "out of range", 3);
-  expect_fault(with("optimizer: {relative_tolerance: -1e-6}"), "optimizer.relative_tolerance", "out of range", 3);
-  expect_fault(with("optimizer: {max_iterations: 5}"), "optimizer.max_iterations", "unknown key", 3);
+  expect_fault(with_line("optimizer: {algorithm: slqsp}"), "optimizer.algorithm", "did you mean \"slsqp\"", 3);
+  expect_fault(with_line("optimizer: {max_evaluations: 0}"), "optimizer.max_evaluations", "out of range", 3);
+  expect_fault(with_line("optimizer: {relative_tolerance: -1e-6}"), "optimizer.relative_tolerance", "out of range", 3);
+  expect_fault(with_line("optimizer: {max_iterations: 5}"), "optimizer.max_iterations", "unknown key", 3);
 }
 
 }  // namespace

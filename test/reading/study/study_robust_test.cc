@@ -6,13 +6,13 @@
 namespace codesign {
 namespace {
 
-const std::string kUncertain = kLeastStudy + "uncertain: {rod_length: {uniform: [0.2, 0.4]}}\n";
-const std::string kRuns = kLeastStudy + "runs: {short: {set: {rod_length: 0.2}}, long: {set: {rod_length: 0.4}}}\n";
+const std::string kUncertainStudy = kLeastStudy + "uncertain: {rod_length: {uniform: [0.2, 0.4]}}\n";
+const std::string kTwoRuns = kLeastStudy + "runs: {short: {set: {rod_length: 0.2}}, long: {set: {rod_length: 0.4}}}\n";
 
-RobustOptions robust_of(const std::string& text) { return read_text(kUncertain + "robust: " + text + "\n").ensemble.robust.value(); }
+RobustOptions robust_of(const std::string& text) { return read_text(kUncertainStudy + "robust: " + text + "\n").ensemble.robust.value(); }
 
-void expect_refused(const std::string& text, const std::string& element, const std::string& message) {
-  expect_fault(kUncertain + "robust: " + text + "\n", element, message, 4);
+void expect_bad_robust(const std::string& text, const std::string& element, const std::string& message) {
+  expect_fault(kUncertainStudy + "robust: " + text + "\n", element, message, 4);
 }
 
 TEST(StudyRobust, ReadsAllKeys) {
@@ -43,12 +43,12 @@ TEST(StudyRobust, TheRestHasDefaults) {
 }
 
 TEST(StudyRobust, MayBeLeftOut) {
-  const RobustOptions uncertain = read_text(kUncertain).ensemble.robust.value();
+  const RobustOptions uncertain = read_text(kUncertainStudy).ensemble.robust.value();
   EXPECT_EQ(uncertain.measure, RobustMeasure::kMean);
   EXPECT_EQ(uncertain.samples, 32);
   EXPECT_EQ(uncertain.where.line, 3);
-  EXPECT_EQ(read_text(kRuns).ensemble.robust.value().samples, 1);
-  EXPECT_EQ(read_text(kRuns + "robust: {measure: worst}\n").ensemble.robust.value().samples, 1);
+  EXPECT_EQ(read_text(kTwoRuns).ensemble.robust.value().samples, 1);
+  EXPECT_EQ(read_text(kTwoRuns + "robust: {measure: worst}\n").ensemble.robust.value().samples, 1);
   EXPECT_FALSE(read_text(kLeastStudy).ensemble.robust.has_value());
 }
 
@@ -56,28 +56,28 @@ TEST(StudyRobust, NeedsSomethingToBeRobustAgainst) {
   expect_fault(kLeastStudy + "robust: {measure: worst}\n", "robust", "nothing to be robust against", 3);
   for (const char* key : {"samples: 8", "sampler: sobol", "seed: 1", "validate: 10"}) {
     const std::string text = key;
-    expect_fault(kRuns + "robust: {" + text + "}\n", "robust." + text.substr(0, text.find(':')), "no meaning without uncertain", 4);
+    expect_fault(kTwoRuns + "robust: {" + text + "}\n", "robust." + text.substr(0, text.find(':')), "no meaning without uncertain", 4);
   }
 }
 
 TEST(StudyRobust, RefusesBadValues) {
-  expect_refused("{measure: median}", "robust.measure", "unknown measure");
-  expect_refused("{measure: worst, level: 0.9}", "robust.level", "level belongs to cvar");
-  expect_refused("{level: 0.9}", "robust.level", "level belongs to cvar");
-  expect_refused("{measure: cvar, level: 0}", "robust.level", "out of range");
-  expect_refused("{measure: cvar, level: 1}", "robust.level", "out of range");
-  expect_refused("{measure: cvar, factor: 1}", "robust.factor", "factor belongs to mean_plus_deviation");
-  expect_refused("{measure: mean_plus_deviation, factor: -1}", "robust.factor", "out of range");
-  expect_refused("{samples: 0}", "robust.samples", "out of range");
-  expect_refused("{samples: 100001}", "robust.samples", "out of range");
-  expect_refused("{samples: 1.5}", "robust.samples", "not an integer");
-  expect_refused("{sampler: halton}", "robust.sampler", "unknown sampler");
-  expect_refused("{seed: -1}", "robust.seed", "out of range");
-  expect_refused("{validate: -1}", "robust.validate", "out of range");
-  expect_refused("{validate: 1000001}", "robust.validate", "out of range");
-  expect_refused("{failed: ignore}", "robust.failed", "unknown failed");
-  expect_refused("{measures: cvar}", "robust.measures", "did you mean \"measure\"");
-  expect_refused("cvar", "robust", "expected a map");
+  expect_bad_robust("{measure: median}", "robust.measure", "unknown measure");
+  expect_bad_robust("{measure: worst, level: 0.9}", "robust.level", "level belongs to cvar");
+  expect_bad_robust("{level: 0.9}", "robust.level", "level belongs to cvar");
+  expect_bad_robust("{measure: cvar, level: 0}", "robust.level", "out of range");
+  expect_bad_robust("{measure: cvar, level: 1}", "robust.level", "out of range");
+  expect_bad_robust("{measure: cvar, factor: 1}", "robust.factor", "factor belongs to mean_plus_deviation");
+  expect_bad_robust("{measure: mean_plus_deviation, factor: -1}", "robust.factor", "out of range");
+  expect_bad_robust("{samples: 0}", "robust.samples", "out of range");
+  expect_bad_robust("{samples: 100001}", "robust.samples", "out of range");
+  expect_bad_robust("{samples: 1.5}", "robust.samples", "not an integer");
+  expect_bad_robust("{sampler: halton}", "robust.sampler", "unknown sampler");
+  expect_bad_robust("{seed: -1}", "robust.seed", "out of range");
+  expect_bad_robust("{validate: -1}", "robust.validate", "out of range");
+  expect_bad_robust("{validate: 1000001}", "robust.validate", "out of range");
+  expect_bad_robust("{failed: ignore}", "robust.failed", "unknown failed");
+  expect_bad_robust("{measures: cvar}", "robust.measures", "did you mean \"measure\"");
+  expect_bad_robust("cvar", "robust", "expected a map");
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace codesign {
 namespace {
 
 // Lines 1 to 9; the runs begin in line 10.
-const std::string kStudy = R"(duration: 2.0
+const std::string kRunStudy = R"(duration: 2.0
 initial_state: {crank_joint: {position: 0.1, velocity: -10.0}}
 controllers:
   hold: {type: pid, input: crank_joint/velocity, setpoint: -10.0, output: crank_joint, gains: {p: 2.0}}
@@ -18,12 +18,12 @@ parameters: {Kp: {initial: 1.0}, mass: {initial: 2.0, lower: 0.0, upper: 5.0, tu
 objective: {integral: [{signal: crank_joint/velocity}, {signal: hold/error}]}
 )";
 
-std::vector<RunDescription> runs_of(const std::string& runs) { return read_text(kStudy + "runs: " + runs + "\n").ensemble.runs; }
+std::vector<RunDescription> runs_of(const std::string& runs) { return read_text(kRunStudy + "runs: " + runs + "\n").ensemble.runs; }
 
-Study changed(const std::string& run) { return *runs_of("{changed: " + run + "}").at(0).study; }
+Study changed_study(const std::string& run) { return *runs_of("{changed: " + run + "}").at(0).study; }
 
-void expect_refused(const std::string& runs, const std::string& element, const std::string& message, int line = 10) {
-  expect_fault(kStudy + "runs: " + runs + "\n", element, message, line);
+void expect_bad_run(const std::string& runs, const std::string& element, const std::string& message, int line = 10) {
+  expect_fault(kRunStudy + "runs: " + runs + "\n", element, message, line);
 }
 
 TEST(StudyRuns, ReadsValuesAndWeights) {
@@ -47,7 +47,7 @@ TEST(StudyRuns, ARunMayBeTheStudyItself) {
 }
 
 TEST(StudyRuns, ChangesAreMergedIntoTheStudy) {
-  const Study study = changed(
+  const Study study = changed_study(
       "{gravity: [0, 0, -1.62], initial_state: {crank_joint: {velocity: 3.0}, slider_joint: {guess: 0.2}}, "
       "controllers: {hold: {setpoint: 4.0, gains: {d: 0.5}}, shake: {feedforward: {amplitude: \"${Kp}\"}}}}");
   EXPECT_EQ(study.duration, 2.0);
@@ -68,7 +68,7 @@ TEST(StudyRuns, ChangesAreMergedIntoTheStudy) {
 }
 
 TEST(StudyRuns, TheStudyItselfStaysAsItIs) {
-  const Study study = read_text(kStudy + "runs: {other: {initial_state: {crank_joint: {velocity: 3.0}}, gravity: [0, 0, 0]}}\n");
+  const Study study = read_text(kRunStudy + "runs: {other: {initial_state: {crank_joint: {velocity: 3.0}}, gravity: [0, 0, 0]}}\n");
   EXPECT_EQ(study.gravity[2], -9.81);
   EXPECT_EQ(study.initial_state[0].velocity->nominal(), -10.0);
   const Study& other = *study.ensemble.runs.at(0).study;
@@ -78,7 +78,7 @@ TEST(StudyRuns, TheStudyItselfStaysAsItIs) {
 }
 
 TEST(StudyRuns, ListsAndOtherTypesReplaceWhatTheStudyHas) {
-  const Study study = changed(
+  const Study study = changed_study(
       "{loads: [{joint: crank_joint, effort: 7.0}], controllers: {hold: {setpoint: {type: sine, amplitude: 2.0, period: 1.0}}, "
       "shake: {feedforward: {type: waypoints, times: [0, 1], positions: [0, 3]}}}}");
   ASSERT_EQ(study.loads.size(), 1U);
@@ -88,62 +88,62 @@ TEST(StudyRuns, ListsAndOtherTypesReplaceWhatTheStudyHas) {
 }
 
 TEST(StudyRuns, RefusesWhatIsNoRun) {
-  expect_refused("{}", "runs", "found 0 runs");
-  expect_refused("[a]", "runs", "expected a map");
-  expect_refused("{a: 3}", "runs.a", "expected a map");
-  expect_refused("{a: {}, a: {}}", "runs.a", "repeated key");
-  expect_refused("{a b: {}}", "runs.a b", "not a name for a run");
-  expect_refused("{.a: {}}", "runs..a", "not a name for a run");
-  expect_refused("{a/b: {}}", "runs.a/b", "not a name for a run");
-  expect_refused("{a: {duration: 3}}", "runs.a.duration", "unknown key");
-  expect_refused("{a: {objective: {}}}", "runs.a.objective", "unknown key");
-  EXPECT_EQ(fault_in(kStudy + "runs: {a: {duration: 3}}").allowed, "set, weight, initial_state, controllers, loads, gravity");
-  expect_refused("{a: {weight: 0}}", "runs.a.weight", "must be positive");
-  expect_refused("{a: {weight: heavy}}", "runs.a.weight", "not a number");
+  expect_bad_run("{}", "runs", "found 0 runs");
+  expect_bad_run("[a]", "runs", "expected a map");
+  expect_bad_run("{a: 3}", "runs.a", "expected a map");
+  expect_bad_run("{a: {}, a: {}}", "runs.a", "repeated key");
+  expect_bad_run("{a b: {}}", "runs.a b", "not a name for a run");
+  expect_bad_run("{.a: {}}", "runs..a", "not a name for a run");
+  expect_bad_run("{a/b: {}}", "runs.a/b", "not a name for a run");
+  expect_bad_run("{a: {duration: 3}}", "runs.a.duration", "unknown key");
+  expect_bad_run("{a: {objective: {}}}", "runs.a.objective", "unknown key");
+  EXPECT_EQ(fault_in(kRunStudy + "runs: {a: {duration: 3}}").allowed, "set, weight, initial_state, controllers, loads, gravity");
+  expect_bad_run("{a: {weight: 0}}", "runs.a.weight", "must be positive");
+  expect_bad_run("{a: {weight: heavy}}", "runs.a.weight", "not a number");
 }
 
 TEST(StudyRuns, RefusesTooManyRuns) {
   std::string many;
   for (int k = 0; k <= 1000; ++k) many += (k > 0 ? ", r" : "r") + std::to_string(k) + ": {}";
-  expect_refused("{" + many + "}", "runs", "found 1001 runs");
+  expect_bad_run("{" + many + "}", "runs", "found 1001 runs");
 }
 
 TEST(StudyRuns, RefusesValuesThatCannotBeSet) {
-  expect_refused("{a: {set: {mas: 1}}}", "runs.a.set.mas", "unknown parameter, did you mean \"mass\"");
-  expect_refused("{a: {set: {Kp: 1}}}", "runs.a.set.Kp", "this parameter is tuned");
-  expect_refused("{a: {set: {mass: 5.5}}}", "runs.a.set.mass", "outside the bounds of the parameter mass");
-  EXPECT_EQ(fault_in(kStudy + "runs: {a: {set: {mass: 5.5}}}").allowed, "[0, 5]");
-  expect_refused("{a: {set: {mass: .nan}}}", "runs.a.set.mass", "not finite");
-  expect_refused("{a: {set: {mass: \"${Kp}\"}}}", "runs.a.set.mass", "not a number");
-  expect_refused("{a: {set: [mass]}}", "runs.a.set", "expected a map");
+  expect_bad_run("{a: {set: {mas: 1}}}", "runs.a.set.mas", "unknown parameter, did you mean \"mass\"");
+  expect_bad_run("{a: {set: {Kp: 1}}}", "runs.a.set.Kp", "this parameter is tuned");
+  expect_bad_run("{a: {set: {mass: 5.5}}}", "runs.a.set.mass", "outside the bounds of the parameter mass");
+  EXPECT_EQ(fault_in(kRunStudy + "runs: {a: {set: {mass: 5.5}}}").allowed, "[0, 5]");
+  expect_bad_run("{a: {set: {mass: .nan}}}", "runs.a.set.mass", "not finite");
+  expect_bad_run("{a: {set: {mass: \"${Kp}\"}}}", "runs.a.set.mass", "not a number");
+  expect_bad_run("{a: {set: [mass]}}", "runs.a.set", "expected a map");
 }
 
 TEST(StudyRuns, ErrorsNameThePlaceInTheRun) {
-  expect_refused("\n  a:\n    controllers:\n      hlod: {setpoint: 1}\n", "runs.a.controllers.hlod",
+  expect_bad_run("\n  a:\n    controllers:\n      hlod: {setpoint: 1}\n", "runs.a.controllers.hlod",
                  "unknown controller of the study, did you mean \"hold\"", 13);
-  expect_refused("{a: {controllers: {hold: 3}}}", "runs.a.controllers.hold", "must be a map");
-  expect_refused("\n  a:\n    controllers: {hold: {set_point: 1}}\n", "runs.a.controllers.hold.set_point", "unknown key", 12);
-  expect_refused("{a: {controllers: {hold: {setpoint: \"${Kq}\"}}}}", "runs.a.controllers.hold.setpoint", "Kq");
-  expect_refused("{a: {controllers: {hold: {type: pd_gravity, setpoint: 0}}}}", "runs.a.controllers.hold.output",
+  expect_bad_run("{a: {controllers: {hold: 3}}}", "runs.a.controllers.hold", "must be a map");
+  expect_bad_run("\n  a:\n    controllers: {hold: {set_point: 1}}\n", "runs.a.controllers.hold.set_point", "unknown key", 12);
+  expect_bad_run("{a: {controllers: {hold: {setpoint: \"${Kq}\"}}}}", "runs.a.controllers.hold.setpoint", "Kq");
+  expect_bad_run("{a: {controllers: {hold: {type: pd_gravity, setpoint: 0}}}}", "runs.a.controllers.hold.output",
                  "required key is missing");
-  expect_refused("{a: {controllers: {shake: {feedforward: {period: 1}}}}}", "runs.a.controllers.shake.feedforward",
+  expect_bad_run("{a: {controllers: {shake: {feedforward: {period: 1}}}}}", "runs.a.controllers.shake.feedforward",
                  "either a frequency or a period");
-  expect_refused("{a: {initial_state: {crank_joint: {guess: 1}}}}", "runs.a.initial_state.crank_joint.guess",
+  expect_bad_run("{a: {initial_state: {crank_joint: {guess: 1}}}}", "runs.a.initial_state.crank_joint.guess",
                  "either a position or a guess");
-  expect_refused("{a: {initial_state: {crank_jont: {position: 1}}}}", "runs.a.initial_state.crank_jont", "did you mean \"crank_joint\"");
-  expect_refused("{a: {loads: [{joint: crank_joint}]}}", "runs.a.loads[0].effort", "required key is missing");
-  expect_refused("{a: {gravity: [0, 0]}}", "runs.a.gravity", "three components");
+  expect_bad_run("{a: {initial_state: {crank_jont: {position: 1}}}}", "runs.a.initial_state.crank_jont", "did you mean \"crank_joint\"");
+  expect_bad_run("{a: {loads: [{joint: crank_joint}]}}", "runs.a.loads[0].effort", "required key is missing");
+  expect_bad_run("{a: {gravity: [0, 0]}}", "runs.a.gravity", "three components");
 }
 
 TEST(StudyRuns, AFaultElsewhereNamesTheRun) {
-  expect_refused("{a: {controllers: {hold: {type: state_feedback, output: crank_joint, feedforward: 1}}}}", "objective.integral[1].signal",
+  expect_bad_run("{a: {controllers: {hold: {type: state_feedback, output: crank_joint, feedforward: 1}}}}", "objective.integral[1].signal",
                  "with the changes of the run \"a\"", 9);
 }
 
 TEST(StudyRuns, RefusesOtherParameters) {
-  expect_refused("{a: {controllers: {push: {coefficients: {count: 3}}}}}", "runs.a.controllers", "must not change the coefficients");
-  expect_refused("{a: {controllers: {push: {coefficients: {initial: 1}}}}}", "runs.a.controllers", "must not change the coefficients");
-  expect_refused("{a: {controllers: {push: {coefficients: {tune: true}}}}}", "runs.a.controllers", "must not change the coefficients");
+  expect_bad_run("{a: {controllers: {push: {coefficients: {count: 3}}}}}", "runs.a.controllers", "must not change the coefficients");
+  expect_bad_run("{a: {controllers: {push: {coefficients: {initial: 1}}}}}", "runs.a.controllers", "must not change the coefficients");
+  expect_bad_run("{a: {controllers: {push: {coefficients: {tune: true}}}}}", "runs.a.controllers", "must not change the coefficients");
   EXPECT_EQ(runs_of("{a: {set: {push_c1: 3}}}").at(0).set.at(0).second, 3.0);
 }
 

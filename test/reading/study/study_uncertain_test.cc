@@ -9,19 +9,19 @@ namespace codesign {
 namespace {
 
 // Lines 1 to 3; what is uncertain begins in line 4.
-const std::string kStudy =
+const std::string kCertainStudy =
     kLeastStudy +
     "parameters: {Kp: {initial: 1.0}, free: {initial: 2.0, tune: false}, mass: {initial: 1, lower: 0, upper: 5, tune: false}}\n";
 
 std::vector<UncertainQuantity> uncertain_of(const std::string& text) {
-  return read_text(kStudy + "uncertain: " + text + "\n").ensemble.uncertain;
+  return read_text(kCertainStudy + "uncertain: " + text + "\n").ensemble.uncertain;
 }
 
-void expect_refused(const std::string& text, const std::string& element, const std::string& message, int line = 4) {
-  expect_fault(kStudy + "uncertain: " + text + "\n", element, message, line);
+void expect_bad_uncertain(const std::string& text, const std::string& element, const std::string& message, int line = 4) {
+  expect_fault(kCertainStudy + "uncertain: " + text + "\n", element, message, line);
 }
 
-std::string allowed_by(const std::string& text) { return fault_in(kStudy + "uncertain: " + text).allowed; }
+std::string allowed_by(const std::string& text) { return fault_in(kCertainStudy + "uncertain: " + text).allowed; }
 
 TEST(StudyUncertain, ReadsAUniformDistribution) {
   const UncertainQuantity quantity = uncertain_of("\n  mass: {uniform: [0.0, 4.5]}").at(0);
@@ -68,57 +68,57 @@ TEST(StudyUncertain, AParameterMayHaveTheNameOfTheLaw) {
 }
 
 TEST(StudyUncertain, RefusesOtherNames) {
-  expect_refused("{}", "uncertain", "nothing is uncertain");
-  expect_refused("[mass]", "uncertain", "expected a map");
-  expect_refused("{mas: {uniform: [1, 2]}}", "uncertain.mas", "unknown parameter, did you mean \"mass\"");
-  expect_refused("{friction_lw: {choice: [lugre, gonthier]}}", "uncertain.friction_lw", "did you mean \"friction_law\"");
-  expect_refused("{Kp: {uniform: [1, 2]}}", "uncertain.Kp", "this parameter is tuned");
-  expect_refused("{mass: {uniform: [1, 2]}, mass: {uniform: [1, 2]}}", "uncertain.mass", "repeated key");
-  expect_fault(kStudy + "runs: {a: {set: {mass: 1}}}\nuncertain: {mass: {uniform: [1, 2]}}\n", "uncertain.mass",
+  expect_bad_uncertain("{}", "uncertain", "nothing is uncertain");
+  expect_bad_uncertain("[mass]", "uncertain", "expected a map");
+  expect_bad_uncertain("{mas: {uniform: [1, 2]}}", "uncertain.mas", "unknown parameter, did you mean \"mass\"");
+  expect_bad_uncertain("{friction_lw: {choice: [lugre, gonthier]}}", "uncertain.friction_lw", "did you mean \"friction_law\"");
+  expect_bad_uncertain("{Kp: {uniform: [1, 2]}}", "uncertain.Kp", "this parameter is tuned");
+  expect_bad_uncertain("{mass: {uniform: [1, 2]}, mass: {uniform: [1, 2]}}", "uncertain.mass", "repeated key");
+  expect_fault(kCertainStudy + "runs: {a: {set: {mass: 1}}}\nuncertain: {mass: {uniform: [1, 2]}}\n", "uncertain.mass",
                "the run \"a\" sets this parameter", 5);
 }
 
 TEST(StudyUncertain, RefusesOtherForms) {
-  expect_refused("{mass: {}}", "uncertain.mass", "one distribution");
-  expect_refused("{mass: [1, 2]}", "uncertain.mass", "expected a map");
-  expect_refused("{mass: {uniform: [1, 2], choice: [1, 2]}}", "uncertain.mass", "one distribution");
-  expect_refused("{mass: {gauss: [1, 2]}}", "uncertain.mass.gauss", "unknown key");
-  expect_refused("{mass: {uniform: [1, 2], between: [1, 2]}}", "uncertain.mass.between", "between belongs to normal");
-  expect_refused("{mass: {between: [1, 2]}}", "uncertain.mass", "one distribution");
+  expect_bad_uncertain("{mass: {}}", "uncertain.mass", "one distribution");
+  expect_bad_uncertain("{mass: [1, 2]}", "uncertain.mass", "expected a map");
+  expect_bad_uncertain("{mass: {uniform: [1, 2], choice: [1, 2]}}", "uncertain.mass", "one distribution");
+  expect_bad_uncertain("{mass: {gauss: [1, 2]}}", "uncertain.mass.gauss", "unknown key");
+  expect_bad_uncertain("{mass: {uniform: [1, 2], between: [1, 2]}}", "uncertain.mass.between", "between belongs to normal");
+  expect_bad_uncertain("{mass: {between: [1, 2]}}", "uncertain.mass", "one distribution");
   EXPECT_EQ(allowed_by("{mass: {}}"), "one of uniform: [lower, upper], normal: [mean, deviation], choice: [a, b]");
 }
 
 TEST(StudyUncertain, RefusesBadRanges) {
-  expect_refused("{mass: {uniform: 1}}", "uncertain.mass.uniform", "expected a list");
-  expect_refused("{mass: {uniform: [1]}}", "uncertain.mass.uniform", "two numbers are needed, found 1");
-  expect_refused("{mass: {uniform: [2, 1]}}", "uncertain.mass.uniform[0]", "must lie below");
-  expect_refused("{mass: {uniform: [1, 1]}}", "uncertain.mass.uniform[0]", "must lie below");
-  expect_refused("{mass: {uniform: [-1, 1]}}", "uncertain.mass.uniform[0]", "outside the bounds of the parameter mass");
-  expect_refused("{mass: {uniform: [1, 6]}}", "uncertain.mass.uniform[1]", "outside the bounds of the parameter mass");
-  expect_refused("{free: {uniform: [1, .inf]}}", "uncertain.free.uniform[1]", "not finite");
+  expect_bad_uncertain("{mass: {uniform: 1}}", "uncertain.mass.uniform", "expected a list");
+  expect_bad_uncertain("{mass: {uniform: [1]}}", "uncertain.mass.uniform", "two numbers are needed, found 1");
+  expect_bad_uncertain("{mass: {uniform: [2, 1]}}", "uncertain.mass.uniform[0]", "must lie below");
+  expect_bad_uncertain("{mass: {uniform: [1, 1]}}", "uncertain.mass.uniform[0]", "must lie below");
+  expect_bad_uncertain("{mass: {uniform: [-1, 1]}}", "uncertain.mass.uniform[0]", "outside the bounds of the parameter mass");
+  expect_bad_uncertain("{mass: {uniform: [1, 6]}}", "uncertain.mass.uniform[1]", "outside the bounds of the parameter mass");
+  expect_bad_uncertain("{free: {uniform: [1, .inf]}}", "uncertain.free.uniform[1]", "not finite");
   EXPECT_EQ(allowed_by("{mass: {uniform: [1, 6]}}"), "[0, 5]");
 }
 
 TEST(StudyUncertain, RefusesBadNormalDistributions) {
-  expect_refused("{mass: {normal: [2]}}", "uncertain.mass.normal", "two numbers are needed");
-  expect_refused("{mass: {normal: [6, 1]}}", "uncertain.mass.normal[0]", "outside the bounds");
-  expect_refused("{mass: {normal: [2, 0]}}", "uncertain.mass.normal[1]", "must be positive");
-  expect_refused("{mass: {normal: [2, -1]}}", "uncertain.mass.normal[1]", "must be positive");
-  expect_refused("{mass: {normal: [2, 1], between: [3, 2]}}", "uncertain.mass.between[0]", "must lie below");
-  expect_refused("{mass: {normal: [2, 1], between: [1, 6]}}", "uncertain.mass.between[1]", "outside the bounds");
-  expect_refused("{mass: {normal: [2, 1], between: [3, 4]}}", "uncertain.mass.normal[0]", "the mean lies outside the range");
+  expect_bad_uncertain("{mass: {normal: [2]}}", "uncertain.mass.normal", "two numbers are needed");
+  expect_bad_uncertain("{mass: {normal: [6, 1]}}", "uncertain.mass.normal[0]", "outside the bounds");
+  expect_bad_uncertain("{mass: {normal: [2, 0]}}", "uncertain.mass.normal[1]", "must be positive");
+  expect_bad_uncertain("{mass: {normal: [2, -1]}}", "uncertain.mass.normal[1]", "must be positive");
+  expect_bad_uncertain("{mass: {normal: [2, 1], between: [3, 2]}}", "uncertain.mass.between[0]", "must lie below");
+  expect_bad_uncertain("{mass: {normal: [2, 1], between: [1, 6]}}", "uncertain.mass.between[1]", "outside the bounds");
+  expect_bad_uncertain("{mass: {normal: [2, 1], between: [3, 4]}}", "uncertain.mass.normal[0]", "the mean lies outside the range");
   EXPECT_EQ(allowed_by("{mass: {normal: [2, 1], between: [3, 4]}}"), "[3, 4]");
 }
 
 TEST(StudyUncertain, RefusesBadChoices) {
-  expect_refused("{mass: {choice: [1]}}", "uncertain.mass.choice", "found 1 to choose from");
-  expect_refused("{mass: {choice: [1, 6]}}", "uncertain.mass.choice[1]", "outside the bounds");
-  expect_refused("{mass: {choice: [1, heavy]}}", "uncertain.mass.choice[1]", "not a number");
-  expect_refused("{mass: {choice: [1, 2, 1.0]}}", "uncertain.mass.choice[2]", "repeated choice");
-  expect_refused("{friction_law: {choice: [lugre]}}", "uncertain.friction_law.choice", "found 1 to choose from");
-  expect_refused("{friction_law: {choice: [lugre, gontier]}}", "uncertain.friction_law.choice[1]", "did you mean \"gonthier\"");
-  expect_refused("{friction_law: {choice: [lugre, lugre]}}", "uncertain.friction_law.choice[1]", "repeated choice");
-  expect_refused("{friction_law: {uniform: [0, 1]}}", "uncertain.friction_law.uniform", "unknown key");
+  expect_bad_uncertain("{mass: {choice: [1]}}", "uncertain.mass.choice", "found 1 to choose from");
+  expect_bad_uncertain("{mass: {choice: [1, 6]}}", "uncertain.mass.choice[1]", "outside the bounds");
+  expect_bad_uncertain("{mass: {choice: [1, heavy]}}", "uncertain.mass.choice[1]", "not a number");
+  expect_bad_uncertain("{mass: {choice: [1, 2, 1.0]}}", "uncertain.mass.choice[2]", "repeated choice");
+  expect_bad_uncertain("{friction_law: {choice: [lugre]}}", "uncertain.friction_law.choice", "found 1 to choose from");
+  expect_bad_uncertain("{friction_law: {choice: [lugre, gontier]}}", "uncertain.friction_law.choice[1]", "did you mean \"gonthier\"");
+  expect_bad_uncertain("{friction_law: {choice: [lugre, lugre]}}", "uncertain.friction_law.choice[1]", "repeated choice");
+  expect_bad_uncertain("{friction_law: {uniform: [0, 1]}}", "uncertain.friction_law.uniform", "unknown key");
 }
 
 TEST(StudyUncertain, RefusesLawsThatTheModelCannotHave) {
