@@ -17,8 +17,9 @@ ScenarioResult describe(const Study& study, const Scenario& scenario, double ini
 /// The design on fresh samples. Unlike in the search, a sample that fails does not refuse the design; it is counted.
 Validation validate(const Problem& problem, const Ensemble& ensemble, const OptimizationResult& design, const std::atomic<bool>* cancel) {
   const RobustOptions& options = ensemble.options();
-  std::vector<Scenario> scenarios = make_validation_scenarios(problem, options.validate), usable;
+  const std::vector<Scenario> scenarios = make_validation_scenarios(problem, options.validate);
   std::vector<EvaluationTask> tasks;
+  tasks.reserve(scenarios.size());
   for (const Scenario& scenario : scenarios) tasks.push_back({scenario.system, scenario.parameters(design.rho), false});
   const std::vector<Evaluation> members = ensemble.engine()->evaluate(tasks, cancel);
   Validation validation;

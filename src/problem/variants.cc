@@ -82,7 +82,8 @@ std::vector<std::shared_ptr<const CompiledSystem>> make_variants(const RobotDesc
 std::shared_ptr<const CompiledSystem> variant_of(const Problem& problem, int run, int law) {
   const auto& variants = problem.contents().variants;
   if (variants.empty()) return problem.system();
-  return variants[static_cast<std::size_t>(run * (1 + count_laws(problem.study())) + 1 + law)];
+  const auto laws = static_cast<std::size_t>(count_laws(problem.study()));
+  return variants[static_cast<std::size_t>(run) * (1 + laws) + static_cast<std::size_t>(1 + law)];
 }
 
 }  // namespace codesign
