@@ -116,11 +116,7 @@ class Multistart {
     std::vector<StartResult> starts;
     std::vector<std::vector<double>> scaled;
     for (std::size_t k = 0; k < found->size(); ++k) {
-      const OptimizationResult& result = (*found)[k];
-      const bool has_point = result.gradient.size() > 0;
-      starts.push_back({points_[order_[k]], has_point ? result.rho : points_[order_[k]], objectives_[order_[k]],
-                        has_point ? result.objective : objectives_[order_[k]], result.status,
-                        result.evaluations > 0 ? result.termination : "not_started", result.evaluations, -1});
+      starts.push_back(describe(points_[order_[k]], objectives_[order_[k]], (*found)[k]));
       scaled.push_back(scaling_.to_scaled(starts.back().rho));
     }
     std::vector<Optimum> optima = cluster_optima(scaled, asked_.cluster, &starts);
@@ -131,6 +127,20 @@ class Multistart {
     take_study_start(&best);
     describe_scenarios(problem_, ensemble(), cancel_, &best);
     return best;
+  }
+
+  static StartResult describe(const Eigen::VectorXd& start, double objective, const OptimizationResult& result) {
+    if (result.evaluations == 0)
+      return {start, start, objective, objective, {StatusCode::kCancelled, 0.0, "cancelled before it began"}, "not_started", 0, -1};
+    const bool has_point = result.gradient.size() > 0;
+    return {start,
+            has_point ? result.rho : start,
+            objective,
+            has_point ? result.objective : objective,
+            result.status,
+            result.termination,
+            result.evaluations,
+            -1};
   }
 
   OptimizationResult choose(std::vector<OptimizationResult>* found) const {
