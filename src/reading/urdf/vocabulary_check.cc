@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "reading/urdf/annotation_rules.h"
+#include "reading/urdf/annotation_schema.h"
 #include "reading/urdf/twin.h"
 #include "reading/urdf/vocabulary.h"
 #include "reading/xml/xml_element.h"
