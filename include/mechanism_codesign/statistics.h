@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_STATISTICS_H_
 #define MECHANISM_CODESIGN_STATISTICS_H_
 
+#include <algorithm>
 #include <cstdint>
 
 namespace codesign {
@@ -13,6 +14,16 @@ struct Statistics {
   double constraint_drift =
       0.0;  ///< largest drift of positions and velocities after a step, d of theory (17a), in the scale of the error test [-]
   double energy_error = 0.0;  ///< largest error of the energy balance, e of theory (17a) [-]
+
+  /// Adds another run: steps and processor time add up, drift and energy error are the largest of both.
+  Statistics& operator+=(const Statistics& other) {
+    steps += other.steps;
+    rejected_steps += other.rejected_steps;
+    cpu_seconds += other.cpu_seconds;
+    constraint_drift = std::max(constraint_drift, other.constraint_drift);
+    energy_error = std::max(energy_error, other.energy_error);
+    return *this;
+  }
 };
 
 }  // namespace codesign

@@ -12,8 +12,8 @@ namespace {
 const char* name_of(CheckMethod method) { return method == CheckMethod::kComplexStep ? "complex_step" : "ridders"; }
 
 GradientCheck compute(const Arguments& arguments, const Problem& problem, const Console& console) {
-  Ensemble ensemble(problem);
-  if (arguments.verify) return check_gradient(&ensemble, problem.start(), arguments.method, &console.cancel);
+  const Ensemble ensemble(problem);
+  if (arguments.verify) return check_gradient(ensemble, problem.start(), arguments.method, &console.cancel);
   GradientCheck result;
   result.evaluation = ensemble.evaluate(problem.start(), true, &console.cancel).total;
   result.status = result.evaluation.status;

@@ -20,7 +20,7 @@ namespace codesign {
 
 struct Study;
 
-/// Points in the unit cube [0, 1)^d: pseudo-random, a Latin hypercube, or a scrambled Sobol sequence.
+/// Points in the open unit cube (0, 1)^d: pseudo-random, a Latin hypercube, or a scrambled Sobol sequence.
 enum class SamplerKind { kSobol, kLatinHypercube, kRandom };
 constexpr std::array<const char*, 3> kSamplerNames{"sobol", "latin_hypercube", "random"};
 
@@ -115,6 +115,8 @@ struct EnsembleDescription {
 
   /// Whether an evaluation of the objective consists of more than the study's own run.
   bool is_ensemble() const { return !runs.empty() || !uncertain.empty(); }
+  /// `robust`, or its defaults.
+  RobustOptions robust_options() const { return robust.value_or(RobustOptions{}); }
 };
 
 }  // namespace codesign

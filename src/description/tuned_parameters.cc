@@ -1,6 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "description/tuned_parameters.h"
 
+#include <cmath>
+
+#include "text/decimal.h"
+
 namespace codesign {
 
 std::vector<double> start_parameters(const Study& study) {
@@ -26,6 +30,19 @@ Eigen::VectorXd start_of(const Study& study) {
 void require_tuned(const Study& study) {
   if (study.tuned.empty())
     throw InputError({{study.file, 1}, "parameters", "the study tunes no parameter", "", "at least one parameter to tune"});
+}
+
+std::string range_of(const Parameter& parameter) { return "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"; }
+
+InputError tuned_error(const SourceLocation& where, const std::string& element, const std::string& name) {
+  return InputError({where, element, "this parameter is tuned, so its value is the search's", name, "a parameter that is not tuned"});
+}
+
+std::optional<InputFault> find_missing_bounds(const Parameter& parameter) {
+  if (std::isfinite(parameter.lower) && std::isfinite(parameter.upper)) return std::nullopt;
+  return InputFault{parameter.where, "parameter " + parameter.name,
+                    "multistart needs finite bounds of all tuned parameters, and this one has " + range_of(parameter), "",
+                    "lower and upper, both given"};
 }
 
 std::vector<std::string> tuned_names(const Study& study) {

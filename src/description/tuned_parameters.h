@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_DESCRIPTION_TUNED_PARAMETERS_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,15 @@ Eigen::VectorXd start_of(const Study& study);
 
 /// Checks that the study has something to tune. @throws InputError if not.
 void require_tuned(const Study& study);
+
+/// `[lower, upper]`, the bounds of a parameter as messages show them.
+std::string range_of(const Parameter& parameter);
+
+/// The error for a parameter that is tuned where only one that is not can stand. @param element the path of the place.
+InputError tuned_error(const SourceLocation& where, const std::string& element, const std::string& name);
+
+/// The fault of a tuned parameter without two finite bounds, between which many starts are drawn; std::nullopt if it has them.
+std::optional<InputFault> find_missing_bounds(const Parameter& parameter);
 
 /// Names of the tuned parameters, in the order of rho.
 std::vector<std::string> tuned_names(const Study& study);

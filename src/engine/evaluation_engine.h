@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_ENGINE_EVALUATION_ENGINE_H_
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -31,7 +32,7 @@ class EvaluationEngine {
 
 /// The engine that a study asks for by `engine:`. @param most_useful the largest number of evaluations that will wait at the same time;
 /// more workers are not made.
-std::unique_ptr<EvaluationEngine> make_engine(const EngineOptions& options, int most_useful);
+std::unique_ptr<EvaluationEngine> make_engine(const EngineOptions& options, std::int64_t most_useful);
 
 }  // namespace codesign
 

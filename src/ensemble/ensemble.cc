@@ -5,8 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "equations/compiled_system.h"
-#include "math/cpu_timer.h"
 #include "sampling/measure.h"
 #include "sensitivity/gradient_check.h"
 
@@ -19,15 +17,8 @@ Scenario own_run(std::shared_ptr<const CompiledSystem> system) {
   return scenario;
 }
 
-void add(const Statistics& statistics, Statistics* sum) {
-  sum->steps += statistics.steps;
-  sum->rejected_steps += statistics.rejected_steps;
-  sum->cpu_seconds += statistics.cpu_seconds;
-  sum->constraint_drift = std::max(sum->constraint_drift, statistics.constraint_drift);
-  sum->energy_error = std::max(sum->energy_error, statistics.energy_error);
-}
-
-void add_new(const Warnings& warnings, Warnings* all) {
+/// Adds the warnings whose code is new: scenarios differ in the numbers of their messages.
+void add_new_codes(const Warnings& warnings, Warnings* all) {
   for (const Warning& warning : warnings)
     if (std::none_of(all->begin(), all->end(), [&warning](const Warning& known) { return known.code == warning.code; }))
       all->push_back(warning);
@@ -45,19 +36,23 @@ Ensemble::Ensemble(std::vector<Scenario> scenarios, const RobustOptions& options
   for (std::size_t k = 0; k < scenarios_.size(); ++k) weights_[static_cast<Eigen::Index>(k)] = scenarios_[k].weight;
 }
 
-Ensemble::Ensemble(const Problem& problem)
-    : Ensemble(make_scenarios(problem), problem.study().ensemble.robust.value_or(RobustOptions{}), nullptr) {
-  engine_ = make_engine(problem.study().ensemble.engine, static_cast<int>(scenarios_.size()));
+Ensemble::Ensemble(const Problem& problem, int designs)
+    : Ensemble(make_scenarios(problem), problem.study().ensemble.robust_options(), nullptr) {
+  engine_ = make_engine(problem.study().ensemble.engine, designs * static_cast<std::int64_t>(scenarios_.size()));
 }
 
 Ensemble::Ensemble(std::shared_ptr<const CompiledSystem> system)
     : Ensemble({own_run(std::move(system))}, RobustOptions{}, make_engine({EngineKind::kSerial, 0}, 1)) {}
 
-EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel) {
+std::vector<EvaluationTask> tasks_at(const std::vector<Scenario>& scenarios, const Eigen::VectorXd& rho, bool with_gradient) {
   std::vector<EvaluationTask> tasks;
-  tasks.reserve(scenarios_.size());
-  for (const Scenario& scenario : scenarios_) tasks.push_back({scenario.system, scenario.parameters(rho), with_gradient});
-  std::vector<Evaluation> members = engine_->evaluate(tasks, cancel);
+  tasks.reserve(scenarios.size());
+  for (const Scenario& scenario : scenarios) tasks.push_back({scenario.system, scenario.parameters(rho), with_gradient});
+  return tasks;
+}
+
+EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel) const {
+  std::vector<Evaluation> members = engine_->evaluate(tasks_at(scenarios_, rho, with_gradient), cancel);
   EnsembleEvaluation result;
   if (scenarios_.size() == 1) {
     result.total = std::move(members.front());
@@ -68,10 +63,10 @@ EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, bool with_grad
     return result;
   }
   for (const Evaluation& member : members) {
-    add(member.statistics, &result.total.statistics);
-    add_new(member.warnings, &result.total.warnings);
+    result.total.statistics += member.statistics;
+    add_new_codes(member.warnings, &result.total.warnings);
   }
-  if (!collect(&members, with_gradient, &result)) return result;
+  if (!collect(members, with_gradient, &result)) return result;
   const Measured measured = measure(options_, result.values, weights_);
   result.total.objective = measured.value;
   result.by_value = measured.by_value;
@@ -81,17 +76,17 @@ EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, bool with_grad
 }
 
 /// Gathers values and gradients; false if a scenario failed that must not, with its status.
-bool Ensemble::collect(std::vector<Evaluation>* members, bool with_gradient, EnsembleEvaluation* result) const {
+bool Ensemble::collect(const std::vector<Evaluation>& members, bool with_gradient, EnsembleEvaluation* result) const {
   std::vector<std::size_t> failed;
   const auto count = static_cast<Eigen::Index>(scenarios_.size());
   result->values.resize(count);
-  for (std::size_t k = 0; k < members->size(); ++k) {
-    const Evaluation& member = (*members)[k];
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    const Evaluation& member = members[k];
     const auto column = static_cast<Eigen::Index>(k);
     if (!member.status.ok()) {
-      if (options_.failed == FailedSamples::kRefuse || member.status.code == StatusCode::kCancelled) {
-        result->total.status = named(member.status, scenarios_[k]);
-        if (member.status.code == StatusCode::kCancelled) result->total.status = member.status;
+      const bool cancelled = member.status.code == StatusCode::kCancelled;
+      if (options_.failed == FailedSamples::kRefuse || cancelled) {
+        result->total.status = cancelled ? member.status : named(member.status, scenarios_[k]);
         result->values.resize(0);
         return false;
       }
@@ -103,7 +98,7 @@ bool Ensemble::collect(std::vector<Evaluation>* members, bool with_gradient, Ens
     if (result->gradients.size() == 0) result->gradients.setZero(member.gradient.size(), count);
     result->gradients.col(column) = member.gradient;
   }
-  return failed.empty() || fill_tail(failed, *members, result);
+  return failed.empty() || fill_tail(failed, members, result);
 }
 
 /// Gives failed scenarios value and gradient of the worst of the others. False if more than the tail failed.
@@ -131,17 +126,17 @@ bool Ensemble::fill_tail(const std::vector<std::size_t>& failed, const std::vect
   return true;
 }
 
-GradientCheck check_gradient(Ensemble* ensemble, const Eigen::VectorXd& rho, CheckMethod method, const std::atomic<bool>* cancel) {
-  EnsembleEvaluation all = ensemble->evaluate(rho, true, cancel);
+GradientCheck check_gradient(const Ensemble& ensemble, const Eigen::VectorXd& rho, CheckMethod method, const std::atomic<bool>* cancel) {
+  EnsembleEvaluation all = ensemble.evaluate(rho, true, cancel);
   GradientCheck check;
   check.evaluation = std::move(all.total);
   check.status = check.evaluation.status;
   if (!check.status.ok()) return check;
   check.reference.setZero(rho.size());
   check.reference_error.setZero(rho.size());
-  for (std::size_t k = 0; k < ensemble->scenarios().size(); ++k) {
+  for (std::size_t k = 0; k < ensemble.scenarios().size(); ++k) {
     const double factor = all.by_value[static_cast<Eigen::Index>(k)];
-    const Scenario& scenario = ensemble->scenarios()[k];
+    const Scenario& scenario = ensemble.scenarios()[k];
     if (factor == 0.0) continue;
     const GradientCheck one = check_design(scenario.system, scenario.parameters(rho), method, cancel);
     check.method = one.method;

@@ -21,25 +21,29 @@ struct EnsembleEvaluation {
   int failed = 0;             ///< scenarios that could not be integrated and count in the tail
 };
 
-/// Evaluates designs over scenarios: doc/theory.md gives the measures. Not thread-safe; several ensembles may share an engine.
+/// The evaluations of one design, one per scenario in their order.
+std::vector<EvaluationTask> tasks_at(const std::vector<Scenario>& scenarios, const Eigen::VectorXd& rho, bool with_gradient);
+
+/// Evaluates designs over scenarios: doc/theory.md (24a) gives the measures. Thread-safe: several searches may use one ensemble.
 class Ensemble {
  public:
-  /// @param engine does the evaluations. @param scenarios weights with sum 1.
+  /// @param scenarios weights with sum 1. @param engine does the evaluations.
   Ensemble(std::vector<Scenario> scenarios, const RobustOptions& options, std::shared_ptr<EvaluationEngine> engine);
   /// The scenarios of a problem, on an engine as its study asks for.
-  explicit Ensemble(const Problem& problem);
+  /// @param designs the largest number of designs that are evaluated at the same time.
+  explicit Ensemble(const Problem& problem, int designs = 1);
   /// The one run of a compiled study.
   explicit Ensemble(std::shared_ptr<const CompiledSystem> system);
 
-  EnsembleEvaluation evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel = nullptr);
+  EnsembleEvaluation evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel = nullptr) const;
 
   const std::vector<Scenario>& scenarios() const { return scenarios_; }
   const Eigen::VectorXd& weights() const { return weights_; }
   const RobustOptions& options() const { return options_; }
-  const std::shared_ptr<EvaluationEngine>& engine() const { return engine_; }
+  EvaluationEngine& engine() const { return *engine_; }
 
  private:
-  bool collect(std::vector<Evaluation>* members, bool with_gradient, EnsembleEvaluation* result) const;
+  bool collect(const std::vector<Evaluation>& members, bool with_gradient, EnsembleEvaluation* result) const;
   bool fill_tail(const std::vector<std::size_t>& failed, const std::vector<Evaluation>& members, EnsembleEvaluation* result) const;
 
   std::vector<Scenario> scenarios_;
@@ -50,7 +54,8 @@ class Ensemble {
 
 /// check_gradient() for the measure of an ensemble: the reference is the derivative of the measure by each scenario's psi, times the
 /// reference of that scenario's gradient. Scenarios on which the measure does not depend are not computed.
-GradientCheck check_gradient(Ensemble* ensemble, const Eigen::VectorXd& rho, CheckMethod method, const std::atomic<bool>* cancel = nullptr);
+GradientCheck check_gradient(const Ensemble& ensemble, const Eigen::VectorXd& rho, CheckMethod method,
+                             const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign
 

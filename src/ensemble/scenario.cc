@@ -37,12 +37,13 @@ std::vector<Scenario> combine(const Problem& problem, const std::vector<std::vec
   for (const RunDescription& run : runs) sum += run.weight;
   std::vector<Scenario> scenarios;
   const std::size_t count = std::max<std::size_t>(1, samples.size());
-  for (std::size_t r = 0; r < runs.size(); ++r)
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    Scenario run;
+    run.run = runs[r].name;
+    run.weight = runs[r].weight / sum / static_cast<double>(count);
+    for (const auto& [name, value] : runs[r].set) run.values.emplace_back(index_of(study, name), value);
     for (std::size_t s = 0; s < count; ++s) {
-      Scenario scenario;
-      scenario.run = runs[r].name;
-      scenario.weight = runs[r].weight / sum / static_cast<double>(count);
-      for (const auto& [name, value] : runs[r].set) scenario.values.emplace_back(index_of(study, name), value);
+      Scenario scenario = run;
       int law = -1;
       if (!samples.empty()) {
         scenario.sample = static_cast<int>(s);
@@ -51,6 +52,7 @@ std::vector<Scenario> combine(const Problem& problem, const std::vector<std::vec
       scenario.system = variant_of(problem, static_cast<int>(r), law);
       scenarios.push_back(std::move(scenario));
     }
+  }
   return scenarios;
 }
 
@@ -74,7 +76,7 @@ std::string Scenario::name() const {
 
 std::vector<Scenario> make_scenarios(const Problem& problem) {
   const EnsembleDescription& ensemble = problem.study().ensemble;
-  const RobustOptions options = ensemble.robust.value_or(RobustOptions{});
+  const RobustOptions options = ensemble.robust_options();
   // A single sample is the nominal one.
   if (ensemble.uncertain.empty() || options.samples == 1) return combine(problem, {});
   return combine(problem, draw(ensemble.uncertain, options.sampler, options.samples, options.seed));
@@ -82,7 +84,7 @@ std::vector<Scenario> make_scenarios(const Problem& problem) {
 
 std::vector<Scenario> make_validation_scenarios(const Problem& problem, int count) {
   const EnsembleDescription& ensemble = problem.study().ensemble;
-  const RobustOptions options = ensemble.robust.value_or(RobustOptions{});
+  const RobustOptions options = ensemble.robust_options();
   if (ensemble.uncertain.empty()) return combine(problem, {});
   return combine(problem, draw(ensemble.uncertain, options.sampler, count, options.seed + kFresh));
 }

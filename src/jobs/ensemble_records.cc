@@ -63,7 +63,7 @@ std::vector<std::string> ensemble_sentences(const Problem& problem, const Optimi
   std::vector<std::string> lines;
   const EnsembleDescription& asked = problem.study().ensemble;
   if (!result.scenarios.empty()) {
-    const RobustOptions options = asked.robust.value_or(RobustOptions{});
+    const RobustOptions options = asked.robust_options();
     lines.push_back(std::string("objective: ") + kRobustMeasureNames[static_cast<std::size_t>(options.measure)] + " over " +
                     std::to_string(result.scenarios.size()) + " scenarios");
   }

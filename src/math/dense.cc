@@ -27,10 +27,6 @@ unsigned options(SingularVectors vectors) {
 
 }  // namespace
 
-double default_threshold(const Eigen::MatrixXd& A) {
-  return Eigen::NumTraits<double>::epsilon() * static_cast<double>(std::min(A.rows(), A.cols()));
-}
-
 SingularValues singular_values(const Eigen::MatrixXd& A, SingularVectors vectors) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, options(vectors));
   SingularValues result;
@@ -68,7 +64,9 @@ LeastNorm& LeastNorm::operator=(LeastNorm&&) noexcept = default;
 Eigen::Index LeastNorm::rank() const { return implementation_->factors.rank(); }
 Eigen::MatrixXd LeastNorm::solve(const Eigen::MatrixXd& b) const { return implementation_->factors.solve(b); }
 
-LeastNorm least_norm(const Eigen::MatrixXd& A) { return {A, default_threshold(A)}; }
+LeastNorm least_norm(const Eigen::MatrixXd& A) {
+  return {A, Eigen::NumTraits<double>::epsilon() * static_cast<double>(std::min(A.rows(), A.cols()))};
+}
 
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A);

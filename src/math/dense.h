@@ -11,9 +11,6 @@ namespace codesign {
 // Decompositions of dense matrices, by Eigen. Eigen's templates take seconds to compile in each file that uses them; dense.cc compiles once
 // what is needed here. None of these functions belongs into a loop over steps: they allocate.
 
-/// The threshold below which Eigen counts a pivot, relative to the largest one, as zero by default.
-double default_threshold(const Eigen::MatrixXd& A);
-
 /// A = U diag(values) V^T, values in descending order; U and V are square and orthogonal.
 struct SingularValues {
   Eigen::VectorXd values;
@@ -52,7 +49,7 @@ class LeastNorm {
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
-/// The same with Eigen's default threshold.
+/// The same with Eigen's default threshold: the rounding of one number times the smaller dimension.
 LeastNorm least_norm(const Eigen::MatrixXd& A);
 
 /// Eigenvalues, ascending, and orthonormal eigenvectors (columns) of a symmetric matrix, of which the lower triangle is read.

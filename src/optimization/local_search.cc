@@ -20,7 +20,7 @@ constexpr double kSlopeLeft = 1e-2;  // a failed line search has converged if th
 /// One optimization: the state that NLopt's callbacks share.
 class Minimization {
  public:
-  Minimization(const Study& study, const OptimizerOptions& options, Ensemble* ensemble, const TrialObserver& observer,
+  Minimization(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble, const TrialObserver& observer,
                const std::atomic<bool>* cancel)
       : study_(study),
         options_(options),
@@ -28,7 +28,7 @@ class Minimization {
         cancel_(cancel),
         ensemble_(ensemble),
         scaling_(study),
-        slack_(ensemble->options(), ensemble->weights()) {}
+        slack_(ensemble.options(), ensemble.weights()) {}
 
   OptimizationResult run(const Eigen::VectorXd& start) {
     const auto dimension = static_cast<unsigned>(study_.tuned.size()) + static_cast<unsigned>(slack_.variables());
@@ -208,7 +208,7 @@ class Minimization {
   }
 
   void evaluate(const Eigen::VectorXd& rho) {
-    last_ = ensemble_->evaluate(rho, true, cancel_);
+    last_ = ensemble_.evaluate(rho, true, cancel_);
     if (last_.total.status.code == StatusCode::kCancelled) stop();
     last_rho_ = rho;
     const Trial trial = note(last_, rho);
@@ -249,11 +249,7 @@ class Minimization {
     trial.evaluation = ++result_.evaluations;
     trial.status = evaluation.status;
     trial.rho = rho;
-    result_.statistics.steps += evaluation.statistics.steps;
-    result_.statistics.rejected_steps += evaluation.statistics.rejected_steps;
-    result_.statistics.cpu_seconds += evaluation.statistics.cpu_seconds;
-    result_.statistics.constraint_drift = std::max(result_.statistics.constraint_drift, evaluation.statistics.constraint_drift);
-    result_.statistics.energy_error = std::max(result_.statistics.energy_error, evaluation.statistics.energy_error);
+    result_.statistics += evaluation.statistics;
     if (evaluation.status.ok()) {
       trial.objective = evaluation.objective;
       trial.gradient = evaluation.gradient;
@@ -295,7 +291,7 @@ class Minimization {
   const OptimizerOptions options_;
   const TrialObserver& observer_;
   const std::atomic<bool>* cancel_;
-  Ensemble* const ensemble_;
+  const Ensemble& ensemble_;
   Scaling scaling_;
   SlackForm slack_;
   Eigen::VectorXd last_rho_;
@@ -310,8 +306,8 @@ class Minimization {
 
 }  // namespace
 
-OptimizationResult search_locally(const Study& study, const OptimizerOptions& options, const Eigen::VectorXd& start, Ensemble* ensemble,
-                                  const TrialObserver& observer, const std::atomic<bool>* cancel) {
+OptimizationResult search_locally(const Study& study, const OptimizerOptions& options, const Eigen::VectorXd& start,
+                                  const Ensemble& ensemble, const TrialObserver& observer, const std::atomic<bool>* cancel) {
   return Minimization(study, options, ensemble, observer, cancel).run(start);
 }
 

@@ -10,8 +10,8 @@ namespace codesign {
 /// Minimizes the ensemble's measure from `start` with NLopt, within bounds and parameter constraints.
 /// @param study of the problem: parameters, bounds, constraints. @param start of rho.
 /// @throws InputError as optimize().
-OptimizationResult search_locally(const Study& study, const OptimizerOptions& options, const Eigen::VectorXd& start, Ensemble* ensemble,
-                                  const TrialObserver& observer, const std::atomic<bool>* cancel);
+OptimizationResult search_locally(const Study& study, const OptimizerOptions& options, const Eigen::VectorXd& start,
+                                  const Ensemble& ensemble, const TrialObserver& observer, const std::atomic<bool>* cancel);
 
 }  // namespace codesign
 

@@ -31,8 +31,7 @@ class Multistart {
         options_(options),
         cancel_(cancel),
         observer_(observer),
-        scenarios_(make_scenarios(problem)),
-        engine_(make_engine(study_.ensemble.engine, asked_.screen * static_cast<int>(scenarios_.size()))),
+        ensemble_(problem, asked_.screen),
         scaling_(study_) {}
 
   OptimizationResult run() {
@@ -50,8 +49,6 @@ class Multistart {
   }
 
  private:
-  Ensemble ensemble() const { return {scenarios_, study_.ensemble.robust.value_or(RobustOptions{}), engine_}; }
-
   /// Draws points until `screen` of them are usable: each round replaces those that were not in the round before.
   void screen() {
     const int dimension = static_cast<int>(study_.tuned.size());
@@ -83,14 +80,12 @@ class Multistart {
   /// Evaluates points and keeps those that are usable.
   void evaluate(const std::vector<Eigen::VectorXd>& round) {
     std::vector<EnsembleEvaluation> results(round.size());
-    side_by_side(round.size(), engine_->workers(), [&](std::size_t k) {
-      if (all_met(constraint_margins(study_, parameters_at(study_, round[k])))) results[k] = ensemble().evaluate(round[k], false, cancel_);
+    side_by_side(round.size(), ensemble_.engine().workers(), [&](std::size_t k) {
+      if (all_met(constraint_margins(study_, parameters_at(study_, round[k])))) results[k] = ensemble_.evaluate(round[k], false, cancel_);
     });
     for (std::size_t k = 0; k < round.size(); ++k) {
       const Evaluation& total = results[k].total;
-      statistics_.steps += total.statistics.steps;
-      statistics_.rejected_steps += total.statistics.rejected_steps;
-      statistics_.cpu_seconds += total.statistics.cpu_seconds;
+      statistics_ += total.statistics;
       if (results[k].values.size() == 0) {
         ++unusable_;
         if (first_failure_.ok() && !total.status.ok()) first_failure_ = total.status;
@@ -103,10 +98,9 @@ class Multistart {
 
   std::vector<OptimizationResult> search() {
     std::vector<OptimizationResult> found(order_.size());
-    side_by_side(order_.size(), engine_->workers(), [&](std::size_t k) {
+    side_by_side(order_.size(), ensemble_.engine().workers(), [&](std::size_t k) {
       if (is_set(cancel_) || observer_.is_stopped()) return;
-      Ensemble own = ensemble();
-      found[k] = search_locally(study_, options_, points_[order_[k]], &own, observer_.of(static_cast<int>(k) + 1), cancel_);
+      found[k] = search_locally(study_, options_, points_[order_[k]], ensemble_, observer_.of(static_cast<int>(k) + 1), cancel_);
     });
     return found;
   }
@@ -125,7 +119,7 @@ class Multistart {
     best.optima = std::move(optima);
     add_sums(*found, &best);
     take_study_start(&best);
-    describe_scenarios(problem_, ensemble(), cancel_, &best);
+    describe_scenarios(problem_, ensemble_, cancel_, &best);
     return best;
   }
 
@@ -168,18 +162,14 @@ class Multistart {
     for (const OptimizationResult& result : found) {
       best->evaluations += result.evaluations;
       best->failed_evaluations += result.failed_evaluations;
-      best->statistics.steps += result.statistics.steps;
-      best->statistics.rejected_steps += result.statistics.rejected_steps;
-      best->statistics.cpu_seconds += result.statistics.cpu_seconds;
-      best->statistics.constraint_drift = std::max(best->statistics.constraint_drift, result.statistics.constraint_drift);
-      best->statistics.energy_error = std::max(best->statistics.energy_error, result.statistics.energy_error);
+      best->statistics += result.statistics;
     }
   }
 
   /// What a result says about the initial design is about the study's start, if that can be evaluated.
   void take_study_start(OptimizationResult* best) const {
     if (best->gradient.size() == 0 || is_set(cancel_)) return;
-    const EnsembleEvaluation start = ensemble().evaluate(problem_.start(), true, cancel_);
+    const EnsembleEvaluation start = ensemble_.evaluate(problem_.start(), true, cancel_);
     if (!start.total.status.ok()) return;
     best->initial_rho = problem_.start();
     best->initial_objective = start.total.objective;
@@ -193,8 +183,7 @@ class Multistart {
   const OptimizerOptions& options_;
   const std::atomic<bool>* cancel_;
   SharedObserver observer_;
-  const std::vector<Scenario> scenarios_;
-  const std::shared_ptr<EvaluationEngine> engine_;
+  const Ensemble ensemble_;
   const Scaling scaling_;
   std::vector<Eigen::VectorXd> points_;  // usable points in the order drawn, and their objectives
   std::vector<double> objectives_;

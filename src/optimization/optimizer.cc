@@ -12,8 +12,8 @@ OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system,
                             const TrialObserver& observer, const std::atomic<bool>* cancel) {
   const Study& study = system->study();
   require_tuned(study);
-  Ensemble ensemble(system);
-  return search_locally(study, options, start_of(study), &ensemble, observer, cancel);
+  const Ensemble ensemble(system);
+  return search_locally(study, options, start_of(study), ensemble, observer, cancel);
 }
 
 OptimizationResult optimize(const Problem& problem, const TrialObserver& observer, const std::atomic<bool>* cancel) {
@@ -24,8 +24,8 @@ OptimizationResult optimize(const Problem& problem, const OptimizerOptions& opti
                             const std::atomic<bool>* cancel) {
   require_tuned(problem.study());
   if (problem.study().ensemble.multistart.starts > 0) return search_from_many_starts(problem, options, observer, cancel);
-  Ensemble ensemble(problem);
-  OptimizationResult result = search_locally(problem.study(), options, problem.start(), &ensemble, observer, cancel);
+  const Ensemble ensemble(problem);
+  OptimizationResult result = search_locally(problem.study(), options, problem.start(), ensemble, observer, cancel);
   describe_scenarios(problem, ensemble, cancel, &result);
   return result;
 }

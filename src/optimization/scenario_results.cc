@@ -18,10 +18,7 @@ ScenarioResult describe(const Study& study, const Scenario& scenario, double ini
 Validation validate(const Problem& problem, const Ensemble& ensemble, const OptimizationResult& design, const std::atomic<bool>* cancel) {
   const RobustOptions& options = ensemble.options();
   const std::vector<Scenario> scenarios = make_validation_scenarios(problem, options.validate);
-  std::vector<EvaluationTask> tasks;
-  tasks.reserve(scenarios.size());
-  for (const Scenario& scenario : scenarios) tasks.push_back({scenario.system, scenario.parameters(design.rho), false});
-  const std::vector<Evaluation> members = ensemble.engine()->evaluate(tasks, cancel);
+  const std::vector<Evaluation> members = ensemble.engine().evaluate(tasks_at(scenarios, design.rho, false), cancel);
   Validation validation;
   validation.samples = options.validate;
   validation.promised = design.objective;

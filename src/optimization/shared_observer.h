@@ -2,7 +2,6 @@
 #ifndef MECHANISM_CODESIGN_OPTIMIZATION_SHARED_OBSERVER_H_
 #define MECHANISM_CODESIGN_OPTIMIZATION_SHARED_OBSERVER_H_
 
-#include <algorithm>
 #include <mutex>
 
 #include "mechanism_codesign/optimization.h"

@@ -21,8 +21,6 @@ namespace {
 
 constexpr const char* kSettings = "parameter settings";
 
-std::string range_of(const Parameter& parameter) { return "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"; }
-
 Parameter& find_parameter(Study* study, const std::string& name) {
   for (Parameter& parameter : study->parameters)
     if (parameter.name == name) return parameter;

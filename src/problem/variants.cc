@@ -2,10 +2,10 @@
 #include "problem/variants.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "assembly/make_system.h"
 #include "description/friction.h"
+#include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
 #include "problem/load_problem.h"
 
@@ -24,20 +24,9 @@ RobotDescription with_law(RobotDescription robot, FrictionModel model) {
   return robot;
 }
 
-void add_new(const Warnings& warnings, Warnings* all) {
-  for (const Warning& warning : warnings)
-    if (std::none_of(all->begin(), all->end(), [&warning](const Warning& known) { return known.message == warning.message; }))
-      all->push_back(warning);
-}
-
 bool is_tuned(const Study& study, const std::string& name) {
   return std::any_of(study.tuned.begin(), study.tuned.end(),
                      [&](int index) { return study.parameters[static_cast<std::size_t>(index)].name == name; });
-}
-
-[[noreturn]] void refuse_tuned(const SourceLocation& where, const std::string& block, const std::string& name) {
-  throw InputError(
-      {where, block + "." + name, "this parameter is tuned, so its value is the search's", name, "a parameter that is not tuned"});
 }
 
 }  // namespace
@@ -45,16 +34,13 @@ bool is_tuned(const Study& study, const std::string& name) {
 void require_compatible(const Study& study) {
   for (const RunDescription& run : study.ensemble.runs)
     for (const auto& [name, value] : run.set)
-      if (is_tuned(study, name)) refuse_tuned(run.where, "runs." + run.name + ".set", name);
+      if (is_tuned(study, name)) throw tuned_error(run.where, "runs." + run.name + ".set." + name, name);
   for (const UncertainQuantity& quantity : study.ensemble.uncertain)
-    if (quantity.parameter >= 0 && is_tuned(study, quantity.name)) refuse_tuned(quantity.where, "uncertain", quantity.name);
+    if (quantity.parameter >= 0 && is_tuned(study, quantity.name))
+      throw tuned_error(quantity.where, "uncertain." + quantity.name, quantity.name);
   if (study.ensemble.multistart.starts == 0) return;
-  for (int index : study.tuned) {
-    const Parameter& parameter = study.parameters[static_cast<std::size_t>(index)];
-    if (!std::isfinite(parameter.lower) || !std::isfinite(parameter.upper))
-      throw InputError(
-          {parameter.where, "parameters." + parameter.name, "many starts need bounds to start in", "", "a lower and an upper bound"});
-  }
+  for (int index : study.tuned)
+    if (const auto fault = find_missing_bounds(study.parameters[static_cast<std::size_t>(index)])) throw InputError(*fault);
 }
 
 int count_laws(const Study& study) {
@@ -74,7 +60,7 @@ std::vector<std::shared_ptr<const CompiledSystem>> make_variants(const RobotDesc
     variants.push_back(changed ? make_system(robot, *changed, &found) : own);
     for (std::size_t k = 0; law && k < law->laws.size(); ++k)
       variants.push_back(make_system(with_law(robot, friction_model(law->laws[k]).value()), changed ? *changed : study, &found));
-    add_new(found, warnings);
+    append(found, warnings);
   }
   return variants;
 }

@@ -21,13 +21,13 @@ CheckMethod method_of(const std::string& check) {
 void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& request, const std::atomic<bool>& cancel,
              mechanism_codesign::EvaluateResponse* reply) {
   const Eigen::VectorXd rho = design_of(problem, request);
+  const Ensemble ensemble(problem);
   GradientCheck check;
-  Ensemble ensemble(problem);
   if (request.check.empty()) {
     check.evaluation = ensemble.evaluate(rho, !request.objective_only, &cancel).total;
     check.status = check.evaluation.status;
   } else {
-    check = check_gradient(&ensemble, rho, method_of(request.check), &cancel);
+    check = check_gradient(ensemble, rho, method_of(request.check), &cancel);
   }
   set_status(check.status, reply);
   reply->parameters = problem.tuned_names();

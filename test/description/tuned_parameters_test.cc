@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace codesign {
 namespace {
 
@@ -27,6 +29,19 @@ TEST(TunedParameters, AreRequiredForASearch) {
   study.parameters.emplace_back();
   study.tuned = {0};
   EXPECT_NO_THROW(require_tuned(study));
+}
+
+TEST(TunedParameters, NeedTwoFiniteBoundsForManyStarts) {
+  Parameter parameter;
+  parameter.name = "rod";
+  parameter.lower = 0.2;
+  parameter.upper = 0.4;
+  EXPECT_EQ(range_of(parameter), "[0.2, 0.4]");
+  EXPECT_FALSE(find_missing_bounds(parameter));
+  parameter.upper = std::numeric_limits<double>::infinity();
+  const auto fault = find_missing_bounds(parameter);
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->element, "parameter rod");
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ TEST(Ensemble, GradientsOfAllMeasuresAgreeWithTheComplexStep) {
   for (const char* measure : {"mean", "worst", "cvar, level: 0.6", "mean_plus_deviation, factor: 2.0"}) {
     const Problem problem = block(std::string(kUncertain) + "robust: {samples: 6, measure: " + measure + "}\n");
     Ensemble ensemble(problem);
-    const GradientCheck check = check_gradient(&ensemble, problem.start(), CheckMethod::kComplexStep);
+    const GradientCheck check = check_gradient(ensemble, problem.start(), CheckMethod::kComplexStep);
     ASSERT_TRUE(check.status.ok()) << check.status.cause;
     EXPECT_GT(check.reference.norm(), 0.0);
     EXPECT_LT(check.largest_relative_difference, 1e-8) << measure;

@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/study/study_multistart.h"
 
-#include <cmath>
+#include <optional>
 
+#include "description/tuned_parameters.h"
 #include "reading/study/study_fields.h"
-#include "reading/study/study_values.h"
 
 namespace codesign {
 namespace {
@@ -13,12 +13,11 @@ constexpr int kMostStarts = 100000, kMostScreened = 10000000;
 
 /// The parameter as the study names it; the coefficients of a `basis` controller are declared elsewhere.
 void require_bounds(const YamlValue& study_value, const Parameter& parameter) {
-  if (std::isfinite(parameter.lower) && std::isfinite(parameter.upper)) return;
-  const std::string message = "multistart needs finite bounds of all tuned parameters, and this one has " + range_of(parameter);
-  constexpr const char* kAllowed = "lower and upper, both given";
+  const std::optional<InputFault> fault = find_missing_bounds(parameter);
+  if (!fault) return;
   const auto parameters = study_value.find("parameters");
-  if (const auto value = parameters ? parameters->find(parameter.name) : std::nullopt) value->fail(message, kAllowed);
-  throw InputError({parameter.where, "parameter " + parameter.name, message, "", kAllowed});
+  if (const auto value = parameters ? parameters->find(parameter.name) : std::nullopt) value->fail(fault->message, fault->allowed);
+  throw InputError(*fault);
 }
 
 }  // namespace

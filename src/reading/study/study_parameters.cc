@@ -5,6 +5,7 @@
 
 #include "description/expression.h"
 #include "description/parameter_constraint.h"
+#include "description/tuned_parameters.h"
 #include "reading/study/study_values.h"
 #include "text/nearest_name.h"
 

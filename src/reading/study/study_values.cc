@@ -5,8 +5,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "description/tuned_parameters.h"
 #include "mechanism/signal_catalog.h"
-#include "text/decimal.h"
 #include "text/unknown_name.h"
 
 namespace codesign {
@@ -18,8 +18,6 @@ std::vector<std::string> names_of(const std::vector<Parameter>& parameters) {
   return names;
 }
 
-std::string range_of(const Parameter& parameter) { return "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"; }
-
 int untuned_parameter(const std::string& name, const Study& study, const YamlValue& at, const std::vector<std::string>& others) {
   std::vector<std::string> allowed = others;
   const std::set<int> tuned(study.tuned.begin(), study.tuned.end());
@@ -27,9 +25,7 @@ int untuned_parameter(const std::string& name, const Study& study, const YamlVal
     const std::string& known = study.parameters[static_cast<std::size_t>(index)].name;
     const bool is_tuned = tuned.count(index) > 0;
     if (known == name && !is_tuned) return index;
-    if (known == name)
-      throw InputError(
-          {at.where(), at.path(), "this parameter is tuned, so its value is the search's", name, "a parameter that is not tuned"});
+    if (known == name) throw tuned_error(at.where(), at.path(), name);
     if (!is_tuned) allowed.push_back(known);
   }
   throw unknown_name(at.where(), at.path(), "parameter", name, allowed);

@@ -15,9 +15,6 @@ namespace codesign {
 /// The names of the parameters, in order.
 std::vector<std::string> names_of(const std::vector<Parameter>& parameters);
 
-/// `[lower, upper]`, the bounds of a parameter as messages show them.
-std::string range_of(const Parameter& parameter);
-
 /// The index of the parameter named `name`, which the study must not tune. @throws InputError, located at `at`.
 /// @param others names that may stand there, too, for the list of what is allowed.
 int untuned_parameter(const std::string& name, const Study& study, const YamlValue& at, const std::vector<std::string>& others = {});
