@@ -14,11 +14,20 @@
 
 namespace codesign {
 
+/// Numbers of the signals that constraints (`path:`, `final:`) and peaks read; doc/theory.md (21a). For each signal in turn: its values at
+/// fixed instants, then the largest value in each window between them, then the smallest.
+struct Extremes {
+  Eigen::VectorXd values;     ///< signal minus reference, in the unit of the signal
+  Eigen::VectorXd times;      ///< when it has that value [s]
+  Eigen::MatrixXd gradients;  ///< one column per value; empty if not asked for
+};
+
 /// The objective psi and its gradient by the tuned parameters at one design; doc/theory.md (21), (22).
 struct Evaluation {
   Status status;             ///< if not ok, objective and gradient are not valid
   double objective = 0.0;    ///< psi, in the units of the study's terms
   Eigen::VectorXd gradient;  ///< psi_rho, order of Problem::tuned_names(); empty if not asked for
+  Extremes extremes;         ///< empty if the study has neither constraints on signals nor peaks
   Statistics statistics;
   Warnings warnings;  ///< warnings of the run, as Simulation::warnings()
 };
@@ -58,7 +67,8 @@ struct GradientCheck {
   Evaluation evaluation;                           ///< objective and gradient g under check
   Eigen::VectorXd reference;                       ///< the reference gradient r
   Eigen::VectorXd reference_error;                 ///< error estimate of the reference; zero for the complex step
-  double largest_relative_difference = 0;          ///< max_k |g_k - r_k| / max(|r_k|, 1e-3 max_j |r_j|)
+  Eigen::MatrixXd extreme_reference;               ///< of Evaluation::extremes; kComplexStep only, else empty
+  double largest_relative_difference = 0;          ///< max_k |g_k - r_k| / max(|r_k|, 1e-3 max_j |r_j|), also over the extremes
 };
 
 /// Computes the gradient at `rho` and a reference for it. With `idas` the method is always kRidders, and its differences come from runs

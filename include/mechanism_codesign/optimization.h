@@ -64,9 +64,18 @@ struct Optimum {
   int found = 0;  ///< by how many searches
 };
 
+/// A signal that a constraint or a peak reads, over all scenarios; doc/theory.md (21a).
+struct WatchedResult {
+  std::string element, signal;                         ///< its place in the study, `path[0]`, and the signal as written
+  double initial_smallest = 0.0, initial_largest = 0;  ///< signal minus reference at `initial_rho`
+  double smallest = 0.0, largest = 0.0;                ///< at `rho`
+  double smallest_time = 0.0, largest_time = 0.0;      ///< [s]
+  double violation = 0.0;                              ///< of its bounds at `rho`; 0 if they are met, and for peaks
+};
+
 /// The best point of an optimization and how the search ended.
 struct OptimizationResult {
-  /// Ok; kCancelled; kAlgorithmFailed; kInfeasible if no point that meets the parameter constraints was found; or the status of the start
+  /// Ok; kCancelled; kAlgorithmFailed; kInfeasible if no point that meets the constraints was found; or the status of the start
   /// value if that could not be evaluated. Only in the last case the members below hold no point.
   Status status;
   std::string
@@ -80,10 +89,11 @@ struct OptimizationResult {
   int iterations = 0;
   int evaluations = 0;
   int failed_evaluations = 0;
-  Eigen::VectorXd margins;       ///< margins of the study's parameter constraints at `rho`; negative where violated
-  Statistics statistics;         ///< sums over all evaluations; drift and energy error are the largest of any evaluation
-  Warnings warnings;             ///< about the best point, and about the search: a parameter without influence or on its bound
-  std::vector<bool> influences;  ///< per tuned parameter: whether the objective depended on it at any trial point
+  Eigen::VectorXd margins;             ///< margins of the study's parameter constraints at `rho`; negative where violated
+  std::vector<WatchedResult> watched;  ///< signals with constraints, then peaks; empty without any
+  Statistics statistics;               ///< sums over all evaluations; drift and energy error are the largest of any evaluation
+  Warnings warnings;                   ///< about the best point, and about the search: a parameter without influence or on its bound
+  std::vector<bool> influences;        ///< per tuned parameter: whether the objective or a watched signal depended on it at any trial point
   // Of a study with runs or uncertain parameters, else empty: psi of each scenario at `initial_rho` and `rho`, and what they are.
   Eigen::VectorXd initial_values, values;
   std::vector<ScenarioResult> scenarios;

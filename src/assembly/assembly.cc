@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "assembly/given_start.h"
+#include "equations/derivative_products.h"
 #include "math/directions.h"
 
 namespace codesign {
@@ -308,6 +309,14 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
           "no accelerations and reactions satisfy the equations of motion with friction at the start"};
 }
 
+void Assembly::differentiate_rates(State<double>* rates) const {
+  VectorX<double> change;
+  rates->z.setZero(system_.layout().columns());
+  directional_derivative(system_, derivatives_, *rates, &change);
+  rates->z = -(change + derivatives_.time).head(rates->z.size());
+  matrix_.lu().solve(rates->z);
+}
+
 template <class T>
 void Assembly::correct(const Dependents& dependents, const VectorX<T>& rows, VectorX<T>* coordinates) const {
   const Eigen::MatrixXd step = dependents.solve(loops_.part_of(directions_of(rows)));
@@ -332,18 +341,24 @@ void Assembly::extend(const std::vector<T>& parameters, const State<double>& sta
   place_extended();
   correct(velocities_, Phi_rate, &rate);
   place_extended();
-  // First-order solution of G(z) = 0 with the factorization of the last Newton iteration of solve_rates().
+  extend_rates(start.z, equations, state);
+}
+
+// First-order solution of G(z) = 0 with the factorization of the last Newton iteration of solve_rates().
+template <class T>
+void Assembly::extend_rates(const VectorX<double>& z, Equations<T>* equations, State<T>* state) const {
   VectorX<T> G;
   T g(0.0);
-  state->z = start.z.template cast<T>();
+  state->z = z.template cast<T>();
   equations->residual(*state, &G, &g);
   Eigen::MatrixXd step = directions_of(G);
   for (auto column : step.colwise()) matrix_.lu().solve(column);
   add_directions(Eigen::MatrixXd(-step), &state->z);
 }
 
-#define CODESIGN_INSTANTIATE(T) \
-  template void Assembly::extend<T>(const std::vector<T>&, const State<double>&, Equations<T>*, State<T>*) const;
+#define CODESIGN_INSTANTIATE(T)                                                                                   \
+  template void Assembly::extend<T>(const std::vector<T>&, const State<double>&, Equations<T>*, State<T>*) const; \
+  template void Assembly::extend_rates<T>(const VectorX<double>&, Equations<T>*, State<T>*) const;
 CODESIGN_INSTANTIATE(std::complex<double>)
 CODESIGN_INSTANTIATE(Lanes<4>)
 CODESIGN_INSTANTIATE(Lanes<8>)

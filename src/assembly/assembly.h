@@ -60,6 +60,13 @@ class Assembly {
   const std::vector<std::size_t>& contradicting() const { return contradicting_; }
   /// Solves G(q, v, s; z) = 0 for state->z (accelerations, multipliers, rates of the extra states), starting from the present state->z.
   Status solve_rates(Equations<double>* equations, State<double>* state);
+  /// Sets state->z to the solution of the last solve_rates() with its exact first-order parts, which follow from those of the rest of
+  /// `state`. @param z that solution; the values of `state` must be the ones that it belongs to. @param equations must hold the design,
+  /// derivatives included.
+  template <class T>
+  void extend_rates(const VectorX<double>& z, Equations<T>* equations, State<T>* state) const;
+  /// The time derivative of state->z at the last solve_rates(), where q, v and s change as `rates` says [per s]; written to rates->z.
+  void differentiate_rates(State<double>* rates) const;
   /// Once `cancel` is set (by any thread), a running or later solve ends soon with kCancelled. nullptr: no cancellation.
   void obey(const std::atomic<bool>* cancel) { cancel_ = cancel; }
   /// The largest closure error of a loop or coupling at the last positions; after a failure, at the nearest positions that were tried.

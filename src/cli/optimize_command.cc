@@ -7,6 +7,7 @@
 #include "cli/report.h"
 #include "cli/table.h"
 #include "jobs/ensemble_records.h"
+#include "jobs/watched_records.h"
 #include "mechanism_codesign/optimization.h"
 #include "text/number_text.h"
 
@@ -54,6 +55,7 @@ void print_result(const Problem& problem, const OptimizationResult& result, std:
   print_design(problem, result, out);
   if (is_evaluated(problem, result))
     out << "objective " << readable(result.initial_objective) << " -> " << readable(result.objective) << '\n';
+  for (const std::string& sentence : watched_sentences(result)) out << sentence << '\n';
   for (const std::string& sentence : ensemble_sentences(problem, result)) out << sentence << '\n';
   out << result.termination << " after " << result.iterations << " iterations, " << result.evaluations << " evaluations ("
       << result.failed_evaluations << " failed), " << result.statistics.steps << " steps, " << readable(result.statistics.cpu_seconds)
@@ -86,6 +88,7 @@ Json result_json(const Problem& problem, const OptimizationResult& result) {
   object["failed_evaluations"] = result.failed_evaluations;
   object["termination"] = result.termination;
   add_statistics(result.statistics, &object);
+  add_watched(result, &object);
   add_ensemble(problem, result, &object);
   if (has_design(problem, result)) add_counts(problem, problem.parameters(result.rho), &object);
   return object;

@@ -37,8 +37,7 @@ void summarize(const RunSummary& run, double duration, double setup_seconds, std
 /// Adds the objective. It needs a run of its own with the quadrature, so it is computed only for output that shows it. If that run is
 /// cancelled, `status` becomes kCancelled.
 void add_objective(const Problem& problem, const Console& console, Status* status, Json* object) {
-  const bool has_objective = !problem.study().integral.empty() || !problem.study().terminal.empty();
-  if (!status->ok() || !has_objective) return;
+  if (!status->ok() || !has_objective(problem.study())) return;
   const Evaluation evaluation = Evaluator(problem.system()).evaluate(problem.start(), false, &console.cancel);
   if (evaluation.status.ok()) (*object)["objective"] = evaluation.objective;
   if (evaluation.status.code == StatusCode::kCancelled) *status = evaluation.status;

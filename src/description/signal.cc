@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "description/signal.h"
+
 #include <algorithm>
 #include <cctype>
 #include <set>
-
-#include "description/study.h"
 
 namespace codesign {
 namespace {

@@ -13,31 +13,14 @@
 #include "description/ensemble.h"
 #include "description/quantity.h"
 #include "description/reference.h"
+#include "description/signal.h"
 #include "description/solver_options.h"
+#include "description/watched_signal.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/optimizer_options.h"
 #include "mechanism_codesign/parameter.h"
 
 namespace codesign {
-
-/// One term of a signal: `+ crank_joint/velocity`, `- plate/position/x`.
-struct SignalTerm {
-  double factor = 1.0;    ///< +1 or -1
-  std::string object;     ///< name of a joint, loop, link or controller
-  std::string quantity;   ///< position, velocity, effort, friction, ...; the list is in doc/study.md
-  std::string component;  ///< x, y, z (of a link's orientation also w), or empty for scalar quantities
-};
-
-/// A sum or difference of named signals, see doc/study.md.
-struct SignalDescription {
-  std::string text;
-  std::vector<SignalTerm> terms;
-  SourceLocation where;
-};
-
-/// Splits `a/position/x - b/position/x` into terms. Names are not checked here; see check_signal().
-/// @throws InputError if the text does not have the form of a signal.
-SignalDescription parse_signal(const std::string& text, const SourceLocation& where, const std::string& element);
 
 /// The initial state of one joint; what is absent is found by the assembly, theory (19).
 struct InitialJointState {
@@ -137,6 +120,7 @@ struct Study {
   std::vector<int> tuned;               ///< indices of the tuned parameters; p of them
   std::vector<ObjectiveTerm> integral;  ///< terms of the integrand g; theory (21)
   std::vector<ObjectiveTerm> terminal;  ///< terms at the end of the study, w; theory (21)
+  std::vector<WatchedSignal> watched;   ///< constraints on signals and peaks in the objective; theory (21a)
   std::vector<ParameterConstraint> constraints;
   LimitOptions limits;
   SolverOptions solver;
@@ -144,6 +128,9 @@ struct Study {
   EnsembleDescription ensemble;
   std::string file;  ///< the file it was read from, for messages
 };
+
+/// Whether the objective has a term: an integral, a terminal one or a peak.
+bool has_objective(const Study& study);
 
 }  // namespace codesign
 

@@ -1,11 +1,17 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "description/tuned_parameters.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "text/decimal.h"
 
 namespace codesign {
+
+bool has_objective(const Study& study) {
+  const auto is_peak = [](const WatchedSignal& watched) { return watched.role == WatchedSignal::Role::kPeak; };
+  return !study.integral.empty() || !study.terminal.empty() || std::any_of(study.watched.begin(), study.watched.end(), is_peak);
+}
 
 std::vector<double> start_parameters(const Study& study) {
   std::vector<double> values;

@@ -37,6 +37,7 @@ struct Design {
   std::vector<PairRows<T>> rows;                    ///< constraint rows, one entry per pair of the topology
   std::vector<ControllerConstants<T>> controllers;  ///< order of Study::controllers
   ObjectiveNumbers<T> integral, terminal;           ///< the integrand g and the terminal terms w of theory (21)
+  std::vector<Reference<T>> watched;                ///< the references of Study::watched, theory (21a)
   std::vector<T> efforts;                           ///< one per entry of Study::loads [N or N m]; read for loads on joints
   std::vector<ConstantWrench<T>> wrenches;          ///< one per entry of System::link_loads()
   Vector3<T> gravity;                               ///< [m/s^2], in the root link's axes
@@ -88,6 +89,8 @@ void Design<T>::set(const System& system, const std::vector<T>& values) {
   };
   evaluate(study.integral, &integral);
   evaluate(study.terminal, &terminal);
+  watched.clear();
+  for (const WatchedSignal& signal : study.watched) watched.emplace_back(signal.reference, parameters);
 }
 
 }  // namespace codesign

@@ -23,6 +23,16 @@ T objective_terms(const StateView<T>& view, const std::vector<ResolvedTerm>& ter
   return sum;
 }
 
+/// Signal minus reference of the k-th watched signal, theory (21a). Appends its gradient if asked for, with the part by time that moving
+/// references bring in.
+template <class T>
+T watched_value(const StateView<T>& view, std::size_t k, OptionalGradient<T> gradient) {
+  const ReferenceMotion<T> reference = view.design.watched[k].at(view.state->t);
+  const T value = signal_value(view, view.system.watched()[k], T(1.0), gradient) - reference.value;
+  if (gradient) gradient->time -= reference.rate;
+  return value;
+}
+
 /// Adds the gradient of the integrand g to the row below those of G, Layout::columns().
 template <class T, class Sink>
 void assemble_objective(const StateView<T>& view, Workspace<T>* workspace, Sink* sink) {

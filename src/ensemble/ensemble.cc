@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "equations/compiled_system.h"
 #include "sampling/measure.h"
 #include "sensitivity/gradient_check.h"
 
@@ -60,6 +61,7 @@ EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, bool with_grad
     result.values = Eigen::VectorXd::Constant(1, result.total.objective);
     result.by_value = Eigen::VectorXd::Ones(1);
     if (with_gradient) result.gradients = result.total.gradient;
+    if (result.total.extremes.values.size() > 0) result.extremes = {result.total.extremes};
     return result;
   }
   for (const Evaluation& member : members) {
@@ -67,6 +69,8 @@ EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, bool with_grad
     add_new_codes(member.warnings, &result.total.warnings);
   }
   if (!collect(members, with_gradient, &result)) return result;
+  for (Evaluation& member : members)
+    if (member.extremes.values.size() > 0) result.extremes.push_back(std::move(member.extremes));
   const Measured measured = measure(options_, result.values, weights_);
   result.total.objective = measured.value;
   result.by_value = measured.by_value;
@@ -85,7 +89,9 @@ bool Ensemble::collect(const std::vector<Evaluation>& members, bool with_gradien
     const auto column = static_cast<Eigen::Index>(k);
     if (!member.status.ok()) {
       const bool cancelled = member.status.code == StatusCode::kCancelled;
-      if (options_.failed == FailedSamples::kRefuse || cancelled) {
+      // A sample that failed has no extreme values, which constraints need of every sample.
+      const bool is_constrained = !scenarios_[k].system->study().watched.empty();
+      if (options_.failed == FailedSamples::kRefuse || cancelled || is_constrained) {
         result->total.status = cancelled ? member.status : named(member.status, scenarios_[k]);
         result->values.resize(0);
         return false;
@@ -134,6 +140,7 @@ GradientCheck check_gradient(const Ensemble& ensemble, const Eigen::VectorXd& rh
   if (!check.status.ok()) return check;
   check.reference.setZero(rho.size());
   check.reference_error.setZero(rho.size());
+  double worst_of_one = 0.0;
   for (std::size_t k = 0; k < ensemble.scenarios().size(); ++k) {
     const double factor = all.by_value[static_cast<Eigen::Index>(k)];
     const Scenario& scenario = ensemble.scenarios()[k];
@@ -144,8 +151,11 @@ GradientCheck check_gradient(const Ensemble& ensemble, const Eigen::VectorXd& rh
     if (!check.status.ok()) return check;
     check.reference += factor * one.reference;
     check.reference_error += std::abs(factor) * one.reference_error;
+    worst_of_one = std::max(worst_of_one, one.largest_relative_difference);
   }
   compare(&check);
+  // The extremes of each scenario were compared with their own references.
+  check.largest_relative_difference = std::max(check.largest_relative_difference, worst_of_one);
   return check;
 }
 

@@ -16,9 +16,11 @@ struct EnsembleEvaluation {
   Evaluation total;
   Eigen::VectorXd values;     ///< psi of each scenario; empty if one failed and `total` is not ok
   Eigen::MatrixXd gradients;  ///< one column per scenario
-  Eigen::VectorXd by_value;   ///< derivative of the measure by psi of each scenario
-  double threshold = 0.0;     ///< of kCvar and kWorst: the value at risk
-  int failed = 0;             ///< scenarios that could not be integrated and count in the tail
+  /// The numbers of the watched signals of each scenario; empty without watched signals.
+  std::vector<Extremes> extremes;
+  Eigen::VectorXd by_value;  ///< derivative of the measure by psi of each scenario
+  double threshold = 0.0;    ///< of kCvar and kWorst: the value at risk
+  int failed = 0;            ///< scenarios that could not be integrated and count in the tail
 };
 
 /// The evaluations of one design, one per scenario in their order.

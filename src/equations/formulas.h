@@ -54,6 +54,8 @@ class Formulas {
 
   /// The sum w of the terminal terms of the objective, theory (21). @param gradient its gradient is appended, if not null; here and below.
   T terminal(const State<T>& state, SparseGradient<T>* gradient);
+  /// Signal minus reference of the k-th watched signal, theory (21a), in SI units.
+  T watched(std::size_t k, const State<T>& state, SparseGradient<T>* gradient = nullptr);
   /// The value of a signal at a state, in SI units.
   T signal(const Signal& signal, const State<T>& state, SparseGradient<T>* gradient = nullptr);
 

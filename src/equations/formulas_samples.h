@@ -16,6 +16,12 @@ T Formulas<T>::terminal(const State<T>& state, SparseGradient<T>* gradient) {
 }
 
 template <class T>
+T Formulas<T>::watched(std::size_t k, const State<T>& state, SparseGradient<T>* gradient) {
+  load(state);
+  return watched_value(view_, k, gradient);
+}
+
+template <class T>
 T Formulas<T>::signal(const Signal& signal, const State<T>& state, SparseGradient<T>* gradient) {
   load(state);
   return signal_value(view_, signal, T(1.0), gradient);

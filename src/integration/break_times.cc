@@ -16,6 +16,7 @@ BreakTimes::BreakTimes(const Study& study) : apart_(1e-12 * study.duration) {
     if (basis.count() > 0) times_.push_back(basis.duration);
   }
   for (const ObjectiveTerm& term : study.integral) add(term.reference);
+  for (const WatchedSignal& watched : study.watched) add(watched.reference);
   std::sort(times_.begin(), times_.end());
 }
 

@@ -16,6 +16,8 @@ class BreakTimes {
 
   /// The first break time after `t` if it is before `limit`, else `limit`; all in [s].
   double next(double t, double limit) const;
+  /// All break times [s], ascending.
+  const std::vector<double>& times() const { return times_; }
 
  private:
   void add(const ReferenceDescription& reference);

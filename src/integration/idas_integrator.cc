@@ -65,6 +65,8 @@ class IdasIntegrator::Implementation {
   Status advance(double limit);
   Status take_step(double limit);
   void interpolate(double time, State<double>* state, double* psi);
+  void interpolate_rates(double time, State<double>* rates);
+  void interpolate_sensitivities(double time, std::vector<State<double>>* directions);
   void sensitivity(int k, State<double>* direction) const { equations_.unpack(state_.t, y_rho_->span(k), y_dot_rho_->span(k), direction); }
 
   const State<double>& state() const { return state_; }
@@ -114,7 +116,7 @@ class IdasIntegrator::Implementation {
   IdasEquations equations_;
   Projection projection_;
   VectorHandle y_, y_dot_, dense_, dense_dot_, psi_;
-  std::unique_ptr<VectorArray> y_rho_, y_dot_rho_, psi_rho_;
+  std::unique_ptr<VectorArray> y_rho_, y_dot_rho_, psi_rho_, dense_rho_;
   IdaHandle ida_;
   IdasSensitivities* carried_ = nullptr;
   State<double> initial_, state_;
@@ -318,6 +320,23 @@ void IdasIntegrator::Implementation::count_steps() {
       before_restart_.rejected_steps + test_failures + solve_failures + sensitivity_failures + sensitivity_solve_failures;
 }
 
+void IdasIntegrator::Implementation::interpolate_rates(double time, State<double>* rates) {
+  require(IDAGetDky(ida_.get(), time, 1, dense_dot_.get()), "IDAGetDky");
+  equations_.unpack(time, span_of(dense_dot_.get()), span_of(dense_dot_.get()), rates);
+}
+
+void IdasIntegrator::Implementation::interpolate_sensitivities(double time, std::vector<State<double>>* directions) {
+  const int count = carried_->count();
+  directions->resize(static_cast<std::size_t>(count), state_);
+  const bool has_stepped = statistics_.steps > 0;
+  if (!dense_rho_) dense_rho_ = std::make_unique<VectorArray>(count, y_.get());
+  if (has_stepped) require(IDAGetSensDky(ida_.get(), time, 0, dense_rho_->get()), "IDAGetSensDky");
+  for (int k = 0; k < count; ++k) {
+    const Span<double> y = (has_stepped ? *dense_rho_ : *y_rho_).span(k);
+    equations_.unpack(time, y, y, &(*directions)[static_cast<std::size_t>(k)]);
+  }
+}
+
 void IdasIntegrator::Implementation::interpolate(double time, State<double>* state, double* psi) {
   *psi = this->psi();
   *state = state_;
@@ -346,12 +365,16 @@ Status IdasIntegrator::advance(double limit) {
 const State<double>& IdasIntegrator::state() const { return implementation_->state(); }
 double IdasIntegrator::psi() const { return implementation_->psi(); }
 void IdasIntegrator::interpolate(double time, State<double>* state, double* psi) { implementation_->interpolate(time, state, psi); }
+void IdasIntegrator::interpolate_rates(double time, State<double>* rates) { implementation_->interpolate_rates(time, rates); }
 Equations<double>& IdasIntegrator::equations() { return implementation_->equations(); }
 Assembly& IdasIntegrator::assembly() { return implementation_->assembly(); }
 void IdasIntegrator::watch_singularities(bool watch) { implementation_->watch_singularities(watch); }
 const Statistics& IdasIntegrator::statistics() const { return implementation_->statistics(); }
 Warnings IdasIntegrator::warnings() const { return implementation_->warnings(); }
 void IdasIntegrator::sensitivity(int k, State<double>* direction) const { implementation_->sensitivity(k, direction); }
+void IdasIntegrator::interpolate_sensitivities(double time, std::vector<State<double>>* directions) {
+  implementation_->interpolate_sensitivities(time, directions);
+}
 double IdasIntegrator::psi_sensitivity(int k) const { return implementation_->psi_sensitivity(k); }
 double IdasIntegrator::largest_drift() const { return implementation_->largest_drift(); }
 

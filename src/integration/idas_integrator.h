@@ -53,6 +53,7 @@ class IdasIntegrator final : public Integrator {
   const State<double>& state() const override;
   double psi() const override;
   void interpolate(double time, State<double>* state, double* psi) override;
+  void interpolate_rates(double time, State<double>* rates) override;
   Equations<double>& equations() override;
   Assembly& assembly() override;
   void watch_singularities(bool watch) override;
@@ -61,6 +62,8 @@ class IdasIntegrator final : public Integrator {
 
   /// (q, v, s, z)_rho of tuned parameter k at the end of the last step.
   void sensitivity(int k, State<double>* direction) const;
+  /// (q, v, s)_rho of all tuned parameters at `time` [s] within the last step, by the dense output; z is not set to anything useful.
+  void interpolate_sensitivities(double time, std::vector<State<double>>* directions);
   /// Derivative of psi() by tuned parameter k.
   double psi_sensitivity(int k) const;
   /// Largest entry of |Phi(q)| at the end of a step since start().

@@ -61,6 +61,10 @@ void RosenbrockIntegrator::interpolate(double time, State<double>* state, double
   state->t = time;
 }
 
+void RosenbrockIntegrator::interpolate_rates(double time, State<double>* rates) {
+  step_.interpolate_rates((time - step_.previous().t) / step_.step_size(), rates);
+}
+
 Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_accept) {
   const double t = step_.state().t;
   const double smallest = 16.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), 1e-3 * system_.study().duration);

@@ -25,6 +25,7 @@ class RosenbrockIntegrator final : public Integrator {
   const State<double>& state() const override { return step_.state(); }
   double psi() const override { return step_.psi(); }
   void interpolate(double time, State<double>* state, double* psi) override;
+  void interpolate_rates(double time, State<double>* rates) override;
   Equations<double>& equations() override { return step_.equations(); }
   Assembly& assembly() override { return assembly_; }
   void watch_singularities(bool watch) override { watch_singularities_ = watch; }

@@ -156,16 +156,23 @@ void RosenbrockStep<T>::interpolate(double theta, State<T>* state, T* psi) const
   blend(previous_.s, state_.s, &state->s);
   blend(previous_.z, state_.z, &state->z);
   *psi = left * previous_psi_ + right * psi_;
-  RosenbrockTableau::Row weights;
-  for (std::size_t j = 0; j < increments_.size(); ++j) {
-    double weight = 0.0;
-    for (int k = tableau_.dense_terms - 1; k >= 0; --k) weight = weight * theta + tableau_.dense[static_cast<std::size_t>(k)][j];
-    weight *= theta * (1.0 - theta);
-    weights[j] = weight;
-    *psi += T(weight) * increments_[j][at_.psi()];
-  }
+  const RosenbrockTableau::Row weights = dense_weights(tableau_, theta);
+  for (std::size_t j = 0; j < increments_.size(); ++j) *psi += T(weights[j]) * increments_[j][at_.psi()];
   combine(at_, *state, In<double>(weights).first(tableau_.stages), increments_, state);
   state->t = previous_.t + theta * h_;
+}
+
+template <class T>
+void RosenbrockStep<T>::interpolate_rates(double theta, State<T>* rates) const {
+  const T per_time(1.0 / h_);
+  RosenbrockTableau::Row weights = dense_weight_slopes(tableau_, theta);
+  for (double& weight : weights) weight /= h_;
+  rates->t = previous_.t + theta * h_;
+  rates->q = per_time * (state_.q - previous_.q);
+  rates->v = per_time * (state_.v - previous_.v);
+  rates->s = per_time * (state_.s - previous_.s);
+  rates->z = per_time * (state_.z - previous_.z);
+  combine(at_, *rates, In<double>(weights).first(tableau_.stages), increments_, rates);
 }
 
 template class RosenbrockStep<double>;

@@ -64,6 +64,8 @@ class RosenbrockStep {
 
   /// State and psi at previous().t + theta h by the method's dense output, 0 <= theta <= 1.
   void interpolate(double theta, State<T>* state, T* psi) const;
+  /// The derivative by time of that output: the parts q, v and s of `rates` [per s].
+  void interpolate_rates(double theta, State<T>* rates) const;
 
  private:
   void stage_start(std::size_t i);

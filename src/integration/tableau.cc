@@ -103,6 +103,29 @@ const RosenbrockTableau& rodas5p() {
   return tableau;
 }
 
+RosenbrockTableau::Row dense_weights(const RosenbrockTableau& tableau, double theta) {
+  RosenbrockTableau::Row weights{};
+  for (std::size_t j = 0; j < static_cast<std::size_t>(tableau.stages); ++j) {
+    double sum = 0.0;
+    for (int k = tableau.dense_terms - 1; k >= 0; --k) sum = sum * theta + tableau.dense[static_cast<std::size_t>(k)][j];
+    weights[j] = sum * (theta * (1.0 - theta));
+  }
+  return weights;
+}
+
+RosenbrockTableau::Row dense_weight_slopes(const RosenbrockTableau& tableau, double theta) {
+  RosenbrockTableau::Row slopes{};
+  for (std::size_t j = 0; j < static_cast<std::size_t>(tableau.stages); ++j) {
+    double sum = 0.0, slope = 0.0;
+    for (int k = tableau.dense_terms - 1; k >= 0; --k) {
+      slope = slope * theta + sum;
+      sum = sum * theta + tableau.dense[static_cast<std::size_t>(k)][j];
+    }
+    slopes[j] = slope * (theta * (1.0 - theta)) + sum * (1.0 - 2.0 * theta);
+  }
+  return slopes;
+}
+
 const RosenbrockTableau& rosenbrock_tableau(RosenbrockMethod method) {
   switch (method) {
     case RosenbrockMethod::kRodas4P2:

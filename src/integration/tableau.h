@@ -34,6 +34,11 @@ const RosenbrockTableau& rodas4p2();
 /// Rodas5P (Steinebach 2023), order 5, 8 stages.
 const RosenbrockTableau& rodas5p();
 
+/// The factor theta (1 - theta) sum_k d_kj theta^k of each u_j in the dense output, 0 <= theta <= 1.
+RosenbrockTableau::Row dense_weights(const RosenbrockTableau& tableau, double theta);
+/// Their derivatives by theta.
+RosenbrockTableau::Row dense_weight_slopes(const RosenbrockTableau& tableau, double theta);
+
 /// The coefficients of the method that solver.method selects.
 const RosenbrockTableau& rosenbrock_tableau(RosenbrockMethod method);
 

@@ -168,6 +168,7 @@ std::vector<SignalDescription> signals_of(const Study& study) {
   };
   for (const std::vector<ObjectiveTerm>* terms : {&study.integral, &study.terminal})
     for (const ObjectiveTerm& term : *terms) add(term.signal);
+  for (const WatchedSignal& watched : study.watched) add(watched.signal);
   for (const ControllerDescription& controller : study.controllers) {
     add(controller.input);
     for (const FeedbackTerm& term : controller.feedback) add(term.signal);

@@ -28,7 +28,7 @@ void check_signal(const SignalDescription& signal, const RobotDescription& robot
 /// every joint with friction; the output of each controller.
 std::vector<std::string> default_signals(const RobotDescription& robot, const std::vector<ControllerDescription>& controllers);
 
-/// The signals that a study uses, each once: those of its objective, then those of its controllers.
+/// The signals that a study uses, each once: those of its objective and of its constraints, then those of its controllers.
 std::vector<SignalDescription> signals_of(const Study& study);
 
 }  // namespace codesign

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "optimization/algorithm.h"
 
+#include <algorithm>
 #include <map>
 
 #include "text/decimal.h"
@@ -10,24 +11,41 @@ namespace {
 
 struct Algorithm {
   nlopt::algorithm id;
-  bool takes_constraints;
+  bool takes_constraints, takes_equalities;
 };
 
 const std::map<std::string, Algorithm>& algorithms() {
   static const std::map<std::string, Algorithm> table{
-      {"lbfgs", {nlopt::LD_LBFGS, false}},   {"var1", {nlopt::LD_VAR1, false}},
-      {"var2", {nlopt::LD_VAR2, false}},     {"tnewton", {nlopt::LD_TNEWTON_PRECOND_RESTART, false}},
-      {"mma", {nlopt::LD_MMA, true}},        {"ccsaq", {nlopt::LD_CCSAQ, true}},
-      {"slsqp", {nlopt::LD_SLSQP, true}},    {"cobyla", {nlopt::LN_COBYLA, true}},
-      {"bobyqa", {nlopt::LN_BOBYQA, false}}, {"auglag_lbfgs", {nlopt::LD_AUGLAG, true}}};
+      {"lbfgs", {nlopt::LD_LBFGS, false, false}},   {"var1", {nlopt::LD_VAR1, false, false}},
+      {"var2", {nlopt::LD_VAR2, false, false}},     {"tnewton", {nlopt::LD_TNEWTON_PRECOND_RESTART, false, false}},
+      {"mma", {nlopt::LD_MMA, true, false}},        {"ccsaq", {nlopt::LD_CCSAQ, true, false}},
+      {"slsqp", {nlopt::LD_SLSQP, true, true}},     {"cobyla", {nlopt::LN_COBYLA, true, true}},
+      {"bobyqa", {nlopt::LN_BOBYQA, false, false}}, {"auglag_lbfgs", {nlopt::LD_AUGLAG, true, true}}};
   return table;
 }
 
-std::string names(bool constrained) {
+template <class Predicate>
+std::string names(const Predicate& is_listed) {
   std::string list;
   for (const auto& [name, algorithm] : algorithms())
-    if (!constrained || algorithm.takes_constraints) list += (list.empty() ? "" : ", ") + name;
+    if (is_listed(algorithm)) list += (list.empty() ? "" : ", ") + name;
   return list;
+}
+
+/// Checks that the algorithm takes the constraints of the study. @param with_slack whether the robust measure adds constraints.
+void check_constraints(const Study& study, const Algorithm& algorithm, bool with_slack, InputFault fault) {
+  const auto refuse = [&fault](const char* message, bool equalities) {
+    fault.message = message;
+    fault.allowed = names([equalities](const Algorithm& other) { return equalities ? other.takes_equalities : other.takes_constraints; });
+    throw InputError(fault);
+  };
+  if (!algorithm.takes_constraints) {
+    if (!study.constraints.empty()) refuse("this algorithm takes no constraints on parameters", false);
+    if (!study.watched.empty()) refuse("this algorithm takes no constraints, which path, final and objective.peak need", false);
+    if (with_slack) refuse("this algorithm takes no constraints, which robust.measure worst and cvar are solved by", false);
+  }
+  if (!algorithm.takes_equalities && std::any_of(study.watched.begin(), study.watched.end(), is_equality))
+    refuse("this algorithm takes no equality constraints, such as final with equal bounds", true);
 }
 
 }  // namespace
@@ -40,12 +58,9 @@ nlopt::opt make_optimizer(const Study& study, const OptimizerOptions& options, u
   const auto found = algorithms().find(options.algorithm);
   const SourceLocation where = where_of(options, study);
   const InputFault fault{where, "optimizer.algorithm", "", options.algorithm, ""};
-  if (found == algorithms().end()) throw InputError({fault.where, fault.element, "no such algorithm", fault.value, names(false)});
-  if (!study.constraints.empty() && !found->second.takes_constraints)
-    throw InputError({fault.where, fault.element, "this algorithm takes no constraints on parameters", fault.value, names(true)});
-  if (with_slack && !found->second.takes_constraints)
-    throw InputError({fault.where, fault.element, "this algorithm takes no constraints, which robust.measure worst and cvar are solved by",
-                      fault.value, names(true)});
+  if (found == algorithms().end())
+    throw InputError({fault.where, fault.element, "no such algorithm", fault.value, names([](const Algorithm&) { return true; })});
+  check_constraints(study, found->second, with_slack, fault);
   // Checked here because the tolerance may also come from a request of a ROS client. Smaller ones are below rounding.
   constexpr double kLeast = 1e-15;
   if (!(options.relative_tolerance >= kLeast && options.relative_tolerance < 1.0))

@@ -7,32 +7,40 @@
 
 #include "description/tuned_parameters.h"
 #include "optimization/algorithm.h"
+#include "optimization/program.h"
 #include "optimization/scaling.h"
 #include "optimization/search_warnings.h"
-#include "optimization/slack_form.h"
 #include "problem/margins.h"
+#include "text/decimal.h"
 
 namespace codesign {
 namespace {
 
+constexpr double kRowTolerance = 1e-9;   // violation of a constraint row that NLopt accepts, in the unit of the row
+constexpr double kMostViolation = 1e-8;  // violation of a bound on a signal that counts as met, in the unit of the signal
 constexpr double kSlopeLeft = 1e-2;  // a failed line search has converged if the scaled gradient fell below this fraction of the first one
+
+/// A sentence that lists the violated bounds of signals, for the status.
+std::string describe_violated(const std::vector<WatchedResult>& watched) {
+  std::string list;
+  for (const WatchedResult& result : watched) {
+    if (!(result.violation > kMostViolation)) continue;
+    list += (list.empty() ? "" : "; ") + result.element + " (" + result.signal + ") goes from " + to_decimal(result.smallest) + " to " +
+            to_decimal(result.largest) + ", beyond its bounds by " + to_decimal(result.violation);
+  }
+  return "no point was found that keeps the bounds of all signals: " + list;
+}
 
 /// One optimization: the state that NLopt's callbacks share.
 class Minimization {
  public:
   Minimization(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble, const TrialObserver& observer,
                const std::atomic<bool>* cancel)
-      : study_(study),
-        options_(options),
-        observer_(observer),
-        cancel_(cancel),
-        ensemble_(ensemble),
-        scaling_(study),
-        slack_(ensemble.options(), ensemble.weights()) {}
+      : study_(study), options_(options), observer_(observer), cancel_(cancel), ensemble_(ensemble), scaling_(study), program_(ensemble) {}
 
   OptimizationResult run(const Eigen::VectorXd& start) {
-    const auto dimension = static_cast<unsigned>(study_.tuned.size()) + static_cast<unsigned>(slack_.variables());
-    nlopt::opt optimizer = make_optimizer(study_, options_, dimension, slack_.constraints() > 0);
+    const auto dimension = static_cast<unsigned>(study_.tuned.size()) + static_cast<unsigned>(program_.slacks());
+    nlopt::opt optimizer = make_optimizer(study_, options_, dimension, program_.has_robust_slack());
     configure(&optimizer);
     result_.initial_rho = result_.rho = start;
     result_.influences.assign(study_.tuned.size(), false);
@@ -51,8 +59,8 @@ class Minimization {
 
   void configure(nlopt::opt* optimizer) {
     std::vector<double> lower = scaling_.lower(), upper = scaling_.upper();
-    for (int k = 0; k < slack_.variables(); ++k) {
-      lower.push_back(slack_.lower(k));
+    for (int k = 0; k < program_.slacks(); ++k) {
+      lower.push_back(program_.lower(k));
       upper.push_back(std::numeric_limits<double>::infinity());
     }
     optimizer->set_lower_bounds(lower);
@@ -65,17 +73,18 @@ class Minimization {
       constraints_.push_back({this, &constraint});
       optimizer->add_inequality_constraint(&Minimization::constraint_callback, &constraints_.back(), 1e-9);
     }
-    if (slack_.constraints() > 0)
-      optimizer->add_inequality_mconstraint(&Minimization::slack_callback, this,
-                                            std::vector<double>(static_cast<std::size_t>(slack_.constraints()), 1e-9));
+    const auto tolerances = [](int rows) { return std::vector<double>(static_cast<std::size_t>(rows), kRowTolerance); };
+    if (program_.inequalities() > 0)
+      optimizer->add_inequality_mconstraint(&Minimization::inequality_callback, this, tolerances(program_.inequalities()));
+    if (program_.equalities() > 0)
+      optimizer->add_equality_mconstraint(&Minimization::equality_callback, this, tolerances(program_.equalities()));
   }
 
-  /// The slack variables at the start, in the unit of the scaled objective.
+  /// Appends the slack variables at the start.
   void add_slack(std::vector<double>* x) {
-    if (slack_.variables() == 0) return;
+    if (program_.slacks() == 0) return;
     evaluate(result_.initial_rho);
-    Eigen::VectorXd y = Eigen::VectorXd::Zero(slack_.variables());
-    if (last_.total.status.ok()) y = slack_.start(last_.values, last_.threshold) / unit_;
+    const Eigen::VectorXd y = program_.start(last_, unit_);
     x->insert(x->end(), y.begin(), y.end());
   }
 
@@ -97,6 +106,7 @@ class Minimization {
   /// Sets the status and the termination, with the margins and warnings of the best point.
   void conclude() {
     result_.margins = constraint_margins(study_, parameters_at(study_, result_.rho));
+    result_.watched = program_.describe(best_extremes_, initial_extremes_, result_.rho);
     if (have_best_) append(search_warnings(study_, options_, result_), &result_.warnings);
     result_.status = {StatusCode::kSuccess, study_.duration, ""};
     if (cancelled_) {
@@ -109,8 +119,9 @@ class Minimization {
       result_.status = {StatusCode::kAlgorithmFailed, study_.duration,
                         "the algorithm \"" + options_.algorithm + "\" failed (" + failure_ +
                             "); the best point so far is kept; try another algorithm or another start"};
-    } else if (!all_met(result_.margins)) {
-      result_.status = {StatusCode::kInfeasible, study_.duration, describe_unmet(study_, result_.margins)};
+    } else if (!best_feasible_) {
+      result_.status = {StatusCode::kInfeasible, study_.duration,
+                        all_met(result_.margins) ? describe_violated(result_.watched) : describe_unmet(study_, result_.margins)};
     }
   }
 
@@ -121,6 +132,7 @@ class Minimization {
     if (!last_.total.status.ok() || difference > options_.relative_tolerance * std::abs(result_.objective)) return false;
     const Eigen::VectorXd margins = constraint_margins(study_, parameters_at(study_, result_.rho));
     if ((margins.array() < 1e-6).any()) return all_met(margins);
+    if (program_.has_signals()) return best_feasible_;
     const double start = scaling_.gradient_norm(result_.initial_gradient);
     return scaling_.free_gradient_norm(result_.rho, result_.gradient) <= kSlopeLeft * start;
   }
@@ -148,25 +160,40 @@ class Minimization {
     return 1.0 + distance_from_best(x, 1.0, gradient);
   }
 
-  // psi_i - t - z_i <= 0, in units of the scaled objective.
-  static void slack_callback(unsigned count, double* values, unsigned size, const double* x, double* gradient, void* self) {
-    static_cast<Minimization*>(self)->slack_constraints(static_cast<int>(count), values, {x, x + size}, gradient);
+  static void inequality_callback(unsigned count, double* values, unsigned size, const double* x, double* gradient, void* self) {
+    auto* owner = static_cast<Minimization*>(self);
+    const std::vector<double> at(x, x + size);
+    owner->fill_rows(count, values, at, gradient, [&](int row) { return owner->program_.inequality(row, owner->slack(at)); });
+  }
+  static void equality_callback(unsigned count, double* values, unsigned size, const double* x, double* gradient, void* self) {
+    auto* owner = static_cast<Minimization*>(self);
+    owner->fill_rows(count, values, {x, x + size}, gradient, [&](int row) { return owner->program_.equality(row); });
   }
 
-  void slack_constraints(int count, double* values, const std::vector<double>& x, double* gradient) {
+  /// Values and gradients of constraint rows by NLopt's variables. At a point that cannot be evaluated all are violated, (24).
+  template <class RowOf>
+  void fill_rows(unsigned count, double* values, const std::vector<double>& x, double* gradient, const RowOf& row_of) {
     evaluate_at(x);
     const bool usable = last_.total.status.ok();
     std::vector<double> back(gradient ? x.size() : 0, 0.0);
     const double refused = usable ? 0.0 : step_back(x, &back);
-    const Eigen::VectorXd y = slack(x);
-    for (int i = 0; i < count; ++i) {
-      values[i] = slack_.constraint(i, usable ? last_.values[i] / unit_ : refused, y);
-      if (!gradient) continue;
-      double* const row = gradient + static_cast<std::size_t>(i) * x.size();
-      const std::vector<double> by_x = usable ? scaling_.scale_gradient(last_.gradients.col(i)) : back;
-      for (std::size_t k = 0; k < study_.tuned.size(); ++k) row[k] = usable ? by_x[k] / unit_ : by_x[k];
-      for (int k = 0; k < slack_.variables(); ++k) row[study_.tuned.size() + static_cast<std::size_t>(k)] = slack_.by_slack(i, k);
+    for (unsigned i = 0; i < count; ++i) {
+      double* const by_x = gradient ? gradient + std::size_t{i} * x.size() : nullptr;
+      if (!usable) {
+        values[i] = refused;
+        if (by_x) std::copy(back.begin(), back.end(), by_x);
+        continue;
+      }
+      const Program::Value row = row_of(static_cast<int>(i));
+      values[i] = row.value;
+      if (by_x) spread(row, by_x);
     }
+  }
+
+  /// The derivatives by NLopt's variables.
+  void spread(const Program::Value& value, double* by_x) const {
+    const std::vector<double> scaled = scaling_.scale_gradient(value.by_rho);
+    std::copy(value.by_slack.begin(), value.by_slack.end(), std::copy(scaled.begin(), scaled.end(), by_x));
   }
 
   /// The tuned parameters of NLopt's variables, which the slack variables follow.
@@ -174,29 +201,24 @@ class Minimization {
     return scaling_.from_scaled({x.begin(), x.begin() + static_cast<std::ptrdiff_t>(study_.tuned.size())});
   }
   Eigen::VectorXd slack(const std::vector<double>& x) const {
-    return Eigen::Map<const Eigen::VectorXd>(x.data() + study_.tuned.size(), slack_.variables());
+    return Eigen::Map<const Eigen::VectorXd>(x.data() + study_.tuned.size(), program_.slacks());
   }
 
   double objective(const std::vector<double>& x, std::vector<double>* gradient) {
     evaluate_at(x);
     const Evaluation& evaluation = last_.total;
     if (evaluation.status.ok()) worst_ = std::max(worst_, evaluation.objective);
-    if (slack_.variables() > 0) return slack_objective(x, gradient);
     if (!evaluation.status.ok()) return step_back(x, gradient);
+    if (program_.slacks() > 0) {
+      const Program::Value value = program_.objective(slack(x));
+      if (!gradient->empty()) spread(value, gradient->data());
+      return value.value;
+    }
     if (!gradient->empty()) {
       *gradient = scaling_.scale_gradient(evaluation.gradient);
       for (double& component : *gradient) component /= unit_;
     }
     return evaluation.objective / unit_;
-  }
-
-  double slack_objective(const std::vector<double>& x, std::vector<double>* gradient) const {
-    if (!have_best_) throw std::runtime_error("the start could not be evaluated");
-    std::fill(gradient->begin(), gradient->end(), 0.0);
-    const Eigen::VectorXd by_slack = slack_.gradient();
-    for (int k = 0; k < slack_.variables() && !gradient->empty(); ++k)
-      (*gradient)[study_.tuned.size() + static_cast<std::size_t>(k)] = by_slack[k];
-    return slack_.objective(slack(x));
   }
 
   void evaluate_at(const std::vector<double>& x) {
@@ -211,6 +233,7 @@ class Minimization {
     last_ = ensemble_.evaluate(rho, true, cancel_);
     if (last_.total.status.code == StatusCode::kCancelled) stop();
     last_rho_ = rho;
+    if (last_.total.status.ok()) program_.take(last_, rho);
     const Trial trial = note(last_, rho);
     if (observer_ && !observer_(trial)) stop();
     // The first step of a quasi-Newton method is as long as the gradient; divided by unit_, it is at most 1 in scaled variables, (24).
@@ -254,8 +277,8 @@ class Minimization {
       trial.objective = evaluation.objective;
       trial.gradient = evaluation.gradient;
       trial.gradient_norm = scaling_.gradient_norm(evaluation.gradient);
-      for (std::size_t k = 0; k < result_.influences.size(); ++k)
-        if ((all.gradients.row(static_cast<Eigen::Index>(k)).array() != 0.0).any()) result_.influences[k] = true;
+      note_influences(all.gradients);
+      for (const Extremes& extremes : all.extremes) note_influences(extremes.gradients);
       take_best(all, rho);
     } else {
       ++result_.failed_evaluations;
@@ -266,11 +289,20 @@ class Minimization {
     return trial;
   }
 
+  /// @param gradients one row per tuned parameter.
+  void note_influences(const Eigen::MatrixXd& gradients) {
+    for (std::size_t k = 0; k < result_.influences.size(); ++k)
+      if ((gradients.row(static_cast<Eigen::Index>(k)).array() != 0.0).any()) result_.influences[k] = true;
+  }
+
   // A start that violates the constraints is the best point only until a feasible point is found.
   void take_best(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
     const Evaluation& evaluation = all.total;
-    const bool inside = all_met(constraint_margins(study_, parameters_at(study_, rho))), first = !have_best_;
+    const bool first = !have_best_;
+    const bool inside =
+        all_met(constraint_margins(study_, parameters_at(study_, rho))) && program_.violation(all.extremes, rho) <= kMostViolation;
     if (first) {
+      initial_extremes_ = all.extremes;
       result_.initial_objective = evaluation.objective;
       result_.initial_values = all.values;
       result_.initial_gradient = evaluation.gradient;
@@ -282,6 +314,7 @@ class Minimization {
     best_feasible_ = inside;
     result_.objective = evaluation.objective;
     result_.values = all.values;
+    best_extremes_ = all.extremes;
     result_.gradient = evaluation.gradient;
     result_.warnings = evaluation.warnings;
     result_.rho = rho;
@@ -293,9 +326,10 @@ class Minimization {
   const std::atomic<bool>* cancel_;
   const Ensemble& ensemble_;
   Scaling scaling_;
-  SlackForm slack_;
+  Program program_;
   Eigen::VectorXd last_rho_;
   EnsembleEvaluation last_;  ///< the evaluation at last_rho_
+  std::vector<Extremes> initial_extremes_, best_extremes_;
   std::vector<Constraint> constraints_;
   OptimizationResult result_;
   Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"};

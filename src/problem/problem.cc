@@ -109,12 +109,12 @@ Problem with_study(const Problem& problem, Study study, const ParameterSettings&
 
 void require_objective(const Problem& problem) {
   const Study& study = problem.study();
-  if (study.integral.empty() && study.terminal.empty())
+  if (!has_objective(study))
     throw InputError({{study.file, 1},
                       "objective",
                       "the study has no objective: it can be simulated and checked, but there is nothing to optimize",
                       "",
-                      "at least one term under objective.integral or objective.terminal"});
+                      "at least one term under objective.integral, objective.terminal or objective.peak"});
 }
 
 }  // namespace codesign

@@ -24,6 +24,8 @@ class AdjointGradient final : public GradientEngine {
   double time() const override { return integrator_.state().t; }
   double objective() override;
   void gradient(Eigen::VectorXd* gradient) override;
+  /// Empty: a study with watched signals has its gradient by the direct method.
+  const Extremes& extremes() const override { return none_; }
   const Statistics& statistics() const override { return integrator_.statistics(); }
   Warnings warnings() const override { return integrator_.warnings(); }
   void obey(const std::atomic<bool>* cancel) override {
@@ -62,6 +64,7 @@ class AdjointGradient final : public GradientEngine {
   LanePlan plan_;
   RosenbrockIntegrator integrator_;
   std::optional<Backward> back_;
+  const Extremes none_;
   bool with_gradient_ = false;
   const std::atomic<bool>* cancel_ = nullptr;
 };

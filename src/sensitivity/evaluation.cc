@@ -6,6 +6,7 @@
 #include "equations/compiled_system.h"
 #include "math/cpu_timer.h"
 #include "sensitivity/gradient_engine.h"
+#include "sensitivity/peaks.h"
 #include "text/cancel.h"
 
 namespace codesign {
@@ -45,12 +46,15 @@ class Evaluator::Implementation {
   void collect(bool with_gradient, const std::atomic<bool>* cancel, Evaluation* evaluation) {
     const double time = engine_->time();
     evaluation->objective = engine_->objective();
+    evaluation->extremes = engine_->extremes();
+    evaluation->objective += peak_terms(system_->study(), evaluation->extremes, nullptr);
     if (!std::isfinite(evaluation->objective)) {
       evaluation->status = {StatusCode::kNonFinite, time, "the objective is not finite"};
       return;
     }
     if (!with_gradient) return;
     engine_->gradient(&evaluation->gradient);
+    peak_terms(system_->study(), evaluation->extremes, &evaluation->gradient);
     if (is_set(cancel)) {
       evaluation->status = {StatusCode::kCancelled, time, "cancelled"};
       return;

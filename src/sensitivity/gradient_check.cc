@@ -8,6 +8,7 @@
 #include "integration/rosenbrock_integrator.h"
 #include "math/ridders.h"
 #include "mechanism_codesign/gradient.h"
+#include "sensitivity/peaks.h"
 #include "sensitivity/rosenbrock_gradient.h"
 #include "text/cancel.h"
 
@@ -30,22 +31,68 @@ Status record_steps(const CompiledSystem& system, const std::vector<double>& par
   return status;
 }
 
-/// psi after steps of the same sizes in complex arithmetic.
-Complex replay(const CompiledSystem& system, const std::vector<Complex>& parameters, const std::vector<double>& steps,
-               RosenbrockIntegrator* integrator, const std::vector<double>& real_parameters, const std::atomic<bool>* cancel) {
+/// The objective and the numbers of the watched signals in complex arithmetic.
+struct Replayed {
+  Complex objective;
+  VectorX<Complex> watched;
+};
+
+/// The numbers of watched signals whose times lie in the last step (at the start: at t = 0), at the same times.
+void replay_watched(const CompiledSystem& system, const Eigen::VectorXd& times, RosenbrockIntegrator* integrator,
+                    RosenbrockStep<Complex>* step, VectorX<Complex>* watched) {
+  const double from = step->previous().t, to = step->state().t, h = step->step_size();
+  const WatchLayout layout(system.study());
+  State<Complex> state;
+  State<double> real;
+  Complex psi;
+  real.resize(system.layout());
+  for (std::size_t k = 0; k < layout.entries().size(); ++k)
+    for (int place = layout.entries()[k].first; place < layout.entries()[k].first + layout.entries()[k].size(); ++place) {
+      const double time = times[place];
+      if (h > 0.0 ? !(time > from && time <= to) : time > 0.0) continue;
+      step->interpolate(h > 0.0 ? (time - from) / h : 1.0, &state, &psi);
+      state.t = real.t = time;
+      real.q = state.q.real();
+      real.v = state.v.real();
+      real.s = state.s.real();
+      real.z = state.z.real();
+      real.turns = state.turns;
+      if (!integrator->assembly().solve_rates(&integrator->equations(), &real).ok()) continue;
+      integrator->assembly().extend_rates(real.z, &step->equations(), &state);
+      (*watched)[place] = step->equations().formulas().watched(k, state, nullptr);
+    }
+}
+
+/// The run with steps of the same sizes in complex arithmetic.
+/// @param extremes of the real run.
+Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parameters, const std::vector<double>& steps,
+                const Extremes& extremes, RosenbrockIntegrator* integrator, const std::vector<double>& real_parameters,
+                const std::atomic<bool>* cancel) {
   RosenbrockStep<Complex> step(system, integrator->step().tableau());
+  Replayed result;
+  result.watched.setZero(extremes.values.size());
   step.equations().set_design(parameters);
   integrator->start(real_parameters);
   State<Complex> state;
   integrator->assembly().extend(parameters, integrator->initial_state(), &step.equations(), &state);
   step.start(state);
+  if (result.watched.size() > 0) replay_watched(system, extremes.times, integrator, &step, &result.watched);
   for (double h : steps) {
     if (is_set(cancel)) break;
     step.attempt(h);
     step.accept();
     step.track_turns();
+    if (result.watched.size() > 0) replay_watched(system, extremes.times, integrator, &step, &result.watched);
   }
-  return step.psi() + step.equations().formulas().terminal(step.state(), nullptr);
+  result.objective = step.psi() + step.equations().formulas().terminal(step.state(), nullptr);
+  const WatchLayout layout(system.study());
+  for (std::size_t k = 0; k < layout.entries().size(); ++k) {
+    const WatchedSignal& watched = system.study().watched[k];
+    if (watched.role != WatchedSignal::Role::kPeak) continue;
+    const Peak peak = find_peak(layout.entries()[k], extremes.values);
+    result.objective += watched.weight * peak.sign * result.watched[peak.place];
+  }
+  return result;
 }
 
 /// Sets a failure if a component of the reference is not finite.
@@ -63,13 +110,16 @@ void check_by_complex_step(const CompiledSystem& system, const std::vector<doubl
                            GradientCheck* check) {
   RosenbrockIntegrator integrator(system);
   std::vector<double> steps;
+  check->extreme_reference.setZero(check->reference.size(), check->evaluation.extremes.values.size());
   check->status = record_steps(system, parameters, cancel, &steps);
   for (Eigen::Index k = 0; check->status.ok() && k < check->reference.size(); ++k) {
     std::vector<Complex> perturbed(parameters.begin(), parameters.end());
     const auto index = static_cast<std::size_t>(system.study().tuned[static_cast<std::size_t>(k)]);
     const double h = kComplexStep * std::max(1.0, std::abs(parameters[index]));
     perturbed[index] += Complex(0.0, h);
-    check->reference[k] = replay(system, perturbed, steps, &integrator, parameters, cancel).imag() / h;
+    const Replayed run = replay(system, perturbed, steps, check->evaluation.extremes, &integrator, parameters, cancel);
+    check->reference[k] = run.objective.imag() / h;
+    check->extreme_reference.row(k) = run.watched.imag().transpose() / h;
     if (is_set(cancel)) check->status = {StatusCode::kCancelled, 0.0, "cancelled"};
   }
 }
@@ -114,12 +164,18 @@ GradientCheck check_gradient(const std::shared_ptr<const CompiledSystem>& system
 
 void compare(GradientCheck* check) {
   if (check->reference.size() == 0) return;
-  const double scale = 1e-3 * check->reference.cwiseAbs().maxCoeff();
-  for (Eigen::Index k = 0; k < check->reference.size(); ++k) {
-    const double difference = std::abs(check->evaluation.gradient[k] - check->reference[k]);
-    const double size = std::max(std::abs(check->reference[k]), scale);
-    if (difference > 0.0) check->largest_relative_difference = std::max(check->largest_relative_difference, difference / size);
-  }
+  const auto compare_with = [check](const auto& gradient, const auto& reference, double scale) {
+    for (Eigen::Index k = 0; k < reference.size(); ++k) {
+      const double difference = std::abs(gradient[k] - reference[k]), size = std::max(std::abs(reference[k]), scale);
+      if (difference > 0.0) check->largest_relative_difference = std::max(check->largest_relative_difference, difference / size);
+    }
+  };
+  compare_with(check->evaluation.gradient, check->reference, 1e-3 * check->reference.cwiseAbs().maxCoeff());
+  // Values at the start may have gradients that are zero but for rounding, so the largest gradient of all is the measure.
+  const Eigen::MatrixXd& references = check->extreme_reference;
+  if (references.size() == 0) return;
+  const double scale = 1e-3 * references.cwiseAbs().maxCoeff();
+  for (Eigen::Index k = 0; k < references.cols(); ++k) compare_with(check->evaluation.extremes.gradients.col(k), references.col(k), scale);
 }
 
 GradientCheck check_design(const std::shared_ptr<const CompiledSystem>& system, const std::vector<double>& parameters, CheckMethod method,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "integration/integrator.h"
+#include "mechanism_codesign/gradient.h"
 
 namespace codesign {
 
@@ -29,6 +30,8 @@ class GradientEngine {
   /// d psi / d rho for the same end, p entries in the order of Study::tuned; NaN if it cannot be computed or was cancelled. start() must
   /// have been called with gradient.
   virtual void gradient(Eigen::VectorXd* gradient) = 0;
+  /// The numbers of the watched signals of a study that ends at time(), with derivatives if start() was called with gradient.
+  virtual const Extremes& extremes() const = 0;
   virtual const Statistics& statistics() const = 0;
   /// Warnings about the run since start().
   virtual Warnings warnings() const = 0;

@@ -3,14 +3,28 @@
 
 namespace codesign {
 
-IdasGradient::IdasGradient(const CompiledSystem& system) : system_(system), integrator_(system) {}
+IdasGradient::IdasGradient(const CompiledSystem& system) : system_(system), integrator_(system), watch_(system) {}
 
 // The workspace of the sensitivities is allocated only when a gradient is requested.
 Status IdasGradient::start(const std::vector<double>& parameters, bool with_gradient) {
   if (with_gradient && !tangent_) tangent_ = std::make_unique<IdasTangent>(system_);
   integrator_.carry(with_gradient ? tangent_.get() : nullptr);
   integrator_.watch_singularities(with_gradient);
-  return integrator_.start(parameters);
+  Status status = integrator_.start(parameters);
+  if (!status.ok() || watch_.is_empty()) return status;
+  SignalWatch::Differentiate differentiate;
+  if (with_gradient)
+    differentiate = [this](std::size_t k, const State<double>& state, bool /*reads_rates*/, Eigen::VectorXd* gradient) {
+      integrator_.interpolate_sensitivities(state.t, &directions_);
+      tangent_->watched(k, state, &integrator_.equations(), &directions_, gradient);
+    };
+  return watch_.start(&integrator_, std::move(differentiate));
+}
+
+Status IdasGradient::advance(double limit) {
+  Status status = integrator_.advance(limit);
+  if (status.ok() && !watch_.is_empty()) status = watch_.look();
+  return status;
 }
 
 const State<double>& IdasGradient::consistent_state() {

@@ -7,6 +7,7 @@
 
 #include "sensitivity/gradient_engine.h"
 #include "sensitivity/idas_tangent.h"
+#include "sensitivity/signal_watch.h"
 
 namespace codesign {
 
@@ -16,10 +17,11 @@ class IdasGradient final : public GradientEngine {
   explicit IdasGradient(const CompiledSystem& system);
 
   Status start(const std::vector<double>& parameters, bool with_gradient) override;
-  Status advance(double limit) override { return integrator_.advance(limit); }
+  Status advance(double limit) override;
   double time() const override { return integrator_.state().t; }
   double objective() override;
   void gradient(Eigen::VectorXd* gradient) override;
+  const Extremes& extremes() const override { return watch_.extremes(); }
   const Statistics& statistics() const override { return integrator_.statistics(); }
   Warnings warnings() const override { return integrator_.warnings(); }
   void obey(const std::atomic<bool>* cancel) override { integrator_.obey(cancel); }
@@ -34,6 +36,7 @@ class IdasGradient final : public GradientEngine {
   std::unique_ptr<IdasTangent> tangent_;
   State<double> end_;
   std::vector<State<double>> directions_;
+  SignalWatch watch_;
 };
 
 }  // namespace codesign

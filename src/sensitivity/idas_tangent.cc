@@ -130,8 +130,9 @@ bool IdasTangent::project(const State<double>& state, Equations<double>* equatio
   return true;
 }
 
-void IdasTangent::terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
-                           Eigen::VectorXd* gradient) {
+template <class Function>
+void IdasTangent::differentiate(const Function& function, const State<double>& state, Equations<double>* equations,
+                                std::vector<State<double>>* directions, Eigen::VectorXd* gradient) {
   gradient->setZero(count());
   if (!factor(state, equations)) {
     gradient->setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -140,9 +141,21 @@ void IdasTangent::terminal(const State<double>& state, Equations<double>* equati
   solve_rates(directions);
   groups_.for_each([&](auto* group) {
     group->load(state, directions);
-    const auto w = group->equations.formulas().terminal(group->state, nullptr);
-    for (int k = 0; k < group->range.count; ++k) (*gradient)[group->range.first + k] += w.v[k];
+    const auto value = function(&group->equations.formulas(), group->state);
+    for (int k = 0; k < group->range.count; ++k) (*gradient)[group->range.first + k] += value.v[k];
   });
+}
+
+void IdasTangent::terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
+                           Eigen::VectorXd* gradient) {
+  const auto sum = [](auto* formulas, const auto& lanes) { return formulas->terminal(lanes, nullptr); };
+  differentiate(sum, state, equations, directions, gradient);
+}
+
+void IdasTangent::watched(std::size_t k, const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
+                          Eigen::VectorXd* gradient) {
+  const auto signal = [k](auto* formulas, const auto& lanes) { return formulas->watched(k, lanes, nullptr); };
+  differentiate(signal, state, equations, directions, gradient);
 }
 
 }  // namespace codesign

@@ -29,6 +29,9 @@ class IdasTangent final : public IdasSensitivities {
   /// singular. @param directions (q, v, s)_rho per parameter; their z is solved for.
   void terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
                 Eigen::VectorXd* gradient);
+  /// The same of the k-th watched signal, theory (21a).
+  void watched(std::size_t k, const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
+               Eigen::VectorXd* gradient);
 
  private:
   template <int N>
@@ -45,6 +48,10 @@ class IdasTangent final : public IdasSensitivities {
     VectorX<Scalar> G, Phi, Phi_rate;
   };
 
+  /// The total derivative of a function of a state with lanes, read from a group's formulas.
+  template <class Function>
+  void differentiate(const Function& function, const State<double>& state, Equations<double>* equations,
+                     std::vector<State<double>>* directions, Eigen::VectorXd* gradient);
   /// Evaluates the derivatives at a state, without stabilization, and factors G_z. False if it is singular.
   bool factor(const State<double>& state, Equations<double>* equations);
   /// Solves for z_rho of directions whose (q, v, s)_rho are given.

@@ -14,10 +14,16 @@ int lanes_in_memory(const CompiledSystem& system) {
   return std::max(4, lanes / 8 * 8);
 }
 
+/// The derivatives of watched signals are collected during one run, so that all parameters take part in it.
+int lanes_at_once(const CompiledSystem& system) {
+  const int all = static_cast<int>(system.study().tuned.size());
+  return system.watched().empty() ? lanes_in_memory(system) : std::max(4, all);
+}
+
 }  // namespace
 
 RosenbrockGradient::RosenbrockGradient(const CompiledSystem& system, int most_lanes)
-    : system_(system), integrator_(system), most_lanes_(most_lanes > 0 ? most_lanes : lanes_in_memory(system)) {
+    : system_(system), integrator_(system), most_lanes_(most_lanes > 0 ? most_lanes : lanes_at_once(system)), watch_(system) {
   const double tolerance = system.study().solver.sensitivity_tolerance;
   stages_ = [this, tolerance](const RosenbrockStep<double>& step) {
     double error = 0.0;
@@ -34,8 +40,23 @@ Status RosenbrockGradient::start(const std::vector<double>& parameters, bool wit
   with_gradient_ = with_gradient;
   integrator_.watch_singularities(with_gradient);
   Status status = integrator_.start(parameters);
-  if (status.ok() && with_gradient) carry(0, parameters);
-  return status;
+  if (!status.ok()) return status;
+  if (with_gradient) carry(0, parameters);
+  if (watch_.is_empty()) return status;
+  SignalWatch::Differentiate derivatives;
+  if (with_gradient)
+    derivatives = [this](std::size_t k, const State<double>& state, bool reads_rates, Eigen::VectorXd* gradient) {
+      differentiate(k, state, reads_rates, gradient);
+    };
+  return watch_.start(&integrator_, std::move(derivatives));
+}
+
+void RosenbrockGradient::differentiate(std::size_t watched, const State<double>& state, bool reads_rates, Eigen::VectorXd* gradient) {
+  gradient->resize(count());
+  groups_->for_each([&](auto* group) {
+    const auto all = group->step.watched(watched, integrator_.step(), state, reads_rates, integrator_.assembly());
+    gradient->segment(group->range.first, group->range.count) = all.head(group->range.count);
+  });
 }
 
 void RosenbrockGradient::carry(int first, const std::vector<double>& parameters) {
@@ -49,9 +70,9 @@ void RosenbrockGradient::carry(int first, const std::vector<double>& parameters)
 }
 
 Status RosenbrockGradient::advance(double limit) {
-  if (!with_gradient_) return integrator_.advance(limit);
-  Status status = integrator_.advance(limit, stages_);
-  if (status.ok()) groups_->for_each([this](auto* group) { group->step.accept(integrator_.step()); });
+  Status status = with_gradient_ ? integrator_.advance(limit, stages_) : integrator_.advance(limit);
+  if (status.ok() && with_gradient_) groups_->for_each([this](auto* group) { group->step.accept(integrator_.step()); });
+  if (status.ok() && !watch_.is_empty()) status = watch_.look();
   return status;
 }
 

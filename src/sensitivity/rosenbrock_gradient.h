@@ -7,6 +7,7 @@
 #include "integration/rosenbrock_integrator.h"
 #include "sensitivity/gradient_engine.h"
 #include "sensitivity/lane_groups.h"
+#include "sensitivity/signal_watch.h"
 #include "sensitivity/tangent_step.h"
 
 namespace codesign {
@@ -26,6 +27,7 @@ class RosenbrockGradient final : public GradientEngine {
   double time() const override { return integrator_.state().t; }
   double objective() override;
   void gradient(Eigen::VectorXd* gradient) override;
+  const Extremes& extremes() const override { return watch_.extremes(); }
   const Statistics& statistics() const override { return integrator_.statistics(); }
   Warnings warnings() const override { return integrator_.warnings(); }
   void obey(const std::atomic<bool>* cancel) override { integrator_.obey(cancel); }
@@ -42,6 +44,7 @@ class RosenbrockGradient final : public GradientEngine {
   /// Starts the tangents of the parameters from `first` on.
   void carry(int first, const std::vector<double>& parameters);
   void collect(Eigen::VectorXd* gradient);
+  void differentiate(std::size_t watched, const State<double>& state, bool reads_rates, Eigen::VectorXd* gradient);
 
   const CompiledSystem& system_;
   RosenbrockIntegrator integrator_;
@@ -49,6 +52,7 @@ class RosenbrockGradient final : public GradientEngine {
   int first_ = -1;  ///< first parameter of `groups_`
   std::optional<LaneGroups<Group>> groups_;
   RosenbrockIntegrator::BeforeAccept stages_;
+  SignalWatch watch_;
   bool with_gradient_ = false;
 };
 

@@ -53,6 +53,7 @@ void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assemb
   largest_x_.setZero();
   largest_v_.setZero();
   measure();
+  if (!system_.watched().empty()) previous_y_ = y_;
 }
 
 template <int N>
@@ -181,6 +182,7 @@ void TangentStep<N>::project(const VectorX<double>& correction, const Directions
 
 template <int N>
 void TangentStep<N>::accept(const RosenbrockStep<double>& step) {
+  if (!system_.watched().empty()) previous_y_ = y_;
   combine(y_, In<double>(tableau_.weights).first(tableau_.stages), 0, y_);
   const SparseLu& lu = step.projection_matrix().lu();
   equations_.linearize(step.unprojected(), y_);
@@ -196,6 +198,25 @@ void TangentStep<N>::accept(const RosenbrockStep<double>& step) {
 template <int N>
 Eigen::Matrix<double, N, 1> TangentStep<N>::terminal(const State<double>& state) {
   return equations_.equations().formulas().terminal(equations_.lanes(state, y_), nullptr).directions();
+}
+
+// The derivative of RosenbrockStep::interpolate() for a fixed theta, in stage_y_.
+template <int N>
+void TangentStep<N>::interpolate(double theta) {
+  const RosenbrockTableau::Row weights = dense_weights(tableau_, theta);
+  const int size = at_.psi();
+  for (int k = 0; k < size; ++k) stage_y_.vector(k) = (1.0 - theta) * previous_y_.vector(k) + theta * y_.vector(k);
+  combine(stage_y_.part(0, size), In<double>(weights).first(tableau_.stages), 0, stage_y_.part(0, size));
+}
+
+template <int N>
+Eigen::Matrix<double, N, 1> TangentStep<N>::watched(std::size_t k, const RosenbrockStep<double>& step, const State<double>& state,
+                                                    bool reads_rates, const Assembly& assembly) {
+  const double h = step.step_size();
+  interpolate(h > 0.0 ? (state.t - step.previous().t) / h : 1.0);
+  point_ = equations_.lanes(state, stage_y_);
+  if (reads_rates) assembly.extend_rates(state.z, &equations_.equations(), &point_);
+  return equations_.equations().formulas().watched(k, point_, nullptr).directions();
 }
 
 template class TangentStep<4>;

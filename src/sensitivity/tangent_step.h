@@ -37,6 +37,11 @@ class TangentStep {
   Eigen::Matrix<double, N, 1> psi() const { return y_.col(at_.psi()); }
   Eigen::Matrix<double, N, 1> terminal(const State<double>& state);
 
+  /// Derivatives of the k-th watched signal, theory (21a), at `state`, a point of the dense output of the last accepted step, with z solved
+  /// for by `assembly` if the signal depends on it. Only for a study with watched signals.
+  Eigen::Matrix<double, N, 1> watched(std::size_t k, const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates,
+                                      const Assembly& assembly);
+
   /// Derivatives of the state at the end of the last accepted step, in the order of IncrementLayout.
   const Directions<N>& directions() const { return y_; }
 
@@ -50,6 +55,7 @@ class TangentStep {
   void stage_start(std::size_t i, double h);
   void stage_tangent(std::size_t i, const RosenbrockStep<double>& step);
   void measure();
+  void interpolate(double theta);
   void project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu, Out<double> target);
 
   const CompiledSystem& system_;
@@ -59,6 +65,8 @@ class TangentStep {
   TangentEquations<N> equations_;
   State<double> projected_;
   Directions<N> y_, stage_y_, residual_, rows_, errors_, rates_;
+  Directions<N> previous_y_;                          ///< y_ at the start of the last accepted step; kept for watched signals only
+  State<Lanes<N>> point_;                             ///< a point of the dense output
   std::vector<Directions<N>> stages_;                 ///< u' of each stage
   std::vector<Directions<N>> matrix_changes_;         ///< dG u of each stage, row by row
   Eigen::Array<double, N, 1> largest_x_, largest_v_;  ///< squared norms

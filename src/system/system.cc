@@ -50,12 +50,15 @@ void System::resolve_objective() {
   };
   resolve(study_.integral, &integral_);
   resolve(study_.terminal, &terminal_);
+  for (const WatchedSignal& watched : study_.watched)
+    watched_.push_back(resolve_signal(watched.signal, robot_, topology_, study_.controllers));
 }
 
 void System::resolve_controllers() {
   std::vector<Signal> observed;
   for (const std::vector<ResolvedTerm>* terms : {&integral_, &terminal_})
     for (const ResolvedTerm& term : *terms) observed.push_back(term.signal);
+  observed.insert(observed.end(), watched_.begin(), watched_.end());
   controllers_ = codesign::resolve_controllers(study_, robot_, topology_, observed, &layout_.states);
 }
 
@@ -71,6 +74,7 @@ void System::check_signals() const {
   };
   check(integral_, study_.integral);
   check(terminal_, study_.terminal);
+  for (std::size_t k = 0; k < watched_.size(); ++k) check_readable(watched_[k], study_.watched[k].signal);
 }
 
 void System::collect_loads() {

@@ -80,6 +80,8 @@ class System {
   /// The terms of the integrand and the terminal terms of the objective, theory (21).
   const std::vector<ResolvedTerm>& integral() const { return integral_; }
   const std::vector<ResolvedTerm>& terminal() const { return terminal_; }
+  /// The signals of Study::watched, theory (21a).
+  const std::vector<Signal>& watched() const { return watched_; }
 
   /// Redundant constraints, theory (23): how they are treated, the places of the unknowns, and epsilon [1/kg] (zero without redundancy).
   const ReactionSharing& sharing() const { return sharing_; }
@@ -124,6 +126,7 @@ class System {
   std::vector<BristleContact> bristles_;
   std::vector<std::vector<bool>> has_coordinate_;  ///< per pair and chain element
   std::vector<ResolvedTerm> integral_, terminal_;
+  std::vector<Signal> watched_;
 };
 
 }  // namespace codesign

@@ -35,7 +35,7 @@ void read_objective(const YamlValue& study_value, const RobotDescription& robot,
                     const TrajectoryLoader& loader, Study* study) {
   const auto objective = study_value.find("objective");
   if (!objective) return;
-  objective->require_keys({}, {"integral", "terminal"});
+  objective->require_keys({}, {"integral", "terminal", "peak"});
   study->integral = read_terms(*objective, "integral", robot, table, loader, *study);
   study->terminal = read_terms(*objective, "terminal", robot, table, loader, *study);
 }

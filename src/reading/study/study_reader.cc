@@ -10,6 +10,7 @@
 #include "reading/study/study_objective.h"
 #include "reading/study/study_options.h"
 #include "reading/study/study_parameters.h"
+#include "reading/study/study_watched.h"
 #include "reading/yaml/yaml_reader.h"
 
 namespace codesign {
@@ -46,11 +47,13 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   read_controllers(root, robot, table, loader, &study);
   read_loads(root, robot, table, &study);
   read_objective(root, robot, table, loader, &study);
+  read_watched(root, robot, table, loader, &study);
   study.used_parameters = robot.used_parameters;
   study.used_parameters.insert(table.used.begin(), table.used.end());
   if (const auto limits = root.find("limits")) study.limits = read_limit_options(*limits);
   if (const auto solver = root.find("solver")) study.solver = read_solver_options(*solver);
   if (const auto optimizer = root.find("optimizer")) study.optimizer = read_optimizer_options(*optimizer);
+  refuse_adjoint_of_watched(root, study);
   return study;
 }
 
@@ -58,8 +61,8 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
 
 Study read_study(const SourceText& yaml, const RobotDescription& robot, const TrajectoryLoader& loader) {
   const YamlValue root = YamlValue::parse(yaml);
-  root.require_keys({"duration"}, {"gravity", "initial_state", "controllers", "loads", "parameters", "objective", "constraints", "limits",
-                                   "solver", "optimizer", "runs", "uncertain", "robust", "multistart", "engine"});
+  root.require_keys({"duration"}, {"gravity", "initial_state", "controllers", "loads", "parameters", "objective", "path", "final",
+                                   "constraints", "limits", "solver", "optimizer", "runs", "uncertain", "robust", "multistart", "engine"});
   const auto read_run = [&](const YamlValue& study_value) { return read_single_run(study_value, yaml.name, robot, loader); };
   Study study = read_run(root);
   study.ensemble = read_ensemble(root, robot, read_run, study);

@@ -1,0 +1,39 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_DESCRIPTION_WATCHED_SIGNAL_H_
+#define MECHANISM_CODESIGN_DESCRIPTION_WATCHED_SIGNAL_H_
+
+#include <optional>
+#include <string>
+
+#include "description/quantity.h"
+#include "description/reference.h"
+#include "description/signal.h"
+#include "mechanism_codesign/error.h"
+
+namespace codesign {
+
+/// A signal whose extreme values within an interval of time count: in a constraint (`path:`, `final:`) or in the objective
+/// (`objective.peak`); theory (21a).
+struct WatchedSignal {
+  enum class Role {
+    kPath,   ///< lower <= signal - reference <= upper at all times from `after` to `before`
+    kFinal,  ///< the same at the end of the study; equal bounds are an equality
+    kPeak    ///< the objective contains weight * max |signal - reference| over the interval
+  };
+
+  Role role = Role::kPath;
+  SignalDescription signal;
+  ReferenceDescription reference;        ///< 0 unless given
+  std::optional<Quantity> lower, upper;  ///< of kPath and kFinal, at least one of them; in the unit of the signal
+  double weight = 1.0;                   ///< of kPeak, positive
+  double after = 0.0, before = 0.0;      ///< the interval [s]; for kFinal both are the duration
+  std::string element;                   ///< its place in the study, for messages: `path[0]`
+  SourceLocation where;
+};
+
+/// Whether a watched signal must have one value: `final:` with equal bounds, both constant.
+bool is_equality(const WatchedSignal& watched);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_DESCRIPTION_WATCHED_SIGNAL_H_

@@ -1,0 +1,41 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "integration/watch_layout.h"
+
+#include <algorithm>
+
+#include "integration/break_times.h"
+
+namespace codesign {
+namespace {
+
+constexpr int kWindows = 16;        // equal windows of an interval, so that two extrema seldom compete within one
+constexpr std::size_t kMost = 200;  // break times that are instants; a recorded trajectory has thousands of way-points
+
+std::vector<double> instants_of(const WatchedSignal& watched, const std::vector<double>& breaks) {
+  if (!(watched.after < watched.before)) return {watched.before};
+  const double span = watched.before - watched.after, apart = 1e-6 * span;
+  std::vector<double> all;
+  for (int k = 0; k <= kWindows; ++k) all.push_back(k < kWindows ? watched.after + span * k / kWindows : watched.before);
+  if (breaks.size() <= kMost)
+    for (double time : breaks)
+      if (time > watched.after + apart && time < watched.before - apart) all.push_back(time);
+  std::sort(all.begin(), all.end());
+  const auto is_near = [apart](double a, double b) { return b - a < apart; };
+  all.erase(std::unique(all.begin(), all.end(), is_near), all.end());
+  return all;
+}
+
+}  // namespace
+
+WatchLayout::WatchLayout(const Study& study) {
+  if (study.watched.empty()) return;
+  const BreakTimes breaks(study);
+  for (const WatchedSignal& watched : study.watched) {
+    Entry& entry = entries_.emplace_back();
+    entry.first = size_;
+    entry.instants = instants_of(watched, breaks.times());
+    size_ += entry.size();
+  }
+}
+
+}  // namespace codesign

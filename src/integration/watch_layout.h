@@ -1,0 +1,43 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_INTEGRATION_WATCH_LAYOUT_H_
+#define MECHANISM_CODESIGN_INTEGRATION_WATCH_LAYOUT_H_
+
+#include <vector>
+
+#include "description/study.h"
+
+namespace codesign {
+
+/// The places of the numbers that are computed of the watched signals of a study; doc/theory.md (21a).
+///
+/// The interval of a signal is divided into windows by instants that do not depend on the design. The numbers of a signal are its values at
+/// the instants, then the largest value in each window, then the smallest. So their count does not change with the design, as the number of
+/// local extrema does, and each is a continuous function of it.
+class WatchLayout {
+ public:
+  /// The numbers of one watched signal.
+  struct Entry {
+    int first = 0;                 ///< place of the value at the first instant
+    std::vector<double> instants;  ///< [s], ascending; one for the end of the study, else at least two
+
+    int windows() const { return static_cast<int>(instants.size()) - 1; }
+    int at_instant(int k) const { return first + k; }
+    int largest(int window) const { return first + static_cast<int>(instants.size()) + window; }
+    int smallest(int window) const { return largest(window) + windows(); }
+    int size() const { return static_cast<int>(instants.size()) + 2 * windows(); }
+  };
+
+  explicit WatchLayout(const Study& study);
+
+  /// One entry per watched signal.
+  const std::vector<Entry>& entries() const { return entries_; }
+  int size() const { return size_; }
+
+ private:
+  std::vector<Entry> entries_;
+  int size_ = 0;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_INTEGRATION_WATCH_LAYOUT_H_

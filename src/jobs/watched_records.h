@@ -1,0 +1,21 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOBS_WATCHED_RECORDS_H_
+#define MECHANISM_CODESIGN_JOBS_WATCHED_RECORDS_H_
+
+#include <string>
+#include <vector>
+
+#include "jobs/json.h"
+#include "mechanism_codesign/optimization.h"
+
+namespace codesign {
+
+/// Adds the list `signals`: of each signal with a constraint or a peak its range before and after, and the violation. Nothing without one.
+void add_watched(const OptimizationResult& result, Json* object);
+
+/// One sentence per such signal, for people.
+std::vector<std::string> watched_sentences(const OptimizationResult& result);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOBS_WATCHED_RECORDS_H_

@@ -1,0 +1,174 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "optimization/program.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "equations/compiled_system.h"
+#include "sampling/measure.h"
+#include "sensitivity/peaks.h"
+
+namespace codesign {
+
+Program::Program(const Ensemble& ensemble) : ensemble_(ensemble), slack_(ensemble.options(), ensemble.weights()) {
+  const std::vector<Scenario>& scenarios = ensemble.scenarios();
+  rows_.reserve(scenarios.size());
+  for (std::size_t i = 0; i < scenarios.size(); ++i) {
+    const SignalRows& rows = rows_.emplace_back(scenarios[i].system->study());
+    first_peak_.push_back(peaks_);
+    peaks_ += static_cast<int>(rows.peaks().size());
+    for (const SignalRow& row : rows.inequalities()) inequality_places_.push_back({i, &row});
+    for (const SignalRow& row : rows.equalities()) equality_places_.push_back({i, &row});
+  }
+  inequality_rows_ = static_cast<int>(inequality_places_.size());
+  equality_rows_ = static_cast<int>(equality_places_.size());
+  peak_units_.setOnes(peaks_);
+}
+
+Eigen::VectorXd Program::start(const EnsembleEvaluation& at, double unit) {
+  unit_ = unit;
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(slacks());
+  if (!at.total.status.ok()) return y;
+  if (slack_.variables() > 0) y.head(slack_.variables()) = slack_.start(at.values, at.threshold) / unit_;
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    for (std::size_t j = 0; j < rows_[i].peaks().size(); ++j) {
+      const int variable = peak_variable(i, static_cast<int>(j));
+      const Eigen::VectorXd& values = at.extremes[i].values;
+      const double peak = std::abs(values[find_peak(rows_[i].layout().entries()[rows_[i].peaks()[j]], values).place]);
+      peak_units_[variable - slack_.variables()] = peak > 0.0 ? peak : 1.0;
+      y[variable] = peak > 0.0 ? 1.0 : 0.0;
+    }
+  return y;
+}
+
+void Program::take(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
+  all_ = &all;
+  smooth_values_ = all.values;
+  smooth_gradients_ = all.gradients;
+  parameters_.clear();
+  if (!has_signals()) return;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Scenario& scenario = ensemble_.scenarios()[i];
+    parameters_.push_back(scenario.parameters(rho));
+    if (rows_[i].peaks().empty()) continue;
+    const auto column = static_cast<Eigen::Index>(i);
+    Eigen::VectorXd of_peaks = Eigen::VectorXd::Zero(rho.size());
+    smooth_values_[column] -= peak_terms(scenario.system->study(), all.extremes[i], &of_peaks);
+    smooth_gradients_.col(column) -= of_peaks;
+  }
+}
+
+Program::Value Program::blank() const {
+  Value value;
+  value.by_rho.setZero(smooth_gradients_.rows());
+  value.by_slack.setZero(slacks());
+  return value;
+}
+
+Program::Value Program::objective(const Eigen::VectorXd& slack) const {
+  Value result = blank();
+  if (slack_.variables() > 0) {
+    result.value = slack_.objective(slack.head(slack_.variables()));
+    result.by_slack.head(slack_.variables()) = slack_.gradient();
+    return result;
+  }
+  Eigen::VectorXd psi = smooth_values_;
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    for (int j = 0; j < static_cast<int>(rows_[i].peaks().size()); ++j)
+      psi[static_cast<Eigen::Index>(i)] += unit_ * peak_factor(i, j) * slack[peak_variable(i, j)];
+  const Measured measured = measure(ensemble_.options(), psi, ensemble_.weights());
+  result.value = measured.value / unit_;
+  result.by_rho = smooth_gradients_ * measured.by_value / unit_;
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    for (int j = 0; j < static_cast<int>(rows_[i].peaks().size()); ++j)
+      result.by_slack[peak_variable(i, j)] = measured.by_value[static_cast<Eigen::Index>(i)] * peak_factor(i, j);
+  return result;
+}
+
+double Program::peak_factor(std::size_t scenario, int peak) const {
+  const std::size_t watched = rows_[scenario].peaks()[static_cast<std::size_t>(peak)];
+  const double weight = ensemble_.scenarios()[scenario].system->study().watched[watched].weight;
+  return weight * peak_units_[first_peak_[scenario] + peak] / unit_;
+}
+
+Program::Value Program::signal_value(const Place& place) const {
+  Value result = blank();
+  const SignalRows& rows = rows_[place.scenario];
+  const Extremes& extremes = all_->extremes[place.scenario];
+  result.value = rows.value(*place.row, extremes, parameters_[place.scenario]);
+  for (Eigen::Index k = 0; k < result.by_rho.size(); ++k)
+    result.by_rho[k] = rows.derivative(*place.row, static_cast<std::size_t>(k), extremes, parameters_[place.scenario]);
+  return result;
+}
+
+// psi_i - t - z_i <= 0 for the robust measure, then the rows of signals.
+Program::Value Program::inequality(int row, const Eigen::VectorXd& slack) const {
+  if (row >= slack_.constraints()) {
+    const Place& place = inequality_places_[static_cast<std::size_t>(row - slack_.constraints())];
+    Value result = signal_value(place);
+    if (place.row->peak < 0) return result;
+    const int variable = peak_variable(place.scenario, place.row->peak);
+    const double unit = peak_units_[variable - slack_.variables()];
+    result.value = result.value / unit - slack[variable];
+    result.by_rho /= unit;
+    result.by_slack[variable] = -1.0;
+    return result;
+  }
+  Value result = blank();
+  const auto i = static_cast<std::size_t>(row);
+  double psi = smooth_values_[row] / unit_;
+  for (int j = 0; j < static_cast<int>(rows_[i].peaks().size()); ++j) {
+    result.by_slack[peak_variable(i, j)] = peak_factor(i, j);
+    psi += peak_factor(i, j) * slack[peak_variable(i, j)];
+  }
+  result.value = slack_.constraint(row, psi, slack.head(slack_.variables()));
+  result.by_rho = smooth_gradients_.col(row) / unit_;
+  for (int k = 0; k < slack_.variables(); ++k) result.by_slack[k] = slack_.by_slack(row, k);
+  return result;
+}
+
+Program::Value Program::equality(int row) const { return signal_value(equality_places_[static_cast<std::size_t>(row)]); }
+
+std::vector<WatchedResult> Program::describe(const std::vector<Extremes>& extremes, const std::vector<Extremes>& initial,
+                                             const Eigen::VectorXd& rho) const {
+  std::vector<WatchedResult> results;
+  if (extremes.size() != rows_.size() || initial.size() != rows_.size()) return results;
+  const std::vector<WatchedSignal>& watched = ensemble_.scenarios().front().system->study().watched;
+  for (std::size_t k = 0; k < watched.size(); ++k) {
+    WatchedResult& result = results.emplace_back();
+    result.element = watched[k].element;
+    result.signal = watched[k].signal.text;
+    bool first = true;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const WatchLayout::Entry& entry = rows_[i].layout().entries()[k];
+      const auto now = extremes[i].values.segment(entry.first, entry.size()), before = initial[i].values.segment(entry.first, entry.size());
+      Eigen::Index low = 0, high = 0;
+      const double smallest = now.minCoeff(&low), largest = now.maxCoeff(&high);
+      if (first || smallest < result.smallest) {
+        result.smallest = smallest;
+        result.smallest_time = extremes[i].times[entry.first + low];
+      }
+      if (first || largest > result.largest) {
+        result.largest = largest;
+        result.largest_time = extremes[i].times[entry.first + high];
+      }
+      result.initial_smallest = first ? before.minCoeff() : std::min(result.initial_smallest, before.minCoeff());
+      result.initial_largest = first ? before.maxCoeff() : std::max(result.initial_largest, before.maxCoeff());
+      result.violation = std::max(result.violation, rows_[i].violation(k, extremes[i], ensemble_.scenarios()[i].parameters(rho)));
+      first = false;
+    }
+  }
+  return results;
+}
+
+double Program::violation(const std::vector<Extremes>& extremes, const Eigen::VectorXd& rho) const {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < extremes.size(); ++i) {
+    const std::vector<double> parameters = ensemble_.scenarios()[i].parameters(rho);
+    for (std::size_t k = 0; k < rows_[i].layout().entries().size(); ++k)
+      largest = std::max(largest, rows_[i].violation(k, extremes[i], parameters));
+  }
+  return largest;
+}
+
+}  // namespace codesign

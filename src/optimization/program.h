@@ -1,0 +1,80 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_OPTIMIZATION_PROGRAM_H_
+#define MECHANISM_CODESIGN_OPTIMIZATION_PROGRAM_H_
+
+#include <vector>
+
+#include "ensemble/ensemble.h"
+#include "mechanism_codesign/optimization.h"
+#include "optimization/signal_rows.h"
+#include "optimization/slack_form.h"
+
+namespace codesign {
+
+/// The smooth problem that stands for a robust measure, peaks and constraints on signals; theory (24b)-(24d). Its variables are rho and
+/// slack variables: those of SlackForm, then one p per scenario and peak, for which
+///   psi_i = integral and terminal terms + sum_j weight_j p_ij,    |signal_j - reference_j| <= p_ij in scenario i.
+/// All numbers are in units that are chosen at the start: a psi in that of the scaled objective, a p in its own magnitude.
+class Program {
+ public:
+  explicit Program(const Ensemble& ensemble);
+
+  int slacks() const { return slack_.variables() + peaks_; }
+  int inequalities() const { return slack_.constraints() + inequality_rows_; }
+  int equalities() const { return equality_rows_; }
+  bool has_signals() const { return inequality_rows_ + equality_rows_ > 0; }
+  bool has_robust_slack() const { return slack_.variables() > 0; }
+  double lower(int slack) const { return slack < slack_.variables() ? slack_.lower(slack) : 0.0; }
+
+  /// Chooses the units and returns slack variables that are feasible. @param unit of psi.
+  Eigen::VectorXd start(const EnsembleEvaluation& at, double unit);
+  /// Takes over the evaluation that the functions below read; `all` must be ok and outlive their calls.
+  void take(const EnsembleEvaluation& all, const Eigen::VectorXd& rho);
+
+  /// A number with its derivatives by rho (unscaled) and the slack variables.
+  struct Value {
+    double value = 0.0;
+    Eigen::VectorXd by_rho, by_slack;
+  };
+  Value objective(const Eigen::VectorXd& slack) const;
+  /// Left sides c <= 0 and c = 0.
+  Value inequality(int row, const Eigen::VectorXd& slack) const;
+  Value equality(int row) const;
+
+  /// One result per watched signal; empty without any. @param initial the evaluation at the start of the search, or null.
+  std::vector<WatchedResult> describe(const std::vector<Extremes>& extremes, const std::vector<Extremes>& initial,
+                                      const Eigen::VectorXd& rho) const;
+  /// The largest violation of any bound over all scenarios.
+  double violation(const std::vector<Extremes>& extremes, const Eigen::VectorXd& rho) const;
+
+ private:
+  struct Place {
+    std::size_t scenario;
+    const SignalRow* row;
+  };
+
+  Value blank() const;
+  Value signal_value(const Place& place) const;
+  /// Number of the slack variable p of a scenario's peak.
+  int peak_variable(std::size_t scenario, int peak) const { return slack_.variables() + first_peak_[scenario] + peak; }
+  /// Derivative of psi_i by that variable, both in their units.
+  double peak_factor(std::size_t scenario, int peak) const;
+
+  const Ensemble& ensemble_;
+  SlackForm slack_;
+  std::vector<SignalRows> rows_;  ///< one per scenario
+  std::vector<int> first_peak_;   ///< per scenario
+  std::vector<Place> inequality_places_, equality_places_;
+  int peaks_ = 0, inequality_rows_ = 0, equality_rows_ = 0;
+  double unit_ = 1.0;
+  Eigen::VectorXd peak_units_;
+  // The evaluation that was taken over: psi without peaks and its gradients, one per scenario.
+  const EnsembleEvaluation* all_ = nullptr;
+  Eigen::VectorXd smooth_values_;
+  Eigen::MatrixXd smooth_gradients_;
+  std::vector<std::vector<double>> parameters_;  ///< of each scenario
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_OPTIMIZATION_PROGRAM_H_

@@ -1,0 +1,23 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_PEAKS_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_PEAKS_H_
+
+#include "integration/watch_layout.h"
+#include "mechanism_codesign/gradient.h"
+
+namespace codesign {
+
+/// The value of a watched signal of greatest magnitude: its place among the numbers, and its sign.
+struct Peak {
+  int place = 0;
+  double sign = 1.0;
+};
+Peak find_peak(const WatchLayout::Entry& entry, const Eigen::VectorXd& values);
+
+/// The peaks in the objective, sum of weight max |signal - reference|, theory (21a); 0 without any. @param gradient if not null, theirs is
+/// added.
+double peak_terms(const Study& study, const Extremes& extremes, Eigen::VectorXd* gradient);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_PEAKS_H_

@@ -1,0 +1,177 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sensitivity/signal_watch.h"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <limits>
+
+#include "equations/compiled_system.h"
+
+namespace codesign {
+namespace {
+
+constexpr int kPieces = 4;         // of a step: the slope is computed at their ends
+constexpr double kInside = 1e-10;  // fraction of a step: at its ends a reference may have a kink, so that slopes are taken just inside
+constexpr int kBits = 50;          // accuracy of the instant of an extremum
+constexpr std::uintmax_t kMostIterations = 60;
+
+bool jumps(double before, double after) { return std::abs(after - before) > 1e-8 * (std::abs(before) + std::abs(after)); }
+
+}  // namespace
+
+SignalWatch::SignalWatch(const CompiledSystem& system) : system_(system), layout_(system.study()), curves_(system.watched().size()) {
+  state_.resize(system.layout());
+  rates_.resize(system.layout());
+}
+
+Status SignalWatch::start(Integrator* integrator, Differentiate differentiate) {
+  integrator_ = integrator;
+  differentiate_ = std::move(differentiate);
+  status_ = {};
+  time_ = integrator->state().t;
+  const auto parameters = static_cast<Eigen::Index>(differentiate_ ? system_.study().tuned.size() : 0);
+  extremes_.values.setConstant(layout_.size(), std::numeric_limits<double>::quiet_NaN());
+  extremes_.times.setZero(layout_.size());
+  extremes_.gradients.setZero(parameters, layout_.size());
+  for (std::size_t k = 0; k < curves_.size() && status_.ok(); ++k) {
+    curves_[k] = {};
+    sparse_.clear();
+    state_ = integrator->state();
+    integrator->equations().formulas().watched(k, state_, &sparse_);
+    curves_[k].reads_rates = !sparse_.rate.empty();
+    if (layout_.entries()[k].instants.front() <= time_) reach_instant(k, time_);
+  }
+  return status_;
+}
+
+Status SignalWatch::look() {
+  const double from = time_, to = integrator_->state().t;
+  for (std::size_t k = 0; k < curves_.size() && status_.ok(); ++k) follow(k, from, to);
+  time_ = to;
+  return status_;
+}
+
+/// Sets state_ to the point of the dense output at `time`.
+bool SignalWatch::go_to(std::size_t k, double time) {
+  double psi = 0.0;
+  integrator_->interpolate(time, &state_, &psi);
+  if (!curves_[k].reads_rates) return true;
+  const Status solved = integrator_->assembly().solve_rates(&integrator_->equations(), &state_);
+  if (!solved.ok()) status_ = solved;
+  return solved.ok();
+}
+
+double SignalWatch::value(std::size_t k, double time) {
+  if (!go_to(k, time)) return 0.0;
+  const double value = integrator_->equations().formulas().watched(k, state_, nullptr);
+  if (!std::isfinite(value)) status_ = failed(k, time);
+  return value;
+}
+
+// The slope is the gradient of the signal times the rates of the dense output; those of accelerations and multipliers follow from the
+// derivatives of the equations.
+SignalWatch::Sample SignalWatch::sample(std::size_t k, double time) {
+  Sample result;
+  result.time = time;
+  if (!status_.ok() || !go_to(k, time)) return result;
+  integrator_->interpolate_rates(time, &rates_);
+  if (curves_[k].reads_rates) integrator_->assembly().differentiate_rates(&rates_);
+  sparse_.clear();
+  result.value = integrator_->equations().formulas().watched(k, state_, &sparse_);
+  result.slope = sparse_.time;
+  const Layout& layout = system_.layout();
+  for (const auto& e : sparse_.position)
+    result.slope += e.value * (e.column < layout.n ? rates_.q[e.column] : rates_.s[e.column - layout.n]);
+  for (const auto& e : sparse_.velocity) result.slope += e.value * rates_.v[e.column];
+  for (const auto& e : sparse_.rate) result.slope += e.value * rates_.z[e.column];
+  if (!std::isfinite(result.value) || !std::isfinite(result.slope)) status_ = failed(k, time);
+  return result;
+}
+
+/// Follows a signal through a step, from instant to instant.
+void SignalWatch::follow(std::size_t k, double from, double to) {
+  const std::vector<double>& instants = layout_.entries()[k].instants;
+  Curve& curve = curves_[k];
+  const double slack = kInside * (to - from);
+  if (to < instants.front() - slack || curve.next >= instants.size()) return;
+  const double begin = std::max(from, instants.front()), end = std::min(to, instants.back());
+  points_.clear();
+  for (int piece = 1; piece < kPieces; ++piece) points_.push_back(from + (to - from) * piece / kPieces);
+  for (std::size_t i = curve.next; i < instants.size() && instants[i] <= end + slack; ++i) points_.push_back(std::min(instants[i], end));
+  points_.erase(std::remove_if(points_.begin(), points_.end(), [&](double t) { return t < begin || t > end; }), points_.end());
+  points_.push_back(end);
+  std::sort(points_.begin(), points_.end());
+  const auto inside = [&](double time) { return std::min(std::max(time, from + slack), to - slack); };
+  const auto reach = [&](double time) {
+    while (status_.ok() && curve.next < instants.size() && instants[curve.next] <= time + slack) reach_instant(k, time);
+  };
+  if (instants.size() == 1) return reach(end);
+  reach(begin);
+  if (!status_.ok()) return;
+  Sample last = sample(k, inside(begin));
+  // Where one step ends and the next begins, the slope may jump.
+  if (last.slope * curve.end_slope < 0.0) offer(k, last.time);
+  for (double point : points_) {
+    if (!status_.ok()) return;
+    const Sample next = sample(k, inside(point));
+    if (next.time > last.time) search(k, last, next);
+    // A signal may jump at an instant where a reference has a kink. Then the value before it counts, too.
+    if (curve.next < instants.size() && instants[curve.next] <= point + slack && jumps(next.value, value(k, point))) offer(k, next.time);
+    reach(point);
+    last = next;
+  }
+  curve.end_slope = end < to ? 0.0 : last.slope;
+}
+
+/// Looks for an extremum between two points by the sign of the slope.
+void SignalWatch::search(std::size_t k, const Sample& from, const Sample& to) {
+  if (!(from.slope * to.slope < 0.0)) return;
+  std::uintmax_t iterations = kMostIterations;
+  const auto slope = [&](double time) { return sample(k, time).slope; };
+  const auto found = boost::math::tools::toms748_solve(slope, from.time, to.time, from.slope, to.slope,
+                                                       boost::math::tools::eps_tolerance<double>(kBits), iterations);
+  if (status_.ok()) offer(k, 0.5 * (found.first + found.second));
+}
+
+/// Takes the value at the next instant, which ends one window and begins another.
+void SignalWatch::reach_instant(std::size_t k, double time) {
+  const WatchLayout::Entry& entry = layout_.entries()[k];
+  const int instant = static_cast<int>(curves_[k].next);
+  const double number = value(k, time);
+  if (!status_.ok()) return;
+  if (differentiate_) differentiate_(k, state_, curves_[k].reads_rates, &gradient_);
+  set(entry.at_instant(instant), time, number);
+  if (instant > 0 && number > extremes_.values[entry.largest(instant - 1)]) set(entry.largest(instant - 1), time, number);
+  if (instant > 0 && number < extremes_.values[entry.smallest(instant - 1)]) set(entry.smallest(instant - 1), time, number);
+  if (instant < entry.windows()) {
+    set(entry.largest(instant), time, number);
+    set(entry.smallest(instant), time, number);
+  }
+  ++curves_[k].next;
+}
+
+/// Compares the value at an extremum with those of its window.
+void SignalWatch::offer(std::size_t k, double time) {
+  const WatchLayout::Entry& entry = layout_.entries()[k];
+  const int window = static_cast<int>(curves_[k].next) - 1;
+  if (window < 0 || window >= entry.windows()) return;
+  const double number = value(k, time);
+  if (!status_.ok()) return;
+  const bool largest = number > extremes_.values[entry.largest(window)], smallest = number < extremes_.values[entry.smallest(window)];
+  if (!largest && !smallest) return;
+  if (differentiate_) differentiate_(k, state_, curves_[k].reads_rates, &gradient_);
+  set(largest ? entry.largest(window) : entry.smallest(window), time, number);
+}
+
+void SignalWatch::set(int place, double time, double number) {
+  extremes_.values[place] = number;
+  extremes_.times[place] = time;
+  if (differentiate_) extremes_.gradients.col(place) = gradient_;
+}
+
+Status SignalWatch::failed(std::size_t k, double time) const {
+  return {StatusCode::kNonFinite, time, "the signal \"" + system_.study().watched[k].signal.text + "\" is not finite"};
+}
+
+}  // namespace codesign

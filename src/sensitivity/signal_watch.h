@@ -1,0 +1,74 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_SIGNAL_WATCH_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_SIGNAL_WATCH_H_
+
+#include <functional>
+#include <vector>
+
+#include "integration/integrator.h"
+#include "integration/watch_layout.h"
+#include "mechanism_codesign/gradient.h"
+
+namespace codesign {
+
+/// Finds the numbers of the watched signals, doc/theory.md (21a), while an integration runs: their values at given instants and the
+/// largest and smallest values between them, with derivatives by the tuned parameters.
+///
+/// A signal is a function of the dense output, with accelerations and multipliers solved for where it depends on them. Its slope, which is
+/// exact, is computed at several points of each step; where it changes sign, a root finder gives the extremum to rounding. At a smooth
+/// extremum the derivative by a parameter is that at a fixed time, because the slope is zero there.
+class SignalWatch {
+ public:
+  /// The derivatives of watched signal `k` by the tuned parameters at `state`, a point of the dense output of the last step.
+  /// @param reads_rates whether the signal depends on state->z, which is then solved for.
+  using Differentiate = std::function<void(std::size_t k, const State<double>& state, bool reads_rates, Eigen::VectorXd* gradient)>;
+
+  /// @param system must outlive this.
+  explicit SignalWatch(const CompiledSystem& system);
+
+  bool is_empty() const { return curves_.empty(); }
+  /// Begins a run: to be called after integrator->start(). @param differentiate empty: without derivatives.
+  Status start(Integrator* integrator, Differentiate differentiate);
+  /// Looks through the step that the integrator has just taken.
+  Status look();
+  /// The numbers so far. At the end of the study all of them are set.
+  const Extremes& extremes() const { return extremes_; }
+
+ private:
+  /// A watched signal on its way through the run.
+  struct Curve {
+    bool reads_rates = false;  ///< whether the signal depends on accelerations or multipliers
+    std::size_t next = 0;      ///< the next instant
+    double end_slope = 0.0;    ///< at the end of the step before, where it was inside the interval; else 0
+  };
+  struct Sample {
+    double time = 0.0, value = 0.0, slope = 0.0;  ///< [s], [unit of the signal], [per s]
+  };
+
+  bool go_to(std::size_t k, double time);
+  double value(std::size_t k, double time);
+  Sample sample(std::size_t k, double time);
+  void follow(std::size_t k, double from, double to);
+  void search(std::size_t k, const Sample& from, const Sample& to);
+  void reach_instant(std::size_t k, double time);
+  void offer(std::size_t k, double time);
+  void set(int place, double time, double number);
+  Status failed(std::size_t k, double time) const;
+
+  const CompiledSystem& system_;
+  const WatchLayout layout_;
+  Integrator* integrator_ = nullptr;
+  Differentiate differentiate_;
+  std::vector<Curve> curves_;
+  Extremes extremes_;
+  double time_ = 0.0;  ///< end of the step before [s]
+  State<double> state_, rates_;
+  SparseGradient<double> sparse_;
+  Eigen::VectorXd gradient_;
+  std::vector<double> points_;
+  Status status_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_SIGNAL_WATCH_H_
