@@ -7,7 +7,7 @@
 #include "cli/report.h"
 #include "cli/table.h"
 #include "jobs/ensemble_records.h"
-#include "mechanism_codesign/optimization.h"
+#include "optimization/search_hooks.h"
 #include "text/number_text.h"
 
 namespace codesign::cli {
@@ -101,7 +101,7 @@ int optimize(const Arguments& arguments, const Console& console) {
   const Problem problem = load_tunable(arguments, &console);
   std::optional<JobFolder> folder;
   if (!arguments.output.empty()) {
-    folder.emplace(arguments.output, problem);
+    folder.emplace(arguments.output, problem, arguments.resume);
     tell(folder->notes(), console);
   }
   const auto observer = [&](const Trial& trial) {
@@ -109,7 +109,8 @@ int optimize(const Arguments& arguments, const Console& console) {
     if (folder) folder->add(trial);
     return !console.cancel;
   };
-  const OptimizationResult result = codesign::optimize(problem, observer, &console.cancel);
+  const SearchHooks hooks{observer, folder ? folder->journal() : nullptr};
+  const OptimizationResult result = run_search(problem, problem.optimizer_options(), hooks, &console.cancel);
   const bool designed = has_design(problem, result);
   if (!arguments.json && designed) print_result(problem, result, console.out);
   Json object = result_json(problem, result);

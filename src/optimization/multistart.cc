@@ -24,14 +24,14 @@ constexpr std::uint32_t kRounds = 10;  // of screening, before it gives up to re
 /// One search over starts: what its stages share.
 class Multistart {
  public:
-  Multistart(const Problem& problem, const OptimizerOptions& options, const TrialObserver& observer, const std::atomic<bool>* cancel)
+  Multistart(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks, const std::atomic<bool>* cancel)
       : problem_(problem),
         study_(problem.study()),
         asked_(study_.ensemble.multistart),
         options_(options),
         cancel_(cancel),
-        observer_(observer),
-        ensemble_(problem, asked_.screen),
+        observer_(hooks.trial),
+        ensemble_(problem, asked_.screen, {hooks.memory, nullptr}),
         scaling_(study_) {}
 
   OptimizationResult run() {
@@ -195,9 +195,9 @@ class Multistart {
 
 }  // namespace
 
-OptimizationResult search_from_many_starts(const Problem& problem, const OptimizerOptions& options, const TrialObserver& observer,
+OptimizationResult search_from_many_starts(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
                                            const std::atomic<bool>* cancel) {
-  return Multistart(problem, options, observer, cancel).run();
+  return Multistart(problem, options, hooks, cancel).run();
 }
 
 std::vector<Optimum> cluster_optima(const std::vector<std::vector<double>>& scaled, double distance, std::vector<StartResult>* starts) {

@@ -5,6 +5,7 @@
 #include "optimization/local_search.h"
 #include "optimization/multistart.h"
 #include "optimization/scenario_results.h"
+#include "optimization/search_hooks.h"
 
 namespace codesign {
 
@@ -22,10 +23,15 @@ OptimizationResult optimize(const Problem& problem, const TrialObserver& observe
 
 OptimizationResult optimize(const Problem& problem, const OptimizerOptions& options, const TrialObserver& observer,
                             const std::atomic<bool>* cancel) {
+  return run_search(problem, options, {observer, nullptr}, cancel);
+}
+
+OptimizationResult run_search(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
+                              const std::atomic<bool>* cancel) {
   require_tuned(problem.study());
-  if (problem.study().ensemble.multistart.starts > 0) return search_from_many_starts(problem, options, observer, cancel);
-  const Ensemble ensemble(problem);
-  OptimizationResult result = search_locally(problem.study(), options, problem.start(), ensemble, observer, cancel);
+  if (problem.study().ensemble.multistart.starts > 0) return search_from_many_starts(problem, options, hooks, cancel);
+  const Ensemble ensemble(problem, 1, {hooks.memory, nullptr});
+  OptimizationResult result = search_locally(problem.study(), options, problem.start(), ensemble, hooks.trial, cancel);
   describe_scenarios(problem, ensemble, cancel, &result);
   return result;
 }
