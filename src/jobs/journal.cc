@@ -19,7 +19,7 @@
 namespace codesign {
 namespace {
 
-constexpr mode_t kMode = 0666;
+constexpr mode_t kFileMode = 0666;
 
 /// In the order in which the problem has compiled them, which its texts decide.
 std::map<const CompiledSystem*, int> number_systems(const Problem& problem) {
@@ -100,7 +100,7 @@ void Journal::add_line(std::int64_t number, const std::string& line) {
 
 void Journal::open_file(Mode mode) {
   const int flags = O_RDWR | O_APPEND | O_CLOEXEC | (mode == Mode::kNew ? O_CREAT | O_EXCL : 0);
-  file_ = open(path_.c_str(), flags, kMode);
+  file_ = open(path_.c_str(), flags, kFileMode);
   if (file_ < 0 || ftruncate(file_, end_) != 0) throw OutputError::of_system(path_, errno);
   if (end_ == 0 && !append(header_)) throw OutputError::of_system(path_, errno);
 }
@@ -150,7 +150,7 @@ void Journal::keep(const EvaluationTask& task, const Evaluation& evaluation) {
   const std::size_t key = key_of(system->second, task.with_gradient, task.parameters);
   const std::lock_guard<std::mutex> lock(mutex_);
   const Line place{end_, static_cast<std::int64_t>(line.size())};
-  if (!look_up(key, task) && append(line)) lines_.emplace(key, place);
+  if (append(line)) lines_.emplace(key, place);
 }
 
 std::string Journal::failure() const {

@@ -34,7 +34,7 @@ class Journal final : public EvaluationMemory {
   Journal& operator=(const Journal&) = delete;
 
   std::optional<Evaluation> find(const EvaluationTask& task) override;
-  /// Appends a line unless the evaluation is known. A file that cannot be written stays as it is from then on; see failure().
+  /// Appends a line. A file that cannot be written stays as it is from then on; see failure().
   void keep(const EvaluationTask& task, const Evaluation& evaluation) override;
 
   /// How many evaluations were in the file when it was opened.
