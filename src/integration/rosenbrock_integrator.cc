@@ -25,6 +25,7 @@ Status RosenbrockIntegrator::start(const std::vector<double>& parameters) {
   statistics_ = {};
   controller_ = StepController(step_.tableau().order);
   if (Status status = assemble_start(system_, parameters, &assembly_, &step_.equations(), &initial_); !status.ok()) return status;
+  step_.forget();
   step_.start(initial_);
   watch_.start(step_.equations(), initial_);
   run_watch_.start(step_.equations().constants(), initial_);

@@ -31,6 +31,11 @@ class RosenbrockStep {
   /// Starts a solution at a consistent state; psi() is zero. equations() must hold the design.
   void start(const State<T>& state);
 
+  /// Makes later steps independent of earlier ones to the last bit: pivots are chosen anew. Before start(), at the beginning of a run.
+  void forget() {
+    stage_matrix_.forget();
+    projection_matrix_.forget();
+  }
   /// Computes the step of size h [s] from state(), without accepting it. False if the matrix is singular or a value is not finite.
   bool attempt(double h);
   /// Scaled error of the last attempt, acceptable up to 1: the largest |u_last| / (absolute + relative max(|y|, |y_1|)) over (q, v, s). A

@@ -33,6 +33,7 @@ SingularityWatch::SingularityWatch(const CompiledSystem& system) : system_(syste
 
 void SingularityWatch::start(bool enabled, const State<double>& initial) {
   enabled_ = enabled;
+  if (matrix_) matrix_->forget();
   warnings_.clear();
   count_ = 0;
   sum_of_logarithms_ = 0.0;

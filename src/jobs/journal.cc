@@ -108,10 +108,14 @@ void Journal::open_file(Mode mode) {
 bool Journal::append(const std::string& line) {
   if (!failure_.empty()) return false;
   const std::string text = line + '\n';
+  // A disk that fills up first takes a part; only the next call says why.
+  std::size_t done = 0;
+  ssize_t written = 1;
   errno = 0;
-  const ssize_t written = write(file_, text.data(), text.size());
-  if (written == static_cast<ssize_t>(text.size())) {
-    end_ += written;
+  while (done < text.size() && (written = write(file_, text.data() + done, text.size() - done)) > 0)
+    done += static_cast<std::size_t>(written);
+  if (done == text.size()) {
+    end_ += static_cast<std::int64_t>(done);
     return true;
   }
   const int cause = errno;

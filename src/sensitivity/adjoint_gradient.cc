@@ -55,6 +55,7 @@ void AdjointGradient::prepare() {
   for (const auto& e : back_->terminal.velocity) adjoint[at.v() + e.column] += e.value;
   for (const auto& e : back_->terminal.rate) adjoint[at.z() + e.column] += e.value;
   back_->adjoint.start(parameters, adjoint);
+  back_->replay.forget();
   back_->replay.equations().set_design(parameters);
   back_->parameters->for_each([&](auto* lanes) { lanes->start(parameters); });
 }

@@ -135,14 +135,16 @@ TEST_F(Resume, WithoutItTheJournalIsSetAside) {
 }
 
 TEST_F(Resume, AFullDiskLeavesAJournalThatCanBeResumed) {
-  study_ = short_study(folder_);
-  ChildProcess process(job("--output", "job"), "/dev/null", folder_.path("err"), 2000);
+  study_ = folder_.edited("longer.yaml", read_text_file(short_study(folder_)), "max_evaluations: 4", "max_evaluations: 14");
+  // The journal grows by 400 bytes with each evaluation, the messages by a quarter of that.
+  ChildProcess process(job("--output", "job"), "/dev/null", folder_.path("err"), 4000);
   EXPECT_EQ(process.wait(), kFailed);
   const std::string err = read_text_file(folder_.path("err"));
   EXPECT_NE(err.find("journal.jsonl: cannot be written: File too large"), std::string::npos) << err;
   const Outcome outcome = run_words({"optimize", kModel, study_, "--resume", folder_.path("job")});
   EXPECT_EQ(outcome.code, kDone) << outcome.err;
-  EXPECT_EQ(finished_lines(in("job", "journal.jsonl")).size(), 5u);
+  EXPECT_EQ(finished_lines(in("job", "journal.jsonl")).size(),
+            1 + Json::parse(read_text_file(in("job", "result.json")))["evaluations"].get<std::size_t>());
 }
 
 }  // namespace
