@@ -19,7 +19,7 @@ std::vector<Evaluation> RememberingEngine::evaluate(const std::vector<Evaluation
   for (std::size_t k = 0; k < tasks.size(); ++k) {
     if (std::optional<Evaluation> known = looks_up ? records_.memory->find(tasks[k]) : std::nullopt) {
       results[k] = std::move(*known);
-      if (records_.counts) ++records_.counts->remembered;
+      if (records_.counted) records_.counted(false);
       continue;
     }
     unknown.push_back(tasks[k]);
@@ -34,11 +34,11 @@ std::vector<Evaluation> RememberingEngine::evaluate(const std::vector<Evaluation
 void RememberingEngine::note(const EvaluationTask& task, const Evaluation& evaluation) const {
   if (evaluation.status.code == StatusCode::kCancelled) return;
   if (records_.memory) records_.memory->keep(task, evaluation);
-  if (records_.counts) ++records_.counts->computed;
+  if (records_.counted) records_.counted(true);
 }
 
 std::unique_ptr<EvaluationEngine> with_records(std::unique_ptr<EvaluationEngine> engine, EngineRecords records) {
-  if (!records.memory && !records.counts) return engine;
+  if (!records.memory && !records.counted) return engine;
   return std::make_unique<RememberingEngine>(std::move(engine), std::move(records));
 }
 

@@ -2,24 +2,19 @@
 #ifndef MECHANISM_CODESIGN_ENGINE_REMEMBERING_ENGINE_H_
 #define MECHANISM_CODESIGN_ENGINE_REMEMBERING_ENGINE_H_
 
-#include <atomic>
-#include <cstdint>
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "engine/evaluation_memory.h"
 
 namespace codesign {
 
-/// How many evaluations an engine has finished.
-struct RunCounts {
-  std::atomic<std::int64_t> computed{0};    ///< by its workers
-  std::atomic<std::int64_t> remembered{0};  ///< taken from its memory
-};
-
 /// What a job has besides its engine. Both may be null.
 struct EngineRecords {
   std::shared_ptr<EvaluationMemory> memory;
-  std::shared_ptr<RunCounts> counts;
+  /// Told of each finished evaluation, from any thread: whether it was computed (true) or remembered.
+  std::function<void(bool)> counted = nullptr;
 };
 
 /// An engine with a memory: it does what the memory does not know, and tells the memory each result as soon as it is there. Cancelled

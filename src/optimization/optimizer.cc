@@ -23,16 +23,19 @@ OptimizationResult optimize(const Problem& problem, const TrialObserver& observe
 
 OptimizationResult optimize(const Problem& problem, const OptimizerOptions& options, const TrialObserver& observer,
                             const std::atomic<bool>* cancel) {
-  return run_search(problem, options, {observer, nullptr}, cancel);
+  return run_search(problem, options, {observer, nullptr, nullptr}, cancel);
 }
 
 OptimizationResult run_search(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
                               const std::atomic<bool>* cancel) {
   require_tuned(problem.study());
   if (problem.study().ensemble.multistart.starts > 0) return search_from_many_starts(problem, options, hooks, cancel);
-  const Ensemble ensemble(problem, 1, {hooks.memory, nullptr});
-  OptimizationResult result = search_locally(problem.study(), options, problem.start(), ensemble, hooks.trial, cancel);
-  describe_scenarios(problem, ensemble, cancel, &result);
+  ProgressMeter meter(options.max_evaluations, hooks.progress);
+  const Ensemble ensemble(problem, 1, records_of(hooks, &meter));
+  meter.begin(SearchStage::kSearching, 0, ensemble.scenarios().size());
+  const TrialObserver observer = counted_trials(hooks, &meter);
+  OptimizationResult result = search_locally(problem.study(), options, problem.start(), ensemble, observer, cancel);
+  describe_scenarios(problem, ensemble, cancel, &meter, &result);
   return result;
 }
 

@@ -44,20 +44,27 @@ std::vector<EvaluationTask> designs(const Problem& problem, int first, int count
   return result;
 }
 
-EngineRecords records_with(const std::shared_ptr<MapMemory>& memory) { return {memory, std::make_shared<RunCounts>()}; }
+struct RunCounts {
+  std::atomic<int> computed{0}, remembered{0};
+};
+
+EngineRecords records_with(const std::shared_ptr<MapMemory>& memory, RunCounts* counts) {
+  return {memory, [counts](bool computed) { ++(computed ? counts->computed : counts->remembered); }};
+}
 
 TEST(RememberingEngine, ComputesOnlyWhatIsNotKnown) {
   const Problem problem = block("");
   const auto memory = std::make_shared<MapMemory>();
-  const EngineRecords records = records_with(memory);
+  RunCounts counts;
+  const EngineRecords records = records_with(memory, &counts);
   const auto engine = with_records(std::make_unique<ThreadEngine>(2), records);
   EXPECT_EQ(engine->workers(), 2);
   engine->evaluate(designs(problem, 0, 4), nullptr);
   EXPECT_EQ(memory->size(), 4u);
   const std::vector<EvaluationTask> all = designs(problem, 2, 5);
   const std::vector<Evaluation> results = engine->evaluate(all, nullptr), expected = SerialEngine().evaluate(all, nullptr);
-  EXPECT_EQ(records.counts->computed, 7);
-  EXPECT_EQ(records.counts->remembered, 2);
+  EXPECT_EQ(counts.computed, 7);
+  EXPECT_EQ(counts.remembered, 2);
   ASSERT_EQ(results.size(), 5u);
   for (std::size_t k = 0; k < results.size(); ++k) {
     EXPECT_EQ(results[k].objective, expected[k].objective) << k;
@@ -69,18 +76,20 @@ TEST(RememberingEngine, KeepsEachResultAtOnceAndNoneThatWasCancelled) {
   const Problem problem = block("");
   const auto memory = std::make_shared<MapMemory>();
   memory->cancel_at = 2;
-  const EngineRecords records = records_with(memory);
+  RunCounts counts;
+  const EngineRecords records = records_with(memory, &counts);
   const auto engine = with_records(std::make_unique<SerialEngine>(), records);
   const std::vector<Evaluation> results = engine->evaluate(designs(problem, 0, 4), &memory->cancel);
   EXPECT_EQ(memory->size(), 2u);
-  EXPECT_EQ(records.counts->computed, 2);
+  EXPECT_EQ(counts.computed, 2);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(results[k].status.code == StatusCode::kCancelled, k >= 2) << k;
 }
 
 TEST(RememberingEngine, ACancelledJobIsNotCarriedOnByItsMemory) {
   const Problem problem = block("");
   const auto memory = std::make_shared<MapMemory>();
-  const auto engine = with_records(std::make_unique<SerialEngine>(), records_with(memory));
+  RunCounts counts;
+  const auto engine = with_records(std::make_unique<SerialEngine>(), records_with(memory, &counts));
   engine->evaluate(designs(problem, 0, 1), nullptr);
   const std::atomic<bool> cancel{true};
   EXPECT_EQ(engine->evaluate(designs(problem, 0, 1), &cancel)[0].status.code, StatusCode::kCancelled);
