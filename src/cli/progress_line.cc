@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/progress_line.h"
 
+#include <cmath>
+
 #include "text/number_text.h"
 
 namespace codesign::cli {
@@ -15,10 +17,13 @@ std::string counted(const Progress& progress) {
   return "searching: " + of + "at most " + all + " evaluations";
 }
 
+/// With two digits, or as a whole number.
+std::string rounded(double value) { return readable(value < 10.0 ? value : std::round(value), value < 10.0 ? 2 : 10); }
+
 std::string duration(double seconds) {
-  if (seconds < 120.0) return readable(seconds, 2) + " s";
-  if (seconds < 7200.0) return readable(seconds / 60.0, 2) + " min";
-  return readable(seconds / 3600.0, 3) + " h";
+  if (seconds < 120.0) return rounded(seconds) + " s";
+  if (seconds < 7200.0) return rounded(seconds / 60.0) + " min";
+  return rounded(seconds / 3600.0) + " h";
 }
 
 }  // namespace

@@ -19,6 +19,8 @@ TEST(ProgressLine, SaysWhatIsDoneHowFastAndHowLong) {
   progress.starts = progress.of = 100;
   progress.seconds_left = 12.34;
   EXPECT_EQ(progress_line(progress), "searching: 12 of 100 searches ended, 288 runs, 31.2 runs/s, about 12 s left");
+  progress.seconds_left = 111.0;
+  EXPECT_NE(progress_line(progress).find("about 111 s left"), std::string::npos);
   progress.starts = 0;
   progress.of = 200;
   progress.is_bound = true;
