@@ -50,6 +50,7 @@ Assembly::Assembly(const CompiledSystem& system)
 }
 
 void Assembly::set_start(const std::vector<double>& parameters) {
+  matrix_.forget();
   theta_.setZero(tree_.size);
   theta_rate_.setZero(tree_.size);
   for (const InitialJointState& initial : system_.study().initial_state) {

@@ -59,6 +59,13 @@ void set_method(const std::string& text, Arguments* arguments) {
     throw UsageError("--verify: \"" + text + "\" is neither complex_step nor ridders");
 }
 
+void set_folder(const std::string& path, bool resume, Arguments* arguments) {
+  if (!arguments->output.empty() && arguments->output != path)
+    throw UsageError("--output and --resume: \"" + arguments->output + "\" and \"" + path + "\" are two folders, a job has one");
+  arguments->output = path;
+  arguments->resume = arguments->resume || resume;
+}
+
 const std::map<std::string, Option>& options() {
   using Value = Option::Value;
   static const std::map<std::string, Option> kOptions = {
@@ -69,7 +76,8 @@ const std::map<std::string, Option>& options() {
       {"--csv", {Value::kRequired, {"simulate"}, [](const std::string& text, Arguments* to) { to->csv = text; }}},
       {"--samples", {Value::kRequired, {"simulate"}, set_samples}},
       {"--verify", {Value::kOptional, {"gradient"}, set_method}},
-      {"--output", {Value::kRequired, {"optimize"}, [](const std::string& text, Arguments* to) { to->output = text; }}},
+      {"--output", {Value::kRequired, {"optimize"}, [](const std::string& text, Arguments* to) { set_folder(text, false, to); }}},
+      {"--resume", {Value::kRequired, {"optimize"}, [](const std::string& text, Arguments* to) { set_folder(text, true, to); }}},
   };
   return kOptions;
 }

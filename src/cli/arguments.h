@@ -30,7 +30,8 @@ struct Arguments {
   int samples = 101;                 ///< simulate; number of equally spaced instants, at least 2
   bool verify = false;               ///< gradient
   CheckMethod method = CheckMethod::kComplexStep;
-  std::string output;  ///< optimize; empty: no files
+  std::string output;   ///< optimize; empty: no files
+  bool resume = false;  ///< optimize; go on with the journal in `output`
 };
 
 /// @param words the command line without the program's name.

@@ -19,15 +19,22 @@ namespace codesign::cli {
 namespace {
 
 constexpr int kSamples = 101;
+constexpr const char* kJournal = "journal.jsonl";
+constexpr const char* kPreviousJournal = "previous_journal.jsonl";
 
 }  // namespace
 
-JobFolder::JobFolder(const std::string& path, const Problem& problem) : path_(path), problem_(problem), best_(in_folder(""), problem) {
-  make_folder(path, "--output");
+JobFolder::JobFolder(const std::string& path, const Problem& problem, bool resume)
+    : path_(path), problem_(problem), best_(in_folder(""), problem) {
+  if (resume)
+    require_journal(in_folder(kJournal));
+  else
+    make_folder(path, "--output");
   lock_ = LockFile::take(in_folder(".codesign_optimize.lock"));
   if (!lock_)
     throw InputError({{path, 0}, "--output", "another optimization is writing into this folder", path, "a folder of its own for each"});
-  make_room();
+  open_journal(resume);
+  make_room(resume);
   open_output(in_folder("convergence.csv"), "--output", &convergence_file_);
   std::vector<std::string> names = {"evaluation", "iteration", "status", "objective", "best_objective", "gradient_norm"};
   for (const std::string& name : problem.tuned_names()) names.push_back(name);
@@ -36,13 +43,23 @@ JobFolder::JobFolder(const std::string& path, const Problem& problem) : path_(pa
 
 std::string JobFolder::in_folder(const std::string& name) const { return (std::filesystem::path(path_) / name).string(); }
 
-void JobFolder::make_room() {
+void JobFolder::open_journal(bool resume) {
+  const std::string path = in_folder(kJournal), previous = in_folder(kPreviousJournal);
+  if (!resume && std::rename(path.c_str(), previous.c_str()) == 0)
+    notes_.push_back("the journal of an earlier optimization in this folder is now " + previous + "; --resume would have gone on with it");
+  journal_ = std::make_shared<Journal>(path, problem_, problem_.optimizer_options(), resume ? Journal::Mode::kResume : Journal::Mode::kNew);
+  notes_.insert(notes_.end(), journal_->notes().begin(), journal_->notes().end());
+}
+
+void JobFolder::make_room(bool resume) {
   for (const char* name : {"result.json", "tuned.urdf", "initial.csv", "tuned.csv", "starts.csv", "scenarios.csv"}) {
     unlink(in_folder(name).c_str());
     unlink((in_folder(name) + kPartSuffix).c_str());
   }
   for (const std::string name : {"best.urdf", "best.json"}) {
     unlink((in_folder(name) + kPartSuffix).c_str());
+    // The optimization that is resumed reaches its best point again.
+    if (resume) continue;
     if (std::rename(in_folder(name).c_str(), in_folder("killed_" + name).c_str()) == 0)
       notes_.push_back("an optimization in this folder was killed; its best point is now in " + in_folder("killed_" + name));
   }
@@ -92,6 +109,7 @@ void JobFolder::write_table(const std::string& name, const std::vector<std::stri
 std::vector<Failure> JobFolder::finish(const Json& object, const OptimizationResult& result, const std::atomic<bool>& cancel) {
   const std::atomic<bool>* const watched = cancel ? nullptr : &cancel;
   const std::vector<double> tuned = problem_.parameters(result.rho);
+  if (!journal_->failure().empty()) failures_.push_back({"output_failed", journal_->failure()});
   const std::size_t before = failures_.size();
   try_to([&] { write_whole_file(in_folder("result.json"), to_text(object)); });
   try_to([&] { write_whole_file(in_folder("tuned.urdf"), write_tuned_urdf(problem_.urdf(), problem_.overlays(), tuned)); });

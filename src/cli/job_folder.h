@@ -5,6 +5,7 @@
 #include <atomic>
 #include <fstream>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "cli/json_output.h"
 #include "cli/report.h"
 #include "jobs/best_record.h"
+#include "jobs/journal.h"
 #include "jobs/lock_file.h"
 #include "mechanism_codesign/optimization.h"
 #include "problem/load_problem.h"
@@ -21,14 +23,19 @@ namespace codesign::cli {
 
 /// The output folder of `codesign optimize`. convergence.csv, best.urdf and best.json are written while the optimization runs; finish()
 /// writes result.json, tuned.urdf, initial.csv and tuned.csv, each as a whole. A lock admits one optimization at a time. Results of an
-/// earlier optimization are removed; the best point of one that was killed is kept as killed_best.urdf and killed_best.json.
+/// earlier optimization are removed; its journal is kept as previous_journal.jsonl, and the best point of one that was killed as
+/// killed_best.urdf and killed_best.json.
 class JobFolder {
  public:
-  /// Creates and locks the folder and opens convergence.csv. @throws InputError if that fails, or if another optimization uses the folder.
-  JobFolder(const std::string& path, const Problem& problem);
+  /// Creates and locks the folder and opens convergence.csv and journal.jsonl. @param resume the folder's journal is gone on with.
+  /// @throws InputError if that fails, or if another optimization uses the folder; OutputError if the journal cannot be written.
+  JobFolder(const std::string& path, const Problem& problem, bool resume = false);
 
   /// Sentences for the user about files of an earlier optimization that were kept.
   const std::vector<std::string>& notes() const { return notes_; }
+
+  /// The memory of evaluations.
+  std::shared_ptr<EvaluationMemory> journal() const { return journal_; }
 
   /// Records a trial point. A file that cannot be written does not end the optimization; finish() reports it.
   void add(const Trial& trial);
@@ -42,7 +49,8 @@ class JobFolder {
 
  private:
   std::string in_folder(const std::string& name) const;
-  void make_room();
+  void open_journal(bool resume);
+  void make_room(bool resume);
   void write_run(const std::string& name, const std::vector<double>& parameters, const std::atomic<bool>* cancel);
   void write_table(const std::string& name, const std::vector<std::string>& columns, const std::vector<std::vector<std::string>>& rows);
   void try_to(const std::function<void()>& write);
@@ -55,6 +63,7 @@ class JobFolder {
   std::ofstream convergence_file_;
   std::optional<CsvWriter> convergence_;  // empty after a write failed
   BestRecord best_;
+  std::shared_ptr<Journal> journal_;
 };
 
 }  // namespace codesign::cli

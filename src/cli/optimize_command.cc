@@ -1,14 +1,16 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <mutex>
 #include <optional>
 
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/job_folder.h"
+#include "cli/progress_line.h"
 #include "cli/report.h"
 #include "cli/table.h"
 #include "jobs/ensemble_records.h"
 #include "jobs/watched_records.h"
-#include "mechanism_codesign/optimization.h"
+#include "optimization/search_hooks.h"
 #include "text/number_text.h"
 
 namespace codesign::cli {
@@ -24,9 +26,14 @@ void print_trial(const Trial& trial, std::ostream& err) {
   err << ", best " << readable(trial.best_objective) << std::endl;
 }
 
-/// Whether the best point was evaluated; false if the search was cancelled before the first evaluation or the start failed.
+/// Whether the best point was evaluated with its gradient; false if the search was cancelled before the first trial or the start failed.
 bool is_evaluated(const Problem& problem, const OptimizationResult& result) {
   return result.gradient.size() == static_cast<Eigen::Index>(problem.study().tuned.size());
+}
+
+/// Whether the objective at the best point is known; while screening it is without its gradient.
+bool has_objective(const Problem& problem, const OptimizationResult& result) {
+  return is_evaluated(problem, result) || result.screened > result.unusable;
 }
 
 /// Whether there is a design to report. A cancelled optimization has one, which may be its start.
@@ -55,6 +62,8 @@ void print_result(const Problem& problem, const OptimizationResult& result, std:
   print_design(problem, result, out);
   if (is_evaluated(problem, result))
     out << "objective " << readable(result.initial_objective) << " -> " << readable(result.objective) << '\n';
+  else if (has_objective(problem, result))
+    out << "objective " << readable(result.objective) << " at the best point of screening\n";
   for (const std::string& sentence : watched_sentences(result)) out << sentence << '\n';
   for (const std::string& sentence : ensemble_sentences(problem, result)) out << sentence << '\n';
   out << result.termination << " after " << result.iterations << " iterations, " << result.evaluations << " evaluations ("
@@ -72,10 +81,8 @@ Json margins_json(const Problem& problem, const OptimizationResult& result) {
 Json result_json(const Problem& problem, const OptimizationResult& result) {
   const std::vector<std::string> names = problem.tuned_names();
   Json object;
-  if (is_evaluated(problem, result)) {
-    object["objective"] = result.objective;
-    object["initial_objective"] = result.initial_objective;
-  }
+  if (has_objective(problem, result)) object["objective"] = result.objective;
+  if (is_evaluated(problem, result)) object["initial_objective"] = result.initial_objective;
   if (has_design(problem, result)) {
     object["parameters"] = parameters_json(problem, problem.parameters(result.rho));
     object["initial_parameters"] = parameters_json(problem, problem.parameters(result.initial_rho));
@@ -104,15 +111,22 @@ int optimize(const Arguments& arguments, const Console& console) {
   const Problem problem = load_tunable(arguments, &console);
   std::optional<JobFolder> folder;
   if (!arguments.output.empty()) {
-    folder.emplace(arguments.output, problem);
+    folder.emplace(arguments.output, problem, arguments.resume);
     tell(folder->notes(), console);
   }
+  std::mutex printing;  // progress comes from the workers
   const auto observer = [&](const Trial& trial) {
+    const std::lock_guard<std::mutex> lock(printing);
     print_trial(trial, console.err);
     if (folder) folder->add(trial);
     return !console.cancel;
   };
-  const OptimizationResult result = codesign::optimize(problem, observer, &console.cancel);
+  const auto progress = [&](const Progress& so_far) {
+    const std::lock_guard<std::mutex> lock(printing);
+    console.err << progress_line(so_far) << std::endl;
+  };
+  const SearchHooks hooks{observer, progress, folder ? folder->journal() : nullptr};
+  const OptimizationResult result = run_search(problem, problem.optimizer_options(), hooks, &console.cancel);
   const bool designed = has_design(problem, result);
   if (!arguments.json && designed) print_result(problem, result, console.out);
   Json object = result_json(problem, result);

@@ -19,7 +19,8 @@ commands
     --verify[=METHOD]      compare with complex_step (the default) or ridders (always with idas)
   optimize MODEL STUDY     tune the study's parameters; Ctrl-C ends with the best point so far
     --output DIR           write tuned.urdf, result.json, convergence.csv, initial.csv, tuned.csv;
-                           best.urdf and best.json while it runs
+                           journal.jsonl, and best.urdf and best.json while it runs
+    --resume DIR           go on with the optimization of DIR/journal.jsonl, killed or cancelled
   help                     this text
   --version                the version of this program, as "codesign 0.1.0"
 

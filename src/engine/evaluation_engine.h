@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct EvaluationTask {
   std::shared_ptr<const CompiledSystem> system;
   std::vector<double> parameters;  ///< all named parameters (order of Study::parameters)
   bool with_gradient = false;
+  /// Told of the result as soon as it is there, in the thread that computed it, while other tasks may still run. Must not throw.
+  std::function<void(const Evaluation&)> finished = nullptr;
 };
 
 /// Does evaluations, on one or on several workers. Each result depends on its task alone, so the results are the same bits for any number

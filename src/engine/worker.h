@@ -5,6 +5,7 @@
 #include <map>
 
 #include "engine/evaluation_engine.h"
+#include "text/cancel.h"
 
 namespace codesign {
 
@@ -12,11 +13,21 @@ namespace codesign {
 class EvaluationWorker {
  public:
   Evaluation evaluate(const EvaluationTask& task, const std::atomic<bool>* cancel) {
+    // After a cancel a long queue empties at once.
+    if (is_set(cancel)) return cancelled();
     const auto [place, is_new] = evaluators_.try_emplace(task.system.get(), task.system);
-    return place->second.evaluate_design(task.parameters, task.with_gradient, cancel);
+    Evaluation result = place->second.evaluate_design(task.parameters, task.with_gradient, cancel);
+    if (task.finished) task.finished(result);
+    return result;
   }
 
  private:
+  static Evaluation cancelled() {
+    Evaluation evaluation;
+    evaluation.status = {StatusCode::kCancelled, 0.0, "cancelled"};
+    return evaluation;
+  }
+
   std::map<const CompiledSystem*, Evaluator> evaluators_;  // an Evaluator shares its system, so no address is used twice
 };
 

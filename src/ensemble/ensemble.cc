@@ -37,9 +37,10 @@ Ensemble::Ensemble(std::vector<Scenario> scenarios, const RobustOptions& options
   for (std::size_t k = 0; k < scenarios_.size(); ++k) weights_[static_cast<Eigen::Index>(k)] = scenarios_[k].weight;
 }
 
-Ensemble::Ensemble(const Problem& problem, int designs)
+Ensemble::Ensemble(const Problem& problem, int designs, EngineRecords records)
     : Ensemble(make_scenarios(problem), problem.study().ensemble.robust_options(), nullptr) {
-  engine_ = make_engine(problem.study().ensemble.engine, designs * static_cast<std::int64_t>(scenarios_.size()));
+  engine_ = with_records(make_engine(problem.study().ensemble.engine, designs * static_cast<std::int64_t>(scenarios_.size())),
+                         std::move(records));
 }
 
 Ensemble::Ensemble(std::shared_ptr<const CompiledSystem> system)

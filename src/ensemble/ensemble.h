@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/evaluation_engine.h"
+#include "engine/remembering_engine.h"
 #include "ensemble/scenario.h"
 
 namespace codesign {
@@ -32,8 +32,8 @@ class Ensemble {
   /// @param scenarios weights with sum 1. @param engine does the evaluations.
   Ensemble(std::vector<Scenario> scenarios, const RobustOptions& options, std::shared_ptr<EvaluationEngine> engine);
   /// The scenarios of a problem, on an engine as its study asks for.
-  /// @param designs the largest number of designs that are evaluated at the same time.
-  explicit Ensemble(const Problem& problem, int designs = 1);
+  /// @param designs the largest number of designs that are evaluated at the same time. @param records memory and counts of the job.
+  explicit Ensemble(const Problem& problem, int designs = 1, EngineRecords records = {});
   /// The one run of a compiled study.
   explicit Ensemble(std::shared_ptr<const CompiledSystem> system);
 

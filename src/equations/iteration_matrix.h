@@ -28,6 +28,8 @@ class IterationMatrix {
 
   /// Forms the matrix and factors it. @param derivatives on CompiledSystem::patterns(). Returns false if the matrix is singular.
   bool factor(const Linearization<double>& derivatives, double c_v, double c_q, double c_s);
+  /// SparseLu::forget().
+  void forget() { lu_.forget(); }
   /// The factorization of the last factor().
   const SparseLu& lu() const { return lu_; }
 

@@ -46,6 +46,7 @@ IdasEquations::IdasEquations(const CompiledSystem& system, IdasNewton* newton)
 }
 
 void IdasEquations::start() {
+  newton_.forget();
   visited_[0] = std::numeric_limits<double>::quiet_NaN();
   failure_.clear();
 }

@@ -27,7 +27,7 @@ class IdasEquations {
   void set_sensitivities(IdasSensitivities* sensitivities) { sensitivities_ = sensitivities; }
   /// For the quadrature of the work of all forces but gravity; must outlive the integration.
   void set_motion(const BodyMotion* motion) { motion_ = motion; }
-  /// Discards stored derivatives and the last failure.
+  /// Discards stored derivatives, pivots and the last failure.
   void start();
 
   /// Counts the whole turns of joints from those of `state` on.

@@ -31,6 +31,9 @@ class IdasNewton {
   /// matrix of the last setup in place of G_z.
   void correct(const VectorX<double>& error, VectorX<double>* correction) const;
 
+  /// IterationMatrix::forget(), at the beginning of a run.
+  void forget() { reduced_.forget(); }
+
   SUNMatrix matrix() { return matrix_.get(); }
   SUNLinearSolver solver() { return solver_.get(); }
   /// Whether the matrix of the last setup was singular.

@@ -20,6 +20,7 @@ void Projection::correct(const VectorX<double>& error, VectorX<double>* target) 
 }
 
 bool Projection::apply(Equations<double>* equations, State<double>* state) {
+  matrix_.forget();
   for (int round = 0; round < kRounds; ++round) {
     equations->linearize(*state, &derivatives_);
     if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) return false;

@@ -29,8 +29,9 @@ Status RosenbrockIntegrator::start(const std::vector<double>& parameters) {
   watch_.start(step_.equations(), initial_);
   run_watch_.start(step_.equations().constants(), initial_);
   work_.start(initial_, run_watch_.motion());
-  singularity_.start(watch_singularities_, initial_);
+  singularity_.start(watch_singularities_, initial_, &step_.equations());
   proposal_ = options_.initial_step > 0.0 ? options_.initial_step : first_step();
+  step_.choose_pivots(proposal_);
   return {};
 }
 

@@ -34,6 +34,16 @@ void RosenbrockStep<T>::start(const State<T>& state) {
   equations_.linearize(state_, &derivatives_);
 }
 
+// A matrix that is singular here is told by the step that needs it.
+template <class T>
+void RosenbrockStep<T>::choose_pivots(double h) {
+  const double hg = h * tableau_.gamma;
+  stage_matrix_.forget();
+  stage_matrix_.factor(derivatives_, hg, hg * hg, hg);
+  projection_matrix_.forget();
+  projection_matrix_.factor(derivatives_, 0.0, 0.0, 0.0);
+}
+
 // Sets w of (16) in increment i: w_v = h gamma r_v, w_q = h gamma (r_q + w_v), w_s = h gamma r_s, where r is the stage's rate plus the sum
 // of c_ij u_j / h.
 template <class T>

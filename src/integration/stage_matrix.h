@@ -18,6 +18,7 @@ class StageMatrix<double> {
  public:
   explicit StageMatrix(const CompiledSystem& system) : matrix_(system) {}
   bool factor(const Linearization<double>& d, double c_v, double c_q, double c_s) { return matrix_.factor(d, c_v, c_q, c_s); }
+  void forget() { matrix_.forget(); }
   void solve(VectorX<double>* x) const { matrix_.lu().solve(*x); }
   const SparseLu& lu() const { return matrix_.lu(); }
 
@@ -50,6 +51,7 @@ class StageMatrix<std::complex<double>> {
     lu_.compute(matrix);
     return matrix.allFinite();
   }
+  void forget() {}
   void solve(VectorX<Scalar>* x) const { *x = lu_.solve(*x).eval(); }
 
  private:

@@ -24,14 +24,16 @@ constexpr std::uint32_t kRounds = 10;  // of screening, before it gives up to re
 /// One search over starts: what its stages share.
 class Multistart {
  public:
-  Multistart(const Problem& problem, const OptimizerOptions& options, const TrialObserver& observer, const std::atomic<bool>* cancel)
+  Multistart(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks, const std::atomic<bool>* cancel)
       : problem_(problem),
         study_(problem.study()),
         asked_(study_.ensemble.multistart),
         options_(options),
         cancel_(cancel),
-        observer_(observer),
-        ensemble_(problem, asked_.screen),
+        meter_(options.max_evaluations, hooks.progress),
+        trial_(counted_trials(hooks, &meter_)),
+        observer_(trial_),
+        ensemble_(problem, asked_.screen, records_of(hooks, &meter_)),
         scaling_(study_) {}
 
   OptimizationResult run() {
@@ -52,6 +54,7 @@ class Multistart {
   /// Draws points until `screen` of them are usable: each round replaces those that were not in the round before.
   void screen() {
     const int dimension = static_cast<int>(study_.tuned.size());
+    meter_.begin(SearchStage::kScreening, asked_.screen, ensemble_.scenarios().size());
     for (std::uint32_t round = 0; round < kRounds && missing() > 0 && !is_set(cancel_); ++round) {
       const Eigen::MatrixXd unit = unit_points(asked_.sampler, missing(), dimension, asked_.seed + round);
       std::vector<Eigen::VectorXd> points;
@@ -82,10 +85,12 @@ class Multistart {
     std::vector<EnsembleEvaluation> results(round.size());
     side_by_side(round.size(), ensemble_.engine().workers(), [&](std::size_t k) {
       if (all_met(constraint_margins(study_, parameters_at(study_, round[k])))) results[k] = ensemble_.evaluate(round[k], false, cancel_);
+      if (results[k].values.size() > 0) meter_.count_point();
     });
     for (std::size_t k = 0; k < round.size(); ++k) {
       const Evaluation& total = results[k].total;
       statistics_ += total.statistics;
+      if (total.status.code == StatusCode::kCancelled) continue;
       if (results[k].values.size() == 0) {
         ++unusable_;
         if (first_failure_.ok() && !total.status.ok()) first_failure_ = total.status;
@@ -98,9 +103,11 @@ class Multistart {
 
   std::vector<OptimizationResult> search() {
     std::vector<OptimizationResult> found(order_.size());
+    meter_.begin(SearchStage::kSearching, static_cast<std::int64_t>(order_.size()), ensemble_.scenarios().size());
     side_by_side(order_.size(), ensemble_.engine().workers(), [&](std::size_t k) {
       if (is_set(cancel_) || observer_.is_stopped()) return;
       found[k] = search_locally(study_, options_, points_[order_[k]], ensemble_, observer_.of(static_cast<int>(k) + 1), cancel_);
+      meter_.end_search(found[k].evaluations);
     });
     return found;
   }
@@ -119,7 +126,7 @@ class Multistart {
     best.optima = std::move(optima);
     add_sums(*found, &best);
     take_study_start(&best);
-    describe_scenarios(problem_, ensemble_, cancel_, &best);
+    describe_scenarios(problem_, ensemble_, cancel_, &meter_, &best);
     return best;
   }
 
@@ -150,7 +157,11 @@ class Multistart {
                                       : first_failure_;
     none.termination = "start_failed";
     none.initial_rho = none.rho = problem_.start();
-    none.margins = constraint_margins(study_, problem_.parameters());
+    if (!order_.empty()) {
+      none.rho = points_[order_.front()];
+      none.objective = objectives_[order_.front()];
+    }
+    none.margins = constraint_margins(study_, parameters_at(study_, none.rho));
     none.influences.assign(study_.tuned.size(), false);
     return none;
   }
@@ -182,6 +193,8 @@ class Multistart {
   const MultistartOptions& asked_;
   const OptimizerOptions& options_;
   const std::atomic<bool>* cancel_;
+  ProgressMeter meter_;
+  const TrialObserver trial_;
   SharedObserver observer_;
   const Ensemble ensemble_;
   const Scaling scaling_;
@@ -195,9 +208,9 @@ class Multistart {
 
 }  // namespace
 
-OptimizationResult search_from_many_starts(const Problem& problem, const OptimizerOptions& options, const TrialObserver& observer,
+OptimizationResult search_from_many_starts(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
                                            const std::atomic<bool>* cancel) {
-  return Multistart(problem, options, observer, cancel).run();
+  return Multistart(problem, options, hooks, cancel).run();
 }
 
 std::vector<Optimum> cluster_optima(const std::vector<std::vector<double>>& scaled, double distance, std::vector<StartResult>* starts) {

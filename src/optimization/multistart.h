@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "mechanism_codesign/optimization.h"
+#include "optimization/search_hooks.h"
 
 namespace codesign {
 
@@ -13,7 +13,7 @@ namespace codesign {
 /// local searches, and results nearer to each other than `cluster` (largest difference of scaled parameters) count as one optimum.
 /// The result is the best search's, with sums over all; it does not depend on the number of workers.
 /// @throws InputError as optimize().
-OptimizationResult search_from_many_starts(const Problem& problem, const OptimizerOptions& options, const TrialObserver& observer,
+OptimizationResult search_from_many_starts(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
                                            const std::atomic<bool>* cancel);
 
 /// Sets StartResult::optimum and returns the optima, best first. @param scaled the result of each search in scaled parameters.

@@ -5,6 +5,7 @@
 #include "optimization/local_search.h"
 #include "optimization/multistart.h"
 #include "optimization/scenario_results.h"
+#include "optimization/search_hooks.h"
 
 namespace codesign {
 
@@ -22,11 +23,19 @@ OptimizationResult optimize(const Problem& problem, const TrialObserver& observe
 
 OptimizationResult optimize(const Problem& problem, const OptimizerOptions& options, const TrialObserver& observer,
                             const std::atomic<bool>* cancel) {
+  return run_search(problem, options, {observer, nullptr, nullptr}, cancel);
+}
+
+OptimizationResult run_search(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
+                              const std::atomic<bool>* cancel) {
   require_tuned(problem.study());
-  if (problem.study().ensemble.multistart.starts > 0) return search_from_many_starts(problem, options, observer, cancel);
-  const Ensemble ensemble(problem);
+  if (problem.study().ensemble.multistart.starts > 0) return search_from_many_starts(problem, options, hooks, cancel);
+  ProgressMeter meter(options.max_evaluations, hooks.progress);
+  const Ensemble ensemble(problem, 1, records_of(hooks, &meter));
+  meter.begin(SearchStage::kSearching, 0, ensemble.scenarios().size());
+  const TrialObserver observer = counted_trials(hooks, &meter);
   OptimizationResult result = search_locally(problem.study(), options, problem.start(), ensemble, observer, cancel);
-  describe_scenarios(problem, ensemble, cancel, &result);
+  describe_scenarios(problem, ensemble, cancel, &meter, &result);
   return result;
 }
 

@@ -15,9 +15,11 @@ ScenarioResult describe(const Study& study, const Scenario& scenario, double ini
 }
 
 /// The design on fresh samples. Unlike in the search, a sample that fails does not refuse the design; it is counted.
-Validation validate(const Problem& problem, const Ensemble& ensemble, const OptimizationResult& design, const std::atomic<bool>* cancel) {
+Validation validate(const Problem& problem, const Ensemble& ensemble, const OptimizationResult& design, const std::atomic<bool>* cancel,
+                    ProgressMeter* meter) {
   const RobustOptions& options = ensemble.options();
   const std::vector<Scenario> scenarios = make_validation_scenarios(problem, options.validate);
+  meter->begin(SearchStage::kValidating, 1, scenarios.size());
   const std::vector<Evaluation> members = ensemble.engine().evaluate(tasks_at(scenarios, design.rho, false), cancel);
   Validation validation;
   validation.samples = options.validate;
@@ -43,7 +45,8 @@ Validation validate(const Problem& problem, const Ensemble& ensemble, const Opti
 
 }  // namespace
 
-void describe_scenarios(const Problem& problem, const Ensemble& ensemble, const std::atomic<bool>* cancel, OptimizationResult* result) {
+void describe_scenarios(const Problem& problem, const Ensemble& ensemble, const std::atomic<bool>* cancel, ProgressMeter* meter,
+                        OptimizationResult* result) {
   const std::vector<Scenario>& scenarios = ensemble.scenarios();
   const bool known =
       result->values.size() == static_cast<Eigen::Index>(scenarios.size()) && result->initial_values.size() == result->values.size();
@@ -52,7 +55,7 @@ void describe_scenarios(const Problem& problem, const Ensemble& ensemble, const 
     const auto i = static_cast<Eigen::Index>(k);
     result->scenarios.push_back(describe(problem.study(), scenarios[k], result->initial_values[i], result->values[i]));
   }
-  if (ensemble.options().validate > 0 && !is_set(cancel)) result->validation = validate(problem, ensemble, *result, cancel);
+  if (ensemble.options().validate > 0 && !is_set(cancel)) result->validation = validate(problem, ensemble, *result, cancel, meter);
 }
 
 }  // namespace codesign

@@ -56,6 +56,8 @@ void AdjointGradient::prepare() {
   for (const auto& e : back_->terminal.rate) adjoint[at.z() + e.column] += e.value;
   back_->adjoint.start(parameters, adjoint);
   back_->replay.equations().set_design(parameters);
+  back_->replay.start(integrator_.initial_state());
+  back_->replay.choose_pivots(back_->path.size() > 1 ? back_->path.step_size(1) : integrator_.step().step_size());
   back_->parameters->for_each([&](auto* lanes) { lanes->start(parameters); });
 }
 

@@ -35,6 +35,7 @@ IdasTangent::IdasTangent(const CompiledSystem& system)
 
 void IdasTangent::start(const std::vector<double>& parameters, const State<double>& initial, Integrator* integrator,
                         std::vector<State<double>>* sensitivities, std::vector<double>* scales) {
+  matrix_.forget();
   groups_.for_each([&](auto* group) {
     const auto lanes = group->range.seed(system_, parameters);
     group->equations.set_design(lanes);

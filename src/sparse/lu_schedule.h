@@ -35,6 +35,8 @@ class LuSchedule {
     double pivot_ratio = 0.0;  ///< smallest over largest |pivot|
   };
 
+  /// Takes the row scales of a pattern with the same pivots, as if constructed with it. False, and nothing is changed, for other pivots.
+  bool rescale(const LuPattern& pattern);
   /// Factors the matrix with these nonzeros, in the order of row_index.
   Quality refactor(In<double> values);
   /// Solves A x = b in place for N right-hand sides stored row by row: x[N row + k]. N is 1, 4 or 8.

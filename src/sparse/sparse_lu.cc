@@ -15,22 +15,26 @@ constexpr double kLargestMultiplier = 1e6;
 // Smallest over largest pivot at which the matrix counts as singular to working precision.
 constexpr double kSingular = 1e-17;
 constexpr std::size_t kMostSchedules = 4;
+// With those of earlier runs, which save making a schedule when the same pivots are chosen again.
+constexpr std::size_t kMostKept = 8;
 
 }  // namespace
 
 struct SparseLu::Implementation {
   std::vector<int> starts, rows;
-  std::vector<LuSchedule> schedules;  ///< the last one is in use
+  std::vector<LuSchedule> schedules;  ///< the last one is in use; those before the last `chosen` ones were forgotten
+  std::size_t chosen = 0;             ///< since the last forget(), at most kMostSchedules
   std::int64_t full_factorizations = 0;
 
   LuSchedule& schedule() { return schedules.back(); }
 
   // Earlier pivots are kept since a mechanism that swings returns to positions for which they were chosen.
   bool refactor(In<double> values) {
-    for (std::size_t tried = 0; tried < schedules.size(); ++tried) {
+    const auto first = schedules.end() - static_cast<std::ptrdiff_t>(chosen);
+    for (std::size_t tried = 0; tried < chosen; ++tried) {
       const LuSchedule::Quality quality = schedule().refactor(values);
       if (quality.growth <= kLargestMultiplier && quality.pivot_ratio > kSingular) return true;
-      std::rotate(schedules.begin(), schedules.end() - 1, schedules.end());
+      std::rotate(first, schedules.end() - 1, schedules.end());
     }
     return false;
   }
@@ -39,10 +43,23 @@ struct SparseLu::Implementation {
     ++full_factorizations;
     const std::optional<LuPattern> pattern = choose_pivots(starts, rows, values);
     if (!pattern) return false;
-    if (schedules.size() == kMostSchedules) schedules.erase(schedules.begin());
-    schedules.emplace_back(*pattern, starts, rows);
+    add(*pattern);
     const double ratio = schedule().refactor(values).pivot_ratio;
     return std::isfinite(ratio) && ratio > kSingular;
+  }
+
+  /// Brings a schedule for these pivots to the end: a forgotten one or a new one.
+  void add(const LuPattern& pattern) {
+    if (chosen == kMostSchedules) --chosen;
+    const auto last = schedules.end() - static_cast<std::ptrdiff_t>(chosen);
+    const auto known = std::find_if(schedules.begin(), last, [&pattern](LuSchedule& schedule) { return schedule.rescale(pattern); });
+    if (known != last) {
+      std::rotate(known, known + 1, schedules.end());
+    } else {
+      if (schedules.size() == kMostKept) schedules.erase(schedules.begin());
+      schedules.emplace_back(pattern, starts, rows);
+    }
+    ++chosen;
   }
 };
 
@@ -57,6 +74,8 @@ SparseLu::SparseLu(SparseLu&&) noexcept = default;
 SparseLu& SparseLu::operator=(SparseLu&&) noexcept = default;
 
 bool SparseLu::factor(In<double> values) { return implementation_->refactor(values) || implementation_->factor(values); }
+
+void SparseLu::forget() { implementation_->chosen = 0; }
 
 template <int N>
 void SparseLu::solve_rows(Out<double> x) const {

@@ -26,6 +26,10 @@ class SparseLu {
   /// Factors the matrix with these nonzeros, in the order of row_index. False if it is singular to working precision.
   bool factor(In<double> values);
 
+  /// Later factorizations do not depend on earlier matrices: the next one chooses pivots anew. For the beginning of a run, so that its last
+  /// bits do not depend on the runs before.
+  void forget();
+
   /// Solves A x = b in place, n numbers.
   void solve(Out<double> x) const { solve_rows<1>(x); }
   /// Solves in place for N right-hand sides, stored row by row: x[N row + k]. N is 1, 4 or 8.

@@ -41,6 +41,16 @@ TEST(Arguments, OptionsStandAnywhereAndTakeEitherSpelling) {
   EXPECT_EQ(arguments.study, "a.yaml");
 }
 
+TEST(Arguments, ResumeNamesTheFolder) {
+  EXPECT_TRUE(parse_arguments({"optimize", "m", "s", "--resume", "out"}).resume);
+  EXPECT_EQ(parse_arguments({"optimize", "m", "s", "--resume=out"}).output, "out");
+  EXPECT_TRUE(parse_arguments({"optimize", "m", "s", "--resume", "out", "--output", "out"}).resume);
+  EXPECT_FALSE(parse_arguments({"optimize", "m", "s", "--output", "out"}).resume);
+  expect_usage_error({"optimize", "m", "s", "--resume", "a", "--output", "b"}, "two folders");
+  expect_usage_error({"optimize", "m", "s", "--resume"}, "needs a value");
+  expect_usage_error({"simulate", "m", "s", "--resume", "a"}, "takes no --resume");
+}
+
 TEST(Arguments, SimulateTakesSignalsFileAndSamples) {
   const Arguments arguments =
       parse_arguments({"simulate", "m", "s", "--signals", "a/velocity,b/velocity - c/velocity", "--csv", "f", "--samples=11"});

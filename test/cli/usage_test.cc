@@ -10,7 +10,7 @@ namespace {
 
 TEST(Usage, NamesEveryCommandAndOption) {
   for (const char* word : {"check MODEL", "urdf MODEL", "simulate MODEL STUDY", "gradient MODEL STUDY", "optimize MODEL STUDY", "--signals",
-                           "--csv", "--samples", "--verify", "--output", "--overlay", "--set", "--json", "--version"})
+                           "--csv", "--samples", "--verify", "--output", "--resume", "--overlay", "--set", "--json", "--version"})
     EXPECT_NE(usage().find(word), std::string::npos) << word;
 }
 

@@ -52,6 +52,27 @@ TEST(SparseLu, FallsBackWhenOldPivotsVanish) {
   EXPECT_EQ(lu.full_factorizations(), 2);
 }
 
+TEST(SparseLu, AfterForgettingNothingDependsOnEarlierMatrices) {
+  const Eigen::Matrix4d first = dense_matrix(1e8), second = dense_matrix(0.3);
+  const auto solution = [](SparseLu* lu, const Eigen::Matrix4d& m) {
+    Eigen::Vector4d x(1.0 / 3, 2.0 / 7, 3.0 / 11, 4.0 / 13);
+    EXPECT_TRUE(lu->factor(m));
+    lu->solve(x);
+    return x;
+  };
+  SparseLu fresh(kLuStart, kLuRows), used(kLuStart, kLuRows);
+  const Eigen::Vector4d expected = solution(&fresh, second);
+  EXPECT_EQ(solution(&used, 2.0 * second), 0.5 * expected) << "the same pivots with other scales";
+  solution(&used, first);
+  for (int k = 0; k < 12; ++k) {
+    used.forget();
+    EXPECT_EQ(solution(&used, second), expected) << k;
+    used.forget();
+    solution(&used, dense_matrix(1e8 * (k + 1)));
+  }
+  EXPECT_GE(used.full_factorizations(), 25) << "chosen anew each time";
+}
+
 TEST(SparseLu, ReportsSingularMatrices) {
   SparseLu lu(kLuStart, kLuRows);
   Eigen::Matrix4d m = dense_matrix(4.0);

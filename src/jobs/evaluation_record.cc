@@ -1,0 +1,117 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/evaluation_record.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "jobs/json_records.h"
+#include "text/decimal.h"
+#include "text/number_text.h"
+
+namespace codesign {
+namespace {
+
+/// A double without loss; JSON has no numbers for infinity and NaN.
+Json exact(double value) { return std::isfinite(value) ? Json(value) : Json(to_decimal(value)); }
+
+double number_of(const Json& value) {
+  if (!value.is_string()) return value.get<double>();
+  const std::optional<double> number = parse_number(value.get<std::string>());
+  if (!number) throw std::invalid_argument("not a number: " + value.get<std::string>());
+  return *number;
+}
+
+template <class Values>
+Json numbers_json(const Values& values) {
+  Json array = Json::array();
+  for (const double value : values) array.push_back(exact(value));
+  return array;
+}
+
+std::vector<double> numbers_of(const Json& array) {
+  std::vector<double> values;
+  for (const Json& value : array) values.push_back(number_of(value));
+  return values;
+}
+
+Eigen::VectorXd vector_of(const Json& array) {
+  const std::vector<double> values = numbers_of(array);
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+Json extremes_json(const Extremes& extremes) {
+  const auto& [values, times, gradients] = extremes;
+  return {{"values", numbers_json(values)}, {"times", numbers_json(times)}, {"gradients", numbers_json(gradients.reshaped())}};
+}
+
+Extremes extremes_of(const Json& object) {
+  Extremes extremes{vector_of(object.at("values")), vector_of(object.at("times")), {}};
+  const Eigen::VectorXd gradients = vector_of(object.at("gradients"));
+  const Eigen::Index count = extremes.values.size();
+  if (extremes.times.size() != count || count == 0 || gradients.size() % count != 0) throw std::invalid_argument("extremes of unequal size");
+  extremes.gradients = gradients.reshaped(gradients.size() / count, count);
+  return extremes;
+}
+
+StatusCode code_of(const std::string& name) {
+  for (int k = 0;; ++k) {
+    const auto code = static_cast<StatusCode>(k);
+    if (name == name_of(code)) return code;
+    if (code == StatusCode::kNonFiniteGradient) throw std::invalid_argument("unknown status: " + name);
+  }
+}
+
+Json statistics_json(const Statistics& statistics) {
+  const auto& [steps, rejected, seconds, drift, energy] = statistics;
+  return Json::array({steps, rejected, exact(seconds), exact(drift), exact(energy)});
+}
+
+Statistics statistics_of(const Json& array) {
+  return {array.at(0).get<std::int64_t>(), array.at(1).get<std::int64_t>(), number_of(array.at(2)), number_of(array.at(3)),
+          number_of(array.at(4))};
+}
+
+Warnings warnings_of(const Json& array) {
+  Warnings warnings;
+  for (const Json& one : array)
+    warnings.push_back({one.at("code").get<std::string>(),
+                        one.at("message").get<std::string>(),
+                        {one.at("file").get<std::string>(), one.at("line").get<int>()}});
+  return warnings;
+}
+
+}  // namespace
+
+std::string to_line(const EvaluationRecord& record) {
+  // By name, so that a member that is added to Evaluation does not compile until it has a place here and in read_line().
+  const auto& [status, objective, gradient, extremes, statistics, warnings] = record.evaluation;
+  Json line = {{"system", record.system}, {"parameters", numbers_json(record.parameters)}, {"with_gradient", record.with_gradient}};
+  line["status"] = name_of(status.code);
+  line["time"] = exact(status.time);
+  if (!status.cause.empty()) line["message"] = status.cause;
+  if (status.ok()) line["objective"] = exact(objective);
+  if (status.ok() && record.with_gradient) line["gradient"] = numbers_json(gradient);
+  if (status.ok() && extremes.values.size() > 0) line["extremes"] = extremes_json(extremes);
+  line["statistics"] = statistics_json(statistics);
+  if (!warnings.empty()) line["warnings"] = to_json(warnings);
+  return line.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+EvaluationRecord read_line(const std::string& line) {
+  const Json object = Json::parse(line);
+  EvaluationRecord record;
+  record.system = object.at("system").get<int>();
+  record.parameters = numbers_of(object.at("parameters"));
+  record.with_gradient = object.at("with_gradient").get<bool>();
+  Evaluation& evaluation = record.evaluation;
+  evaluation.status = {code_of(object.at("status").get<std::string>()), number_of(object.at("time")),
+                       object.value("message", std::string())};
+  if (evaluation.status.ok()) evaluation.objective = number_of(object.at("objective"));
+  if (evaluation.status.ok() && record.with_gradient) evaluation.gradient = vector_of(object.at("gradient"));
+  if (object.contains("extremes")) evaluation.extremes = extremes_of(object.at("extremes"));
+  evaluation.statistics = statistics_of(object.at("statistics"));
+  if (object.contains("warnings")) evaluation.warnings = warnings_of(object.at("warnings"));
+  return record;
+}
+
+}  // namespace codesign

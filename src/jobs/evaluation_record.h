@@ -1,0 +1,30 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOBS_EVALUATION_RECORD_H_
+#define MECHANISM_CODESIGN_JOBS_EVALUATION_RECORD_H_
+
+#include <string>
+#include <vector>
+
+#include "jobs/json.h"
+#include "mechanism_codesign/gradient.h"
+
+namespace codesign {
+
+/// A finished evaluation as a line of a journal has it.
+struct EvaluationRecord {
+  int system = 0;                  ///< number of the compiled system, in the order of the problem's
+  std::vector<double> parameters;  ///< all named parameters
+  bool with_gradient = false;
+  Evaluation evaluation;
+};
+
+/// The record as JSON text in one line, without a line end. Every double reads back with the same bits; infinity and NaN are texts.
+/// Objective and gradient are left out where the status is not ok.
+std::string to_line(const EvaluationRecord& record);
+
+/// The record of a line. @throws Json::exception or std::invalid_argument if the line is not a record.
+EvaluationRecord read_line(const std::string& line);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOBS_EVALUATION_RECORD_H_

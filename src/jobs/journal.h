@@ -1,0 +1,76 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOBS_JOURNAL_H_
+#define MECHANISM_CODESIGN_JOBS_JOURNAL_H_
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/evaluation_memory.h"
+#include "jobs/evaluation_record.h"
+#include "problem/load_problem.h"
+
+namespace codesign {
+
+/// The file of everything that a job has evaluated, doc/study.md. Searches are deterministic given their evaluations, so the same job with
+/// this memory goes on where a killed one ended. Line 1 says whose journal it is (journal_header.h), every further line is one evaluation
+/// (evaluation_record.h), written by one call as soon as it is finished. Lines stay in the file; only their places are in memory.
+/// Thread-safe.
+class Journal final : public EvaluationMemory {
+ public:
+  enum class Mode {
+    kNew,    ///< the file must not exist
+    kResume  ///< the file must exist, and be of this job
+  };
+
+  /// Creates or opens the file. An unfinished last line, which a killed process leaves, is dropped.
+  /// @throws InputError for a file that is missing, of another job, or damaged, naming file and line. OutputError if it cannot be written.
+  Journal(std::string path, const Problem& problem, const OptimizerOptions& options, Mode mode);
+  ~Journal() override;
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  std::optional<Evaluation> find(const EvaluationTask& task) override;
+  /// Appends a line. A file that cannot be written stays as it is from then on; see failure().
+  void keep(const EvaluationTask& task, const Evaluation& evaluation) override;
+
+  /// How many evaluations were in the file when it was opened.
+  std::size_t resumed() const { return resumed_; }
+  /// Sentences for the user about what was found.
+  const std::vector<std::string>& notes() const { return notes_; }
+  /// Why lines are missing; empty if none is.
+  std::string failure() const;
+
+ private:
+  struct Line {
+    std::int64_t begin = 0, size = 0;
+  };
+  void open_file(Mode mode);
+  void read();
+  void add_line(std::int64_t number, const std::string& line);
+  bool append(const std::string& line);
+  std::optional<Evaluation> look_up(std::size_t key, const EvaluationTask& task) const;
+  [[noreturn]] void refuse(std::int64_t line, const std::string& message, const std::string& value = "",
+                           const std::string& allowed = "") const;
+
+  const std::string path_, header_;
+  const std::size_t parameters_;  ///< their number
+  const std::map<const CompiledSystem*, int> systems_;
+  int file_ = -1;
+  std::size_t resumed_ = 0;
+  std::vector<std::string> notes_;
+  mutable std::mutex mutex_;  // guards all that follows
+  std::unordered_multimap<std::size_t, Line> lines_;
+  std::int64_t end_ = 0;  ///< size of the file
+  std::string failure_;
+};
+
+/// @throws InputError if there is no journal at `path`.
+void require_journal(const std::string& path);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOBS_JOURNAL_H_

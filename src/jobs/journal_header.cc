@@ -1,0 +1,62 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/journal_header.h"
+
+#include "jobs/json.h"
+#include "mechanism_codesign/version.h"
+#include "text/decimal.h"
+#include "text/fingerprint.h"
+#include "text/number_text.h"
+
+namespace codesign {
+namespace {
+
+constexpr int kFormat = 1;
+
+/// The keys of the header with what they are called in messages.
+struct Part {
+  const char* key;
+  const char* name;
+};
+constexpr Part kParts[] = {{"model", "the model differs"},           {"overlays", "the overlays differ"},
+                           {"study", "the study differs"},           {"start", "the values of the parameters at the start (--set) differ"},
+                           {"tuned", "the tuned parameters differ"}, {"optimizer", "the options of the optimizer differ"}};
+
+std::string overlay_texts(const Problem& problem) {
+  std::string text;
+  for (const SourceText& overlay : problem.overlays()) text += fingerprint(overlay.text);
+  return text;
+}
+
+}  // namespace
+
+std::string journal_header(const Problem& problem, const OptimizerOptions& options) {
+  std::string tuned;
+  for (const std::string& name : problem.tuned_names()) tuned += name + "\n";
+  const std::string optimizer =
+      options.algorithm + " " + std::to_string(options.max_evaluations) + " " + to_decimal(options.relative_tolerance);
+  const Json header = {{"journal", kFormat},
+                       {"version", version()},
+                       {"model", fingerprint(problem.urdf().text)},
+                       {"overlays", fingerprint(overlay_texts(problem))},
+                       {"study", fingerprint(problem.study_text().text)},
+                       {"start", fingerprint(format_numbers(problem.parameters()))},
+                       {"tuned", fingerprint(tuned)},
+                       {"optimizer", fingerprint(optimizer)}};
+  return header.dump();
+}
+
+std::string header_difference(const std::string& found, const std::string& expected) {
+  const Json theirs = Json::parse(found, nullptr, false), ours = Json::parse(expected);
+  if (!theirs.is_object() || !theirs.contains("journal")) return "this is not the journal of an optimization";
+  if (theirs["journal"] != ours["journal"]) return "the journal has format " + theirs["journal"].dump() + ", this program writes format 1";
+  const Json version = theirs.value("version", Json());
+  if (version != ours["version"])
+    return "the journal is of version " + version.dump() + " of this program, which is version " + ours["version"].dump() +
+           "; the bits of results may differ between versions";
+  for (const Part& part : kParts)
+    if (theirs.value(part.key, Json()) != ours[part.key])
+      return std::string(part.name) + " from that of the journal, which is of another job";
+  return theirs == ours ? "" : "the journal has a header that this program does not know";
+}
+
+}  // namespace codesign

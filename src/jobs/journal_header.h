@@ -1,0 +1,21 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOBS_JOURNAL_HEADER_H_
+#define MECHANISM_CODESIGN_JOBS_JOURNAL_HEADER_H_
+
+#include <string>
+
+#include "problem/load_problem.h"
+
+namespace codesign {
+
+/// The first line of a job's journal, without a line end: format, version of this package, and fingerprints of all that decides what the
+/// job evaluates: the texts of model, overlays and study, the start values, the tuned parameters, and the options of the optimizer.
+std::string journal_header(const Problem& problem, const OptimizerOptions& options);
+
+/// How the header of a journal differs from that of this job: a sentence such as "the study differs from that of the journal". Empty if
+/// they agree. @param found the first line of a file.
+std::string header_difference(const std::string& found, const std::string& expected);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOBS_JOURNAL_HEADER_H_

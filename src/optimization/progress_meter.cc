@@ -1,0 +1,92 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "optimization/progress_meter.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace codesign {
+
+ProgressMeter::ProgressMeter(std::int64_t most_evaluations, ProgressObserver observer, Clock::duration period)
+    : most_evaluations_(most_evaluations), observer_(std::move(observer)), period_(period), began_(Clock::now()), told_(began_) {}
+
+void ProgressMeter::begin(SearchStage stage, std::int64_t of, std::size_t scenarios) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  stage_ = stage;
+  of_ = of;
+  scenarios_ = static_cast<std::int64_t>(scenarios);
+  done_ = computed_ = trials_ = ended_trials_ = 0;
+  runs_before_ = runs_;
+  began_ = Clock::now();
+}
+
+void ProgressMeter::count_run(bool computed) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++runs_;
+  if (computed) ++computed_;
+  tell(false);
+}
+
+void ProgressMeter::count_trial() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++trials_;
+}
+
+void ProgressMeter::count_point() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++done_;
+  tell(done_ == of_);
+}
+
+void ProgressMeter::end_search(std::int64_t trials) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++done_;
+  ended_trials_ += trials;
+  tell(false);
+}
+
+Progress ProgressMeter::now() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return measure();
+}
+
+/// Runs until the end of the stage. Searches that have not ended are expected to take as many trials as those that have, or as many as they
+/// may while none has.
+std::int64_t ProgressMeter::runs_left() const {
+  if (stage_ == SearchStage::kScreening) return (of_ - done_) * scenarios_;
+  if (stage_ == SearchStage::kValidating) return of_ * scenarios_ - (runs_ - runs_before_);
+  const std::int64_t expected = done_ > 0 ? ended_trials_ * of_ / done_ : std::max<std::int64_t>(1, of_) * most_evaluations_;
+  return (expected - trials_) * scenarios_;
+}
+
+Progress ProgressMeter::measure() const {
+  Progress progress;
+  progress.stage = stage_;
+  progress.done = done_;
+  progress.of = of_;
+  progress.runs = runs_;
+  if (stage_ == SearchStage::kValidating) {
+    progress.done = runs_ - runs_before_;
+    progress.of = of_ * scenarios_;
+  }
+  if (stage_ == SearchStage::kSearching) {
+    progress.starts = of_;
+    progress.is_bound = done_ == 0;
+    if (of_ == 0) {
+      progress.done = trials_;
+      progress.of = most_evaluations_;
+    }
+  }
+  const double seconds = std::chrono::duration<double>(Clock::now() - began_).count();
+  if (computed_ == 0 || seconds <= 0.0) return progress;
+  progress.runs_per_second = static_cast<double>(computed_) / seconds;
+  progress.seconds_left = static_cast<double>(std::max<std::int64_t>(0, runs_left())) / progress.runs_per_second;
+  return progress;
+}
+
+void ProgressMeter::tell(bool at_once) {
+  if (!observer_ || (!at_once && Clock::now() - told_ < period_)) return;
+  observer_(measure());
+  told_ = Clock::now();
+}
+
+}  // namespace codesign

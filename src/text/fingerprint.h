@@ -1,0 +1,15 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEXT_FINGERPRINT_H_
+#define MECHANISM_CODESIGN_TEXT_FINGERPRINT_H_
+
+#include <string>
+
+namespace codesign {
+
+/// 64 bits that tell texts apart which differ by accident, as 16 hexadecimal digits: FNV-1a (Fowler, Noll and Vo), the same on every
+/// machine. No protection against forgery.
+std::string fingerprint(const std::string& text);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_TEXT_FINGERPRINT_H_

@@ -1,0 +1,154 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// codesign optimize --resume: killed, cancelled, refused.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <random>
+#include <set>
+#include <thread>
+
+#include "child_process.h"
+#include "cli/slider_crank.h"
+
+namespace codesign::cli {
+namespace {
+
+/// Many searches over two runs at three samples, each evaluation quick.
+constexpr const char* kEnsemble = R"(
+runs:
+  slow: {}
+  fast: {controllers: {crank_speed: {setpoint: -12.0}}}
+uncertain: {slider_width: {uniform: [0.02, 0.03]}}
+robust: {measure: mean, samples: 3, validate: 5}
+multistart: {starts: 6, screen: 24}
+engine: {workers: 2}
+)";
+
+class Resume : public testing::Test {
+ protected:
+  std::vector<std::string> job(const std::string& option, const std::string& folder) const {
+    return {codesign_executable(), "optimize", kModel, study_, option, folder_.path(folder)};
+  }
+  std::string in(const std::string& folder, const std::string& name) const { return folder_.path(folder + "/" + name); }
+  std::string study() const {
+    const std::string text = read_text_file(short_study(folder_)) + kEnsemble;
+    return folder_.edited("ensemble.yaml", text, "slider_width: {tune: true}", "slider_width: {tune: false}");
+  }
+
+  ScratchFolder folder_;
+  std::string study_ = study();
+};
+
+/// The finished lines of a journal; none if there is no journal.
+std::vector<std::string> finished_lines(const std::string& path) {
+  if (!std::filesystem::exists(path)) return {};
+  const std::string text = read_text_file(path);
+  return lines_of(text.substr(0, text.rfind('\n') + 1));
+}
+
+/// Without processor times, which are the only thing that differs from run to run.
+Json without_times(Json object) {
+  object.erase("cpu_seconds");
+  object.erase("setup_seconds");
+  return object;
+}
+
+/// What each line says without its processor time, in any order.
+std::multiset<std::string> evaluations_of(const std::string& path) {
+  std::multiset<std::string> evaluations;
+  for (const std::string& line : finished_lines(path)) {
+    Json object = Json::parse(line);
+    if (object.contains("statistics")) object["statistics"][2] = 0.0;
+    evaluations.insert(object.dump());
+  }
+  return evaluations;
+}
+
+TEST_F(Resume, KilledTwentyTimesNothingIsLostOrComputedTwice) {
+  ASSERT_EQ(ChildProcess(job("--output", "whole")).wait(), kDone);
+  const std::size_t all = finished_lines(in("whole", "journal.jsonl")).size();
+  ASSERT_GT(all, 60u);
+  std::mt19937 random(7);
+  std::vector<std::string> before;
+  int cut = 0;  // kills before the end of the job
+  const std::string journal = in("killed", "journal.jsonl");
+  for (int kills = 0; kills < 20; ++kills) {
+    {
+      ChildProcess process(job(std::filesystem::exists(journal) ? "--resume" : "--output", "killed"));
+      // Every second time while it starts, else after some more evaluations.
+      const bool starts = kills % 2 == 0;
+      const std::size_t more = starts ? 0 : before.size() + 1 + random() % (all / 30);
+      const auto grown = [&] { return finished_lines(journal).size() >= more; };
+      ASSERT_TRUE(comes_true(grown));
+      std::this_thread::sleep_for(std::chrono::microseconds(random() % (starts ? 40000 : 4000)));
+      process.send(SIGKILL);
+      process.wait();
+    }
+    const std::vector<std::string> now = finished_lines(journal);
+    ASSERT_GE(now.size(), before.size()) << kills;
+    for (std::size_t k = 0; k < before.size(); ++k) ASSERT_EQ(now[k], before[k]) << kills;
+    before = now;
+    cut += before.size() < all ? 1 : 0;
+  }
+  EXPECT_GT(cut, 10) << "it ended before it was killed more often";
+  ASSERT_EQ(ChildProcess(job("--resume", "killed")).wait(), kDone);
+  EXPECT_EQ(evaluations_of(journal), evaluations_of(in("whole", "journal.jsonl")));
+  EXPECT_EQ(without_times(Json::parse(read_text_file(in("killed", "result.json")))),
+            without_times(Json::parse(read_text_file(in("whole", "result.json")))));
+  for (const char* name : {"tuned.urdf", "tuned.csv", "starts.csv", "scenarios.csv"})
+    EXPECT_EQ(read_text_file(in("killed", name)), read_text_file(in("whole", name))) << name;
+}
+
+TEST_F(Resume, AFinishedJobIsAnsweredFromItsJournal) {
+  study_ = short_study(folder_);
+  ASSERT_EQ(ChildProcess(job("--output", "job")).wait(), kDone);
+  const std::string result = read_text_file(in("job", "result.json")), journal = read_text_file(in("job", "journal.jsonl"));
+  std::filesystem::remove(in("job", "result.json"));
+  const Outcome outcome = run_words({"optimize", kModel, study_, "--resume", folder_.path("job")});
+  EXPECT_EQ(outcome.code, kDone) << outcome.err;
+  EXPECT_NE(outcome.err.find("4 finished evaluations"), std::string::npos) << outcome.err;
+  Json again = Json::parse(read_text_file(in("job", "result.json"))), first = Json::parse(result);
+  EXPECT_EQ(again["cpu_seconds"], first["cpu_seconds"]) << "of the evaluations, which are the same";
+  EXPECT_EQ(without_times(again), without_times(first));
+  EXPECT_EQ(read_text_file(in("job", "journal.jsonl")), journal);
+}
+
+TEST_F(Resume, AnotherJobAndAnEmptyFolderAreRefusedAndLoseNothing) {
+  study_ = short_study(folder_);
+  ASSERT_EQ(ChildProcess(job("--output", "job")).wait(), kDone);
+  const std::string result = read_text_file(in("job", "result.json"));
+  const Outcome other = run_words({"optimize", kModel, study_, "--set", "Kp=2", "--resume", folder_.path("job")});
+  EXPECT_EQ(other.code, kBadInput);
+  EXPECT_NE(other.err.find("journal.jsonl:1: the values of the parameters at the start (--set) differ"), std::string::npos) << other.err;
+  EXPECT_EQ(read_text_file(in("job", "result.json")), result);
+  const Outcome none = run_words({"optimize", kModel, study_, "--resume", folder_.path("none")});
+  EXPECT_EQ(none.code, kBadInput);
+  EXPECT_NE(none.err.find("there is no journal to resume"), std::string::npos) << none.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("none")));
+}
+
+TEST_F(Resume, WithoutItTheJournalIsSetAside) {
+  study_ = short_study(folder_);
+  ASSERT_EQ(ChildProcess(job("--output", "job")).wait(), kDone);
+  const std::string journal = read_text_file(in("job", "journal.jsonl"));
+  const Outcome outcome = run_words({"optimize", kModel, study_, "--output", folder_.path("job")});
+  EXPECT_EQ(outcome.code, kDone);
+  EXPECT_NE(outcome.err.find("previous_journal.jsonl"), std::string::npos) << outcome.err;
+  EXPECT_EQ(read_text_file(in("job", "previous_journal.jsonl")), journal);
+}
+
+TEST_F(Resume, AFullDiskLeavesAJournalThatCanBeResumed) {
+  study_ = folder_.edited("longer.yaml", read_text_file(short_study(folder_)), "max_evaluations: 4", "max_evaluations: 14");
+  // The journal grows by 400 bytes with each evaluation, the messages by a quarter of that.
+  ChildProcess process(job("--output", "job"), "/dev/null", folder_.path("err"), 4000);
+  EXPECT_EQ(process.wait(), kFailed);
+  const std::string err = read_text_file(folder_.path("err"));
+  EXPECT_NE(err.find("journal.jsonl: cannot be written: File too large"), std::string::npos) << err;
+  const Outcome outcome = run_words({"optimize", kModel, study_, "--resume", folder_.path("job")});
+  EXPECT_EQ(outcome.code, kDone) << outcome.err;
+  EXPECT_EQ(finished_lines(in("job", "journal.jsonl")).size(),
+            1 + Json::parse(read_text_file(in("job", "result.json")))["evaluations"].get<std::size_t>());
+}
+
+}  // namespace
+}  // namespace codesign::cli

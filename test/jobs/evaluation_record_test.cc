@@ -1,0 +1,112 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/evaluation_record.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+
+namespace codesign {
+namespace {
+
+bool same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+EvaluationRecord record_of(const std::vector<double>& values) {
+  EvaluationRecord record;
+  record.system = 3;
+  record.parameters = values;
+  record.with_gradient = true;
+  record.evaluation.status.time = 0.1;
+  record.evaluation.objective = values.front();
+  record.evaluation.gradient = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  record.evaluation.statistics = {12, 3, values.back(), values.front(), 1e-9};
+  record.evaluation.warnings = {{"code", "a \"message\"\nin two lines", {"model.urdf", 7}}};
+  return record;
+}
+
+TEST(EvaluationRecord, EveryDoubleKeepsItsBits) {
+  using Limits = std::numeric_limits<double>;
+  std::vector<double> values = {0.1,           -0.0,   0.0,  1.0 / 3.0,     1e300,         Limits::denorm_min(),
+                                Limits::max(), 5e-324, 1e22, 2.0 / 3 * 1e5, 123456789012.0};
+  std::mt19937_64 random(1);
+  while (values.size() < 500) {
+    const std::uint64_t bits = random();
+    double value = 0.0;
+    std::memcpy(&value, &bits, sizeof value);
+    if (std::isfinite(value)) values.push_back(value);
+  }
+  const EvaluationRecord record = record_of(values), back = read_line(to_line(record));
+  ASSERT_EQ(back.parameters.size(), values.size());
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    EXPECT_TRUE(same(back.parameters[k], values[k])) << values[k];
+    EXPECT_TRUE(same(back.evaluation.gradient[static_cast<Eigen::Index>(k)], values[k])) << values[k];
+  }
+  EXPECT_TRUE(same(back.evaluation.objective, values.front()));
+  EXPECT_TRUE(same(back.evaluation.statistics.cpu_seconds, values.back()));
+  EXPECT_TRUE(same(back.evaluation.statistics.constraint_drift, values.front()));
+}
+
+TEST(EvaluationRecord, KeepsStatusStatisticsAndWarnings) {
+  const EvaluationRecord record = record_of({1.0, 2.0});
+  const std::string line = to_line(record);
+  EXPECT_EQ(line.find('\n'), std::string::npos) << "one line";
+  const EvaluationRecord back = read_line(line);
+  EXPECT_EQ(back.system, 3);
+  EXPECT_TRUE(back.with_gradient);
+  EXPECT_TRUE(back.evaluation.status.ok());
+  EXPECT_EQ(back.evaluation.status.time, 0.1);
+  EXPECT_EQ(back.evaluation.statistics.steps, 12);
+  EXPECT_EQ(back.evaluation.statistics.rejected_steps, 3);
+  EXPECT_EQ(back.evaluation.statistics.energy_error, 1e-9);
+  ASSERT_EQ(back.evaluation.warnings.size(), 1u);
+  EXPECT_EQ(back.evaluation.warnings[0].code, "code");
+  EXPECT_EQ(back.evaluation.warnings[0].message, "a \"message\"\nin two lines");
+  EXPECT_EQ(back.evaluation.warnings[0].where.file, "model.urdf");
+  EXPECT_EQ(back.evaluation.warnings[0].where.line, 7);
+}
+
+TEST(EvaluationRecord, KeepsTheExtremesOfSignals) {
+  EvaluationRecord record = record_of({1.0, 2.0});
+  record.evaluation.extremes = {Eigen::Vector3d(0.1, 1.0 / 3.0, -2.0), Eigen::Vector3d(0.0, 0.5, 1.0), Eigen::MatrixXd::Random(2, 3)};
+  const Extremes back = read_line(to_line(record)).evaluation.extremes;
+  EXPECT_EQ(back.values, record.evaluation.extremes.values);
+  EXPECT_EQ(back.times, record.evaluation.extremes.times);
+  EXPECT_EQ(back.gradients, record.evaluation.extremes.gradients);
+  std::string damaged = to_line(record);
+  damaged.replace(damaged.find("\"times\":["), 9, "\"times\":[1.0,");
+  EXPECT_THROW(read_line(damaged), std::exception);
+}
+
+TEST(EvaluationRecord, AFailureHasItsCauseAndNumbersThatJsonHasNot) {
+  EvaluationRecord record;
+  record.evaluation.status = {StatusCode::kNonFiniteGradient, 0.25, "not \xe4 number"};
+  record.evaluation.objective = std::numeric_limits<double>::quiet_NaN();
+  record.evaluation.statistics.energy_error = std::numeric_limits<double>::infinity();
+  const EvaluationRecord back = read_line(to_line(record));
+  EXPECT_EQ(back.evaluation.status.code, StatusCode::kNonFiniteGradient);
+  EXPECT_EQ(back.evaluation.status.time, 0.25);
+  EXPECT_EQ(back.evaluation.status.cause, "not \xef\xbf\xbd number");
+  EXPECT_TRUE(std::isinf(back.evaluation.statistics.energy_error));
+  EXPECT_EQ(back.evaluation.gradient.size(), 0);
+  EXPECT_FALSE(back.with_gradient);
+}
+
+TEST(EvaluationRecord, WithoutGradientThereIsNone) {
+  EvaluationRecord record = record_of({1.0});
+  record.with_gradient = false;
+  record.evaluation.gradient.resize(0);
+  EXPECT_EQ(to_line(record).find("gradient\":["), std::string::npos);
+  EXPECT_EQ(read_line(to_line(record)).evaluation.gradient.size(), 0);
+}
+
+TEST(EvaluationRecord, WhatIsNoRecordThrows) {
+  std::string unknown = to_line(record_of({1.0}));
+  unknown.replace(unknown.find("\"success\""), 9, "\"victory\"");
+  for (const std::string& line : {std::string("{\"system\":0"), std::string("{}"), std::string(), std::string("[1]"), unknown})
+    EXPECT_THROW(read_line(line), std::exception) << line;
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,44 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/journal_header.h"
+
+#include <gtest/gtest.h>
+
+#include "ensemble/ensemble_fixture.h"
+#include "jobs/json.h"
+
+namespace codesign {
+namespace {
+
+std::string header_of(const Problem& problem) { return journal_header(problem, problem.optimizer_options()); }
+
+TEST(JournalHeader, IsTheSameForTheSameJob) { EXPECT_EQ(header_difference(header_of(block("")), header_of(block(""))), ""); }
+
+TEST(JournalHeader, SaysWhatDiffers) {
+  const Problem problem = block("");
+  const std::string own = header_of(problem);
+  EXPECT_EQ(header_difference(header_of(block("multistart: {starts: 2}\n")), own).find("the study differs"), 0u);
+  EXPECT_NE(header_difference(header_of(with_settings(problem, {{"mu", 0.4}})), own).find("--set"), std::string::npos);
+  OptimizerOptions options = problem.optimizer_options();
+  options.max_evaluations += 1;
+  EXPECT_NE(header_difference(journal_header(problem, options), own).find("options of the optimizer"), std::string::npos);
+  Study study = problem.study();
+  study.tuned.pop_back();
+  EXPECT_NE(header_difference(header_of(with_study(problem, study)), own).find("tuned parameters"), std::string::npos);
+}
+
+TEST(JournalHeader, RefusesOtherVersionsAndOtherFiles) {
+  const std::string own = header_of(block(""));
+  Json other = Json::parse(own);
+  other["version"] = "0.0.1";
+  EXPECT_NE(header_difference(other.dump(), own).find("version \"0.0.1\""), std::string::npos);
+  other["journal"] = 2;
+  EXPECT_NE(header_difference(other.dump(), own).find("format 2"), std::string::npos);
+  for (const char* text : {"", "time,x", "{}", "[1]"})
+    EXPECT_NE(header_difference(text, own).find("not the journal"), std::string::npos) << text;
+  Json more = Json::parse(own);
+  more["more"] = 1;
+  EXPECT_NE(header_difference(more.dump(), own), "");
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,96 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "optimization/search_hooks.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <thread>
+#include <tuple>
+
+#include "ensemble/ensemble_fixture.h"
+
+namespace codesign {
+namespace {
+
+class Notebook final : public EvaluationMemory {
+ public:
+  std::optional<Evaluation> find(const EvaluationTask& task) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto place = known_.find({task.system.get(), task.parameters, task.with_gradient});
+    return place == known_.end() ? std::nullopt : std::optional<Evaluation>(place->second);
+  }
+  void keep(const EvaluationTask& task, const Evaluation& evaluation) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    known_[{task.system.get(), task.parameters, task.with_gradient}] = evaluation;
+    if (++kept == cancel_at) cancel = true;
+  }
+
+  int kept = 0, cancel_at = -1;
+  std::atomic<bool> cancel{false};
+
+ private:
+  std::mutex mutex_;
+  std::map<std::tuple<const CompiledSystem*, std::vector<double>, bool>, Evaluation> known_;
+};
+
+Problem nested() {
+  return block(
+      "uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: worst, samples: 3, validate: 4}\n"
+      "multistart: {starts: 3, screen: 6}\nengine: {workers: 2}\n");
+}
+
+TEST(SearchHooks, AnInterruptedSearchGoesOnFromItsMemory) {
+  const Problem problem = nested();
+  const OptimizerOptions options = problem.optimizer_options();
+  const auto whole = std::make_shared<Notebook>();
+  const OptimizationResult expected = run_search(problem, options, {nullptr, nullptr, whole}, nullptr);
+  ASSERT_TRUE(expected.status.ok()) << expected.status.cause;
+  for (const double part : {0.02, 0.3, 0.7, 0.98}) {
+    const auto memory = std::make_shared<Notebook>();
+    memory->cancel_at = static_cast<int>(part * whole->kept);
+    run_search(problem, options, {nullptr, nullptr, memory}, &memory->cancel);
+    EXPECT_LT(memory->kept, whole->kept);
+    memory->cancel_at = -1;
+    const OptimizationResult result = run_search(problem, options, {nullptr, nullptr, memory}, nullptr);
+    EXPECT_EQ(memory->kept, whole->kept) << "nothing is computed twice";
+    EXPECT_EQ(result.rho, expected.rho);
+    EXPECT_EQ(result.objective, expected.objective);
+    EXPECT_EQ(result.gradient, expected.gradient);
+    EXPECT_EQ(result.statistics.steps, expected.statistics.steps);
+    EXPECT_EQ(result.validation->objective, expected.validation->objective);
+  }
+}
+
+TEST(SearchHooks, EveryStageIsTold) {
+  const Problem problem = nested();
+  std::vector<Progress> told;
+  const auto keep = [&told](const Progress& progress) { told.push_back(progress); };
+  const OptimizationResult result = run_search(problem, problem.optimizer_options(), {nullptr, keep, nullptr}, nullptr);
+  ASSERT_TRUE(result.status.ok());
+  ASSERT_FALSE(told.empty());
+  EXPECT_EQ(told.front().stage, SearchStage::kScreening);
+  EXPECT_EQ(told.front().done, 6);
+  EXPECT_EQ(told.front().runs, 18);
+}
+
+TEST(SearchHooks, CancelledWhileScreeningItKeepsTheBestPointWithinASecond) {
+  const Problem problem = block("multistart: {starts: 2, screen: 4000}\nengine: {workers: 2}\n");
+  const auto memory = std::make_shared<Notebook>();
+  memory->cancel_at = 20;
+  const auto begin = std::chrono::steady_clock::now();
+  const OptimizationResult result = run_search(problem, problem.optimizer_options(), {nullptr, nullptr, memory}, &memory->cancel);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
+  EXPECT_EQ(result.status.code, StatusCode::kCancelled);
+  EXPECT_EQ(result.termination, "cancelled");
+  EXPECT_GE(result.screened, 20);
+  EXPECT_LT(result.screened, 1000) << "only those that were evaluated";
+  EXPECT_NE(result.rho, problem.start());
+  const auto start = memory->find({problem.system(), problem.parameters(), false});
+  ASSERT_TRUE(start);
+  EXPECT_LT(result.objective, start->objective);
+}
+
+}  // namespace
+}  // namespace codesign
