@@ -15,6 +15,8 @@ namespace {
 std::optional<LanePlan> backward_plan(const CompiledSystem& system, const std::atomic<bool>* cancel) {
   const SolverOptions& options = system.study().solver;
   if (options.integrator != IntegratorKind::kRosenbrock || options.gradient == GradientMethod::kDirect) return std::nullopt;
+  // The adjoint has no derivatives of the extreme values of watched signals.
+  if (!system.watched().empty()) return std::nullopt;
   if (options.gradient == GradientMethod::kAdjoint) return plan_lanes(system, cancel);
   // solver.sensitivity_tolerance tests the errors of direct sensitivities, which the adjoint does not compute.
   if (options.sensitivity_tolerance > 0.0) return std::nullopt;

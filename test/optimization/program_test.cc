@@ -1,0 +1,106 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "optimization/program.h"
+
+#include <gtest/gtest.h>
+
+#include "ensemble/ensemble_fixture.h"
+
+namespace codesign {
+namespace {
+
+const std::string kTwoRuns = "runs: {near: {}, far: {controllers: {hold: {setpoint: 0.7}}}}\n";
+const std::string kPath = "path: [{signal: slide/velocity, between: [-1.5, 1.5]}, {signal: hold/output, at_most: \"${Kp}\"}]\n";
+
+OptimizationResult tune_with(const std::string& blocks, const std::string& algorithm = "slsqp") {
+  return optimize(block(blocks, "{algorithm: " + algorithm + ", relative_tolerance: 1.0e-9, max_evaluations: 400}"));
+}
+
+/// Each derivative of a row against central differences of the row.
+template <class Row>
+void expect_derivatives(const Ensemble& ensemble, Program* program, const Eigen::VectorXd& rho, const Eigen::VectorXd& slack,
+                        const Row& row) {
+  const auto at = [&](const Eigen::VectorXd& design, const Eigen::VectorXd& y) {
+    const EnsembleEvaluation all = ensemble.evaluate(design, true);
+    program->take(all, design);
+    return row(y);
+  };
+  const Program::Value value = at(rho, slack);
+  for (Eigen::Index k = 0; k < rho.size(); ++k) {
+    const double h = 1e-4 * rho[k];
+    const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(rho.size(), k);
+    const double difference = (at(rho + step, slack).value - at(rho - step, slack).value) / (2.0 * h);
+    EXPECT_NEAR(value.by_rho[k], difference, 1e-5 * (std::abs(difference) + 1e-3)) << "parameter " << k;
+  }
+  for (Eigen::Index k = 0; k < slack.size(); ++k) {
+    const Eigen::VectorXd step = 1e-3 * Eigen::VectorXd::Unit(slack.size(), k);
+    EXPECT_NEAR(value.by_slack[k], (at(rho, slack + step).value - at(rho, slack - step).value) / 2e-3, 1e-9) << "slack " << k;
+  }
+}
+
+TEST(Program, DerivativesOfObjectiveAndRowsAreRight) {
+  const Problem problem =
+      block(kTwoRuns + kPath + "robust: {measure: worst}\nsolver: {relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}\n");
+  const Ensemble ensemble(problem);
+  Program program(ensemble);
+  const EnsembleEvaluation all = ensemble.evaluate(problem.start(), true);
+  const Eigen::VectorXd slack = program.start(all, 2.0);
+  ASSERT_EQ(slack.size(), 1);
+  expect_derivatives(ensemble, &program, problem.start(), slack, [&](const auto& y) { return program.objective(y); });
+  for (int row : {0, 1, 2 + 7, 2 + 60, program.inequalities() - 3})
+    expect_derivatives(ensemble, &program, problem.start(), slack, [&](const auto& y) { return program.inequality(row, y); });
+}
+
+TEST(Program, BoundsAreKeptInEveryRun) {
+  const OptimizationResult free = tune_with(kTwoRuns), bounded = tune_with(kTwoRuns + "path: [{signal: hold/output, between: [-6, 6]}]\n");
+  ASSERT_TRUE(free.status.ok()) << free.status.cause;
+  ASSERT_TRUE(bounded.status.ok()) << bounded.status.cause;
+  ASSERT_EQ(bounded.watched.size(), 1U);
+  EXPECT_LE(bounded.watched[0].violation, 1e-8);
+  EXPECT_GT(bounded.objective, free.objective);
+  EXPECT_NEAR(std::max(bounded.watched[0].largest, -bounded.watched[0].smallest), 6.0, 1e-6) << "the bound is active";
+}
+
+TEST(Program, AlgorithmsAgreeOnABoundedDesign) {
+  const std::string bound = "path: [{signal: hold/output, between: [-6, 6]}]\n";
+  const OptimizationResult slsqp = tune_with(bound), mma = tune_with(bound, "mma");
+  ASSERT_TRUE(slsqp.status.ok() && mma.status.ok()) << slsqp.status.cause << mma.status.cause;
+  EXPECT_NEAR(mma.objective, slsqp.objective, 1e-4 * slsqp.objective);
+}
+
+TEST(Program, AnImpossibleBoundIsInfeasible) {
+  const OptimizationResult result = tune_with("final: [{signal: slide/position, at_least: 4.0}]\n");
+  EXPECT_EQ(result.status.code, StatusCode::kInfeasible);
+  EXPECT_NE(result.status.cause.find("final[0] (slide/position)"), std::string::npos) << result.status.cause;
+  EXPECT_GT(result.watched.at(0).violation, 1.0);
+}
+
+TEST(Program, OtherAlgorithmsAreRefused) {
+  const std::string bound = "path: [{signal: hold/output, between: [-6, 6]}]\n";
+  EXPECT_THROW(tune_with(bound, "lbfgs"), InputError);
+  EXPECT_THROW(tune_with("final: [{signal: slide/position, between: [0.5, 0.5]}]\n", "mma"), InputError);
+}
+
+TEST(Program, MovesTheCartByTheBangBangPeak) {
+  // A cart of 1 kg, 1 m from rest to rest in 1 s. Piecewise linear forces with 40 coefficients reverse within one span h = 1/39, so that
+  // the peak is 4 / (1 - h^2 / 3) m/s^2 for a symmetric reversal, instead of 4.
+  const SourceText urdf{"cart.urdf", R"(<robot name="cart"><link name="world"/>
+  <link name="cart"><inertial><mass value="1"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link>
+  <joint name="slide" type="prismatic"><parent link="world"/><child link="cart"/><axis xyz="1 0 0"/>
+    <limit lower="-5" upper="5" effort="100" velocity="10"/></joint></robot>)"};
+  const SourceText study{"cart.yaml", R"(
+duration: 1.0
+controllers: {push: {type: basis, shape: linear, output: slide, coefficients: {count: 40, initial: 0.0, lower: -20.0, upper: 20.0}}}
+objective: {peak: [{signal: slide/acceleration}]}
+final: [{signal: slide/position, between: [1.0, 1.0]}, {signal: slide/velocity, between: [0.0, 0.0]}]
+solver: {relative_tolerance: 1.0e-8, absolute_tolerance: 1.0e-9}
+optimizer: {algorithm: slsqp, relative_tolerance: 1.0e-10}
+)"};
+  const OptimizationResult result = optimize(load_problem(urdf, {}, study));
+  ASSERT_TRUE(result.status.ok()) << result.status.cause;
+  EXPECT_LT(result.objective, 4.001);
+  EXPECT_GT(result.objective, 4.0);
+  for (const WatchedResult& watched : result.watched) EXPECT_LE(watched.violation, 1e-8);
+}
+
+}  // namespace
+}  // namespace codesign

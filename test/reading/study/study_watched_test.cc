@@ -1,0 +1,61 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/study/study_watched.h"
+
+#include "description/tuned_parameters.h"
+#include "reading/study/study_fixture.h"
+
+namespace codesign {
+namespace {
+
+std::string with_watched_text(const std::string& lines) {
+  return "duration: 2\ncontrollers: {speed: {type: pid, input: crank_joint/velocity, setpoint: 0, output: crank_joint, gains: {p: 1}}}\n" +
+         lines + "\n";
+}
+
+TEST(StudyWatched, ReadsConstraintsAndPeaks) {
+  const Study study =
+      read_text(with_watched_text("path: [{signal: speed/output, between: [-2, \"${10 * rod_length}\"], after: 0.1}]\n"
+                                  "final: [{signal: slider/position/x, between: [0.3, 0.3]}, {signal: slider/velocity/x, at_most: 1}]\n"
+                                  "objective: {peak: [{signal: crank_joint/velocity, reference: 1.0, weight: 3, before: 1.5}]}"));
+  ASSERT_EQ(study.watched.size(), 4U);
+  const WatchedSignal& path = study.watched[0];
+  EXPECT_EQ(path.role, WatchedSignal::Role::kPath);
+  EXPECT_EQ(path.lower->nominal(), -2.0);
+  EXPECT_FALSE(path.upper->is_constant());
+  EXPECT_EQ(path.after, 0.1);
+  EXPECT_EQ(path.before, 2.0);
+  EXPECT_EQ(path.element, "path[0]");
+  EXPECT_TRUE(is_equality(study.watched[1]));
+  EXPECT_EQ(study.watched[1].after, 2.0);
+  EXPECT_FALSE(study.watched[2].lower);
+  EXPECT_FALSE(is_equality(study.watched[2]));
+  EXPECT_EQ(study.watched[3].role, WatchedSignal::Role::kPeak);
+  EXPECT_EQ(study.watched[3].weight, 3.0);
+  EXPECT_EQ(study.watched[3].reference.constant.nominal(), 1.0);
+  EXPECT_EQ(study.watched[3].before, 1.5);
+  EXPECT_TRUE(has_objective(study));
+}
+
+TEST(StudyWatched, RefusesBadConstraints) {
+  const std::string signal = "signal: speed/output, ";
+  const auto refuse = [&](const std::string& item, const std::string& element, const std::string& message) {
+    expect_fault(with_watched_text("path: [{" + item + "}]"), element, message, 3);
+  };
+  refuse("between: [0, 1]", "path[0].signal", "required key is missing");
+  refuse("signal: speed/outptu, between: [0, 1]", "path[0].signal", "did you mean \"output\"");
+  refuse(signal + "after: 0.1", "path[0]", "needs bounds");
+  refuse(signal + "between: [0, 1], at_most: 2", "path[0]", "needs bounds");
+  refuse(signal + "between: [0]", "path[0].between", "two bounds are needed, found 1");
+  refuse(signal + "between: [1, 1]", "path[0].between", "must be less than");
+  refuse(signal + "at_least: 2, at_most: 1", "path[0]", "must be less than");
+  refuse(signal + "between: [0, one]", "path[0].between[1]", "not a number");
+  refuse(signal + "at_most: 1, after: 1, before: 1", "path[0]", "not part of the study");
+  refuse(signal + "at_most: 1, before: 2.5", "path[0]", "not part of the study");
+  refuse(signal + "at_most: 1, weight: 2", "path[0].weight", "unknown key");
+  expect_fault(with_watched_text("final: [{" + signal + "at_most: 1, after: 1}]"), "final[0].after", "unknown key", 3);
+  expect_fault(with_watched_text("objective: {peak: [{" + signal + "weight: 0}]}"), "objective.peak[0].weight", "must be positive", 3);
+  expect_fault(with_watched_text("path: [{" + signal + "at_most: 1}]\nsolver: {gradient: adjoint}"), "solver.gradient", "adjoint", 4);
+}
+
+}  // namespace
+}  // namespace codesign
