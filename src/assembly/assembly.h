@@ -51,6 +51,9 @@ class Assembly {
   template <class T>
   void extend(const std::vector<T>& parameters, const State<double>& start, Equations<T>* equations, State<T>* state) const;
 
+  /// SparseLu::settle() after a solution, whose pivots later solutions begin with.
+  void settle_pivots() { matrix_.settle(); }
+
   /// Tree joint coordinates of the last solution [rad or m], in the order of TreeLayout.
   const VectorX<double>& theta() const { return theta_; }
   const TreeLayout& tree() const { return tree_; }

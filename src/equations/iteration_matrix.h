@@ -30,6 +30,8 @@ class IterationMatrix {
   bool factor(const Linearization<double>& derivatives, double c_v, double c_q, double c_s);
   /// SparseLu::forget().
   void forget() { lu_.forget(); }
+  /// SparseLu::settle().
+  void settle() { lu_.settle(); }
   /// The factorization of the last factor().
   const SparseLu& lu() const { return lu_; }
 

@@ -179,7 +179,7 @@ Status IdasIntegrator::Implementation::start(const std::vector<double>& paramete
   restart_solver();
   watch_.start(equations(), initial_);
   run_watch_.start(equations().constants(), initial_);
-  singularity_.start(watch_singularities_, initial_, &equations());
+  singularity_.start(watch_singularities_, initial_);
   work_ = 0.0;
   return {};
 }

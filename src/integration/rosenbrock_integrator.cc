@@ -21,7 +21,23 @@ RosenbrockIntegrator::RosenbrockIntegrator(const CompiledSystem& system)
       work_(system, step_.tableau()),
       singularity_(system) {}
 
+// Every run begins with the pivots that are chosen at the study's own start, so that its last bits depend on its design alone, and pivots
+// need not be chosen for each run. See doc/decisions/0049-journal.md.
 Status RosenbrockIntegrator::start(const std::vector<double>& parameters) {
+  const bool is_first = !has_settled_, is_own_start = is_first && parameters == system_.parameters();
+  has_settled_ = true;
+  if (is_first && !is_own_start && begin(system_.parameters()).ok()) settle_pivots();
+  Status status = begin(parameters);
+  if (is_own_start && status.ok()) settle_pivots();
+  return status;
+}
+
+void RosenbrockIntegrator::settle_pivots() {
+  assembly_.settle_pivots();
+  step_.settle_pivots();
+}
+
+Status RosenbrockIntegrator::begin(const std::vector<double>& parameters) {
   statistics_ = {};
   controller_ = StepController(step_.tableau().order);
   if (Status status = assemble_start(system_, parameters, &assembly_, &step_.equations(), &initial_); !status.ok()) return status;
@@ -29,7 +45,7 @@ Status RosenbrockIntegrator::start(const std::vector<double>& parameters) {
   watch_.start(step_.equations(), initial_);
   run_watch_.start(step_.equations().constants(), initial_);
   work_.start(initial_, run_watch_.motion());
-  singularity_.start(watch_singularities_, initial_, &step_.equations());
+  singularity_.start(watch_singularities_, initial_);
   proposal_ = options_.initial_step > 0.0 ? options_.initial_step : first_step();
   step_.choose_pivots(proposal_);
   return {};

@@ -43,6 +43,8 @@ class RosenbrockIntegrator final : public Integrator {
   const State<double>& initial_state() const { return initial_; }
 
  private:
+  Status begin(const std::vector<double>& parameters);
+  void settle_pivots();
   double first_step() const;
 
   const CompiledSystem& system_;
@@ -57,6 +59,7 @@ class RosenbrockIntegrator final : public Integrator {
   StepWork work_;
   SingularityWatch singularity_;
   bool watch_singularities_ = false;
+  bool has_settled_ = false;  ///< whether settle_pivots() was called
   double proposal_ = 0.0;
   Statistics statistics_;
 };

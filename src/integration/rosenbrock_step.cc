@@ -44,6 +44,12 @@ void RosenbrockStep<T>::choose_pivots(double h) {
   projection_matrix_.factor(derivatives_, 0.0, 0.0, 0.0);
 }
 
+template <class T>
+void RosenbrockStep<T>::settle_pivots() {
+  stage_matrix_.settle();
+  projection_matrix_.settle();
+}
+
 // Sets w of (16) in increment i: w_v = h gamma r_v, w_q = h gamma (r_q + w_v), w_s = h gamma r_s, where r is the stage's rate plus the sum
 // of c_ij u_j / h.
 template <class T>

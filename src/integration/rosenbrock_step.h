@@ -31,9 +31,11 @@ class RosenbrockStep {
   /// Starts a solution at a consistent state; psi() is zero. equations() must hold the design.
   void start(const State<T>& state);
 
-  /// Chooses the pivots of all factorizations anew, so that no bit of later steps depends on the runs before. For the beginning of a run,
-  /// after start(). @param h size of the first step [s].
+  /// Begins again with the pivots of settle_pivots(), or chooses pivots anew without it, so that no bit of later steps depends on the runs
+  /// before. For the beginning of a run, after start(). @param h size of the first step [s].
   void choose_pivots(double h);
+  /// SparseLu::settle() for all factorizations.
+  void settle_pivots();
   /// Computes the step of size h [s] from state(), without accepting it. False if the matrix is singular or a value is not finite.
   bool attempt(double h);
   /// Scaled error of the last attempt, acceptable up to 1: the largest |u_last| / (absolute + relative max(|y|, |y_1|)) over (q, v, s). A

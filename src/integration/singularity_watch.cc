@@ -31,14 +31,8 @@ SingularityWatch::SingularityWatch(const CompiledSystem& system) : system_(syste
   between_.resize(system.layout());
 }
 
-void SingularityWatch::start(bool enabled, const State<double>& initial, Equations<double>* equations) {
+void SingularityWatch::start(bool enabled, const State<double>& initial) {
   enabled_ = enabled;
-  // With the pivots that the first peak of a first run finds, which begins at the initial state too.
-  if (enabled && matrix_) {
-    matrix_->forget();
-    equations->linearize(initial, &derivatives_);
-    matrix_->factor(derivatives_, 0.0, 0.0, 0.0);
-  }
   warnings_.clear();
   count_ = 0;
   sum_of_logarithms_ = 0.0;

@@ -18,9 +18,9 @@ class SingularityWatch {
  public:
   explicit SingularityWatch(const CompiledSystem& system);
 
-  /// @param enabled whether look() does anything. @param initial state of the run, for the usual rank. @param equations must hold the
-  /// design.
-  void start(bool enabled, const State<double>& initial, Equations<double>* equations);
+  /// @param enabled whether look() does anything. @param initial state of the run, for the usual rank. Pivots of earlier runs are kept:
+  /// they have no influence on the motion.
+  void start(bool enabled, const State<double>& initial);
   /// To be called after each step, with its end. @param drift of the step, from RunWatch::drift(). @param equations must hold the design.
   void look(const State<double>& state, double drift, Equations<double>* equations);
 

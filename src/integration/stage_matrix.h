@@ -19,6 +19,7 @@ class StageMatrix<double> {
   explicit StageMatrix(const CompiledSystem& system) : matrix_(system) {}
   bool factor(const Linearization<double>& d, double c_v, double c_q, double c_s) { return matrix_.factor(d, c_v, c_q, c_s); }
   void forget() { matrix_.forget(); }
+  void settle() { matrix_.settle(); }
   void solve(VectorX<double>* x) const { matrix_.lu().solve(*x); }
   const SparseLu& lu() const { return matrix_.lu(); }
 
@@ -52,6 +53,7 @@ class StageMatrix<std::complex<double>> {
     return matrix.allFinite();
   }
   void forget() {}
+  void settle() {}
   void solve(VectorX<Scalar>* x) const { *x = lu_.solve(*x).eval(); }
 
  private:

@@ -21,12 +21,17 @@ constexpr std::size_t kMostKept = 8;
 }  // namespace
 
 struct SparseLu::Implementation {
+  struct Kept {
+    LuSchedule schedule;
+    bool is_settled = false;
+  };
+
   std::vector<int> starts, rows;
-  std::vector<LuSchedule> schedules;  ///< the last one is in use; those before the last `chosen` ones were forgotten
-  std::size_t chosen = 0;             ///< since the last forget(), at most kMostSchedules
+  std::vector<Kept> schedules;  ///< the last one is in use; those before the last `chosen` ones were forgotten
+  std::size_t chosen = 0;       ///< since the last forget(), at most kMostSchedules
   std::int64_t full_factorizations = 0;
 
-  LuSchedule& schedule() { return schedules.back(); }
+  LuSchedule& schedule() { return schedules.back().schedule; }
 
   // Earlier pivots are kept since a mechanism that swings returns to positions for which they were chosen.
   bool refactor(In<double> values) {
@@ -52,14 +57,26 @@ struct SparseLu::Implementation {
   void add(const LuPattern& pattern) {
     if (chosen == kMostSchedules) --chosen;
     const auto last = schedules.end() - static_cast<std::ptrdiff_t>(chosen);
-    const auto known = std::find_if(schedules.begin(), last, [&pattern](LuSchedule& schedule) { return schedule.rescale(pattern); });
+    const auto known =
+        std::find_if(schedules.begin(), last, [&pattern](Kept& kept) { return !kept.is_settled && kept.schedule.rescale(pattern); });
     if (known != last) {
       std::rotate(known, known + 1, schedules.end());
     } else {
-      if (schedules.size() == kMostKept) schedules.erase(schedules.begin());
-      schedules.emplace_back(pattern, starts, rows);
+      if (schedules.size() == kMostKept) schedules.erase(schedules.begin() + (schedules.front().is_settled ? 1 : 0));
+      schedules.push_back({LuSchedule(pattern, starts, rows)});
     }
     ++chosen;
+  }
+
+  void forget() {
+    const auto settled = std::find_if(schedules.begin(), schedules.end(), [](const Kept& kept) { return kept.is_settled; });
+    chosen = settled == schedules.end() ? 0 : 1;
+    if (chosen > 0) std::rotate(settled, settled + 1, schedules.end());
+  }
+
+  void settle() {
+    for (Kept& kept : schedules) kept.is_settled = false;
+    if (chosen > 0) schedules.back().is_settled = true;
   }
 };
 
@@ -75,7 +92,9 @@ SparseLu& SparseLu::operator=(SparseLu&&) noexcept = default;
 
 bool SparseLu::factor(In<double> values) { return implementation_->refactor(values) || implementation_->factor(values); }
 
-void SparseLu::forget() { implementation_->chosen = 0; }
+void SparseLu::forget() { implementation_->forget(); }
+
+void SparseLu::settle() { implementation_->settle(); }
 
 template <int N>
 void SparseLu::solve_rows(Out<double> x) const {

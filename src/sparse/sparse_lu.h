@@ -26,9 +26,12 @@ class SparseLu {
   /// Factors the matrix with these nonzeros, in the order of row_index. False if it is singular to working precision.
   bool factor(In<double> values);
 
-  /// Later factorizations do not depend on earlier matrices: the next one chooses pivots anew. For the beginning of a run, so that its last
-  /// bits do not depend on the runs before.
+  /// Later factorizations do not depend on earlier matrices but on those before settle(): the next one begins with the pivots of that time,
+  /// or chooses pivots anew if settle() was never called. For the beginning of a run, so that its last bits do not depend on the runs
+  /// before.
   void forget();
+  /// Makes the pivots in use those with which forget() begins again.
+  void settle();
 
   /// Solves A x = b in place, n numbers.
   void solve(Out<double> x) const { solve_rows<1>(x); }

@@ -73,6 +73,29 @@ TEST(SparseLu, AfterForgettingNothingDependsOnEarlierMatrices) {
   EXPECT_GE(used.full_factorizations(), 25) << "chosen anew each time";
 }
 
+TEST(SparseLu, AfterForgettingSettledPivotsAreUsedAgain) {
+  const Eigen::Vector4d b(1.0 / 3, 2.0 / 7, 3.0 / 11, 4.0 / 13);
+  const auto solution = [&b](SparseLu* lu, const Eigen::Matrix4d& m) {
+    Eigen::Vector4d x = b;
+    EXPECT_TRUE(lu->factor(m));
+    lu->solve(x);
+    return x;
+  };
+  SparseLu fresh(kLuStart, kLuRows), used(kLuStart, kLuRows);
+  for (SparseLu* lu : {&fresh, &used}) {
+    solution(lu, dense_matrix(4.0));
+    lu->settle();
+  }
+  const Eigen::Vector4d expected = solution(&fresh, dense_matrix(0.3));
+  for (int k = 0; k < 12; ++k) {
+    used.forget();
+    solution(&used, dense_matrix(1e8 * (k + 1)));
+    used.forget();
+    EXPECT_EQ(solution(&used, dense_matrix(0.3)), expected) << k;
+  }
+  EXPECT_EQ(fresh.full_factorizations(), 1) << "the settled pivots serve";
+}
+
 TEST(SparseLu, ReportsSingularMatrices) {
   SparseLu lu(kLuStart, kLuRows);
   Eigen::Matrix4d m = dense_matrix(4.0);
