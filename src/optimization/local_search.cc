@@ -273,6 +273,7 @@ class Minimization {
     if (first) {
       result_.initial_objective = evaluation.objective;
       result_.initial_values = all.values;
+      result_.initial_failed = all.failed;
       result_.initial_gradient = evaluation.gradient;
     }
     const bool better = first || (inside && !best_feasible_) || (inside == best_feasible_ && evaluation.objective < result_.objective);
@@ -282,6 +283,7 @@ class Minimization {
     best_feasible_ = inside;
     result_.objective = evaluation.objective;
     result_.values = all.values;
+    result_.failed = all.failed;
     result_.gradient = evaluation.gradient;
     result_.warnings = evaluation.warnings;
     result_.rho = rho;
