@@ -12,6 +12,10 @@
 
 namespace codesign {
 
+/// "run \"loaded\", sample 3", for messages; empty for the study's own run. @param run its name; empty if the study has none.
+/// @param sample from 0; -1: the nominal values.
+std::string scenario_name(const std::string& run, int sample);
+
 /// One run at one sample of the uncertain quantities: what a design is evaluated on.
 struct Scenario {
   std::string run;  ///< name of the run; empty if the study has none
@@ -25,10 +29,6 @@ struct Scenario {
   std::vector<double> parameters(const Eigen::VectorXd& rho) const;
   std::string name() const { return scenario_name(run, sample); }
 };
-
-/// "run \"loaded\", sample 3", for messages; empty for the study's own run. @param run its name; empty if the study has none.
-/// @param sample from 0; -1: the nominal values.
-std::string scenario_name(const std::string& run, int sample);
 
 /// The scenarios of a problem, weights with sum 1: each run at each sample. Without `runs` and `uncertain` the one scenario is the study's
 /// own run. All runs share the same samples.
