@@ -13,7 +13,8 @@ TEST(GovernorMultistart, TwoStartsFindTheirWayIntoTheValley) {
   ASSERT_EQ(result.starts.size(), 2U);
   EXPECT_EQ(result.screened - result.unusable, 4);
   EXPECT_LE(result.starts[0].start_objective, result.starts[1].start_objective);
-  for (const StartResult& start : result.starts) EXPECT_LT(start.objective, 0.62);
+  for (const StartResult& start : result.starts) EXPECT_LT(start.objective, 0.64);
+  EXPECT_LT(result.objective, 0.62);
   EXPECT_EQ(result.objective, std::min(result.starts[0].objective, result.starts[1].objective));
   EXPECT_NEAR(result.initial_objective, 18.9929, 1e-3) << "of the study's own start";
 }

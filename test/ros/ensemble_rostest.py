@@ -64,8 +64,8 @@ class EnsembleTest(NodesTestCase):
                     self.assertEqual(topics[place + side + "robot_description"].message_count, 1)
                 self.assertEqual(topics[place + "tf"].message_count, 222)
             ((_, result, _),) = bag.read_messages(topics=["result"])
-            self.assertEqual(result.scenarios, self.result.scenarios)
-            self.assertEqual(result.validation, self.result.validation)
+            self.assertEqual([str(scenario) for scenario in result.scenarios], [str(scenario) for scenario in self.result.scenarios])
+            self.assertEqual(str(result.validation), str(self.result.validation))
             ends = [message.position for topic in ("tuned/joint_states", "worst/tuned/joint_states")
                     for _, message, _ in list(bag.read_messages(topics=[topic]))[-1:]]
             self.assertNotEqual(*ends)
