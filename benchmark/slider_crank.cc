@@ -62,6 +62,12 @@ Problem with_tuned(const Problem& problem, int tuned) {
   return with_study(more, std::move(changed));
 }
 
+Problem with_uncertain_masses(const Problem& problem, int samples, const std::string& engine) {
+  const SourceText study{kStudy, read_source(kStudy).text + "uncertain: {rod_mass: {uniform: [0.4, 0.6]}, slider_mass: {uniform: [1.0, 3.0]}}\n" +
+                                     "robust: {samples: " + std::to_string(samples) + "}\nengine: " + engine + "\n"};
+  return load_problem(problem.urdf(), {{"masses", kMasses}}, study);
+}
+
 Problem with_dry_friction(const Problem& problem) {
   const std::string friction = "<dynamics friction=\"" + std::to_string(kDryFriction) + "\"/>";
   const SourceText urdf{kUrdf, replaced(problem.urdf().text, "<codesign:friction", "/>", friction)};

@@ -23,6 +23,9 @@ constexpr const char* kControlled = "rodas5p, controlled";
 /// The same problem with three more parameters, the masses, and the first `tuned` of all eight tuned.
 Problem with_tuned(const Problem& problem, int tuned);
 
+/// The same problem with uncertain masses of rod and slider. @param samples of them; 1: the nominal ones. @param engine the block `engine`.
+Problem with_uncertain_masses(const Problem& problem, int samples, const std::string& engine);
+
 /// The dry friction of the slider in with_dry_friction() [N]: about 0.3 times the weight of the slider and half the rod.
 constexpr double kDryFriction = 6.5;
 

@@ -36,6 +36,9 @@ struct ScenarioResult {
   double weight = 1.0;                                 ///< w; the sum over all scenarios is 1
   std::vector<std::pair<std::string, double>> values;  ///< the parameters that the run or the sample sets
   double initial_objective = 0.0, objective = 0.0;     ///< psi at `initial_rho` and at `rho`
+  std::string friction_law{};                          ///< of all joints, if the law is uncertain; else empty: the model's laws
+  /// Whether it could not be integrated at `initial_rho` and at `rho`; its objective is then that of the worst of the others.
+  bool initial_failed = false, failed = false;
 };
 
 /// The best point on samples that the search has not seen.
@@ -97,6 +100,7 @@ struct OptimizationResult {
   // Of a study with runs or uncertain parameters, else empty: psi of each scenario at `initial_rho` and `rho`, and what they are.
   Eigen::VectorXd initial_values, values;
   std::vector<ScenarioResult> scenarios;
+  std::vector<int> initial_failed, failed;  ///< indices of the scenarios that could not be integrated at `initial_rho` and `rho`
   std::optional<Validation> validation;  ///< if `robust.validate` asks for it
   // Of a study with several starts, else empty: the searches, best start first, and the optima, best first.
   std::vector<StartResult> starts;

@@ -23,10 +23,12 @@ int index_of(const Study& study, const std::string& name) {
 /// Sets what sample `row` says, one value per uncertain quantity. @param law receives the friction law, an index of the quantity's laws.
 void take_sample(const std::vector<UncertainQuantity>& uncertain, const std::vector<double>& row, Scenario* scenario, int* law) {
   for (std::size_t k = 0; k < uncertain.size(); ++k) {
-    if (uncertain[k].parameter < 0)
+    if (uncertain[k].parameter < 0) {
       *law = static_cast<int>(row[k]);
-    else
+      scenario->friction_law = uncertain[k].laws[static_cast<std::size_t>(*law)];
+    } else {
       scenario->values.emplace_back(uncertain[k].parameter, row[k]);
+    }
   }
 }
 
@@ -67,7 +69,7 @@ std::vector<double> Scenario::parameters(const Eigen::VectorXd& rho) const {
   return parameters;
 }
 
-std::string Scenario::name() const {
+std::string scenario_name(const std::string& run, int sample) {
   std::string text;
   if (!run.empty()) text = "run \"" + run + "\"";
   if (sample >= 0) text += (text.empty() ? "sample " : ", sample ") + std::to_string(sample + 1);

@@ -12,18 +12,22 @@
 
 namespace codesign {
 
+/// "run \"loaded\", sample 3", for messages; empty for the study's own run. @param run its name; empty if the study has none.
+/// @param sample from 0; -1: the nominal values.
+std::string scenario_name(const std::string& run, int sample);
+
 /// One run at one sample of the uncertain quantities: what a design is evaluated on.
 struct Scenario {
   std::string run;  ///< name of the run; empty if the study has none
   int sample = -1;  ///< number of the sample from 0; -1: the nominal values
   double weight = 1.0;
+  std::string friction_law;  ///< of all joints, if the law is uncertain; else empty: the model's laws
   std::shared_ptr<const CompiledSystem> system;
   std::vector<std::pair<int, double>> values;  ///< values of parameters (index in Study::parameters) that differ from their start values
 
   /// All named parameters at a design.
   std::vector<double> parameters(const Eigen::VectorXd& rho) const;
-  /// "run \"loaded\", sample 3", for messages; empty for the study's own run.
-  std::string name() const;
+  std::string name() const { return scenario_name(run, sample); }
 };
 
 /// The scenarios of a problem, weights with sum 1: each run at each sample. Without `runs` and `uncertain` the one scenario is the study's

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "ensemble/scenario.h"
 #include "jobs/sentences.h"
 #include "text/decimal.h"
 #include "text/number_text.h"
@@ -13,12 +14,16 @@ namespace {
 Json to_json(const ScenarioResult& scenario) {
   Json values = Json::object();
   for (const auto& [name, value] : scenario.values) values[name] = value;
-  return {{"run", scenario.run},
-          {"sample", scenario.sample + 1},
-          {"weight", scenario.weight},
-          {"values", values},
-          {"initial_objective", scenario.initial_objective},
-          {"objective", scenario.objective}};
+  Json object = {{"run", scenario.run},
+                 {"sample", scenario.sample + 1},
+                 {"weight", scenario.weight},
+                 {"values", values},
+                 {"initial_objective", scenario.initial_objective},
+                 {"objective", scenario.objective},
+                 {"initial_failed", scenario.initial_failed},
+                 {"failed", scenario.failed}};
+  if (!scenario.friction_law.empty()) object["friction_law"] = scenario.friction_law;
+  return object;
 }
 
 Json to_json(const Validation& validation) {
@@ -43,17 +48,43 @@ std::vector<std::string> set_parameters(const OptimizationResult& result) {
   return names;
 }
 
+bool is_law_uncertain(const OptimizationResult& result) {
+  return !result.scenarios.empty() && !result.scenarios.front().friction_law.empty();
+}
+
 int count_failed(const std::vector<StartResult>& starts) {
   return static_cast<int>(std::count_if(starts.begin(), starts.end(), [](const StartResult& start) { return start.optimum < 0; }));
 }
 
+/// "; the worst is run \"loaded\", sample 3, with 2.5", and how many failed.
+std::string describe_worst(const OptimizationResult& result) {
+  const int worst = worst_scenario(result);
+  if (worst < 0) return "";
+  const ScenarioResult& scenario = result.scenarios[static_cast<std::size_t>(worst)];
+  const std::string name = scenario_name(scenario.run, scenario.sample), law = scenario.friction_law;
+  return "; the worst is " + (name.empty() ? "the nominal run" : name) + (law.empty() ? "" : " (" + law + ")") + ", with " +
+         readable(scenario.objective) + (result.failed.empty() ? "" : "; " + std::to_string(result.failed.size()) + " failed");
+}
+
 }  // namespace
+
+int worst_scenario(const OptimizationResult& result) {
+  int worst = -1;
+  for (std::size_t k = 0; k < result.scenarios.size(); ++k) {
+    if (result.scenarios[k].failed) continue;
+    if (worst < 0 || result.scenarios[k].objective > result.scenarios[static_cast<std::size_t>(worst)].objective) worst = static_cast<int>(k);
+  }
+  return worst;
+}
 
 void add_ensemble(const Problem& problem, const OptimizationResult& result, Json* object) {
   if (!result.scenarios.empty()) {
     Json scenarios = Json::array();
     for (const ScenarioResult& scenario : result.scenarios) scenarios.push_back(to_json(scenario));
     (*object)["scenarios"] = std::move(scenarios);
+    (*object)["failed_scenarios"] = result.failed.size();
+    if (const int worst = worst_scenario(result); worst >= 0)
+      (*object)["worst_scenario"] = to_json(result.scenarios[static_cast<std::size_t>(worst)]);
   }
   if (result.validation) (*object)["validation"] = to_json(*result.validation);
   if (!result.starts.empty()) (*object)["multistart"] = multistart_json(problem, result);
@@ -65,7 +96,7 @@ std::vector<std::string> ensemble_sentences(const Problem& problem, const Optimi
   if (!result.scenarios.empty()) {
     const RobustOptions options = asked.robust_options();
     lines.push_back(std::string("objective: ") + kRobustMeasureNames[static_cast<std::size_t>(options.measure)] + " over " +
-                    std::to_string(result.scenarios.size()) + " scenarios");
+                    std::to_string(result.scenarios.size()) + " scenarios" + describe_worst(result));
   }
   if (const auto& v = result.validation)
     lines.push_back("fresh samples: " + readable(v->objective) + " instead of " + readable(v->promised) + ", mean " + readable(v->mean) +
@@ -101,7 +132,8 @@ std::vector<std::vector<std::string>> start_rows(const OptimizationResult& resul
 }
 
 std::vector<std::string> scenario_columns(const OptimizationResult& result) {
-  std::vector<std::string> columns = {"run", "sample", "weight", "initial_objective", "objective"};
+  std::vector<std::string> columns = {"run", "sample", "weight", "initial_objective", "objective", "initial_failed", "failed"};
+  if (is_law_uncertain(result)) columns.emplace_back("friction_law");
   for (const std::string& name : set_parameters(result)) columns.push_back(name);
   return columns;
 }
@@ -111,7 +143,8 @@ std::vector<std::vector<std::string>> scenario_rows(const OptimizationResult& re
   std::vector<std::vector<std::string>> rows;
   for (const ScenarioResult& scenario : result.scenarios) {
     rows.push_back({scenario.run, std::to_string(scenario.sample + 1), to_decimal(scenario.weight), to_decimal(scenario.initial_objective),
-                    to_decimal(scenario.objective)});
+                    to_decimal(scenario.objective), scenario.initial_failed ? "1" : "0", scenario.failed ? "1" : "0"});
+    if (is_law_uncertain(result)) rows.back().push_back(scenario.friction_law);
     for (const std::string& name : names) {
       std::string cell;
       for (const auto& [set, value] : scenario.values)

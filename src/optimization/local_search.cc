@@ -305,6 +305,7 @@ class Minimization {
       initial_extremes_ = all.extremes;
       result_.initial_objective = evaluation.objective;
       result_.initial_values = all.values;
+      result_.initial_failed = all.failed;
       result_.initial_gradient = evaluation.gradient;
     }
     const bool better = first || (inside && !best_feasible_) || (inside == best_feasible_ && evaluation.objective < result_.objective);
@@ -315,6 +316,7 @@ class Minimization {
     result_.objective = evaluation.objective;
     result_.values = all.values;
     best_extremes_ = all.extremes;
+    result_.failed = all.failed;
     result_.gradient = evaluation.gradient;
     result_.warnings = evaluation.warnings;
     result_.rho = rho;

@@ -186,6 +186,7 @@ class Multistart {
     best->initial_objective = start.total.objective;
     best->initial_gradient = start.total.gradient;
     best->initial_values = start.values;
+    best->initial_failed = start.failed;
   }
 
   const Problem& problem_;

@@ -8,7 +8,7 @@ namespace codesign {
 namespace {
 
 ScenarioResult describe(const Study& study, const Scenario& scenario, double initial, double final) {
-  ScenarioResult result{scenario.run, scenario.sample, scenario.weight, {}, initial, final};
+  ScenarioResult result{scenario.run, scenario.sample, scenario.weight, {}, initial, final, scenario.friction_law};
   for (const auto& [index, value] : scenario.values)
     result.values.emplace_back(study.parameters[static_cast<std::size_t>(index)].name, value);
   return result;
@@ -55,6 +55,8 @@ void describe_scenarios(const Problem& problem, const Ensemble& ensemble, const 
     const auto i = static_cast<Eigen::Index>(k);
     result->scenarios.push_back(describe(problem.study(), scenarios[k], result->initial_values[i], result->values[i]));
   }
+  for (int k : result->initial_failed) result->scenarios[static_cast<std::size_t>(k)].initial_failed = true;
+  for (int k : result->failed) result->scenarios[static_cast<std::size_t>(k)].failed = true;
   if (ensemble.options().validate > 0 && !is_set(cancel)) result->validation = validate(problem, ensemble, *result, cancel, meter);
 }
 

@@ -7,7 +7,7 @@
 
 namespace codesign {
 
-/// A warning `unused_parameter` for each tuned parameter on which no number of model or study depends.
+/// A warning `unused_parameter` for each tuned and each uncertain parameter on which no number of the model, the study and its runs depends.
 Warnings unused_parameters(const Study& study);
 
 }  // namespace codesign

@@ -8,6 +8,7 @@
 #include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
 #include "problem/load_problem.h"
+#include "sampling/sobol.h"
 
 namespace codesign {
 namespace {
@@ -29,9 +30,23 @@ bool is_tuned(const Study& study, const std::string& name) {
                      [&](int index) { return study.parameters[static_cast<std::size_t>(index)].name == name; });
 }
 
+/// The points of the Sobol sequence have a largest dimension. @param quantities that are drawn, in words.
+void require_dimension(SamplerKind sampler, std::size_t count, const SourceLocation& where, const std::string& block,
+                       const std::string& quantities) {
+  if (sampler != SamplerKind::kSobol || count <= static_cast<std::size_t>(kMaxSobolDimension)) return;
+  throw InputError({where, block + ".sampler", "the sampler sobol draws fewer quantities than there are " + quantities,
+                    std::to_string(count) + " " + quantities,
+                    "at most " + std::to_string(kMaxSobolDimension) + ", or sampler: latin_hypercube or random"});
+}
+
 }  // namespace
 
 void require_compatible(const Study& study) {
+  const EnsembleDescription& ensemble = study.ensemble;
+  const RobustOptions robust = ensemble.robust_options();
+  require_dimension(robust.sampler, ensemble.uncertain.size(), robust.where, "robust", "uncertain parameters");
+  if (ensemble.multistart.starts > 0)
+    require_dimension(ensemble.multistart.sampler, study.tuned.size(), ensemble.multistart.where, "multistart", "tuned parameters");
   for (const RunDescription& run : study.ensemble.runs)
     for (const auto& [name, value] : run.set)
       if (is_tuned(study, name)) throw tuned_error(run.where, "runs." + run.name + ".set." + name, name);

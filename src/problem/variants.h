@@ -20,7 +20,8 @@ class CompiledSystem;
 std::vector<std::shared_ptr<const CompiledSystem>> make_variants(const RobotDescription& robot, const Study& study,
                                                                  const std::shared_ptr<const CompiledSystem>& own, Warnings* warnings);
 
-/// Checks that no parameter is tuned that a run sets or that is uncertain, and that many starts have bounds to start in. The reader checks
+/// Checks that no parameter is tuned that a run sets or that is uncertain, that many starts have bounds to start in, and that the samplers
+/// can draw as many quantities. The reader checks
 /// the file; a request to a node may tune other parameters. @throws InputError naming the parameter.
 void require_compatible(const Study& study);
 

@@ -126,6 +126,7 @@ mechanism_codesign::OptimizationProgress optimization_progress(const Trial& tria
   message.objective = trial.objective;
   message.best_objective = trial.best_objective;
   message.gradient_norm = trial.gradient_norm;
+  message.search = static_cast<std::uint32_t>(trial.start);
   message.parameters = parameters;
   message.values = to_array(trial.rho);
   message.gradient = to_array(trial.gradient);

@@ -8,12 +8,14 @@
 namespace codesign {
 namespace {
 
-void write_frame(const std::string& side, const RecordedRun& run, std::size_t index, const MarkerStyle& style, BagWriter* writer) {
+/// @param place prefix of the topics.
+void write_frame(const std::string& place, const std::string& side, const RecordedRun& run, std::size_t index, const MarkerStyle& style,
+                 BagWriter* writer) {
   if (index >= run.frames.size()) return;
   const Frame& frame = run.frames[index];
   const std::string prefix = side + "/";
-  writer->write_frame(prefix, prefix + run.names.links[0], run.names, frame, style);
-  writer->write("tf", frame.time, all_link_transforms(run.names, frame, BagWriter::stamp(frame.time), prefix));
+  writer->write_frame(place + prefix, prefix + run.names.links[0], run.names, frame, style);
+  writer->write(place + "tf", frame.time, all_link_transforms(run.names, frame, BagWriter::stamp(frame.time), prefix));
 }
 
 geometry_msgs::TransformStamped place(const std::string& side, double y) {
@@ -42,8 +44,6 @@ visualization_msgs::Marker label(const std::string& side, const SceneLayout& lay
 
 void write_head(const JobRecord& record, const SceneLayout& layout, BagWriter* writer) {
   writer->write_text("study", record.study);
-  writer->write_text("initial/robot_description", record.initial.urdf);
-  writer->write_text("tuned/robot_description", record.tuned.urdf);
   writer->write_latched("request", 0.0, record.request);
   tf2_msgs::TFMessage places;
   places.transforms = {place("initial", 0.5 * layout.separation), place("tuned", -0.5 * layout.separation)};
@@ -63,17 +63,25 @@ void write_progress(const JobRecord& record, double duration, BagWriter* writer)
   }
 }
 
-void write_contents(const JobRecord& record, BagWriter* writer) {
-  const SceneLayout layout = lay_out(record.initial.run, record.tuned.run);
-  write_head(record, layout, writer);
-  const std::size_t count = std::max(record.initial.run.frames.size(), record.tuned.run.frames.size());
-  double duration = 0.0;
-  for (const RecordedRun* run : {&record.initial.run, &record.tuned.run})
-    if (!run->frames.empty()) duration = std::max(duration, run->frames.back().time);
+void write_runs(const std::string& place, const BagRuns& runs, const MarkerStyle& style, BagWriter* writer) {
+  writer->write_text(place + "initial/robot_description", runs.initial.urdf);
+  writer->write_text(place + "tuned/robot_description", runs.tuned.urdf);
+  const std::size_t count = std::max(runs.initial.run.frames.size(), runs.tuned.run.frames.size());
   for (std::size_t i = 0; i < count; ++i) {
-    write_frame("initial", record.initial.run, i, layout.style, writer);
-    write_frame("tuned", record.tuned.run, i, layout.style, writer);
+    write_frame(place, "initial", runs.initial.run, i, style, writer);
+    write_frame(place, "tuned", runs.tuned.run, i, style, writer);
   }
+}
+
+void write_contents(const JobRecord& record, BagWriter* writer) {
+  const BagRuns& nominal = record.nominal;
+  const SceneLayout layout = lay_out(nominal.initial.run, nominal.tuned.run);
+  write_head(record, layout, writer);
+  double duration = 0.0;
+  for (const RecordedRun* run : {&nominal.initial.run, &nominal.tuned.run})
+    if (!run->frames.empty()) duration = std::max(duration, run->frames.back().time);
+  write_runs("", nominal, layout.style, writer);
+  if (record.worst) write_runs("worst/", *record.worst, layout.style, writer);
   write_progress(record, duration, writer);
   writer->write_latched("result", duration, record.result);
 }

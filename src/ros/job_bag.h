@@ -6,6 +6,7 @@
 #include <mechanism_codesign/OptimizeGoal.h>
 #include <mechanism_codesign/OptimizeResult.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,15 @@ struct BagSide {
   RecordedRun run;
 };
 
+/// Both designs in the same run.
+struct BagRuns {
+  BagSide initial, tuned;
+};
+
 /// The contents of the bag of one job.
 struct JobRecord {
-  BagSide initial, tuned;
+  BagRuns nominal;
+  std::optional<BagRuns> worst;  ///< of a study with runs or uncertain parameters: the scenario with the largest objective at the tuned design
   std::vector<mechanism_codesign::OptimizationProgress> progress;
   mechanism_codesign::OptimizeGoal request;
   mechanism_codesign::OptimizeResult result;
@@ -31,6 +38,7 @@ struct JobRecord {
 /// Writes the bag as `path`.active and renames it when it is complete. Topics: doc/ros_api.md.
 ///
 /// Recorded time starts at 1 s, and header stamps are the same. TF frames are `initial/<link>` and `tuned/<link>`, both below `world`.
+/// The worst run has the same topics, with the same frames, below `worst/`; so that it can be played in place of the nominal one.
 /// The trial points are spread evenly over the duration of the runs, so that a plot shows the convergence next to the runs.
 /// @throws OutputError if writing fails; no unfinished bag is left.
 void write_bag(const std::string& path, const JobRecord& record);

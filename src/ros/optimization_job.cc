@@ -5,12 +5,15 @@
 #include <limits>
 #include <utility>
 
+#include "ensemble/scenario.h"
 #include "jobs/best_record.h"
+#include "jobs/ensemble_records.h"
 #include "jobs/job_files.h"
 #include "jobs/output_error.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/optimization.h"
 #include "reading/urdf/urdf_reader.h"
+#include "ros/ensemble_messages.h"
 #include "ros/job.h"
 #include "ros/job_bag.h"
 #include "ros/progress_log.h"
@@ -40,6 +43,7 @@ mechanism_codesign::OptimizeResult to_message(const OptimizationResult& result, 
   message.cpu_seconds = result.statistics.cpu_seconds;
   message.constraint_drift = result.statistics.constraint_drift;
   message.energy_error = result.statistics.energy_error;
+  set_ensemble(result, &message);
   return message;
 }
 
@@ -65,9 +69,14 @@ class Patience {
   ros::WallTime shutdown_, cancelled_;  ///< time of the first call that saw it
 };
 
-BagSide run_side(const Problem& problem, const std::vector<double>& parameters, double rate, Patience* patience) {
-  return {write_tuned_urdf(problem.urdf(), problem.overlays(), parameters),
-          record_run(problem, parameters, rate, [patience] { return (*patience)(); })};
+/// Both designs of a result in one scenario.
+BagRuns run_both(const Problem& problem, const OptimizationResult& result, const Scenario& scenario, double rate, Patience* patience) {
+  const auto side = [&](const Eigen::VectorXd& rho) {
+    const std::vector<double> parameters = scenario.parameters(rho);
+    return BagSide{write_tuned_urdf(problem.urdf(), problem.overlays(), parameters),
+                   record_run(scenario.system, parameters, rate, [patience] { return (*patience)(); })};
+  };
+  return {side(result.initial_rho), side(result.rho)};
 }
 
 /// One optimization job, from the changed problem to its bag.
@@ -104,9 +113,12 @@ class Job {
     if (!is_evaluated && result_.status.code != StatusCode::kCancelled) return;
     if (!is_evaluated) outcome_->result.initial_objective = outcome_->result.objective = std::numeric_limits<double>::quiet_NaN();
     Patience patience(cancel);
-    record_->initial = run_side(problem_, problem_.parameters(result_.initial_rho), options_.rate, &patience);
-    record_->tuned = run_side(problem_, problem_.parameters(result_.rho), options_.rate, &patience);
-    outcome_->tuned_urdf = record_->tuned.urdf;
+    Scenario nominal;
+    nominal.system = problem_.system();
+    record_->nominal = run_both(problem_, result_, nominal, options_.rate, &patience);
+    if (const int worst = worst_scenario(result_); worst >= 0)
+      record_->worst = run_both(problem_, result_, make_scenarios(problem_)[static_cast<std::size_t>(worst)], options_.rate, &patience);
+    outcome_->tuned_urdf = record_->nominal.tuned.urdf;
     outcome_->result.warnings = warning_messages(problem_.warnings(), warnings());
     record_->result = outcome_->result;
     record_->result.bag = files_.bag();
@@ -120,14 +132,19 @@ class Job {
     Warnings warnings = result_.warnings;
     if (!best_.failure().empty())
       warnings.push_back({"best_point_not_on_disk", "the best point so far was not on disk while the job ran: " + best_.failure(), {}});
-    const std::pair<const char*, const RecordedRun*> sides[] = {{"initial", &record_->initial.run}, {"tuned", &record_->tuned.run}};
+    add_early_ends("", record_->nominal, &warnings);
+    if (record_->worst) add_early_ends("worst ", *record_->worst, &warnings);
+    return warnings;
+  }
+
+  static void add_early_ends(const std::string& which, const BagRuns& runs, Warnings* warnings) {
+    const std::pair<const char*, const RecordedRun*> sides[] = {{"initial", &runs.initial.run}, {"tuned", &runs.tuned.run}};
     for (const auto& [side, run] : sides)
       if (!run->status.ok())
-        warnings.push_back(
-            {"run_ends_early",
-             "the " + std::string(side) + " run in the bag ends at t = " + std::to_string(run->status.time) + " s: " + run->status.cause,
-             {}});
-    return warnings;
+        warnings->push_back({"run_ends_early",
+                             "the " + which + side + " run in the bag ends at t = " + std::to_string(run->status.time) +
+                                 " s: " + run->status.cause,
+                             {}});
   }
 
   const Problem problem_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "equations/compiled_system.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/simulation.h"
 #include "ros/advance.h"
@@ -52,7 +53,7 @@ struct Extent {
   }
 };
 
-/// Limit for the frames of both runs [bytes].
+/// Limit for the frames of all runs of a job [bytes].
 constexpr double kMostMemory = 256e6;
 
 double bytes_of_a_frame(const RobotDescription& robot, const Study& study) {
@@ -72,7 +73,8 @@ void check_recording(const Problem& problem, double rate, const std::string& ele
                       "the run is longer than ROS time can represent",
                       to_decimal(duration),
                       "at most " + to_decimal(kLongestRun) + " s"});
-  const double most = kMostMemory / (2.0 * bytes_of_a_frame(problem.robot(), problem.study()));
+  const double runs = problem.study().ensemble.is_ensemble() ? 4.0 : 2.0;
+  const double most = kMostMemory / (runs * bytes_of_a_frame(problem.robot(), problem.study()));
   if (!(duration * rate <= most))
     throw InputError({{element, 0},
                       "rate",
@@ -81,11 +83,12 @@ void check_recording(const Problem& problem, double rate, const std::string& ele
                       "at most " + to_decimal(std::floor(1e3 * most / duration) / 1e3) + " samples per second"});
 }
 
-RecordedRun record_run(const Problem& problem, const std::vector<double>& parameters, double rate, const std::function<bool()>& stop) {
+RecordedRun record_run(const std::shared_ptr<const CompiledSystem>& system, const std::vector<double>& parameters, double rate,
+                       const std::function<bool()>& stop) {
   RecordedRun run;
-  Simulation simulation(problem.system(), parameters, signals_of(problem.study()));
+  Simulation simulation(system, parameters, signals_of(system->study()));
   run.names = simulation.names();
-  const double duration = problem.study().duration;
+  const double duration = system->study().duration;
   const auto count = std::max<std::int64_t>(std::llround(duration * rate), 1);
   const auto stopped = [&stop] { return stop && stop(); };
   run.status = simulation.start();

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "assembly/count_equations.h"
@@ -13,6 +14,7 @@
 #include "mechanism_codesign/gradient.h"
 #include "mechanism_codesign/simulation.h"
 #include "paths.h"
+#include "problem/load_problem.h"
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"
 
@@ -44,6 +46,21 @@ struct Shipped {
   RobotDescription robot;
   Study study;
 };
+
+/// A shipped case as a problem. @param changes texts of its study, each with what takes its place.
+inline Problem shipped_problem(const std::string& name, const std::vector<std::pair<std::string, std::string>>& changes,
+                               const ParameterSettings& settings = {}) {
+  const std::string root = source_dir();
+  SourceText study = read_source(root + "/config/" + name + ".yaml");
+  for (const auto& [from, to] : changes) {
+    const std::size_t at = study.text.find(from);
+    if (at == std::string::npos)
+      ADD_FAILURE() << study.name << " does not have " << from;
+    else
+      study.text.replace(at, from.size(), to);
+  }
+  return load_problem(read_source(root + "/urdf/" + name + ".urdf"), {}, study, settings);
+}
 
 /// Counts of the paper's table.
 inline void expect_counts(const Shipped& shipped, const std::vector<int>& table) {

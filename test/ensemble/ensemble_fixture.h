@@ -9,7 +9,8 @@
 namespace codesign {
 
 /// A block that slides along x on the ground, with friction, held by a PD controller. Fast to simulate.
-inline Problem block(const std::string& ensemble, const std::string& optimizer = "{algorithm: slsqp}") {
+/// @param ensemble further blocks of the study. @param parameters further entries of `parameters`, each after a comma.
+inline Problem block(const std::string& ensemble, const std::string& optimizer = "{algorithm: slsqp}", const std::string& parameters = "") {
   const SourceText urdf{"block.urdf", R"(<robot name="block" xmlns:codesign="urn:mechanism_codesign">
   <codesign:parameter name="mu" value="0.3" lower="0.1" upper="1"/>
   <codesign:parameter name="mass" value="2" lower="0.1" upper="10"/>
@@ -27,7 +28,7 @@ inline Problem block(const std::string& ensemble, const std::string& optimizer =
 duration: 0.8
 initial_state: {slide: {velocity: 1.0}}
 controllers: {hold: {type: pid, input: slide/position, setpoint: 0.5, output: slide, gains: {p: "${Kp}", d: "${Kd}"}}}
-parameters: {Kp: {initial: 20.0, lower: 0.0, upper: 200.0}, Kd: {initial: 5.0, lower: 0.0, upper: 50.0}}
+parameters: {Kp: {initial: 20.0, lower: 0.0, upper: 200.0}, Kd: {initial: 5.0, lower: 0.0, upper: 50.0})" + parameters + R"(}
 objective: {integral: [{signal: slide/position, reference: 0.5, weight: 100.0}], terminal: [{signal: slide/velocity}]}
 optimizer: )" + optimizer + "\n" + ensemble};
   return load_problem(urdf, {}, study);

@@ -78,7 +78,12 @@ TEST(Ensemble, AFailedSampleRefusesTheDesignOrCountsInTheTail) {
   options.failed = FailedSamples::kTail;
   const EnsembleEvaluation counted = Ensemble(scenarios, options, engine).evaluate(problem.start(), true);
   ASSERT_TRUE(counted.total.status.ok()) << counted.total.status.cause;
-  EXPECT_EQ(counted.failed, 1);
+  EXPECT_EQ(counted.failed, std::vector<int>{1});
+  ASSERT_FALSE(counted.total.warnings.empty());
+  const Warning& warning = counted.total.warnings.back();
+  EXPECT_EQ(warning.code, "scenarios_failed");
+  EXPECT_NE(warning.message.find("1 of 3 scenarios"), std::string::npos) << warning.message;
+  EXPECT_NE(warning.message.find("run \"b\""), std::string::npos) << warning.message;
   EXPECT_EQ(counted.values[1], std::max(counted.values[0], counted.values[2]));
   scenarios[0].values = {{1, -1.0}};
   EXPECT_FALSE(Ensemble(scenarios, options, engine).evaluate(problem.start(), true).total.status.ok()) << "half of all is no tail";

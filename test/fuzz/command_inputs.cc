@@ -22,7 +22,21 @@ std::string read(const std::filesystem::path& path) {
 /// Makes the runs short: the errors that are looked for occur before a run and at its end.
 std::string cut_short(std::string study) {
   study = std::regex_replace(study, std::regex("(^|\n)duration: *[0-9.e-]+"), "$1duration: 0.02");
-  return std::regex_replace(study, std::regex("max_evaluations: *[0-9]+"), "max_evaluations: 3");
+  study = std::regex_replace(study, std::regex("(max_evaluations|samples|screen|validate): *[0-9]+"), "$1: 3");
+  return std::regex_replace(study, std::regex("starts: *[0-9]+"), "starts: 2");
+}
+
+/// Runs, uncertain parameters and many starts, of the shipped studies and of none.
+const std::vector<std::string>& ensembles() {
+  static const std::vector<std::string> kEnsembles = {
+      "runs: {one: {}, two: {weight: 2.0, gravity: [0, 0, -1]}}\n",
+      "runs: {slow: {controllers: {crank_speed: {setpoint: -5.0}}}}\nrobust: {measure: mean_plus_deviation, factor: 1.0, failed: tail}\n",
+      "runs: {short: {set: {crank_length: 0.07}, initial_state: {crank_joint: {velocity: -9.0}}}}\nengine: {type: serial}\n",
+      "uncertain: {friction_law: {choice: [brown_mcphee, gonthier, lugre]}}\nrobust: {measure: worst, samples: 3, validate: 2}\n",
+      "uncertain: {mu_static: {normal: [0.3, 0.1], between: [0.0, 0.5]}}\nrobust: {measure: cvar, level: 0.5, samples: 4, sampler: random}\n",
+      "uncertain: {crank_length: {uniform: [0.07, 0.09]}, rod_length: {choice: [0.29, 0.3]}}\nrobust: {samples: 2, seed: 7, failed: tail}\n",
+      "multistart: {starts: 2, screen: 3, sampler: latin_hypercube, seed: 3, cluster: 1.0e-2}\nengine: {type: threads, workers: 2}\n"};
+  return kEnsembles;
 }
 
 const char* const kOverlay = R"(<robot name="overlay" xmlns:codesign="http://ros.org/wiki/mechanism_codesign">
@@ -141,6 +155,7 @@ Input random_input(const std::vector<Seed>& seeds, Dice* dice) {
   input.arguments = random_command(dice, with_overlay);
   input.files = {{"model.urdf", seed.urdf}, {"study.yaml", seed.study}};
   if (with_overlay) input.files["overlay.urdf"] = seed.overlay;
+  if (dice->one_in(5)) input.files["study.yaml"] += dice->pick(ensembles());
   for (std::size_t changes = 1 + dice->below(3); changes > 0; --changes) {
     const std::string name = with_overlay && dice->one_in(2) ? "overlay.urdf" : dice->one_in(2) ? "model.urdf" : "study.yaml";
     std::string& text = input.files[name];

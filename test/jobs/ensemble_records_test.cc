@@ -52,18 +52,39 @@ TEST(EnsembleRecords, TablesHaveOneRowPerSearchAndScenario) {
   EXPECT_EQ(starts[1][3], "unstable_motion");
   EXPECT_EQ(starts[1][6], "0") << "found no optimum";
   EXPECT_EQ(scenario_columns(result()),
-            (std::vector<std::string>{"run", "sample", "weight", "initial_objective", "objective", "mass", "mu"}));
-  EXPECT_EQ(scenarios[0], (std::vector<std::string>{"light", "0", "0.5", "3", "2", "1", ""}));
+            (std::vector<std::string>{"run", "sample", "weight", "initial_objective", "objective", "initial_failed", "failed", "mass", "mu"}));
+  EXPECT_EQ(scenarios[0], (std::vector<std::string>{"light", "0", "0.5", "3", "2", "0", "0", "1", ""}));
   EXPECT_EQ(scenarios[1].back(), "0.3");
 }
 
 TEST(EnsembleRecords, SentencesCountSearchesAndOptima) {
   const std::vector<std::string> lines = ensemble_sentences(block("runs: {a: {}}\n"), result());
   ASSERT_EQ(lines.size(), 4u);
-  EXPECT_EQ(lines[0], "objective: mean over 2 scenarios");
+  EXPECT_EQ(lines[0], "objective: mean over 2 scenarios; the worst is run \"light\", with 2");
   EXPECT_NE(lines[1].find("1.75 instead of 1.5"), std::string::npos) << lines[1];
   EXPECT_NE(lines[2].find("2 searches, 1 of them without an optimum"), std::string::npos) << lines[2];
   EXPECT_NE(lines[3].find("optimum 1: objective 0.5, found by 1 searches"), std::string::npos) << lines[3];
+}
+
+TEST(EnsembleRecords, TheWorstIsOneThatCouldBeIntegrated) {
+  OptimizationResult r = result();
+  EXPECT_EQ(worst_scenario(r), 0);
+  r.scenarios[0].failed = true;
+  r.failed = {0};
+  r.scenarios[0].friction_law = r.scenarios[1].friction_law = "gonthier";
+  EXPECT_EQ(worst_scenario(r), 1);
+  EXPECT_EQ(worst_scenario(OptimizationResult()), -1);
+  Json object;
+  add_ensemble(block(""), r, &object);
+  EXPECT_EQ(object["failed_scenarios"], 1);
+  EXPECT_EQ(object["scenarios"][0]["failed"], true);
+  EXPECT_EQ(object["worst_scenario"]["run"], "wide");
+  EXPECT_EQ(object["worst_scenario"]["friction_law"], "gonthier");
+  EXPECT_EQ(scenario_columns(r)[7], "friction_law");
+  EXPECT_EQ(scenario_rows(r)[0][6], "1");
+  EXPECT_EQ(scenario_rows(r)[1][7], "gonthier");
+  const std::string line = ensemble_sentences(block("runs: {a: {}}\n"), r)[0];
+  EXPECT_NE(line.find("the worst is run \"wide\", sample 5 (gonthier), with 1; 1 failed"), std::string::npos) << line;
 }
 
 TEST(EnsembleRecords, OneRunAndOneStartAddNothing) {

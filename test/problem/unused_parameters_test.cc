@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "ensemble/ensemble_fixture.h"
 #include "problem/load_problem.h"
 
 namespace codesign {
@@ -41,6 +42,23 @@ TEST(UnusedParameters, ANumberOfModelOrStudyUsesThem) {
   EXPECT_EQ(warnings_of(problem_of("", "", "loads: [{joint: hinge, effort: \"${2*weight}\"}]\n")), 0U);
   EXPECT_EQ(warnings_of(problem_of("", "<visual><geometry><sphere radius=\"0.3\" codesign:radius=\"${weight/10}\"/></geometry></visual>")),
             0U);
+}
+
+TEST(UnusedParameters, TheChangesOfARunUseThem) {
+  EXPECT_EQ(warnings_of(problem_of("", "", "runs: {pushed: {loads: [{joint: hinge, effort: \"${weight}\"}]}}\n")), 0U);
+}
+
+TEST(UnusedParameters, AreUncertainButMoveNothing) {
+  const auto warnings = [](const std::string& push) {
+    return block("uncertain: {width: {uniform: [0.2, 0.4]}}\nloads: [{joint: slide, effort: \"" + push + "\"}]\n", "{algorithm: slsqp}",
+                 ", width: {tune: false, initial: 0.3}")
+        .warnings();
+  };
+  EXPECT_TRUE(warnings("${width}").empty());
+  ASSERT_EQ(warnings("1").size(), 1U);
+  EXPECT_EQ(warnings("1")[0].code, "unused_parameter");
+  EXPECT_NE(warnings("1")[0].message.find("uncertain.width"), std::string::npos) << warnings("1")[0].message;
+  EXPECT_TRUE(block("uncertain: {friction_law: {choice: [gonthier, lugre]}}\n").warnings().empty());
 }
 
 TEST(UnusedParameters, CommentsAndConstraintsDoNotUseThem) {

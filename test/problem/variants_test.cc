@@ -51,6 +51,40 @@ TEST(Variants, ManyStartsNeedBounds) {
   EXPECT_THROW(with_study(problem, study), InputError);
 }
 
+// Names, lines and ranges of the fault for a study with that many further parameters.
+InputFault fault_of(const std::string& ensemble, const std::string& parameters) {
+  try {
+    block(ensemble, "{algorithm: slsqp}", parameters);
+  } catch (const InputError& error) {
+    return error.fault();
+  }
+  return {};
+}
+
+TEST(Variants, SobolSamplesHaveALargestDimension) {
+  std::string parameters, uncertain = "uncertain: {mu: {uniform: [0.2, 0.4]}";
+  for (int k = 0; k < 3667; ++k) {
+    parameters += ", a" + std::to_string(k) + ": {tune: false, initial: 0.5}";
+    uncertain += ", a" + std::to_string(k) + ": {uniform: [0, 1]}";
+  }
+  const InputFault fault = fault_of(uncertain + "}\nrobust: {samples: 2}\n", parameters);
+  EXPECT_EQ(fault.where.file, "block.yaml");
+  EXPECT_GT(fault.where.line, 1);
+  EXPECT_EQ(fault.element, "robust.sampler");
+  EXPECT_EQ(fault.value, "3668 uncertain parameters");
+  EXPECT_NE(fault.allowed.find("at most 3667"), std::string::npos) << fault.allowed;
+  EXPECT_EQ(fault_of(uncertain + "}\nrobust: {samples: 2, sampler: random}\n", parameters).message, "");
+}
+
+TEST(Variants, ManySobolStartsHaveALargestDimension) {
+  std::string parameters;
+  for (int k = 0; k < 3667; ++k) parameters += ", a" + std::to_string(k) + ": {initial: 0.5, lower: 0, upper: 1}";
+  const InputFault fault = fault_of("multistart: {starts: 1}\n", parameters);
+  EXPECT_EQ(fault.element, "multistart.sampler");
+  EXPECT_EQ(fault.value, "3669 tuned parameters");
+  EXPECT_EQ(fault_of("multistart: {starts: 1, sampler: latin_hypercube}\n", parameters).message, "");
+}
+
 TEST(Variants, SettingsReachTheRuns) {
   const Problem problem = with_settings(block("runs: {far: {controllers: {hold: {setpoint: 0.9}}}}\n"), {{"mass", 3.0}, {"Kp", 7.0}});
   EXPECT_EQ(variant_of(problem, 0, -1)->study().parameters[1].value, 3.0);

@@ -86,6 +86,7 @@ TEST(Conversions, ProgressOfAFailedTrialSaysWhy) {
   trial.status = {StatusCode::kAssemblyFailed, 0.0, "the rod is too short"};
   trial.rho = Eigen::Vector2d(0.25, 0.5);
   trial.best_objective = 1.5;
+  trial.start = 2;
   const auto message = optimization_progress(trial, {"a", "b"}, kContext.stamp);
   EXPECT_EQ(message.evaluation, 7U);
   EXPECT_EQ(message.iteration, 3U);
@@ -95,6 +96,7 @@ TEST(Conversions, ProgressOfAFailedTrialSaysWhy) {
   EXPECT_EQ(message.values, (Numbers{0.25, 0.5}));
   EXPECT_TRUE(message.gradient.empty());
   EXPECT_EQ(message.best_objective, 1.5);
+  EXPECT_EQ(message.search, 2U);
 }
 
 TEST(Conversions, WarningsOfFilesComeFirstAndOnce) {

@@ -20,8 +20,7 @@ namespace {
 JobRecord sample_record() {
   JobRecord record;
   const RecordedRun run{sample_names(), {sample_frame(0.0), sample_frame(0.5), sample_frame(1.0)}, {}};
-  record.initial = {"<robot name='before'/>", run};
-  record.tuned = {"<robot name='after'/>", run};
+  record.nominal = {{"<robot name='before'/>", run}, {"<robot name='after'/>", run}};
   record.progress.resize(5);
   record.request.max_evaluations = 9;
   record.result.objective = 0.25;
@@ -93,6 +92,28 @@ TEST_F(JobBag, DescriptionsAndPlacesAreLatched) {
                         connection->topic.find("_markers") != std::string::npos || connection->datatype == "mechanism_codesign/Signals";
     EXPECT_NE(is_latched, is_run) << connection->topic;
   }
+}
+
+TEST_F(JobBag, TheWorstRunHasTheTopicsOfTheNominalOneBelowItsName) {
+  JobRecord record = sample_record();
+  record.worst = record.nominal;
+  record.worst->tuned.urdf = "<robot name='worst'/>";
+  const std::string path = (directory_.path() / "worst.bag").string();
+  write_bag(path, record);
+  std::map<std::string, std::size_t> counts, nominal;
+  rosbag::Bag bag(path);
+  rosbag::View view(bag), before(bag_);
+  for (const rosbag::MessageInstance& instance : view) ++counts[instance.getTopic()];
+  for (const rosbag::MessageInstance& instance : before) ++nominal[instance.getTopic()];
+  std::size_t below = 0;
+  for (const auto& [topic, count] : counts) {
+    const bool is_worst = topic.compare(0, 6, "worst/") == 0;
+    EXPECT_EQ(count, nominal[is_worst ? topic.substr(6) : topic]) << topic;
+    if (is_worst) ++below;
+  }
+  EXPECT_EQ(below, 2U * 7U + 1U) << "six topics and the description of each design, and tf";
+  rosbag::View text(bag, rosbag::TopicQuery("worst/tuned/robot_description"));
+  EXPECT_EQ(text.begin()->instantiate<std_msgs::String>()->data, "<robot name='worst'/>");
 }
 
 TEST_F(JobBag, NothingUnfinishedIsLeft) { EXPECT_FALSE(std::filesystem::exists(path_ + ".active")); }

@@ -4,6 +4,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/JointState.h>
+#include <std_msgs/String.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,6 +13,7 @@
 #include <csignal>
 #include <set>
 
+#include "ensemble/ensemble_fixture.h"
 #include "reading/urdf/urdf_reader.h"
 #include "ros/job.h"
 #include "ros/pendulum.h"
@@ -68,6 +70,29 @@ TEST_F(OptimizationJob, TheBagHoldsBothRuns) {
     EXPECT_EQ(first->name, std::vector<std::string>{"hinge"});
     EXPECT_NEAR(first->position.at(0), 0.5, 1e-12);
   }
+}
+
+TEST_F(OptimizationJob, OfAStudyWithScenariosTheBagHoldsTheWorstRun) {
+  const Problem problem = block("runs: {light: {set: {mass: 1.0}}, heavy: {set: {mass: 8.0}}}\nrobust: {measure: worst}\n");
+  const auto result = run_optimization(problem, "", OptimizeGoal(), {directory_.path().string(), 20.0}, {}, cancel_).result;
+  ASSERT_TRUE(result.success) << result.message;
+  ASSERT_EQ(result.scenarios.size(), 2U);
+  ASSERT_GT(result.worst, 0U);
+  const mechanism_codesign::ScenarioResult& worst = result.scenarios[result.worst - 1];
+  EXPECT_NEAR(worst.objective, result.objective, 1e-9 * result.objective);
+  rosbag::Bag bag(result.bag);
+  std::vector<double> ends;
+  for (const std::string topic : {"tuned/joint_states", "worst/tuned/joint_states", "worst/initial/joint_states"}) {
+    rosbag::View view(bag, rosbag::TopicQuery(topic));
+    EXPECT_EQ(view.size(), 17U) << topic;
+    for (const rosbag::MessageInstance& instance : view)
+      if (instance.getTime() == view.getEndTime()) ends.push_back(instance.instantiate<sensor_msgs::JointState>()->position.at(0));
+  }
+  ASSERT_EQ(ends.size(), 3U);
+  EXPECT_NE(ends[0], ends[1]) << "the mass of the run is not the nominal one";
+  rosbag::View text(bag, rosbag::TopicQuery("worst/tuned/robot_description"));
+  const RobotDescription robot = read_urdf({"worst", text.begin()->instantiate<std_msgs::String>()->data});
+  EXPECT_EQ(robot.parameters[1].value, worst.values.at(0));
 }
 
 TEST_F(OptimizationJob, ACancelledOneKeepsItsBestPointAndIsRecorded) {

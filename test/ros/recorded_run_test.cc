@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ensemble/ensemble_fixture.h"
 #include "mechanism_codesign/error.h"
 #include "ros/pendulum.h"
 #include "ros/sample_frame.h"
@@ -58,6 +59,21 @@ TEST(CheckRecording, RefusesWhatMemoryOrRosTimeCannotHold) {
   EXPECT_EQ(fault_of(0.5, 1e300), "rate");
   EXPECT_EQ(fault_of(1e5, 1e4), "rate");
   EXPECT_EQ(fault_of(5e9, 1e-6), "duration");
+}
+
+TEST(CheckRecording, AStudyWithScenariosRecordsTwiceAsManyRuns) {
+  const auto fits = [](const std::string& ensemble, double rate) {
+    try {
+      check_recording(block(ensemble), rate, "rate");
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  };
+  double rate = 1.0;
+  while (fits("", 1.1 * rate)) rate *= 1.1;
+  EXPECT_FALSE(fits("runs: {a: {}}\n", rate));
+  EXPECT_TRUE(fits("runs: {a: {}}\n", 0.49 * rate));
 }
 
 }  // namespace

@@ -1,0 +1,33 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "cases/shipped.h"
+#include "mechanism_codesign/optimization.h"
+
+namespace codesign {
+namespace {
+
+// Few starts, to save time; doc/case_studies.md has the result of all.
+TEST(GovernorMultistart, TwoStartsFindTheirWayIntoTheValley) {
+  const Problem problem = shipped_problem("governor_multistart", {{"starts: 8, screen: 48", "starts: 2, screen: 4"}, {"max_evaluations: 120", "max_evaluations: 25"}});
+  const OptimizationResult result = optimize(problem);
+  ASSERT_TRUE(result.status.ok()) << result.status.cause;
+  ASSERT_EQ(result.starts.size(), 2U);
+  EXPECT_EQ(result.screened - result.unusable, 4);
+  EXPECT_LE(result.starts[0].start_objective, result.starts[1].start_objective);
+  for (const StartResult& start : result.starts) EXPECT_LT(start.objective, 0.64);
+  EXPECT_LT(result.objective, 0.62);
+  EXPECT_EQ(result.objective, std::min(result.starts[0].objective, result.starts[1].objective));
+  EXPECT_NEAR(result.initial_objective, 18.9929, 1e-3) << "of the study's own start";
+}
+
+// The best design that the shipped study finds, at the tolerances of the case governor.
+TEST(GovernorMultistart, TheBestDesignKeepsItsObjectiveAtTightTolerances) {
+  const Shipped shipped("governor");
+  Eigen::VectorXd rho(7);
+  rho << 0.15, 0.06, 0.2756995988, 0.02837163157, 0.02075391537, 0.2038813261, 0.04;
+  const Evaluation evaluation = Evaluator(make_system(shipped.robot, shipped.study)).evaluate(rho, false);
+  ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
+  EXPECT_NEAR(evaluation.objective, 0.58639, 1e-5);
+}
+
+}  // namespace
+}  // namespace codesign
