@@ -79,8 +79,8 @@ TEST(EquationCode, DecisionsByTheDesignAloneAreApart) {
 
 TEST(EquationCode, EveryShippedCaseIsCompiled) {
   SKIP_WITHOUT_CODE();
-  for (const char* name :
-       {"slider_crank", "slider_crank_haug", "inverted_pendulum", "inverted_pendulum_frictionless", "governor", "two_link_arm", "gantry"}) {
+  for (const char* name : {"slider_crank", "slider_crank_haug", "inverted_pendulum", "inverted_pendulum_frictionless", "governor",
+                           "two_link_arm", "arm_limits", "gantry"}) {
     const Shipped shipped(name);
     const std::shared_ptr<const CompiledSystem> system = make_system(shipped.robot, shipped.study);
     const EquationCode* const code = system->equation_code();
