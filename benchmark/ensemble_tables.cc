@@ -55,8 +55,8 @@ void measure_threads(const Problem& problem, Report* report) {
               {}};
   for (std::size_t k = 0; k < costs.size(); ++k) {
     const double speed_up = costs[0].wall / costs[k].wall, threads = static_cast<double>(k + 1);
-    table.rows.push_back({std::to_string(k + 1), three_digits(1e3 * costs[k].wall), three_digits(1e3 * costs[k].cpu), three_digits(speed_up),
-                          three_digits(speed_up / threads)});
+    table.rows.push_back({std::to_string(k + 1), three_digits(1e3 * costs[k].wall), three_digits(1e3 * costs[k].cpu),
+                          three_digits(speed_up), three_digits(speed_up / threads)});
   }
   report->tables.push_back(table);
   report->findings.push_back({"efficiency of two threads at 32 samples", "", costs[0].wall / (2.0 * costs[1].wall), 0.95, true});

@@ -27,7 +27,8 @@ constexpr Part kParts[] = {{"kernels", measure_kernels},
 
 constexpr const char* kUsage =
     "usage: benchmarks [--markdown] [PART...]\n"
-    "Run it where urdf/ and config/ are. PART: kernels, steps, work_precision, parameters, optimization, scaling, setup, ensembles, simbody; all "
+    "Run it where urdf/ and config/ are. PART: kernels, steps, work_precision, parameters, optimization, scaling, setup, ensembles, "
+    "simbody; all "
     "by default.\n";
 
 Table summary(const std::vector<Finding>& findings) {

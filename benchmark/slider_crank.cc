@@ -63,7 +63,8 @@ Problem with_tuned(const Problem& problem, int tuned) {
 }
 
 Problem with_uncertain_masses(const Problem& problem, int samples, const std::string& engine) {
-  const SourceText study{kStudy, read_source(kStudy).text + "uncertain: {rod_mass: {uniform: [0.4, 0.6]}, slider_mass: {uniform: [1.0, 3.0]}}\n" +
+  const SourceText study{kStudy, read_source(kStudy).text +
+                                     "uncertain: {rod_mass: {uniform: [0.4, 0.6]}, slider_mass: {uniform: [1.0, 3.0]}}\n" +
                                      "robust: {samples: " + std::to_string(samples) + "}\nengine: " + engine + "\n"};
   return load_problem(problem.urdf(), {{"masses", kMasses}}, study);
 }

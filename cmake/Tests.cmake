@@ -135,3 +135,5 @@ file(GLOB rostests RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SO
 foreach(file IN LISTS rostests)
   add_rostest(${file} DEPENDENCIES ${codesign_nodes})
 endforeach()
+# The longest test first, so that the others run beside it.
+set_tests_properties(_ctest_${PROJECT_NAME}_rostest_test_ros_launch_files.test PROPERTIES COST 1000)

@@ -23,7 +23,8 @@ struct Trial {
   Eigen::VectorXd gradient;     ///< psi_rho
   Eigen::VectorXd rho;          ///< the trial point
   int start = 0;                ///< of several starts: the number of the search, from 1, in the order in which searches began
-  double best_objective = 0.0;  ///< at the best point so far; a point that meets the constraints is better than any that does not
+  double best_objective = 0.0;  ///< at the best point so far; a point that violates the constraints less is better
+  double best_violation = 0.0;  ///< largest violation of a constraint there, beyond its tolerance; 0 if all are met
 };
 
 /// Called after each trial point; returning false ends the search with kCancelled and the best point so far.
@@ -101,7 +102,7 @@ struct OptimizationResult {
   Eigen::VectorXd initial_values, values;
   std::vector<ScenarioResult> scenarios;
   std::vector<int> initial_failed, failed;  ///< indices of the scenarios that could not be integrated at `initial_rho` and `rho`
-  std::optional<Validation> validation;  ///< if `robust.validate` asks for it
+  std::optional<Validation> validation;     ///< if `robust.validate` asks for it
   // Of a study with several starts, else empty: the searches, best start first, and the optima, best first.
   std::vector<StartResult> starts;
   std::vector<Optimum> optima;

@@ -130,13 +130,13 @@ bool Ensemble::fill_tail(const std::vector<std::size_t>& failed, const std::vect
     if (result->gradients.size() > 0) result->gradients.col(column) = result->gradients.col(worst);
   }
   result->failed.assign(failed.begin(), failed.end());
-  result->total.warnings.push_back(
-      warn("scenarios_failed", {options_.where, "robust.failed",
-                                std::to_string(failed.size()) + " of " + std::to_string(scenarios_.size()) +
-                                    " scenarios could not be integrated at this design and count as the worst of the others, the first is " +
-                                    named(members[failed.front()].status, scenarios_[failed.front()]).cause +
-                                    "; narrow what is uncertain, or write failed: refuse",
-                                kFailedSamplesNames[static_cast<std::size_t>(options_.failed)], ""}));
+  result->total.warnings.push_back(warn(
+      "scenarios_failed",
+      {options_.where, "robust.failed",
+       std::to_string(failed.size()) + " of " + std::to_string(scenarios_.size()) +
+           " scenarios could not be integrated at this design and count as the worst of the others, the first is " +
+           named(members[failed.front()].status, scenarios_[failed.front()]).cause + "; narrow what is uncertain, or write failed: refuse",
+       kFailedSamplesNames[static_cast<std::size_t>(options_.failed)], ""}));
   return true;
 }
 

@@ -72,7 +72,8 @@ int worst_scenario(const OptimizationResult& result) {
   int worst = -1;
   for (std::size_t k = 0; k < result.scenarios.size(); ++k) {
     if (result.scenarios[k].failed) continue;
-    if (worst < 0 || result.scenarios[k].objective > result.scenarios[static_cast<std::size_t>(worst)].objective) worst = static_cast<int>(k);
+    if (worst < 0 || result.scenarios[k].objective > result.scenarios[static_cast<std::size_t>(worst)].objective)
+      worst = static_cast<int>(k);
   }
   return worst;
 }

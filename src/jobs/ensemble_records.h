@@ -26,8 +26,9 @@ std::vector<std::string> ensemble_sentences(const Problem& problem, const Optimi
 std::vector<std::string> start_columns(const Problem& problem);
 std::vector<std::vector<std::string>> start_rows(const OptimizationResult& result);
 
-/// Columns and rows of scenarios.csv: run, sample (from 1; 0: nominal), weight, objective before and after, whether it failed (1) there, the
-/// friction law if it is uncertain, then the parameters that any scenario sets; a cell is empty where a scenario does not set the parameter.
+/// Columns and rows of scenarios.csv: run, sample (from 1; 0: nominal), weight, objective before and after, whether it failed (1) there,
+/// the friction law if it is uncertain, then the parameters that any scenario sets; a cell is empty where a scenario does not set the
+/// parameter.
 std::vector<std::string> scenario_columns(const OptimizationResult& result);
 std::vector<std::vector<std::string>> scenario_rows(const OptimizationResult& result);
 

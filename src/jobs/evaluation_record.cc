@@ -48,7 +48,8 @@ Extremes extremes_of(const Json& object) {
   Extremes extremes{vector_of(object.at("values")), vector_of(object.at("times")), {}};
   const Eigen::VectorXd gradients = vector_of(object.at("gradients"));
   const Eigen::Index count = extremes.values.size();
-  if (extremes.times.size() != count || count == 0 || gradients.size() % count != 0) throw std::invalid_argument("extremes of unequal size");
+  if (extremes.times.size() != count || count == 0 || gradients.size() % count != 0)
+    throw std::invalid_argument("extremes of unequal size");
   extremes.gradients = gradients.reshaped(gradients.size() / count, count);
   return extremes;
 }

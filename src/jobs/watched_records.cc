@@ -4,6 +4,11 @@
 #include "text/number_text.h"
 
 namespace codesign {
+namespace {
+
+constexpr double kShown = 1e-8;  // smaller violations are rounding
+
+}  // namespace
 
 void add_watched(const OptimizationResult& result, Json* object) {
   if (result.watched.empty()) return;
@@ -26,7 +31,7 @@ std::vector<std::string> watched_sentences(const OptimizationResult& result) {
   for (const WatchedResult& watched : result.watched)
     sentences.push_back(watched.element + ", " + watched.signal + ": from " + readable(watched.initial_smallest) + " ... " +
                         readable(watched.initial_largest) + " to " + readable(watched.smallest) + " ... " + readable(watched.largest) +
-                        (watched.violation > 0.0 ? ", beyond its bounds by " + readable(watched.violation, 3) : ""));
+                        (watched.violation > kShown ? ", beyond its bounds by " + readable(watched.violation, 3) : ""));
   return sentences;
 }
 

@@ -7,9 +7,10 @@
 
 #include "description/tuned_parameters.h"
 #include "optimization/algorithm.h"
-#include "optimization/program.h"
+#include "optimization/lagrangian.h"
 #include "optimization/scaling.h"
 #include "optimization/search_warnings.h"
+#include "optimization/smooth_program.h"
 #include "problem/margins.h"
 #include "text/decimal.h"
 
@@ -18,6 +19,7 @@ namespace {
 
 constexpr double kRowTolerance = 1e-9;   // violation of a constraint row that NLopt accepts, in the unit of the row
 constexpr double kMostViolation = 1e-8;  // violation of a bound on a signal that counts as met, in the unit of the signal
+constexpr int kMostRestarts = 8;
 constexpr double kSlopeLeft = 1e-2;  // a failed line search has converged if the scaled gradient fell below this fraction of the first one
 
 /// A sentence that lists the violated bounds of signals, for the status.
@@ -47,6 +49,7 @@ class Minimization {
     require_numbers_at_start(study_, parameters_at(study_, result_.initial_rho));
     std::vector<double> x = scaling_.to_scaled(result_.initial_rho);
     minimize(&optimizer, &x);
+    while (should_restart()) restart(&optimizer, &x);
     conclude();
     return std::move(result_);
   }
@@ -83,9 +86,25 @@ class Minimization {
   /// Appends the slack variables at the start.
   void add_slack(std::vector<double>* x) {
     if (program_.slacks() == 0) return;
-    evaluate(result_.initial_rho);
+    if (last_rho_.size() == 0 || last_rho_ != result_.rho) evaluate(result_.rho);
     const Eigen::VectorXd y = program_.start(last_, unit_);
     x->insert(x->end(), y.begin(), y.end());
+  }
+
+  /// Whether a search that ended at a violated bound of a signal goes on from the best point. SLSQP may stop by the objective's tolerance
+  /// while it is still outside; with a new approximation of the Hessian it then moves inside.
+  bool should_restart() {
+    const bool ended_outside = program_.has_signals() && have_best_ && best_violation_ > 0.0 && !cancelled_;
+    const bool has_progressed = best_violation_ < 0.9 * violation_before_ || restarts_ == 0;
+    return ended_outside && has_progressed && restarts_ < kMostRestarts && result_.evaluations < options_.max_evaluations;
+  }
+
+  void restart(nlopt::opt* optimizer, std::vector<double>* x) {
+    ++restarts_;
+    violation_before_ = best_violation_;
+    optimizer->set_maxeval(options_.max_evaluations - result_.evaluations);
+    *x = scaling_.to_scaled(result_.rho);
+    minimize(optimizer, x);
   }
 
   void minimize(nlopt::opt* optimizer, std::vector<double>* x) {
@@ -106,7 +125,9 @@ class Minimization {
   /// Sets the status and the termination, with the margins and warnings of the best point.
   void conclude() {
     result_.margins = constraint_margins(study_, parameters_at(study_, result_.rho));
-    result_.watched = program_.describe(best_extremes_, initial_extremes_, result_.rho);
+    result_.watched = program_.describe(best_.extremes, initial_extremes_, result_.rho);
+    for (std::size_t k = 0; k < study_.tuned.size(); ++k)
+      if (program_.bounds_read(study_.tuned[k])) result_.influences[k] = true;
     if (have_best_) append(search_warnings(study_, options_, result_), &result_.warnings);
     result_.status = {StatusCode::kSuccess, study_.duration, ""};
     if (cancelled_) {
@@ -119,7 +140,7 @@ class Minimization {
       result_.status = {StatusCode::kAlgorithmFailed, study_.duration,
                         "the algorithm \"" + options_.algorithm + "\" failed (" + failure_ +
                             "); the best point so far is kept; try another algorithm or another start"};
-    } else if (!best_feasible_) {
+    } else if (best_violation_ > 0.0) {
       result_.status = {StatusCode::kInfeasible, study_.duration,
                         all_met(result_.margins) ? describe_violated(result_.watched) : describe_unmet(study_, result_.margins)};
     }
@@ -127,13 +148,14 @@ class Minimization {
 
   /// Whether a failed line search ended at an optimum: its points are equal within the relative tolerance, and the gradient is small, or a
   /// constraint is active.
-  bool has_converged() const {
+  bool has_converged() {
     const double difference = std::abs(last_.total.objective - result_.objective);
     if (!last_.total.status.ok() || difference > options_.relative_tolerance * std::abs(result_.objective)) return false;
     const Eigen::VectorXd margins = constraint_margins(study_, parameters_at(study_, result_.rho));
     if ((margins.array() < 1e-6).any()) return all_met(margins);
-    if (program_.has_signals()) return best_feasible_;
     const double start = scaling_.gradient_norm(result_.initial_gradient);
+    if (program_.has_signals())
+      return best_violation_ == 0.0 && lagrangian_residual(best_, result_.rho, scaling_, unit_, &program_) <= kSlopeLeft * start / unit_;
     return scaling_.free_gradient_norm(result_.rho, result_.gradient) <= kSlopeLeft * start;
   }
 
@@ -184,16 +206,10 @@ class Minimization {
         if (by_x) std::copy(back.begin(), back.end(), by_x);
         continue;
       }
-      const Program::Value row = row_of(static_cast<int>(i));
+      const SmoothProgram::Value row = row_of(static_cast<int>(i));
       values[i] = row.value;
-      if (by_x) spread(row, by_x);
+      if (by_x) spread(row, scaling_, by_x);
     }
-  }
-
-  /// The derivatives by NLopt's variables.
-  void spread(const Program::Value& value, double* by_x) const {
-    const std::vector<double> scaled = scaling_.scale_gradient(value.by_rho);
-    std::copy(value.by_slack.begin(), value.by_slack.end(), std::copy(scaled.begin(), scaled.end(), by_x));
   }
 
   /// The tuned parameters of NLopt's variables, which the slack variables follow.
@@ -210,8 +226,8 @@ class Minimization {
     if (evaluation.status.ok()) worst_ = std::max(worst_, evaluation.objective);
     if (!evaluation.status.ok()) return step_back(x, gradient);
     if (program_.slacks() > 0) {
-      const Program::Value value = program_.objective(slack(x));
-      if (!gradient->empty()) spread(value, gradient->data());
+      const SmoothProgram::Value value = program_.objective(slack(x));
+      if (!gradient->empty()) spread(value, scaling_, gradient->data());
       return value.value;
     }
     if (!gradient->empty()) {
@@ -286,6 +302,7 @@ class Minimization {
     }
     trial.iteration = result_.iterations;
     trial.best_objective = result_.objective;
+    trial.best_violation = best_violation_;
     return trial;
   }
 
@@ -295,12 +312,20 @@ class Minimization {
       if ((gradients.row(static_cast<Eigen::Index>(k)).array() != 0.0).any()) result_.influences[k] = true;
   }
 
-  // A start that violates the constraints is the best point only until a feasible point is found.
+  /// The largest violation of a constraint on parameters or signals beyond its tolerance; 0 if all are met.
+  double violation(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) const {
+    double largest = program_.violation(all.extremes, rho);
+    if (largest <= kMostViolation) largest = 0.0;
+    for (const double margin : constraint_margins(study_, parameters_at(study_, rho)))
+      if (!(margin >= kMet)) largest = std::max(largest, std::isnan(margin) ? std::numeric_limits<double>::infinity() : -margin);
+    return largest;
+  }
+
+  // Of two points that violate constraints the one that violates them less is better.
   void take_best(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
     const Evaluation& evaluation = all.total;
     const bool first = !have_best_;
-    const bool inside =
-        all_met(constraint_margins(study_, parameters_at(study_, rho))) && program_.violation(all.extremes, rho) <= kMostViolation;
+    const double outside = violation(all, rho);
     if (first) {
       initial_extremes_ = all.extremes;
       result_.initial_objective = evaluation.objective;
@@ -308,14 +333,14 @@ class Minimization {
       result_.initial_failed = all.failed;
       result_.initial_gradient = evaluation.gradient;
     }
-    const bool better = first || (inside && !best_feasible_) || (inside == best_feasible_ && evaluation.objective < result_.objective);
+    const bool better = first || outside < best_violation_ || (outside == best_violation_ && evaluation.objective < result_.objective);
     if (!better) return;
     if (!first) ++result_.iterations;
     have_best_ = true;
-    best_feasible_ = inside;
+    best_violation_ = outside;
     result_.objective = evaluation.objective;
     result_.values = all.values;
-    best_extremes_ = all.extremes;
+    if (program_.has_signals()) best_ = all;
     result_.failed = all.failed;
     result_.gradient = evaluation.gradient;
     result_.warnings = evaluation.warnings;
@@ -328,16 +353,19 @@ class Minimization {
   const std::atomic<bool>* cancel_;
   const Ensemble& ensemble_;
   Scaling scaling_;
-  Program program_;
+  SmoothProgram program_;
   Eigen::VectorXd last_rho_;
   EnsembleEvaluation last_;  ///< the evaluation at last_rho_
-  std::vector<Extremes> initial_extremes_, best_extremes_;
+  std::vector<Extremes> initial_extremes_;
+  EnsembleEvaluation best_;  ///< of a study with watched signals: at the best point
   std::vector<Constraint> constraints_;
   OptimizationResult result_;
   Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"};
   std::string failure_;
   double worst_ = 0.0, unit_ = 1.0;  ///< worst objective so far; NLopt gets objectives divided by `unit_`
-  bool have_best_ = false, best_feasible_ = false, cancelled_ = false;
+  bool have_best_ = false, cancelled_ = false;
+  double best_violation_ = 0.0, violation_before_ = 0.0;  ///< at the best point, and when the search was last restarted
+  int restarts_ = 0;
 };
 
 }  // namespace

@@ -3,6 +3,8 @@
 #define MECHANISM_CODESIGN_OPTIMIZATION_SHARED_OBSERVER_H_
 
 #include <mutex>
+#include <tuple>
+#include <utility>
 
 #include "mechanism_codesign/optimization.h"
 
@@ -29,13 +31,14 @@ class SharedObserver {
     if (stopped_) return false;
     trial.start = start;
     trial.evaluation = ++evaluations_;
-    if (trial.status.ok() && (!has_best_ || trial.best_objective < best_)) {
+    const std::pair<double, double> rank{trial.best_violation, trial.best_objective};
+    if (trial.status.ok() && (!has_best_ || rank < best_)) {
       if (has_best_) ++iterations_;
       has_best_ = true;
-      best_ = trial.best_objective;
+      best_ = rank;
     }
     trial.iteration = iterations_;
-    trial.best_objective = best_;
+    std::tie(trial.best_violation, trial.best_objective) = best_;
     stopped_ = observer_ && !observer_(trial);
     return !stopped_;
   }
@@ -43,7 +46,7 @@ class SharedObserver {
   const TrialObserver& observer_;
   std::mutex mutex_;
   int evaluations_ = 0, iterations_ = 0;
-  double best_ = 0.0;
+  std::pair<double, double> best_;  ///< violation of the constraints and objective
   bool has_best_ = false, stopped_ = false;
 };
 

@@ -7,7 +7,8 @@
 
 namespace codesign {
 
-/// A warning `unused_parameter` for each tuned and each uncertain parameter on which no number of the model, the study and its runs depends.
+/// A warning `unused_parameter` for each tuned and each uncertain parameter on which no number of the model, the study and its runs
+/// depends.
 Warnings unused_parameters(const Study& study);
 
 }  // namespace codesign

@@ -28,7 +28,8 @@ struct BagRuns {
 /// The contents of the bag of one job.
 struct JobRecord {
   BagRuns nominal;
-  std::optional<BagRuns> worst;  ///< of a study with runs or uncertain parameters: the scenario with the largest objective at the tuned design
+  std::optional<BagRuns>
+      worst;  ///< of a study with runs or uncertain parameters: the scenario with the largest objective at the tuned design
   std::vector<mechanism_codesign::OptimizationProgress> progress;
   mechanism_codesign::OptimizeGoal request;
   mechanism_codesign::OptimizeResult result;

@@ -141,10 +141,10 @@ class Job {
     const std::pair<const char*, const RecordedRun*> sides[] = {{"initial", &runs.initial.run}, {"tuned", &runs.tuned.run}};
     for (const auto& [side, run] : sides)
       if (!run->status.ok())
-        warnings->push_back({"run_ends_early",
-                             "the " + which + side + " run in the bag ends at t = " + std::to_string(run->status.time) +
-                                 " s: " + run->status.cause,
-                             {}});
+        warnings->push_back(
+            {"run_ends_early",
+             "the " + which + side + " run in the bag ends at t = " + std::to_string(run->status.time) + " s: " + run->status.cause,
+             {}});
   }
 
   const Problem problem_;

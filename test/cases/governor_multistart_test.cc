@@ -7,7 +7,8 @@ namespace {
 
 // Few starts, to save time; doc/case_studies.md has the result of all.
 TEST(GovernorMultistart, TwoStartsFindTheirWayIntoTheValley) {
-  const Problem problem = shipped_problem("governor_multistart", {{"starts: 8, screen: 48", "starts: 2, screen: 4"}, {"max_evaluations: 120", "max_evaluations: 25"}});
+  const Problem problem = shipped_problem(
+      "governor_multistart", {{"starts: 8, screen: 48", "starts: 2, screen: 4"}, {"max_evaluations: 120", "max_evaluations: 25"}});
   const OptimizationResult result = optimize(problem);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   ASSERT_EQ(result.starts.size(), 2U);

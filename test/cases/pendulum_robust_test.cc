@@ -16,9 +16,9 @@ Problem pendulum_with(const std::vector<std::pair<std::string, std::string>>& ch
 double worst_of(const Ensemble& ensemble, const Eigen::Vector3d& gains) { return ensemble.evaluate(gains, false).total.objective; }
 
 TEST(PendulumRobust, AtTheNominalCoefficientItIsTheShippedPendulum) {
-  const std::vector<std::pair<std::string, std::string>> exact = {{"relative_tolerance: 1.0e-6, absolute_tolerance: 1.0e-7",
-                                                                   "relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11"},
-                                                                  {"samples: 32", "samples: 1"}};
+  const std::vector<std::pair<std::string, std::string>> exact = {
+      {"relative_tolerance: 1.0e-6, absolute_tolerance: 1.0e-7", "relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11"},
+      {"samples: 32", "samples: 1"}};
   const Ensemble robust(pendulum_with(exact));
   EXPECT_NEAR(worst_of(robust, {750.0, 200.0, 10.0}) / 8249.6225551550, 1.0, 1e-8);
   const Ensemble smooth(pendulum_with(exact, {{"mu_static", 0.0}}));

@@ -28,7 +28,8 @@ inline Problem block(const std::string& ensemble, const std::string& optimizer =
 duration: 0.8
 initial_state: {slide: {velocity: 1.0}}
 controllers: {hold: {type: pid, input: slide/position, setpoint: 0.5, output: slide, gains: {p: "${Kp}", d: "${Kd}"}}}
-parameters: {Kp: {initial: 20.0, lower: 0.0, upper: 200.0}, Kd: {initial: 5.0, lower: 0.0, upper: 50.0})" + parameters + R"(}
+parameters: {Kp: {initial: 20.0, lower: 0.0, upper: 200.0}, Kd: {initial: 5.0, lower: 0.0, upper: 50.0})" +
+                                           parameters + R"(}
 objective: {integral: [{signal: slide/position, reference: 0.5, weight: 100.0}], terminal: [{signal: slide/velocity}]}
 optimizer: )" + optimizer + "\n" + ensemble};
   return load_problem(urdf, {}, study);

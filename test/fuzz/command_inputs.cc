@@ -33,8 +33,10 @@ const std::vector<std::string>& ensembles() {
       "runs: {slow: {controllers: {crank_speed: {setpoint: -5.0}}}}\nrobust: {measure: mean_plus_deviation, factor: 1.0, failed: tail}\n",
       "runs: {short: {set: {crank_length: 0.07}, initial_state: {crank_joint: {velocity: -9.0}}}}\nengine: {type: serial}\n",
       "uncertain: {friction_law: {choice: [brown_mcphee, gonthier, lugre]}}\nrobust: {measure: worst, samples: 3, validate: 2}\n",
-      "uncertain: {mu_static: {normal: [0.3, 0.1], between: [0.0, 0.5]}}\nrobust: {measure: cvar, level: 0.5, samples: 4, sampler: random}\n",
-      "uncertain: {crank_length: {uniform: [0.07, 0.09]}, rod_length: {choice: [0.29, 0.3]}}\nrobust: {samples: 2, seed: 7, failed: tail}\n",
+      "uncertain: {mu_static: {normal: [0.3, 0.1], between: [0.0, 0.5]}}\nrobust: {measure: cvar, level: 0.5, samples: 4, sampler: "
+      "random}\n",
+      "uncertain: {crank_length: {uniform: [0.07, 0.09]}, rod_length: {choice: [0.29, 0.3]}}\nrobust: {samples: 2, seed: 7, failed: "
+      "tail}\n",
       "multistart: {starts: 2, screen: 3, sampler: latin_hypercube, seed: 3, cluster: 1.0e-2}\nengine: {type: threads, workers: 2}\n"};
   return kEnsembles;
 }

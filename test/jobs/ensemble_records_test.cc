@@ -51,8 +51,8 @@ TEST(EnsembleRecords, TablesHaveOneRowPerSearchAndScenario) {
   EXPECT_EQ(starts[0][9], "3");
   EXPECT_EQ(starts[1][3], "unstable_motion");
   EXPECT_EQ(starts[1][6], "0") << "found no optimum";
-  EXPECT_EQ(scenario_columns(result()),
-            (std::vector<std::string>{"run", "sample", "weight", "initial_objective", "objective", "initial_failed", "failed", "mass", "mu"}));
+  EXPECT_EQ(scenario_columns(result()), (std::vector<std::string>{"run", "sample", "weight", "initial_objective", "objective",
+                                                                  "initial_failed", "failed", "mass", "mu"}));
   EXPECT_EQ(scenarios[0], (std::vector<std::string>{"light", "0", "0.5", "3", "2", "0", "0", "1", ""}));
   EXPECT_EQ(scenarios[1].back(), "0.3");
 }

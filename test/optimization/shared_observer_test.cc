@@ -40,6 +40,24 @@ TEST(SharedObserver, NumbersTrialsThroughAndKeepsTheBestOfAll) {
   EXPECT_EQ(seen[3].best_objective, 2.0) << "a failed trial has no objective";
 }
 
+TEST(SharedObserver, ALesserViolationIsBetterThanALowerObjective) {
+  Trial last;
+  const TrialObserver keep = [&last](const Trial& t) {
+    last = t;
+    return true;
+  };
+  SharedObserver shared(keep);
+  Trial outside = trial(0.5, 0.5);
+  outside.best_violation = 1.0;
+  EXPECT_TRUE(shared.of(1)(outside));
+  EXPECT_TRUE(shared.of(2)(trial(3.0, 3.0)));
+  EXPECT_EQ(last.best_objective, 3.0);
+  EXPECT_EQ(last.best_violation, 0.0);
+  EXPECT_EQ(last.iteration, 1);
+  EXPECT_TRUE(shared.of(1)(outside));
+  EXPECT_EQ(last.best_objective, 3.0);
+}
+
 TEST(SharedObserver, OneRefusalEndsAllSearches) {
   int calls = 0;
   const TrialObserver refuse = [&calls](const Trial&) { return ++calls < 2; };

@@ -20,7 +20,8 @@ struct Reader {
   void read_bounds(const YamlValue& value, WatchedSignal* watched) const {
     const auto between = value.find("between"), at_least = value.find("at_least"), at_most = value.find("at_most");
     if (between ? at_least || at_most : !at_least && !at_most)
-      value.fail("a constraint needs bounds", "between: [lower, upper], or at_least and at_most, or one of these");
+      value.fail("a constraint needs bounds, either by between or by at_least and at_most",
+                 "between: [lower, upper]; or at_least, at_most or both");
     if (between) {
       const std::vector<YamlValue> bounds = between->items();
       if (bounds.size() != 2) between->fail("two bounds are needed, found " + std::to_string(bounds.size()), "[lower, upper]");

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "optimization/program.h"
+#include "optimization/smooth_program.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace codesign {
 
-Program::Program(const Ensemble& ensemble) : ensemble_(ensemble), slack_(ensemble.options(), ensemble.weights()) {
+SmoothProgram::SmoothProgram(const Ensemble& ensemble) : ensemble_(ensemble), slack_(ensemble.options(), ensemble.weights()) {
   const std::vector<Scenario>& scenarios = ensemble.scenarios();
   rows_.reserve(scenarios.size());
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
@@ -25,7 +25,17 @@ Program::Program(const Ensemble& ensemble) : ensemble_(ensemble), slack_(ensembl
   peak_units_.setOnes(peaks_);
 }
 
-Eigen::VectorXd Program::start(const EnsembleEvaluation& at, double unit) {
+bool SmoothProgram::bounds_read(int parameter) const {
+  const auto reads = [parameter](const std::optional<Quantity>& bound) {
+    if (!bound || bound->is_constant()) return false;
+    const std::vector<int>& read = bound->expression()->dependencies();
+    return std::find(read.begin(), read.end(), parameter) != read.end();
+  };
+  const std::vector<WatchedSignal>& watched = ensemble_.scenarios().front().system->study().watched;
+  return std::any_of(watched.begin(), watched.end(), [&](const WatchedSignal& one) { return reads(one.lower) || reads(one.upper); });
+}
+
+Eigen::VectorXd SmoothProgram::start(const EnsembleEvaluation& at, double unit) {
   unit_ = unit;
   Eigen::VectorXd y = Eigen::VectorXd::Zero(slacks());
   if (!at.total.status.ok()) return y;
@@ -41,7 +51,7 @@ Eigen::VectorXd Program::start(const EnsembleEvaluation& at, double unit) {
   return y;
 }
 
-void Program::take(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
+void SmoothProgram::take(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
   all_ = &all;
   smooth_values_ = all.values;
   smooth_gradients_ = all.gradients;
@@ -58,14 +68,14 @@ void Program::take(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
   }
 }
 
-Program::Value Program::blank() const {
+SmoothProgram::Value SmoothProgram::blank() const {
   Value value;
   value.by_rho.setZero(smooth_gradients_.rows());
   value.by_slack.setZero(slacks());
   return value;
 }
 
-Program::Value Program::objective(const Eigen::VectorXd& slack) const {
+SmoothProgram::Value SmoothProgram::objective(const Eigen::VectorXd& slack) const {
   Value result = blank();
   if (slack_.variables() > 0) {
     result.value = slack_.objective(slack.head(slack_.variables()));
@@ -85,13 +95,13 @@ Program::Value Program::objective(const Eigen::VectorXd& slack) const {
   return result;
 }
 
-double Program::peak_factor(std::size_t scenario, int peak) const {
+double SmoothProgram::peak_factor(std::size_t scenario, int peak) const {
   const std::size_t watched = rows_[scenario].peaks()[static_cast<std::size_t>(peak)];
   const double weight = ensemble_.scenarios()[scenario].system->study().watched[watched].weight;
   return weight * peak_units_[first_peak_[scenario] + peak] / unit_;
 }
 
-Program::Value Program::signal_value(const Place& place) const {
+SmoothProgram::Value SmoothProgram::signal_value(const Place& place) const {
   Value result = blank();
   const SignalRows& rows = rows_[place.scenario];
   const Extremes& extremes = all_->extremes[place.scenario];
@@ -102,7 +112,7 @@ Program::Value Program::signal_value(const Place& place) const {
 }
 
 // psi_i - t - z_i <= 0 for the robust measure, then the rows of signals.
-Program::Value Program::inequality(int row, const Eigen::VectorXd& slack) const {
+SmoothProgram::Value SmoothProgram::inequality(int row, const Eigen::VectorXd& slack) const {
   if (row >= slack_.constraints()) {
     const Place& place = inequality_places_[static_cast<std::size_t>(row - slack_.constraints())];
     Value result = signal_value(place);
@@ -127,10 +137,10 @@ Program::Value Program::inequality(int row, const Eigen::VectorXd& slack) const 
   return result;
 }
 
-Program::Value Program::equality(int row) const { return signal_value(equality_places_[static_cast<std::size_t>(row)]); }
+SmoothProgram::Value SmoothProgram::equality(int row) const { return signal_value(equality_places_[static_cast<std::size_t>(row)]); }
 
-std::vector<WatchedResult> Program::describe(const std::vector<Extremes>& extremes, const std::vector<Extremes>& initial,
-                                             const Eigen::VectorXd& rho) const {
+std::vector<WatchedResult> SmoothProgram::describe(const std::vector<Extremes>& extremes, const std::vector<Extremes>& initial,
+                                                   const Eigen::VectorXd& rho) const {
   std::vector<WatchedResult> results;
   if (extremes.size() != rows_.size() || initial.size() != rows_.size()) return results;
   const std::vector<WatchedSignal>& watched = ensemble_.scenarios().front().system->study().watched;
@@ -161,7 +171,7 @@ std::vector<WatchedResult> Program::describe(const std::vector<Extremes>& extrem
   return results;
 }
 
-double Program::violation(const std::vector<Extremes>& extremes, const Eigen::VectorXd& rho) const {
+double SmoothProgram::violation(const std::vector<Extremes>& extremes, const Eigen::VectorXd& rho) const {
   double largest = 0.0;
   for (std::size_t i = 0; i < extremes.size(); ++i) {
     const std::vector<double> parameters = ensemble_.scenarios()[i].parameters(rho);

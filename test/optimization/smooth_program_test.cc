@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "optimization/program.h"
+#include "optimization/smooth_program.h"
 
 #include <gtest/gtest.h>
 
@@ -17,14 +17,14 @@ OptimizationResult tune_with(const std::string& blocks, const std::string& algor
 
 /// Each derivative of a row against central differences of the row.
 template <class Row>
-void expect_derivatives(const Ensemble& ensemble, Program* program, const Eigen::VectorXd& rho, const Eigen::VectorXd& slack,
+void expect_derivatives(const Ensemble& ensemble, SmoothProgram* program, const Eigen::VectorXd& rho, const Eigen::VectorXd& slack,
                         const Row& row) {
   const auto at = [&](const Eigen::VectorXd& design, const Eigen::VectorXd& y) {
     const EnsembleEvaluation all = ensemble.evaluate(design, true);
     program->take(all, design);
     return row(y);
   };
-  const Program::Value value = at(rho, slack);
+  const SmoothProgram::Value value = at(rho, slack);
   for (Eigen::Index k = 0; k < rho.size(); ++k) {
     const double h = 1e-4 * rho[k];
     const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(rho.size(), k);
@@ -37,11 +37,11 @@ void expect_derivatives(const Ensemble& ensemble, Program* program, const Eigen:
   }
 }
 
-TEST(Program, DerivativesOfObjectiveAndRowsAreRight) {
+TEST(SmoothProgram, DerivativesOfObjectiveAndRowsAreRight) {
   const Problem problem =
       block(kTwoRuns + kPath + "robust: {measure: worst}\nsolver: {relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}\n");
   const Ensemble ensemble(problem);
-  Program program(ensemble);
+  SmoothProgram program(ensemble);
   const EnsembleEvaluation all = ensemble.evaluate(problem.start(), true);
   const Eigen::VectorXd slack = program.start(all, 2.0);
   ASSERT_EQ(slack.size(), 1);
@@ -50,7 +50,7 @@ TEST(Program, DerivativesOfObjectiveAndRowsAreRight) {
     expect_derivatives(ensemble, &program, problem.start(), slack, [&](const auto& y) { return program.inequality(row, y); });
 }
 
-TEST(Program, BoundsAreKeptInEveryRun) {
+TEST(SmoothProgram, BoundsAreKeptInEveryRun) {
   const OptimizationResult free = tune_with(kTwoRuns), bounded = tune_with(kTwoRuns + "path: [{signal: hold/output, between: [-6, 6]}]\n");
   ASSERT_TRUE(free.status.ok()) << free.status.cause;
   ASSERT_TRUE(bounded.status.ok()) << bounded.status.cause;
@@ -60,27 +60,27 @@ TEST(Program, BoundsAreKeptInEveryRun) {
   EXPECT_NEAR(std::max(bounded.watched[0].largest, -bounded.watched[0].smallest), 6.0, 1e-6) << "the bound is active";
 }
 
-TEST(Program, AlgorithmsAgreeOnABoundedDesign) {
+TEST(SmoothProgram, AlgorithmsAgreeOnABoundedDesign) {
   const std::string bound = "path: [{signal: hold/output, between: [-6, 6]}]\n";
   const OptimizationResult slsqp = tune_with(bound), mma = tune_with(bound, "mma");
   ASSERT_TRUE(slsqp.status.ok() && mma.status.ok()) << slsqp.status.cause << mma.status.cause;
   EXPECT_NEAR(mma.objective, slsqp.objective, 1e-4 * slsqp.objective);
 }
 
-TEST(Program, AnImpossibleBoundIsInfeasible) {
+TEST(SmoothProgram, AnImpossibleBoundIsInfeasible) {
   const OptimizationResult result = tune_with("final: [{signal: slide/position, at_least: 4.0}]\n");
   EXPECT_EQ(result.status.code, StatusCode::kInfeasible);
   EXPECT_NE(result.status.cause.find("final[0] (slide/position)"), std::string::npos) << result.status.cause;
   EXPECT_GT(result.watched.at(0).violation, 1.0);
 }
 
-TEST(Program, OtherAlgorithmsAreRefused) {
+TEST(SmoothProgram, OtherAlgorithmsAreRefused) {
   const std::string bound = "path: [{signal: hold/output, between: [-6, 6]}]\n";
   EXPECT_THROW(tune_with(bound, "lbfgs"), InputError);
   EXPECT_THROW(tune_with("final: [{signal: slide/position, between: [0.5, 0.5]}]\n", "mma"), InputError);
 }
 
-TEST(Program, MovesTheCartByTheBangBangPeak) {
+TEST(SmoothProgram, MovesTheCartByTheBangBangPeak) {
   // A cart of 1 kg, 1 m from rest to rest in 1 s. Piecewise linear forces with 40 coefficients reverse within one span h = 1/39, so that
   // the peak is 4 / (1 - h^2 / 3) m/s^2 for a symmetric reversal, instead of 4.
   const SourceText urdf{"cart.urdf", R"(<robot name="cart"><link name="world"/>

@@ -1,6 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_PROGRAM_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_PROGRAM_H_
+#ifndef MECHANISM_CODESIGN_OPTIMIZATION_SMOOTH_PROGRAM_H_
+#define MECHANISM_CODESIGN_OPTIMIZATION_SMOOTH_PROGRAM_H_
 
 #include <vector>
 
@@ -15,14 +15,16 @@ namespace codesign {
 /// slack variables: those of SlackForm, then one p per scenario and peak, for which
 ///   psi_i = integral and terminal terms + sum_j weight_j p_ij,    |signal_j - reference_j| <= p_ij in scenario i.
 /// All numbers are in units that are chosen at the start: a psi in that of the scaled objective, a p in its own magnitude.
-class Program {
+class SmoothProgram {
  public:
-  explicit Program(const Ensemble& ensemble);
+  explicit SmoothProgram(const Ensemble& ensemble);
 
   int slacks() const { return slack_.variables() + peaks_; }
   int inequalities() const { return slack_.constraints() + inequality_rows_; }
   int equalities() const { return equality_rows_; }
   bool has_signals() const { return inequality_rows_ + equality_rows_ > 0; }
+  /// Whether a bound of a signal is an expression of a parameter (index in Study::parameters).
+  bool bounds_read(int parameter) const;
   bool has_robust_slack() const { return slack_.variables() > 0; }
   double lower(int slack) const { return slack < slack_.variables() ? slack_.lower(slack) : 0.0; }
 
@@ -77,4 +79,4 @@ class Program {
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_PROGRAM_H_
+#endif  // MECHANISM_CODESIGN_OPTIMIZATION_SMOOTH_PROGRAM_H_
