@@ -114,7 +114,9 @@ class Minimization {
       result_.termination = termination_name(optimizer->optimize(*x, value));
     } catch (const nlopt::forced_stop&) {
     } catch (const nlopt::roundoff_limited&) {
-      result_.termination = "roundoff_limited";
+      // SLSQP ends like this also where the gradients of the constraints depend on each other.
+      result_.termination = program_.has_signals() ? "algorithm_failed" : "roundoff_limited";
+      failure_ = "its linear systems are singular to working precision, as with constraints that depend on each other";
     } catch (const std::exception& error) {
       result_.termination = "algorithm_failed";
       failure_ = error.what();

@@ -74,6 +74,15 @@ TEST(SmoothProgram, AnImpossibleBoundIsInfeasible) {
   EXPECT_GT(result.watched.at(0).violation, 1.0);
 }
 
+TEST(SmoothProgram, DependentConstraintsAreNoSuccess) {
+  const std::string one = "{signal: slide/velocity, between: [0.0, 0.0]}";
+  const OptimizationResult once = tune_with("final: [" + one + "]\n"), twice = tune_with("final: [" + one + ", " + one + "]\n");
+  ASSERT_TRUE(once.status.ok()) << once.status.cause;
+  if (twice.status.ok()) {
+    EXPECT_NEAR(twice.objective, once.objective, 1e-4 * once.objective);
+  }
+}
+
 TEST(SmoothProgram, OtherAlgorithmsAreRefused) {
   const std::string bound = "path: [{signal: hold/output, between: [-6, 6]}]\n";
   EXPECT_THROW(tune_with(bound, "lbfgs"), InputError);
