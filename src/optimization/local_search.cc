@@ -20,6 +20,7 @@ namespace {
 constexpr double kRowTolerance = 1e-9;   // violation of a constraint row that NLopt accepts, in the unit of the row
 constexpr double kMostViolation = 1e-8;  // violation of a bound on a signal that counts as met, in the unit of the signal
 constexpr int kMostRestarts = 8;
+constexpr const char* kInsideFinder = "mma";
 constexpr double kSlopeLeft = 1e-2;  // a failed line search has converged if the scaled gradient fell below this fraction of the first one
 
 /// A sentence that lists the violated bounds of signals, for the status.
@@ -38,18 +39,19 @@ class Minimization {
  public:
   Minimization(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble, const TrialObserver& observer,
                const std::atomic<bool>* cancel)
-      : study_(study), options_(options), observer_(observer), cancel_(cancel), ensemble_(ensemble), scaling_(study), program_(ensemble) {}
+      : study_(study), options_(options), observer_(observer), cancel_(cancel), ensemble_(ensemble), scaling_(study), program_(ensemble) {
+    for (const ParameterConstraint& constraint : study_.constraints) constraints_.push_back({this, &constraint});
+  }
 
   OptimizationResult run(const Eigen::VectorXd& start) {
-    const auto dimension = static_cast<unsigned>(study_.tuned.size()) + static_cast<unsigned>(program_.slacks());
-    nlopt::opt optimizer = make_optimizer(study_, options_, dimension, program_.has_robust_slack());
+    nlopt::opt optimizer = make_optimizer(study_, options_, dimension(), program_.has_robust_slack());
     configure(&optimizer);
     result_.initial_rho = result_.rho = start;
     result_.influences.assign(study_.tuned.size(), false);
     require_numbers_at_start(study_, parameters_at(study_, result_.initial_rho));
     std::vector<double> x = scaling_.to_scaled(result_.initial_rho);
     minimize(&optimizer, &x);
-    while (should_restart()) restart(&optimizer, &x);
+    while (should_restart()) restart(&optimizer);
     conclude();
     return std::move(result_);
   }
@@ -71,11 +73,7 @@ class Minimization {
     optimizer->set_min_objective(&Minimization::objective_callback, this);
     optimizer->set_ftol_rel(options_.relative_tolerance);
     optimizer->set_maxeval(options_.max_evaluations);
-    constraints_.reserve(study_.constraints.size());
-    for (const ParameterConstraint& constraint : study_.constraints) {
-      constraints_.push_back({this, &constraint});
-      optimizer->add_inequality_constraint(&Minimization::constraint_callback, &constraints_.back(), 1e-9);
-    }
+    for (Constraint& constraint : constraints_) optimizer->add_inequality_constraint(&Minimization::constraint_callback, &constraint, 1e-9);
     const auto tolerances = [](int rows) { return std::vector<double>(static_cast<std::size_t>(rows), kRowTolerance); };
     if (program_.inequalities() > 0)
       optimizer->add_inequality_mconstraint(&Minimization::inequality_callback, this, tolerances(program_.inequalities()));
@@ -86,26 +84,47 @@ class Minimization {
   /// Appends the slack variables at the start.
   void add_slack(std::vector<double>* x) {
     if (program_.slacks() == 0) return;
-    if (last_rho_.size() == 0 || last_rho_ != result_.rho) evaluate(result_.rho);
+    const Eigen::VectorXd rho = scaling_.from_scaled(*x);
+    if (last_rho_.size() == 0 || last_rho_ != rho) evaluate(rho);
     const Eigen::VectorXd y = program_.start(last_, unit_);
     x->insert(x->end(), y.begin(), y.end());
   }
 
-  /// Whether a search that ended at a violated bound of a signal goes on from the best point. SLSQP may stop by the objective's tolerance
-  /// while it is still outside; with a new approximation of the Hessian it then moves inside.
+  /// Whether a search that ended at a violated bound of a signal goes on from the best point: SLSQP may stop by the objective's tolerance
+  /// while it is still outside.
   bool should_restart() {
     const bool ended_outside = program_.has_signals() && have_best_ && best_violation_ > 0.0 && !cancelled_;
     const bool has_progressed = best_violation_ < 0.9 * violation_before_ || restarts_ == 0;
     return ended_outside && has_progressed && restarts_ < kMostRestarts && result_.evaluations < options_.max_evaluations;
   }
 
-  void restart(nlopt::opt* optimizer, std::vector<double>* x) {
+  void restart(nlopt::opt* optimizer) {
     ++restarts_;
     violation_before_ = best_violation_;
-    optimizer->set_maxeval(options_.max_evaluations - result_.evaluations);
-    *x = scaling_.to_scaled(result_.rho);
-    minimize(optimizer, x);
+    if (program_.equalities() == 0 && options_.algorithm != kInsideFinder) move_inside();
+    run_from(result_.rho, optimizer);
   }
+
+  /// Looks for a feasible point by the method of moving asymptotes, which finds one from far away, but converges slowly: from the start of
+  /// the search, since the best point may lie in a valley of the violation, later from the best point.
+  void move_inside() {
+    OptimizerOptions options = options_;
+    options.algorithm = kInsideFinder;
+    nlopt::opt optimizer = make_optimizer(study_, options, dimension(), program_.has_robust_slack());
+    configure(&optimizer);
+    moves_inside_ = true;
+    run_from(restarts_ == 1 ? result_.initial_rho : result_.rho, &optimizer);
+    moves_inside_ = false;
+  }
+
+  void run_from(const Eigen::VectorXd& rho, nlopt::opt* optimizer) {
+    if (cancelled_ || result_.evaluations >= options_.max_evaluations) return;
+    optimizer->set_maxeval(options_.max_evaluations - result_.evaluations);
+    std::vector<double> x = scaling_.to_scaled(rho);
+    minimize(optimizer, &x);
+  }
+
+  unsigned dimension() const { return static_cast<unsigned>(study_.tuned.size()) + static_cast<unsigned>(program_.slacks()); }
 
   void minimize(nlopt::opt* optimizer, std::vector<double>* x) {
     double value = 0.0;
@@ -254,6 +273,7 @@ class Minimization {
     if (last_.total.status.ok()) program_.take(last_, rho);
     const Trial trial = note(last_, rho);
     if (observer_ && !observer_(trial)) stop();
+    if (moves_inside_ && best_violation_ == 0.0) throw nlopt::forced_stop();
     // The first step of a quasi-Newton method is as long as the gradient; divided by unit_, it is at most 1 in scaled variables, (24).
     if (trial.evaluation == 1 && last_.total.status.ok()) unit_ = std::max(1.0, trial.gradient_norm);
   }
@@ -365,7 +385,7 @@ class Minimization {
   Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"};
   std::string failure_;
   double worst_ = 0.0, unit_ = 1.0;  ///< worst objective so far; NLopt gets objectives divided by `unit_`
-  bool have_best_ = false, cancelled_ = false;
+  bool have_best_ = false, cancelled_ = false, moves_inside_ = false;
   double best_violation_ = 0.0, violation_before_ = 0.0;  ///< at the best point, and when the search was last restarted
   int restarts_ = 0;
 };
