@@ -287,6 +287,7 @@ Status Assembly::solve(const std::vector<double>& parameters, Equations<double>*
 }
 
 Status Assembly::solve_rates(Equations<double>* equations, State<double>* state) {
+  const char* const place = state->t > 0.0 ? "" : " at the start";
   VectorX<double> G, step;
   double g = 0.0, previous = std::numeric_limits<double>::infinity();
   // With redundant rows, rounding errors divided by the compliance remain in the reactions that are not unique.
@@ -295,7 +296,7 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
     if (cancelled()) return {StatusCode::kCancelled, state->t, "cancelled"};
     equations->residual(*state, &G, &g);
     const double error = G.cwiseAbs().maxCoeff();
-    if (!std::isfinite(error)) return {StatusCode::kNonFinite, state->t, "the equations of motion are not finite at the start"};
+    if (!std::isfinite(error)) return {StatusCode::kNonFinite, state->t, std::string("the equations of motion are not finite") + place};
     equations->linearize(*state, &derivatives_);
     if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0))
       return {StatusCode::kSingularMatrix, state->t, "the augmented matrix of the equations of motion is singular"};
@@ -307,7 +308,7 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
     previous = size;
   }
   return {StatusCode::kInitialReactionsFailed, state->t,
-          "no accelerations and reactions satisfy the equations of motion with friction at the start"};
+          std::string("no accelerations and reactions satisfy the equations of motion with friction") + place};
 }
 
 void Assembly::differentiate_rates(State<double>* rates) const {

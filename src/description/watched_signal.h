@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "description/quantity.h"
 #include "description/reference.h"
@@ -33,6 +34,10 @@ struct WatchedSignal {
 
 /// Whether a watched signal must have one value: `final:` with equal bounds, both constant.
 bool is_equality(const WatchedSignal& watched);
+
+/// Checks the order of the bounds at the start of a search: lower < upper, or lower <= upper for kFinal. @param parameters all named ones.
+/// @throws InputError
+void require_ordered_bounds(const WatchedSignal& watched, const std::vector<double>& parameters);
 
 }  // namespace codesign
 

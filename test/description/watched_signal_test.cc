@@ -18,5 +18,17 @@ TEST(WatchedSignal, IsAnEqualityIfItsFinalBoundsAreEqual) {
   EXPECT_FALSE(is_equality(watched));
 }
 
+TEST(WatchedSignal, HasOrderedBounds) {
+  WatchedSignal watched;
+  watched.upper = Quantity(1.0);
+  EXPECT_NO_THROW(require_ordered_bounds(watched, {}));
+  watched.lower = Quantity(1.0);
+  EXPECT_THROW(require_ordered_bounds(watched, {}), InputError);
+  watched.role = WatchedSignal::Role::kFinal;
+  EXPECT_NO_THROW(require_ordered_bounds(watched, {}));
+  watched.lower = Quantity(1.5);
+  EXPECT_THROW(require_ordered_bounds(watched, {}), InputError);
+}
+
 }  // namespace
 }  // namespace codesign

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -38,6 +39,8 @@ TEST(SideBySide, AnExceptionEndsTheWork) {
     const auto work = [&calls](std::size_t k) {
       ++calls;
       if (k == 3) throw std::runtime_error("third");
+      // Gives the thread that throws a second to be scheduled; only then could the other one have made all calls.
+      if (k > 3) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     };
     EXPECT_THROW(side_by_side(1000, threads, work), std::runtime_error);
     EXPECT_LT(calls, 1000);

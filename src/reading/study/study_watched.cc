@@ -30,15 +30,7 @@ struct Reader {
     }
     if (at_least) watched->lower = read_quantity(*at_least, table);
     if (at_most) watched->upper = read_quantity(*at_most, table);
-    if (watched->lower && watched->upper) check_order(between ? *between : value, *watched);
-  }
-
-  // The bounds at the parameters' start; an expression may turn them around later, which no design then meets.
-  void check_order(const YamlValue& at, const WatchedSignal& watched) const {
-    const bool equal_allowed = watched.role == Role::kFinal;
-    const double lower = watched.lower->nominal(), upper = watched.upper->nominal();
-    if (lower > upper || (lower == upper && !equal_allowed))
-      at.fail("the lower bound must be less than the upper one", equal_allowed ? "lower <= upper" : "lower < upper");
+    require_ordered_bounds(*watched, table.values);
   }
 
   void read_interval(const YamlValue& value, WatchedSignal* watched) const {

@@ -46,7 +46,7 @@ TEST(StudyWatched, RefusesBadConstraints) {
   refuse(signal + "after: 0.1", "path[0]", "needs bounds");
   refuse(signal + "between: [0, 1], at_most: 2", "path[0]", "needs bounds");
   refuse(signal + "between: [0]", "path[0].between", "two bounds are needed, found 1");
-  refuse(signal + "between: [1, 1]", "path[0].between", "must be less than");
+  refuse(signal + "between: [1, 1]", "path[0]", "must be less than");
   refuse(signal + "at_least: 2, at_most: 1", "path[0]", "must be less than");
   refuse(signal + "between: [0, one]", "path[0].between[1]", "not a number");
   refuse(signal + "at_most: 1, after: 1, before: 1", "path[0]", "not part of the study");
