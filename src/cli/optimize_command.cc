@@ -78,6 +78,19 @@ Json margins_json(const Problem& problem, const OptimizationResult& result) {
   return by_name(constraints, result.margins);
 }
 
+/// The constraints among parameters, one object each; empty without any.
+Json constraints_json(const Problem& problem, const OptimizationResult& result) {
+  Json list = Json::array();
+  for (const ParameterConstraint& constraint : problem.study().constraints) {
+    const double margin = result.margins[static_cast<Eigen::Index>(list.size())];
+    list.push_back({{"element", constraint.element},
+                    {"constraint", constraint.text},
+                    {"margin", margin},
+                    {"violation", margin < 0.0 ? -margin : 0.0}});
+  }
+  return list;
+}
+
 Json result_json(const Problem& problem, const OptimizationResult& result) {
   const std::vector<std::string> names = problem.tuned_names();
   Json object;
@@ -89,6 +102,7 @@ Json result_json(const Problem& problem, const OptimizationResult& result) {
     object["gradient"] = by_name(names, result.gradient);
     object["initial_gradient"] = by_name(names, result.initial_gradient);
     object["margins"] = margins_json(problem, result);
+    if (result.margins.size() > 0) object["constraints"] = constraints_json(problem, result);
   }
   object["iterations"] = result.iterations;
   object["evaluations"] = result.evaluations;

@@ -75,6 +75,13 @@ double Expression::value_of(const std::vector<double>& values) const {
   return real_part(program_->evaluate(variables));
 }
 
+ValueRange Expression::range(const std::vector<ValueRange>& parameters) const {
+  std::vector<ValueRange> values;
+  values.reserve(dependencies_.size());
+  for (int index : dependencies_) values.push_back(parameters.at(static_cast<std::size_t>(index)));
+  return range_of(program_->steps, values);
+}
+
 double Expression::derivative_of(std::size_t k, const std::vector<double>& values) const {
   std::vector<Complex> variables(values.begin(), values.end());
   variables.at(k) += Complex(0.0, kStep);

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "description/expression_range.h"
+
 namespace codesign {
 
 /// The parameters that an expression may use, as functions, so that no expression needs a copy of all names.
@@ -49,6 +51,9 @@ class Expression {
   /// dependencies()[k]. The cost does not grow with the number of parameters that the expression does not use.
   double value_of(const std::vector<double>& values) const;
   double derivative_of(std::size_t k, const std::vector<double>& values) const;
+
+  /// A range that contains the value wherever all parameters lie in theirs. @param parameters in the order of the names.
+  ValueRange range(const std::vector<ValueRange>& parameters) const;
 
  private:
   struct Program;

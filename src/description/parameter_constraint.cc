@@ -30,16 +30,20 @@ ParameterConstraint parse_constraint(const std::string& text, const std::vector<
   const std::string left = text.substr(0, operators[0]);
   const std::string right = text.substr(operators[0] + 2);
   try {
-    // Check each side by itself: an empty or unbalanced side could still give a valid expression together with the other side.
-    const Expression left_alone(left, names);
-    const Expression right_alone(right, names);
-    const std::string margin = text[operators[0]] == '>' ? "(" + left + ") - (" + right + ")" : "(" + right + ") - (" + left + ")";
-    auto expression = std::make_shared<const Expression>(margin, names);
-    if (expression->dependencies().empty()) throw std::invalid_argument("no parameter appears in the constraint");
-    return {text, std::move(expression), where};
+    return text[operators[0]] == '>' ? make_constraint(text, right, left, names, where, element)
+                                     : make_constraint(text, left, right, names, where, element);
   } catch (const std::invalid_argument& error) {
     throw InputError({where, element, error.what(), text, kFormOfConstraint});
   }
+}
+
+ParameterConstraint make_constraint(const std::string& text, const std::string& less, const std::string& more,
+                                    const std::vector<std::string>& names, const SourceLocation& where, const std::string& element) {
+  // Check each side by itself: an empty or unbalanced side could still give a valid expression together with the other side.
+  for (const std::string& side : {less, more}) static_cast<void>(Expression(side, names));
+  auto margin = std::make_shared<const Expression>("(" + more + ") - (" + less + ")", names);
+  if (margin->dependencies().empty()) throw std::invalid_argument("no parameter appears in the constraint");
+  return {text, std::move(margin), where, element};
 }
 
 }  // namespace codesign

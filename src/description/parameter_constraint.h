@@ -16,6 +16,11 @@ namespace codesign {
 ParameterConstraint parse_constraint(const std::string& text, const std::vector<std::string>& names, const SourceLocation& where,
                                      const std::string& element);
 
+/// The constraint `less <= more` between two expressions. @param text how messages and results name it.
+/// @throws std::invalid_argument if a side is not a valid expression, or if no parameter appears.
+ParameterConstraint make_constraint(const std::string& text, const std::string& less, const std::string& more,
+                                    const std::vector<std::string>& names, const SourceLocation& where, const std::string& element);
+
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_DESCRIPTION_PARAMETER_CONSTRAINT_H_

@@ -94,6 +94,7 @@ struct ParameterConstraint {
   std::string text;  ///< as written
   std::shared_ptr<const Expression> margin;
   SourceLocation where;
+  std::string element;  ///< its place in the study, for messages: `constraints[0]`
 };
 
 /// Which limits of URDF's `<limit>` are enforced, and the properties of the stops; theory (13c), (13d).

@@ -9,7 +9,7 @@ namespace codesign {
 namespace {
 
 constexpr int kWindows = 16;        // equal windows of an interval, so that two extrema seldom compete within one
-constexpr std::size_t kMost = 200;  // break times that are instants; a recorded trajectory has thousands of way-points
+constexpr std::size_t kMost = 200;  // break times that are instants: each adds rows to the optimizer's problem
 
 std::vector<double> instants_of(const WatchedSignal& watched, const std::vector<double>& breaks) {
   if (!(watched.after < watched.before)) return {watched.before};
@@ -29,13 +29,18 @@ std::vector<double> instants_of(const WatchedSignal& watched, const std::vector<
 
 WatchLayout::WatchLayout(const Study& study) {
   if (study.watched.empty()) return;
-  const BreakTimes breaks(study);
+  breaks_ = BreakTimes(study).times();
   for (const WatchedSignal& watched : study.watched) {
     Entry& entry = entries_.emplace_back();
     entry.first = size_;
-    entry.instants = instants_of(watched, breaks.times());
+    entry.instants = instants_of(watched, breaks_);
     size_ += entry.size();
   }
+}
+
+bool WatchLayout::has_break(double time, double slack) const {
+  const auto found = std::lower_bound(breaks_.begin(), breaks_.end(), time - slack);
+  return found != breaks_.end() && *found <= time + slack;
 }
 
 }  // namespace codesign

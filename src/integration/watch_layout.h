@@ -13,6 +13,9 @@ namespace codesign {
 /// The interval of a signal is divided into windows by instants that do not depend on the design. The numbers of a signal are its values at
 /// the instants, then the largest value in each window, then the smallest. So their count does not change with the design, as the number of
 /// local extrema does, and each is a continuous function of it.
+///
+/// A signal may jump at the break times of functions of time. Few of them are instants, so that windows end there; many would make too many
+/// numbers, so that they lie within windows, which then count the values on both sides of the jump.
 class WatchLayout {
  public:
   /// The numbers of one watched signal.
@@ -32,9 +35,12 @@ class WatchLayout {
   /// One entry per watched signal.
   const std::vector<Entry>& entries() const { return entries_; }
   int size() const { return size_; }
+  /// Whether a break time lies within `slack` of `time`; both in [s].
+  bool has_break(double time, double slack) const;
 
  private:
   std::vector<Entry> entries_;
+  std::vector<double> breaks_;  ///< [s], ascending
   int size_ = 0;
 };
 

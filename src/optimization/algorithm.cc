@@ -41,7 +41,8 @@ void check_constraints(const Study& study, const Algorithm& algorithm, bool with
   };
   if (!algorithm.takes_constraints) {
     if (!study.constraints.empty()) refuse("this algorithm takes no constraints on parameters", false);
-    if (!study.watched.empty()) refuse("this algorithm takes no constraints, which path, final and objective.peak need", false);
+    if (!study.watched.empty())
+      refuse("this algorithm takes no constraints, which path, final, objective.peak and peaks in constraints need", false);
     if (with_slack) refuse("this algorithm takes no constraints, which robust.measure worst and cvar are solved by", false);
   }
   if (!algorithm.takes_equalities && std::any_of(study.watched.begin(), study.watched.end(), is_equality))

@@ -5,42 +5,37 @@
 #include <cmath>
 #include <limits>
 
-#include "description/tuned_parameters.h"
+#include "ensemble/parameter_rows.h"
 #include "optimization/algorithm.h"
 #include "optimization/lagrangian.h"
 #include "optimization/scaling.h"
 #include "optimization/search_warnings.h"
 #include "optimization/smooth_program.h"
+#include "optimization/violated_bounds.h"
 #include "problem/margins.h"
-#include "text/decimal.h"
 
 namespace codesign {
 namespace {
 
-constexpr double kRowTolerance = 1e-9;   // violation of a constraint row that NLopt accepts, in the unit of the row
-constexpr double kMostViolation = 1e-8;  // violation of a bound on a signal that counts as met, in the unit of the signal
+constexpr double kRowTolerance = 1e-9;  // violation of a constraint row that NLopt accepts, in the unit of the row
 constexpr int kMostRestarts = 8;
 constexpr const char* kInsideFinder = "mma";
 constexpr double kSlopeLeft = 1e-2;  // a failed line search has converged if the scaled gradient fell below this fraction of the first one
-
-/// A sentence that lists the violated bounds of signals, for the status.
-std::string describe_violated(const std::vector<WatchedResult>& watched) {
-  std::string list;
-  for (const WatchedResult& result : watched) {
-    if (!(result.violation > kMostViolation)) continue;
-    list += (list.empty() ? "" : "; ") + result.element + " (" + result.signal + ") goes from " + to_decimal(result.smallest) + " to " +
-            to_decimal(result.largest) + ", beyond its bounds by " + to_decimal(result.violation);
-  }
-  return "no point was found that keeps the bounds of all signals: " + list;
-}
 
 /// One optimization: the state that NLopt's callbacks share.
 class Minimization {
  public:
   Minimization(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble, const TrialObserver& observer,
                const std::atomic<bool>* cancel)
-      : study_(study), options_(options), observer_(observer), cancel_(cancel), ensemble_(ensemble), scaling_(study), program_(ensemble) {
-    for (const ParameterConstraint& constraint : study_.constraints) constraints_.push_back({this, &constraint});
+      : study_(study),
+        options_(options),
+        observer_(observer),
+        cancel_(cancel),
+        ensemble_(ensemble),
+        scaling_(study),
+        program_(ensemble),
+        parameter_rows_(study, ensemble.scenarios()) {
+    for (const ParameterRows::Row& row : parameter_rows_.rows()) constraints_.push_back({this, row});
   }
 
   OptimizationResult run(const Eigen::VectorXd& start) {
@@ -48,7 +43,7 @@ class Minimization {
     configure(&optimizer);
     result_.initial_rho = result_.rho = start;
     result_.influences.assign(study_.tuned.size(), false);
-    require_numbers_at_start(study_, parameters_at(study_, result_.initial_rho));
+    parameter_rows_.require_numbers_at(start);
     std::vector<double> x = scaling_.to_scaled(result_.initial_rho);
     minimize(&optimizer, &x);
     while (should_restart()) restart(&optimizer);
@@ -59,7 +54,7 @@ class Minimization {
  private:
   struct Constraint {
     Minimization* owner;
-    const ParameterConstraint* constraint;
+    ParameterRows::Row row;
   };
 
   void configure(nlopt::opt* optimizer) {
@@ -145,7 +140,7 @@ class Minimization {
 
   /// Sets the status and the termination, with the margins and warnings of the best point.
   void conclude() {
-    result_.margins = constraint_margins(study_, parameters_at(study_, result_.rho));
+    result_.margins = parameter_rows_.margins(result_.rho);
     result_.watched = program_.describe(best_.extremes, initial_extremes_, result_.rho);
     for (std::size_t k = 0; k < study_.tuned.size(); ++k)
       if (program_.bounds_read(study_.tuned[k])) result_.influences[k] = true;
@@ -172,7 +167,7 @@ class Minimization {
   bool has_converged() {
     const double difference = std::abs(last_.total.objective - result_.objective);
     if (!last_.total.status.ok() || difference > options_.relative_tolerance * std::abs(result_.objective)) return false;
-    const Eigen::VectorXd margins = constraint_margins(study_, parameters_at(study_, result_.rho));
+    const Eigen::VectorXd margins = parameter_rows_.margins(result_.rho);
     if ((margins.array() < 1e-6).any()) return all_met(margins);
     const double start = scaling_.gradient_norm(result_.initial_gradient);
     if (program_.has_signals())
@@ -187,15 +182,14 @@ class Minimization {
   // -margin(rho) <= 0.
   static double constraint_callback(const std::vector<double>& x, std::vector<double>& gradient, void* data) {
     const auto& constraint = *static_cast<Constraint*>(data);
-    const Scaling& scaling = constraint.owner->scaling_;
-    const std::vector<double> parameters = parameters_at(constraint.owner->study_, constraint.owner->design(x));
-    const Expression& margin = *constraint.constraint->margin;
-    const double value = margin.value(parameters);
-    if (!std::isfinite(value)) return constraint.owner->step_back_from_constraint(x, &gradient);
+    const Minimization& owner = *constraint.owner;
+    Eigen::VectorXd by_rho;
+    const double margin = owner.parameter_rows_.margin(constraint.row, owner.design(x), gradient.empty() ? nullptr : &by_rho);
+    if (!std::isfinite(margin)) return owner.step_back_from_constraint(x, &gradient);
     std::fill(gradient.begin(), gradient.end(), 0.0);
-    for (std::size_t k = 0; k < gradient.size() && k < constraint.owner->study_.tuned.size(); ++k)
-      gradient[k] = -margin.derivative(constraint.owner->study_.tuned[k], parameters) * scaling.range(k);
-    return -value;
+    for (std::size_t k = 0; k < gradient.size() && k < owner.study_.tuned.size(); ++k)
+      gradient[k] = -by_rho[static_cast<Eigen::Index>(k)] * owner.scaling_.range(k);
+    return -margin;
   }
 
   // A constraint that is not finite counts as violated, with a value that grows with the distance from the best point.
@@ -338,7 +332,7 @@ class Minimization {
   double violation(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) const {
     double largest = program_.violation(all.extremes, rho);
     if (largest <= kMostViolation) largest = 0.0;
-    for (const double margin : constraint_margins(study_, parameters_at(study_, rho)))
+    for (const double margin : parameter_rows_.margins(rho))
       if (!(margin >= kMet)) largest = std::max(largest, std::isnan(margin) ? std::numeric_limits<double>::infinity() : -margin);
     return largest;
   }
@@ -376,6 +370,7 @@ class Minimization {
   const Ensemble& ensemble_;
   Scaling scaling_;
   SmoothProgram program_;
+  const ParameterRows parameter_rows_;
   Eigen::VectorXd last_rho_;
   EnsembleEvaluation last_;  ///< the evaluation at last_rho_
   std::vector<Extremes> initial_extremes_;

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <numeric>
 
-#include "description/tuned_parameters.h"
 #include "engine/side_by_side.h"
+#include "ensemble/parameter_rows.h"
 #include "optimization/local_search.h"
 #include "optimization/scaling.h"
 #include "optimization/scenario_results.h"
@@ -34,6 +34,7 @@ class Multistart {
         trial_(counted_trials(hooks, &meter_)),
         observer_(trial_),
         ensemble_(problem, asked_.screen, records_of(hooks, &meter_)),
+        parameter_rows_(study_, ensemble_.scenarios()),
         scaling_(study_) {}
 
   OptimizationResult run() {
@@ -84,7 +85,7 @@ class Multistart {
   void evaluate(const std::vector<Eigen::VectorXd>& round) {
     std::vector<EnsembleEvaluation> results(round.size());
     side_by_side(round.size(), ensemble_.engine().workers(), [&](std::size_t k) {
-      if (all_met(constraint_margins(study_, parameters_at(study_, round[k])))) results[k] = ensemble_.evaluate(round[k], false, cancel_);
+      if (all_met(parameter_rows_.margins(round[k]))) results[k] = ensemble_.evaluate(round[k], false, cancel_);
       if (results[k].values.size() > 0) meter_.count_point();
     });
     for (std::size_t k = 0; k < round.size(); ++k) {
@@ -161,7 +162,7 @@ class Multistart {
       none.rho = points_[order_.front()];
       none.objective = objectives_[order_.front()];
     }
-    none.margins = constraint_margins(study_, parameters_at(study_, none.rho));
+    none.margins = parameter_rows_.margins(none.rho);
     none.influences.assign(study_.tuned.size(), false);
     return none;
   }
@@ -198,6 +199,7 @@ class Multistart {
   const TrialObserver trial_;
   SharedObserver observer_;
   const Ensemble ensemble_;
+  const ParameterRows parameter_rows_;
   const Scaling scaling_;
   std::vector<Eigen::VectorXd> points_;  // usable points in the order drawn, and their objectives
   std::vector<double> objectives_;

@@ -14,10 +14,6 @@ namespace codesign {
 /// boundary of the constraints, where rounding may leave either sign.
 constexpr double kMet = -1e-7;
 
-/// The margins of the study's parameter constraints, in their order and in the unit of each; negative where one is violated.
-/// @param parameters all named parameters, order of Study::parameters.
-Eigen::VectorXd constraint_margins(const Study& study, const std::vector<double>& parameters);
-
 /// Whether every margin is at least kMet; a margin that is NaN is not.
 bool all_met(const Eigen::VectorXd& margins);
 
@@ -26,6 +22,10 @@ std::string describe_unmet(const Study& study, const Eigen::VectorXd& margins);
 
 /// @throws InputError naming the first constraint whose margin is not finite at `parameters`, the start of an optimization.
 void require_numbers_at_start(const Study& study, const std::vector<double>& parameters);
+
+/// @throws InputError naming the first constraint that no design can meet, as far as intervals show it: tuned parameters, and those that a
+/// run sets or that are uncertain, within their bounds, the others at their values.
+void require_satisfiable(const Study& study);
 
 }  // namespace codesign
 

@@ -43,6 +43,7 @@ Problem compile(const RobotDescription& robot, Study study, const ParameterSetti
   apply_settings(settings, &study);
   const CpuTimer timer;
   require_numbers_at_start(study, start_parameters(study));
+  if (!study.tuned.empty()) require_satisfiable(study);
   for (const WatchedSignal& watched : study.watched) require_ordered_bounds(watched, start_parameters(study));
   require_compatible(study);
   append(unused_parameters(study), &contents.warnings);

@@ -47,6 +47,7 @@ Status SignalWatch::start(Integrator* integrator, Differentiate differentiate) {
 
 Status SignalWatch::look() {
   const double from = time_, to = integrator_->state().t;
+  if (!curves_.empty()) ends_at_break_ = layout_.has_break(to, kInside * (to - from));
   for (std::size_t k = 0; k < curves_.size() && status_.ok(); ++k) follow(k, from, to);
   time_ = to;
   return status_;
@@ -116,12 +117,20 @@ void SignalWatch::follow(std::size_t k, double from, double to) {
     if (!status_.ok()) return;
     const Sample next = sample(k, inside(point));
     if (next.time > last.time) search(k, last, next);
-    // A signal may jump at an instant where a reference has a kink. Then the value before it counts, too.
-    if (curve.next < instants.size() && instants[curve.next] <= point + slack && jumps(next.value, value(k, point))) offer(k, next.time);
+    const bool is_instant = curve.next < instants.size() && instants[curve.next] <= point + slack;
+    if (is_instant || (ends_at_break_ && point >= to)) look_for_jump(k, next, point, is_instant);
     reach(point);
     last = next;
   }
   curve.end_slope = end < to ? 0.0 : last.slope;
+}
+
+/// A signal may jump where a reference has a kink. Then the value before the jump counts, too, and the one behind it, which at an instant
+/// counts anyway.
+void SignalWatch::look_for_jump(std::size_t k, const Sample& before, double time, bool is_instant) {
+  if (!status_.ok() || !jumps(before.value, value(k, time))) return;
+  offer(k, before.time);
+  if (!is_instant) offer(k, time);
 }
 
 /// Looks for an extremum between two points by the sign of the slope.

@@ -4,7 +4,6 @@
 #include <unordered_map>
 
 #include "description/expression.h"
-#include "description/parameter_constraint.h"
 #include "description/tuned_parameters.h"
 #include "reading/study/study_values.h"
 #include "text/nearest_name.h"
@@ -59,14 +58,6 @@ void read_parameters(const YamlValue& study_value, const RobotDescription& robot
     const auto tune = value.find("tune");
     if (!tune || tune->boolean()) study->tuned.push_back(index);
   }
-}
-
-void read_constraints(const YamlValue& study_value, Study* study) {
-  const auto constraints = study_value.find("constraints");
-  if (!constraints) return;
-  const std::vector<std::string> names = names_of(study->parameters);
-  for (const YamlValue& item : constraints->items())
-    study->constraints.push_back(parse_constraint(item.text(), names, item.where(), item.path()));
 }
 
 }  // namespace codesign

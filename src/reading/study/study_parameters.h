@@ -16,9 +16,6 @@ void read_parameters(const YamlValue& study_value, const RobotDescription& robot
 /// @throws InputError if lower is not below upper, or the parameter's value is not within them.
 void read_bounds(const YamlValue& value, Parameter* parameter);
 
-/// Reads the list `constraints:`. Study::parameters must have been read. @throws InputError
-void read_constraints(const YamlValue& study_value, Study* study);
-
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_PARAMETERS_H_

@@ -3,6 +3,7 @@
 
 #include "reading/parameter_table.h"
 #include "reading/study/study_basis.h"
+#include "reading/study/study_constraints.h"
 #include "reading/study/study_controllers.h"
 #include "reading/study/study_ensemble.h"
 #include "reading/study/study_initial_state.h"

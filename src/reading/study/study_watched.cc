@@ -2,6 +2,8 @@
 #include "reading/study/study_watched.h"
 
 #include "mechanism/signal_catalog.h"
+#include "reading/study/study_between.h"
+#include "reading/study/study_constraints.h"
 #include "reading/study/study_references.h"
 #include "reading/study/study_values.h"
 #include "text/decimal.h"
@@ -18,18 +20,9 @@ struct Reader {
   const Study& study;
 
   void read_bounds(const YamlValue& value, WatchedSignal* watched) const {
-    const auto between = value.find("between"), at_least = value.find("at_least"), at_most = value.find("at_most");
-    if (between ? at_least || at_most : !at_least && !at_most)
-      value.fail("a constraint needs bounds, either by between or by at_least and at_most",
-                 "between: [lower, upper]; or at_least, at_most or both");
-    if (between) {
-      const std::vector<YamlValue> bounds = between->items();
-      if (bounds.size() != 2) between->fail("two bounds are needed, found " + std::to_string(bounds.size()), "[lower, upper]");
-      watched->lower = read_quantity(bounds[0], table);
-      watched->upper = read_quantity(bounds[1], table);
-    }
-    if (at_least) watched->lower = read_quantity(*at_least, table);
-    if (at_most) watched->upper = read_quantity(*at_most, table);
+    const Between bounds = read_between(value, table);
+    watched->lower = bounds.lower;
+    watched->upper = bounds.upper;
     require_ordered_bounds(*watched, table.values);
   }
 
@@ -42,25 +35,19 @@ struct Reader {
                  "0 <= after < before <= " + to_decimal(study.duration) + " s");
   }
 
-  WatchedSignal read(const YamlValue& value, Role role) const {
-    std::vector<std::string> optional{"reference"};
-    if (role == Role::kPeak) optional.emplace_back("weight");
-    if (role != Role::kPeak) optional.insert(optional.end(), {"between", "at_least", "at_most"});
+  /// A signal, found under `key`, and its reference. @param optional further keys.
+  WatchedSignal read_signal(const YamlValue& value, const char* key, Role role, std::vector<std::string> optional) const {
+    optional.emplace_back("reference");
     if (role != Role::kFinal) optional.insert(optional.end(), {"after", "before"});
-    value.require_keys({"signal"}, optional);
+    value.require_keys({key}, optional);
     WatchedSignal watched;
     watched.role = role;
     watched.where = value.where();
     watched.element = value.path();
-    const YamlValue signal = value.at("signal");
+    const YamlValue signal = value.at(key);
     watched.signal = parse_signal(signal.text(), signal.where(), signal.path());
     check_signal(watched.signal, robot, study.controllers, signal.path());
     if (const auto reference = value.find("reference")) watched.reference = read_reference(*reference, table, loader);
-    if (role != Role::kPeak) read_bounds(value, &watched);
-    if (const auto weight = value.find("weight")) {
-      watched.weight = weight->number();
-      if (!(watched.weight > 0.0)) weight->fail("the weight of a peak must be positive", "more than 0");
-    }
     if (role == Role::kFinal) {
       watched.after = watched.before = study.duration;
     } else {
@@ -69,9 +56,40 @@ struct Reader {
     return watched;
   }
 
-  void read_list(const YamlValue& parent, const char* key, Role role, std::vector<WatchedSignal>* list) const {
+  WatchedSignal read_bounded(const YamlValue& value, Role role) const {
+    WatchedSignal watched = read_signal(value, "signal", role, {"between", "at_least", "at_most"});
+    read_bounds(value, &watched);
+    return watched;
+  }
+
+  WatchedSignal read_objective_peak(const YamlValue& value) const {
+    WatchedSignal watched = read_signal(value, "signal", Role::kPeak, {"weight"});
+    if (const auto weight = value.find("weight")) {
+      watched.weight = weight->number();
+      if (!(watched.weight > 0.0)) weight->fail("the weight of a peak must be positive", "more than 0");
+    }
+    return watched;
+  }
+
+  /// `{peak: signal, at_most: bound}` is |signal - reference| <= bound at all times, which is a bound on both sides.
+  WatchedSignal read_bounded_peak(const YamlValue& value) const {
+    WatchedSignal watched = read_signal(value, "peak", Role::kPath, {"at_most"});
+    const YamlValue at_most = value.at("at_most");
+    const Quantity bound = read_quantity(at_most, table);
+    if (!(bound.nominal() > 0.0)) at_most.fail("a peak is the largest magnitude of a signal, so its bound must be positive", "more than 0");
+    watched.upper = bound;
+    watched.lower =
+        bound.is_constant() ? Quantity(-bound.nominal()) : Quantity(-bound.nominal(), table.parse("-(" + bound.expression()->text() + ")"));
+    return watched;
+  }
+
+  /// Adds what `read` makes of the items of a list that `is_meant`.
+  template <class Read, class IsMeant>
+  static void add_items(const YamlValue& parent, const char* key, std::vector<WatchedSignal>* list, const Read& read,
+                        const IsMeant& is_meant) {
     if (const auto items = parent.find(key))
-      for (const YamlValue& item : items->items()) list->push_back(read(item, role));
+      for (const YamlValue& item : items->items())
+        if (is_meant(item)) list->push_back(read(item));
   }
 };
 
@@ -81,9 +99,16 @@ void read_watched(const YamlValue& study_value, const RobotDescription& robot, c
                   Study* study) {
   const Reader reader{robot, table, loader, *study};
   std::vector<WatchedSignal> watched;
-  reader.read_list(study_value, "path", Role::kPath, &watched);
-  reader.read_list(study_value, "final", Role::kFinal, &watched);
-  if (const auto objective = study_value.find("objective")) reader.read_list(*objective, "peak", Role::kPeak, &watched);
+  const auto every = [](const YamlValue&) { return true; };
+  Reader::add_items(
+      study_value, "path", &watched, [&](const YamlValue& item) { return reader.read_bounded(item, Role::kPath); }, every);
+  Reader::add_items(
+      study_value, "final", &watched, [&](const YamlValue& item) { return reader.read_bounded(item, Role::kFinal); }, every);
+  Reader::add_items(
+      study_value, "constraints", &watched, [&](const YamlValue& item) { return reader.read_bounded_peak(item); }, bounds_a_peak);
+  if (const auto objective = study_value.find("objective"))
+    Reader::add_items(
+        *objective, "peak", &watched, [&](const YamlValue& item) { return reader.read_objective_peak(item); }, every);
   study->watched = std::move(watched);
 }
 
@@ -91,7 +116,8 @@ void refuse_adjoint_of_watched(const YamlValue& study_value, const Study& study)
   if (study.watched.empty() || study.solver.gradient != GradientMethod::kAdjoint) return;
   study_value.at("solver")
       .at("gradient")
-      .fail("the adjoint has no derivatives of the extreme values that path, final and objective.peak need", "auto, direct");
+      .fail("the adjoint has no derivatives of the extreme values that path, final, objective.peak and peaks in constraints need",
+            "auto, direct");
 }
 
 }  // namespace codesign

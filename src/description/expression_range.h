@@ -1,0 +1,23 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_RANGE_H_
+#define MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_RANGE_H_
+
+#include <limits>
+
+#include "description/expression_program.h"
+
+namespace codesign {
+
+/// Numbers from `lower` to `upper`, both included; by default all.
+struct ValueRange {
+  double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
+};
+
+/// A range that contains every value of an expression whose variables lie in given ranges, by interval arithmetic (Moore [22]) on sums,
+/// differences, products and quotients. With any other operation it is that of all numbers. Rounding is not taken into account.
+/// @param variables by index.
+ValueRange range_of(const ExpressionSteps& steps, In<ValueRange> variables);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_RANGE_H_

@@ -1,0 +1,41 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ENSEMBLE_PARAMETER_ROWS_H_
+#define MECHANISM_CODESIGN_ENSEMBLE_PARAMETER_ROWS_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "ensemble/scenario.h"
+
+namespace codesign {
+
+/// The constraints among parameters of a study, doc/theory.md (24f): each holds in every scenario. A constraint has one row, or, if runs or
+/// samples change parameters that it reads, one for each combination of their values.
+class ParameterRows {
+ public:
+  struct Row {
+    std::size_t constraint = 0;  ///< index in Study::constraints
+    std::size_t scenario = 0;
+  };
+
+  /// Both must outlive this. @param scenarios at least one.
+  ParameterRows(const Study& study, const std::vector<Scenario>& scenarios);
+
+  const std::vector<Row>& rows() const { return rows_; }
+  /// The margin of a row at a design, in the unit of the constraint; negative where it is violated, NaN where it has no real value.
+  /// @param by_rho if not null, its derivatives by the tuned parameters.
+  double margin(const Row& row, const Eigen::VectorXd& rho, Eigen::VectorXd* by_rho) const;
+  /// The smallest margin of each constraint over its rows, NaN if that of a row is; order of Study::constraints.
+  Eigen::VectorXd margins(const Eigen::VectorXd& rho) const;
+  /// @throws InputError naming the first constraint and scenario whose margin is not finite at the start of a search.
+  void require_numbers_at(const Eigen::VectorXd& start) const;
+
+ private:
+  const Study& study_;
+  const std::vector<Scenario>& scenarios_;
+  std::vector<Row> rows_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ENSEMBLE_PARAMETER_ROWS_H_
