@@ -26,6 +26,14 @@ TEST(ParameterConstraint, LeavesComparisonsInParenthesesToTheExpression) {
   EXPECT_DOUBLE_EQ(margin("(crank_length >= 0.05 ? rod_length : 0) >= 0.25", 0.08, 0.3), 0.05);
 }
 
+TEST(ParameterConstraint, IsMadeOfTwoSides) {
+  const ParameterConstraint made = make_constraint("short", "crank_length + 0.1", "rod_length", kLengths, {"s", 2}, "constraints[3]");
+  EXPECT_EQ(made.text, "short");
+  EXPECT_EQ(made.element, "constraints[3]");
+  EXPECT_DOUBLE_EQ(made.margin->value(std::vector<double>{0.1, 0.5}), 0.3);
+  EXPECT_THROW(make_constraint("open", "(crank_length", "rod_length)", kLengths, {"s", 2}, "constraints[3]"), std::invalid_argument);
+}
+
 void expect_bad_constraint(const std::string& text, const std::string& reason) {
   try {
     parse_constraint(text, kLengths, {"study.yaml", 4}, "constraints[0]");

@@ -45,5 +45,21 @@ TEST(WatchLayout, BreakTimesAreInstants) {
   EXPECT_TRUE(std::is_sorted(instants.begin(), instants.end()));
 }
 
+TEST(WatchLayout, ManyBreakTimesEndNoWindows) {
+  Study study;
+  study.duration = 1.0;
+  study.watched.emplace_back().before = 1.0;
+  ControllerDescription& controller = study.controllers.emplace_back();
+  controller.setpoint.kind = ReferenceDescription::Kind::kWaypoints;
+  for (int k = 0; k <= 500; ++k) controller.setpoint.waypoints.times.push_back(k / 500.0);
+  const WatchLayout layout(study);
+  EXPECT_EQ(layout.entries()[0].windows(), 16);
+  EXPECT_TRUE(layout.has_break(0.502, 1e-12));
+  EXPECT_TRUE(layout.has_break(1.0, 1e-12));
+  EXPECT_TRUE(layout.has_break(0.5021, 1.1e-4));
+  EXPECT_FALSE(layout.has_break(0.5021, 0.9e-4));
+  EXPECT_FALSE(layout.has_break(1.1, 1e-3));
+}
+
 }  // namespace
 }  // namespace codesign

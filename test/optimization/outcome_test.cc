@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "assembly/make_system.h"
 #include "mechanism_codesign/optimization.h"
@@ -42,11 +43,11 @@ bool has_warning(const Warnings& warnings, const std::string& code, const std::s
 }
 
 TEST(Outcome, OutsideTheConstraintsIsNoSuccess) {
-  const OptimizationResult result = search(problem_of("constraints: [\"length >= 2.2\"]\noptimizer: {algorithm: slsqp}\n"));
+  const OptimizationResult result = search(problem_of("constraints: [\"sqrt(length) >= 1.5\"]\noptimizer: {algorithm: slsqp}\n"));
   EXPECT_EQ(result.status.code, StatusCode::kInfeasible);
-  EXPECT_NE(result.status.cause.find("length >= 2.2"), std::string::npos) << result.status.cause;
+  EXPECT_NE(result.status.cause.find("sqrt(length) >= 1.5"), std::string::npos) << result.status.cause;
   ASSERT_EQ(result.margins.size(), 1);
-  EXPECT_NEAR(result.margins[0], result.rho[0] - 2.2, 1e-15);
+  EXPECT_NEAR(result.margins[0], std::sqrt(result.rho[0]) - 1.5, 1e-15);
   EXPECT_LT(result.margins[0], 0.0);
   EXPECT_EQ(result.gradient.size(), 1) << "the best point is kept";
 }

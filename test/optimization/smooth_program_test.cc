@@ -83,6 +83,29 @@ TEST(SmoothProgram, DependentConstraintsAreNoSuccess) {
   }
 }
 
+TEST(SmoothProgram, APeakInConstraintsIsABoundOnBothSides) {
+  const std::string path = "path: [{signal: hold/output, reference: 1.0, between: [-6, 6]}]\n";
+  const std::string peak = "constraints: [{peak: hold/output, reference: 1.0, at_most: 6}]\n";
+  const OptimizationResult a = tune_with(kTwoRuns + path), b = tune_with(kTwoRuns + peak);
+  ASSERT_TRUE(a.status.ok() && b.status.ok()) << a.status.cause << b.status.cause;
+  EXPECT_EQ(a.objective, b.objective) << "bit for bit";
+  EXPECT_EQ(a.rho, b.rho);
+  EXPECT_EQ(b.watched.at(0).element, "constraints[0]");
+  EXPECT_LE(b.watched.at(0).violation, 1e-8);
+  EXPECT_THROW(tune_with(peak, "lbfgs"), InputError);
+}
+
+TEST(SmoothProgram, AConstraintOnParametersHoldsInEveryRun) {
+  // Kd <= 2 sqrt(Kp mass): the lightest run binds, though the study's own mass does not.
+  const std::string runs = "runs: {light: {set: {mass: 0.3}}, heavy: {set: {mass: 4.0}}}\n";
+  const OptimizationResult result = tune_with(runs + "constraints: [\"Kd**2 <= 0.5*Kp*mass\"]\n");
+  ASSERT_TRUE(result.status.ok()) << result.status.cause;
+  const double Kp = result.rho[0], Kd = result.rho[1];
+  EXPECT_GE(0.5 * Kp * 0.3 - Kd * Kd, -1e-7);
+  EXPECT_NEAR(result.margins[0], 0.5 * Kp * 0.3 - Kd * Kd, 1e-12);
+  EXPECT_NEAR(result.margins[0], 0.0, 1e-5) << "it is active";
+}
+
 TEST(SmoothProgram, OtherAlgorithmsAreRefused) {
   const std::string bound = "path: [{signal: hold/output, between: [-6, 6]}]\n";
   EXPECT_THROW(tune_with(bound, "lbfgs"), InputError);

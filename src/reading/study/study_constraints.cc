@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-constexpr const char* kForms =
+constexpr const char* kFormsOfConstraints =
     "\"expression >= expression\", {expression: \"${expression}\", between: [lower, upper]} or {peak: signal, at_most: bound}";
 
 std::string text_of(const Quantity& quantity) {
@@ -46,7 +46,7 @@ void read_constraints(const YamlValue& study_value, Study* study) {
   const ParameterTable table(study->parameters);
   for (const YamlValue& item : constraints->items()) {
     if (bounds_a_peak(item)) continue;
-    if (item.is_list() || (item.is_map() && !item.find("expression"))) item.fail("not a constraint", kForms);
+    if (item.is_list() || (item.is_map() && !item.find("expression"))) item.fail("not a constraint", kFormsOfConstraints);
     if (item.is_map())
       read_bounded_expression(item, table, study);
     else

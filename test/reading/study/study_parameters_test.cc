@@ -72,16 +72,5 @@ TEST(StudyParameters, RefusesBadEntries) {
   expect_bad_parameters("[crank_length]", "parameters", "expected a map");
 }
 
-TEST(StudyParameters, ConstraintsMayUseTheStudysOwn) {
-  const Study study = read_text(kLeastStudy + "parameters: {Kp: {initial: 1}}\nconstraints: [\"Kp >= 10*rod_length\"]\n");
-  EXPECT_DOUBLE_EQ(study.constraints.at(0).margin->value(std::vector<double>{0.08, 0.3, 5.0}), 2.0);
-  EXPECT_EQ(study.constraints[0].where.line, 4);
-}
-
-TEST(StudyParameters, ConstraintsAreChecked) {
-  expect_fault(kLeastStudy + "constraints:\n  - rod_length >= 0.1\n  - Kp >= 1\n", "constraints[1]", "Kp", 5);
-  expect_fault(kLeastStudy + "constraints: rod_length >= 0.1\n", "constraints", "expected a list", 3);
-}
-
 }  // namespace
 }  // namespace codesign

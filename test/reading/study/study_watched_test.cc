@@ -36,6 +36,42 @@ TEST(StudyWatched, ReadsConstraintsAndPeaks) {
   EXPECT_TRUE(has_objective(study));
 }
 
+TEST(StudyWatched, APeakWithinABoundIsABoundOnBothSides) {
+  const Study study = read_text(
+      with_watched_text("constraints: [rod_length >= 0.1, {peak: speed/output, at_most: \"${10*rod_length}\", reference: 0.5, after: 0.1},"
+                        " {peak: crank_joint/velocity, at_most: 4}]\nobjective: {peak: [{signal: crank_joint/velocity}]}\npath: [{signal: "
+                        "speed/output, at_most: 9}]"));
+  ASSERT_EQ(study.watched.size(), 4U);
+  EXPECT_EQ(study.constraints.size(), 1U);
+  const WatchedSignal& peak = study.watched[1];
+  EXPECT_EQ(peak.role, WatchedSignal::Role::kPath);
+  EXPECT_EQ(peak.element, "constraints[1]");
+  EXPECT_EQ(peak.signal.text, "speed/output");
+  EXPECT_EQ(peak.reference.constant.nominal(), 0.5);
+  EXPECT_EQ(peak.after, 0.1);
+  EXPECT_EQ(peak.before, 2.0);
+  const std::vector<double> design{0.08, 0.25};
+  EXPECT_DOUBLE_EQ(peak.upper->at(design), 2.5);
+  EXPECT_DOUBLE_EQ(peak.lower->at(design), -2.5);
+  EXPECT_DOUBLE_EQ(peak.lower->expression()->derivative(1, design), -10.0);
+  EXPECT_EQ(study.watched[2].lower->at(design), -4.0);
+  EXPECT_EQ(study.watched[3].role, WatchedSignal::Role::kPeak);
+}
+
+TEST(StudyWatched, RefusesBadPeaks) {
+  const auto refuse = [](const std::string& item, const std::string& element, const std::string& message) {
+    expect_fault(with_watched_text("constraints: [{" + item + "}]"), element, message, 3);
+  };
+  refuse("peak: speed/outptu, at_most: 1", "constraints[0].peak", "did you mean \"output\"");
+  refuse("peak: speed/output", "constraints[0].at_most", "required key is missing");
+  refuse("peak: speed/output, at_least: 1, at_most: 2", "constraints[0].at_least", "unknown key");
+  refuse("peak: speed/output, at_most: 0", "constraints[0].at_most", "must be positive");
+  refuse("peak: speed/output, at_most: \"${-rod_length}\"", "constraints[0].at_most", "must be positive");
+  refuse("peak: speed/output, at_most: 1, after: 3", "constraints[0]", "not part of the study");
+  expect_fault(with_watched_text("constraints: [{peak: speed/output, at_most: 1}]\nsolver: {gradient: adjoint}"), "solver.gradient",
+               "peaks in constraints", 4);
+}
+
 TEST(StudyWatched, RefusesBadConstraints) {
   const std::string signal = "signal: speed/output, ";
   const auto refuse = [&](const std::string& item, const std::string& element, const std::string& message) {
