@@ -10,10 +10,10 @@
 namespace codesign {
 namespace {
 
-const std::vector<std::string> kNames{"a", "b"};
-const std::vector<ValueRange> kRanges{{1.0, 2.0}, {-3.0, 4.0}};
+const std::vector<std::string> kTwo{"a", "b"};
+const std::vector<ValueRange> kTheirRanges{{1.0, 2.0}, {-3.0, 4.0}};
 
-ValueRange range(const std::string& text) { return Expression(text, kNames).range(kRanges); }
+ValueRange range(const std::string& text) { return Expression(text, kTwo).range(kTheirRanges); }
 
 void expect_range(const std::string& text, double lower, double upper) {
   EXPECT_EQ(range(text).lower, lower) << text;
@@ -34,8 +34,8 @@ TEST(ExpressionRange, IsThatOfTheValues) {
 
 TEST(ExpressionRange, HoldsEveryValue) {
   for (const char* text : {"2*a - 3*b + 1", "a*b - b/a", "(a - b)*(a + b)", "a/(b + 5)"}) {
-    const Expression expression(text, kNames);
-    const ValueRange all = expression.range(kRanges);
+    const Expression expression(text, kTwo);
+    const ValueRange all = expression.range(kTheirRanges);
     for (double u = 0.0; u <= 1.0; u += 0.125)
       for (double v = 0.0; v <= 1.0; v += 0.125) {
         const double value = expression.value(std::vector<double>{1.0 + u, -3.0 + 7.0 * v});
@@ -48,7 +48,7 @@ TEST(ExpressionRange, HoldsEveryValue) {
 TEST(ExpressionRange, IsUnknownOfOtherOperations) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const char* text : {"a / b", "sqrt(a)", "a ** 2", "a < b ? a : b", "1 + abs(b)"}) expect_range(text, -infinity, infinity);
-  EXPECT_EQ(Expression("0 * a", kNames).range({{1.0, infinity}, {}}).upper, infinity) << "0 * infinity is undefined";
+  EXPECT_EQ(Expression("0 * a", kTwo).range({{1.0, infinity}, {}}).upper, infinity) << "0 * infinity is undefined";
 }
 
 }  // namespace
