@@ -4,9 +4,27 @@
 #include <cmath>
 #include <set>
 
+#include "description/tuned_parameters.h"
 #include "text/decimal.h"
 
 namespace codesign {
+namespace {
+
+/// What the parameters can be in any design and scenario, order of Study::parameters.
+std::vector<ValueRange> ranges_of(const Study& study) {
+  std::set<std::string> changed;
+  for (const RunDescription& run : study.ensemble.runs)
+    for (const auto& [name, value] : run.set) changed.insert(name);
+  for (const UncertainQuantity& quantity : study.ensemble.uncertain) changed.insert(quantity.name);
+  for (const std::string& name : tuned_names(study)) changed.insert(name);
+  std::vector<ValueRange> ranges;
+  for (const Parameter& parameter : study.parameters)
+    ranges.push_back(changed.count(parameter.name) > 0 ? ValueRange{parameter.lower, parameter.upper}
+                                                       : ValueRange{parameter.value, parameter.value});
+  return ranges;
+}
+
+}  // namespace
 
 bool all_met(const Eigen::VectorXd& margins) {
   for (double margin : margins)
@@ -32,23 +50,19 @@ void require_numbers_at_start(const Study& study, const std::vector<double>& par
 }
 
 void require_satisfiable(const Study& study) {
-  std::vector<ValueRange> ranges;
-  std::set<std::string> changed;
-  for (const RunDescription& run : study.ensemble.runs)
-    for (const auto& [name, value] : run.set) changed.insert(name);
-  for (const UncertainQuantity& quantity : study.ensemble.uncertain) changed.insert(quantity.name);
-  for (const Parameter& parameter : study.parameters)
-    ranges.push_back(changed.count(parameter.name) > 0 ? ValueRange{parameter.lower, parameter.upper}
-                                                       : ValueRange{parameter.value, parameter.value});
-  for (int index : study.tuned) {
-    const Parameter& parameter = study.parameters[static_cast<std::size_t>(index)];
-    ranges[static_cast<std::size_t>(index)] = {parameter.lower, parameter.upper};
-  }
+  const std::vector<ValueRange> ranges = ranges_of(study);
+  const std::vector<double> start = start_parameters(study);
+  const ParameterConstraint* before = nullptr;
   for (const ParameterConstraint& constraint : study.constraints) {
     const double most = constraint.margin->range(ranges).upper;
     if (most < kMet)
       throw InputError({constraint.where, constraint.element, "no design within the parameters' bounds meets the constraint",
                         constraint.text, "the margin is at most " + to_decimal(most) + "; widen the bounds, or relax the constraint"});
+    // The sum of the margins e - lower and upper - e.
+    if (before && before->element == constraint.element && before->margin->value(start) + constraint.margin->value(start) < kMet)
+      throw InputError({constraint.where, constraint.element, "the lower bound must be less than the upper one at the parameters' start",
+                        before->text + ", " + constraint.text, "lower < upper"});
+    before = &constraint;
   }
 }
 

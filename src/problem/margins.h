@@ -24,7 +24,8 @@ std::string describe_unmet(const Study& study, const Eigen::VectorXd& margins);
 void require_numbers_at_start(const Study& study, const std::vector<double>& parameters);
 
 /// @throws InputError naming the first constraint that no design can meet, as far as intervals show it: tuned parameters, and those that a
-/// run sets or that are uncertain, within their bounds, the others at their values.
+/// run sets or that are uncertain, within their bounds, the others at their values. Also if the two bounds of one expression, which are two
+/// constraints with the same place, have changed their order since they were read.
 void require_satisfiable(const Study& study);
 
 }  // namespace codesign

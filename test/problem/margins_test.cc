@@ -32,5 +32,16 @@ TEST(Margins, AConstraintThatNoDesignMeetsIsRefused) {
   EXPECT_NO_THROW(block("constraints: [\"sqrt(Kp) >= 15\"]\n")) << "not known cheaply";
 }
 
+TEST(Margins, BoundsThatSettingsPutOutOfOrderAreRefused) {
+  const Problem problem = block("constraints: [{expression: \"${Kp}\", between: [\"${10*mass}\", 30]}]\n");
+  EXPECT_NO_THROW(with_settings(problem, {{"mass", 2.5}}));
+  try {
+    with_settings(problem, {{"mass", 4.0}});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("the lower bound must be less than the upper one"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace codesign
