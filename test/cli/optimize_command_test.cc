@@ -27,6 +27,27 @@ TEST(OptimizeCommand, WritesItsFolder) {
   EXPECT_NEAR(tuned["parameters"]["crank_length"].get<double>(), object["parameters"]["crank_length"].get<double>(), 1e-15);
 }
 
+TEST(OptimizeCommand, ListsConstraintsWithTheirMargins) {
+  const ScratchFolder folder;
+  const std::string study = folder.edited("bounded.yaml", read_text_file(short_study(folder)), "objective:",
+                                          "constraints: [{peak: crank_joint/velocity, at_most: 20.0}, {expression: "
+                                          "\"${rod_length + crank_length}\", between: [0.1, 0.9]}]\nobjective:");
+  const std::string path = folder.edited("slsqp.yaml", read_text_file(study), "algorithm: lbfgs", "algorithm: slsqp");
+  const Outcome outcome = run_words({"optimize", kModel, path, "--json"});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  Json object = json_of(outcome);
+  ASSERT_EQ(object["constraints"].size(), 2U);
+  const double sum = object["parameters"]["rod_length"].get<double>() + object["parameters"]["crank_length"].get<double>();
+  EXPECT_EQ(object["constraints"][0]["element"], "constraints[1]");
+  EXPECT_EQ(object["constraints"][0]["constraint"], "rod_length + crank_length >= 0.1");
+  EXPECT_NEAR(object["constraints"][0]["margin"].get<double>(), sum - 0.1, 1e-14);
+  EXPECT_NEAR(object["constraints"][1]["margin"].get<double>(), 0.9 - sum, 1e-14);
+  EXPECT_EQ(object["constraints"][1]["violation"], 0.0);
+  ASSERT_EQ(object["signals"].size(), 1U);
+  EXPECT_EQ(object["signals"][0]["element"], "constraints[0]");
+  EXPECT_EQ(object["signals"][0]["signal"], "crank_joint/velocity");
+}
+
 TEST(OptimizeCommand, PrintsStartAndTunedDesign) {
   const ScratchFolder folder;
   const Outcome outcome = run_words({"optimize", kModel, short_study(folder)});

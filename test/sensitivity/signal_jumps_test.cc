@@ -31,7 +31,7 @@ std::shared_ptr<const CompiledSystem> saw(const std::string& integrator) {
       times + "], positions: [" + positions +
       "]}}}\nparameters: {Kp: {initial: 1.0e-3}, Kd: {initial: 1.0e-6}, h: {initial: 1.0}}\n"
       "objective: {terminal: [{signal: hinge/position}]}\npath: [{signal: hold/output, at_most: 1.0}]\n"
-      "solver: {integrator: " +
+      "solver: {relative_tolerance: 1.0e-8, absolute_tolerance: 1.0e-12, integrator: " +
       integrator + "}\n";
   return make_system(robot, read_study({"test.yaml", study}, robot));
 }

@@ -43,7 +43,7 @@ TEST(StudyConstraints, AreChecked) {
   };
   refuse("{expresion: \"${rod_length}\", at_most: 1}", "constraints[0]", "not a constraint");
   refuse("[rod_length]", "constraints[0]", "not a constraint");
-  refuse("{expression: \"${rod_lenght}\", at_most: 1}", "constraints[0].expression", "did you mean \"rod_length\"");
+  refuse("{expression: \"${rod_lenght}\", at_most: 1}", "constraints[0].expression", "did you mean 'rod_length'");
   refuse("{expression: 3, at_most: 1}", "constraints[0].expression", "no parameter appears");
   refuse("{expression: \"${rod_length}\"}", "constraints[0]", "needs bounds");
   refuse("{expression: \"${rod_length}\", after: 1, at_most: 1}", "constraints[0].after", "unknown key");
