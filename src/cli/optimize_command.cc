@@ -40,7 +40,7 @@ bool has_objective(const Problem& problem, const OptimizationResult& result) {
 bool has_design(const Problem& problem, const OptimizationResult& result) {
   const auto size = static_cast<Eigen::Index>(problem.study().tuned.size());
   const bool is_complete = result.rho.size() == size && result.initial_rho.size() == size;
-  return is_complete && (is_evaluated(problem, result) || result.status.code == StatusCode::kCancelled);
+  return is_complete && (is_evaluated(problem, result) || result.status.is_interrupted());
 }
 
 void print_design(const Problem& problem, const OptimizationResult& result, std::ostream& out) {

@@ -9,6 +9,7 @@
 #include "optimization/algorithm.h"
 #include "optimization/lagrangian.h"
 #include "optimization/scaling.h"
+#include "optimization/scenario_results.h"
 #include "optimization/search_warnings.h"
 #include "optimization/smooth_program.h"
 #include "problem/margins.h"
@@ -152,8 +153,8 @@ class Minimization {
     if (have_best_) append(search_warnings(study_, options_, result_), &result_.warnings);
     result_.status = {StatusCode::kSuccess, study_.duration, ""};
     if (cancelled_) {
-      result_.termination = "cancelled";
-      result_.status = {StatusCode::kCancelled, 0.0, "cancelled; the best point so far is kept"};
+      result_.termination = name_of(interruption_.code);
+      result_.status = with_best_kept(interruption_);
     } else if (!have_best_) {
       result_.status = first_failure_;
       result_.termination = "start_failed";
@@ -268,7 +269,10 @@ class Minimization {
 
   void evaluate(const Eigen::VectorXd& rho) {
     last_ = ensemble_.evaluate(rho, true, cancel_);
-    if (last_.total.status.code == StatusCode::kCancelled) stop();
+    if (last_.total.status.is_interrupted()) {
+      interruption_ = last_.total.status;
+      stop();
+    }
     last_rho_ = rho;
     if (last_.total.status.ok()) program_.take(last_, rho);
     const Trial trial = note(last_, rho);
@@ -383,6 +387,7 @@ class Minimization {
   std::vector<Constraint> constraints_;
   OptimizationResult result_;
   Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"};
+  Status interruption_{StatusCode::kCancelled, 0.0, "cancelled"};
   std::string failure_;
   double worst_ = 0.0, unit_ = 1.0;  ///< worst objective so far; NLopt gets objectives divided by `unit_`
   bool have_best_ = false, cancelled_ = false, moves_inside_ = false;

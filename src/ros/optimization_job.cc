@@ -110,7 +110,7 @@ class Job {
   /// Records the runs and writes the bag. A cancelled job is recorded as well; before the first evaluation its tuned design is the start.
   void record(const std::atomic<bool>& cancel) {
     const bool is_evaluated = result_.gradient.size() > 0;
-    if (!is_evaluated && result_.status.code != StatusCode::kCancelled) return;
+    if (!is_evaluated && !result_.status.is_interrupted()) return;
     if (!is_evaluated) outcome_->result.initial_objective = outcome_->result.objective = std::numeric_limits<double>::quiet_NaN();
     Patience patience(cancel);
     Scenario nominal;
