@@ -109,6 +109,7 @@ void tell(const std::vector<std::string>& sentences, const Console& console) {
 
 int optimize(const Arguments& arguments, const Console& console) {
   const Problem problem = load_tunable(arguments, &console);
+  require_engine(problem.study().ensemble.engine, console.ranks);
   std::optional<JobFolder> folder;
   if (!arguments.output.empty()) {
     folder.emplace(arguments.output, problem, arguments.resume);
@@ -125,13 +126,15 @@ int optimize(const Arguments& arguments, const Console& console) {
     const std::lock_guard<std::mutex> lock(printing);
     console.err << progress_line(so_far) << std::endl;
   };
-  const SearchHooks hooks{observer, progress, folder ? folder->journal() : nullptr};
+  const SearchHooks hooks{observer, progress, folder ? folder->journal() : nullptr, console.ranks};
   const OptimizationResult result = run_search(problem, problem.optimizer_options(), hooks, &console.cancel);
   const bool designed = has_design(problem, result);
   if (!arguments.json && designed) print_result(problem, result, console.out);
   Json object = result_json(problem, result);
   add_warnings(arguments, problem, result.warnings, &object, console);
   if (!result.status.ok()) object["error"] = to_json(result.status);
+  if (result.status.code == StatusCode::kWorkerLost && folder)
+    tell({"all that was evaluated is in the journal; go on with --resume " + arguments.output + " in place of --output"}, console);
   std::vector<Failure> failures;
   // The files are written before the output, so that the output reports missing ones.
   if (folder && designed) failures = folder->finish(object, result, console.cancel);

@@ -24,13 +24,14 @@ Dispatcher::Dispatcher(Transport* transport, const RankTimes& times) : transport
   if (ranks() > 1) thread_ = std::thread([this] { work(); });
 }
 
-Dispatcher::~Dispatcher() {
+bool Dispatcher::finish() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ends_ = true;
   }
   has_work_.notify_all();
   if (thread_.joinable()) thread_.join();
+  return std::all_of(ranks_.begin() + 1, ranks_.end(), [](const RankState& state) { return state.has_left; });
 }
 
 Status Dispatcher::lost() const {
@@ -143,7 +144,23 @@ void Dispatcher::work() {
     const auto most = batches_.empty() ? std::chrono::milliseconds(20) : std::chrono::milliseconds(1);
     if (is_quiet && outgoing.empty() && !ends_) has_work_.wait_for(lock, pause.next(now, most));
   }
+  lock.unlock();
+  say_goodbye();
+}
+
+void Dispatcher::say_goodbye() {
+  if (!lost_.ok()) return;
   for (int rank = 1; rank < ranks(); ++rank) transport_->send(rank, write_numbered(MessageKind::kEnd));
+  const Clock::time_point end = Clock::now() + times_.goodbye;
+  for (int left = ranks() - 1; left > 0 && Clock::now() < end;) {
+    const std::optional<Envelope> envelope = transport_->receive();
+    if (!envelope) {
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+    } else if (ByteReader(envelope->bytes).get<MessageKind>() == MessageKind::kGoodbye) {
+      ranks_[static_cast<std::size_t>(envelope->from)].has_left = true;
+      --left;
+    }
+  }
 }
 
 void Dispatcher::handle(Envelope envelope, Clock::time_point now) {

@@ -30,13 +30,14 @@ class Dispatcher {
  public:
   /// @param transport must outlive it; null for a program that runs alone.
   explicit Dispatcher(Transport* transport, const RankTimes& times = {});
-  /// Tells the others that the job is over.
-  ~Dispatcher();
+  ~Dispatcher() { finish(); }
   Dispatcher(const Dispatcher&) = delete;
   Dispatcher& operator=(const Dispatcher&) = delete;
 
   /// Number of processes, with rank 0.
   int ranks() const { return static_cast<int>(ranks_.size()); }
+  /// Tells the others that the job is over. @returns whether all of them have heard it.
+  bool finish();
   /// Why no task can be done any more; ok as long as all ranks are there.
   Status lost() const;
 
@@ -57,6 +58,7 @@ class Dispatcher {
   using Outgoing = std::vector<std::pair<int, std::string>>;
 
   void work();
+  void say_goodbye();
   void handle(Envelope envelope, Clock::time_point now);
   void welcome(int rank, ByteReader* reader);
   void take_answer(int rank, std::uint64_t number, std::string bytes);

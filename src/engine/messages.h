@@ -21,10 +21,11 @@ constexpr std::uint32_t kMessageFormat = 1;
 
 enum class MessageKind : std::uint8_t {
   // To rank 0.
-  kHello,   ///< Hello: the first message of a rank
-  kResult,  ///< number of the task, evaluation
-  kError,   ///< number of the task, exception
-  kPong,    ///< number of the ping
+  kHello,    ///< Hello: the first message of a rank
+  kResult,   ///< number of the task, evaluation
+  kError,    ///< number of the task, exception
+  kPong,     ///< number of the ping
+  kGoodbye,  ///< the answer to kEnd, the last message of a rank
   // To the others.
   kProblem,  ///< number of the problem, PortableProblem
   kTask,     ///< TaskMessage

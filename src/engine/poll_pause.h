@@ -31,6 +31,7 @@ struct RankTimes {
   Duration silence = std::chrono::seconds(15);     ///< of a worker, after which it counts as lost
   Duration sign = std::chrono::seconds(3);         ///< how often who has nothing else to say says that it is there
   Duration orphaned = std::chrono::seconds(30);    ///< silence of rank 0, after which a worker ends
+  Duration goodbye = std::chrono::seconds(2);      ///< for the answers of all workers to the end of the job
   /// For the answers of all workers to a cancel: mpirun ends a job within a second after one of its ranks was killed.
   Duration answer = std::chrono::milliseconds(300);
 };

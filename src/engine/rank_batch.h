@@ -49,6 +49,7 @@ struct SentTask {
 /// What rank 0 knows of another rank.
 struct RankState {
   bool is_ready = false;  ///< has said hello
+  bool has_left = false;  ///< has said goodbye
   std::string host;
   PollPause::Clock::time_point heard, told;  ///< the last message from it and to it
   std::uint64_t pong = 0;                    ///< the last ping that it has answered

@@ -78,6 +78,7 @@ bool RankWorker::take(Envelope envelope) {
   const auto number = reader.get<std::uint64_t>();
   switch (kind) {
     case MessageKind::kEnd:
+      transport_->send(0, write_numbered(MessageKind::kGoodbye));
       return false;
     case MessageKind::kPing:
       transport_->send(0, write_numbered(MessageKind::kPong, number));

@@ -21,9 +21,12 @@
 
 namespace codesign {
 
+class Dispatcher;
+
 struct JobOptions {
   std::string output_directory;  ///< folder for the bags
   double rate = 50.0;            ///< samples per second in the bag
+  Dispatcher* ranks = nullptr;   ///< the processes that evaluate, as in require_engine()
 };
 
 struct OptimizationOutcome {
@@ -41,8 +44,9 @@ OptimizationOutcome run_optimization(const Problem& problem, const std::string& 
                                      const JobOptions& options, const ProgressObserver& observer, const std::atomic<bool>& cancel);
 
 /// Computes objective, gradient and gradient check at one design. @param cancel once set, it ends soon with `cancelled`.
+/// @param ranks as JobOptions::ranks.
 mechanism_codesign::EvaluateResponse run_evaluation(const Problem& problem, const mechanism_codesign::EvaluateRequest& request,
-                                                    const std::atomic<bool>& cancel);
+                                                    const std::atomic<bool>& cancel, Dispatcher* ranks = nullptr);
 
 /// Sets success, code, message and version of a reply from a status.
 template <class Reply>

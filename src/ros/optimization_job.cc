@@ -12,6 +12,7 @@
 #include "jobs/output_error.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/optimization.h"
+#include "optimization/search_hooks.h"
 #include "reading/urdf/urdf_reader.h"
 #include "ros/ensemble_messages.h"
 #include "ros/job.h"
@@ -100,7 +101,7 @@ class Job {
       if (observer) observer(log.last());
       return true;
     };
-    result_ = codesign::optimize(problem_, optimizer_options_, observe, &cancel);
+    result_ = run_search(problem_, optimizer_options_, {observe, nullptr, nullptr, options_.ranks}, &cancel);
     record_->progress = log.take();
     outcome_->result = to_message(result_, problem_);
     outcome_->result.warnings = warning_messages(problem_.warnings(), warnings());

@@ -28,7 +28,8 @@ namespace codesign {
 /// any time. With bad input the node stays up and answers every request with `bad_input`.
 class OptimizationNode {
  public:
-  OptimizationNode();
+  /// @param ranks the processes that evaluate for this one, as in require_engine().
+  explicit OptimizationNode(Dispatcher* ranks);
   ~OptimizationNode();
 
  private:
