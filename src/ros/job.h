@@ -35,13 +35,13 @@ struct OptimizationOutcome {
 };
 
 /// Called for each trial point, in the thread of the computation.
-using ProgressObserver = std::function<void(const mechanism_codesign::OptimizationProgress&)>;
+using FeedbackObserver = std::function<void(const mechanism_codesign::OptimizationProgress&)>;
 
 /// Optimizes, records runs of the initial and of the tuned design, and writes the bag. Bad input, numerical failures and a full disk are
 /// returned as code and message of the result.
 /// @param study text of the study, for the bag. @param cancel once set, the optimization ends with its best point so far.
 OptimizationOutcome run_optimization(const Problem& problem, const std::string& study, const mechanism_codesign::OptimizeGoal& request,
-                                     const JobOptions& options, const ProgressObserver& observer, const std::atomic<bool>& cancel);
+                                     const JobOptions& options, const FeedbackObserver& observer, const std::atomic<bool>& cancel);
 
 /// Computes objective, gradient and gradient check at one design. @param cancel once set, it ends soon with `cancelled`.
 /// @param ranks as JobOptions::ranks.

@@ -92,7 +92,7 @@ class Job {
         record_(record),
         outcome_(outcome) {}
 
-  void optimize(const ProgressObserver& observer, const std::atomic<bool>& cancel) {
+  void optimize(const FeedbackObserver& observer, const std::atomic<bool>& cancel) {
     const std::vector<std::string> parameters = problem_.tuned_names();
     ProgressLog log;
     const auto observe = [&](const Trial& trial) {
@@ -161,7 +161,7 @@ class Job {
 }  // namespace
 
 OptimizationOutcome run_optimization(const Problem& problem, const std::string& study, const mechanism_codesign::OptimizeGoal& request,
-                                     const JobOptions& options, const ProgressObserver& observer, const std::atomic<bool>& cancel) {
+                                     const JobOptions& options, const FeedbackObserver& observer, const std::atomic<bool>& cancel) {
   JobRecord record;
   record.request = request;
   record.request.version = version();

@@ -108,7 +108,7 @@ bool OptimizationNode::start(const mechanism_codesign::OptimizeGoal& request, co
   return false;
 }
 
-OptimizationNode::Result OptimizationNode::run(const mechanism_codesign::OptimizeGoal& request, const ProgressObserver& observer,
+OptimizationNode::Result OptimizationNode::run(const mechanism_codesign::OptimizeGoal& request, const FeedbackObserver& observer,
                                                const std::atomic<bool>& cancel) {
   state_.set(NodeState::Level::kOk, "optimizing");
   const auto publish = [&](const mechanism_codesign::OptimizationProgress& progress) {
