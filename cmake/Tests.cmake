@@ -114,6 +114,12 @@ add_test(NAME layering_self_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_D
 add_test(NAME update_tables COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/benchmark/update_tables_test.py)
 add_test(NAME corpus_table COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/corpus_table_test.py $<TARGET_FILE:codesign>)
 
+if(MPI_C_FOUND)
+  add_test(NAME two_hosts COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/mpi/two_hosts_test.py $<TARGET_FILE:codesign> ${MPIEXEC_EXECUTABLE})
+  # The network of the hosts is theirs, the processors are not.
+  set_tests_properties(two_hosts PROPERTIES TIMEOUT 600)
+endif()
+
 # What doc/api.md prints builds outside the project. The configuration is where catkin, or WithoutRos.cmake, writes it.
 if(TARGET codesign_ros)
   set(codesign_api_place ${CATKIN_DEVEL_PREFIX}/share/${PROJECT_NAME}/cmake $<TARGET_FILE:codesign> --catkin)
