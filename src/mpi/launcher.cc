@@ -21,7 +21,7 @@ const char* of_process(const char* name) { return std::getenv(name); }
 
 std::optional<Launched> find_launcher(const char* (*value)(const char* name)) {
   for (const Names& names : kLaunchers)
-    if (const char* const rank = value(names.rank)) return Launched{number(rank, 0), number(value(names.ranks), 1)};
+    if (const char* const rank = value(names.rank)) return Launched{number(rank, 0), number(value(names.ranks), 0)};
   return std::nullopt;
 }
 

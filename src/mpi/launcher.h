@@ -11,7 +11,7 @@ namespace codesign {
 /// without MPI.
 struct Launched {
   int rank = 0;
-  int ranks = 1;  ///< 1 also where the launcher does not say
+  int ranks = 0;  ///< 0 where the launcher does not say
 };
 
 /// Nothing if no launcher has started this process. @param value of an environment variable by name; null: not set.

@@ -36,7 +36,8 @@ int serve(const std::string& name, MpiTransport* transport) {
 }  // namespace
 
 int run_on_ranks(const std::string& name, const std::function<int(Dispatcher*)>& first) {
-  if (!find_launcher()) {
+  const std::optional<Launched> launched = find_launcher();
+  if (!launched || launched->ranks == 1) {
     Dispatcher alone(nullptr);
     return first(&alone);
   }
