@@ -8,6 +8,7 @@
 #include "cli/progress_line.h"
 #include "cli/report.h"
 #include "cli/table.h"
+#include "engine/dispatcher.h"
 #include "jobs/ensemble_records.h"
 #include "jobs/watched_records.h"
 #include "optimization/search_hooks.h"
@@ -105,11 +106,20 @@ void tell(const std::vector<std::string>& sentences, const Console& console) {
   for (const std::string& sentence : sentences) console.err << "codesign optimize: " << sentence << std::endl;
 }
 
+/// A sentence if processes were started that can have nothing to do.
+std::vector<std::string> idle_ranks(const Problem& problem, const Dispatcher* ranks) {
+  const EnsembleDescription& ensemble = problem.study().ensemble;
+  if (ranks == nullptr || ranks->ranks() == 1 || ensemble.is_ensemble() || ensemble.multistart.starts > 0) return {};
+  return {"a study with one run and one start has one evaluation at a time: of the " + std::to_string(ranks->ranks()) +
+          " processes that mpirun has started, one computes"};
+}
+
 }  // namespace
 
 int optimize(const Arguments& arguments, const Console& console) {
   const Problem problem = load_tunable(arguments, &console);
   require_engine(problem.study().ensemble.engine, console.ranks);
+  tell(idle_ranks(problem, console.ranks), console);
   std::optional<JobFolder> folder;
   if (!arguments.output.empty()) {
     folder.emplace(arguments.output, problem, arguments.resume);

@@ -160,6 +160,11 @@ TEST_F(RunOnRanks, AnEngineOfOneProcessIsRefusedOnce) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path("job")));
 }
 
+TEST_F(RunOnRanks, AStudyWithOneEvaluationAtATimeSaysSo) {
+  EXPECT_EQ(run_job(on_ranks(2, job(short_study(folder_), "--output", "job"))), kDone) << err();
+  EXPECT_NE(err().find("of the 2 processes that mpirun has started, one computes"), std::string::npos) << err();
+}
+
 TEST(RunOnRanksAlone, AProgramWithoutMpirunIsOneProcess) {
   EXPECT_EQ(run_on_ranks("test", [](Dispatcher*) { return 7; }), 7);
 }
