@@ -23,10 +23,12 @@ namespace {
 std::vector<double> run_ranks(int ranks, const std::string& what) {
   std::array<char, 4096> self{};
   if (readlink("/proc/self/exe", self.data(), self.size() - 1) < 0) throw std::runtime_error("/proc/self/exe cannot be read");
-  // In a container everybody is root.
-  for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"}) setenv(name, "1", 1);
+  // In a container everybody is root, and there may be fewer processors than ranks. The last one is Open MPI 5's word for that.
+  for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "OMPI_MCA_rmaps_base_oversubscribe"})
+    setenv(name, "1", 1);
+  setenv("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe", 1);
   const std::string command =
-      std::string(CODESIGN_MPIRUN) + " --oversubscribe -n " + std::to_string(ranks) + " '" + self.data() + "' " + kRankProgram + " " + what;
+      std::string(CODESIGN_MPIRUN) + " -n " + std::to_string(ranks) + " '" + self.data() + "' " + kRankProgram + " " + what;
   FILE* const pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("cannot be started: " + command);
   std::array<char, 4096> line{};
