@@ -21,7 +21,6 @@ RankTimes short_times() {
   RankTimes times;
   times.first_sign = times.silence = std::chrono::milliseconds(300);
   times.sign = std::chrono::milliseconds(50);
-  times.goodbye = std::chrono::milliseconds(50);
   return times;
 }
 

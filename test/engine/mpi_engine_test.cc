@@ -32,7 +32,7 @@ Problem endless_block() {
   SourceText study = block("").study_text();
   study.text.replace(study.text.find("duration: 0.8"), 13, "duration: 1.0e+9");
   study.text.replace(study.text.find("setpoint: 0.5"), 13, "setpoint: {type: sine, amplitude: 0.5, frequency: 20.0}");
-  study.text += "solver: {maximum_steps: 2000000000}\n";
+  study.text += "solver: {maximum_steps: 1000000000}\n";
   return load_problem(block("").urdf(), {}, study);
 }
 

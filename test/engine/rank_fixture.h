@@ -91,7 +91,7 @@ class PlayedJob {
   using Part = std::function<std::optional<std::string>(MessageKind, std::uint64_t)>;
 
   PlayedJob(const Hello& hello, Part part, const RankTimes& times = {})
-      : mail_(2), first_(&mail_, 0), dispatcher_(&first_, times), part_(std::move(part)) {
+      : mail_(2), first_(&mail_, 0), dispatcher_(&first_, without_goodbye(times)), part_(std::move(part)) {
     mail_.send(1, 0, write_hello(hello));
     thread_ = std::thread([this] { play(); });
   }
@@ -104,6 +104,10 @@ class PlayedJob {
   Dispatcher* ranks() { return &dispatcher_; }
 
  private:
+  static RankTimes without_goodbye(RankTimes times) {
+    times.goodbye = std::chrono::milliseconds(20);
+    return times;
+  }
   void play() {
     while (!over_) {
       const std::optional<Envelope> envelope = mail_.receive(1);
