@@ -173,10 +173,12 @@ void Dispatcher::handle(Envelope envelope, Clock::time_point now) {
     return;
   }
   const auto number = reader.get<std::uint64_t>();
-  if (kind == MessageKind::kPong)
+  if (kind == MessageKind::kPong) {
     rank.pong = std::max(rank.pong, number);
-  else if (kind == MessageKind::kResult || kind == MessageKind::kError)
+    has_pong_.notify_all();
+  } else if (kind == MessageKind::kResult || kind == MessageKind::kError) {
     take_answer(envelope.from, number, std::move(envelope.bytes));
+  }
 }
 
 void Dispatcher::welcome(int rank, ByteReader* reader) {
@@ -237,40 +239,55 @@ void Dispatcher::forget_removed(Outgoing* outgoing) {
 }
 
 void Dispatcher::watch_cancels(Clock::time_point now, Outgoing* outgoing) {
+  for (const std::uint64_t ping : std::exchange(roll_calls_, {})) ping_all(ping, outgoing);
   for (RankBatch* batch : batches_) {
     if (!batch->ended.ok()) continue;
     if (!batch->ping) {
-      if (is_set(batch->cancel)) ask_all(batch, now, outgoing);
+      if (is_set(batch->cancel)) end_tasks(batch, now, outgoing);
       continue;
     }
-    const std::string silent = silent_since(*batch->ping);
-    if (silent.empty())
+    const Status missed = missed_since(*batch->ping);
+    if (missed.ok())
       end(batch, {StatusCode::kCancelled, 0.0, "cancelled"});
     else if (now - batch->pinged > times_.answer)
-      end(batch, {StatusCode::kWorkerLost, 0.0, silent + " does not answer: it was killed, or its machine cannot be reached"});
+      end(batch, missed);
   }
 }
 
 /// Ends what the workers do for a batch, and asks all of them whether they are there.
-void Dispatcher::ask_all(RankBatch* batch, Clock::time_point now, Outgoing* outgoing) {
+void Dispatcher::end_tasks(RankBatch* batch, Clock::time_point now, Outgoing* outgoing) {
   drop_waiting(batch);
+  for (int rank = 1; rank < ranks(); ++rank)
+    for (const SentTask& task : ranks_[static_cast<std::size_t>(rank)].sent)
+      if (task.batch == batch) outgoing->emplace_back(rank, write_numbered(MessageKind::kCancel, task.number));
   batch->ping = next_ping_++;
   batch->pinged = now;
-  for (int rank = 1; rank < ranks(); ++rank) {
-    const RankState& state = ranks_[static_cast<std::size_t>(rank)];
-    for (const SentTask& task : state.sent)
-      if (task.batch == batch) outgoing->emplace_back(rank, write_numbered(MessageKind::kCancel, task.number));
-    if (state.is_ready) outgoing->emplace_back(rank, write_numbered(MessageKind::kPing, *batch->ping));
-  }
+  ping_all(*batch->ping, outgoing);
 }
 
-/// The first rank that has not answered a ping, in words; empty if all have.
-std::string Dispatcher::silent_since(std::uint64_t ping) const {
+void Dispatcher::ping_all(std::uint64_t ping, Outgoing* outgoing) const {
+  for (int rank = 1; rank < ranks(); ++rank)
+    if (ranks_[static_cast<std::size_t>(rank)].is_ready) outgoing->emplace_back(rank, write_numbered(MessageKind::kPing, ping));
+}
+
+/// The first rank that has not answered a ping, as a status; ok if all have.
+Status Dispatcher::missed_since(std::uint64_t ping) const {
   for (int rank = 1; rank < ranks(); ++rank) {
     const RankState& state = ranks_[static_cast<std::size_t>(rank)];
-    if (state.is_ready && state.pong < ping) return name_of_rank(rank);
+    if (state.is_ready && state.pong < ping)
+      return {StatusCode::kWorkerLost, 0.0, name_of_rank(rank) + " does not answer: it was killed, or its machine cannot be reached"};
   }
-  return "";
+  return {};
+}
+
+Status Dispatcher::call_roll() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (!lost_.ok() || ranks() == 1) return lost_;
+  const std::uint64_t ping = next_ping_++;
+  roll_calls_.push_back(ping);
+  has_work_.notify_all();
+  has_pong_.wait_for(lock, times_.answer, [this, ping] { return missed_since(ping).ok(); });
+  return missed_since(ping);
 }
 
 void Dispatcher::watch_ranks(Clock::time_point now, Outgoing* outgoing) {

@@ -41,6 +41,9 @@ class Dispatcher {
   /// Why no task can be done any more; ok as long as all ranks are there.
   Status lost() const;
 
+  /// Asks all ranks whether they are there. @returns kWorkerLost with the first one that does not answer in time, else ok.
+  Status call_roll();
+
   /// Makes a problem known; its texts are sent to each rank with the first task. @returns its number.
   std::uint32_t add(PortableProblem problem);
   void remove(std::uint32_t problem);
@@ -66,8 +69,9 @@ class Dispatcher {
   void send_next(int rank, Outgoing* outgoing);
   std::pair<RankBatch*, std::size_t> take_next(std::deque<RankBatch*>::iterator batch);
   void watch_cancels(Clock::time_point now, Outgoing* outgoing);
-  void ask_all(RankBatch* batch, Clock::time_point now, Outgoing* outgoing);
-  std::string silent_since(std::uint64_t ping) const;
+  void end_tasks(RankBatch* batch, Clock::time_point now, Outgoing* outgoing);
+  void ping_all(std::uint64_t ping, Outgoing* outgoing) const;
+  Status missed_since(std::uint64_t ping) const;
   void drop_waiting(RankBatch* batch);
   void sort_in(int rank);
   void watch_ranks(Clock::time_point now, Outgoing* outgoing);
@@ -79,7 +83,7 @@ class Dispatcher {
   Transport* const transport_;
   const RankTimes times_;
   mutable std::mutex mutex_;  // guards all that follows but the thread
-  std::condition_variable has_work_, has_local_work_;
+  std::condition_variable has_work_, has_local_work_, has_pong_;
   std::vector<RankState> ranks_;                   // the first one is rank 0 itself
   std::set<int> free_, half_free_;                 // ranks with no and with one task
   std::map<std::uint32_t, std::string> problems_;  // the messages that carry them
@@ -89,6 +93,7 @@ class Dispatcher {
   std::size_t waiting_tasks_ = 0;
   std::vector<RankBatch*> batches_;  // all that are not over
   std::vector<std::uint32_t> forgotten_;
+  std::vector<std::uint64_t> roll_calls_;  // pings that are to be sent
   Status lost_;
   bool ends_ = false;
   Clock::time_point looked_ = Clock::now(), watched_ = looked_;

@@ -97,6 +97,19 @@ TEST(Dispatcher, AfterACancelARankThatDoesNotAnswerCountsAsLost) {
   }
 }
 
+TEST(Dispatcher, CallsTheRoll) {
+  EXPECT_TRUE(Dispatcher(nullptr).call_roll().ok());
+  {
+    RankJob job(3);
+    EXPECT_TRUE(job.ranks()->call_roll().ok());
+  }
+  PlayedJob silent(own_hello(), kNobody);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  const Status missed = silent.ranks()->call_roll();
+  EXPECT_EQ(missed.code, StatusCode::kWorkerLost);
+  EXPECT_EQ(missed.cause, "rank 1 of 2 on host elsewhere does not answer: it was killed, or its machine cannot be reached");
+}
+
 TEST(Dispatcher, AnotherVersionOfTheProgramIsRefused) {
   const Problem problem = block("");
   Hello hello = own_hello();
