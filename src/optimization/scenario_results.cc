@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "optimization/scenario_results.h"
 
+#include "optimization/local_search.h"
 #include "sampling/measure.h"
 #include "text/cancel.h"
 

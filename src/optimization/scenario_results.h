@@ -8,11 +8,6 @@
 
 namespace codesign {
 
-/// The status of a search that was interrupted with one of its evaluations.
-inline Status with_best_kept(const Status& interruption) {
-  return {interruption.code, 0.0, interruption.cause + "; the best point so far is kept"};
-}
-
 /// Completes the result of a study with runs or uncertain parameters: names its scenarios, and validates its best point on fresh samples if
 /// `robust.validate` asks for it. Does nothing for other studies, and for a result without a point.
 /// @param ensemble of the search, whose engine does the validation. @param meter is told of the validation.
