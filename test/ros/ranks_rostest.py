@@ -47,9 +47,19 @@ def ranks_of(name):
 
 @unittest.skipUnless(has_mpi(), "this build has no MPI: install libopenmpi-dev and openmpi-bin, and build again")
 class RanksTest(NodesTestCase):
-    def start_node(self, name, ranks, **parameters):
+    def start_node(self, name, ranks, engine=""):
         prefix = ("mpirun", "-n", str(ranks)) if ranks > 1 else ()
-        return self.start("optimization", name, model=CASE, prefix=prefix, output_directory=self.folder, **parameters)
+        return self.start("optimization", name, model=CASE, prefix=prefix, study=self.study(engine), output_directory=self.folder)
+
+    def study(self, engine):
+        """The case with few samples, which do not take long."""
+        with open(f"{SHARE}/config/{CASE}.yaml", encoding="utf-8") as file:
+            text = file.read()
+        assert "samples: 32, validate: 1000" in text
+        path = os.path.join(self.folder, "study.yaml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text.replace("samples: 32, validate: 1000", "samples: 3") + engine)
+        return path
 
     def test_replies_are_those_of_a_node_alone(self):
         alone, spread = self.start_node("alone", 1), self.start_node("spread", 3)
@@ -96,12 +106,7 @@ class RanksTest(NodesTestCase):
         self.assertEqual(ranks_of("optimization"), {})
 
     def test_another_engine_is_refused(self):
-        study = os.path.join(self.folder, "study.yaml")
-        with open(f"{SHARE}/config/{CASE}.yaml", encoding="utf-8") as file:
-            text = file.read()
-        with open(study, "w", encoding="utf-8") as file:
-            file.write(text + "\nengine: {type: threads}\n")
-        node = self.start_node("threaded", 2, study=study)
+        node = self.start_node("threaded", 2, "\nengine: {type: threads}\n")
         reply = node.optimize(FEW)
         self.assertEqual(reply.code, "bad_input")
         self.assertIn("mpirun has started 2 processes", reply.message)
