@@ -6,6 +6,7 @@
 #include <set>
 #include <thread>
 
+#include "benchmark/rank_program.h"
 #include "benchmark/report.h"
 
 namespace codesign {
@@ -23,13 +24,13 @@ constexpr Part kParts[] = {{"kernels", measure_kernels},
                            {"scaling", measure_scaling},
                            {"setup", measure_setup},
                            {"ensembles", measure_ensembles},
+                           {"ranks", measure_ranks},
                            {"simbody", measure_simbody}};
 
 constexpr const char* kUsage =
     "usage: benchmarks [--markdown] [PART...]\n"
     "Run it where urdf/ and config/ are. PART: kernels, steps, work_precision, parameters, optimization, scaling, setup, ensembles, "
-    "simbody; all "
-    "by default.\n";
+    "ranks, simbody; all by default.\n";
 
 Table summary(const std::vector<Finding>& findings) {
   Table table{"summary", "What the package sets out to reach, and what was measured", {"figure", "measured", "target", "reached"}, {}};
@@ -82,7 +83,8 @@ int main(int argc, char** argv) {
   bool markdown = false;
   std::set<std::string> chosen, known;
   for (const codesign::Part& part : codesign::kParts) known.insert(part.name);
-  for (int k = 1; k < argc; ++k) {
+  const bool is_rank = argc == 3 && std::strcmp(argv[1], codesign::kRankProgram) == 0;
+  for (int k = 1; k < argc && !is_rank; ++k) {
     if (std::strcmp(argv[k], "--markdown") == 0) {
       markdown = true;
     } else if (known.count(argv[k]) != 0) {
@@ -93,6 +95,7 @@ int main(int argc, char** argv) {
     }
   }
   try {
+    if (is_rank) return codesign::run_rank_program(argv[2]);
     return codesign::run(markdown, chosen);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "benchmarks: %s\n", error.what());

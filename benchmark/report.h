@@ -34,6 +34,7 @@ void measure_optimization(Report* report);
 void measure_scaling(Report* report);
 void measure_setup(Report* report);
 void measure_ensembles(Report* report);
+void measure_ranks(Report* report);
 void measure_simbody(Report* report);
 
 }  // namespace codesign

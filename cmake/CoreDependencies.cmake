@@ -1,6 +1,19 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 # The dependencies of the core, without ROS.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+# MPI spreads evaluations over machines; without it, one process does all. CMake looks for its C library only where the language C is enabled.
+# Before SUNDIALS: that of Debian 13 links MPI.
+include(CheckLanguage)
+check_language(C)
+if(CMAKE_C_COMPILER)
+  enable_language(C)
+  find_package(MPI QUIET COMPONENTS C)
+endif()
+if(MPI_C_FOUND)
+  message(STATUS "MPI: ${MPI_C_LIBRARIES}")
+else()
+  message(STATUS "No MPI: the engine mpi is left out (libopenmpi-dev)")
+endif()
 include(cmake/Sundials.cmake)
 find_package(NLopt REQUIRED)
 find_package(urdfdom_headers REQUIRED)

@@ -7,7 +7,8 @@ find_package(orocos_kdl QUIET)
 
 # Absolute paths reach the tests through one object alone: all others are the same in every checkout, for a compiler cache.
 add_library(codesign_test_paths OBJECT EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/test/paths.cc)
-target_compile_definitions(codesign_test_paths PRIVATE CODESIGN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" CODESIGN_EXECUTABLE="$<TARGET_FILE:codesign>")
+target_compile_definitions(codesign_test_paths PRIVATE CODESIGN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" CODESIGN_EXECUTABLE="$<TARGET_FILE:codesign>"
+  CODESIGN_MPIRUN="$<$<BOOL:${MPI_C_FOUND}>:${MPIEXEC_EXECUTABLE}>")
 codesign_warnings(codesign_test_paths)
 
 # Registers an executable as a few tests, each of which runs its share of the cases in one process. For one case:
@@ -40,7 +41,7 @@ codesign_precompile(codesign_test_fixtures <gtest/gtest.h>)
 # Files whose names for small things are also those of a neighbour compile alone.
 set(alone math/lanes_test.cc math/scalar_test.cc math/tanh_ratio_test.cc reading/urdf/vocabulary_check_test.cc)
 set(many_cases reading elements equations integration sensitivity cli ros cases)
-foreach(folder IN LISTS codesign_rooms ITEMS cli ros benchmark cases allocation)
+foreach(folder IN LISTS codesign_rooms ITEMS mpi cli ros benchmark cases allocation)
   file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${folder}/*.cc)
   list(FILTER test_sources EXCLUDE REGEX "_fixture\\.cc$")
   if(NOT test_sources OR (folder STREQUAL ros AND NOT TARGET codesign_ros))
@@ -61,6 +62,9 @@ foreach(folder IN LISTS codesign_rooms ITEMS cli ros benchmark cases allocation)
   endforeach()
   if(folder STREQUAL ros)
     target_link_libraries(${target} PRIVATE codesign_ros)
+  elseif(folder STREQUAL mpi)
+    target_link_libraries(${target} PRIVATE codesign_mpi)
+    add_dependencies(${target} codesign)
   elseif(folder STREQUAL cli AND TARGET codesign)
     target_link_libraries(${target} PRIVATE codesign_cli)
     add_dependencies(${target} codesign)
@@ -90,7 +94,8 @@ endforeach()
 
 # What several threads do at once, compiled for the thread sanitizer with the tests themselves: tools/sanitize thread.
 if(CODESIGN_SANITIZE MATCHES thread)
-  set(thread_tests equations/equation_code integration/simulation description/expression reading/urdf/urdfdom_check ros/worker sensitivity/threads)
+  set(thread_tests equations/equation_code integration/simulation description/expression reading/urdf/urdfdom_check ros/worker sensitivity/threads
+    engine/evaluation_engine engine/mpi_engine engine/dispatcher engine/rank_worker)
   list(TRANSFORM thread_tests REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/test/\\1_test.cc")
   add_executable(test_threads EXCLUDE_FROM_ALL ${thread_tests} ${PROJECT_SOURCE_DIR}/src/ros/worker.cc ${PROJECT_SOURCE_DIR}/benchmark/mechanisms.cc)
   target_include_directories(test_threads PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/test ${PROJECT_SOURCE_DIR}/include)
@@ -109,6 +114,12 @@ add_test(NAME layering_self_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_D
 
 add_test(NAME update_tables COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/benchmark/update_tables_test.py)
 add_test(NAME corpus_table COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/corpus_table_test.py $<TARGET_FILE:codesign>)
+
+if(MPI_C_FOUND)
+  add_test(NAME two_hosts COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/mpi/two_hosts_test.py $<TARGET_FILE:codesign> ${MPIEXEC_EXECUTABLE})
+  # The network of the hosts is theirs, the processors are not.
+  set_tests_properties(two_hosts PROPERTIES TIMEOUT 600)
+endif()
 
 # What doc/api.md prints builds outside the project. The configuration is where catkin, or WithoutRos.cmake, writes it.
 if(TARGET codesign_ros)

@@ -7,4 +7,6 @@ std::string source_dir() { return CODESIGN_SOURCE_DIR; }
 
 std::string codesign_executable() { return CODESIGN_EXECUTABLE; }
 
+std::string mpirun_executable() { return CODESIGN_MPIRUN; }
+
 }  // namespace codesign

@@ -12,6 +12,9 @@ std::string source_dir();
 /// The command line program of this build.
 std::string codesign_executable();
 
+/// mpirun, where this build has MPI; else empty.
+std::string mpirun_executable();
+
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_TEST_PATHS_H_

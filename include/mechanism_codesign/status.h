@@ -24,6 +24,7 @@ enum class StatusCode {
   kEnergyError,             ///< the energy balance is violated by more than the tolerances explain
   kInfeasible,              ///< an optimization ended outside its constraints
   kAlgorithmFailed,         ///< the optimization algorithm gave up
+  kWorkerLost,              ///< a process that evaluates for this one has ended or does not answer
   kNonFiniteGradient,       ///< the objective is finite, its gradient is not
 };
 
@@ -37,6 +38,8 @@ struct Status {
   std::string cause;  ///< one sentence for the user; may be empty on success
 
   bool ok() const { return code == StatusCode::kSuccess; }
+  /// Whether the computation was ended from outside, so that its outcome says nothing about the design.
+  bool is_interrupted() const { return code == StatusCode::kCancelled || code == StatusCode::kWorkerLost; }
 };
 
 }  // namespace codesign

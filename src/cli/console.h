@@ -5,6 +5,10 @@
 #include <atomic>
 #include <ostream>
 
+namespace codesign {
+class Dispatcher;
+}
+
 namespace codesign::cli {
 
 /// The output streams and the cancel flag of a command.
@@ -13,6 +17,7 @@ struct Console {
   std::ostream& err;                ///< progress and messages
   const std::atomic<bool>& cancel;  ///< once set, the command ends soon and keeps its results so far
   void (*loaded)() = nullptr;       ///< called after the input is loaded, before the computation; may be null
+  Dispatcher* ranks = nullptr;      ///< the processes of the job, as in require_engine()
 };
 
 /// The program's exit codes.

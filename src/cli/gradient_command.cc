@@ -12,7 +12,7 @@ namespace {
 const char* name_of(CheckMethod method) { return method == CheckMethod::kComplexStep ? "complex_step" : "ridders"; }
 
 GradientCheck compute(const Arguments& arguments, const Problem& problem, const Console& console) {
-  const Ensemble ensemble(problem);
+  const Ensemble ensemble(problem, 1, {nullptr, nullptr, console.ranks});
   if (arguments.verify) return check_gradient(ensemble, problem.start(), arguments.method, &console.cancel);
   GradientCheck result;
   result.evaluation = ensemble.evaluate(problem.start(), true, &console.cancel).total;

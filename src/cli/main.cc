@@ -3,8 +3,12 @@
 
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "mpi/run_on_ranks.h"
 
 int main(int argc, char** argv) {
   codesign::cli::watch_interrupts();
-  return codesign::cli::run({argv + 1, argv + argc}, {std::cout, std::cerr, codesign::cli::interrupted(), codesign::cli::keep_results});
+  using namespace codesign::cli;
+  return codesign::run_on_ranks("codesign", [&](codesign::Dispatcher* ranks) {
+    return run({argv + 1, argv + argc}, {std::cout, std::cerr, interrupted(), keep_results, ranks});
+  });
 }

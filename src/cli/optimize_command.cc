@@ -8,6 +8,7 @@
 #include "cli/progress_line.h"
 #include "cli/report.h"
 #include "cli/table.h"
+#include "engine/dispatcher.h"
 #include "jobs/ensemble_records.h"
 #include "jobs/watched_records.h"
 #include "optimization/search_hooks.h"
@@ -40,7 +41,7 @@ bool has_objective(const Problem& problem, const OptimizationResult& result) {
 bool has_design(const Problem& problem, const OptimizationResult& result) {
   const auto size = static_cast<Eigen::Index>(problem.study().tuned.size());
   const bool is_complete = result.rho.size() == size && result.initial_rho.size() == size;
-  return is_complete && (is_evaluated(problem, result) || result.status.code == StatusCode::kCancelled);
+  return is_complete && (is_evaluated(problem, result) || result.status.is_interrupted());
 }
 
 void print_design(const Problem& problem, const OptimizationResult& result, std::ostream& out) {
@@ -119,10 +120,20 @@ void tell(const std::vector<std::string>& sentences, const Console& console) {
   for (const std::string& sentence : sentences) console.err << "codesign optimize: " << sentence << std::endl;
 }
 
+/// A sentence if processes were started that can have nothing to do.
+std::vector<std::string> idle_ranks(const Problem& problem, const Dispatcher* ranks) {
+  const EnsembleDescription& ensemble = problem.study().ensemble;
+  if (ranks == nullptr || ranks->ranks() == 1 || ensemble.is_ensemble() || ensemble.multistart.starts > 0) return {};
+  return {"a study with one run and one start has one evaluation at a time: of the " + std::to_string(ranks->ranks()) +
+          " processes that mpirun has started, one computes"};
+}
+
 }  // namespace
 
 int optimize(const Arguments& arguments, const Console& console) {
   const Problem problem = load_tunable(arguments, &console);
+  require_engine(problem.study().ensemble.engine, console.ranks);
+  tell(idle_ranks(problem, console.ranks), console);
   std::optional<JobFolder> folder;
   if (!arguments.output.empty()) {
     folder.emplace(arguments.output, problem, arguments.resume);
@@ -139,13 +150,15 @@ int optimize(const Arguments& arguments, const Console& console) {
     const std::lock_guard<std::mutex> lock(printing);
     console.err << progress_line(so_far) << std::endl;
   };
-  const SearchHooks hooks{observer, progress, folder ? folder->journal() : nullptr};
+  const SearchHooks hooks{observer, progress, folder ? folder->journal() : nullptr, console.ranks};
   const OptimizationResult result = run_search(problem, problem.optimizer_options(), hooks, &console.cancel);
   const bool designed = has_design(problem, result);
   if (!arguments.json && designed) print_result(problem, result, console.out);
   Json object = result_json(problem, result);
   add_warnings(arguments, problem, result.warnings, &object, console);
   if (!result.status.ok()) object["error"] = to_json(result.status);
+  if (result.status.code == StatusCode::kWorkerLost && folder)
+    tell({"all that was evaluated is in the journal; go on with --resume " + arguments.output + " in place of --output"}, console);
   std::vector<Failure> failures;
   // The files are written before the output, so that the output reports missing ones.
   if (folder && designed) failures = folder->finish(object, result, console.cancel);

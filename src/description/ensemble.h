@@ -98,11 +98,16 @@ struct MultistartOptions {
 };
 
 /// How evaluations are spread.
-enum class EngineKind { kSerial, kThreads };
-constexpr std::array<const char*, 2> kEngineNames{"serial", "threads"};
+enum class EngineKind {
+  kSerial,
+  kThreads,
+  kMpi  ///< over the processes that mpirun has started
+};
+constexpr std::array<const char*, 3> kEngineNames{"serial", "threads", "mpi"};
 struct EngineOptions {
   EngineKind kind = EngineKind::kThreads;
-  int workers = 0;  ///< 0: one per processor
+  int workers = 0;         ///< of kThreads; 0: one per processor
+  SourceLocation where{};  ///< of what the study says about it; an empty file if it says nothing: mpirun then decides for kMpi
 };
 
 /// Everything of a study that is about more than one run.

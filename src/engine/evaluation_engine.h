@@ -18,7 +18,8 @@ struct EvaluationTask {
   std::shared_ptr<const CompiledSystem> system;
   std::vector<double> parameters;  ///< all named parameters (order of Study::parameters)
   bool with_gradient = false;
-  /// Told of the result as soon as it is there, in the thread that computed it, while other tasks may still run. Must not throw.
+  /// Told of the result as soon as it is there, in the thread that computed it, or, if another process did, in that of the caller, while
+  /// other tasks may still run. Must not throw.
   std::function<void(const Evaluation&)> finished = nullptr;
 };
 
@@ -33,8 +34,17 @@ class EvaluationEngine {
   virtual int workers() const = 0;
 };
 
-/// The engine that a study asks for by `engine:`. @param most_useful the largest number of evaluations that will wait at the same time;
-/// more workers are not made.
+class Dispatcher;
+
+/// Checks that the engine a study asks for is there. @param ranks the processes of the job; null: this program is not built for several.
+/// @throws InputError for kMpi without `ranks`, and for another engine that a study names in a job of several processes.
+void require_engine(const EngineOptions& options, const Dispatcher* ranks);
+
+/// The engine for a problem: on all ranks if there are several, else the one below. @param ranks as in require_engine(), which it calls.
+std::unique_ptr<EvaluationEngine> make_engine(const Problem& problem, std::int64_t most_useful, Dispatcher* ranks);
+
+/// The engine of one process that a study asks for by `engine:`. @param most_useful the largest number of evaluations that will wait at the
+/// same time; more workers are not made.
 std::unique_ptr<EvaluationEngine> make_engine(const EngineOptions& options, std::int64_t most_useful);
 
 }  // namespace codesign

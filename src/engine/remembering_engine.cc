@@ -32,7 +32,7 @@ std::vector<Evaluation> RememberingEngine::evaluate(const std::vector<Evaluation
 }
 
 void RememberingEngine::note(const EvaluationTask& task, const Evaluation& evaluation) const {
-  if (evaluation.status.code == StatusCode::kCancelled) return;
+  if (evaluation.status.is_interrupted()) return;
   if (records_.memory) records_.memory->keep(task, evaluation);
   if (records_.counted) records_.counted(true);
 }

@@ -10,11 +10,12 @@
 
 namespace codesign {
 
-/// What a job has besides its engine. Both may be null.
+/// What the engine of a job has from it. All may be null.
 struct EngineRecords {
   std::shared_ptr<EvaluationMemory> memory;
   /// Told of each finished evaluation, from any thread: whether it was computed (true) or remembered.
   std::function<void(bool)> counted = nullptr;
+  Dispatcher* ranks = nullptr;  ///< the processes of the job, as in require_engine()
 };
 
 /// An engine with a memory: it does what the memory does not know, and tells the memory each result as soon as it is there. Cancelled

@@ -39,8 +39,9 @@ Ensemble::Ensemble(std::vector<Scenario> scenarios, const RobustOptions& options
 
 Ensemble::Ensemble(const Problem& problem, int designs, EngineRecords records)
     : Ensemble(make_scenarios(problem), problem.study().ensemble.robust_options(), nullptr) {
-  engine_ = with_records(make_engine(problem.study().ensemble.engine, designs * static_cast<std::int64_t>(scenarios_.size())),
-                         std::move(records));
+  const auto most_useful = designs * static_cast<std::int64_t>(scenarios_.size());
+  std::unique_ptr<EvaluationEngine> engine = make_engine(problem, most_useful, records.ranks);
+  engine_ = with_records(std::move(engine), std::move(records));
 }
 
 Ensemble::Ensemble(std::shared_ptr<const CompiledSystem> system)
@@ -89,11 +90,11 @@ bool Ensemble::collect(const std::vector<Evaluation>& members, bool with_gradien
     const Evaluation& member = members[k];
     const auto column = static_cast<Eigen::Index>(k);
     if (!member.status.ok()) {
-      const bool cancelled = member.status.code == StatusCode::kCancelled;
+      const bool interrupted = member.status.is_interrupted();
       // A sample that failed has no extreme values, which constraints need of every sample.
       const bool is_constrained = !scenarios_[k].system->study().watched.empty();
-      if (options_.failed == FailedSamples::kRefuse || cancelled || is_constrained) {
-        result->total.status = cancelled ? member.status : named(member.status, scenarios_[k]);
+      if (options_.failed == FailedSamples::kRefuse || interrupted || is_constrained) {
+        result->total.status = interrupted ? member.status : named(member.status, scenarios_[k]);
         result->values.resize(0);
         return false;
       }

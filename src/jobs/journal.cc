@@ -21,10 +21,9 @@ namespace {
 
 constexpr mode_t kFileMode = 0666;
 
-/// In the order in which the problem has compiled them, which its texts decide.
 std::map<const CompiledSystem*, int> number_systems(const Problem& problem) {
-  std::map<const CompiledSystem*, int> numbers{{problem.system().get(), 0}};
-  for (const auto& system : problem.contents().variants) numbers.emplace(system.get(), static_cast<int>(numbers.size()));
+  std::map<const CompiledSystem*, int> numbers;
+  for (const auto& system : distinct_systems(problem)) numbers.emplace(system.get(), static_cast<int>(numbers.size()));
   return numbers;
 }
 

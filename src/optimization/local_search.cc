@@ -88,7 +88,7 @@ class Minimization {
   /// Whether a search that ended at a violated bound of a signal goes on from the best point: SLSQP may stop by the objective's tolerance
   /// while it is still outside.
   bool should_restart() {
-    const bool ended_outside = program_.has_signals() && have_best_ && best_violation_ > 0.0 && !cancelled_;
+    const bool ended_outside = program_.has_signals() && have_best_ && best_violation_ > 0.0 && interruption_.ok();
     const bool has_progressed = best_violation_ < 0.9 * violation_before_ || restarts_ == 0;
     return ended_outside && has_progressed && restarts_ < kMostRestarts && result_.evaluations < options_.max_evaluations;
   }
@@ -113,7 +113,7 @@ class Minimization {
   }
 
   void run_from(const Eigen::VectorXd& rho, nlopt::opt* optimizer) {
-    if (cancelled_ || result_.evaluations >= options_.max_evaluations) return;
+    if (!interruption_.ok() || result_.evaluations >= options_.max_evaluations) return;
     optimizer->set_maxeval(options_.max_evaluations - result_.evaluations);
     std::vector<double> x = scaling_.to_scaled(rho);
     minimize(optimizer, &x);
@@ -146,9 +146,9 @@ class Minimization {
       if (program_.bounds_read(study_.tuned[k])) result_.influences[k] = true;
     if (have_best_) append(search_warnings(study_, options_, result_), &result_.warnings);
     result_.status = {StatusCode::kSuccess, study_.duration, ""};
-    if (cancelled_) {
-      result_.termination = "cancelled";
-      result_.status = {StatusCode::kCancelled, 0.0, "cancelled; the best point so far is kept"};
+    if (!interruption_.ok()) {
+      result_.termination = name_of(interruption_.code);
+      result_.status = with_best_kept(interruption_);
     } else if (!have_best_) {
       result_.status = first_failure_;
       result_.termination = "start_failed";
@@ -254,7 +254,7 @@ class Minimization {
 
   void evaluate_at(const std::vector<double>& x) {
     // Some line searches of NLopt continue to call after a forced stop.
-    if (cancelled_) stop();
+    if (!interruption_.ok()) stop(interruption_);
     const Eigen::VectorXd rho = design(x);
     // An algorithm at its bounds may ask for the same point again, and constraints are asked for after the objective.
     if (rho.size() != last_rho_.size() || rho != last_rho_) evaluate(rho);
@@ -262,19 +262,19 @@ class Minimization {
 
   void evaluate(const Eigen::VectorXd& rho) {
     last_ = ensemble_.evaluate(rho, true, cancel_);
-    if (last_.total.status.code == StatusCode::kCancelled) stop();
+    if (last_.total.status.is_interrupted()) stop(last_.total.status);
     last_rho_ = rho;
     if (last_.total.status.ok()) program_.take(last_, rho);
     const Trial trial = note(last_, rho);
-    if (observer_ && !observer_(trial)) stop();
+    if (observer_ && !observer_(trial)) stop({StatusCode::kCancelled, 0.0, "cancelled"});
     if (moves_inside_ && best_violation_ == 0.0) throw nlopt::forced_stop();
     // The first step of a quasi-Newton method is as long as the gradient; divided by unit_, it is at most 1 in scaled variables, (24).
     if (trial.evaluation == 1 && last_.total.status.ok()) unit_ = std::max(1.0, trial.gradient_norm);
   }
 
-  // cancelled_ is kept, because the line searches of NLopt may report another reason than a forced stop.
-  [[noreturn]] void stop() {
-    cancelled_ = true;
+  // Kept, because the line searches of NLopt may report another reason than a forced stop.
+  [[noreturn]] void stop(const Status& interruption) {
+    interruption_ = interruption;
     throw nlopt::forced_stop();
   }
 
@@ -377,10 +377,10 @@ class Minimization {
   EnsembleEvaluation best_;  ///< of a study with watched signals: at the best point
   std::vector<Constraint> constraints_;
   OptimizationResult result_;
-  Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"};
+  Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"}, interruption_;
   std::string failure_;
   double worst_ = 0.0, unit_ = 1.0;  ///< worst objective so far; NLopt gets objectives divided by `unit_`
-  bool have_best_ = false, cancelled_ = false, moves_inside_ = false;
+  bool have_best_ = false, moves_inside_ = false;
   double best_violation_ = 0.0, violation_before_ = 0.0;  ///< at the best point, and when the search was last restarted
   int restarts_ = 0;
 };

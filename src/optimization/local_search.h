@@ -7,6 +7,11 @@
 
 namespace codesign {
 
+/// The status of a search that was interrupted with one of its evaluations.
+inline Status with_best_kept(const Status& interruption) {
+  return {interruption.code, 0.0, interruption.cause + "; the best point so far is kept"};
+}
+
 /// Minimizes the ensemble's measure from `start` with NLopt, within bounds and parameter constraints.
 /// @param study of the problem: parameters, bounds, constraints. @param start of rho.
 /// @throws InputError as optimize().

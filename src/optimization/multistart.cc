@@ -48,6 +48,11 @@ class Multistart {
       result.status = {StatusCode::kCancelled, 0.0, "cancelled; the best point so far is kept"};
       result.termination = "cancelled";
     }
+    // A rank that was killed ends the job by the same signal as the user does; that it was killed is the cause.
+    if (lost_.code == StatusCode::kWorkerLost) {
+      result.status = lost_;
+      result.termination = name_of(lost_.code);
+    }
     return result;
   }
 
@@ -56,7 +61,7 @@ class Multistart {
   void screen() {
     const int dimension = static_cast<int>(study_.tuned.size());
     meter_.begin(SearchStage::kScreening, asked_.screen, ensemble_.scenarios().size());
-    for (std::uint32_t round = 0; round < kRounds && missing() > 0 && !is_set(cancel_); ++round) {
+    for (std::uint32_t round = 0; round < kRounds && missing() > 0 && !is_set(cancel_) && lost_.ok(); ++round) {
       const Eigen::MatrixXd unit = unit_points(asked_.sampler, missing(), dimension, asked_.seed + round);
       std::vector<Eigen::VectorXd> points;
       for (Eigen::Index k = 0; k < unit.rows(); ++k)
@@ -91,7 +96,8 @@ class Multistart {
     for (std::size_t k = 0; k < round.size(); ++k) {
       const Evaluation& total = results[k].total;
       statistics_ += total.statistics;
-      if (total.status.code == StatusCode::kCancelled) continue;
+      if (total.status.code == StatusCode::kWorkerLost) lost_ = with_best_kept(total.status);
+      if (total.status.is_interrupted()) continue;
       if (results[k].values.size() == 0) {
         ++unusable_;
         if (first_failure_.ok() && !total.status.ok()) first_failure_ = total.status;
@@ -110,6 +116,8 @@ class Multistart {
       found[k] = search_locally(study_, options_, points_[order_[k]], ensemble_, observer_.of(static_cast<int>(k) + 1), cancel_);
       meter_.end_search(found[k].evaluations);
     });
+    for (const OptimizationResult& one : found)
+      if (one.status.code == StatusCode::kWorkerLost) lost_ = one.status;
     return found;
   }
 
@@ -206,6 +214,7 @@ class Multistart {
   std::vector<std::size_t> order_;  // the starts: indices of points, best first
   int unusable_ = 0;
   Status first_failure_;
+  Status lost_;  // kWorkerLost, if that ended an evaluation
   Statistics statistics_;
 };
 

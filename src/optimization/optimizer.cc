@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "description/tuned_parameters.h"
+#include "engine/dispatcher.h"
 #include "equations/compiled_system.h"
 #include "mechanism_codesign/optimization.h"
 #include "optimization/local_search.h"
@@ -26,16 +27,32 @@ OptimizationResult optimize(const Problem& problem, const OptimizerOptions& opti
   return run_search(problem, options, {observer, nullptr, nullptr}, cancel);
 }
 
-OptimizationResult run_search(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
-                              const std::atomic<bool>* cancel) {
-  require_tuned(problem.study());
-  if (problem.study().ensemble.multistart.starts > 0) return search_from_many_starts(problem, options, hooks, cancel);
+namespace {
+
+OptimizationResult search_once(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
+                               const std::atomic<bool>* cancel) {
   ProgressMeter meter(options.max_evaluations, hooks.progress);
   const Ensemble ensemble(problem, 1, records_of(hooks, &meter));
   meter.begin(SearchStage::kSearching, 0, ensemble.scenarios().size());
   const TrialObserver observer = counted_trials(hooks, &meter);
   OptimizationResult result = search_locally(problem.study(), options, problem.start(), ensemble, observer, cancel);
   describe_scenarios(problem, ensemble, cancel, &meter, &result);
+  return result;
+}
+
+}  // namespace
+
+OptimizationResult run_search(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
+                              const std::atomic<bool>* cancel) {
+  require_tuned(problem.study());
+  OptimizationResult result = problem.study().ensemble.multistart.starts > 0 ? search_from_many_starts(problem, options, hooks, cancel)
+                                                                             : search_once(problem, options, hooks, cancel);
+  if (result.status.code != StatusCode::kCancelled || hooks.ranks == nullptr) return result;
+  // mpirun interrupts the job also when one of its ranks was killed, perhaps one that had nothing to do.
+  const Status missed = hooks.ranks->call_roll();
+  if (missed.ok()) return result;
+  result.status = with_best_kept(missed);
+  result.termination = name_of(missed.code);
   return result;
 }
 

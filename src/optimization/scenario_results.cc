@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "optimization/scenario_results.h"
 
+#include "optimization/local_search.h"
 #include "sampling/measure.h"
 #include "text/cancel.h"
 
@@ -15,8 +16,9 @@ ScenarioResult describe(const Study& study, const Scenario& scenario, double ini
 }
 
 /// The design on fresh samples. Unlike in the search, a sample that fails does not refuse the design; it is counted.
-Validation validate(const Problem& problem, const Ensemble& ensemble, const OptimizationResult& design, const std::atomic<bool>* cancel,
-                    ProgressMeter* meter) {
+/// @returns nothing if it was interrupted, with the status of that.
+std::optional<Validation> validate(const Problem& problem, const Ensemble& ensemble, const OptimizationResult& design,
+                                   const std::atomic<bool>* cancel, ProgressMeter* meter, Status* interruption) {
   const RobustOptions& options = ensemble.options();
   const std::vector<Scenario> scenarios = make_validation_scenarios(problem, options.validate);
   meter->begin(SearchStage::kValidating, 1, scenarios.size());
@@ -26,6 +28,10 @@ Validation validate(const Problem& problem, const Ensemble& ensemble, const Opti
   validation.promised = design.objective;
   std::vector<double> values, weights;
   for (std::size_t k = 0; k < members.size(); ++k) {
+    if (members[k].status.is_interrupted()) {
+      *interruption = members[k].status;
+      return std::nullopt;
+    }
     if (!members[k].status.ok()) {
       ++validation.failed;
       continue;
@@ -57,7 +63,12 @@ void describe_scenarios(const Problem& problem, const Ensemble& ensemble, const 
   }
   for (int k : result->initial_failed) result->scenarios[static_cast<std::size_t>(k)].initial_failed = true;
   for (int k : result->failed) result->scenarios[static_cast<std::size_t>(k)].failed = true;
-  if (ensemble.options().validate > 0 && !is_set(cancel)) result->validation = validate(problem, ensemble, *result, cancel, meter);
+  if (ensemble.options().validate == 0 || is_set(cancel)) return;
+  Status interruption;
+  result->validation = validate(problem, ensemble, *result, cancel, meter, &interruption);
+  if (interruption.ok()) return;
+  result->status = with_best_kept(interruption);
+  result->termination = name_of(interruption.code);
 }
 
 }  // namespace codesign

@@ -15,11 +15,12 @@ struct SearchHooks {
   TrialObserver trial;                       ///< as in optimize()
   ProgressObserver progress = nullptr;       ///< told about once a second, while screening and validating too
   std::shared_ptr<EvaluationMemory> memory;  ///< evaluations of an earlier process, and the place for those of this one
+  Dispatcher* ranks = nullptr;               ///< the processes of the job, as in require_engine()
 };
 
 /// What the engine of a job records: its memory, and runs for the meter, which must outlive the engine.
 inline EngineRecords records_of(const SearchHooks& hooks, ProgressMeter* meter) {
-  return {hooks.memory, [meter](bool computed) { meter->count_run(computed); }};
+  return {hooks.memory, [meter](bool computed) { meter->count_run(computed); }, hooks.ranks};
 }
 
 /// The observer of trials, which are counted before it is told.

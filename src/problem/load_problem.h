@@ -2,13 +2,21 @@
 #ifndef MECHANISM_CODESIGN_PROBLEM_LOAD_PROBLEM_H_
 #define MECHANISM_CODESIGN_PROBLEM_LOAD_PROBLEM_H_
 
+#include <string>
 #include <vector>
 
+#include "description/reference.h"
 #include "description/robot.h"
 #include "description/study.h"
 #include "mechanism_codesign/problem.h"
 
 namespace codesign {
+
+/// A trajectory that a study names, as its loader has read it.
+struct LoadedTrajectory {
+  std::string bag, topic, joint;
+  RecordedTrajectory trajectory;
+};
 
 /// The members of a Problem. Its model and study are in `system`.
 struct Problem::Contents {
@@ -19,6 +27,7 @@ struct Problem::Contents {
   std::vector<std::shared_ptr<const CompiledSystem>> variants;  ///< of variant_of(); empty if there is only the study itself
   double setup_seconds = 0.0;                                   ///< processor time of reading and compiling [s]
   Warnings warnings;
+  std::vector<LoadedTrajectory> trajectories;  ///< in the order in which the study names them
 };
 
 /// load_problem() for studies that may read trajectories from bags. @param loader reads such a trajectory; if it is empty, a study that
@@ -29,6 +38,9 @@ Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& over
 /// The system compiled for one run of `Study::ensemble.runs` with one friction law for all joints.
 /// @param run index of the run; 0 if the study has no runs. @param law index in `laws` of the uncertain friction law; -1: the model's own.
 std::shared_ptr<const CompiledSystem> variant_of(const Problem& problem, int run, int law);
+
+/// Every system of the problem once: its own first, then those of variant_of(), in an order that its texts decide.
+std::vector<std::shared_ptr<const CompiledSystem>> distinct_systems(const Problem& problem);
 
 /// The problem compiled anew with another study of the same model; the texts stay those of `problem`. @throws InputError as load_problem().
 Problem with_study(const Problem& problem, Study study, const ParameterSettings& settings = {});

@@ -9,6 +9,7 @@
 #include "math/cpu_timer.h"
 #include "problem/load_problem.h"
 #include "problem/margins.h"
+#include "problem/portable_problem.h"
 #include "problem/unused_parameters.h"
 #include "problem/variants.h"
 #include "reading/study/study_reader.h"
@@ -36,6 +37,15 @@ void apply_settings(const ParameterSettings& settings, Study* study) {
       throw InputError({{kSettings, 0}, name, "value outside the parameter's bounds", to_decimal(value), range_of(parameter)});
     parameter.value = value;
   }
+}
+
+/// `loader`, with what it reads kept in `loaded`. No loader stays none.
+TrajectoryLoader keeping(const TrajectoryLoader& loader, std::vector<LoadedTrajectory>* loaded) {
+  if (!loader) return {};
+  return [&loader, loaded](const TrajectoryAddress& address) {
+    loaded->push_back({address.bag, address.topic, address.joint, loader(address)});
+    return loaded->back().trajectory;
+  };
 }
 
 /// Compiles the equations of motion of a model and a study with settings applied, and completes `contents`: system, warnings, time.
@@ -88,8 +98,10 @@ Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& over
                      const ParameterSettings& settings, const TrajectoryLoader& loader) {
   const CpuTimer timer;
   const RobotDescription robot = read_urdf(urdf, overlays);
-  Study read = read_study(study, robot, loader);
-  return compile(robot, std::move(read), settings, {urdf, overlays, study, nullptr, {}, timer.seconds(), robot.warnings});
+  std::vector<LoadedTrajectory> loaded;
+  Study read = read_study(study, robot, keeping(loader, &loaded));
+  return compile(robot, std::move(read), settings,
+                 {urdf, overlays, study, nullptr, {}, timer.seconds(), robot.warnings, std::move(loaded)});
 }
 
 Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& overlays, const ParameterSettings& settings) {
@@ -99,14 +111,46 @@ Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& ov
   study.parameters = robot.parameters;
   study.used_parameters = robot.used_parameters;
   study.file = urdf.name;
-  return compile(robot, std::move(study), settings, {urdf, overlays, {}, nullptr, {}, timer.seconds(), robot.warnings});
+  return compile(robot, std::move(study), settings, {urdf, overlays, {}, nullptr, {}, timer.seconds(), robot.warnings, {}});
 }
 
 Problem with_settings(const Problem& problem, const ParameterSettings& settings) { return with_study(problem, problem.study(), settings); }
 
 Problem with_study(const Problem& problem, Study study, const ParameterSettings& settings) {
   return compile(problem.robot(), std::move(study), settings,
-                 {problem.urdf(), problem.overlays(), problem.study_text(), nullptr, {}, problem.setup_seconds(), problem.warnings()});
+                 {problem.urdf(),
+                  problem.overlays(),
+                  problem.study_text(),
+                  nullptr,
+                  {},
+                  problem.setup_seconds(),
+                  problem.warnings(),
+                  problem.contents().trajectories});
+}
+
+PortableProblem make_portable(const Problem& problem) {
+  return {problem.urdf(),       problem.overlays(),   problem.study_text(), problem.contents().trajectories,
+          problem.parameters(), problem.tuned_names()};
+}
+
+Problem load_portable(const PortableProblem& portable) {
+  const CpuTimer timer;
+  const RobotDescription robot = read_urdf(portable.urdf, portable.overlays);
+  const auto loader = [&portable](const TrajectoryAddress& address) {
+    for (const LoadedTrajectory& one : portable.trajectories)
+      if (one.bag == address.bag && one.topic == address.topic && one.joint == address.joint) return one.trajectory;
+    throw InputError({address.where, address.element, "the trajectory was not sent with the problem", address.bag, ""});
+  };
+  Study study = read_study(portable.study, robot, loader);
+  if (study.parameters.size() != portable.values.size())
+    throw InputError({{portable.study.name, 0}, "parameters", "the problem was sent with other parameters", "", ""});
+  // Not by settings, which check bounds: these values have passed that already.
+  for (std::size_t k = 0; k < portable.values.size(); ++k) study.parameters[k].value = portable.values[k];
+  study.tuned.clear();
+  for (const std::string& name : portable.tuned)
+    study.tuned.push_back(static_cast<int>(&find_parameter(&study, name) - study.parameters.data()));
+  return compile(robot, std::move(study), {},
+                 {portable.urdf, portable.overlays, portable.study, nullptr, {}, timer.seconds(), robot.warnings, portable.trajectories});
 }
 
 void require_objective(const Problem& problem) {

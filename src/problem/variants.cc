@@ -87,4 +87,11 @@ std::shared_ptr<const CompiledSystem> variant_of(const Problem& problem, int run
   return variants[static_cast<std::size_t>(run) * (1 + laws) + static_cast<std::size_t>(1 + law)];
 }
 
+std::vector<std::shared_ptr<const CompiledSystem>> distinct_systems(const Problem& problem) {
+  std::vector<std::shared_ptr<const CompiledSystem>> systems{problem.system()};
+  for (const auto& system : problem.contents().variants)
+    if (std::find(systems.begin(), systems.end(), system) == systems.end()) systems.push_back(system);
+  return systems;
+}
+
 }  // namespace codesign

@@ -18,10 +18,10 @@ CheckMethod method_of(const std::string& check) {
   throw unknown_name({"request", 0}, "check", "gradient check", check, {"complex_step", "ridders"});
 }
 
-void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& request, const std::atomic<bool>& cancel,
+void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& request, Dispatcher* ranks, const std::atomic<bool>& cancel,
              mechanism_codesign::EvaluateResponse* reply) {
   const Eigen::VectorXd rho = design_of(problem, request);
-  const Ensemble ensemble(problem);
+  const Ensemble ensemble(problem, 1, {nullptr, nullptr, ranks});
   GradientCheck check;
   if (request.check.empty()) {
     check.evaluation = ensemble.evaluate(rho, !request.objective_only, &cancel).total;
@@ -48,10 +48,10 @@ void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& 
 }  // namespace
 
 mechanism_codesign::EvaluateResponse run_evaluation(const Problem& problem, const mechanism_codesign::EvaluateRequest& request,
-                                                    const std::atomic<bool>& cancel) {
+                                                    const std::atomic<bool>& cancel, Dispatcher* ranks) {
   mechanism_codesign::EvaluateResponse reply;
   try {
-    compute(problem, request, cancel, &reply);
+    compute(problem, request, ranks, cancel, &reply);
   } catch (const InputError& error) {
     refuse("bad_input", error.what(), &reply);
   } catch (const std::exception& error) {

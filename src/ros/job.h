@@ -21,9 +21,12 @@
 
 namespace codesign {
 
+class Dispatcher;
+
 struct JobOptions {
   std::string output_directory;  ///< folder for the bags
   double rate = 50.0;            ///< samples per second in the bag
+  Dispatcher* ranks = nullptr;   ///< the processes that evaluate, as in require_engine()
 };
 
 struct OptimizationOutcome {
@@ -32,17 +35,18 @@ struct OptimizationOutcome {
 };
 
 /// Called for each trial point, in the thread of the computation.
-using ProgressObserver = std::function<void(const mechanism_codesign::OptimizationProgress&)>;
+using FeedbackObserver = std::function<void(const mechanism_codesign::OptimizationProgress&)>;
 
 /// Optimizes, records runs of the initial and of the tuned design, and writes the bag. Bad input, numerical failures and a full disk are
 /// returned as code and message of the result.
 /// @param study text of the study, for the bag. @param cancel once set, the optimization ends with its best point so far.
 OptimizationOutcome run_optimization(const Problem& problem, const std::string& study, const mechanism_codesign::OptimizeGoal& request,
-                                     const JobOptions& options, const ProgressObserver& observer, const std::atomic<bool>& cancel);
+                                     const JobOptions& options, const FeedbackObserver& observer, const std::atomic<bool>& cancel);
 
 /// Computes objective, gradient and gradient check at one design. @param cancel once set, it ends soon with `cancelled`.
+/// @param ranks as JobOptions::ranks.
 mechanism_codesign::EvaluateResponse run_evaluation(const Problem& problem, const mechanism_codesign::EvaluateRequest& request,
-                                                    const std::atomic<bool>& cancel);
+                                                    const std::atomic<bool>& cancel, Dispatcher* ranks = nullptr);
 
 /// Sets success, code, message and version of a reply from a status.
 template <class Reply>

@@ -8,6 +8,8 @@
 
 namespace codesign {
 
+class Dispatcher;
+
 /// Runs a ROS node until it is shut down: initializes ROS, makes the node, and serves callbacks. SIGTERM ends it in the same way as SIGINT,
 /// so that results are kept.
 /// @param make called once ROS is initialized; the node lives until the shutdown.
@@ -16,7 +18,8 @@ int run_node(int argc, char** argv, const std::string& name, const std::string& 
 
 /// The nodes, for run_node(). Their headers, with those of ROS, stay out of the files with main().
 std::shared_ptr<void> make_simulation_node();
-std::shared_ptr<void> make_optimization_node();
+/// @param ranks the processes that evaluate for the node, as in require_engine(); they must outlive it.
+std::shared_ptr<void> make_optimization_node(Dispatcher* ranks);
 
 }  // namespace codesign
 

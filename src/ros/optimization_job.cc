@@ -12,6 +12,7 @@
 #include "jobs/output_error.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/optimization.h"
+#include "optimization/search_hooks.h"
 #include "reading/urdf/urdf_reader.h"
 #include "ros/ensemble_messages.h"
 #include "ros/job.h"
@@ -91,7 +92,7 @@ class Job {
         record_(record),
         outcome_(outcome) {}
 
-  void optimize(const ProgressObserver& observer, const std::atomic<bool>& cancel) {
+  void optimize(const FeedbackObserver& observer, const std::atomic<bool>& cancel) {
     const std::vector<std::string> parameters = problem_.tuned_names();
     ProgressLog log;
     const auto observe = [&](const Trial& trial) {
@@ -100,7 +101,7 @@ class Job {
       if (observer) observer(log.last());
       return true;
     };
-    result_ = codesign::optimize(problem_, optimizer_options_, observe, &cancel);
+    result_ = run_search(problem_, optimizer_options_, {observe, nullptr, nullptr, options_.ranks}, &cancel);
     record_->progress = log.take();
     outcome_->result = to_message(result_, problem_);
     outcome_->result.warnings = warning_messages(problem_.warnings(), warnings());
@@ -110,7 +111,7 @@ class Job {
   /// Records the runs and writes the bag. A cancelled job is recorded as well; before the first evaluation its tuned design is the start.
   void record(const std::atomic<bool>& cancel) {
     const bool is_evaluated = result_.gradient.size() > 0;
-    if (!is_evaluated && result_.status.code != StatusCode::kCancelled) return;
+    if (!is_evaluated && !result_.status.is_interrupted()) return;
     if (!is_evaluated) outcome_->result.initial_objective = outcome_->result.objective = std::numeric_limits<double>::quiet_NaN();
     Patience patience(cancel);
     Scenario nominal;
@@ -160,7 +161,7 @@ class Job {
 }  // namespace
 
 OptimizationOutcome run_optimization(const Problem& problem, const std::string& study, const mechanism_codesign::OptimizeGoal& request,
-                                     const JobOptions& options, const ProgressObserver& observer, const std::atomic<bool>& cancel) {
+                                     const JobOptions& options, const FeedbackObserver& observer, const std::atomic<bool>& cancel) {
   JobRecord record;
   record.request = request;
   record.request.version = version();

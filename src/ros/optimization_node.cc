@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "engine/evaluation_engine.h"
 #include "jobs/job_files.h"
 #include "mechanism_codesign/error.h"
 #include "ros/conversions.h"
@@ -46,7 +47,8 @@ Warnings added_warnings(const mechanism_codesign::OptimizeResult& result, std::s
 
 }  // namespace
 
-OptimizationNode::OptimizationNode() : state_("optimization"), spinner_(kDoorThreads, &queue_) {
+OptimizationNode::OptimizationNode(Dispatcher* ranks) : state_("optimization"), spinner_(kDoorThreads, &queue_) {
+  options_.ranks = ranks;
   progress_ = node_.advertise<mechanism_codesign::OptimizationProgress>("optimization_progress", 100, true);
   tuned_ = node_.advertise<std_msgs::String>("tuned/robot_description", 1, true);
   load();
@@ -76,6 +78,7 @@ void OptimizationNode::load() {
     study_ = inputs.study.text;
     Problem problem = codesign::load(inputs, bag_trajectory_loader(study_folder(inputs)));
     require_every_parameter(inputs, problem.robot());
+    require_engine(problem.study().ensemble.engine, options_.ranks);
     check_recording(problem, options_.rate, private_node_.resolveName("rate"));
     for (const std::string& sentence : remove_leftovers(options_.output_directory)) ROS_WARN_STREAM(sentence);
     state_.warn("files", problem.warnings());
@@ -105,7 +108,7 @@ bool OptimizationNode::start(const mechanism_codesign::OptimizeGoal& request, co
   return false;
 }
 
-OptimizationNode::Result OptimizationNode::run(const mechanism_codesign::OptimizeGoal& request, const ProgressObserver& observer,
+OptimizationNode::Result OptimizationNode::run(const mechanism_codesign::OptimizeGoal& request, const FeedbackObserver& observer,
                                                const std::atomic<bool>& cancel) {
   state_.set(NodeState::Level::kOk, "optimizing");
   const auto publish = [&](const mechanism_codesign::OptimizationProgress& progress) {
@@ -168,7 +171,9 @@ bool OptimizationNode::on_evaluate(mechanism_codesign::Evaluate::Request& reques
   }
   if (!has_size(request.parameters, request.values, "values", &response)) return true;
   const auto done = std::make_shared<std::promise<void>>();
-  const auto job = [this, &request, &response](const std::atomic<bool>& cancel) { response = run_evaluation(*problem_, request, cancel); };
+  const auto job = [this, &request, &response](const std::atomic<bool>& cancel) {
+    response = run_evaluation(*problem_, request, cancel, options_.ranks);
+  };
   if (evaluator_.try_start(job, [done] { done->set_value(); }))
     done->get_future().wait();
   else
@@ -208,6 +213,6 @@ void OptimizationNode::on_cancel(const GoalHandle& goal) {
   if (status == actionlib_msgs::GoalStatus::RECALLING || status == actionlib_msgs::GoalStatus::PREEMPTING) optimizer_.cancel();
 }
 
-std::shared_ptr<void> make_optimization_node() { return std::make_shared<OptimizationNode>(); }
+std::shared_ptr<void> make_optimization_node(Dispatcher* ranks) { return std::make_shared<OptimizationNode>(ranks); }
 
 }  // namespace codesign

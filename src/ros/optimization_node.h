@@ -28,7 +28,8 @@ namespace codesign {
 /// any time. With bad input the node stays up and answers every request with `bad_input`.
 class OptimizationNode {
  public:
-  OptimizationNode();
+  /// @param ranks the processes that evaluate for this one, as in require_engine().
+  explicit OptimizationNode(Dispatcher* ranks);
   ~OptimizationNode();
 
  private:
@@ -46,13 +47,13 @@ class OptimizationNode {
   /// Callbacks to the client of a job, called in the worker's thread.
   struct Client {
     std::function<void()> begin;
-    ProgressObserver progress;
+    FeedbackObserver progress;
     std::function<void(const Result&)> end;
   };
 
   /// Starts the job. If that is not possible (bad input, busy), fills `refusal` and returns false.
   bool start(const mechanism_codesign::OptimizeGoal& request, const Client& client, Result* refusal);
-  Result run(const mechanism_codesign::OptimizeGoal& request, const ProgressObserver& observer, const std::atomic<bool>& cancel);
+  Result run(const mechanism_codesign::OptimizeGoal& request, const FeedbackObserver& observer, const std::atomic<bool>& cancel);
   /// Whether the lists of a request have admissible lengths; fills `refusal` if not.
   template <class Reply>
   bool has_size(const std::vector<std::string>& names, const std::vector<double>& values, const std::string& field, Reply* refusal) const;

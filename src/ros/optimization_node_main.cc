@@ -1,4 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mpi/run_on_ranks.h"
 #include "ros/node_arguments.h"
 
 namespace {
@@ -18,4 +19,8 @@ parameters
 
 }  // namespace
 
-int main(int argc, char** argv) { return codesign::run_node(argc, argv, "optimization", kHelp, codesign::make_optimization_node); }
+int main(int argc, char** argv) {
+  return codesign::run_on_ranks("optimization", [&](codesign::Dispatcher* ranks) {
+    return codesign::run_node(argc, argv, "optimization", kHelp, [ranks] { return codesign::make_optimization_node(ranks); });
+  });
+}

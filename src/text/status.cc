@@ -39,6 +39,8 @@ const char* name_of(StatusCode code) {
       return "algorithm_failed";
     case StatusCode::kNonFiniteGradient:
       return "non_finite_gradient";
+    case StatusCode::kWorkerLost:
+      return "worker_lost";
   }
   return "unknown";
 }

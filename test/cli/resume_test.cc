@@ -4,25 +4,13 @@
 
 #include <chrono>
 #include <random>
-#include <set>
 #include <thread>
 
 #include "child_process.h"
-#include "cli/slider_crank.h"
+#include "cli/resumable.h"
 
 namespace codesign::cli {
 namespace {
-
-/// Many searches over two runs at three samples, each evaluation quick.
-constexpr const char* kEnsemble = R"(
-runs:
-  slow: {}
-  fast: {controllers: {crank_speed: {setpoint: -12.0}}}
-uncertain: {slider_width: {uniform: [0.02, 0.03]}}
-robust: {measure: mean, samples: 3, validate: 5}
-multistart: {starts: 6, screen: 24}
-engine: {workers: 2}
-)";
 
 class Resume : public testing::Test {
  protected:
@@ -30,39 +18,10 @@ class Resume : public testing::Test {
     return {codesign_executable(), "optimize", kModel, study_, option, folder_.path(folder)};
   }
   std::string in(const std::string& folder, const std::string& name) const { return folder_.path(folder + "/" + name); }
-  std::string study() const {
-    const std::string text = read_text_file(short_study(folder_)) + kEnsemble;
-    return folder_.edited("ensemble.yaml", text, "slider_width: {tune: true}", "slider_width: {tune: false}");
-  }
 
   ScratchFolder folder_;
-  std::string study_ = study();
+  std::string study_ = resumable_study(folder_, "engine: {workers: 2}\n");
 };
-
-/// The finished lines of a journal; none if there is no journal.
-std::vector<std::string> finished_lines(const std::string& path) {
-  if (!std::filesystem::exists(path)) return {};
-  const std::string text = read_text_file(path);
-  return lines_of(text.substr(0, text.rfind('\n') + 1));
-}
-
-/// Without processor times, which are the only thing that differs from run to run.
-Json without_times(Json object) {
-  object.erase("cpu_seconds");
-  object.erase("setup_seconds");
-  return object;
-}
-
-/// What each line says without its processor time, in any order.
-std::multiset<std::string> evaluations_of(const std::string& path) {
-  std::multiset<std::string> evaluations;
-  for (const std::string& line : finished_lines(path)) {
-    Json object = Json::parse(line);
-    if (object.contains("statistics")) object["statistics"][2] = 0.0;
-    evaluations.insert(object.dump());
-  }
-  return evaluations;
-}
 
 TEST_F(Resume, KilledTwentyTimesNothingIsLostOrComputedTwice) {
   ASSERT_EQ(ChildProcess(job("--output", "whole")).wait(), kDone);
@@ -92,7 +51,7 @@ TEST_F(Resume, KilledTwentyTimesNothingIsLostOrComputedTwice) {
   }
   EXPECT_GT(cut, 10) << "it ended before it was killed more often";
   ASSERT_EQ(ChildProcess(job("--resume", "killed")).wait(), kDone);
-  EXPECT_EQ(evaluations_of(journal), evaluations_of(in("whole", "journal.jsonl")));
+  EXPECT_TRUE(evaluations_of(journal) == evaluations_of(in("whole", "journal.jsonl"))) << "not as EXPECT_EQ, which would print both";
   EXPECT_EQ(without_times(Json::parse(read_text_file(in("killed", "result.json")))),
             without_times(Json::parse(read_text_file(in("whole", "result.json")))));
   for (const char* name : {"tuned.urdf", "tuned.csv", "starts.csv", "scenarios.csv"})

@@ -5,6 +5,7 @@
 
 #include <thread>
 
+#include "engine/rank_fixture.h"
 #include "engine/serial_engine.h"
 #include "engine/thread_engine.h"
 #include "ensemble/ensemble_fixture.h"
@@ -104,6 +105,29 @@ TEST(Engine, MakesNoMoreWorkersThanAreUseful) {
   EXPECT_EQ(make_engine({EngineKind::kThreads, 8}, 1)->workers(), 1);
   EXPECT_EQ(make_engine({EngineKind::kSerial, 0}, 9)->workers(), 1);
   EXPECT_GE(make_engine({EngineKind::kThreads, 0}, 99)->workers(), 1);
+}
+
+TEST(Engine, MpiNeedsAProgramThatHasIt) {
+  const EngineOptions mpi{EngineKind::kMpi, 0, {"study.yaml", 9}};
+  try {
+    require_engine(mpi, nullptr);
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("study.yaml:9: engine.type: the engine mpi is not in this program"), std::string::npos);
+  }
+  Dispatcher alone(nullptr);
+  EXPECT_NO_THROW(require_engine(mpi, &alone));
+  EXPECT_EQ(make_engine(block("engine: {type: mpi}"), 100, &alone)->workers(), 1);
+}
+
+TEST(Engine, SeveralProcessesTakeMpiOrNothingElse) {
+  RankJob job(3);
+  EXPECT_NO_THROW(require_engine({}, job.ranks())) << "a study that says nothing";
+  EXPECT_NO_THROW(require_engine({EngineKind::kMpi, 0, {"study.yaml", 9}}, job.ranks()));
+  for (const EngineKind kind : {EngineKind::kSerial, EngineKind::kThreads})
+    EXPECT_THROW(require_engine({kind, 0, {"study.yaml", 9}}, job.ranks()), InputError);
+  EXPECT_EQ(make_engine(block(""), 100, job.ranks())->workers(), 3);
+  EXPECT_EQ(make_engine(block(""), 1, job.ranks())->workers(), 1) << "one evaluation at a time";
 }
 
 }  // namespace

@@ -32,6 +32,7 @@ ROWS = [
     ["ensemble"],
     ["optimization"],
     ["jobs"],
+    ["mpi"],
     ["cli", "ros"],
 ]
 ROW_OF = {room: row for row, rooms in enumerate(ROWS) for room in rooms}

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "engine/serial_engine.h"
 #include "ensemble/ensemble_fixture.h"
 
 namespace codesign {
@@ -39,6 +40,35 @@ TEST(LocalSearch, AlgorithmsWithConstraintsAgreeOnTheTail) {
 TEST(LocalSearch, MeasuresWithConstraintsRefuseOtherAlgorithms) {
   EXPECT_THROW(tune("measure: worst", "{algorithm: lbfgs}"), InputError);
   EXPECT_TRUE(tune("measure: mean", "{algorithm: lbfgs}").status.ok());
+}
+
+/// An engine that loses its workers after some calls.
+class LosingEngine final : public EvaluationEngine {
+ public:
+  explicit LosingEngine(int calls) : calls_(calls) {}
+  std::vector<Evaluation> evaluate(const std::vector<EvaluationTask>& tasks, const std::atomic<bool>* cancel) override {
+    std::vector<Evaluation> results = serial_.evaluate(tasks, cancel);
+    if (calls_-- <= 0) results.back().status = {StatusCode::kWorkerLost, 0.0, "rank 1 is gone"};
+    return results;
+  }
+  int workers() const override { return 1; }
+
+ private:
+  SerialEngine serial_;
+  int calls_;
+};
+
+TEST(LocalSearch, ALostWorkerEndsTheSearchWithTheBestPoint) {
+  const Problem problem = block(kRuns);
+  for (const int calls : {0, 4}) {
+    const Ensemble ensemble(make_scenarios(problem), {}, std::make_shared<LosingEngine>(calls));
+    const OptimizationResult result = search_locally(problem.study(), problem.optimizer_options(), problem.start(), ensemble, {}, nullptr);
+    EXPECT_EQ(result.status.code, StatusCode::kWorkerLost);
+    EXPECT_EQ(result.status.cause, "rank 1 is gone; the best point so far is kept");
+    EXPECT_EQ(result.termination, "worker_lost");
+    EXPECT_EQ(result.evaluations, calls) << "what was interrupted does not count";
+    EXPECT_EQ(result.gradient.size() > 0, calls > 0);
+  }
 }
 
 }  // namespace

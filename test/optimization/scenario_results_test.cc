@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "ensemble/ensemble_fixture.h"
+#include "optimization/local_search.h"
 
 namespace codesign {
 namespace {
@@ -42,6 +43,23 @@ TEST(ScenarioResults, StudiesWithOneRunHaveNone) {
   EXPECT_TRUE(result.scenarios.empty());
   EXPECT_FALSE(result.validation);
   EXPECT_TRUE(result.starts.empty());
+}
+
+TEST(ScenarioResults, AnInterruptedValidationIsNone) {
+  const Problem problem = block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {samples: 2, validate: 500}\n");
+  std::atomic<bool> cancel{false};
+  // Half a validation is none: the samples left would count as failed.
+  const auto progress = [&cancel](const Progress& so_far) { cancel = cancel || so_far.stage == SearchStage::kValidating; };
+  const Ensemble ensemble(problem);
+  ProgressMeter meter(100, progress, std::chrono::milliseconds(1));
+  OptimizationResult result = search_locally(problem.study(), problem.optimizer_options(), problem.start(), ensemble, {}, &cancel);
+  ASSERT_TRUE(result.status.ok()) << result.status.cause;
+  const Ensemble counted(problem, 1, {nullptr, [&meter](bool computed) { meter.count_run(computed); }, nullptr});
+  describe_scenarios(problem, counted, &cancel, &meter, &result);
+  EXPECT_TRUE(cancel);
+  EXPECT_FALSE(result.validation);
+  EXPECT_EQ(result.status.code, StatusCode::kCancelled);
+  EXPECT_EQ(result.termination, "cancelled");
 }
 
 }  // namespace

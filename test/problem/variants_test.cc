@@ -31,6 +31,19 @@ uncertain: {friction_law: {choice: [gonthier, lugre]}}
   EXPECT_EQ(variant_of(problem, 0, 1)->study().controllers[0].setpoint.constant.nominal(), 0.5);
 }
 
+TEST(Variants, EachSystemIsListedOnce) {
+  EXPECT_EQ(distinct_systems(block("")).size(), 1U);
+  const Problem problem = block(R"(
+runs: {own: {}, light: {set: {mass: 1.0}}, far: {controllers: {hold: {setpoint: 0.9}}}}
+uncertain: {friction_law: {choice: [gonthier, lugre]}}
+)");
+  const auto systems = distinct_systems(problem);
+  EXPECT_EQ(systems.front(), problem.system());
+  // Two systems with the model's own law, since one run only sets a value, and three runs with two laws each.
+  EXPECT_EQ(systems.size(), 8U);
+  EXPECT_EQ(systems.back(), variant_of(problem, 2, 1));
+}
+
 // As a request to a node does.
 Problem tuning(const Problem& problem, int parameter) {
   Study study = problem.study();

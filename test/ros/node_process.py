@@ -21,9 +21,9 @@ SHARE = rospkg.RosPack().get_path("mechanism_codesign")
 
 
 class Node:
-    """One node with its own name and the given parameters."""
+    """One node with its own name and the given parameters. `prefix`: the words of a launch-prefix."""
 
-    def __init__(self, program, name, model="slider_crank", **parameters):
+    def __init__(self, program, name, model="slider_crank", prefix=(), **parameters):
         self.name = name
         for key, value in {"model": f"{SHARE}/urdf/{model}.urdf", "study": f"{SHARE}/config/{model}.yaml", **parameters}.items():
             if value is not None:
@@ -31,7 +31,7 @@ class Node:
         self.log = tempfile.TemporaryFile("w+")
         remappings = [f"{topic}:=/{name}/{topic}" for topic in ("optimize", "evaluate", "optimization_progress")]
         path = roslib.packages.find_node("mechanism_codesign", program)[0]
-        self.process = subprocess.Popen([path, f"__name:={name}", *remappings], stdout=self.log, stderr=subprocess.STDOUT)
+        self.process = subprocess.Popen([*prefix, path, f"__name:={name}", *remappings], stdout=self.log, stderr=subprocess.STDOUT)
 
     def optimize(self, request):
         rospy.wait_for_service(f"/{self.name}/optimize", TIMEOUT)

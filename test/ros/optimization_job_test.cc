@@ -28,7 +28,7 @@ class OptimizationJob : public testing::Test {
  protected:
   OptimizationJob() { ros::Time::init(); }
 
-  OptimizationOutcome run(const OptimizeGoal& request = OptimizeGoal(), const ProgressObserver& observer = {}) {
+  OptimizationOutcome run(const OptimizeGoal& request = OptimizeGoal(), const FeedbackObserver& observer = {}) {
     return run_optimization(pendulum(), "the study", request, {directory_.path().string(), 20.0}, observer, cancel_);
   }
 

@@ -15,7 +15,7 @@ ODD_KEYS = {"eigen": "libeigen3-dev", "nlohmann-json-dev": "nlohmann-json3-dev"}
 # What builds and takes pictures, and what rosdep has no key for on every distribution.
 NOT_IN_PACKAGE_XML = {
     "g++", "make", "ninja-build", "ccache", "cmake", "python3", "xvfb", "imagemagick", "libbenchmark-dev", "libsimbody-dev",
-    "libsundials-dev", "libnlopt-dev", "libnlopt-cxx-dev", "libxbyak-dev"}
+    "libsundials-dev", "libnlopt-dev", "libnlopt-cxx-dev", "libxbyak-dev", "libopenmpi-dev", "openmpi-bin"}
 
 
 def listed(*options):

@@ -13,11 +13,11 @@ EngineOptions read_engine(const YamlValue& engine) {
   constexpr int kMostWorkers = 4096;
   engine.require_keys({}, {"type", "workers"});
   EngineOptions options;
-  const auto type = engine.find("type");
-  if (type && type->is_scalar() && type->text() == "mpi") type->fail("the engine mpi is not built", "serial, threads");
   read_choice(engine, "type", kEngineNames, &options.kind);
-  const auto workers = engine.find("workers");
+  const auto type = engine.find("type"), workers = engine.find("workers");
+  if (type || workers) options.where = (type ? type : workers)->where();
   if (workers && options.kind == EngineKind::kSerial) workers->fail("the engine serial has no workers", "type: threads");
+  if (workers && options.kind == EngineKind::kMpi) workers->fail("mpirun says how many workers the engine mpi has", "mpirun -n NUMBER");
   read_whole(engine, "workers", 1, kMostWorkers, &options.workers);
   return options;
 }

@@ -43,10 +43,18 @@ TEST(StudyEnsemble, ReadsTheEngine) {
   EXPECT_EQ(engine_of("{type: serial}").kind, EngineKind::kSerial);
   EXPECT_EQ(engine_of("{type: threads}").workers, 0);
   EXPECT_EQ(engine_of("{workers: 4096}").workers, 4096);
+  EXPECT_EQ(engine_of("{type: mpi}").kind, EngineKind::kMpi);
+}
+
+TEST(StudyEnsemble, KnowsWhetherAnEngineIsAskedFor) {
+  EXPECT_EQ(engine_of("{type: threads}").where.line, 3);
+  EXPECT_EQ(engine_of("{workers: 2}").where.line, 3);
+  EXPECT_EQ(engine_of("{}").where.file, "");
+  EXPECT_EQ(read_text(kLeastStudy).ensemble.engine.where.file, "");
 }
 
 TEST(StudyEnsemble, RefusesOtherEngines) {
-  expect_refused("{type: mpi}", "engine.type", "the engine mpi is not built");
+  expect_refused("{type: mpi, workers: 2}", "engine.workers", "mpirun says how many workers the engine mpi has");
   expect_refused("{type: thread}", "engine.type", "did you mean \"threads\"");
   expect_refused("{type: serial, workers: 2}", "engine.workers", "the engine serial has no workers");
   expect_refused("{workers: 0}", "engine.workers", "out of range");

@@ -1,0 +1,21 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_BENCHMARK_RANK_PROGRAM_H_
+#define MECHANISM_CODESIGN_BENCHMARK_RANK_PROGRAM_H_
+
+#include <string>
+
+namespace codesign {
+
+/// The word of the command line that makes the benchmarks a program of several ranks, which measure_ranks() starts with mpirun.
+constexpr const char* kRankProgram = "--rank-program";
+
+/// What such a program measures, printed by rank 0 as numbers in one line:
+/// - "gradient": wall time and processor time of rank 0 [s] of the gradient over 32 samples;
+/// - "messages": of a task that costs nothing: processor time of the dispatcher and of the caller [s], and the time until it is answered
+///   if it is the only one [s]; then the sizes of the messages with a task, a result and a problem [bytes].
+/// @returns the exit code.
+int run_rank_program(const std::string& what);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_BENCHMARK_RANK_PROGRAM_H_

@@ -1,0 +1,213 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "engine/messages.h"
+
+#include <stdexcept>
+
+namespace codesign {
+namespace {
+
+ByteWriter begin(MessageKind kind, std::uint64_t number) {
+  ByteWriter writer;
+  writer.add(kind);
+  writer.add(number);
+  return writer;
+}
+
+void add(const SourceText& text, ByteWriter* writer) {
+  writer->add_text(text.name);
+  writer->add_text(text.text);
+}
+
+SourceText get_source(ByteReader* reader) {
+  std::string name = reader->get_text();
+  return {std::move(name), reader->get_text()};
+}
+
+void add(const SourceLocation& where, ByteWriter* writer) {
+  writer->add_text(where.file);
+  writer->add(static_cast<std::int32_t>(where.line));
+}
+
+SourceLocation get_location(ByteReader* reader) {
+  std::string file = reader->get_text();
+  return {std::move(file), reader->get<std::int32_t>()};
+}
+
+void add(const LoadedTrajectory& one, ByteWriter* writer) {
+  for (const std::string& text : {one.bag, one.topic, one.joint}) writer->add_text(text);
+  const auto& [times, positions, velocities, accelerations] = one.trajectory;
+  for (const std::vector<double>* values : {&times, &positions, &velocities, &accelerations}) writer->add_numbers(*values);
+}
+
+LoadedTrajectory get_trajectory(ByteReader* reader) {
+  LoadedTrajectory one;
+  for (std::string* text : {&one.bag, &one.topic, &one.joint}) *text = reader->get_text();
+  auto& [times, positions, velocities, accelerations] = one.trajectory;
+  for (std::vector<double>* values : {&times, &positions, &velocities, &accelerations})
+    *values = reader->get_numbers<std::vector<double>>();
+  return one;
+}
+
+/// A list of anything that `get_one` reads.
+template <class GetOne>
+auto get_list(ByteReader* reader, const GetOne& get_one) {
+  std::vector<decltype(get_one(reader))> list;
+  for (auto left = reader->get<std::uint64_t>(); left > 0; --left) list.push_back(get_one(reader));
+  return list;
+}
+
+std::uint64_t size_of(std::size_t size) { return size; }
+
+Eigen::MatrixXd get_matrix(ByteReader* reader) {
+  const auto rows = reader->get<std::int64_t>();
+  const Eigen::VectorXd values = reader->get_numbers<Eigen::VectorXd>();
+  if (rows <= 0) return {};
+  return values.reshaped(rows, values.size() / rows);
+}
+
+Warning get_warning(ByteReader* reader) {
+  std::string code = reader->get_text(), message = reader->get_text();
+  return {std::move(code), std::move(message), get_location(reader)};
+}
+
+}  // namespace
+
+std::string write_numbered(MessageKind kind, std::uint64_t number) { return begin(kind, number).take(); }
+
+std::string write_hello(const Hello& hello) {
+  ByteWriter writer;
+  writer.add(MessageKind::kHello);
+  writer.add(hello.format);
+  writer.add_text(hello.version);
+  writer.add_text(hello.host);
+  return writer.take();
+}
+
+Hello read_hello(ByteReader* reader) {
+  Hello hello;
+  hello.format = reader->get<std::uint32_t>();
+  hello.version = reader->get_text();
+  hello.host = reader->get_text();
+  return hello;
+}
+
+std::string write_problem(std::uint32_t number, const PortableProblem& problem) {
+  const auto& [urdf, overlays, study, trajectories, values, tuned] = problem;
+  ByteWriter writer = begin(MessageKind::kProblem, number);
+  add(urdf, &writer);
+  writer.add(size_of(overlays.size()));
+  for (const SourceText& overlay : overlays) add(overlay, &writer);
+  add(study, &writer);
+  writer.add(size_of(trajectories.size()));
+  for (const LoadedTrajectory& one : trajectories) add(one, &writer);
+  writer.add_numbers(values);
+  writer.add(size_of(tuned.size()));
+  for (const std::string& name : tuned) writer.add_text(name);
+  return writer.take();
+}
+
+PortableProblem read_problem(ByteReader* reader) {
+  PortableProblem problem;
+  problem.urdf = get_source(reader);
+  problem.overlays = get_list(reader, get_source);
+  problem.study = get_source(reader);
+  problem.trajectories = get_list(reader, get_trajectory);
+  problem.values = reader->get_numbers<std::vector<double>>();
+  problem.tuned = get_list(reader, [](ByteReader* from) { return from->get_text(); });
+  return problem;
+}
+
+std::string write_task(std::uint64_t number, std::uint32_t problem, std::uint32_t system, bool with_gradient,
+                       const std::vector<double>& parameters) {
+  ByteWriter writer = begin(MessageKind::kTask, number);
+  writer.add(problem);
+  writer.add(system);
+  writer.add(with_gradient);
+  writer.add_numbers(parameters);
+  return writer.take();
+}
+
+TaskMessage read_task(std::uint64_t number, ByteReader* reader) {
+  TaskMessage task;
+  task.number = number;
+  task.problem = reader->get<std::uint32_t>();
+  task.system = reader->get<std::uint32_t>();
+  task.with_gradient = reader->get<bool>();
+  task.parameters = reader->get_numbers<std::vector<double>>();
+  return task;
+}
+
+std::string write_result(std::uint64_t number, const Evaluation& evaluation) {
+  // By name, so that a member that is added to Evaluation does not compile until it has a place here and in read_result().
+  const auto& [status, objective, gradient, extremes, statistics, warnings] = evaluation;
+  const auto& [code, time, cause] = status;
+  const auto& [values, times, gradients] = extremes;
+  const auto& [steps, rejected_steps, cpu_seconds, constraint_drift, energy_error] = statistics;
+  ByteWriter writer = begin(MessageKind::kResult, number);
+  writer.add(code);
+  writer.add(time);
+  writer.add_text(cause);
+  writer.add(objective);
+  writer.add_numbers(gradient);
+  writer.add_numbers(values);
+  writer.add_numbers(times);
+  writer.add(static_cast<std::int64_t>(gradients.rows()));
+  writer.add_numbers(gradients);
+  for (const std::int64_t count : {steps, rejected_steps}) writer.add(count);
+  for (const double value : {cpu_seconds, constraint_drift, energy_error}) writer.add(value);
+  writer.add(size_of(warnings.size()));
+  for (const Warning& warning : warnings) {
+    writer.add_text(warning.code);
+    writer.add_text(warning.message);
+    add(warning.where, &writer);
+  }
+  return writer.take();
+}
+
+Evaluation read_result(ByteReader* reader) {
+  Evaluation evaluation;
+  evaluation.status.code = reader->get<StatusCode>();
+  evaluation.status.time = reader->get<double>();
+  evaluation.status.cause = reader->get_text();
+  evaluation.objective = reader->get<double>();
+  evaluation.gradient = reader->get_numbers<Eigen::VectorXd>();
+  evaluation.extremes.values = reader->get_numbers<Eigen::VectorXd>();
+  evaluation.extremes.times = reader->get_numbers<Eigen::VectorXd>();
+  evaluation.extremes.gradients = get_matrix(reader);
+  Statistics& statistics = evaluation.statistics;
+  for (std::int64_t* count : {&statistics.steps, &statistics.rejected_steps}) *count = reader->get<std::int64_t>();
+  for (double* value : {&statistics.cpu_seconds, &statistics.constraint_drift, &statistics.energy_error}) *value = reader->get<double>();
+  evaluation.warnings = get_list(reader, get_warning);
+  return evaluation;
+}
+
+std::string write_error(std::uint64_t number, const std::exception_ptr& error) {
+  ByteWriter writer = begin(MessageKind::kError, number);
+  InputFault fault;
+  bool is_input = false;
+  try {
+    std::rethrow_exception(error);
+  } catch (const InputError& caught) {
+    is_input = true;
+    fault = caught.fault();
+  } catch (const std::exception& caught) {
+    fault.message = caught.what();
+  } catch (...) {
+    fault.message = "an unknown exception";
+  }
+  writer.add(is_input);
+  add(fault.where, &writer);
+  for (const std::string* text : {&fault.element, &fault.message, &fault.value, &fault.allowed}) writer.add_text(*text);
+  return writer.take();
+}
+
+std::exception_ptr read_error(ByteReader* reader) {
+  const bool is_input = reader->get<bool>();
+  InputFault fault;
+  fault.where = get_location(reader);
+  for (std::string* text : {&fault.element, &fault.message, &fault.value, &fault.allowed}) *text = reader->get_text();
+  if (is_input) return std::make_exception_ptr(InputError(std::move(fault)));
+  return std::make_exception_ptr(std::runtime_error(fault.message));
+}
+
+}  // namespace codesign

@@ -1,0 +1,73 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ENGINE_MESSAGES_H_
+#define MECHANISM_CODESIGN_ENGINE_MESSAGES_H_
+
+#include <cstdint>
+#include <exception>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/bytes.h"
+#include "mechanism_codesign/gradient.h"
+#include "problem/portable_problem.h"
+
+namespace codesign {
+
+// What the ranks of a job tell each other. A message is a byte of MessageKind and what the kind asks for; numbers keep their bits.
+
+/// Of every message but kHello; a change of any of them needs a new number.
+constexpr std::uint32_t kMessageFormat = 1;
+
+enum class MessageKind : std::uint8_t {
+  // To rank 0.
+  kHello,    ///< Hello: the first message of a rank
+  kResult,   ///< number of the task, evaluation
+  kError,    ///< number of the task, exception
+  kPong,     ///< number of the ping
+  kGoodbye,  ///< the answer to kEnd, the last message of a rank
+  // To the others.
+  kProblem,  ///< number of the problem, PortableProblem
+  kTask,     ///< TaskMessage
+  kCancel,   ///< number of the task, which is not answered, or with what has come out
+  kForget,   ///< number of the problem
+  kPing,     ///< number of the ping
+  kEnd,      ///< the job is over
+  // To both.
+  kSign  ///< nothing but that one is there
+};
+
+/// Who a rank is. Its layout never changes, so that other versions understand it.
+struct Hello {
+  std::uint32_t format = kMessageFormat;
+  std::string version, host;
+};
+
+/// A task: a run of a system of a problem at one design.
+struct TaskMessage {
+  std::uint64_t number = 0;
+  std::uint32_t problem = 0, system = 0;  ///< the system's place in distinct_systems()
+  bool with_gradient = false;
+  std::vector<double> parameters;
+};
+
+/// A message that has a kind and a number.
+std::string write_numbered(MessageKind kind, std::uint64_t number = 0);
+std::string write_hello(const Hello& hello);
+std::string write_problem(std::uint32_t number, const PortableProblem& problem);
+std::string write_task(std::uint64_t number, std::uint32_t problem, std::uint32_t system, bool with_gradient,
+                       const std::vector<double>& parameters);
+std::string write_result(std::uint64_t number, const Evaluation& evaluation);
+/// What was thrown: an InputError arrives as one, any other exception as std::runtime_error with the same sentence.
+std::string write_error(std::uint64_t number, const std::exception_ptr& error);
+
+// Each reads what follows kind and number, or, where there is no number, the kind. @throws std::runtime_error for a damaged message.
+Hello read_hello(ByteReader* reader);
+PortableProblem read_problem(ByteReader* reader);
+TaskMessage read_task(std::uint64_t number, ByteReader* reader);
+Evaluation read_result(ByteReader* reader);
+std::exception_ptr read_error(ByteReader* reader);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ENGINE_MESSAGES_H_

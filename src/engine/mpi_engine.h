@@ -1,0 +1,38 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ENGINE_MPI_ENGINE_H_
+#define MECHANISM_CODESIGN_ENGINE_MPI_ENGINE_H_
+
+#include <map>
+#include <thread>
+
+#include "engine/dispatcher.h"
+
+namespace codesign {
+
+/// Does the evaluations of one problem on all ranks of a job.
+class MpiEngine final : public EvaluationEngine {
+ public:
+  /// @param dispatcher must outlive it.
+  MpiEngine(Dispatcher* dispatcher, const Problem& problem);
+  ~MpiEngine() override;
+  MpiEngine(const MpiEngine&) = delete;
+  MpiEngine& operator=(const MpiEngine&) = delete;
+
+  /// @param tasks of systems of the problem. Those that a lost rank leaves undone end with kWorkerLost.
+  /// An exception of a task is thrown again here, once the other tasks of the call have ended.
+  std::vector<Evaluation> evaluate(const std::vector<EvaluationTask>& tasks, const std::atomic<bool>* cancel) override;
+  int workers() const override;
+
+ private:
+  void compute();
+
+  Dispatcher* const dispatcher_;
+  const std::uint32_t problem_;
+  std::vector<std::shared_ptr<const CompiledSystem>> systems_;
+  std::map<const CompiledSystem*, std::uint32_t> numbers_;
+  std::thread local_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ENGINE_MPI_ENGINE_H_

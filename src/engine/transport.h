@@ -1,0 +1,32 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ENGINE_TRANSPORT_H_
+#define MECHANISM_CODESIGN_ENGINE_TRANSPORT_H_
+
+#include <optional>
+#include <string>
+
+namespace codesign {
+
+/// A message with the rank it comes from.
+struct Envelope {
+  int from = 0;
+  std::string bytes;
+};
+
+/// Carries messages between the processes (ranks) of a job. Messages from one rank to another arrive whole and in the order in which they
+/// were sent. No call waits for another process. Called by one thread at a time.
+class Transport {
+ public:
+  virtual ~Transport() = default;
+  virtual int rank() const = 0;
+  virtual int ranks() const = 0;
+  virtual void send(int to, std::string bytes) = 0;
+  /// The next message, if one has arrived. Also moves on what is being sent.
+  virtual std::optional<Envelope> receive() = 0;
+  /// A sentence if a connection has failed; empty as long as none has.
+  virtual std::string failure() const = 0;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ENGINE_TRANSPORT_H_

@@ -1,0 +1,54 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mpi/run_on_ranks.h"
+
+#include <csignal>
+#include <iostream>
+
+#include "engine/dispatcher.h"
+#include "engine/rank_worker.h"
+#include "mpi/launcher.h"
+#include "mpi/mpi_transport.h"
+
+namespace codesign {
+namespace {
+
+constexpr int kFailed = 1;
+constexpr auto kFlush = std::chrono::seconds(2);  // for the last messages
+
+// mpirun sends its signals to all ranks. The first one is for rank 0, which keeps what is there and then ends the others.
+extern "C" void stay(int signal_number) { std::signal(signal_number, SIG_DFL); }
+
+/// Ends MPI. If not all ranks can end together, those that are left end at once: they would wait for each other forever.
+int finish(MpiTransport* transport, bool in_order, int code) {
+  if (!in_order || !transport->flush(kFlush)) transport->abort(code);
+  transport->finish();
+  return code;
+}
+
+int serve(const std::string& name, MpiTransport* transport) {
+  std::signal(SIGINT, stay);
+  std::signal(SIGTERM, stay);
+  const std::string fault = RankWorker(transport).run();
+  if (!fault.empty()) std::cerr << name << ": rank " << transport->rank() << " ends: " << fault << std::endl;
+  return finish(transport, fault.empty(), fault.empty() ? 0 : kFailed);
+}
+
+}  // namespace
+
+int run_on_ranks(const std::string& name, const std::function<int(Dispatcher*)>& first) {
+  const std::optional<Launched> launched = find_launcher();
+  if (!launched || launched->ranks == 1) {
+    Dispatcher alone(nullptr);
+    return first(&alone);
+  }
+  MpiTransport transport;
+  if (transport.rank() > 0) return serve(name, &transport);
+  Dispatcher dispatcher(&transport);
+  const int code = first(&dispatcher);
+  const bool in_order = dispatcher.finish();
+  if (!in_order) std::cerr << name << ": not all ranks have ended in order; those that are left are ended now" << std::endl;
+  std::cout.flush();
+  return finish(&transport, in_order, code);
+}
+
+}  // namespace codesign

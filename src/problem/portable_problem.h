@@ -1,0 +1,31 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_PROBLEM_PORTABLE_PROBLEM_H_
+#define MECHANISM_CODESIGN_PROBLEM_PORTABLE_PROBLEM_H_
+
+#include <string>
+#include <vector>
+
+#include "description/reference.h"
+#include "problem/load_problem.h"
+
+namespace codesign {
+
+/// All that another process needs to compile the same problem, on a machine that has none of its files.
+struct PortableProblem {
+  SourceText urdf;
+  std::vector<SourceText> overlays;
+  SourceText study;
+  std::vector<LoadedTrajectory> trajectories;
+  std::vector<double> values;      ///< start values of all named parameters
+  std::vector<std::string> tuned;  ///< names of the tuned parameters
+};
+
+/// @param problem as loaded, or with another choice or other start values of its parameters; other changes of its study are not carried.
+PortableProblem make_portable(const Problem& problem);
+
+/// The same problem, with the same order of its systems. @throws InputError as load_problem().
+Problem load_portable(const PortableProblem& portable);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_PROBLEM_PORTABLE_PROBLEM_H_

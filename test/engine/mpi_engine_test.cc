@@ -1,0 +1,130 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "engine/mpi_engine.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/rank_fixture.h"
+#include "engine/serial_engine.h"
+#include "ensemble/ensemble.h"
+#include "ensemble/ensemble_fixture.h"
+
+namespace codesign {
+namespace {
+
+std::vector<EvaluationTask> block_tasks(const Problem& problem, int count) {
+  std::vector<EvaluationTask> result;
+  for (int k = 0; k < count; ++k) result.push_back({problem.system(), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)), k % 3 != 0});
+  return result;
+}
+
+void expect_the_same(const std::vector<Evaluation>& a, const std::vector<Evaluation>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    EXPECT_TRUE(a[k].status.ok()) << a[k].status.cause;
+    EXPECT_EQ(a[k].objective, b[k].objective);
+    EXPECT_EQ(a[k].gradient, b[k].gradient);
+    EXPECT_EQ(a[k].statistics.energy_error, b[k].statistics.energy_error);
+  }
+}
+
+/// A block that is watched for so long that nobody waits for the end.
+Problem endless_block() {
+  SourceText study = block("").study_text();
+  study.text.replace(study.text.find("duration: 0.8"), 13, "duration: 1.0e+9");
+  study.text.replace(study.text.find("setpoint: 0.5"), 13, "setpoint: {type: sine, amplitude: 0.5, frequency: 20.0}");
+  study.text += "solver: {maximum_steps: 1000000000}\n";
+  return load_problem(block("").urdf(), {}, study);
+}
+
+TEST(MpiEngine, AnyNumberOfRanksGivesTheSameBits) {
+  const Problem problem = block("");
+  const std::vector<EvaluationTask> all = block_tasks(problem, 23);
+  const std::vector<Evaluation> expected = SerialEngine().evaluate(all, nullptr);
+  for (const int ranks : {2, 3, 5}) {
+    RankJob job(ranks);
+    MpiEngine engine(job.ranks(), problem);
+    EXPECT_EQ(engine.workers(), ranks) << "rank 0 computes as well";
+    expect_the_same(engine.evaluate(all, nullptr), expected);
+    expect_the_same(engine.evaluate(all, nullptr), expected);
+    EXPECT_TRUE(engine.evaluate({}, nullptr).empty());
+  }
+}
+
+TEST(MpiEngine, RunsAndLawsAreSystemsOfTheirOwnOnEveryRank) {
+  const Problem problem = block(R"(
+runs: {slow: {}, fast: {initial_state: {slide: {velocity: 2.0}}}}
+uncertain: {mu: {uniform: [0.2, 0.4]}, friction_law: {choice: [brown_mcphee, gonthier]}}
+robust: {samples: 4}
+)");
+  const Ensemble alone(problem);
+  RankJob job(3);
+  const Ensemble spread(problem, 1, {nullptr, nullptr, job.ranks()});
+  const EnsembleEvaluation here = alone.evaluate(problem.start(), true), there = spread.evaluate(problem.start(), true);
+  ASSERT_TRUE(here.total.status.ok());
+  EXPECT_EQ(here.total.objective, there.total.objective);
+  EXPECT_EQ(here.total.gradient, there.total.gradient);
+  EXPECT_EQ(here.values, there.values);
+}
+
+TEST(MpiEngine, SeveralCallersAndSeveralProblemsShareTheRanks) {
+  const Problem problem = block(""), other = with_settings(problem, {{"mu", 0.2}});
+  const std::vector<EvaluationTask> all = block_tasks(problem, 7), others = block_tasks(other, 5);
+  const std::vector<Evaluation> expected = SerialEngine().evaluate(all, nullptr),
+                                expected_others = SerialEngine().evaluate(others, nullptr);
+  EXPECT_NE(expected[1].objective, expected_others[1].objective);
+  RankJob job(3);
+  MpiEngine engine(job.ranks(), problem);
+  std::vector<std::vector<Evaluation>> results(4);
+  std::vector<std::thread> callers;
+  for (auto& result : results) callers.emplace_back([&] { result = engine.evaluate(all, nullptr); });
+  callers.emplace_back([&] { expect_the_same(MpiEngine(job.ranks(), other).evaluate(others, nullptr), expected_others); });
+  for (std::thread& caller : callers) caller.join();
+  for (const auto& result : results) expect_the_same(result, expected);
+}
+
+TEST(MpiEngine, EachFinishedTaskIsToldOnce) {
+  const Problem problem = block("");
+  std::vector<EvaluationTask> all = block_tasks(problem, 12);
+  std::vector<std::atomic<int>> told(all.size());
+  for (std::size_t k = 0; k < all.size(); ++k) all[k].finished = [&told, k](const Evaluation&) { ++told[k]; };
+  RankJob job(3);
+  MpiEngine(job.ranks(), problem).evaluate(all, nullptr);
+  for (const std::atomic<int>& count : told) EXPECT_EQ(count, 1);
+}
+
+TEST(MpiEngine, ACancelReachesEvaluationsThatRun) {
+  const Problem problem = endless_block(), quick = block("");
+  RankJob job(3);
+  {
+    MpiEngine engine(job.ranks(), problem);
+    std::atomic<bool> cancel{false};
+    std::thread canceller([&cancel] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+      cancel = true;
+    });
+    const auto begin = std::chrono::steady_clock::now();
+    for (const Evaluation& evaluation : engine.evaluate(block_tasks(problem, 9), &cancel))
+      EXPECT_EQ(evaluation.status.code, StatusCode::kCancelled) << evaluation.status.cause;
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(1200));
+    canceller.join();
+  }
+  const std::vector<EvaluationTask> all = block_tasks(quick, 5);
+  expect_the_same(MpiEngine(job.ranks(), quick).evaluate(all, nullptr), SerialEngine().evaluate(all, nullptr));
+}
+
+TEST(MpiEngine, AnExceptionOfAWorkerReachesTheCaller) {
+  const Problem problem = block("");
+  const auto error = std::make_exception_ptr(InputError({{"block.yaml", 7}, "path", "too long", "9", "8"}));
+  PlayedJob job(own_hello(), [&error](MessageKind kind, std::uint64_t number) {
+    return kind == MessageKind::kTask ? std::optional<std::string>(write_error(number, error)) : std::nullopt;
+  });
+  try {
+    MpiEngine(job.ranks(), problem).evaluate(block_tasks(problem, 50), nullptr);
+    ADD_FAILURE() << "no exception";
+  } catch (const InputError& caught) {
+    EXPECT_STREQ(caught.what(), "block.yaml:7: path: too long (value: 9, allowed: 8)");
+  }
+}
+
+}  // namespace
+}  // namespace codesign

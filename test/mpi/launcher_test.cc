@@ -1,0 +1,28 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mpi/launcher.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace codesign {
+namespace {
+
+const char* nothing(const char*) { return nullptr; }
+const char* open_mpi(const char* name) {
+  return std::strcmp(name, "OMPI_COMM_WORLD_RANK") == 0 ? "3" : std::strcmp(name, "OMPI_COMM_WORLD_SIZE") == 0 ? "8" : nullptr;
+}
+const char* pmix(const char* name) { return std::strcmp(name, "PMIX_RANK") == 0 ? "2" : nullptr; }
+const char* pmi(const char* name) { return std::strcmp(name, "PMI_RANK") == 0 ? "0" : std::strcmp(name, "PMI_SIZE") == 0 ? "5" : nullptr; }
+
+TEST(Launcher, IsFoundByItsEnvironment) {
+  EXPECT_FALSE(find_launcher(nothing).has_value());
+  EXPECT_EQ(find_launcher(open_mpi)->rank, 3);
+  EXPECT_EQ(find_launcher(open_mpi)->ranks, 8);
+  EXPECT_EQ(find_launcher(pmix)->rank, 2);
+  EXPECT_EQ(find_launcher(pmix)->ranks, 0) << "it does not say";
+  EXPECT_EQ(find_launcher(pmi)->ranks, 5);
+}
+
+}  // namespace
+}  // namespace codesign
