@@ -16,7 +16,7 @@ class EvaluationWorker {
     // After a cancel a long queue empties at once.
     if (is_set(cancel)) return cancelled();
     const auto [place, is_new] = evaluators_.try_emplace(task.system.get(), task.system);
-    Evaluation result = place->second.evaluate_design(task.parameters, task.with_gradient, cancel);
+    Evaluation result = place->second.evaluate_design(task.parameters, task.derivatives, cancel);
     if (task.finished) task.finished(result);
     return result;
   }

@@ -20,7 +20,7 @@ Validation validate(const Problem& problem, const Ensemble& ensemble, const Opti
   const RobustOptions& options = ensemble.options();
   const std::vector<Scenario> scenarios = make_validation_scenarios(problem, options.validate);
   meter->begin(SearchStage::kValidating, 1, scenarios.size());
-  const std::vector<Evaluation> members = ensemble.engine().evaluate(tasks_at(scenarios, design.rho, false), cancel);
+  const std::vector<Evaluation> members = ensemble.engine().evaluate(tasks_at(scenarios, design.rho, Derivatives::kNone), cancel);
   Validation validation;
   validation.samples = options.validate;
   validation.promised = design.objective;
