@@ -31,10 +31,10 @@ struct Evaluation {
   Status status;             ///< if not ok, objective and gradient are not valid
   double objective = 0.0;    ///< psi, in the units of the study's terms
   Eigen::VectorXd gradient;  ///< psi_rho, order of Problem::tuned_names(); empty if not asked for
-  /// Upper triangular R, p x p, with R^T R = J^T J and a diagonal that is not negative; J is the Jacobian of the residuals whose squares sum
-  /// up to psi without its peaks, doc/theory.md (22a). Empty if not asked for.
+  /// Upper triangular R, p x p, with R^T R = J^T J and a diagonal that is not negative; J is the Jacobian of the residuals whose squares
+  /// sum up to psi without its peaks, doc/theory.md (22a). Empty if not asked for.
   Eigen::MatrixXd jacobian_root;
-  Extremes extremes;         ///< empty if the study has neither constraints on signals nor peaks
+  Extremes extremes;  ///< empty if the study has neither constraints on signals nor peaks
   Statistics statistics;
   Warnings warnings;  ///< warnings of the run, as Simulation::warnings()
 };

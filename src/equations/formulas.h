@@ -57,8 +57,8 @@ class Formulas {
 
   /// The sum w of the terminal terms of the objective, theory (21). @param gradient its gradient is appended, if not null; here and below.
   T terminal(const State<T>& state, SparseGradient<T>* gradient);
-  /// Signal minus reference of each term of the integrand g or of the terminal terms w, theory (21), in SI units; their weights are those of
-  /// the design.
+  /// Signal minus reference of each term of the integrand g or of the terminal terms w, theory (21), in SI units; their weights are those
+  /// of the design.
   void errors(ObjectivePart part, const State<T>& state, VectorX<T>* errors);
   /// Signal minus reference of the k-th watched signal, theory (21a), in SI units.
   T watched(std::size_t k, const State<T>& state, SparseGradient<T>* gradient = nullptr);

@@ -7,7 +7,7 @@
 
 namespace codesign {
 
-/// Minimizes the ensemble's measure from `start` with NLopt, within bounds and parameter constraints.
+/// Minimizes the ensemble's measure from `start` with the algorithm of `options`, within bounds and parameter constraints.
 /// @param study of the problem: parameters, bounds, constraints. @param start of rho.
 /// @throws InputError as optimize().
 OptimizationResult search_locally(const Study& study, const OptimizerOptions& options, const Eigen::VectorXd& start,

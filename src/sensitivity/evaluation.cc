@@ -83,8 +83,8 @@ class Evaluator::Implementation {
   }
 
   std::shared_ptr<const CompiledSystem> system_;
-  // Made by the first evaluation, which can be cancelled meanwhile. That for kGaussNewton may be of another kind; no result depends on which
-  // evaluations came before.
+  // Made by the first evaluation, which can be cancelled meanwhile. That for kGaussNewton may be of another kind; no result depends on
+  // which evaluations came before.
   std::unique_ptr<GradientEngine> engine_, root_engine_;
 };
 

@@ -26,7 +26,8 @@ Status ResidualRows::start(Integrator* integrator, Differentiate differentiate) 
   for (const ObjectivePart part : {ObjectivePart::kIntegral, ObjectivePart::kTerminal})
     if (Status status = check_weights(part); !status.ok()) return status;
   SparseGradient<double> gradient;
-  for (const ResolvedTerm& term : system_.integral()) integrator->equations().formulas().signal(term.signal, integrator->state(), &gradient);
+  for (const ResolvedTerm& term : system_.integral())
+    integrator->equations().formulas().signal(term.signal, integrator->state(), &gradient);
   reads_rates_ = !gradient.rate.empty();
   return {};
 }

@@ -17,7 +17,11 @@ int lanes_in_memory(const CompiledSystem& system) {
 }  // namespace
 
 RosenbrockGradient::RosenbrockGradient(const CompiledSystem& system, int most_lanes)
-    : system_(system), integrator_(system), most_lanes_(most_lanes > 0 ? most_lanes : lanes_in_memory(system)), watch_(system), residuals_(system) {
+    : system_(system),
+      integrator_(system),
+      most_lanes_(most_lanes > 0 ? most_lanes : lanes_in_memory(system)),
+      watch_(system),
+      residuals_(system) {
   const double tolerance = system.study().solver.sensitivity_tolerance;
   stages_ = [this, tolerance](const RosenbrockStep<double>& step) {
     double error = 0.0;

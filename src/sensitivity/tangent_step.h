@@ -77,7 +77,7 @@ class TangentStep {
   TangentEquations<N> equations_;
   State<double> projected_;
   Directions<N> y_, stage_y_, residual_, rows_, errors_, rates_;
-  Directions<N> previous_y_;                          ///< y_ at the start of the last accepted step; only if keeps_previous_
+  Directions<N> previous_y_;  ///< y_ at the start of the last accepted step; only if keeps_previous_
   bool keeps_previous_ = false;
   VectorX<Lanes<N>> term_errors_;
   State<Lanes<N>> point_;                             ///< a point of the dense output
