@@ -94,8 +94,7 @@ void check_squares(const Study& study, const OptimizerOptions& options, RobustMe
                           to_decimal(term.weight.nominal()), "0 or more, or one of the algorithms " + fault.allowed});
 }
 
-nlopt::opt make_optimizer(const Study& study, const OptimizerOptions& options, unsigned dimension, bool with_slack) {
-  check_algorithm(study, options, with_slack);
+nlopt::opt make_optimizer(const OptimizerOptions& options, unsigned dimension) {
   const nlopt::algorithm id = algorithms().at(options.algorithm).id.value();
   nlopt::opt optimizer(id, dimension);
   if (id == nlopt::LD_AUGLAG) {

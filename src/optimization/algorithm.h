@@ -22,9 +22,9 @@ void check_algorithm(const Study& study, const OptimizerOptions& options, bool w
 /// @throws InputError if the objective is no sum of squares, or its residuals have no derivatives.
 void check_squares(const Study& study, const OptimizerOptions& options, RobustMeasure measure);
 
-/// The NLopt optimizer that `options.algorithm` names. @param dimension number of tuned parameters and slack variables.
-/// @throws InputError as check_algorithm().
-nlopt::opt make_optimizer(const Study& study, const OptimizerOptions& options, unsigned dimension, bool with_slack = false);
+/// The NLopt optimizer that `options.algorithm` names. @param options checked, and not for least squares. @param dimension number of tuned
+/// parameters and slack variables.
+nlopt::opt make_optimizer(const OptimizerOptions& options, unsigned dimension);
 
 /// Snake-case name of the reason for which NLopt stopped, e.g. objective_tolerance_reached.
 std::string termination_name(nlopt::result result);

@@ -64,8 +64,6 @@ OptimizationResult search_squares(const Study& study, const OptimizerOptions& op
                                   const Ensemble& ensemble, const TrialObserver& observer, const std::atomic<bool>* cancel) {
   const Scaling scaling(study);
   SmoothProgram program(ensemble);
-  check_algorithm(study, options, program.has_robust_slack());
-  check_squares(study, options, ensemble.scenarios().size() > 1 ? ensemble.options().measure : RobustMeasure::kMean);
   SearchTrials trials(study, options, ensemble, observer, cancel, scaling, &program);
   EnsembleSquares squares(&trials, scaling);
   trials.start(start);

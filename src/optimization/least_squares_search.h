@@ -8,7 +8,7 @@
 namespace codesign {
 
 /// search_locally() by Levenberg-Marquardt, doc/theory.md (24e): the mean over the scenarios, as a sum of squares, within bounds.
-/// @throws InputError for a study that is no such problem; see check_squares().
+/// The study must have passed check_search().
 OptimizationResult search_squares(const Study& study, const OptimizerOptions& options, const Eigen::VectorXd& start,
                                   const Ensemble& ensemble, const TrialObserver& observer, const std::atomic<bool>* cancel);
 

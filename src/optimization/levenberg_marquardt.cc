@@ -18,7 +18,7 @@ constexpr double kLeastGain = 1e-4;                   // of what the model promi
 constexpr double kPoorGain = 0.25, kGoodGain = 0.75;  // the radius shrinks below the first and grows above the second
 constexpr double kUnusable = 0.25;                    // factor of the radius after a point without a value
 constexpr double kLeastScale = 1e-8;                  // of the largest entry of D
-constexpr double kRoundingOfVariables = 4.0 * std::numeric_limits<double>::epsilon();
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon(), kRoundingOfVariables = 4.0 * kEpsilon;
 
 /// One search: the radius, the scales, and the best point so far.
 class SquaresSearch {
@@ -59,7 +59,7 @@ class SquaresSearch {
     if (evaluations_ == 1) choose_radius(step);
     const Eigen::VectorXd p = step.within(radius_);
     const double promise = step.promise(p);
-    if (!(promise > 0.0)) return LevenbergMarquardtEnd::kOptimum;
+    if (!(promise > kEpsilon * best_.value)) return LevenbergMarquardtEnd::kOptimum;
     if ((p.array().abs() <= kRoundingOfVariables * x_.array().abs()).all()) return LevenbergMarquardtEnd::kVariableTolerance;
     if (evaluations_ >= options_.max_evaluations) return LevenbergMarquardtEnd::kMaxEvaluations;
     Eigen::VectorXd trial = x_ + p;

@@ -33,7 +33,7 @@ struct LevenbergMarquardtOptions {
 };
 
 enum class LevenbergMarquardtEnd {
-  kOptimum,            ///< the gradient vanishes, but for components that bounds hold
+  kOptimum,            ///< no step promises more than rounding of psi
   kValueTolerance,     ///< relative_tolerance is met
   kVariableTolerance,  ///< steps are below rounding of the variables
   kMaxEvaluations,

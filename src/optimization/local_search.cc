@@ -37,7 +37,7 @@ class Minimization {
   }
 
   OptimizationResult run(const Eigen::VectorXd& start) {
-    nlopt::opt optimizer = make_optimizer(study_, options_, dimension(), program_.has_robust_slack());
+    nlopt::opt optimizer = make_optimizer(options_, dimension());
     configure(&optimizer);
     trials_.start(start);
     std::vector<double> x = scaling_.to_scaled(start);
@@ -101,7 +101,7 @@ class Minimization {
   void move_inside() {
     OptimizerOptions options = options_;
     options.algorithm = kInsideFinder;
-    nlopt::opt optimizer = make_optimizer(study_, options, dimension(), program_.has_robust_slack());
+    nlopt::opt optimizer = make_optimizer(options, dimension());
     configure(&optimizer);
     moves_inside_ = true;
     run_from(restarts_ == 1 ? result_.initial_rho : result_.rho, &optimizer);
@@ -278,8 +278,15 @@ class Minimization {
 
 }  // namespace
 
+void check_search(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble) {
+  const RobustMeasure measure = ensemble.scenarios().size() > 1 ? ensemble.options().measure : RobustMeasure::kMean;
+  check_algorithm(study, options, measure == RobustMeasure::kWorst || measure == RobustMeasure::kCvar);
+  if (is_least_squares(options.algorithm)) check_squares(study, options, measure);
+}
+
 OptimizationResult search_locally(const Study& study, const OptimizerOptions& options, const Eigen::VectorXd& start,
                                   const Ensemble& ensemble, const TrialObserver& observer, const std::atomic<bool>* cancel) {
+  check_search(study, options, ensemble);
   if (is_least_squares(options.algorithm)) return search_squares(study, options, start, ensemble, observer, cancel);
   return Minimization(study, options, ensemble, observer, cancel).run(start);
 }

@@ -37,6 +37,7 @@ class Multistart {
         scaling_(study_) {}
 
   OptimizationResult run() {
+    check_search(study_, options_, ensemble_);
     screen();
     std::vector<OptimizationResult> found = search();
     OptimizationResult result = combine(&found);

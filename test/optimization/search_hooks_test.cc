@@ -18,12 +18,12 @@ class Notebook final : public EvaluationMemory {
  public:
   std::optional<Evaluation> find(const EvaluationTask& task) override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto place = known_.find({task.system.get(), task.parameters, task.with_gradient});
+    const auto place = known_.find({task.system.get(), task.parameters, task.derivatives});
     return place == known_.end() ? std::nullopt : std::optional<Evaluation>(place->second);
   }
   void keep(const EvaluationTask& task, const Evaluation& evaluation) override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    known_[{task.system.get(), task.parameters, task.with_gradient}] = evaluation;
+    known_[{task.system.get(), task.parameters, task.derivatives}] = evaluation;
     if (++kept == cancel_at) cancel = true;
   }
 
@@ -32,7 +32,7 @@ class Notebook final : public EvaluationMemory {
 
  private:
   std::mutex mutex_;
-  std::map<std::tuple<const CompiledSystem*, std::vector<double>, bool>, Evaluation> known_;
+  std::map<std::tuple<const CompiledSystem*, std::vector<double>, Derivatives>, Evaluation> known_;
 };
 
 Problem nested() {
@@ -87,7 +87,7 @@ TEST(SearchHooks, CancelledWhileScreeningItKeepsTheBestPointWithinASecond) {
   EXPECT_GE(result.screened, 20);
   EXPECT_LT(result.screened, 1000) << "only those that were evaluated";
   EXPECT_NE(result.rho, problem.start());
-  const auto start = memory->find({problem.system(), problem.parameters(), false});
+  const auto start = memory->find({problem.system(), problem.parameters(), Derivatives::kNone});
   ASSERT_TRUE(start);
   EXPECT_LT(result.objective, start->objective);
 }
