@@ -37,7 +37,7 @@ class Ensemble {
   /// The one run of a compiled study.
   explicit Ensemble(std::shared_ptr<const CompiledSystem> system);
 
-  /// @param derivatives kGaussNewton: Evaluation::jacobian_root of `total` too, for the measure kMean; theory (22b).
+  /// @param derivatives kGaussNewton: Evaluation::jacobian_root of `total` too, for the measure kMean; doc/theory.md (22b).
   EnsembleEvaluation evaluate(const Eigen::VectorXd& rho, Derivatives derivatives, const std::atomic<bool>* cancel = nullptr) const;
   EnsembleEvaluation evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel = nullptr) const {
     return evaluate(rho, gradient_if(with_gradient), cancel);

@@ -7,7 +7,7 @@
 
 namespace codesign {
 
-/// The step problem of Levenberg-Marquardt within bounds, doc/theory.md (24e):
+/// The step problem of Levenberg-Marquardt within bounds, doc/theory.md (24g):
 ///   minimize g^T p + |R p|^2 + mu |D p|^2    over    lower <= p <= upper,
 /// solved exactly by an active set. For the free components it uses QR factorizations of the columns of [R D^-1; sqrt(mu) 1] and the
 /// corrected seminormal equations, since g is known and R^T R p = -g/2 has no other right side.

@@ -7,7 +7,7 @@
 
 namespace codesign {
 
-/// search_locally() by Levenberg-Marquardt, doc/theory.md (24e): the mean over the scenarios, as a sum of squares, within bounds.
+/// search_locally() by Levenberg-Marquardt, doc/theory.md (24g): the mean over the scenarios, as a sum of squares, within bounds.
 /// The study must have passed check_search().
 OptimizationResult search_squares(const Study& study, const OptimizerOptions& options, const Eigen::VectorXd& start,
                                   const Ensemble& ensemble, const TrialObserver& observer, const std::atomic<bool>* cancel);

@@ -42,7 +42,7 @@ enum class LevenbergMarquardtEnd {
 };
 
 /// Minimizes a sum of squares within bounds by the method of Levenberg and Marquardt as a trust region with Moré's scaling; doc/theory.md
-/// (24e). Each step is the minimum of the model
+/// (24g). Each step is the minimum of the model
 ///   psi + psi_x^T p + p^T R^T R p    over    lower <= x + p <= upper,    |D p| <= Delta,
 /// with D_j the largest norm so far of column j of R. The bounds are part of that problem, so that a step slides along them.
 /// All points are within the bounds. Knows nothing of where residuals come from.

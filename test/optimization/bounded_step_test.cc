@@ -11,7 +11,7 @@
 namespace codesign {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
 struct StepProblem {
   Eigen::VectorXd gradient, scale, lower, upper;
@@ -58,10 +58,10 @@ TEST(BoundedStep, MeetsTheConditionsOfAnOptimum) {
 
 TEST(BoundedStep, WithoutBoundsItIsTheSolutionOfTheNormalEquations) {
   StepProblem problem = random_problem(5, 3);
-  problem.lower.setConstant(-kInfinity);
-  problem.upper.setConstant(kInfinity);
+  problem.lower.setConstant(-kNoBound);
+  problem.upper.setConstant(kNoBound);
   const BoundedStep step = problem.step();
-  const Eigen::VectorXd p = step.within(kInfinity);
+  const Eigen::VectorXd p = step.within(kNoBound);
   const Eigen::MatrixXd H = 2.0 * problem.root.transpose() * problem.root;
   EXPECT_LE((H * p + problem.gradient).norm(), 1e-10 * problem.gradient.norm());
   EXPECT_NEAR(step.promise(p), -0.5 * problem.gradient.dot(p), 1e-10 * step.promise(p));
@@ -72,7 +72,7 @@ TEST(BoundedStep, IsNotLongerThanTheRadius) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     const StepProblem problem = random_problem(6, seed);
     const BoundedStep step = problem.step();
-    const double free = step.length(step.within(kInfinity));
+    const double free = step.length(step.within(kNoBound));
     double before = 0.0;
     for (const double fraction : {1e-6, 1e-3, 0.3, 0.8}) {
       const Eigen::VectorXd p = step.within(fraction * free);
@@ -81,7 +81,7 @@ TEST(BoundedStep, IsNotLongerThanTheRadius) {
       EXPECT_GT(step.promise(p), before) << "a longer step promises more";
       before = step.promise(p);
     }
-    EXPECT_EQ(step.within(2.0 * free), step.within(kInfinity));
+    EXPECT_EQ(step.within(2.0 * free), step.within(kNoBound));
   }
 }
 
@@ -90,9 +90,9 @@ TEST(BoundedStep, IsFiniteWhereTheRootIsSingular) {
   problem.root.row(3).setZero();
   problem.root.col(2) = problem.root.col(1);
   problem.gradient = problem.root.transpose() * Eigen::Vector4d(1.0, -2.0, 0.5, 0.0);
-  problem.lower.setConstant(-kInfinity);
-  problem.upper.setConstant(kInfinity);
-  const Eigen::VectorXd p = problem.step().within(kInfinity);
+  problem.lower.setConstant(-kNoBound);
+  problem.upper.setConstant(kNoBound);
+  const Eigen::VectorXd p = problem.step().within(kNoBound);
   ASSERT_TRUE(p.allFinite());
   EXPECT_LE(slope(problem, 0.0, p).norm(), 1e-6 * problem.gradient.norm());
 }

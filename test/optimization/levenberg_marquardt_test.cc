@@ -12,7 +12,7 @@
 namespace codesign {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 using Outcome = LeastSquaresModel::Outcome;
 
 /// Residuals with their Jacobian; the points tried are counted.
@@ -42,12 +42,12 @@ struct Answer {
   LeastSquaresPoint best;
 };
 
-Answer minimize(Residuals* residuals, const Eigen::VectorXd& start, double lower = -kInfinity, double upper = kInfinity,
+Answer minimize(Residuals* residuals, const Eigen::VectorXd& start, double lower = -kUnbounded, double upper = kUnbounded,
                 double tolerance = 1e-12, int most = 200) {
   LevenbergMarquardtOptions options;
   options.relative_tolerance = tolerance;
   options.max_evaluations = most;
-  options.largest_first_step = kInfinity;
+  options.largest_first_step = kUnbounded;
   Answer answer{LevenbergMarquardtEnd::kStopped, start, {}};
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(start.size());
   answer.end = minimize_squares(options, lower * ones, upper * ones, residuals, &answer.x, &answer.best);
@@ -74,7 +74,7 @@ Residuals linear(double scale_of_second = 1.0) {
 
 TEST(LevenbergMarquardt, OneStepSolvesALinearProblem) {
   Residuals residuals = linear();
-  const Answer answer = minimize(&residuals, Eigen::Vector3d(5.0, -7.0, 11.0), -kInfinity, kInfinity, 1e-10, 2);
+  const Answer answer = minimize(&residuals, Eigen::Vector3d(5.0, -7.0, 11.0), -kUnbounded, kUnbounded, 1e-10, 2);
   EXPECT_EQ(residuals.evaluations, 2);
   EXPECT_LE(answer.best.gradient.norm(), 1e-12);
 }
@@ -130,7 +130,7 @@ TEST(LevenbergMarquardt, EndsWithAReason) {
   EXPECT_EQ(kept.end, LevenbergMarquardtEnd::kStopped);
   EXPECT_LT(kept.best.value, 24.2) << "the best point is kept";
   Residuals few(rosenbrock_valley);
-  EXPECT_EQ(minimize(&few, Eigen::Vector2d(-1.2, 1.0), -kInfinity, kInfinity, 1e-12, 4).end, LevenbergMarquardtEnd::kMaxEvaluations);
+  EXPECT_EQ(minimize(&few, Eigen::Vector2d(-1.2, 1.0), -kUnbounded, kUnbounded, 1e-12, 4).end, LevenbergMarquardtEnd::kMaxEvaluations);
   EXPECT_EQ(few.evaluations, 4);
   Residuals at_optimum = linear();
   const Answer optimum = minimize(&at_optimum, Eigen::Vector3d::Zero());
