@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "math/triangular_root.h"
 
-#include <Eigen/QR>
+#include <Eigen/Householder>
 #include <algorithm>
 
 namespace codesign {
@@ -9,30 +9,43 @@ namespace {
 
 constexpr Eigen::Index kWaiting = 32;  // rows that wait for a reflection, at least
 
+/// Replaces the first `used` rows of A by their triangular root, in the rows above; the rows below it are left over.
+/// @param workspace of the size of A's columns.
+void reduce(Eigen::Index used, Eigen::MatrixXd* A, Eigen::VectorXd* workspace) {
+  const Eigen::Index columns = A->cols();
+  for (Eigen::Index k = 0; k < std::min(columns, used); ++k) {
+    const Eigen::Index rows = used - k, right = columns - k - 1;
+    auto column = A->col(k).segment(k, rows);
+    double factor = 0.0, diagonal = 0.0;
+    column.makeHouseholderInPlace(factor, diagonal);
+    A->block(k, k + 1, rows, right).applyHouseholderOnTheLeft(column.tail(rows - 1), factor, workspace->data());
+    column.setZero();
+    column[0] = diagonal;
+    if (diagonal < 0.0) A->row(k).tail(right + 1) *= -1.0;
+  }
+}
+
 }  // namespace
 
 Eigen::MatrixXd triangular_root(const Eigen::MatrixXd& A) {
   const Eigen::Index columns = A.cols();
-  if (columns == 0) return {};
-  Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(std::max(A.rows(), columns), columns);
-  padded.topRows(A.rows()) = A;
-  const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> factors(padded);
-  Eigen::MatrixXd R = padded.topRows(columns).triangularView<Eigen::Upper>();
-  for (Eigen::Index k = 0; k < columns; ++k)
-    if (R(k, k) < 0.0) R.row(k) = -R.row(k);
-  return R;
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(std::max(A.rows(), columns), columns);
+  Eigen::VectorXd workspace(columns);
+  rows.topRows(A.rows()) = A;
+  reduce(A.rows(), &rows, &workspace);
+  return rows.topRows(columns);
 }
 
 void RowRoot::start(Eigen::Index columns) {
   rows_.setZero(columns + std::max(columns, kWaiting), columns);
+  workspace_.resize(columns);
   used_ = 0;
 }
 
 void RowRoot::add(const Eigen::Ref<const Eigen::VectorXd>& row) {
   if (used_ == rows_.rows()) {
-    const Eigen::MatrixXd R = triangular_root(rows_);
-    rows_.topRows(R.rows()) = R;
-    used_ = R.rows();
+    reduce(used_, &rows_, &workspace_);
+    used_ = rows_.cols();
   }
   rows_.row(used_++) = row.transpose();
 }

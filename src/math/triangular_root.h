@@ -11,7 +11,7 @@ namespace codesign {
 Eigen::MatrixXd triangular_root(const Eigen::MatrixXd& A);
 
 /// The same of a matrix whose rows come one after another and are too many to keep. Memory for two times as many rows as columns, at
-/// least 32 more than columns.
+/// least 32 more than columns. No allocation in add().
 class RowRoot {
  public:
   /// Begins anew, without rows.
@@ -22,7 +22,8 @@ class RowRoot {
   Eigen::MatrixXd root() const;
 
  private:
-  Eigen::MatrixXd rows_;   ///< R of the rows before, then rows that wait
+  Eigen::MatrixXd rows_;  ///< R of the rows before, then rows that wait
+  Eigen::VectorXd workspace_;
   Eigen::Index used_ = 0;  ///< rows in use
 };
 
