@@ -7,6 +7,7 @@
 #include <map>
 #include <mutex>
 #include <thread>
+#include <string>
 #include <tuple>
 
 #include "ensemble/ensemble_fixture.h"
@@ -35,14 +36,13 @@ class Notebook final : public EvaluationMemory {
   std::map<std::tuple<const CompiledSystem*, std::vector<double>, Derivatives>, Evaluation> known_;
 };
 
-Problem nested() {
-  return block(
-      "uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: worst, samples: 3, validate: 4}\n"
-      "multistart: {starts: 3, screen: 6}\nengine: {workers: 2}\n");
+Problem nested(const std::string& measure = "worst", const std::string& algorithm = "slsqp") {
+  return block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: " + measure +
+                   ", samples: 3, validate: 4}\nmultistart: {starts: 3, screen: 6}\nengine: {workers: 2}\n",
+               "{algorithm: " + algorithm + "}");
 }
 
-TEST(SearchHooks, AnInterruptedSearchGoesOnFromItsMemory) {
-  const Problem problem = nested();
+void expect_to_go_on(const Problem& problem) {
   const OptimizerOptions options = problem.optimizer_options();
   const auto whole = std::make_shared<Notebook>();
   const OptimizationResult expected = run_search(problem, options, {nullptr, nullptr, whole}, nullptr);
@@ -62,6 +62,10 @@ TEST(SearchHooks, AnInterruptedSearchGoesOnFromItsMemory) {
     EXPECT_EQ(result.validation->objective, expected.validation->objective);
   }
 }
+
+TEST(SearchHooks, AnInterruptedSearchGoesOnFromItsMemory) { expect_to_go_on(nested()); }
+
+TEST(SearchHooks, SoDoesOneThatNeedsTheJacobianOfTheResiduals) { expect_to_go_on(nested("mean", "levenberg_marquardt")); }
 
 TEST(SearchHooks, EveryStageIsTold) {
   const Problem problem = nested();
