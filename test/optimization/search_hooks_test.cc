@@ -6,8 +6,8 @@
 #include <chrono>
 #include <map>
 #include <mutex>
-#include <thread>
 #include <string>
+#include <thread>
 #include <tuple>
 
 #include "ensemble/ensemble_fixture.h"
