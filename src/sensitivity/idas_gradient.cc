@@ -18,7 +18,7 @@ Status IdasGradient::start(const std::vector<double>& parameters, Derivatives de
 
 Status IdasGradient::start_watches(bool with_gradient) {
   if (with_root_) {
-    const auto rows = [this](ObjectivePart part, const State<double>& state, bool /*reads_rates*/, Eigen::MatrixXd* to) {
+    const auto rows = [this](ObjectivePart part, const State<double>& state, Eigen::MatrixXd* to) {
       if (part == ObjectivePart::kTerminal)
         take_directions();
       else
@@ -39,7 +39,7 @@ Status IdasGradient::start_watches(bool with_gradient) {
 
 Status IdasGradient::advance(double limit) {
   Status status = integrator_.advance(limit);
-  if (status.ok() && with_root_) status = residuals_.look();
+  if (status.ok() && with_root_) residuals_.look();
   if (status.ok() && !watch_.is_empty()) status = watch_.look();
   return status;
 }

@@ -25,10 +25,6 @@ Status ResidualRows::start(Integrator* integrator, Differentiate differentiate) 
   root_.start(static_cast<Eigen::Index>(system_.study().tuned.size()));
   for (const ObjectivePart part : {ObjectivePart::kIntegral, ObjectivePart::kTerminal})
     if (Status status = check_weights(part); !status.ok()) return status;
-  SparseGradient<double> gradient;
-  for (const ResolvedTerm& term : system_.integral())
-    integrator->equations().formulas().signal(term.signal, integrator->state(), &gradient);
-  reads_rates_ = !gradient.rate.empty();
   return {};
 }
 
@@ -44,24 +40,21 @@ Status ResidualRows::check_weights(ObjectivePart part) const {
   return {};
 }
 
-Status ResidualRows::look() {
+void ResidualRows::look() {
   const double from = time_, to = integrator_->state().t;
   time_ = to;
-  if (system_.integral().empty()) return {};
+  if (system_.integral().empty()) return;
   for (const double point : kGaussPoints) {
     double psi = 0.0;
     integrator_->interpolate(from + point * (to - from), &state_, &psi);
-    if (reads_rates_)
-      if (Status status = integrator_->assembly().solve_rates(&integrator_->equations(), &state_); !status.ok()) return status;
-    differentiate_(ObjectivePart::kIntegral, state_, reads_rates_, &rows_);
+    differentiate_(ObjectivePart::kIntegral, state_, &rows_);
     add(kGaussWeight * (to - from));
   }
-  return {};
 }
 
 void ResidualRows::finish(const State<double>& state, Eigen::MatrixXd* root) {
   if (!system_.terminal().empty()) {
-    differentiate_(ObjectivePart::kTerminal, state, false, &rows_);
+    differentiate_(ObjectivePart::kTerminal, state, &rows_);
     add(1.0);
   }
   *root = root_.root();

@@ -29,8 +29,7 @@ class ResidualRows {
  public:
   /// The derivatives of the residuals of one part of the objective by the tuned parameters at `state`: p rows, one column per term.
   /// kIntegral: `state` is a point of the dense output of the last step. kTerminal: its end.
-  /// @param reads_rates whether a signal depends on state.z, which is then solved for.
-  using Differentiate = std::function<void(ObjectivePart part, const State<double>& state, bool reads_rates, Eigen::MatrixXd* rows)>;
+  using Differentiate = std::function<void(ObjectivePart part, const State<double>& state, Eigen::MatrixXd* rows)>;
 
   /// @param system must outlive this.
   explicit ResidualRows(const CompiledSystem& system);
@@ -38,7 +37,7 @@ class ResidualRows {
   /// Begins a run: to be called after integrator->start(). kInvalidDesign for a negative weight, of which there is no root.
   Status start(Integrator* integrator, Differentiate differentiate);
   /// Adds the rows of the step that the integrator has just taken.
-  Status look();
+  void look();
   /// R of a study that ends at `state`, consistent, the end of the last step. Adds the terminal rows, so that look() may not follow.
   void finish(const State<double>& state, Eigen::MatrixXd* root);
 
@@ -49,8 +48,7 @@ class ResidualRows {
   const CompiledSystem& system_;
   Integrator* integrator_ = nullptr;
   Differentiate differentiate_;
-  bool reads_rates_ = false;  ///< whether the integrand depends on accelerations or multipliers
-  double time_ = 0.0;         ///< end of the step before [s]
+  double time_ = 0.0;  ///< end of the step before [s]
   State<double> state_;
   Eigen::MatrixXd rows_;
   RowRoot root_;

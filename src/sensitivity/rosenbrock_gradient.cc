@@ -45,8 +45,8 @@ Status RosenbrockGradient::start(const std::vector<double>& parameters, Derivati
 
 Status RosenbrockGradient::start_watches() {
   if (with_root_) {
-    const auto rows = [this](ObjectivePart part, const State<double>& state, bool reads_rates, Eigen::MatrixXd* to) {
-      differentiate_residuals(part, state, reads_rates, to);
+    const auto rows = [this](ObjectivePart part, const State<double>& state, Eigen::MatrixXd* to) {
+      differentiate_residuals(part, state, to);
     };
     if (Status status = residuals_.start(&integrator_, rows); !status.ok()) return status;
   }
@@ -59,7 +59,7 @@ Status RosenbrockGradient::start_watches() {
   return watch_.start(&integrator_, std::move(derivatives));
 }
 
-void RosenbrockGradient::differentiate_residuals(ObjectivePart part, const State<double>& state, bool reads_rates, Eigen::MatrixXd* rows) {
+void RosenbrockGradient::differentiate_residuals(ObjectivePart part, const State<double>& state, Eigen::MatrixXd* rows) {
   const bool at_end = part == ObjectivePart::kTerminal;
   const auto terms = static_cast<Eigen::Index>((at_end ? system_.terminal() : system_.integral()).size());
   rows->resize(count(), terms);
@@ -68,7 +68,7 @@ void RosenbrockGradient::differentiate_residuals(ObjectivePart part, const State
     if (at_end)
       group->step.terminal_residuals(state, own);
     else
-      group->step.integral_residuals(integrator_.step(), state, reads_rates, integrator_.assembly(), own);
+      group->step.integral_residuals(integrator_.step(), state, own);
     rows->middleRows(group->range.first, group->range.count) = own->topRows(group->range.count);
   });
 }
@@ -98,7 +98,7 @@ void RosenbrockGradient::carry(int first, const std::vector<double>& parameters)
 Status RosenbrockGradient::advance(double limit) {
   Status status = with_gradient_ ? integrator_.advance(limit, stages_) : integrator_.advance(limit);
   if (status.ok() && with_gradient_) groups_->for_each([this](auto* group) { group->step.accept(integrator_.step()); });
-  if (status.ok() && with_root_) status = residuals_.look();
+  if (status.ok() && with_root_) residuals_.look();
   if (status.ok() && !watch_.is_empty()) status = watch_.look();
   return status;
 }

@@ -52,7 +52,7 @@ class RosenbrockGradient final : public GradientEngine {
   void carry(int first, const std::vector<double>& parameters);
   void collect(Eigen::VectorXd* gradient);
   void differentiate(std::size_t watched, const State<double>& state, bool reads_rates, Eigen::VectorXd* gradient);
-  void differentiate_residuals(ObjectivePart part, const State<double>& state, bool reads_rates, Eigen::MatrixXd* rows);
+  void differentiate_residuals(ObjectivePart part, const State<double>& state, Eigen::MatrixXd* rows);
 
   const CompiledSystem& system_;
   RosenbrockIntegrator integrator_;

@@ -201,9 +201,10 @@ Eigen::Matrix<double, N, 1> TangentStep<N>::terminal(const State<double>& state)
   return equations_.equations().formulas().terminal(equations_.lanes(state, y_), nullptr).directions();
 }
 
-// The derivative of RosenbrockStep::interpolate() for a fixed theta, in stage_y_.
+// The derivative of RosenbrockStep::interpolate() for a fixed time.
 template <int N>
-void TangentStep<N>::interpolate(double theta) {
+void TangentStep<N>::interpolate(const RosenbrockStep<double>& step, double time) {
+  const double h = step.step_size(), theta = h > 0.0 ? (time - step.previous().t) / h : 1.0;
   const RosenbrockTableau::Row weights = dense_weights(tableau_, theta);
   const int size = at_.psi();
   for (int k = 0; k < size; ++k) stage_y_.vector(k) = (1.0 - theta) * previous_y_.vector(k) + theta * y_.vector(k);
@@ -211,25 +212,18 @@ void TangentStep<N>::interpolate(double theta) {
 }
 
 template <int N>
-void TangentStep<N>::go_to(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates, const Assembly& assembly) {
-  const double h = step.step_size();
-  interpolate(h > 0.0 ? (state.t - step.previous().t) / h : 1.0);
-  point_ = equations_.lanes(state, stage_y_);
-  if (reads_rates) assembly.extend_rates(state.z, &equations_.equations(), &point_);
-}
-
-template <int N>
 Eigen::Matrix<double, N, 1> TangentStep<N>::watched(std::size_t k, const RosenbrockStep<double>& step, const State<double>& state,
                                                     bool reads_rates, const Assembly& assembly) {
-  go_to(step, state, reads_rates, assembly);
+  interpolate(step, state.t);
+  point_ = equations_.lanes(state, stage_y_);
+  if (reads_rates) assembly.extend_rates(state.z, &equations_.equations(), &point_);
   return equations_.equations().formulas().watched(k, point_, nullptr).directions();
 }
 
 template <int N>
-void TangentStep<N>::integral_residuals(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates,
-                                        const Assembly& assembly, Directions<N>* residuals) {
-  go_to(step, state, reads_rates, assembly);
-  differentiate_residuals(ObjectivePart::kIntegral, point_, residuals);
+void TangentStep<N>::integral_residuals(const RosenbrockStep<double>& step, const State<double>& state, Directions<N>* residuals) {
+  interpolate(step, state.t);
+  differentiate_residuals(ObjectivePart::kIntegral, equations_.lanes(state, stage_y_), residuals);
 }
 
 template <int N>

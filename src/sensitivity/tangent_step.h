@@ -45,9 +45,9 @@ class TangentStep {
   Eigen::Matrix<double, N, 1> watched(std::size_t k, const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates,
                                       const Assembly& assembly);
 
-  /// Derivatives of the residuals of the integrand's terms, theory (22a), at such a point: one column per term. Only with keep_previous().
-  void integral_residuals(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates, const Assembly& assembly,
-                          Directions<N>* residuals);
+  /// Derivatives of the residuals of the integrand's terms, theory (22a), at such a point, accelerations and multipliers of the dense
+  /// output included: one column per term. Only with keep_previous().
+  void integral_residuals(const RosenbrockStep<double>& step, const State<double>& state, Directions<N>* residuals);
   /// The same of the terminal terms at `state`, the end of the last step.
   void terminal_residuals(const State<double>& state, Directions<N>* residuals);
 
@@ -64,9 +64,8 @@ class TangentStep {
   void stage_start(std::size_t i, double h);
   void stage_tangent(std::size_t i, const RosenbrockStep<double>& step);
   void measure();
-  void interpolate(double theta);
-  /// Sets point_ to a point of the dense output, with its directions.
-  void go_to(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates, const Assembly& assembly);
+  /// Sets stage_y_ to the derivatives at `time` within the last step.
+  void interpolate(const RosenbrockStep<double>& step, double time);
   void differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state, Directions<N>* residuals);
   void project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu, Out<double> target);
 

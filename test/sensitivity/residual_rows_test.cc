@@ -59,16 +59,6 @@ class Replay {
     State<Complex> state;
     Complex psi;
     step_.interpolate(theta, &state, &psi);
-    State<double> real;
-    real.resize(system_.layout());
-    real.t = state.t;
-    real.q = state.q.real();
-    real.v = state.v.real();
-    real.s = state.s.real();
-    real.z = state.z.real();
-    real.turns = state.turns;
-    ASSERT_TRUE(integrator_.assembly().solve_rates(&integrator_.equations(), &real).ok());
-    integrator_.assembly().extend_rates(real.z, &step_.equations(), &state);
     add(system_.study().integral, system_.integral(), state, 0.5 * step_.step_size());
   }
   void add(const std::vector<ObjectiveTerm>& terms, const std::vector<ResolvedTerm>& resolved, const State<Complex>& state, double factor) {
