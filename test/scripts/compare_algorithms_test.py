@@ -14,10 +14,10 @@ PENDULUM = """<robot name="pendulum"><link name="ground"/>
 <joint name="hinge" type="continuous"><parent link="ground"/><child link="arm"/><axis xyz="0 1 0"/></joint></robot>"""
 STUDY = """
 duration: 0.5
-controllers: {hold: {type: pid, input: hinge/position, output: hinge, gains: {p: "${Kp}", d: 1.0}}}
+controllers: {hold: {type: pid, input: hinge/position, setpoint: 0.3, output: hinge, gains: {p: "${Kp}", d: 1.0}}}
 parameters: {Kp: {initial: 10.0, lower: 0.0, upper: 100.0}}
-objective: {integral: [{signal: hinge/position}, {signal: hold/output, weight: 1.0e-4}]}
-constraints: ["Kp - 1"]
+objective: {integral: [{signal: hinge/position, reference: 0.3}, {signal: hold/output, weight: 1.0e-4}]}
+constraints: ["Kp >= 1"]
 """
 
 
