@@ -62,7 +62,7 @@ TEST(Engine, AResultDoesNotDependOnWhatItsWorkerDidBefore) {
       Eigen::VectorXd rho = problem.start();
       rho[0] += 0.003 * kp;
       rho[4] = kp;
-      order.push_back({problem.system(), problem.parameters(rho), kp > 0.5});
+      order.push_back({problem.system(), problem.parameters(rho), gradient_if(kp > 0.5)});
     }
     SerialEngine forward, backward;
     const std::vector<Evaluation> expected = forward.evaluate(order, nullptr);
