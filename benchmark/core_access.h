@@ -30,9 +30,9 @@ void for_each_derivative(const CompiledSystem& system, const Linearization<doubl
 }
 
 /// A workspace for the derivatives of a system's equations.
-class Derivatives {
+class LinearizedSystem {
  public:
-  explicit Derivatives(const CompiledSystem& system) : system_(system) { values_.resize(system.patterns()); }
+  explicit LinearizedSystem(const CompiledSystem& system) : system_(system) { values_.resize(system.patterns()); }
 
   void evaluate(Equations<double>* equations, const State<double>& state) { equations->linearize(state, &values_); }
   template <class Visit>

@@ -294,7 +294,7 @@ class SundialsPeer::Implementation {
   Equations<double> equations_;
   Equations<Wide> wide_;
   Assembly assembly_;
-  Derivatives derivatives_;
+  LinearizedSystem derivatives_;
   State<double> state_;
   State<Wide> wide_state_;
   VectorX<double> G_;

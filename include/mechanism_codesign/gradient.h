@@ -22,18 +22,25 @@ struct Extremes {
   Eigen::MatrixXd gradients;  ///< one column per value; empty if not asked for
 };
 
+/// What an evaluation computes besides the objective. kGaussNewton: the gradient, and Evaluation::jacobian_root.
+enum class Derivatives { kNone, kGradient, kGaussNewton };
+inline Derivatives gradient_if(bool with_gradient) { return with_gradient ? Derivatives::kGradient : Derivatives::kNone; }
+
 /// The objective psi and its gradient by the tuned parameters at one design; doc/theory.md (21), (22).
 struct Evaluation {
   Status status;             ///< if not ok, objective and gradient are not valid
   double objective = 0.0;    ///< psi, in the units of the study's terms
   Eigen::VectorXd gradient;  ///< psi_rho, order of Problem::tuned_names(); empty if not asked for
-  Extremes extremes;         ///< empty if the study has neither constraints on signals nor peaks
+  /// Upper triangular R, p x p, with R^T R = J^T J and a diagonal that is not negative; J is the Jacobian of the residuals whose squares
+  /// sum up to psi without its peaks, doc/theory.md (22a). Empty if not asked for.
+  Eigen::MatrixXd jacobian_root;
+  Extremes extremes;  ///< empty if the study has neither constraints on signals nor peaks
   Statistics statistics;
   Warnings warnings;  ///< warnings of the run, as Simulation::warnings()
 };
 
-/// Evaluates psi(rho) and its gradient, by direct sensitivities (18) or the adjoint (18a), as `solver.gradient` of the study says. Holds a
-/// workspace that is reused from call to call; not thread-safe, use one per thread.
+/// Evaluates psi(rho) and its gradient, by direct sensitivities (18) or the adjoint (18a), as `solver.gradient` of the study says;
+/// kGaussNewton always by direct sensitivities. Holds a workspace that is reused from call to call; not thread-safe, use one per thread.
 class Evaluator {
  public:
   explicit Evaluator(const Problem& problem);
@@ -45,8 +52,10 @@ class Evaluator {
   /// Runs the study at one design.
   /// @param rho the tuned parameters, in the order of Problem::tuned_names(); the others keep their start values.
   /// @param cancel the evaluation ends with kCancelled soon after this is set, from any thread; null: never.
+  Evaluation evaluate(const Eigen::VectorXd& rho, Derivatives derivatives, const std::atomic<bool>* cancel = nullptr);
   Evaluation evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel = nullptr);
   /// The same for values of all named parameters, in the order of Problem::all_parameters(); the gradient is still by the tuned ones.
+  Evaluation evaluate_design(const std::vector<double>& parameters, Derivatives derivatives, const std::atomic<bool>* cancel = nullptr);
   Evaluation evaluate_design(const std::vector<double>& parameters, bool with_gradient, const std::atomic<bool>* cancel = nullptr);
 
  private:

@@ -226,7 +226,7 @@ void Dispatcher::send_next(int rank, Outgoing* outgoing) {
   if (state.problems.insert(batch->problem).second) outgoing->emplace_back(rank, problems_.at(batch->problem));
   const std::uint64_t number = next_number_++;
   const EvaluationTask& task = batch->tasks[index];
-  outgoing->emplace_back(rank, write_task(number, batch->problem, batch->systems[index], task.with_gradient, task.parameters));
+  outgoing->emplace_back(rank, write_task(number, batch->problem, batch->systems[index], task.derivatives, task.parameters));
   state.sent.push_back({number, batch, index});
   sort_in(rank);
 }

@@ -17,7 +17,7 @@ namespace codesign {
 struct EvaluationTask {
   std::shared_ptr<const CompiledSystem> system;
   std::vector<double> parameters;  ///< all named parameters (order of Study::parameters)
-  bool with_gradient = false;
+  Derivatives derivatives = Derivatives::kNone;
   /// Told of the result as soon as it is there, in the thread that computed it, or, if another process did, in that of the caller, while
   /// other tasks may still run. Must not throw.
   std::function<void(const Evaluation&)> finished = nullptr;

@@ -12,7 +12,7 @@ namespace codesign {
 class EvaluationMemory {
  public:
   virtual ~EvaluationMemory() = default;
-  /// The result of a task with the same system, the same bits of all parameters, and gradient or not; nothing if it is not known.
+  /// The result of a task with the same system, the same bits of all parameters, and the same derivatives; nothing if it is not known.
   virtual std::optional<Evaluation> find(const EvaluationTask& task) = 0;
   /// Told of each result as soon as it is there, in the thread that computed it. Must not throw.
   virtual void keep(const EvaluationTask& task, const Evaluation& evaluation) = 0;

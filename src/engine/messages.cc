@@ -58,6 +58,11 @@ auto get_list(ByteReader* reader, const GetOne& get_one) {
 
 std::uint64_t size_of(std::size_t size) { return size; }
 
+void add(const Eigen::MatrixXd& matrix, ByteWriter* writer) {
+  writer->add(static_cast<std::int64_t>(matrix.rows()));
+  writer->add_numbers(matrix);
+}
+
 Eigen::MatrixXd get_matrix(ByteReader* reader) {
   const auto rows = reader->get<std::int64_t>();
   const Eigen::VectorXd values = reader->get_numbers<Eigen::VectorXd>();
@@ -117,12 +122,12 @@ PortableProblem read_problem(ByteReader* reader) {
   return problem;
 }
 
-std::string write_task(std::uint64_t number, std::uint32_t problem, std::uint32_t system, bool with_gradient,
+std::string write_task(std::uint64_t number, std::uint32_t problem, std::uint32_t system, Derivatives derivatives,
                        const std::vector<double>& parameters) {
   ByteWriter writer = begin(MessageKind::kTask, number);
   writer.add(problem);
   writer.add(system);
-  writer.add(with_gradient);
+  writer.add(derivatives);
   writer.add_numbers(parameters);
   return writer.take();
 }
@@ -132,14 +137,14 @@ TaskMessage read_task(std::uint64_t number, ByteReader* reader) {
   task.number = number;
   task.problem = reader->get<std::uint32_t>();
   task.system = reader->get<std::uint32_t>();
-  task.with_gradient = reader->get<bool>();
+  task.derivatives = reader->get<Derivatives>();
   task.parameters = reader->get_numbers<std::vector<double>>();
   return task;
 }
 
 std::string write_result(std::uint64_t number, const Evaluation& evaluation) {
   // By name, so that a member that is added to Evaluation does not compile until it has a place here and in read_result().
-  const auto& [status, objective, gradient, extremes, statistics, warnings] = evaluation;
+  const auto& [status, objective, gradient, jacobian_root, extremes, statistics, warnings] = evaluation;
   const auto& [code, time, cause] = status;
   const auto& [values, times, gradients] = extremes;
   const auto& [steps, rejected_steps, cpu_seconds, constraint_drift, energy_error] = statistics;
@@ -149,10 +154,10 @@ std::string write_result(std::uint64_t number, const Evaluation& evaluation) {
   writer.add_text(cause);
   writer.add(objective);
   writer.add_numbers(gradient);
+  add(jacobian_root, &writer);
   writer.add_numbers(values);
   writer.add_numbers(times);
-  writer.add(static_cast<std::int64_t>(gradients.rows()));
-  writer.add_numbers(gradients);
+  add(gradients, &writer);
   for (const std::int64_t count : {steps, rejected_steps}) writer.add(count);
   for (const double value : {cpu_seconds, constraint_drift, energy_error}) writer.add(value);
   writer.add(size_of(warnings.size()));
@@ -171,6 +176,7 @@ Evaluation read_result(ByteReader* reader) {
   evaluation.status.cause = reader->get_text();
   evaluation.objective = reader->get<double>();
   evaluation.gradient = reader->get_numbers<Eigen::VectorXd>();
+  evaluation.jacobian_root = get_matrix(reader);
   evaluation.extremes.values = reader->get_numbers<Eigen::VectorXd>();
   evaluation.extremes.times = reader->get_numbers<Eigen::VectorXd>();
   evaluation.extremes.gradients = get_matrix(reader);

@@ -47,7 +47,7 @@ struct Hello {
 struct TaskMessage {
   std::uint64_t number = 0;
   std::uint32_t problem = 0, system = 0;  ///< the system's place in distinct_systems()
-  bool with_gradient = false;
+  Derivatives derivatives = Derivatives::kNone;
   std::vector<double> parameters;
 };
 
@@ -55,7 +55,7 @@ struct TaskMessage {
 std::string write_numbered(MessageKind kind, std::uint64_t number = 0);
 std::string write_hello(const Hello& hello);
 std::string write_problem(std::uint32_t number, const PortableProblem& problem);
-std::string write_task(std::uint64_t number, std::uint32_t problem, std::uint32_t system, bool with_gradient,
+std::string write_task(std::uint64_t number, std::uint32_t problem, std::uint32_t system, Derivatives derivatives,
                        const std::vector<double>& parameters);
 std::string write_result(std::uint64_t number, const Evaluation& evaluation);
 /// What was thrown: an InputError arrives as one, any other exception as std::runtime_error with the same sentence.

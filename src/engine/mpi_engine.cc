@@ -46,7 +46,7 @@ void MpiEngine::compute() {
     std::exception_ptr error;
     try {
       const EvaluationTask& task = batch->tasks[index];
-      evaluation = worker.compute(task.system, task.parameters, task.with_gradient, batch->cancel);
+      evaluation = worker.compute(task.system, task.parameters, task.derivatives, batch->cancel);
     } catch (...) {
       error = std::current_exception();
     }

@@ -155,7 +155,7 @@ std::string RankWorker::do_item(const Item& item) {
 Evaluation RankWorker::evaluate(const TaskMessage& task) {
   Known& known = problems_.at(task.problem);
   if (known.error) std::rethrow_exception(known.error);
-  return known.worker.compute(known.systems.at(task.system), task.parameters, task.with_gradient, &cancel_);
+  return known.worker.compute(known.systems.at(task.system), task.parameters, task.derivatives, &cancel_);
 }
 
 }  // namespace codesign

@@ -15,14 +15,14 @@ class EvaluationWorker {
   Evaluation evaluate(const EvaluationTask& task, const std::atomic<bool>* cancel) {
     // After a cancel a long queue empties at once.
     if (is_set(cancel)) return cancelled();
-    Evaluation result = compute(task.system, task.parameters, task.with_gradient, cancel);
+    Evaluation result = compute(task.system, task.parameters, task.derivatives, cancel);
     if (task.finished) task.finished(result);
     return result;
   }
-  Evaluation compute(const std::shared_ptr<const CompiledSystem>& system, const std::vector<double>& parameters, bool with_gradient,
+  Evaluation compute(const std::shared_ptr<const CompiledSystem>& system, const std::vector<double>& parameters, Derivatives derivatives,
                      const std::atomic<bool>* cancel) {
     const auto [place, is_new] = evaluators_.try_emplace(system.get(), system);
-    return place->second.evaluate_design(parameters, with_gradient, cancel);
+    return place->second.evaluate_design(parameters, derivatives, cancel);
   }
 
  private:

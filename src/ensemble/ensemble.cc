@@ -6,6 +6,7 @@
 #include <string>
 
 #include "equations/compiled_system.h"
+#include "math/triangular_root.h"
 #include "sampling/measure.h"
 #include "sensitivity/gradient_check.h"
 
@@ -23,6 +24,14 @@ void add_new_codes(const Warnings& warnings, Warnings* all) {
   for (const Warning& warning : warnings)
     if (std::none_of(all->begin(), all->end(), [&warning](const Warning& known) { return known.code == warning.code; }))
       all->push_back(warning);
+}
+
+/// The index of the largest objective of those that did not fail.
+std::size_t worst_of(const std::vector<Evaluation>& members) {
+  std::size_t worst = members.size();
+  for (std::size_t k = 0; k < members.size(); ++k)
+    if (members[k].status.ok() && (worst == members.size() || members[k].objective > members[worst].objective)) worst = k;
+  return worst;
 }
 
 Status named(const Status& status, const Scenario& scenario) { return {status.code, status.time, scenario.name() + ": " + status.cause}; }
@@ -47,15 +56,16 @@ Ensemble::Ensemble(const Problem& problem, int designs, EngineRecords records)
 Ensemble::Ensemble(std::shared_ptr<const CompiledSystem> system)
     : Ensemble({own_run(std::move(system))}, RobustOptions{}, make_engine({EngineKind::kSerial, 0}, 1)) {}
 
-std::vector<EvaluationTask> tasks_at(const std::vector<Scenario>& scenarios, const Eigen::VectorXd& rho, bool with_gradient) {
+std::vector<EvaluationTask> tasks_at(const std::vector<Scenario>& scenarios, const Eigen::VectorXd& rho, Derivatives derivatives) {
   std::vector<EvaluationTask> tasks;
   tasks.reserve(scenarios.size());
-  for (const Scenario& scenario : scenarios) tasks.push_back({scenario.system, scenario.parameters(rho), with_gradient});
+  for (const Scenario& scenario : scenarios) tasks.push_back({scenario.system, scenario.parameters(rho), derivatives});
   return tasks;
 }
 
-EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel) const {
-  std::vector<Evaluation> members = engine_->evaluate(tasks_at(scenarios_, rho, with_gradient), cancel);
+EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, Derivatives derivatives, const std::atomic<bool>* cancel) const {
+  const bool with_gradient = derivatives != Derivatives::kNone;
+  std::vector<Evaluation> members = engine_->evaluate(tasks_at(scenarios_, rho, derivatives), cancel);
   EnsembleEvaluation result;
   if (scenarios_.size() == 1) {
     result.total = std::move(members.front());
@@ -78,7 +88,22 @@ EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, bool with_grad
   result.by_value = measured.by_value;
   result.threshold = measured.threshold;
   if (with_gradient) result.total.gradient = result.gradients * measured.by_value;
+  if (derivatives == Derivatives::kGaussNewton) combine_roots(members, &result);
   return result;
+}
+
+/// The residuals of the mean are those of all scenarios, each times the root of its weight.
+void Ensemble::combine_roots(const std::vector<Evaluation>& members, EnsembleEvaluation* result) const {
+  const Eigen::Index columns = result->gradients.rows();
+  RowRoot root;
+  root.start(columns);
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    // A failed one counts as the worst of the others.
+    const Evaluation& member = members[k].status.ok() ? members[k] : members[worst_of(members)];
+    const Eigen::MatrixXd weighted = std::sqrt(scenarios_[k].weight) * member.jacobian_root.transpose();
+    for (Eigen::Index row = 0; row < columns; ++row) root.add(weighted.col(row));
+  }
+  result->total.jacobian_root = root.root();
 }
 
 /// Gathers values and gradients; false if a scenario failed that must not, with its status.
@@ -120,11 +145,7 @@ bool Ensemble::fill_tail(const std::vector<std::size_t>& failed, const std::vect
     result->values.resize(0);
     return false;
   }
-  Eigen::Index worst = -1;
-  for (std::size_t k = 0; k < members.size(); ++k) {
-    const auto column = static_cast<Eigen::Index>(k);
-    if (members[k].status.ok() && (worst < 0 || result->values[column] > result->values[worst])) worst = column;
-  }
+  const auto worst = static_cast<Eigen::Index>(worst_of(members));
   for (std::size_t k : failed) {
     const auto column = static_cast<Eigen::Index>(k);
     result->values[column] = result->values[worst];

@@ -24,7 +24,7 @@ struct EnsembleEvaluation {
 };
 
 /// The evaluations of one design, one per scenario in their order.
-std::vector<EvaluationTask> tasks_at(const std::vector<Scenario>& scenarios, const Eigen::VectorXd& rho, bool with_gradient);
+std::vector<EvaluationTask> tasks_at(const std::vector<Scenario>& scenarios, const Eigen::VectorXd& rho, Derivatives derivatives);
 
 /// Evaluates designs over scenarios: doc/theory.md (24a) gives the measures. Thread-safe: several searches may use one ensemble.
 class Ensemble {
@@ -37,7 +37,11 @@ class Ensemble {
   /// The one run of a compiled study.
   explicit Ensemble(std::shared_ptr<const CompiledSystem> system);
 
-  EnsembleEvaluation evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel = nullptr) const;
+  /// @param derivatives kGaussNewton: Evaluation::jacobian_root of `total` too, for the measure kMean; doc/theory.md (22b).
+  EnsembleEvaluation evaluate(const Eigen::VectorXd& rho, Derivatives derivatives, const std::atomic<bool>* cancel = nullptr) const;
+  EnsembleEvaluation evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel = nullptr) const {
+    return evaluate(rho, gradient_if(with_gradient), cancel);
+  }
 
   const std::vector<Scenario>& scenarios() const { return scenarios_; }
   const Eigen::VectorXd& weights() const { return weights_; }
@@ -46,6 +50,7 @@ class Ensemble {
 
  private:
   bool collect(const std::vector<Evaluation>& members, bool with_gradient, EnsembleEvaluation* result) const;
+  void combine_roots(const std::vector<Evaluation>& members, EnsembleEvaluation* result) const;
   bool fill_tail(const std::vector<std::size_t>& failed, const std::vector<Evaluation>& members, EnsembleEvaluation* result) const;
 
   std::vector<Scenario> scenarios_;

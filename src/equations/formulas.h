@@ -14,6 +14,9 @@
 
 namespace codesign {
 
+/// The two sums of the objective, theory (21): the integrand g and the terminal terms w.
+enum class ObjectivePart { kIntegral, kTerminal };
+
 /// The equations of motion G(q, v, s, t; z) = 0 of one mechanism and study, evaluated element by element; doc/theory.md (14):
 ///   rows 0 to n-1:      M a + Phi_q^T lambda - Q - Q_Af    [N on r, N m on p]
 ///   rows n to n+m-1:    Phi_q a + (Phi_q v)_q v            with redundant constraints the rows of theory (23), then those of (23b)
@@ -54,6 +57,9 @@ class Formulas {
 
   /// The sum w of the terminal terms of the objective, theory (21). @param gradient its gradient is appended, if not null; here and below.
   T terminal(const State<T>& state, SparseGradient<T>* gradient);
+  /// Signal minus reference of each term of the integrand g or of the terminal terms w, theory (21), in SI units; their weights are those
+  /// of the design.
+  void errors(ObjectivePart part, const State<T>& state, VectorX<T>* errors);
   /// Signal minus reference of the k-th watched signal, theory (21a), in SI units.
   T watched(std::size_t k, const State<T>& state, SparseGradient<T>* gradient = nullptr);
   /// The value of a signal at a state, in SI units.

@@ -16,6 +16,17 @@ T Formulas<T>::terminal(const State<T>& state, SparseGradient<T>* gradient) {
 }
 
 template <class T>
+void Formulas<T>::errors(ObjectivePart part, const State<T>& state, VectorX<T>* errors) {
+  load(state);
+  const bool terminal = part == ObjectivePart::kTerminal;
+  const std::vector<ResolvedTerm>& terms = terminal ? view_.system.terminal() : view_.system.integral();
+  const ObjectiveNumbers<T>& numbers = terminal ? view_.design.terminal : view_.design.integral;
+  errors->resize(static_cast<Eigen::Index>(terms.size()));
+  for (std::size_t k = 0; k < terms.size(); ++k)
+    (*errors)[static_cast<Eigen::Index>(k)] = signal_error<T>(view_, terms[k].signal, numbers.references[k], nullptr);
+}
+
+template <class T>
 T Formulas<T>::watched(std::size_t k, const State<T>& state, SparseGradient<T>* gradient) {
   load(state);
   return watched_value(view_, k, gradient);

@@ -54,6 +54,24 @@ Extremes extremes_of(const Json& object) {
   return extremes;
 }
 
+/// The upper triangle of R, column by column.
+Json root_json(const Eigen::MatrixXd& root) {
+  Json array = Json::array();
+  for (Eigen::Index column = 0; column < root.cols(); ++column)
+    for (Eigen::Index row = 0; row <= column; ++row) array.push_back(exact(root(row, column)));
+  return array;
+}
+
+Eigen::MatrixXd root_of(const Json& array, Eigen::Index size) {
+  const Eigen::VectorXd numbers = vector_of(array);
+  if (numbers.size() != size * (size + 1) / 2) throw std::invalid_argument("a root of another size than the gradient");
+  Eigen::MatrixXd root = Eigen::MatrixXd::Zero(size, size);
+  Eigen::Index next = 0;
+  for (Eigen::Index column = 0; column < size; ++column)
+    for (Eigen::Index row = 0; row <= column; ++row) root(row, column) = numbers[next++];
+  return root;
+}
+
 StatusCode code_of(const std::string& name) {
   for (int k = 0;; ++k) {
     const auto code = static_cast<StatusCode>(k);
@@ -85,13 +103,16 @@ Warnings warnings_of(const Json& array) {
 
 std::string to_line(const EvaluationRecord& record) {
   // By name, so that a member that is added to Evaluation does not compile until it has a place here and in read_line().
-  const auto& [status, objective, gradient, extremes, statistics, warnings] = record.evaluation;
-  Json line = {{"system", record.system}, {"parameters", numbers_json(record.parameters)}, {"with_gradient", record.with_gradient}};
+  const auto& [status, objective, gradient, root, extremes, statistics, warnings] = record.evaluation;
+  const bool with_gradient = record.derivatives != Derivatives::kNone, with_root = record.derivatives == Derivatives::kGaussNewton;
+  Json line = {{"system", record.system}, {"parameters", numbers_json(record.parameters)}, {"with_gradient", with_gradient}};
+  if (with_root) line["with_root"] = true;
   line["status"] = name_of(status.code);
   line["time"] = exact(status.time);
   if (!status.cause.empty()) line["message"] = status.cause;
   if (status.ok()) line["objective"] = exact(objective);
-  if (status.ok() && record.with_gradient) line["gradient"] = numbers_json(gradient);
+  if (status.ok() && with_gradient) line["gradient"] = numbers_json(gradient);
+  if (status.ok() && with_root) line["root"] = root_json(root);
   if (status.ok() && extremes.values.size() > 0) line["extremes"] = extremes_json(extremes);
   line["statistics"] = statistics_json(statistics);
   if (!warnings.empty()) line["warnings"] = to_json(warnings);
@@ -103,12 +124,14 @@ EvaluationRecord read_line(const std::string& line) {
   EvaluationRecord record;
   record.system = object.at("system").get<int>();
   record.parameters = numbers_of(object.at("parameters"));
-  record.with_gradient = object.at("with_gradient").get<bool>();
+  const bool with_gradient = object.at("with_gradient").get<bool>(), with_root = object.value("with_root", false);
+  record.derivatives = with_root ? Derivatives::kGaussNewton : gradient_if(with_gradient);
   Evaluation& evaluation = record.evaluation;
   evaluation.status = {code_of(object.at("status").get<std::string>()), number_of(object.at("time")),
                        object.value("message", std::string())};
   if (evaluation.status.ok()) evaluation.objective = number_of(object.at("objective"));
-  if (evaluation.status.ok() && record.with_gradient) evaluation.gradient = vector_of(object.at("gradient"));
+  if (evaluation.status.ok() && with_gradient) evaluation.gradient = vector_of(object.at("gradient"));
+  if (evaluation.status.ok() && with_root) evaluation.jacobian_root = root_of(object.at("root"), evaluation.gradient.size());
   if (object.contains("extremes")) evaluation.extremes = extremes_of(object.at("extremes"));
   evaluation.statistics = statistics_of(object.at("statistics"));
   if (object.contains("warnings")) evaluation.warnings = warnings_of(object.at("warnings"));

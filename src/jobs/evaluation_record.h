@@ -14,7 +14,7 @@ namespace codesign {
 struct EvaluationRecord {
   int system = 0;                  ///< number of the compiled system, in the order of the problem's
   std::vector<double> parameters;  ///< all named parameters
-  bool with_gradient = false;
+  Derivatives derivatives = Derivatives::kNone;
   Evaluation evaluation;
 };
 

@@ -27,9 +27,9 @@ std::map<const CompiledSystem*, int> number_systems(const Problem& problem) {
   return numbers;
 }
 
-std::size_t key_of(int system, bool with_gradient, const std::vector<double>& parameters) {
+std::size_t key_of(int system, Derivatives derivatives, const std::vector<double>& parameters) {
   const std::string_view bits(reinterpret_cast<const char*>(parameters.data()), parameters.size() * sizeof(double));
-  return std::hash<std::string_view>()(bits) + 2 * static_cast<std::size_t>(system) + (with_gradient ? 1 : 0);
+  return std::hash<std::string_view>()(bits) + 3 * static_cast<std::size_t>(system) + static_cast<std::size_t>(derivatives);
 }
 
 bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
@@ -90,7 +90,7 @@ void Journal::add_line(std::int64_t number, const std::string& line) {
     const EvaluationRecord record = read_line(line);
     const bool fits = record.parameters.size() == parameters_ && record.system >= 0 && record.system < static_cast<int>(systems_.size());
     if (!fits) throw std::invalid_argument("it is of another job");
-    lines_.emplace(key_of(record.system, record.with_gradient, record.parameters), Line{end_, static_cast<std::int64_t>(line.size())});
+    lines_.emplace(key_of(record.system, record.derivatives, record.parameters), Line{end_, static_cast<std::int64_t>(line.size())});
   } catch (const std::exception& error) {
     refuse(number, std::string("the line is damaged: ") + error.what(), line.substr(0, 80),
            "an evaluation; take this line and all below it out of the file to compute them again");
@@ -131,7 +131,7 @@ std::optional<Evaluation> Journal::look_up(std::size_t key, const EvaluationTask
     std::string line(static_cast<std::size_t>(place->second.size), '\0');
     if (pread(file_, line.data(), line.size(), place->second.begin) != static_cast<ssize_t>(line.size())) continue;
     EvaluationRecord record = read_line(line);
-    const bool same = record.system == systems_.at(task.system.get()) && record.with_gradient == task.with_gradient &&
+    const bool same = record.system == systems_.at(task.system.get()) && record.derivatives == task.derivatives &&
                       same_bits(record.parameters, task.parameters);
     if (same) return std::move(record.evaluation);
   }
@@ -141,7 +141,7 @@ std::optional<Evaluation> Journal::look_up(std::size_t key, const EvaluationTask
 std::optional<Evaluation> Journal::find(const EvaluationTask& task) {
   const auto system = systems_.find(task.system.get());
   if (system == systems_.end()) return std::nullopt;
-  const std::size_t key = key_of(system->second, task.with_gradient, task.parameters);
+  const std::size_t key = key_of(system->second, task.derivatives, task.parameters);
   const std::lock_guard<std::mutex> lock(mutex_);
   return look_up(key, task);
 }
@@ -149,8 +149,8 @@ std::optional<Evaluation> Journal::find(const EvaluationTask& task) {
 void Journal::keep(const EvaluationTask& task, const Evaluation& evaluation) {
   const auto system = systems_.find(task.system.get());
   if (system == systems_.end()) return;
-  const std::string line = to_line({system->second, task.parameters, task.with_gradient, evaluation});
-  const std::size_t key = key_of(system->second, task.with_gradient, task.parameters);
+  const std::string line = to_line({system->second, task.parameters, task.derivatives, evaluation});
+  const std::size_t key = key_of(system->second, task.derivatives, task.parameters);
   const std::lock_guard<std::mutex> lock(mutex_);
   const Line place{end_, static_cast<std::int64_t>(line.size())};
   if (append(line)) lines_.emplace(key, place);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "text/decimal.h"
 
@@ -10,9 +11,11 @@ namespace codesign {
 namespace {
 
 struct Algorithm {
-  nlopt::algorithm id;
+  std::optional<nlopt::algorithm> id;  ///< none: Levenberg-Marquardt, which is not NLopt's
   bool takes_constraints, takes_equalities;
 };
+
+constexpr const char* kLeastSquares = "levenberg_marquardt";
 
 const std::map<std::string, Algorithm>& algorithms() {
   static const std::map<std::string, Algorithm> table{
@@ -20,7 +23,8 @@ const std::map<std::string, Algorithm>& algorithms() {
       {"var2", {nlopt::LD_VAR2, false, false}},     {"tnewton", {nlopt::LD_TNEWTON_PRECOND_RESTART, false, false}},
       {"mma", {nlopt::LD_MMA, true, false}},        {"ccsaq", {nlopt::LD_CCSAQ, true, false}},
       {"slsqp", {nlopt::LD_SLSQP, true, true}},     {"cobyla", {nlopt::LN_COBYLA, true, true}},
-      {"bobyqa", {nlopt::LN_BOBYQA, false, false}}, {"auglag_lbfgs", {nlopt::LD_AUGLAG, true, true}}};
+      {"bobyqa", {nlopt::LN_BOBYQA, false, false}}, {"auglag_lbfgs", {nlopt::LD_AUGLAG, true, true}},
+      {kLeastSquares, {std::nullopt, false, false}}};
   return table;
 }
 
@@ -55,7 +59,9 @@ SourceLocation where_of(const OptimizerOptions& options, const Study& study) {
   return options.where.file.empty() ? SourceLocation{study.file, 1} : options.where;
 }
 
-nlopt::opt make_optimizer(const Study& study, const OptimizerOptions& options, unsigned dimension, bool with_slack) {
+bool is_least_squares(const std::string& algorithm) { return algorithm == kLeastSquares; }
+
+void check_algorithm(const Study& study, const OptimizerOptions& options, bool with_slack) {
   const auto found = algorithms().find(options.algorithm);
   const SourceLocation where = where_of(options, study);
   const InputFault fault{where, "optimizer.algorithm", "", options.algorithm, ""};
@@ -67,8 +73,32 @@ nlopt::opt make_optimizer(const Study& study, const OptimizerOptions& options, u
   if (!(options.relative_tolerance >= kLeast && options.relative_tolerance < 1.0))
     throw InputError({where, "optimizer.relative_tolerance", "tolerance out of range", to_decimal(options.relative_tolerance),
                       "from 1e-15 to less than 1"});
-  nlopt::opt optimizer(found->second.id, dimension);
-  if (found->second.id == nlopt::LD_AUGLAG) {
+}
+
+void check_squares(const Study& study, const OptimizerOptions& options, RobustMeasure measure) {
+  InputFault fault{where_of(options, study), "optimizer.algorithm", "", options.algorithm,
+                   names([](const Algorithm& other) { return other.id.has_value(); })};
+  if (measure == RobustMeasure::kMeanPlusDeviation) {
+    fault.message = "this algorithm takes sums of squares, which robust.measure mean_plus_deviation is not";
+    throw InputError(fault);
+  }
+  if (study.solver.gradient == GradientMethod::kAdjoint) {
+    fault.message = "this algorithm needs the sensitivities of all residuals, which solver.gradient: adjoint does not compute";
+    fault.allowed += ", or solver.gradient auto or direct";
+    throw InputError(fault);
+  }
+  for (const std::vector<ObjectiveTerm>* terms : {&study.integral, &study.terminal})
+    for (const ObjectiveTerm& term : *terms)
+      if (term.weight.is_constant() && term.weight.nominal() < 0.0)
+        throw InputError({term.where, "objective",
+                          "optimizer.algorithm levenberg_marquardt takes sums of squares, without negative weights",
+                          to_decimal(term.weight.nominal()), "0 or more, or one of the algorithms " + fault.allowed});
+}
+
+nlopt::opt make_optimizer(const OptimizerOptions& options, unsigned dimension) {
+  const nlopt::algorithm id = algorithms().at(options.algorithm).id.value();
+  nlopt::opt optimizer(id, dimension);
+  if (id == nlopt::LD_AUGLAG) {
     nlopt::opt local(nlopt::LD_LBFGS, dimension);
     local.set_ftol_rel(options.relative_tolerance);
     // NLopt 2.7.1 reads the absolute tolerances of the sub-optimizer even if they were never set.

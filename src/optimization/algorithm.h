@@ -12,10 +12,19 @@ namespace codesign {
 /// Where the options stand; the study's first line if they come from elsewhere.
 SourceLocation where_of(const OptimizerOptions& options, const Study& study);
 
-/// The NLopt optimizer that `options.algorithm` names. @param study for its parameter constraints. @param dimension number of tuned
-/// parameters and slack variables. @param with_slack whether slack variables add constraints.
+/// Whether the algorithm is Levenberg-Marquardt, which minimizes sums of squares; else it is one of NLopt's.
+bool is_least_squares(const std::string& algorithm);
+
+/// @param study for its constraints. @param with_slack whether slack variables of a robust measure add constraints.
 /// @throws InputError for an unknown algorithm, for constraints with an algorithm that takes none, or a relative tolerance out of range.
-nlopt::opt make_optimizer(const Study& study, const OptimizerOptions& options, unsigned dimension, bool with_slack = false);
+void check_algorithm(const Study& study, const OptimizerOptions& options, bool with_slack);
+/// For Levenberg-Marquardt. @param measure of the objectives of several scenarios; kMean if there is one.
+/// @throws InputError if the objective is no sum of squares, or its residuals have no derivatives.
+void check_squares(const Study& study, const OptimizerOptions& options, RobustMeasure measure);
+
+/// The NLopt optimizer that `options.algorithm` names. @param options checked, and not for least squares. @param dimension number of tuned
+/// parameters and slack variables.
+nlopt::opt make_optimizer(const OptimizerOptions& options, unsigned dimension);
 
 /// Snake-case name of the reason for which NLopt stopped, e.g. objective_tolerance_reached.
 std::string termination_name(nlopt::result result);

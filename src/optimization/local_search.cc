@@ -5,13 +5,12 @@
 #include <cmath>
 #include <limits>
 
-#include "ensemble/parameter_rows.h"
 #include "optimization/algorithm.h"
 #include "optimization/lagrangian.h"
+#include "optimization/least_squares_search.h"
 #include "optimization/scaling.h"
-#include "optimization/search_warnings.h"
+#include "optimization/search_trials.h"
 #include "optimization/smooth_program.h"
-#include "optimization/violated_bounds.h"
 #include "problem/margins.h"
 
 namespace codesign {
@@ -29,25 +28,20 @@ class Minimization {
                const std::atomic<bool>* cancel)
       : study_(study),
         options_(options),
-        observer_(observer),
-        cancel_(cancel),
-        ensemble_(ensemble),
         scaling_(study),
         program_(ensemble),
-        parameter_rows_(study, ensemble.scenarios()) {
-    for (const ParameterRows::Row& row : parameter_rows_.rows()) constraints_.push_back({this, row});
+        trials_(study, options_, ensemble, observer, cancel, scaling_, &program_) {
+    for (const ParameterRows::Row& row : trials_.parameter_rows().rows()) constraints_.push_back({this, row});
   }
 
   OptimizationResult run(const Eigen::VectorXd& start) {
-    nlopt::opt optimizer = make_optimizer(study_, options_, dimension(), program_.has_robust_slack());
+    nlopt::opt optimizer = make_optimizer(options_, dimension());
     configure(&optimizer);
-    result_.initial_rho = result_.rho = start;
-    result_.influences.assign(study_.tuned.size(), false);
-    parameter_rows_.require_numbers_at(start);
-    std::vector<double> x = scaling_.to_scaled(result_.initial_rho);
+    trials_.start(start);
+    std::vector<double> x = scaling_.to_scaled(start);
     minimize(&optimizer, &x);
     while (should_restart()) restart(&optimizer);
-    conclude();
+    trials_.conclude(failure_);
     return std::move(result_);
   }
 
@@ -68,7 +62,8 @@ class Minimization {
     optimizer->set_min_objective(&Minimization::objective_callback, this);
     optimizer->set_ftol_rel(options_.relative_tolerance);
     optimizer->set_maxeval(options_.max_evaluations);
-    for (Constraint& constraint : constraints_) optimizer->add_inequality_constraint(&Minimization::constraint_callback, &constraint, 1e-9);
+    for (Constraint& constraint : constraints_)
+      optimizer->add_inequality_constraint(&Minimization::constraint_callback, &constraint, kRowTolerance);
     const auto tolerances = [](int rows) { return std::vector<double>(static_cast<std::size_t>(rows), kRowTolerance); };
     if (program_.inequalities() > 0)
       optimizer->add_inequality_mconstraint(&Minimization::inequality_callback, this, tolerances(program_.inequalities()));
@@ -80,7 +75,7 @@ class Minimization {
   void add_slack(std::vector<double>* x) {
     if (program_.slacks() == 0) return;
     const Eigen::VectorXd rho = scaling_.from_scaled(*x);
-    if (last_rho_.size() == 0 || last_rho_ != rho) evaluate(rho);
+    if (trials_.last_rho().size() == 0 || trials_.last_rho() != rho) evaluate(rho);
     const Eigen::VectorXd y = program_.start(last_, unit_);
     x->insert(x->end(), y.begin(), y.end());
   }
@@ -88,14 +83,14 @@ class Minimization {
   /// Whether a search that ended at a violated bound of a signal goes on from the best point: SLSQP may stop by the objective's tolerance
   /// while it is still outside.
   bool should_restart() {
-    const bool ended_outside = program_.has_signals() && have_best_ && best_violation_ > 0.0 && interruption_.ok();
-    const bool has_progressed = best_violation_ < 0.9 * violation_before_ || restarts_ == 0;
+    const bool ended_outside = program_.has_signals() && trials_.have_best() && trials_.best_violation() > 0.0 && !trials_.interrupted();
+    const bool has_progressed = trials_.best_violation() < 0.9 * violation_before_ || restarts_ == 0;
     return ended_outside && has_progressed && restarts_ < kMostRestarts && result_.evaluations < options_.max_evaluations;
   }
 
   void restart(nlopt::opt* optimizer) {
     ++restarts_;
-    violation_before_ = best_violation_;
+    violation_before_ = trials_.best_violation();
     if (program_.equalities() == 0 && options_.algorithm != kInsideFinder) move_inside();
     run_from(result_.rho, optimizer);
   }
@@ -105,7 +100,7 @@ class Minimization {
   void move_inside() {
     OptimizerOptions options = options_;
     options.algorithm = kInsideFinder;
-    nlopt::opt optimizer = make_optimizer(study_, options, dimension(), program_.has_robust_slack());
+    nlopt::opt optimizer = make_optimizer(options, dimension());
     configure(&optimizer);
     moves_inside_ = true;
     run_from(restarts_ == 1 ? result_.initial_rho : result_.rho, &optimizer);
@@ -113,7 +108,7 @@ class Minimization {
   }
 
   void run_from(const Eigen::VectorXd& rho, nlopt::opt* optimizer) {
-    if (!interruption_.ok() || result_.evaluations >= options_.max_evaluations) return;
+    if (trials_.interrupted() || result_.evaluations >= options_.max_evaluations) return;
     optimizer->set_maxeval(options_.max_evaluations - result_.evaluations);
     std::vector<double> x = scaling_.to_scaled(rho);
     minimize(optimizer, &x);
@@ -135,31 +130,7 @@ class Minimization {
       result_.termination = "algorithm_failed";
       failure_ = error.what();
     }
-    if (result_.termination == "algorithm_failed" && have_best_ && has_converged()) result_.termination = "roundoff_limited";
-  }
-
-  /// Sets the status and the termination, with the margins and warnings of the best point.
-  void conclude() {
-    result_.margins = parameter_rows_.margins(result_.rho);
-    result_.watched = program_.describe(best_.extremes, initial_extremes_, result_.rho);
-    for (std::size_t k = 0; k < study_.tuned.size(); ++k)
-      if (program_.bounds_read(study_.tuned[k])) result_.influences[k] = true;
-    if (have_best_) append(search_warnings(study_, options_, result_), &result_.warnings);
-    result_.status = {StatusCode::kSuccess, study_.duration, ""};
-    if (!interruption_.ok()) {
-      result_.termination = name_of(interruption_.code);
-      result_.status = with_best_kept(interruption_);
-    } else if (!have_best_) {
-      result_.status = first_failure_;
-      result_.termination = "start_failed";
-    } else if (result_.termination == "algorithm_failed") {
-      result_.status = {StatusCode::kAlgorithmFailed, study_.duration,
-                        "the algorithm \"" + options_.algorithm + "\" failed (" + failure_ +
-                            "); the best point so far is kept; try another algorithm or another start"};
-    } else if (best_violation_ > 0.0) {
-      result_.status = {StatusCode::kInfeasible, study_.duration,
-                        all_met(result_.margins) ? describe_violated(result_.watched) : describe_unmet(study_, result_.margins)};
-    }
+    if (result_.termination == "algorithm_failed" && trials_.have_best() && has_converged()) result_.termination = "roundoff_limited";
   }
 
   /// Whether a failed line search ended at an optimum: its points are equal within the relative tolerance, and the gradient is small, or a
@@ -167,11 +138,12 @@ class Minimization {
   bool has_converged() {
     const double difference = std::abs(last_.total.objective - result_.objective);
     if (!last_.total.status.ok() || difference > options_.relative_tolerance * std::abs(result_.objective)) return false;
-    const Eigen::VectorXd margins = parameter_rows_.margins(result_.rho);
+    const Eigen::VectorXd margins = trials_.parameter_rows().margins(result_.rho);
     if ((margins.array() < 1e-6).any()) return all_met(margins);
     const double start = scaling_.gradient_norm(result_.initial_gradient);
     if (program_.has_signals())
-      return best_violation_ == 0.0 && lagrangian_residual(best_, result_.rho, scaling_, unit_, &program_) <= kSlopeLeft * start / unit_;
+      return trials_.best_violation() == 0.0 &&
+             lagrangian_residual(trials_.best(), result_.rho, scaling_, unit_, &program_) <= kSlopeLeft * start / unit_;
     return scaling_.free_gradient_norm(result_.rho, result_.gradient) <= kSlopeLeft * start;
   }
 
@@ -184,7 +156,7 @@ class Minimization {
     const auto& constraint = *static_cast<Constraint*>(data);
     const Minimization& owner = *constraint.owner;
     Eigen::VectorXd by_rho;
-    const double margin = owner.parameter_rows_.margin(constraint.row, owner.design(x), gradient.empty() ? nullptr : &by_rho);
+    const double margin = owner.trials_.parameter_rows().margin(constraint.row, owner.design(x), gradient.empty() ? nullptr : &by_rho);
     if (!std::isfinite(margin)) return owner.step_back_from_constraint(x, &gradient);
     std::fill(gradient.begin(), gradient.end(), 0.0);
     for (std::size_t k = 0; k < gradient.size() && k < owner.study_.tuned.size(); ++k)
@@ -254,34 +226,23 @@ class Minimization {
 
   void evaluate_at(const std::vector<double>& x) {
     // Some line searches of NLopt continue to call after a forced stop.
-    if (!interruption_.ok()) stop(interruption_);
+    if (trials_.interrupted()) throw nlopt::forced_stop();
     const Eigen::VectorXd rho = design(x);
     // An algorithm at its bounds may ask for the same point again, and constraints are asked for after the objective.
-    if (rho.size() != last_rho_.size() || rho != last_rho_) evaluate(rho);
+    if (rho.size() != trials_.last_rho().size() || rho != trials_.last_rho()) evaluate(rho);
   }
 
   void evaluate(const Eigen::VectorXd& rho) {
-    last_ = ensemble_.evaluate(rho, true, cancel_);
-    if (last_.total.status.is_interrupted()) stop(last_.total.status);
-    last_rho_ = rho;
-    if (last_.total.status.ok()) program_.take(last_, rho);
-    const Trial trial = note(last_, rho);
-    if (observer_ && !observer_(trial)) stop({StatusCode::kCancelled, 0.0, "cancelled"});
-    if (moves_inside_ && best_violation_ == 0.0) throw nlopt::forced_stop();
+    if (!trials_.evaluate(rho, Derivatives::kGradient)) throw nlopt::forced_stop();
+    if (moves_inside_ && trials_.best_violation() == 0.0) throw nlopt::forced_stop();
     // The first step of a quasi-Newton method is as long as the gradient; divided by unit_, it is at most 1 in scaled variables, (24).
-    if (trial.evaluation == 1 && last_.total.status.ok()) unit_ = std::max(1.0, trial.gradient_norm);
-  }
-
-  // Kept, because the line searches of NLopt may report another reason than a forced stop.
-  [[noreturn]] void stop(const Status& interruption) {
-    interruption_ = interruption;
-    throw nlopt::forced_stop();
+    if (result_.evaluations == 1 && last_.total.status.ok()) unit_ = std::max(1.0, scaling_.gradient_norm(last_.total.gradient));
   }
 
   // The value (24) of a point that cannot be evaluated: worse than all values so far, and larger with growing distance from the best point,
   // so that a line search turns back.
   double step_back(const std::vector<double>& x, std::vector<double>* gradient) const {
-    if (!have_best_) throw std::runtime_error("the start could not be evaluated");
+    if (!trials_.have_best()) throw std::runtime_error("the start could not be evaluated");
     const double weight = std::abs(worst_) + std::abs(result_.objective) + 1e-300;
     return (worst_ + weight * (1.0 + distance_from_best(x, weight / unit_, gradient))) / unit_;
   }
@@ -298,97 +259,33 @@ class Minimization {
     return distance;
   }
 
-  Trial note(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
-    const Evaluation& evaluation = all.total;
-    Trial trial;
-    trial.evaluation = ++result_.evaluations;
-    trial.status = evaluation.status;
-    trial.rho = rho;
-    result_.statistics += evaluation.statistics;
-    if (evaluation.status.ok()) {
-      trial.objective = evaluation.objective;
-      trial.gradient = evaluation.gradient;
-      trial.gradient_norm = scaling_.gradient_norm(evaluation.gradient);
-      note_influences(all.gradients);
-      for (const Extremes& extremes : all.extremes) note_influences(extremes.gradients);
-      take_best(all, rho);
-    } else {
-      ++result_.failed_evaluations;
-      if (result_.evaluations == 1) first_failure_ = evaluation.status;
-    }
-    trial.iteration = result_.iterations;
-    trial.best_objective = result_.objective;
-    trial.best_violation = best_violation_;
-    return trial;
-  }
-
-  /// @param gradients one row per tuned parameter.
-  void note_influences(const Eigen::MatrixXd& gradients) {
-    for (std::size_t k = 0; k < result_.influences.size(); ++k)
-      if ((gradients.row(static_cast<Eigen::Index>(k)).array() != 0.0).any()) result_.influences[k] = true;
-  }
-
-  /// The largest violation of a constraint on parameters or signals beyond its tolerance; 0 if all are met.
-  double violation(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) const {
-    double largest = program_.violation(all.extremes, rho);
-    if (largest <= kMostViolation) largest = 0.0;
-    for (const double margin : parameter_rows_.margins(rho))
-      if (!(margin >= kMet)) largest = std::max(largest, std::isnan(margin) ? std::numeric_limits<double>::infinity() : -margin);
-    return largest;
-  }
-
-  // Of two points that violate constraints the one that violates them less is better.
-  void take_best(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
-    const Evaluation& evaluation = all.total;
-    const bool first = !have_best_;
-    const double outside = violation(all, rho);
-    if (first) {
-      initial_extremes_ = all.extremes;
-      result_.initial_objective = evaluation.objective;
-      result_.initial_values = all.values;
-      result_.initial_failed = all.failed;
-      result_.initial_gradient = evaluation.gradient;
-    }
-    const bool better = first || outside < best_violation_ || (outside == best_violation_ && evaluation.objective < result_.objective);
-    if (!better) return;
-    if (!first) ++result_.iterations;
-    have_best_ = true;
-    best_violation_ = outside;
-    result_.objective = evaluation.objective;
-    result_.values = all.values;
-    if (program_.has_signals()) best_ = all;
-    result_.failed = all.failed;
-    result_.gradient = evaluation.gradient;
-    result_.warnings = evaluation.warnings;
-    result_.rho = rho;
-  }
-
   const Study& study_;
   const OptimizerOptions options_;
-  const TrialObserver& observer_;
-  const std::atomic<bool>* cancel_;
-  const Ensemble& ensemble_;
   Scaling scaling_;
   SmoothProgram program_;
-  const ParameterRows parameter_rows_;
-  Eigen::VectorXd last_rho_;
-  EnsembleEvaluation last_;  ///< the evaluation at last_rho_
-  std::vector<Extremes> initial_extremes_;
-  EnsembleEvaluation best_;  ///< of a study with watched signals: at the best point
+  SearchTrials trials_;
+  const EnsembleEvaluation& last_ = trials_.last();
+  OptimizationResult& result_ = trials_.result();
   std::vector<Constraint> constraints_;
-  OptimizationResult result_;
-  Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"}, interruption_;
   std::string failure_;
   double worst_ = 0.0, unit_ = 1.0;  ///< worst objective so far; NLopt gets objectives divided by `unit_`
-  bool have_best_ = false, moves_inside_ = false;
-  double best_violation_ = 0.0, violation_before_ = 0.0;  ///< at the best point, and when the search was last restarted
+  bool moves_inside_ = false;
+  double violation_before_ = 0.0;  ///< best_violation() when the search was last restarted
   int restarts_ = 0;
 };
 
 }  // namespace
 
+void check_search(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble) {
+  const RobustMeasure measure = ensemble.scenarios().size() > 1 ? ensemble.options().measure : RobustMeasure::kMean;
+  check_algorithm(study, options, measure == RobustMeasure::kWorst || measure == RobustMeasure::kCvar);
+  if (is_least_squares(options.algorithm)) check_squares(study, options, measure);
+}
+
 OptimizationResult search_locally(const Study& study, const OptimizerOptions& options, const Eigen::VectorXd& start,
                                   const Ensemble& ensemble, const TrialObserver& observer, const std::atomic<bool>* cancel) {
+  check_search(study, options, ensemble);
+  if (is_least_squares(options.algorithm)) return search_squares(study, options, start, ensemble, observer, cancel);
   return Minimization(study, options, ensemble, observer, cancel).run(start);
 }
 

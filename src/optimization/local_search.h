@@ -7,12 +7,11 @@
 
 namespace codesign {
 
-/// The status of a search that was interrupted with one of its evaluations.
-inline Status with_best_kept(const Status& interruption) {
-  return {interruption.code, 0.0, interruption.cause + "; the best point so far is kept"};
-}
+/// @throws InputError for an algorithm that cannot minimize the ensemble's measure within the study's constraints, and for options out of
+/// range.
+void check_search(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble);
 
-/// Minimizes the ensemble's measure from `start` with NLopt, within bounds and parameter constraints.
+/// Minimizes the ensemble's measure from `start` with the algorithm of `options`, within bounds and parameter constraints.
 /// @param study of the problem: parameters, bounds, constraints. @param start of rho.
 /// @throws InputError as optimize().
 OptimizationResult search_locally(const Study& study, const OptimizerOptions& options, const Eigen::VectorXd& start,

@@ -11,6 +11,7 @@
 #include "optimization/local_search.h"
 #include "optimization/scaling.h"
 #include "optimization/scenario_results.h"
+#include "optimization/search_trials.h"
 #include "optimization/shared_observer.h"
 #include "problem/margins.h"
 #include "sampling/sampler.h"
@@ -38,6 +39,7 @@ class Multistart {
         scaling_(study_) {}
 
   OptimizationResult run() {
+    check_search(study_, options_, ensemble_);
     screen();
     std::vector<OptimizationResult> found = search();
     OptimizationResult result = combine(&found);

@@ -7,6 +7,7 @@
 #include "optimization/multistart.h"
 #include "optimization/scenario_results.h"
 #include "optimization/search_hooks.h"
+#include "optimization/search_trials.h"
 
 namespace codesign {
 

@@ -2,6 +2,7 @@
 #include "optimization/scenario_results.h"
 
 #include "optimization/local_search.h"
+#include "optimization/search_trials.h"
 #include "sampling/measure.h"
 #include "text/cancel.h"
 
@@ -22,7 +23,7 @@ std::optional<Validation> validate(const Problem& problem, const Ensemble& ensem
   const RobustOptions& options = ensemble.options();
   const std::vector<Scenario> scenarios = make_validation_scenarios(problem, options.validate);
   meter->begin(SearchStage::kValidating, 1, scenarios.size());
-  const std::vector<Evaluation> members = ensemble.engine().evaluate(tasks_at(scenarios, design.rho, false), cancel);
+  const std::vector<Evaluation> members = ensemble.engine().evaluate(tasks_at(scenarios, design.rho, Derivatives::kNone), cancel);
   Validation validation;
   validation.samples = options.validate;
   validation.promised = design.objective;

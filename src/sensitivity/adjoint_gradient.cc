@@ -18,11 +18,11 @@ AdjointGradient::AdjointGradient(const CompiledSystem& system, LanePlan plan, in
     : system_(system), most_points_(most_points), plan_(std::move(plan)), integrator_(system) {}
 
 // The workspace of the backward pass is allocated only when a gradient is requested.
-Status AdjointGradient::start(const std::vector<double>& parameters, bool with_gradient) {
-  with_gradient_ = with_gradient;
-  integrator_.watch_singularities(with_gradient);
+Status AdjointGradient::start(const std::vector<double>& parameters, Derivatives derivatives) {
+  with_gradient_ = derivatives != Derivatives::kNone;
+  integrator_.watch_singularities(with_gradient_);
   Status status = integrator_.start(parameters);
-  if (!status.ok() || !with_gradient) return status;
+  if (!status.ok() || !with_gradient_) return status;
   if (!back_) {
     back_.emplace(system_, integrator_.step().tableau(), most_points_);
     share(plan_);

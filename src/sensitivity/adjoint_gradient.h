@@ -19,11 +19,13 @@ class AdjointGradient final : public GradientEngine {
   /// @param plan which parameters share a lane. @param most_points stored points of the path, see StepPath; 0: what fits into 32 MB.
   AdjointGradient(const CompiledSystem& system, LanePlan plan, int most_points = 0);
 
-  Status start(const std::vector<double>& parameters, bool with_gradient) override;
+  Status start(const std::vector<double>& parameters, Derivatives derivatives) override;
   Status advance(double limit) override;
   double time() const override { return integrator_.state().t; }
   double objective() override;
   void gradient(Eigen::VectorXd* gradient) override;
+  /// Empty: such an evaluation is by the direct method.
+  void jacobian_root(Eigen::MatrixXd* root) override { root->resize(0, 0); }
   /// Empty: a study with watched signals has its gradient by the direct method.
   const Extremes& extremes() const override { return none_; }
   const Statistics& statistics() const override { return integrator_.statistics(); }

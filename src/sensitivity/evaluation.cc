@@ -24,36 +24,38 @@ class Evaluator::Implementation {
  public:
   explicit Implementation(std::shared_ptr<const CompiledSystem> system) : system_(std::move(system)) {}
 
-  Evaluation evaluate(const std::vector<double>& parameters, bool with_gradient, const std::atomic<bool>* cancel) {
+  Evaluation evaluate(const std::vector<double>& parameters, Derivatives derivatives, const std::atomic<bool>* cancel) {
     Evaluation evaluation;
-    if (!engine_) engine_ = make_gradient_engine(*system_, cancel);
-    if (!engine_) {
+    std::unique_ptr<GradientEngine>& engine = derivatives == Derivatives::kGaussNewton ? root_engine_ : engine_;
+    if (!engine) engine = make_gradient_engine(*system_, cancel, derivatives);
+    if (!engine) {
       evaluation.status = {StatusCode::kCancelled, 0.0, "cancelled"};
       return evaluation;
     }
     const CpuTimer timer;
-    engine_->obey(cancel);
-    evaluation.status = run(parameters, with_gradient, cancel);
-    if (evaluation.status.ok()) collect(with_gradient, cancel, &evaluation);
-    evaluation.statistics = engine_->statistics();
-    evaluation.warnings = engine_->warnings();
+    engine->obey(cancel);
+    evaluation.status = run(engine.get(), parameters, derivatives, cancel);
+    if (evaluation.status.ok()) collect(engine.get(), derivatives, cancel, &evaluation);
+    evaluation.statistics = engine->statistics();
+    evaluation.warnings = engine->warnings();
     evaluation.statistics.cpu_seconds = timer.seconds();
     return evaluation;
   }
   const CompiledSystem& system() const { return *system_; }
 
  private:
-  void collect(bool with_gradient, const std::atomic<bool>* cancel, Evaluation* evaluation) {
-    const double time = engine_->time();
-    evaluation->objective = engine_->objective();
-    evaluation->extremes = engine_->extremes();
+  void collect(GradientEngine* engine, Derivatives derivatives, const std::atomic<bool>* cancel, Evaluation* evaluation) const {
+    const double time = engine->time();
+    evaluation->objective = engine->objective();
+    evaluation->extremes = engine->extremes();
     evaluation->objective += peak_terms(system_->study(), evaluation->extremes, nullptr);
     if (!std::isfinite(evaluation->objective)) {
       evaluation->status = {StatusCode::kNonFinite, time, "the objective is not finite"};
       return;
     }
-    if (!with_gradient) return;
-    engine_->gradient(&evaluation->gradient);
+    if (derivatives == Derivatives::kNone) return;
+    engine->gradient(&evaluation->gradient);
+    if (derivatives == Derivatives::kGaussNewton) engine->jacobian_root(&evaluation->jacobian_root);
     peak_terms(system_->study(), evaluation->extremes, &evaluation->gradient);
     if (is_set(cancel)) {
       evaluation->status = {StatusCode::kCancelled, time, "cancelled"};
@@ -65,20 +67,25 @@ class Evaluator::Implementation {
                               "the gradient by \"" + tuned_name(*system_, k) + "\" is not finite, though the objective is"};
         return;
       }
+    if (!evaluation->jacobian_root.allFinite())
+      evaluation->status = {StatusCode::kNonFiniteGradient, time, "the Jacobian of the residuals is not finite, though the objective is"};
   }
 
-  Status run(const std::vector<double>& parameters, bool with_gradient, const std::atomic<bool>* cancel) {
-    Status status = engine_->start(parameters, with_gradient);
+  Status run(GradientEngine* engine, const std::vector<double>& parameters, Derivatives derivatives,
+             const std::atomic<bool>* cancel) const {
+    Status status = engine->start(parameters, derivatives);
     const double duration = system_->study().duration;
-    while (status.ok() && engine_->time() < duration) {
-      if (is_set(cancel)) return {StatusCode::kCancelled, engine_->time(), "cancelled"};
-      status = engine_->advance(duration);
+    while (status.ok() && engine->time() < duration) {
+      if (is_set(cancel)) return {StatusCode::kCancelled, engine->time(), "cancelled"};
+      status = engine->advance(duration);
     }
     return status;
   }
 
   std::shared_ptr<const CompiledSystem> system_;
-  std::unique_ptr<GradientEngine> engine_;  // made by the first evaluation, which can be cancelled meanwhile
+  // Made by the first evaluation, which can be cancelled meanwhile. That for kGaussNewton may be of another kind; no result depends on
+  // which evaluations came before.
+  std::unique_ptr<GradientEngine> engine_, root_engine_;
 };
 
 Evaluator::Evaluator(std::shared_ptr<const CompiledSystem> system) : implementation_(std::make_unique<Implementation>(std::move(system))) {}
@@ -87,12 +94,20 @@ Evaluator::~Evaluator() = default;
 Evaluator::Evaluator(Evaluator&&) noexcept = default;
 Evaluator& Evaluator::operator=(Evaluator&&) noexcept = default;
 
+Evaluation Evaluator::evaluate(const Eigen::VectorXd& rho, Derivatives derivatives, const std::atomic<bool>* cancel) {
+  return implementation_->evaluate(implementation_->system().parameters(rho), derivatives, cancel);
+}
+
 Evaluation Evaluator::evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel) {
-  return implementation_->evaluate(implementation_->system().parameters(rho), with_gradient, cancel);
+  return evaluate(rho, gradient_if(with_gradient), cancel);
+}
+
+Evaluation Evaluator::evaluate_design(const std::vector<double>& parameters, Derivatives derivatives, const std::atomic<bool>* cancel) {
+  return implementation_->evaluate(parameters, derivatives, cancel);
 }
 
 Evaluation Evaluator::evaluate_design(const std::vector<double>& parameters, bool with_gradient, const std::atomic<bool>* cancel) {
-  return implementation_->evaluate(parameters, with_gradient, cancel);
+  return implementation_->evaluate(parameters, gradient_if(with_gradient), cancel);
 }
 
 }  // namespace codesign

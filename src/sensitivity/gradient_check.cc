@@ -23,7 +23,7 @@ Status record_steps(const CompiledSystem& system, const std::vector<double>& par
                     std::vector<double>* steps) {
   RosenbrockGradient run(system);
   run.obey(cancel);
-  Status status = run.start(parameters, true);
+  Status status = run.start(parameters, Derivatives::kGradient);
   while (status.ok() && run.time() < system.study().duration) {
     status = run.advance(system.study().duration);
     if (status.ok()) steps->push_back(run.step_size());

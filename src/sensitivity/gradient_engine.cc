@@ -31,8 +31,10 @@ std::optional<LanePlan> backward_plan(const CompiledSystem& system, const std::a
 
 bool prefers_adjoint(const CompiledSystem& system) { return backward_plan(system, nullptr).has_value(); }
 
-std::unique_ptr<GradientEngine> make_gradient_engine(const CompiledSystem& system, const std::atomic<bool>* cancel) {
+std::unique_ptr<GradientEngine> make_gradient_engine(const CompiledSystem& system, const std::atomic<bool>* cancel,
+                                                     Derivatives derivatives) {
   if (system.study().solver.integrator == IntegratorKind::kIdas) return std::make_unique<IdasGradient>(system);
+  if (derivatives == Derivatives::kGaussNewton) return std::make_unique<RosenbrockGradient>(system);
   std::optional<LanePlan> plan = backward_plan(system, cancel);
   if (is_set(cancel)) return nullptr;
   if (plan) return std::make_unique<AdjointGradient>(system, std::move(*plan));

@@ -17,10 +17,11 @@ class GradientEngine {
  public:
   virtual ~GradientEngine() = default;
 
-  /// Assembles the initial state of a design. @param parameters all named parameters (Study::parameters order). @param with_gradient
-  /// whether gradient() will be called. @returns the status of assemble_start().
-  virtual Status start(const std::vector<double>& parameters, bool with_gradient) = 0;
-  /// Takes one step that ends at `limit` [s] or before, with sensitivities if start() was called with gradient.
+  /// Assembles the initial state of a design. @param parameters all named parameters (Study::parameters order). @param derivatives
+  /// kGradient: gradient() will be called; kGaussNewton: and jacobian_root(). @returns the status of assemble_start(), or kInvalidDesign
+  /// for kGaussNewton and a negative weight.
+  virtual Status start(const std::vector<double>& parameters, Derivatives derivatives) = 0;
+  /// Takes one step that ends at `limit` [s] or before, with sensitivities if start() was called with derivatives.
   virtual Status advance(double limit) = 0;
 
   /// Time reached [s].
@@ -30,6 +31,8 @@ class GradientEngine {
   /// d psi / d rho for the same end, p entries in the order of Study::tuned; NaN if it cannot be computed or was cancelled. start() must
   /// have been called with gradient.
   virtual void gradient(Eigen::VectorXd* gradient) = 0;
+  /// Evaluation::jacobian_root for the same end, after gradient(); start() must have been called with kGaussNewton.
+  virtual void jacobian_root(Eigen::MatrixXd* root) = 0;
   /// The numbers of the watched signals of a study that ends at time(), with derivatives if start() was called with gradient.
   virtual const Extremes& extremes() const = 0;
   virtual const Statistics& statistics() const = 0;
@@ -44,8 +47,9 @@ class GradientEngine {
 bool prefers_adjoint(const CompiledSystem& system);
 
 /// The engine for the study's integrator and gradient method. @param system must outlive it. @param cancel if it is set meanwhile, the
-/// result is nullptr.
-std::unique_ptr<GradientEngine> make_gradient_engine(const CompiledSystem& system, const std::atomic<bool>* cancel = nullptr);
+/// result is nullptr. @param derivatives the most that will be asked for; kGaussNewton is by direct sensitivities whatever the study says.
+std::unique_ptr<GradientEngine> make_gradient_engine(const CompiledSystem& system, const std::atomic<bool>* cancel = nullptr,
+                                                     Derivatives derivatives = Derivatives::kGradient);
 
 }  // namespace codesign
 

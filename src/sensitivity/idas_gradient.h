@@ -7,6 +7,7 @@
 
 #include "sensitivity/gradient_engine.h"
 #include "sensitivity/idas_tangent.h"
+#include "sensitivity/residual_rows.h"
 #include "sensitivity/signal_watch.h"
 
 namespace codesign {
@@ -16,11 +17,12 @@ class IdasGradient final : public GradientEngine {
  public:
   explicit IdasGradient(const CompiledSystem& system);
 
-  Status start(const std::vector<double>& parameters, bool with_gradient) override;
+  Status start(const std::vector<double>& parameters, Derivatives derivatives) override;
   Status advance(double limit) override;
   double time() const override { return integrator_.state().t; }
   double objective() override;
   void gradient(Eigen::VectorXd* gradient) override;
+  void jacobian_root(Eigen::MatrixXd* root) override;
   const Extremes& extremes() const override { return watch_.extremes(); }
   const Statistics& statistics() const override { return integrator_.statistics(); }
   Warnings warnings() const override { return integrator_.warnings(); }
@@ -30,6 +32,9 @@ class IdasGradient final : public GradientEngine {
   /// The state at the end of the last step with accelerations and multipliers solved from G = 0, so that terminal terms do not depend on
   /// the derivatives of BDF.
   const State<double>& consistent_state();
+  Status start_watches(bool with_gradient);
+  /// Sets directions_ to those at the end of the last step.
+  void take_directions();
 
   const CompiledSystem& system_;
   IdasIntegrator integrator_;
@@ -37,6 +42,8 @@ class IdasGradient final : public GradientEngine {
   State<double> end_;
   std::vector<State<double>> directions_;
   SignalWatch watch_;
+  ResidualRows residuals_;
+  bool with_root_ = false;
 };
 
 }  // namespace codesign

@@ -2,6 +2,7 @@
 #include "sensitivity/idas_tangent.h"
 
 #include "equations/derivative_products.h"
+#include "sensitivity/residual_rows.h"
 
 namespace codesign {
 
@@ -157,6 +158,22 @@ void IdasTangent::watched(std::size_t k, const State<double>& state, Equations<d
                           Eigen::VectorXd* gradient) {
   const auto signal = [k](auto* formulas, const auto& lanes) { return formulas->watched(k, lanes, nullptr); };
   differentiate(signal, state, equations, directions, gradient);
+}
+
+void IdasTangent::residuals(ObjectivePart part, const State<double>& state, Equations<double>* equations,
+                            std::vector<State<double>>* directions, Eigen::MatrixXd* rows) {
+  const std::vector<ResolvedTerm>& terms = part == ObjectivePart::kTerminal ? system_.terminal() : system_.integral();
+  rows->setConstant(count(), static_cast<Eigen::Index>(terms.size()), std::numeric_limits<double>::quiet_NaN());
+  if (!factor(state, equations)) return;
+  solve_rates(directions);
+  groups_.for_each([&](auto* group) {
+    auto& formulas = group->equations.formulas();
+    group->load(state, directions);
+    formulas.errors(part, group->state, &group->errors);
+    residuals_of(part, formulas.view().design, &group->errors);
+    for (int k = 0; k < group->range.count; ++k)
+      for (Eigen::Index term = 0; term < rows->cols(); ++term) (*rows)(group->range.first + k, term) = group->errors[term].v[k];
+  });
 }
 
 }  // namespace codesign

@@ -32,6 +32,9 @@ class IdasTangent final : public IdasSensitivities {
   /// The same of the k-th watched signal, theory (21a).
   void watched(std::size_t k, const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
                Eigen::VectorXd* gradient);
+  /// The same of the residuals of the objective, theory (22a): p rows, one column per term. NaN if G_z is singular.
+  void residuals(ObjectivePart part, const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
+                 Eigen::MatrixXd* rows);
 
  private:
   template <int N>
@@ -45,7 +48,7 @@ class IdasTangent final : public IdasSensitivities {
     LaneRange<N> range;
     Equations<Scalar> equations;
     State<Scalar> state;
-    VectorX<Scalar> G, Phi, Phi_rate;
+    VectorX<Scalar> G, Phi, Phi_rate, errors;
   };
 
   /// The total derivative of a function of a state with lanes, read from a group's formulas.

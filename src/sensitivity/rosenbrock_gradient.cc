@@ -14,16 +14,14 @@ int lanes_in_memory(const CompiledSystem& system) {
   return std::max(4, lanes / 8 * 8);
 }
 
-/// The derivatives of watched signals are collected during one run, so that all parameters take part in it.
-int lanes_at_once(const CompiledSystem& system) {
-  const int all = static_cast<int>(system.study().tuned.size());
-  return system.watched().empty() ? lanes_in_memory(system) : std::max(4, all);
-}
-
 }  // namespace
 
 RosenbrockGradient::RosenbrockGradient(const CompiledSystem& system, int most_lanes)
-    : system_(system), integrator_(system), most_lanes_(most_lanes > 0 ? most_lanes : lanes_at_once(system)), watch_(system) {
+    : system_(system),
+      integrator_(system),
+      most_lanes_(most_lanes > 0 ? most_lanes : lanes_in_memory(system)),
+      watch_(system),
+      residuals_(system) {
   const double tolerance = system.study().solver.sensitivity_tolerance;
   stages_ = [this, tolerance](const RosenbrockStep<double>& step) {
     double error = 0.0;
@@ -35,20 +33,44 @@ RosenbrockGradient::RosenbrockGradient(const CompiledSystem& system, int most_la
   };
 }
 
-// The workspace of the tangents is allocated only when a gradient is requested.
-Status RosenbrockGradient::start(const std::vector<double>& parameters, bool with_gradient) {
-  with_gradient_ = with_gradient;
-  integrator_.watch_singularities(with_gradient);
+// The workspace of the tangents is allocated only when derivatives are requested.
+Status RosenbrockGradient::start(const std::vector<double>& parameters, Derivatives derivatives) {
+  with_gradient_ = derivatives != Derivatives::kNone;
+  with_root_ = derivatives == Derivatives::kGaussNewton;
+  integrator_.watch_singularities(with_gradient_);
   Status status = integrator_.start(parameters);
-  if (!status.ok()) return status;
-  if (with_gradient) carry(0, parameters);
-  if (watch_.is_empty()) return status;
+  if (status.ok() && with_gradient_) carry(0, parameters);
+  return status.ok() ? start_watches() : status;
+}
+
+Status RosenbrockGradient::start_watches() {
+  if (with_root_) {
+    const auto rows = [this](ObjectivePart part, const State<double>& state, Eigen::MatrixXd* to) {
+      differentiate_residuals(part, state, to);
+    };
+    if (Status status = residuals_.start(&integrator_, rows); !status.ok()) return status;
+  }
+  if (watch_.is_empty()) return {};
   SignalWatch::Differentiate derivatives;
-  if (with_gradient)
+  if (with_gradient_)
     derivatives = [this](std::size_t k, const State<double>& state, bool reads_rates, Eigen::VectorXd* gradient) {
       differentiate(k, state, reads_rates, gradient);
     };
   return watch_.start(&integrator_, std::move(derivatives));
+}
+
+void RosenbrockGradient::differentiate_residuals(ObjectivePart part, const State<double>& state, Eigen::MatrixXd* rows) {
+  const bool at_end = part == ObjectivePart::kTerminal;
+  const auto terms = static_cast<Eigen::Index>((at_end ? system_.terminal() : system_.integral()).size());
+  rows->resize(count(), terms);
+  groups_->for_each([&](auto* group) {
+    auto* const own = &group->residuals;
+    if (at_end)
+      group->step.terminal_residuals(state, own);
+    else
+      group->step.integral_residuals(integrator_.step(), state, own);
+    rows->middleRows(group->range.first, group->range.count) = own->topRows(group->range.count);
+  });
 }
 
 void RosenbrockGradient::differentiate(std::size_t watched, const State<double>& state, bool reads_rates, Eigen::VectorXd* gradient) {
@@ -60,18 +82,23 @@ void RosenbrockGradient::differentiate(std::size_t watched, const State<double>&
 }
 
 void RosenbrockGradient::carry(int first, const std::vector<double>& parameters) {
-  if (first != first_) {
+  const int lanes = std::min(most_lanes(), count() - first);
+  if (first != first_ || lanes != lanes_) {
     groups_.reset();
-    groups_.emplace(LaneCount{std::min(most_lanes_, count() - first), 0, first}, system_, integrator_.step().tableau());
+    groups_.emplace(LaneCount{lanes, 0, first}, system_, integrator_.step().tableau());
     first_ = first;
+    lanes_ = lanes;
   }
-  groups_->for_each(
-      [&](auto* group) { group->step.start(group->range.seed(system_, parameters), integrator_.assembly(), integrator_.initial_state()); });
+  groups_->for_each([&](auto* group) {
+    group->step.keep_previous(with_root_ || !watch_.is_empty());
+    group->step.start(group->range.seed(system_, parameters), integrator_.assembly(), integrator_.initial_state());
+  });
 }
 
 Status RosenbrockGradient::advance(double limit) {
   Status status = with_gradient_ ? integrator_.advance(limit, stages_) : integrator_.advance(limit);
   if (status.ok() && with_gradient_) groups_->for_each([this](auto* group) { group->step.accept(integrator_.step()); });
+  if (status.ok() && with_root_) residuals_.look();
   if (status.ok() && !watch_.is_empty()) status = watch_.look();
   return status;
 }
@@ -85,7 +112,7 @@ void RosenbrockGradient::gradient(Eigen::VectorXd* gradient) {
   collect(gradient);
   const double end = time();
   const std::vector<double> parameters = integrator_.equations().parameters();
-  for (int first = most_lanes_; first < count(); first += most_lanes_) {
+  for (int first = most_lanes(); first < count(); first += most_lanes()) {
     if (!integrator_.start(parameters).ok()) return;
     carry(first, parameters);
     while (time() < end)

@@ -2,11 +2,13 @@
 #ifndef MECHANISM_CODESIGN_SENSITIVITY_ROSENBROCK_GRADIENT_H_
 #define MECHANISM_CODESIGN_SENSITIVITY_ROSENBROCK_GRADIENT_H_
 
+#include <algorithm>
 #include <optional>
 
 #include "integration/rosenbrock_integrator.h"
 #include "sensitivity/gradient_engine.h"
 #include "sensitivity/lane_groups.h"
+#include "sensitivity/residual_rows.h"
 #include "sensitivity/signal_watch.h"
 #include "sensitivity/tangent_step.h"
 
@@ -20,13 +22,14 @@ class RosenbrockGradient final : public GradientEngine {
   /// @param most_lanes largest number of parameters per run; 0: as many as fit into 128 MB.
   explicit RosenbrockGradient(const CompiledSystem& system, int most_lanes = 0);
 
-  Status start(const std::vector<double>& parameters, bool with_gradient) override;
+  Status start(const std::vector<double>& parameters, Derivatives derivatives) override;
   Status advance(double limit) override;
   /// Size of the last step [s].
   double step_size() const { return integrator_.step().step_size(); }
   double time() const override { return integrator_.state().t; }
   double objective() override;
   void gradient(Eigen::VectorXd* gradient) override;
+  void jacobian_root(Eigen::MatrixXd* root) override { residuals_.finish(integrator_.state(), root); }
   const Extremes& extremes() const override { return watch_.extremes(); }
   const Statistics& statistics() const override { return integrator_.statistics(); }
   Warnings warnings() const override { return integrator_.warnings(); }
@@ -38,22 +41,28 @@ class RosenbrockGradient final : public GradientEngine {
     Group(const CompiledSystem& system, LaneRange<N> lanes, const RosenbrockTableau& tableau) : range(lanes), step(system, tableau) {}
     LaneRange<N> range;
     TangentStep<N> step;
+    Directions<N> residuals;  ///< derivatives, one column per term
   };
 
   int count() const { return static_cast<int>(system_.study().tuned.size()); }
+  /// Number of parameters per run. The rows of watched signals and residuals are collected during one run, so that all take part in it.
+  int most_lanes() const { return watch_.is_empty() && !with_root_ ? most_lanes_ : std::max(4, count()); }
+  Status start_watches();
   /// Starts the tangents of the parameters from `first` on.
   void carry(int first, const std::vector<double>& parameters);
   void collect(Eigen::VectorXd* gradient);
   void differentiate(std::size_t watched, const State<double>& state, bool reads_rates, Eigen::VectorXd* gradient);
+  void differentiate_residuals(ObjectivePart part, const State<double>& state, Eigen::MatrixXd* rows);
 
   const CompiledSystem& system_;
   RosenbrockIntegrator integrator_;
   const int most_lanes_;
-  int first_ = -1;  ///< first parameter of `groups_`
+  int first_ = -1, lanes_ = 0;  ///< first parameter of `groups_`, and how many they are
   std::optional<LaneGroups<Group>> groups_;
   RosenbrockIntegrator::BeforeAccept stages_;
   SignalWatch watch_;
-  bool with_gradient_ = false;
+  ResidualRows residuals_;
+  bool with_gradient_ = false, with_root_ = false;
 };
 
 }  // namespace codesign

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "sensitivity/residual_rows.h"
 #include "sparse/row_product.h"
 
 namespace codesign {
@@ -53,7 +54,7 @@ void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assemb
   largest_x_.setZero();
   largest_v_.setZero();
   measure();
-  if (!system_.watched().empty()) previous_y_ = y_;
+  if (keeps_previous_) previous_y_ = y_;
 }
 
 template <int N>
@@ -182,7 +183,7 @@ void TangentStep<N>::project(const VectorX<double>& correction, const Directions
 
 template <int N>
 void TangentStep<N>::accept(const RosenbrockStep<double>& step) {
-  if (!system_.watched().empty()) previous_y_ = y_;
+  if (keeps_previous_) previous_y_ = y_;
   combine(y_, In<double>(tableau_.weights).first(tableau_.stages), 0, y_);
   const SparseLu& lu = step.projection_matrix().lu();
   equations_.linearize(step.unprojected(), y_);
@@ -200,9 +201,10 @@ Eigen::Matrix<double, N, 1> TangentStep<N>::terminal(const State<double>& state)
   return equations_.equations().formulas().terminal(equations_.lanes(state, y_), nullptr).directions();
 }
 
-// The derivative of RosenbrockStep::interpolate() for a fixed theta, in stage_y_.
+// The derivative of RosenbrockStep::interpolate() for a fixed time.
 template <int N>
-void TangentStep<N>::interpolate(double theta) {
+void TangentStep<N>::interpolate(const RosenbrockStep<double>& step, double time) {
+  const double h = step.step_size(), theta = h > 0.0 ? (time - step.previous().t) / h : 1.0;
   const RosenbrockTableau::Row weights = dense_weights(tableau_, theta);
   const int size = at_.psi();
   for (int k = 0; k < size; ++k) stage_y_.vector(k) = (1.0 - theta) * previous_y_.vector(k) + theta * y_.vector(k);
@@ -212,11 +214,30 @@ void TangentStep<N>::interpolate(double theta) {
 template <int N>
 Eigen::Matrix<double, N, 1> TangentStep<N>::watched(std::size_t k, const RosenbrockStep<double>& step, const State<double>& state,
                                                     bool reads_rates, const Assembly& assembly) {
-  const double h = step.step_size();
-  interpolate(h > 0.0 ? (state.t - step.previous().t) / h : 1.0);
+  interpolate(step, state.t);
   point_ = equations_.lanes(state, stage_y_);
   if (reads_rates) assembly.extend_rates(state.z, &equations_.equations(), &point_);
   return equations_.equations().formulas().watched(k, point_, nullptr).directions();
+}
+
+template <int N>
+void TangentStep<N>::integral_residuals(const RosenbrockStep<double>& step, const State<double>& state, Directions<N>* residuals) {
+  interpolate(step, state.t);
+  differentiate_residuals(ObjectivePart::kIntegral, equations_.lanes(state, stage_y_), residuals);
+}
+
+template <int N>
+void TangentStep<N>::terminal_residuals(const State<double>& state, Directions<N>* residuals) {
+  differentiate_residuals(ObjectivePart::kTerminal, equations_.lanes(state, y_), residuals);
+}
+
+template <int N>
+void TangentStep<N>::differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state, Directions<N>* residuals) {
+  Formulas<Lanes<N>>& formulas = equations_.equations().formulas();
+  formulas.errors(part, state, &term_errors_);
+  residuals_of(part, formulas.view().design, &term_errors_);
+  residuals->resize(term_errors_.size());
+  for (Eigen::Index k = 0; k < term_errors_.size(); ++k) residuals->col(k) = term_errors_[k].directions();
 }
 
 template class TangentStep<4>;

@@ -20,6 +20,9 @@ class TangentStep {
  public:
   TangentStep(const CompiledSystem& system, const RosenbrockTableau& tableau);
 
+  /// Whether watched() and integral_residuals() will be called, which need the sensitivities at the beginning of the last step; from the
+  /// next start() on.
+  void keep_previous(bool keep) { keeps_previous_ = keep; }
   /// Starts with the initial sensitivities, (20). @param parameters all named parameters, with the directions of the N parameters in the
   /// lanes.
   /// @param assembly that found `initial`. @param step started at `initial`.
@@ -38,9 +41,15 @@ class TangentStep {
   Eigen::Matrix<double, N, 1> terminal(const State<double>& state);
 
   /// Derivatives of the k-th watched signal, theory (21a), at `state`, a point of the dense output of the last accepted step, with z solved
-  /// for by `assembly` if the signal depends on it. Only for a study with watched signals.
+  /// for by `assembly` if the signal depends on it. Only with keep_previous().
   Eigen::Matrix<double, N, 1> watched(std::size_t k, const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates,
                                       const Assembly& assembly);
+
+  /// Derivatives of the residuals of the integrand's terms, theory (22a), at such a point, accelerations and multipliers of the dense
+  /// output included: one column per term. Only with keep_previous().
+  void integral_residuals(const RosenbrockStep<double>& step, const State<double>& state, Directions<N>* residuals);
+  /// The same of the terminal terms at `state`, the end of the last step.
+  void terminal_residuals(const State<double>& state, Directions<N>* residuals);
 
   /// Derivatives of the state at the end of the last accepted step, in the order of IncrementLayout.
   const Directions<N>& directions() const { return y_; }
@@ -55,7 +64,9 @@ class TangentStep {
   void stage_start(std::size_t i, double h);
   void stage_tangent(std::size_t i, const RosenbrockStep<double>& step);
   void measure();
-  void interpolate(double theta);
+  /// Sets stage_y_ to the derivatives at `time` within the last step.
+  void interpolate(const RosenbrockStep<double>& step, double time);
+  void differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state, Directions<N>* residuals);
   void project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu, Out<double> target);
 
   const CompiledSystem& system_;
@@ -65,7 +76,9 @@ class TangentStep {
   TangentEquations<N> equations_;
   State<double> projected_;
   Directions<N> y_, stage_y_, residual_, rows_, errors_, rates_;
-  Directions<N> previous_y_;                          ///< y_ at the start of the last accepted step; kept for watched signals only
+  Directions<N> previous_y_;  ///< y_ at the start of the last accepted step; only if keeps_previous_
+  bool keeps_previous_ = false;
+  VectorX<Lanes<N>> term_errors_;
   State<Lanes<N>> point_;                             ///< a point of the dense output
   std::vector<Directions<N>> stages_;                 ///< u' of each stage
   std::vector<Directions<N>> matrix_changes_;         ///< dG u of each stage, row by row

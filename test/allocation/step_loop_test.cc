@@ -38,26 +38,34 @@ TEST_P(StepLoop, OfASimulationAsksForNoMemory) {
   }
 }
 
-TEST_P(StepLoop, OfAGradientAsksForNoMemory) {
-  for (const char* gradient : {"direct", "adjoint"}) {
-    const auto system = test.compile(method, gradient);
-    const auto engine = make_gradient_engine(*system);
-    Eigen::VectorXd result;
-    for (const bool warm : {false, true}) {
-      ASSERT_TRUE(engine->start(system->parameters(), true).ok());
-      const std::int64_t count = allocations_of_steps(engine.get(), test.study.duration, [&] { return engine->time(); });
-      engine->gradient(&result);
-      if (warm) {
-        EXPECT_EQ(count, 0) << gradient;
-      }
-    }
+/// The number of allocations in the steps of a second run.
+std::int64_t allocations_once_warm(const CompiledSystem& system, Derivatives derivatives) {
+  const auto engine = make_gradient_engine(system, nullptr, derivatives);
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd root;
+  std::int64_t count = 0;
+  for (int run = 0; run < 2; ++run) {
+    EXPECT_TRUE(engine->start(system.parameters(), derivatives).ok());
+    count = allocations_of_steps(engine.get(), system.study().duration, [&] { return engine->time(); });
+    engine->gradient(&gradient);
+    if (derivatives == Derivatives::kGaussNewton) engine->jacobian_root(&root);
   }
+  return count;
+}
+
+TEST_P(StepLoop, OfAGradientAsksForNoMemory) {
+  for (const char* gradient : {"direct", "adjoint"})
+    EXPECT_EQ(allocations_once_warm(*test.compile(method, gradient), Derivatives::kGradient), 0) << gradient;
+}
+
+TEST_P(StepLoop, OfTheJacobianOfResidualsAsksForNoMemory) {
+  EXPECT_EQ(allocations_once_warm(*test.compile(method, "direct"), Derivatives::kGaussNewton), 0);
 }
 
 /// The number of allocations in gradient() after a run that ended at `time`.
 std::int64_t allocations_of_way_back(GradientEngine* engine, const CompiledSystem& system, double time) {
   Eigen::VectorXd result;
-  EXPECT_TRUE(engine->start(system.parameters(), true).ok());
+  EXPECT_TRUE(engine->start(system.parameters(), Derivatives::kGradient).ok());
   allocations_of_steps(engine, time, [&] { return engine->time(); });
   const std::int64_t before = allocations();
   engine->gradient(&result);

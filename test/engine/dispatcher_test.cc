@@ -14,7 +14,7 @@ namespace {
 constexpr auto kNobody = [](MessageKind, std::uint64_t) { return std::optional<std::string>(); };
 
 std::vector<EvaluationTask> equal_tasks(const Problem& problem, int count) {
-  return std::vector<EvaluationTask>(static_cast<std::size_t>(count), {problem.system(), problem.parameters(), true});
+  return std::vector<EvaluationTask>(static_cast<std::size_t>(count), {problem.system(), problem.parameters(), Derivatives::kGradient});
 }
 
 RankTimes short_times() {

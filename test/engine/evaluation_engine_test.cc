@@ -16,7 +16,7 @@ namespace {
 
 std::vector<EvaluationTask> tasks(const Problem& problem, int count) {
   std::vector<EvaluationTask> result;
-  for (int k = 0; k < count; ++k) result.push_back({problem.system(), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)), k % 3 != 0});
+  for (int k = 0; k < count; ++k) result.push_back({problem.system(), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)), gradient_if(k % 3 != 0)});
   return result;
 }
 
@@ -63,7 +63,7 @@ TEST(Engine, AResultDoesNotDependOnWhatItsWorkerDidBefore) {
       Eigen::VectorXd rho = problem.start();
       rho[0] += 0.003 * kp;
       rho[4] = kp;
-      order.push_back({problem.system(), problem.parameters(rho), kp > 0.5});
+      order.push_back({problem.system(), problem.parameters(rho), gradient_if(kp > 0.5)});
     }
     SerialEngine forward, backward;
     const std::vector<Evaluation> expected = forward.evaluate(order, nullptr);

@@ -18,6 +18,7 @@ Evaluation full_evaluation() {
   evaluation.status = {StatusCode::kUnstableMotion, 0.1, "it ran away"};
   evaluation.objective = 1.0 / 3.0;
   evaluation.gradient = Eigen::Vector3d(-0.0, kInfinity, std::numeric_limits<double>::denorm_min());
+  evaluation.jacobian_root = (Eigen::MatrixXd(2, 2) << 1, -0.0, 0, kInfinity).finished();
   evaluation.extremes.values = Eigen::Vector2d(kNan, -kInfinity);
   evaluation.extremes.times = Eigen::Vector2d(0.25, 1e300);
   evaluation.extremes.gradients = (Eigen::MatrixXd(3, 2) << 1, 2, 3, 4, 5, 6).finished();
@@ -41,6 +42,7 @@ TEST(Messages, AnEvaluationKeepsItsBits) {
   EXPECT_TRUE(reader.at_end());
   EXPECT_EQ(write_result(42, back), message) << "all bytes, NaN and signs of zeros with them";
   EXPECT_EQ(back.status.cause, "it ran away");
+  EXPECT_EQ(back.jacobian_root, full_evaluation().jacobian_root);
   EXPECT_EQ(back.extremes.gradients, full_evaluation().extremes.gradients);
   EXPECT_TRUE(std::signbit(back.gradient[0]));
   EXPECT_EQ(back.warnings[0].where.line, 3);
@@ -50,15 +52,15 @@ TEST(Messages, AnEvaluationKeepsItsBits) {
 }
 
 TEST(Messages, ATaskKeepsItsBits) {
-  const std::string message = write_task(7, 3, 2, true, {0.1, -0.0, kInfinity});
+  const std::string message = write_task(7, 3, 2, Derivatives::kGaussNewton, {0.1, -0.0, kInfinity});
   ByteReader reader = body_of(message, MessageKind::kTask, 7);
   const TaskMessage task = read_task(7, &reader);
   EXPECT_TRUE(reader.at_end());
   EXPECT_EQ(task.problem, 3U);
   EXPECT_EQ(task.system, 2U);
-  EXPECT_TRUE(task.with_gradient);
+  EXPECT_EQ(task.derivatives, Derivatives::kGaussNewton);
   EXPECT_EQ(task.parameters, (std::vector<double>{0.1, -0.0, kInfinity}));
-  EXPECT_EQ(write_task(7, 3, 2, true, task.parameters), message);
+  EXPECT_EQ(write_task(7, 3, 2, Derivatives::kGaussNewton, task.parameters), message);
 }
 
 TEST(Messages, AProblemArrivesWhole) {

@@ -52,12 +52,12 @@ TEST_F(RankWorkerTest, SaysHelloAnswersAndSaysGoodbye) {
   EXPECT_FALSE(hello.host.empty());
   const Problem problem = block("");
   say(write_problem(5, make_portable(problem)));
-  say(write_task(77, 5, 0, true, problem.parameters()));
+  say(write_task(77, 5, 0, Derivatives::kGradient, problem.parameters()));
   const std::string answer = hear();
   ByteReader result(answer);
   EXPECT_EQ(result.get<MessageKind>(), MessageKind::kResult);
   EXPECT_EQ(result.get<std::uint64_t>(), 77U);
-  const Evaluation expected = SerialEngine().evaluate({{problem.system(), problem.parameters(), true}}, nullptr).front();
+  const Evaluation expected = SerialEngine().evaluate({{problem.system(), problem.parameters(), Derivatives::kGradient}}, nullptr).front();
   EXPECT_EQ(read_result(&result).gradient, expected.gradient);
   say(write_numbered(MessageKind::kPing, 3));
   EXPECT_EQ(hear(), write_numbered(MessageKind::kPong, 3));
@@ -73,7 +73,7 @@ TEST_F(RankWorkerTest, WhatItCannotDoItAnswersWithTheException) {
   broken.study.text = "duration: soon";
   say(write_problem(1, broken));
   for (const std::uint32_t problem : {1U, 2U}) {
-    say(write_task(9, problem, 0, false, {}));
+    say(write_task(9, problem, 0, Derivatives::kNone, {}));
     const std::string answer = hear();
     ByteReader reader(answer);
     EXPECT_EQ(reader.get<MessageKind>(), MessageKind::kError);
@@ -90,7 +90,7 @@ TEST_F(RankWorkerTest, AProblemIsForgotten) {
   const Problem problem = block("");
   say(write_problem(1, make_portable(problem)));
   say(write_numbered(MessageKind::kForget, 1));
-  say(write_task(4, 1, 0, false, problem.parameters()));
+  say(write_task(4, 1, 0, Derivatives::kNone, problem.parameters()));
   EXPECT_EQ(ByteReader(hear()).get<MessageKind>(), MessageKind::kError);
 }
 

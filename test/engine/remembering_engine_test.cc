@@ -19,12 +19,12 @@ class MapMemory final : public EvaluationMemory {
  public:
   std::optional<Evaluation> find(const EvaluationTask& task) override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto place = known_.find({task.parameters, task.with_gradient});
+    const auto place = known_.find({task.parameters, task.derivatives});
     return place == known_.end() ? std::nullopt : std::optional<Evaluation>(place->second);
   }
   void keep(const EvaluationTask& task, const Evaluation& evaluation) override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    EXPECT_TRUE(known_.emplace(std::make_pair(task.parameters, task.with_gradient), evaluation).second) << "computed twice";
+    EXPECT_TRUE(known_.emplace(std::make_pair(task.parameters, task.derivatives), evaluation).second) << "computed twice";
     if (known_.size() == cancel_at) cancel = true;
   }
   std::size_t size() const { return known_.size(); }
@@ -34,13 +34,13 @@ class MapMemory final : public EvaluationMemory {
 
  private:
   std::mutex mutex_;
-  std::map<std::pair<std::vector<double>, bool>, Evaluation> known_;
+  std::map<std::pair<std::vector<double>, Derivatives>, Evaluation> known_;
 };
 
 std::vector<EvaluationTask> designs(const Problem& problem, int first, int count) {
   std::vector<EvaluationTask> result;
   for (int k = first; k < first + count; ++k)
-    result.push_back({problem.system(), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)), k % 2 == 0});
+    result.push_back({problem.system(), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)), gradient_if(k % 2 == 0)});
   return result;
 }
 

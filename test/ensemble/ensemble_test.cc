@@ -89,6 +89,36 @@ TEST(Ensemble, AFailedSampleRefusesTheDesignOrCountsInTheTail) {
   EXPECT_FALSE(Ensemble(scenarios, options, engine).evaluate(problem.start(), true).total.status.ok()) << "half of all is no tail";
 }
 
+// The residuals of the mean are those of all scenarios, times the roots of the weights.
+TEST(Ensemble, TheRootOfTheMeanHasTheSumOfTheSquares) {
+  const std::string runs = "runs: {a: {weight: 3.0}, b: {set: {mu: 0.4}}, c: {set: {mu: 0.2}}}\n";
+  const Problem problem = block(runs + "robust: {measure: mean, failed: tail, level: 0.7}\n");
+  const Ensemble ensemble(problem);
+  const EnsembleEvaluation all = ensemble.evaluate(problem.start(), Derivatives::kGaussNewton);
+  ASSERT_TRUE(all.total.status.ok()) << all.total.status.cause;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(2, 2);
+  std::vector<Eigen::MatrixXd> squares;
+  Evaluator evaluator(problem);
+  for (const Scenario& scenario : ensemble.scenarios()) {
+    const Evaluation one = evaluator.evaluate_design(scenario.parameters(problem.start()), Derivatives::kGaussNewton);
+    squares.emplace_back(one.jacobian_root.transpose() * one.jacobian_root);
+    sum += scenario.weight * squares.back();
+  }
+  EXPECT_LE((all.total.jacobian_root.transpose() * all.total.jacobian_root - sum).norm(), 1e-12 * sum.norm());
+  EXPECT_EQ(ensemble.evaluate(problem.start(), true).total.jacobian_root.size(), 0);
+  // A scenario that fails counts as the worst of the others.
+  std::vector<Scenario> scenarios = make_scenarios(problem);
+  scenarios[2].values = {{1, -1.0}};
+  const auto engine = std::shared_ptr<EvaluationEngine>(make_engine({}, 3));
+  const EnsembleEvaluation tail =
+      Ensemble(scenarios, *problem.study().ensemble.robust, engine).evaluate(problem.start(), Derivatives::kGaussNewton);
+  ASSERT_TRUE(tail.total.status.ok()) << tail.total.status.cause;
+  ASSERT_EQ(tail.failed, std::vector<int>{2});
+  const Eigen::MatrixXd& worst = squares[all.values[0] > all.values[1] ? 0 : 1];
+  const Eigen::MatrixXd expected = 0.6 * squares[0] + 0.2 * squares[1] + 0.2 * worst;
+  EXPECT_LE((tail.total.jacobian_root.transpose() * tail.total.jacobian_root - expected).norm(), 1e-12 * expected.norm());
+}
+
 TEST(Ensemble, CancelledIsCancelled) {
   const Problem problem = block(kUncertain);
   const std::atomic<bool> cancel{true};

@@ -46,7 +46,8 @@ std::string judge(const Reply& reply, const std::vector<std::vector<double>>& nu
 }
 
 std::string optimize_once(const Problem& problem, const std::string& study, const std::atomic<bool>& cancel, Dice* dice) {
-  static const std::vector<std::string> kAlgorithms = {"", "", "lbfgs", "slsqp", "mma", "cobyla", "bobyqa", "auglag_lbfgs", "nosuch"};
+  static const std::vector<std::string> kAlgorithms = {
+      "", "", "lbfgs", "slsqp", "mma", "cobyla", "bobyqa", "auglag_lbfgs", "levenberg_marquardt", "nosuch"};
   mechanism_codesign::OptimizeGoal goal;
   choose(problem, dice, &goal.parameters, &goal.start);
   if (dice->one_in(2)) goal.start.clear();

@@ -17,7 +17,7 @@ EvaluationRecord record_of(const std::vector<double>& values) {
   EvaluationRecord record;
   record.system = 3;
   record.parameters = values;
-  record.with_gradient = true;
+  record.derivatives = Derivatives::kGradient;
   record.evaluation.status.time = 0.1;
   record.evaluation.objective = values.front();
   record.evaluation.gradient = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
@@ -54,7 +54,7 @@ TEST(EvaluationRecord, KeepsStatusStatisticsAndWarnings) {
   EXPECT_EQ(line.find('\n'), std::string::npos) << "one line";
   const EvaluationRecord back = read_line(line);
   EXPECT_EQ(back.system, 3);
-  EXPECT_TRUE(back.with_gradient);
+  EXPECT_EQ(back.derivatives, Derivatives::kGradient);
   EXPECT_TRUE(back.evaluation.status.ok());
   EXPECT_EQ(back.evaluation.status.time, 0.1);
   EXPECT_EQ(back.evaluation.statistics.steps, 12);
@@ -79,6 +79,22 @@ TEST(EvaluationRecord, KeepsTheExtremesOfSignals) {
   EXPECT_THROW(read_line(damaged), std::exception);
 }
 
+TEST(EvaluationRecord, KeepsTheRootOfTheJacobian) {
+  EvaluationRecord record = record_of({1.0, 2.0, 1.0 / 3.0});
+  EXPECT_EQ(to_line(record).find("root"), std::string::npos) << "other journals stay as they are";
+  record.derivatives = Derivatives::kGaussNewton;
+  record.evaluation.jacobian_root = Eigen::MatrixXd::Random(3, 3).triangularView<Eigen::Upper>();
+  const EvaluationRecord back = read_line(to_line(record));
+  EXPECT_EQ(back.derivatives, Derivatives::kGaussNewton);
+  EXPECT_EQ(back.evaluation.jacobian_root, record.evaluation.jacobian_root);
+  EXPECT_EQ(back.evaluation.gradient, record.evaluation.gradient);
+  std::string damaged = to_line(record);
+  damaged.replace(damaged.find("\"root\":["), 8, "\"root\":[1.0,");
+  EXPECT_THROW(read_line(damaged), std::exception);
+  record.evaluation.status = {StatusCode::kNonFinite, 0.1, "no number"};
+  EXPECT_EQ(read_line(to_line(record)).derivatives, Derivatives::kGaussNewton) << "a failure belongs to what was asked for";
+}
+
 TEST(EvaluationRecord, AFailureHasItsCauseAndNumbersThatJsonHasNot) {
   EvaluationRecord record;
   record.evaluation.status = {StatusCode::kNonFiniteGradient, 0.25, "not \xe4 number"};
@@ -90,12 +106,12 @@ TEST(EvaluationRecord, AFailureHasItsCauseAndNumbersThatJsonHasNot) {
   EXPECT_EQ(back.evaluation.status.cause, "not \xef\xbf\xbd number");
   EXPECT_TRUE(std::isinf(back.evaluation.statistics.energy_error));
   EXPECT_EQ(back.evaluation.gradient.size(), 0);
-  EXPECT_FALSE(back.with_gradient);
+  EXPECT_EQ(back.derivatives, Derivatives::kNone);
 }
 
 TEST(EvaluationRecord, WithoutGradientThereIsNone) {
   EvaluationRecord record = record_of({1.0});
-  record.with_gradient = false;
+  record.derivatives = Derivatives::kNone;
   record.evaluation.gradient.resize(0);
   EXPECT_EQ(to_line(record).find("gradient\":["), std::string::npos);
   EXPECT_EQ(read_line(to_line(record)).evaluation.gradient.size(), 0);

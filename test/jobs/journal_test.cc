@@ -17,7 +17,7 @@ class JournalTest : public testing::Test {
   Journal open(Journal::Mode mode) const { return {path(), problem_, problem_.optimizer_options(), mode}; }
   std::string path() const { return (folder_.path() / "journal.jsonl").string(); }
   EvaluationTask task(double kp, bool with_gradient = false) const {
-    return {problem_.system(), problem_.parameters(Eigen::Vector2d(kp, 3.0)), with_gradient};
+    return {problem_.system(), problem_.parameters(Eigen::Vector2d(kp, 3.0)), gradient_if(with_gradient)};
   }
   static Evaluation value(double objective) {
     Evaluation evaluation;

@@ -22,7 +22,7 @@ Study study(const std::string& algorithm, bool constrained = false) {
 
 TEST(Algorithm, EachFindsTheMinimumOfABowl) {
   for (const char* name : kNames) {
-    nlopt::opt optimizer = make_optimizer(study(name), study(name).optimizer, 2);
+    nlopt::opt optimizer = make_optimizer(study(name).optimizer, 2);
     optimizer.set_min_objective(
         [](const std::vector<double>& x, std::vector<double>& gradient, void*) {
           if (!gradient.empty()) gradient = {2.0 * (x[0] - 0.3), 8.0 * (x[1] - 0.6)};
@@ -45,15 +45,54 @@ TEST(Algorithm, EachFindsTheMinimumOfABowl) {
 TEST(Algorithm, ConstraintsAreForThoseThatTakeThem) {
   for (const char* name : kNames) {
     if (kTakeConstraints.count(name) > 0)
-      EXPECT_NO_THROW(make_optimizer(study(name, true), study(name, true).optimizer, 2)) << name;
+      EXPECT_NO_THROW(check_algorithm(study(name, true), study(name, true).optimizer, false)) << name;
     else
-      EXPECT_THROW(make_optimizer(study(name, true), study(name, true).optimizer, 2), InputError) << name;
+      EXPECT_THROW(check_algorithm(study(name, true), study(name, true).optimizer, false), InputError) << name;
   }
+}
+
+InputFault fault_of(const Study& study, RobustMeasure measure = RobustMeasure::kMean) {
+  try {
+    check_algorithm(study, study.optimizer, false);
+    check_squares(study, study.optimizer, measure);
+  } catch (const InputError& error) {
+    return error.fault();
+  }
+  return {};
+}
+
+TEST(Algorithm, LeastSquaresAreForSumsOfSquares) {
+  const char* const name = "levenberg_marquardt";
+  EXPECT_TRUE(is_least_squares(name));
+  for (const char* other : kNames) EXPECT_FALSE(is_least_squares(other));
+  EXPECT_EQ(fault_of(study(name)).message, "");
+  const InputFault constrained = fault_of(study(name, true));
+  EXPECT_EQ(constrained.message, "this algorithm takes no constraints on parameters");
+  EXPECT_NE(constrained.allowed.find("slsqp"), std::string::npos);
+  EXPECT_EQ(constrained.allowed.find(name), std::string::npos);
+  const InputFault deviation = fault_of(study(name), RobustMeasure::kMeanPlusDeviation);
+  EXPECT_NE(deviation.message.find("mean_plus_deviation"), std::string::npos) << deviation.message;
+  EXPECT_NE(deviation.allowed.find("lbfgs"), std::string::npos);
+  EXPECT_EQ(deviation.allowed.find(name), std::string::npos);
+  Study adjoint = study(name);
+  adjoint.solver.gradient = GradientMethod::kAdjoint;
+  EXPECT_NE(fault_of(adjoint).message.find("adjoint"), std::string::npos);
+  Study negative = study(name);
+  negative.integral.resize(2);
+  negative.integral[1].weight = Quantity(-0.5);
+  negative.integral[1].where = {"study.yaml", 17};
+  const InputFault weight = fault_of(negative);
+  EXPECT_EQ(weight.where.line, 17);
+  EXPECT_EQ(weight.value, "-0.5");
+  EXPECT_NE(weight.allowed.find("slsqp"), std::string::npos);
+  Study loose = study(name);
+  loose.optimizer.relative_tolerance = 1.0;
+  EXPECT_EQ(fault_of(loose).element, "optimizer.relative_tolerance");
 }
 
 TEST(Algorithm, AnUnknownNameIsAnsweredWithThoseKnown) {
   try {
-    make_optimizer(study("newton"), study("newton").optimizer, 1);
+    check_algorithm(study("newton"), study("newton").optimizer, false);
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_EQ(error.fault().where.file, "study.yaml");
@@ -61,6 +100,7 @@ TEST(Algorithm, AnUnknownNameIsAnsweredWithThoseKnown) {
     EXPECT_EQ(error.fault().value, "newton");
     EXPECT_EQ(error.fault().where.line, 1) << "the study does not name it";
     for (const char* name : kNames) EXPECT_NE(error.fault().allowed.find(name), std::string::npos) << name;
+    EXPECT_NE(error.fault().allowed.find("levenberg_marquardt"), std::string::npos);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <map>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <tuple>
 
@@ -18,12 +19,12 @@ class Notebook final : public EvaluationMemory {
  public:
   std::optional<Evaluation> find(const EvaluationTask& task) override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto place = known_.find({task.system.get(), task.parameters, task.with_gradient});
+    const auto place = known_.find({task.system.get(), task.parameters, task.derivatives});
     return place == known_.end() ? std::nullopt : std::optional<Evaluation>(place->second);
   }
   void keep(const EvaluationTask& task, const Evaluation& evaluation) override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    known_[{task.system.get(), task.parameters, task.with_gradient}] = evaluation;
+    known_[{task.system.get(), task.parameters, task.derivatives}] = evaluation;
     if (++kept == cancel_at) cancel = true;
   }
 
@@ -32,17 +33,16 @@ class Notebook final : public EvaluationMemory {
 
  private:
   std::mutex mutex_;
-  std::map<std::tuple<const CompiledSystem*, std::vector<double>, bool>, Evaluation> known_;
+  std::map<std::tuple<const CompiledSystem*, std::vector<double>, Derivatives>, Evaluation> known_;
 };
 
-Problem nested() {
-  return block(
-      "uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: worst, samples: 3, validate: 4}\n"
-      "multistart: {starts: 3, screen: 6}\nengine: {workers: 2}\n");
+Problem nested(const std::string& measure = "worst", const std::string& algorithm = "slsqp") {
+  return block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: " + measure +
+                   ", samples: 3, validate: 4}\nmultistart: {starts: 3, screen: 6}\nengine: {workers: 2}\n",
+               "{algorithm: " + algorithm + "}");
 }
 
-TEST(SearchHooks, AnInterruptedSearchGoesOnFromItsMemory) {
-  const Problem problem = nested();
+void expect_to_go_on(const Problem& problem) {
   const OptimizerOptions options = problem.optimizer_options();
   const auto whole = std::make_shared<Notebook>();
   const OptimizationResult expected = run_search(problem, options, {nullptr, nullptr, whole}, nullptr);
@@ -62,6 +62,10 @@ TEST(SearchHooks, AnInterruptedSearchGoesOnFromItsMemory) {
     EXPECT_EQ(result.validation->objective, expected.validation->objective);
   }
 }
+
+TEST(SearchHooks, AnInterruptedSearchGoesOnFromItsMemory) { expect_to_go_on(nested()); }
+
+TEST(SearchHooks, SoDoesOneThatNeedsTheJacobianOfTheResiduals) { expect_to_go_on(nested("mean", "levenberg_marquardt")); }
 
 TEST(SearchHooks, EveryStageIsTold) {
   const Problem problem = nested();
@@ -87,7 +91,7 @@ TEST(SearchHooks, CancelledWhileScreeningItKeepsTheBestPointWithinASecond) {
   EXPECT_GE(result.screened, 20);
   EXPECT_LT(result.screened, 1000) << "only those that were evaluated";
   EXPECT_NE(result.rho, problem.start());
-  const auto start = memory->find({problem.system(), problem.parameters(), false});
+  const auto start = memory->find({problem.system(), problem.parameters(), Derivatives::kNone});
   ASSERT_TRUE(start);
   EXPECT_LT(result.objective, start->objective);
 }

@@ -85,7 +85,7 @@ struct GradientRun {
 inline GradientRun run_gradient(GradientEngine* engine, const CompiledSystem& system, const std::vector<double>& parameters,
                                 bool with_gradient = true) {
   GradientRun run;
-  run.status = engine->start(parameters, with_gradient);
+  run.status = engine->start(parameters, gradient_if(with_gradient));
   while (run.status.ok() && engine->time() < system.study().duration) run.status = engine->advance(system.study().duration);
   if (!run.status.ok()) return run;
   run.objective = engine->objective();

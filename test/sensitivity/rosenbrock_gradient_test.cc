@@ -32,7 +32,7 @@ TEST(RosenbrockGradient, CancelledBetweenItsPartsItIsNoGradient) {
   const auto system = servo("{}");
   RosenbrockGradient parts(*system, 1);
   ASSERT_GT(system->study().tuned.size(), 1U);
-  ASSERT_TRUE(parts.start(system->parameters(), true).ok());
+  ASSERT_TRUE(parts.start(system->parameters(), Derivatives::kGradient).ok());
   while (parts.time() < system->study().duration) ASSERT_TRUE(parts.advance(system->study().duration).ok());
   const std::atomic<bool> cancel{true};
   parts.obey(&cancel);

@@ -93,8 +93,8 @@ OptimizerOptions read_optimizer_options(const YamlValue& optimizer) {
   options.where = optimizer.where();
   if (const auto algorithm = optimizer.find("algorithm")) {
     options.where = algorithm->where();
-    options.algorithm =
-        algorithm->choice("algorithm", {"lbfgs", "var1", "var2", "tnewton", "mma", "ccsaq", "slsqp", "cobyla", "bobyqa", "auglag_lbfgs"});
+    options.algorithm = algorithm->choice("algorithm", {"lbfgs", "var1", "var2", "tnewton", "mma", "ccsaq", "slsqp", "cobyla", "bobyqa",
+                                                        "auglag_lbfgs", "levenberg_marquardt"});
   }
   read_count(optimizer, "max_evaluations", &options.max_evaluations);
   read_tolerance(optimizer, "relative_tolerance", kLeastOfObjective, &options.relative_tolerance);

@@ -1,0 +1,32 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_MATH_TRIANGULAR_ROOT_H_
+#define MECHANISM_CODESIGN_MATH_TRIANGULAR_ROOT_H_
+
+#include <Eigen/Core>
+
+namespace codesign {
+
+/// The upper triangular R with R^T R = A^T A and a diagonal that is not negative, by Householder reflections; square, of the size of A's
+/// columns. A^T A itself, whose condition is that of A squared, is not formed.
+Eigen::MatrixXd triangular_root(const Eigen::MatrixXd& A);
+
+/// The same of a matrix whose rows come one after another and are too many to keep. Memory for two times as many rows as columns, at
+/// least 32 more than columns. No allocation in add().
+class RowRoot {
+ public:
+  /// Begins anew, without rows.
+  void start(Eigen::Index columns);
+  /// Adds a row, given as a column vector.
+  void add(const Eigen::Ref<const Eigen::VectorXd>& row);
+  /// R of all rows so far.
+  Eigen::MatrixXd root() const;
+
+ private:
+  Eigen::MatrixXd rows_;  ///< R of the rows before, then rows that wait
+  Eigen::VectorXd workspace_;
+  Eigen::Index used_ = 0;  ///< rows in use
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_MATH_TRIANGULAR_ROOT_H_

@@ -1,0 +1,149 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "optimization/bounded_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "math/triangular_root.h"
+
+namespace codesign {
+namespace {
+
+using Eigen::Index;
+constexpr double kLeastDamping = 1e-16;  // of columns of norm 1
+constexpr double kRounding = 1e-12;      // of the gradient: a component on a bound stays there if it would gain less
+constexpr int kMostBisections = 60;
+
+}  // namespace
+
+BoundedStep::BoundedStep(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& root, Eigen::VectorXd scale, Eigen::VectorXd lower,
+                         Eigen::VectorXd upper)
+    : scale_(std::move(scale)),
+      gradient_(gradient.cwiseQuotient(scale_)),
+      root_(root * scale_.cwiseInverse().asDiagonal()),
+      step_lower_(std::move(lower)),
+      step_upper_(std::move(upper)),
+      lower_(step_lower_.cwiseProduct(scale_)),
+      upper_(step_upper_.cwiseProduct(scale_)) {}
+
+Eigen::VectorXd BoundedStep::damped(double mu) const {
+  const auto size = static_cast<std::size_t>(gradient_.size());
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(gradient_.size());
+  std::vector<Place> places(size, Place::kFree);
+  for (std::size_t k = 0; k < size; ++k) {
+    const auto i = static_cast<Index>(k);
+    if (lower_[i] == 0.0 && gradient_[i] > 0.0) places[k] = Place::kLower;
+    if (upper_[i] == 0.0 && gradient_[i] < 0.0) places[k] = Place::kUpper;
+  }
+  // Each set of free components is visited once at most, since the problem is strictly convex; rounding could break that.
+  for (std::size_t round = 0; round < 10 * size + 10; ++round) {
+    std::vector<Index> free;
+    for (std::size_t k = 0; k < size; ++k)
+      if (places[k] == Place::kFree) free.push_back(static_cast<Index>(k));
+    Eigen::VectorXd target = y;
+    solve_free(mu, free, &target);
+    if (move_towards(target, free, &places, &y) && !release(mu, y, &places)) break;
+  }
+  return unscaled(y, places);
+}
+
+// (A_F^T A_F + mu) y_F = -g_F / 2 - A_F^T A y_held, with one step of refinement.
+void BoundedStep::solve_free(double mu, const std::vector<Index>& free, Eigen::VectorXd* y) const {
+  const auto count = static_cast<Index>(free.size());
+  if (count == 0) return;
+  Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(root_.rows() + count, count);
+  Eigen::VectorXd held = *y, slope(count);
+  for (Index k = 0; k < count; ++k) {
+    const Index i = free[static_cast<std::size_t>(k)];
+    stacked.col(k).head(root_.rows()) = root_.col(i);
+    stacked(root_.rows() + k, k) = std::sqrt(mu);
+    held[i] = 0.0;
+    slope[k] = gradient_[i];
+  }
+  const auto columns = stacked.topRows(root_.rows());
+  const Eigen::VectorXd right = -0.5 * slope - columns.transpose() * (root_ * held);
+  const Eigen::MatrixXd K = triangular_root(stacked);
+  const auto solve = [&K](Eigen::VectorXd b) {
+    K.triangularView<Eigen::Upper>().transpose().solveInPlace(b);
+    K.triangularView<Eigen::Upper>().solveInPlace(b);
+    return b;
+  };
+  Eigen::VectorXd solution = solve(right);
+  solution += solve(right - stacked.transpose() * (stacked * solution));
+  for (Index k = 0; k < count; ++k) (*y)[free[static_cast<std::size_t>(k)]] = solution[k];
+}
+
+/// Moves y to the target, or to the first bound on the way, which then holds that component. True if the target was reached.
+bool BoundedStep::move_towards(const Eigen::VectorXd& target, const std::vector<Index>& free, std::vector<Place>* places,
+                               Eigen::VectorXd* y) const {
+  double fraction = 1.0;
+  Index blocking = -1;
+  for (const Index i : free) {
+    const double d = target[i] - (*y)[i], bound = d < 0.0 ? lower_[i] : upper_[i];
+    if (!(d < 0.0 ? target[i] < bound : target[i] > bound)) continue;
+    const double reach = std::max(0.0, (bound - (*y)[i]) / d);
+    if (reach >= fraction) continue;
+    fraction = reach;
+    blocking = i;
+  }
+  if (blocking < 0) {
+    *y = target;
+    return true;
+  }
+  const bool down = target[blocking] < (*y)[blocking];
+  *y += fraction * (target - *y);
+  (*y)[blocking] = down ? lower_[blocking] : upper_[blocking];
+  (*places)[static_cast<std::size_t>(blocking)] = down ? Place::kLower : Place::kUpper;
+  return false;
+}
+
+/// Frees the component that gains most by leaving its bound. False if none gains.
+bool BoundedStep::release(double mu, const Eigen::VectorXd& y, std::vector<Place>* places) const {
+  const Eigen::VectorXd slope = gradient_ + 2.0 * (root_.transpose() * (root_ * y) + mu * y);
+  double most = kRounding * gradient_.cwiseAbs().maxCoeff();
+  std::size_t best = places->size();
+  for (std::size_t k = 0; k < places->size(); ++k) {
+    const double by_inside = slope[static_cast<Index>(k)];
+    const double gain = (*places)[k] == Place::kLower ? -by_inside : (*places)[k] == Place::kUpper ? by_inside : 0.0;
+    if (gain <= most) continue;
+    most = gain;
+    best = k;
+  }
+  if (best == places->size()) return false;
+  (*places)[best] = Place::kFree;
+  return true;
+}
+
+Eigen::VectorXd BoundedStep::unscaled(const Eigen::VectorXd& y, const std::vector<Place>& places) const {
+  Eigen::VectorXd p = y.cwiseQuotient(scale_).cwiseMax(step_lower_).cwiseMin(step_upper_);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const auto i = static_cast<Index>(k);
+    if (places[k] == Place::kLower) p[i] = step_lower_[i];
+    if (places[k] == Place::kUpper) p[i] = step_upper_[i];
+  }
+  return p;
+}
+
+// Bisection of the logarithm of mu, since the damping may be of any magnitude. |y| is at most |g| / (2 mu), and falls as mu grows.
+Eigen::VectorXd BoundedStep::within(double radius) const {
+  Eigen::VectorXd p = damped(kLeastDamping);
+  if (length(p) <= 1.1 * radius) return p;
+  double low = std::log(kLeastDamping), high = std::log(0.5 * gradient_.norm() / radius);
+  p = damped(std::exp(high));
+  for (int k = 0; k < kMostBisections && length(p) < 0.9 * radius; ++k) {
+    const double middle = 0.5 * (low + high);
+    const Eigen::VectorXd tried = damped(std::exp(middle));
+    const bool too_long = length(tried) > 1.1 * radius;
+    (too_long ? low : high) = middle;
+    if (!too_long) p = tried;
+  }
+  return p;
+}
+
+double BoundedStep::promise(const Eigen::VectorXd& p) const {
+  const Eigen::VectorXd y = scale_.cwiseProduct(p);
+  return -(gradient_.dot(y) + (root_ * y).squaredNorm());
+}
+
+}  // namespace codesign

@@ -1,0 +1,81 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "optimization/least_squares_search.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "optimization/algorithm.h"
+#include "optimization/levenberg_marquardt.h"
+#include "optimization/scaling.h"
+#include "optimization/search_trials.h"
+
+namespace codesign {
+namespace {
+
+const char* name_of_end(LevenbergMarquardtEnd end) {
+  switch (end) {
+    case LevenbergMarquardtEnd::kOptimum:
+      return "success";
+    case LevenbergMarquardtEnd::kValueTolerance:
+      return "objective_tolerance_reached";
+    case LevenbergMarquardtEnd::kVariableTolerance:
+      return "parameter_tolerance_reached";
+    case LevenbergMarquardtEnd::kMaxEvaluations:
+      return "max_evaluations_reached";
+    case LevenbergMarquardtEnd::kStartFailed:
+      return "start_failed";
+    case LevenbergMarquardtEnd::kStopped:
+      return "cancelled";
+  }
+  return "";
+}
+
+/// The objective of an ensemble by the scaled variables of (24).
+class EnsembleSquares final : public LeastSquaresModel {
+ public:
+  EnsembleSquares(SearchTrials* trials, const Scaling& scaling) : trials_(*trials), scaling_(scaling) {}
+
+  Outcome evaluate(const Eigen::VectorXd& x, LeastSquaresPoint* point) override {
+    const Eigen::VectorXd rho = scaling_.from_scaled({x.begin(), x.end()});
+    if (!trials_.evaluate(rho, Derivatives::kGaussNewton)) return Outcome::kStop;
+    const Evaluation& evaluation = trials_.last().total;
+    if (!evaluation.status.ok()) return Outcome::kFailed;
+    const std::vector<double> gradient = scaling_.scale_gradient(evaluation.gradient);
+    point->value = evaluation.objective;
+    point->gradient = Eigen::Map<const Eigen::VectorXd>(gradient.data(), x.size());
+    point->root = evaluation.jacobian_root;
+    for (Eigen::Index k = 0; k < x.size(); ++k) point->root.col(k) *= scaling_.range(static_cast<std::size_t>(k));
+    return Outcome::kUsable;
+  }
+
+ private:
+  SearchTrials& trials_;
+  const Scaling& scaling_;
+};
+
+Eigen::VectorXd as_vector(const std::vector<double>& numbers) {
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+}
+
+}  // namespace
+
+OptimizationResult search_squares(const Study& study, const OptimizerOptions& options, const Eigen::VectorXd& start,
+                                  const Ensemble& ensemble, const TrialObserver& observer, const std::atomic<bool>* cancel) {
+  const Scaling scaling(study);
+  SmoothProgram program(ensemble);
+  SearchTrials trials(study, options, ensemble, observer, cancel, scaling, &program);
+  EnsembleSquares squares(&trials, scaling);
+  trials.start(start);
+  const Eigen::VectorXd lower = as_vector(scaling.lower()), upper = as_vector(scaling.upper());
+  Eigen::VectorXd x = as_vector(scaling.to_scaled(start)).cwiseMax(lower).cwiseMin(upper);
+  LeastSquaresPoint best;
+  LevenbergMarquardtOptions search;
+  search.max_evaluations = options.max_evaluations;
+  search.relative_tolerance = options.relative_tolerance;
+  trials.result().termination = name_of_end(minimize_squares(search, lower, upper, &squares, &x, &best));
+  trials.conclude("");
+  return std::move(trials.result());
+}
+
+}  // namespace codesign

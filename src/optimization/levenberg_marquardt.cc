@@ -1,0 +1,120 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "optimization/levenberg_marquardt.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "optimization/bounded_step.h"
+
+namespace codesign {
+namespace {
+
+using Outcome = LeastSquaresModel::Outcome;
+
+constexpr double kLeastGain = 1e-4;                   // of what the model promised: a step that gains less is not taken
+constexpr double kPoorGain = 0.25, kGoodGain = 0.75;  // the radius shrinks below the first and grows above the second
+constexpr double kUnusable = 0.25;                    // factor of the radius after a point without a value
+constexpr double kLeastScale = 1e-8;                  // of the largest entry of D
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon(), kRoundingOfVariables = 4.0 * kEpsilon;
+
+/// One search: the radius, the scales, and the best point so far.
+class SquaresSearch {
+ public:
+  SquaresSearch(const LevenbergMarquardtOptions& options, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+                LeastSquaresModel* model, Eigen::VectorXd* x, LeastSquaresPoint* best)
+      : options_(options), lower_(lower), upper_(upper), model_(*model), x_(*x), best_(*best) {}
+
+  LevenbergMarquardtEnd run() {
+    const Outcome first = model_.evaluate(x_, &best_);
+    if (first != Outcome::kUsable) return first == Outcome::kStop ? LevenbergMarquardtEnd::kStopped : LevenbergMarquardtEnd::kStartFailed;
+    norms_ = best_.root.colwise().norm().transpose();
+    std::optional<LevenbergMarquardtEnd> end;
+    while (!end) end = take_step();
+    return *end;
+  }
+
+ private:
+  /// D: the largest norms so far. A variable without influence gets a scale, too.
+  Eigen::VectorXd scale() const {
+    const double largest = norms_.size() > 0 ? norms_.maxCoeff() : 0.0;
+    return norms_.cwiseMax(largest > 0.0 ? kLeastScale * largest : 1.0);
+  }
+
+  /// The first radius lets no variable change by more than the option says.
+  void choose_radius(const BoundedStep& step) {
+    const Eigen::VectorXd p = step.within(std::numeric_limits<double>::infinity());
+    radius_ = step.length(p);
+    const double largest = p.cwiseAbs().maxCoeff();
+    if (largest > options_.largest_first_step) radius_ *= options_.largest_first_step / largest;
+  }
+
+  /// One trial point; the reason to end, or nothing.
+  std::optional<LevenbergMarquardtEnd> take_step() {
+    if (x_.size() == 0) return LevenbergMarquardtEnd::kOptimum;
+    const Eigen::VectorXd down = lower_ - x_, up = upper_ - x_;
+    const BoundedStep step(best_.gradient, best_.root, scale(), down, up);
+    if (evaluations_ == 1) choose_radius(step);
+    const Eigen::VectorXd p = step.within(radius_);
+    const double promise = step.promise(p);
+    if (!(promise > kEpsilon * best_.value)) return LevenbergMarquardtEnd::kOptimum;
+    if ((p.array().abs() <= kRoundingOfVariables * x_.array().abs()).all()) return LevenbergMarquardtEnd::kVariableTolerance;
+    if (evaluations_ >= options_.max_evaluations) return LevenbergMarquardtEnd::kMaxEvaluations;
+    Eigen::VectorXd trial = x_ + p;
+    for (Eigen::Index k = 0; k < trial.size(); ++k) {
+      if (p[k] == down[k]) trial[k] = lower_[k];
+      if (p[k] == up[k]) trial[k] = upper_[k];
+    }
+    ++evaluations_;
+    const Outcome outcome = model_.evaluate(trial, &tried_);
+    if (outcome == Outcome::kStop) return LevenbergMarquardtEnd::kStopped;
+    if (outcome == Outcome::kUsable) return judge(step, p, promise, trial);
+    radius_ = kUnusable * step.length(p);
+    return std::nullopt;
+  }
+
+  /// Compares what was gained with what was promised.
+  std::optional<LevenbergMarquardtEnd> judge(const BoundedStep& step, const Eigen::VectorXd& p, double promise,
+                                             const Eigen::VectorXd& trial) {
+    const double gain = best_.value - tried_.value, ratio = gain / promise, length = step.length(p);
+    const double small = options_.relative_tolerance * best_.value;
+    const bool is_limited = length >= 0.9 * radius_;
+    if (ratio < kPoorGain) {
+      // The minimum along p of the parabola through both values and the slope.
+      const double slope = step.slope(p), parabola = slope / (2.0 * (slope + gain));
+      radius_ = std::min(0.5, std::max(0.1, slope + gain < 0.0 ? parabola : 0.5)) * length;
+    } else if (ratio > kGoodGain) {
+      radius_ = std::max(radius_, 2.0 * length);
+    }
+    // Where the radius holds back a model that is right, the next step gains more.
+    const bool holds_back = is_limited && ratio > kGoodGain;
+    const bool has_converged = std::abs(gain) <= small && promise <= small && ratio <= 2.0 && !holds_back;
+    if (ratio > kLeastGain) {
+      x_ = trial;
+      std::swap(best_, tried_);
+      norms_ = norms_.cwiseMax(best_.root.colwise().norm().transpose());
+    }
+    return has_converged ? std::optional(LevenbergMarquardtEnd::kValueTolerance) : std::nullopt;
+  }
+
+  const LevenbergMarquardtOptions& options_;
+  const Eigen::VectorXd &lower_, &upper_;
+  LeastSquaresModel& model_;
+  Eigen::VectorXd& x_;
+  LeastSquaresPoint& best_;
+  LeastSquaresPoint tried_;
+  Eigen::VectorXd norms_;  ///< largest norms of the columns of R so far
+  double radius_ = 0.0;    ///< Delta
+  int evaluations_ = 1;
+};
+
+}  // namespace
+
+LevenbergMarquardtEnd minimize_squares(const LevenbergMarquardtOptions& options, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+                                       LeastSquaresModel* model, Eigen::VectorXd* x, LeastSquaresPoint* best) {
+  return SquaresSearch(options, lower, upper, model, x, best).run();
+}
+
+}  // namespace codesign

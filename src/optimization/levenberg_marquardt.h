@@ -1,0 +1,56 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_OPTIMIZATION_LEVENBERG_MARQUARDT_H_
+#define MECHANISM_CODESIGN_OPTIMIZATION_LEVENBERG_MARQUARDT_H_
+
+#include <Eigen/Core>
+
+namespace codesign {
+
+/// A sum of squares psi = r^T r and its model at one point.
+struct LeastSquaresPoint {
+  double value = 0.0;        ///< psi
+  Eigen::VectorXd gradient;  ///< psi_x = 2 J^T r
+  Eigen::MatrixXd root;      ///< upper triangular R with R^T R = J^T J; see triangular_root(), RowRoot
+};
+
+/// What LevenbergMarquardt minimizes.
+class LeastSquaresModel {
+ public:
+  enum class Outcome {
+    kUsable,
+    kFailed,  ///< there is no value at this point; the search turns back
+    kStop     ///< the search is to end
+  };
+  virtual ~LeastSquaresModel() = default;
+  /// @param point set if kUsable.
+  virtual Outcome evaluate(const Eigen::VectorXd& x, LeastSquaresPoint* point) = 0;
+};
+
+struct LevenbergMarquardtOptions {
+  int max_evaluations = 200;
+  double relative_tolerance = 1e-6;  ///< of psi: the search ends where a step lowers it, and promises to lower it, by less
+  double largest_first_step = 1.0;   ///< the first step changes no variable by more
+};
+
+enum class LevenbergMarquardtEnd {
+  kOptimum,            ///< no step promises more than rounding of psi
+  kValueTolerance,     ///< relative_tolerance is met
+  kVariableTolerance,  ///< steps are below rounding of the variables
+  kMaxEvaluations,
+  kStartFailed,
+  kStopped
+};
+
+/// Minimizes a sum of squares within bounds by the method of Levenberg and Marquardt as a trust region with Moré's scaling; doc/theory.md
+/// (24g). Each step is the minimum of the model
+///   psi + psi_x^T p + p^T R^T R p    over    lower <= x + p <= upper,    |D p| <= Delta,
+/// with D_j the largest norm so far of column j of R. The bounds are part of that problem, so that a step slides along them.
+/// All points are within the bounds. Knows nothing of where residuals come from.
+/// @param lower, upper may be infinite. @param x the start, within the bounds; receives the best point.
+/// @param best receives psi and its model there; unchanged if kStartFailed.
+LevenbergMarquardtEnd minimize_squares(const LevenbergMarquardtOptions& options, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+                                       LeastSquaresModel* model, Eigen::VectorXd* x, LeastSquaresPoint* best);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_OPTIMIZATION_LEVENBERG_MARQUARDT_H_

@@ -1,0 +1,74 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_TRIALS_H_
+#define MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_TRIALS_H_
+
+#include <string>
+#include <vector>
+
+#include "ensemble/ensemble.h"
+#include "ensemble/parameter_rows.h"
+#include "mechanism_codesign/optimization.h"
+#include "optimization/scaling.h"
+#include "optimization/smooth_program.h"
+
+namespace codesign {
+
+/// The status of a search that was interrupted with one of its evaluations.
+inline Status with_best_kept(const Status& interruption) {
+  return {interruption.code, 0.0, interruption.cause + "; the best point so far is kept"};
+}
+
+/// The trial points of one local search, by whatever algorithm: evaluates them, keeps the best, tells the observer, and says at the end how
+/// the search ended. Of two points that violate constraints the one that violates them less is better.
+class SearchTrials {
+ public:
+  /// All arguments but `start` must outlive this.
+  SearchTrials(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble, const TrialObserver& observer,
+               const std::atomic<bool>* cancel, const Scaling& scaling, SmoothProgram* program);
+
+  /// @throws InputError for a start at which a number of the study or a constraint is not finite.
+  void start(const Eigen::VectorXd& rho);
+  /// Evaluates a trial point, which last() is then. False if the search was interrupted and must end.
+  bool evaluate(const Eigen::VectorXd& rho, Derivatives derivatives);
+  /// Sets the status and the termination, with the margins and warnings of the best point. @param failure why the algorithm gave up, if
+  /// result().termination says that it did.
+  void conclude(const std::string& failure);
+
+  const EnsembleEvaluation& last() const { return last_; }
+  const Eigen::VectorXd& last_rho() const { return last_rho_; }
+  OptimizationResult& result() { return result_; }
+  bool have_best() const { return have_best_; }
+  /// Of a study with watched signals: the evaluation at the best point.
+  const EnsembleEvaluation& best() const { return best_; }
+  /// Largest violation of a constraint there, beyond its tolerance; 0 if all are met.
+  double best_violation() const { return best_violation_; }
+  const ParameterRows& parameter_rows() const { return parameter_rows_; }
+  /// Whether the search was cancelled, or its evaluation lost.
+  bool interrupted() const { return !interruption_.ok(); }
+
+ private:
+  Trial note(const EnsembleEvaluation& all, const Eigen::VectorXd& rho);
+  void note_influences(const Eigen::MatrixXd& gradients);
+  double violation(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) const;
+  void take_best(const EnsembleEvaluation& all, const Eigen::VectorXd& rho);
+
+  const Study& study_;
+  const OptimizerOptions& options_;
+  const Ensemble& ensemble_;
+  const TrialObserver& observer_;
+  const std::atomic<bool>* cancel_;
+  const Scaling& scaling_;
+  SmoothProgram& program_;
+  const ParameterRows parameter_rows_;
+  Eigen::VectorXd last_rho_;
+  EnsembleEvaluation last_, best_;
+  std::vector<Extremes> initial_extremes_;
+  OptimizationResult result_;
+  Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"}, interruption_;
+  bool have_best_ = false;
+  double best_violation_ = 0.0;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_TRIALS_H_

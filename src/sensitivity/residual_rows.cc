@@ -1,0 +1,68 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sensitivity/residual_rows.h"
+
+#include <cmath>
+
+#include "equations/compiled_system.h"
+#include "text/decimal.h"
+
+namespace codesign {
+namespace {
+
+// Gauss's rule with two points on [0, 1]: both have the weight 1/2. Its weights are positive, as roots of them require; those of the
+// integrators' own quadrature are not.
+const double kGaussPoints[] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
+constexpr double kGaussWeight = 0.5;
+
+}  // namespace
+
+ResidualRows::ResidualRows(const CompiledSystem& system) : system_(system) { state_.resize(system.layout()); }
+
+Status ResidualRows::start(Integrator* integrator, Differentiate differentiate) {
+  integrator_ = integrator;
+  differentiate_ = std::move(differentiate);
+  time_ = integrator->state().t;
+  root_.start(static_cast<Eigen::Index>(system_.study().tuned.size()));
+  for (const ObjectivePart part : {ObjectivePart::kIntegral, ObjectivePart::kTerminal})
+    if (Status status = check_weights(part); !status.ok()) return status;
+  return {};
+}
+
+Status ResidualRows::check_weights(ObjectivePart part) const {
+  const bool terminal = part == ObjectivePart::kTerminal;
+  const auto& design = integrator_->equations().formulas().view().design;
+  const std::vector<double>& weights = (terminal ? design.terminal : design.integral).weights;
+  for (std::size_t k = 0; k < weights.size(); ++k)
+    if (!(weights[k] >= 0.0))
+      return {StatusCode::kInvalidDesign, 0.0,
+              std::string("the weight of objective.") + (terminal ? "terminal[" : "integral[") + std::to_string(k) + "] is " +
+                  to_decimal(weights[k]) + " at this design; a sum of squares has weights of 0 or more"};
+  return {};
+}
+
+void ResidualRows::look() {
+  const double from = time_, to = integrator_->state().t;
+  time_ = to;
+  if (system_.integral().empty()) return;
+  for (const double point : kGaussPoints) {
+    double psi = 0.0;
+    integrator_->interpolate(from + point * (to - from), &state_, &psi);
+    differentiate_(ObjectivePart::kIntegral, state_, &rows_);
+    add(kGaussWeight * (to - from));
+  }
+}
+
+void ResidualRows::finish(const State<double>& state, Eigen::MatrixXd* root) {
+  if (!system_.terminal().empty()) {
+    differentiate_(ObjectivePart::kTerminal, state, &rows_);
+    add(1.0);
+  }
+  *root = root_.root();
+}
+
+void ResidualRows::add(double weight) {
+  rows_ *= std::sqrt(weight);
+  for (Eigen::Index k = 0; k < rows_.cols(); ++k) root_.add(rows_.col(k));
+}
+
+}  // namespace codesign

@@ -1,0 +1,59 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_SENSITIVITY_RESIDUAL_ROWS_H_
+#define MECHANISM_CODESIGN_SENSITIVITY_RESIDUAL_ROWS_H_
+
+#include <functional>
+
+#include "equations/formulas.h"
+#include "integration/integrator.h"
+#include "math/triangular_root.h"
+
+namespace codesign {
+
+/// Residuals sqrt(weight) (signal - reference), whose squares are the terms of the objective, theory (21), from signals minus references.
+/// Zero for a weight of zero, where the root has no derivative.
+template <class T>
+void residuals_of(ObjectivePart part, const Design<T>& design, VectorX<T>* errors) {
+  using std::sqrt;
+  const std::vector<T>& weights = (part == ObjectivePart::kTerminal ? design.terminal : design.integral).weights;
+  for (Eigen::Index k = 0; k < errors->size(); ++k) {
+    const T& weight = weights[static_cast<std::size_t>(k)];
+    (*errors)[k] = value_of(weight) > 0.0 ? T(sqrt(weight) * (*errors)[k]) : T(0.0);
+  }
+}
+
+/// Gathers the Jacobian of the residuals while an integration runs, doc/theory.md (22a): the rows of the integrand at the points of Gauss's
+/// rule in each step, times the roots of their weights in the integral, and those of the terminal terms at the end. Only the triangular
+/// root of all rows is kept.
+class ResidualRows {
+ public:
+  /// The derivatives of the residuals of one part of the objective by the tuned parameters at `state`: p rows, one column per term.
+  /// kIntegral: `state` is a point of the dense output of the last step. kTerminal: its end.
+  using Differentiate = std::function<void(ObjectivePart part, const State<double>& state, Eigen::MatrixXd* rows)>;
+
+  /// @param system must outlive this.
+  explicit ResidualRows(const CompiledSystem& system);
+
+  /// Begins a run: to be called after integrator->start(). kInvalidDesign for a negative weight, of which there is no root.
+  Status start(Integrator* integrator, Differentiate differentiate);
+  /// Adds the rows of the step that the integrator has just taken.
+  void look();
+  /// R of a study that ends at `state`, consistent, the end of the last step. Adds the terminal rows, so that look() may not follow.
+  void finish(const State<double>& state, Eigen::MatrixXd* root);
+
+ private:
+  Status check_weights(ObjectivePart part) const;
+  void add(double weight);
+
+  const CompiledSystem& system_;
+  Integrator* integrator_ = nullptr;
+  Differentiate differentiate_;
+  double time_ = 0.0;  ///< end of the step before [s]
+  State<double> state_;
+  Eigen::MatrixXd rows_;
+  RowRoot root_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_SENSITIVITY_RESIDUAL_ROWS_H_

@@ -1,0 +1,161 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "optimization/levenberg_marquardt.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "math/triangular_root.h"
+
+namespace codesign {
+namespace {
+
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+using Outcome = LeastSquaresModel::Outcome;
+
+/// Residuals with their Jacobian; the points tried are counted.
+class Residuals final : public LeastSquaresModel {
+ public:
+  using Function = std::function<bool(const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J)>;
+  explicit Residuals(Function function) : function_(std::move(function)) {}
+
+  Outcome evaluate(const Eigen::VectorXd& x, LeastSquaresPoint* point) override {
+    Eigen::VectorXd r;
+    Eigen::MatrixXd J;
+    ++evaluations;
+    if (evaluations == stop_at) return Outcome::kStop;
+    if (!function_(x, &r, &J)) return Outcome::kFailed;
+    *point = {r.squaredNorm(), 2.0 * J.transpose() * r, triangular_root(J)};
+    return Outcome::kUsable;
+  }
+  int evaluations = 0, stop_at = 0;
+
+ private:
+  Function function_;
+};
+
+struct Answer {
+  LevenbergMarquardtEnd end;
+  Eigen::VectorXd x;
+  LeastSquaresPoint best;
+};
+
+Answer minimize(Residuals* residuals, const Eigen::VectorXd& start, double lower = -kUnbounded, double upper = kUnbounded,
+                double tolerance = 1e-12, int most = 200) {
+  LevenbergMarquardtOptions options;
+  options.relative_tolerance = tolerance;
+  options.max_evaluations = most;
+  options.largest_first_step = kUnbounded;
+  Answer answer{LevenbergMarquardtEnd::kStopped, start, {}};
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(start.size());
+  answer.end = minimize_squares(options, lower * ones, upper * ones, residuals, &answer.x, &answer.best);
+  return answer;
+}
+
+bool rosenbrock_valley(const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J) {
+  *r = Eigen::Vector2d(10.0 * (x[1] - x[0] * x[0]), 1.0 - x[0]);
+  J->resize(2, 2);
+  *J << -20.0 * x[0], 10.0, -1.0, 0.0;
+  return true;
+}
+
+Residuals linear(double scale_of_second = 1.0) {
+  return Residuals([scale_of_second](const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J) {
+    Eigen::Matrix<double, 4, 3> A;
+    A << 1.0, 0.9, 0.2, 0.3, 1.0, 0.5, 0.1, 0.8, 1.0, 0.7, 0.2, 0.4;
+    A.col(1) *= scale_of_second;
+    *J = A;
+    *r = A * x - Eigen::Vector4d(1.0, -2.0, 3.0, 0.5);
+    return true;
+  });
+}
+
+TEST(LevenbergMarquardt, OneStepSolvesALinearProblem) {
+  Residuals residuals = linear();
+  const Answer answer = minimize(&residuals, Eigen::Vector3d(5.0, -7.0, 11.0), -kUnbounded, kUnbounded, 1e-10, 2);
+  EXPECT_EQ(residuals.evaluations, 2);
+  EXPECT_LE(answer.best.gradient.norm(), 1e-12);
+}
+
+TEST(LevenbergMarquardt, OneStepSolvesALinearProblemWithinBounds) {
+  Residuals residuals = linear();
+  const Answer answer = minimize(&residuals, Eigen::Vector3d(0.5, 0.0, 0.2), -1.0, 1.0);
+  EXPECT_LE(residuals.evaluations, 3);
+  int held = 0;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    EXPECT_TRUE(answer.x[k] == 1.0 || answer.best.gradient[k] >= -1e-10);
+    EXPECT_TRUE(answer.x[k] == -1.0 || answer.best.gradient[k] <= 1e-10);
+    held += std::abs(answer.x[k]) == 1.0;
+  }
+  EXPECT_GT(held, 0);
+}
+
+// Units of a variable do not count: D measures steps by what they change.
+TEST(LevenbergMarquardt, TakesTheSameStepsInOtherUnits) {
+  Residuals plain([](const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J) { return rosenbrock_valley(x, r, J); });
+  Residuals scaled([](const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J) {
+    rosenbrock_valley(Eigen::Vector2d(x[0], x[1] * 0x1p-20), r, J);
+    J->col(1) *= 0x1p-20;
+    return true;
+  });
+  const Answer a = minimize(&plain, Eigen::Vector2d(-1.2, 1.0)), b = minimize(&scaled, Eigen::Vector2d(-1.2, 0x1p20));
+  EXPECT_EQ(plain.evaluations, scaled.evaluations);
+  EXPECT_NEAR(a.x[1], b.x[1] * 0x1p-20, 1e-12);
+}
+
+TEST(LevenbergMarquardt, FollowsAValley) {
+  Residuals residuals(rosenbrock_valley);
+  const Answer answer = minimize(&residuals, Eigen::Vector2d(-1.2, 1.0));
+  EXPECT_NEAR(answer.x[0], 1.0, 1e-8);
+  EXPECT_NEAR(answer.x[1], 1.0, 1e-8);
+  EXPECT_LE(residuals.evaluations, 30);
+}
+
+TEST(LevenbergMarquardt, TurnsBackFromPointsWithoutAValue) {
+  Residuals residuals([](const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J) {
+    return x[0] < 1.05 && rosenbrock_valley(x, r, J) && x[1] > -3.0;
+  });
+  const Answer answer = minimize(&residuals, Eigen::Vector2d(-1.2, 1.0));
+  EXPECT_NEAR(answer.x[0], 1.0, 1e-7);
+}
+
+TEST(LevenbergMarquardt, EndsWithAReason) {
+  Residuals none([](const Eigen::VectorXd&, Eigen::VectorXd*, Eigen::MatrixXd*) { return false; });
+  EXPECT_EQ(minimize(&none, Eigen::Vector2d(0.0, 0.0)).end, LevenbergMarquardtEnd::kStartFailed);
+  Residuals stopped(rosenbrock_valley);
+  stopped.stop_at = 5;
+  const Answer kept = minimize(&stopped, Eigen::Vector2d(-1.2, 1.0));
+  EXPECT_EQ(kept.end, LevenbergMarquardtEnd::kStopped);
+  EXPECT_LT(kept.best.value, 24.2) << "the best point is kept";
+  Residuals few(rosenbrock_valley);
+  EXPECT_EQ(minimize(&few, Eigen::Vector2d(-1.2, 1.0), -kUnbounded, kUnbounded, 1e-12, 4).end, LevenbergMarquardtEnd::kMaxEvaluations);
+  EXPECT_EQ(few.evaluations, 4);
+  Residuals at_optimum = linear();
+  const Answer optimum = minimize(&at_optimum, Eigen::Vector3d::Zero());
+  Residuals again = linear();
+  const Answer still = minimize(&again, optimum.x);
+  EXPECT_EQ(still.end, LevenbergMarquardtEnd::kOptimum);
+  EXPECT_EQ(again.evaluations, 1);
+  // A point in the middle of points without values.
+  Residuals lonely(
+      [](const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J) { return x[0] == -1.2 && rosenbrock_valley(x, r, J); });
+  EXPECT_EQ(minimize(&lonely, Eigen::Vector2d(-1.2, 1.0)).end, LevenbergMarquardtEnd::kVariableTolerance);
+}
+
+TEST(LevenbergMarquardt, AVariableWithoutInfluenceStaysWhereItIs) {
+  Residuals residuals([](const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J) {
+    *r = Eigen::Vector2d(std::exp(x[0]) - 2.0, x[0] - 0.6);
+    *J = Eigen::MatrixXd::Zero(2, 2);
+    (*J)(0, 0) = std::exp(x[0]);
+    (*J)(1, 0) = 1.0;
+    return true;
+  });
+  const Answer answer = minimize(&residuals, Eigen::Vector2d(0.0, 0.3), -1.0, 1.0);
+  EXPECT_EQ(answer.x[1], 0.3);
+  EXPECT_LE(std::abs(answer.best.gradient[0]), 1e-4);
+}
+
+}  // namespace
+}  // namespace codesign

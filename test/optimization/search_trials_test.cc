@@ -1,0 +1,79 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "optimization/search_trials.h"
+
+#include <gtest/gtest.h>
+
+#include "ensemble/ensemble_fixture.h"
+
+namespace codesign {
+namespace {
+
+class SearchTrialsTest : public testing::Test {
+ protected:
+  SearchTrials trials(const TrialObserver& observer, const std::atomic<bool>* cancel = nullptr) {
+    return {problem_.study(), options_, ensemble_, observer, cancel, scaling_, &program_};
+  }
+  const Problem problem_ = block("");
+  const OptimizerOptions options_ = problem_.optimizer_options();
+  const Ensemble ensemble_{problem_};
+  const Scaling scaling_{problem_.study()};
+  SmoothProgram program_{ensemble_};
+  const TrialObserver none_;
+};
+
+TEST_F(SearchTrialsTest, TheBestPointIsKept) {
+  std::vector<Trial> told;
+  const TrialObserver observer = [&told](const Trial& trial) {
+    told.push_back(trial);
+    return true;
+  };
+  SearchTrials trials = this->trials(observer);
+  trials.start(Eigen::Vector2d(20.0, 5.0));
+  EXPECT_FALSE(trials.have_best());
+  const Eigen::Vector2d better(60.0, 10.0), worse(1.0, 0.0);
+  for (const Eigen::Vector2d& rho : {Eigen::Vector2d(20.0, 5.0), better, worse}) ASSERT_TRUE(trials.evaluate(rho, Derivatives::kGradient));
+  ASSERT_EQ(told.size(), 3u);
+  ASSERT_LT(told[1].objective, told[0].objective);
+  ASSERT_GT(told[2].objective, told[0].objective);
+  EXPECT_EQ(told[2].best_objective, told[1].objective);
+  EXPECT_EQ(told[2].iteration, 1);
+  EXPECT_EQ(trials.last_rho(), worse);
+  trials.conclude("");
+  const OptimizationResult& result = trials.result();
+  EXPECT_TRUE(result.status.ok());
+  EXPECT_EQ(result.rho, better);
+  EXPECT_EQ(result.objective, told[1].objective);
+  EXPECT_EQ(result.gradient, told[1].gradient);
+  EXPECT_EQ(result.initial_objective, told[0].objective);
+  EXPECT_EQ(result.evaluations, 3);
+}
+
+TEST_F(SearchTrialsTest, AnObserverOrACancelEndsTheSearch) {
+  const TrialObserver enough = [](const Trial&) { return false; };
+  SearchTrials stopped = trials(enough);
+  stopped.start(problem_.start());
+  EXPECT_FALSE(stopped.evaluate(problem_.start(), Derivatives::kGradient));
+  EXPECT_TRUE(stopped.cancelled());
+  stopped.conclude("");
+  EXPECT_EQ(stopped.result().termination, "cancelled");
+  EXPECT_EQ(stopped.result().status.code, StatusCode::kCancelled);
+  EXPECT_EQ(stopped.result().evaluations, 1) << "the trial counts that it was told of";
+  const std::atomic<bool> cancel{true};
+  SearchTrials cancelled = trials(none_, &cancel);
+  cancelled.start(problem_.start());
+  EXPECT_FALSE(cancelled.evaluate(problem_.start(), Derivatives::kGradient));
+  EXPECT_EQ(cancelled.result().evaluations, 0);
+}
+
+TEST_F(SearchTrialsTest, AnAlgorithmThatGaveUpSaysWhy) {
+  SearchTrials trials = this->trials(none_);
+  trials.start(problem_.start());
+  ASSERT_TRUE(trials.evaluate(problem_.start(), Derivatives::kGradient));
+  trials.result().termination = "algorithm_failed";
+  trials.conclude("its matrix is singular");
+  EXPECT_EQ(trials.result().status.code, StatusCode::kAlgorithmFailed);
+  EXPECT_NE(trials.result().status.cause.find("its matrix is singular"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace codesign
