@@ -157,6 +157,11 @@ void Journal::keep(const EvaluationTask& task, const Evaluation& evaluation) {
   if (append(line)) lines_.emplace(key, place);
 }
 
+std::size_t Journal::evaluations() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return lines_.size();
+}
+
 std::string Journal::failure() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return failure_;

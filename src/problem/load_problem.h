@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_PROBLEM_LOAD_PROBLEM_H_
 #define MECHANISM_CODESIGN_PROBLEM_LOAD_PROBLEM_H_
 
+#include <string>
 #include <vector>
 
 #include "description/robot.h"
@@ -19,6 +20,7 @@ struct Problem::Contents {
   std::vector<std::shared_ptr<const CompiledSystem>> variants;  ///< of variant_of(); empty if there is only the study itself
   double setup_seconds = 0.0;                                   ///< processor time of reading and compiling [s]
   Warnings warnings;
+  std::string trajectories = {};  ///< the numbers of the recorded trajectories that the study names, as text
 };
 
 /// load_problem() for studies that may read trajectories from bags. @param loader reads such a trajectory; if it is empty, a study that

@@ -14,6 +14,7 @@
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"
 #include "text/decimal.h"
+#include "text/number_text.h"
 #include "text/unknown_name.h"
 
 namespace codesign {
@@ -36,6 +37,17 @@ void apply_settings(const ParameterSettings& settings, Study* study) {
       throw InputError({{kSettings, 0}, name, "value outside the parameter's bounds", to_decimal(value), range_of(parameter)});
     parameter.value = value;
   }
+}
+
+/// The loader, which also appends what it reads to `numbers`.
+TrajectoryLoader noting(const TrajectoryLoader& loader, std::string* numbers) {
+  if (!loader) return {};
+  return [&loader, numbers](const TrajectoryAddress& address) {
+    RecordedTrajectory recorded = loader(address);
+    for (const auto* column : {&recorded.times, &recorded.positions, &recorded.velocities, &recorded.accelerations})
+      *numbers += format_numbers(*column) + "\n";
+    return recorded;
+  };
 }
 
 /// Compiles the equations of motion of a model and a study with settings applied, and completes `contents`: system, warnings, time.
@@ -87,8 +99,9 @@ Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& over
                      const ParameterSettings& settings, const TrajectoryLoader& loader) {
   const CpuTimer timer;
   const RobotDescription robot = read_urdf(urdf, overlays);
-  Study read = read_study(study, robot, loader);
-  return compile(robot, std::move(read), settings, {urdf, overlays, study, nullptr, {}, timer.seconds(), robot.warnings});
+  std::string trajectories;
+  Study read = read_study(study, robot, noting(loader, &trajectories));
+  return compile(robot, std::move(read), settings, {urdf, overlays, study, nullptr, {}, timer.seconds(), robot.warnings, trajectories});
 }
 
 Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& overlays, const ParameterSettings& settings) {
@@ -105,7 +118,14 @@ Problem with_settings(const Problem& problem, const ParameterSettings& settings)
 
 Problem with_study(const Problem& problem, Study study, const ParameterSettings& settings) {
   return compile(problem.robot(), std::move(study), settings,
-                 {problem.urdf(), problem.overlays(), problem.study_text(), nullptr, {}, problem.setup_seconds(), problem.warnings()});
+                 {problem.urdf(),
+                  problem.overlays(),
+                  problem.study_text(),
+                  nullptr,
+                  {},
+                  problem.setup_seconds(),
+                  problem.warnings(),
+                  problem.contents().trajectories});
 }
 
 void require_objective(const Problem& problem) {

@@ -46,16 +46,17 @@ class OptimizationNode {
   /// Callbacks to the client of a job, called in the worker's thread.
   struct Client {
     std::function<void()> begin;
-    ProgressObserver progress;
+    FeedbackObserver progress;
     std::function<void(const Result&)> end;
   };
 
   /// Starts the job. If that is not possible (bad input, busy), fills `refusal` and returns false.
   bool start(const mechanism_codesign::OptimizeGoal& request, const Client& client, Result* refusal);
-  Result run(const mechanism_codesign::OptimizeGoal& request, const ProgressObserver& observer, const std::atomic<bool>& cancel);
+  Result run(const mechanism_codesign::OptimizeGoal& request, const FeedbackObserver& observer, const std::atomic<bool>& cancel);
   /// Whether the lists of a request have admissible lengths; fills `refusal` if not.
   template <class Reply>
   bool has_size(const std::vector<std::string>& names, const std::vector<double>& values, const std::string& field, Reply* refusal) const;
+  void tell_progress(const mechanism_codesign::OptimizationProgress& progress);
   void tell_result(const Result& result);
 
   ros::NodeHandle node_, private_node_{"~"};
