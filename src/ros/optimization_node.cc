@@ -3,6 +3,7 @@
 
 #include <std_msgs/String.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <future>
 #include <sstream>
@@ -131,7 +132,8 @@ void OptimizationNode::tell_progress(const mechanism_codesign::OptimizationProgr
   state_.show("stage", progress.stage + ", " + std::to_string(progress.done) + " of " + std::to_string(progress.of));
   state_.show("runs", std::to_string(progress.runs));
   state_.show("runs per second", std::to_string(progress.runs_per_second));
-  state_.show("seconds left", (progress.at_most ? "at most " : "") + std::to_string(progress.seconds_left));
+  const std::string seconds = std::isnan(progress.seconds_left) ? "unknown" : std::to_string(progress.seconds_left);
+  state_.show("seconds left", (progress.at_most ? "at most " : "") + seconds);
 }
 
 void OptimizationNode::tell_result(const Result& result) {

@@ -143,8 +143,8 @@ TEST_F(Names, ToResumeAreBareNamesOfJobsInTheFolder) {
   std::filesystem::create_directory(folder() + "/below");
   std::ofstream(folder() + "/below/there.journal.jsonl") << "x";
   std::filesystem::create_symlink(folder() + "/below/there.journal.jsonl", folder() + "/link.journal.jsonl");
-  for (const std::string name : {std::string("below/there"), std::string("./there"), std::string("/etc/passwd"), std::string(".."),
-                                 std::string("there.journal.jsonl"), std::string("there\0", 6), std::string(256, 'a')})
+  for (const std::string& name : {std::string("below/there"), std::string("./there"), std::string("/etc/passwd"), std::string(".."),
+                                  std::string("there.journal.jsonl"), std::string("there\0", 6), std::string(256, 'a')})
     expect_refusal(name, "not the name of a job");
   expect_refusal("where", "there is no journal " + folder() + "/where.journal.jsonl");
   expect_refusal("link", "there is no journal");

@@ -50,7 +50,7 @@ TEST_F(EvaluationJob, ChecksItsGradient) {
 
 TEST_F(EvaluationJob, TellsConstraintsAndSignals) {
   const Problem problem = block(
-      "path: [{signal: slide/velocity, at_most: 0.5}]\nconstraints: [{expression: Kp - 4*Kd, upper: 100.0}]\n"
+      "path: [{signal: slide/velocity, at_most: 0.5}]\nconstraints: [\"Kp - 4*Kd <= 100\"]\n"
       "runs: {one: {}, two: {set: {mass: 8.0}}}\nrobust: {measure: worst}\n");
   mechanism_codesign::EvaluateResponse first;
   for (const std::string check : {"", "complex_step"}) {
