@@ -107,17 +107,17 @@ TEST_F(ResumedJob, AKilledOneEndsAsIfItHadNotBeenAndComputesNothingTwice) {
 }
 
 TEST_F(ResumedJob, ACancelledOneGoesOnAndItsBagStays) {
-  const OptimizeResult whole = run(), first = cancelled_at(3), second = [&] {
-    OptimizeResult result = run(resuming(first.job), [&](const Progress& progress) { cancel_ = progress.evaluation >= 6; });
+  const OptimizeResult whole = run(), first = cancelled_at(1), second = [&] {
+    OptimizeResult result = run(resuming(first.job), [&](const Progress& progress) { cancel_ = progress.evaluation >= 3; });
     cancel_ = false;
     return result;
   }();
   EXPECT_EQ(first.code, "cancelled");
   EXPECT_EQ(second.code, "cancelled");
-  EXPECT_EQ(second.remembered_runs, 3U);
+  EXPECT_EQ(second.remembered_runs, 1U);
   const OptimizeResult result = run(resuming(first.job));
   EXPECT_EQ(without_circumstances(result), without_circumstances(whole));
-  EXPECT_EQ(result.remembered_runs, 6U);
+  EXPECT_EQ(result.remembered_runs, 3U);
   const std::string stem = (directory_.path() / first.job).string();
   EXPECT_EQ(first.bag, stem + ".bag");
   EXPECT_EQ(second.bag, stem + ".resumed.bag");
