@@ -31,6 +31,16 @@ std::string overlay_texts(const Problem& problem) {
   return text;
 }
 
+std::string trajectory_numbers(const Problem& problem) {
+  std::string text;
+  for (const LoadedTrajectory& loaded : problem.contents().trajectories) {
+    const RecordedTrajectory& recorded = loaded.trajectory;
+    for (const auto* column : {&recorded.times, &recorded.positions, &recorded.velocities, &recorded.accelerations})
+      text += format_numbers(*column) + "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string journal_header(const Problem& problem, const OptimizerOptions& options) {
@@ -46,7 +56,7 @@ std::string journal_header(const Problem& problem, const OptimizerOptions& optio
                  {"start", fingerprint(format_numbers(problem.parameters()))},
                  {"tuned", fingerprint(tuned)},
                  {"optimizer", fingerprint(optimizer)}};
-  if (!problem.contents().trajectories.empty()) header["trajectories"] = fingerprint(problem.contents().trajectories);
+  if (const std::string numbers = trajectory_numbers(problem); !numbers.empty()) header["trajectories"] = fingerprint(numbers);
   return header.dump();
 }
 

@@ -5,11 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "description/reference.h"
 #include "description/robot.h"
 #include "description/study.h"
 #include "mechanism_codesign/problem.h"
 
 namespace codesign {
+
+/// A trajectory that a study names, as its loader has read it.
+struct LoadedTrajectory {
+  std::string bag, topic, joint;
+  RecordedTrajectory trajectory;
+};
 
 /// The members of a Problem. Its model and study are in `system`.
 struct Problem::Contents {
@@ -20,7 +27,7 @@ struct Problem::Contents {
   std::vector<std::shared_ptr<const CompiledSystem>> variants;  ///< of variant_of(); empty if there is only the study itself
   double setup_seconds = 0.0;                                   ///< processor time of reading and compiling [s]
   Warnings warnings;
-  std::string trajectories = {};  ///< the numbers of the recorded trajectories that the study names, as text
+  std::vector<LoadedTrajectory> trajectories;  ///< in the order in which the study names them
 };
 
 /// load_problem() for studies that may read trajectories from bags. @param loader reads such a trajectory; if it is empty, a study that

@@ -14,7 +14,6 @@
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"
 #include "text/decimal.h"
-#include "text/number_text.h"
 #include "text/unknown_name.h"
 
 namespace codesign {
@@ -39,14 +38,12 @@ void apply_settings(const ParameterSettings& settings, Study* study) {
   }
 }
 
-/// The loader, which also appends what it reads to `numbers`.
-TrajectoryLoader noting(const TrajectoryLoader& loader, std::string* numbers) {
+/// `loader`, with what it reads kept in `loaded`. No loader stays none.
+TrajectoryLoader keeping(const TrajectoryLoader& loader, std::vector<LoadedTrajectory>* loaded) {
   if (!loader) return {};
-  return [&loader, numbers](const TrajectoryAddress& address) {
-    RecordedTrajectory recorded = loader(address);
-    for (const auto* column : {&recorded.times, &recorded.positions, &recorded.velocities, &recorded.accelerations})
-      *numbers += format_numbers(*column) + "\n";
-    return recorded;
+  return [&loader, loaded](const TrajectoryAddress& address) {
+    loaded->push_back({address.bag, address.topic, address.joint, loader(address)});
+    return loaded->back().trajectory;
   };
 }
 
@@ -99,9 +96,10 @@ Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& over
                      const ParameterSettings& settings, const TrajectoryLoader& loader) {
   const CpuTimer timer;
   const RobotDescription robot = read_urdf(urdf, overlays);
-  std::string trajectories;
-  Study read = read_study(study, robot, noting(loader, &trajectories));
-  return compile(robot, std::move(read), settings, {urdf, overlays, study, nullptr, {}, timer.seconds(), robot.warnings, trajectories});
+  std::vector<LoadedTrajectory> loaded;
+  Study read = read_study(study, robot, keeping(loader, &loaded));
+  return compile(robot, std::move(read), settings,
+                 {urdf, overlays, study, nullptr, {}, timer.seconds(), robot.warnings, std::move(loaded)});
 }
 
 Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& overlays, const ParameterSettings& settings) {
@@ -111,7 +109,7 @@ Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& ov
   study.parameters = robot.parameters;
   study.used_parameters = robot.used_parameters;
   study.file = urdf.name;
-  return compile(robot, std::move(study), settings, {urdf, overlays, {}, nullptr, {}, timer.seconds(), robot.warnings});
+  return compile(robot, std::move(study), settings, {urdf, overlays, {}, nullptr, {}, timer.seconds(), robot.warnings, {}});
 }
 
 Problem with_settings(const Problem& problem, const ParameterSettings& settings) { return with_study(problem, problem.study(), settings); }

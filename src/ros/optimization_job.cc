@@ -111,7 +111,7 @@ class Job {
 
   /// A journal without an evaluation is of no use, unless somebody was told the name of its job by a cancelled one.
   ~Job() {
-    const bool is_of_use = result_.status.code == StatusCode::kCancelled || (journal_ && journal_->evaluations() > 0);
+    const bool is_of_use = journal_ && (journal_->evaluations() > 0 || is_interrupted());
     if (has_ended_ || !is_of_use) unlink(files_.journal().c_str());
   }
   Job(const Job&) = delete;
@@ -140,10 +140,12 @@ class Job {
   /// as well; before the first evaluation its tuned design is the start.
   void record(const std::atomic<bool>& cancel) {
     const bool is_evaluated = result_.gradient.size() > 0;
-    const bool is_cancelled = result_.status.code == StatusCode::kCancelled;
-    has_ended_ = !is_evaluated && !is_cancelled;
+    has_ended_ = !is_evaluated && !is_interrupted();
     if (has_ended_) return;
-    if (!is_evaluated) outcome_->result.initial_objective = outcome_->result.objective = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    if (!is_evaluated) outcome_->result.initial_objective = kUnknown;
+    // Screening computes objectives without gradients.
+    if (!is_evaluated && result_.screened <= result_.unusable) outcome_->result.objective = kUnknown;
     Patience patience(cancel);
     Scenario nominal;
     nominal.system = problem_.system();
@@ -157,10 +159,13 @@ class Job {
     write_bag(files_.bag(), *record_);
     outcome_->result.bag = files_.bag();
     best_.remove();
-    has_ended_ = !is_cancelled;
+    has_ended_ = !is_interrupted();
   }
 
  private:
+  /// Whether the job did not end by itself, so that it may go on.
+  bool is_interrupted() const { return result_.status.code == StatusCode::kCancelled; }
+
   /// A disk that does not take the journal of a new job costs the journal, not the job.
   void open_journal(bool resume) {
     const Journal::Mode mode = resume ? Journal::Mode::kResume : Journal::Mode::kNew;

@@ -186,6 +186,8 @@ class ResumeTest(NodesTestCase):
                 self.assertEqual(result.code, "cancelled")
                 self.assertTrue(os.path.exists(result.bag))
                 self.assertEqual(len(result.tuned), 4)
+                self.assertTrue(math.isfinite(result.objective))
+                self.assertEqual(math.isnan(result.initial_objective), name == "screening")
 
     def test_signals_with_bounds(self):
         node = self.start_node("arm", model="arm_limits")
