@@ -80,7 +80,10 @@ TEST(UrdfWriter, BoundsThatAStudyWidenedFollow) {
 
 TEST(UrdfWriter, AnotherFrictionLawReadsBackWithTheNumbersThatItUses) {
   const auto friction = [](const std::string& content) {
-    return pendulum("<codesign:friction mu_static=\"0.2\" codesign:mu_static=\"${length}\" mu_dynamic=\"0.1\" " + content + "/>");
+    return pendulum(
+        "<codesign:friction mu_static=\"0.2\" codesign:mu_static=\"${length}\" mu_dynamic=\"0.1\" joint_length=\"0.05\" "
+        "joint_width=\"0.05\" pin_radius=\"0.01\" " +
+        content + "/>");
   };
   const std::string numbers = "bristle_stiffness=\"4000\" bristle_damping=\"7\" codesign:bristle_damping=\"${35*length}\"";
   const SourceText plain = friction(""), lugre = friction("model=\"lugre\" " + numbers),
