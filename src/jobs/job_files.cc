@@ -12,6 +12,7 @@
 
 #include "jobs/output_error.h"
 #include "jobs/whole_file.h"
+#include "mechanism_codesign/error.h"
 
 namespace codesign {
 namespace {
@@ -19,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kLock = ".job";
+constexpr const char* kJournal = ".journal.jsonl";
 const std::array<std::string, 2> kBest = {".best.urdf", ".best.json"};
 /// Length reserved after the robot's name for the date, a number and the longest suffix.
 constexpr std::size_t kBehindTheName = 48;
@@ -47,7 +49,17 @@ bool exists(const std::string& path) {
 }
 
 bool has_files(const std::string& stem) {
-  return exists(stem + ".bag") || exists(stem + ".bag.active") || exists(stem + kBest[0]) || exists(stem + kBest[1]);
+  return exists(stem + ".bag") || exists(stem + ".bag.active") || exists(stem + kBest[0]) || exists(stem + kBest[1]) ||
+         exists(stem + kJournal);
+}
+
+std::string bare_name(const std::string& stem) { return fs::path(stem).filename().string(); }
+
+/// The first bag of a job that does not exist. A job that was cancelled has one when it is resumed.
+std::string free_bag(const std::string& stem) {
+  std::string bag = stem + ".bag";
+  for (int number = 1; exists(bag); ++number) bag = stem + ".resumed" + (number > 1 ? "-" + std::to_string(number) : "") + ".bag";
+  return bag;
 }
 
 /// Removes the unfinished files of a killed job. Returns a sentence that names the removed files and the best point.
@@ -61,7 +73,20 @@ std::string clean(const std::string& stem) {
   for (const std::string& suffix : kBest)
     if (exists(stem + suffix)) kept += (kept.empty() ? "" : " and ") + stem + suffix;
   return "a job was killed: " + (removed.empty() ? stem + " had no unfinished bag" : "removed " + removed) +
-         (kept.empty() ? "; it had no best point yet" : "; its best point is in " + kept);
+         (kept.empty() ? "; it had no best point yet" : "; its best point is in " + kept) +
+         (exists(stem + kJournal) ? "; a request with resume: " + bare_name(stem) + " goes on with it" : "");
+}
+
+[[noreturn]] void refuse_resume(const std::string& message, const std::string& value, const std::string& allowed) {
+  throw InputError({{"request", 0}, "resume", message, value, allowed});
+}
+
+/// Names of jobs consist of these characters alone, so that none leads out of the folder.
+void require_bare_name(const std::string& name) {
+  constexpr std::size_t kLongest = 255;
+  const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
+  if (name.empty() || name.size() > kLongest || !std::all_of(name.begin(), name.end(), is_plain))
+    refuse_resume("not the name of a job", name.substr(0, 80), "letters, digits, - and _, such as slider_crank_2026-11-23-08-30-00");
 }
 
 }  // namespace
@@ -81,6 +106,28 @@ JobFiles JobFiles::reserve(const std::string& directory, const std::string& robo
     stem = first + "-" + std::to_string(number);
   }
 }
+
+JobFiles JobFiles::resume(const std::string& directory, const std::string& name) {
+  require_bare_name(name);
+  const std::string stem = (fs::path(directory) / name).string();
+  const auto require_journal_here = [&] {
+    std::error_code error;
+    if (fs::symlink_status(stem + kJournal, error).type() == fs::file_type::regular) return;
+    const bool is_complete = exists(stem + ".bag");
+    refuse_resume(is_complete ? "the job is complete, its bag is " + stem + ".bag" : "there is no journal " + stem + kJournal, name,
+                  "a job of this output directory that was killed or cancelled");
+  };
+  require_journal_here();
+  std::optional<LockFile> lock = LockFile::take(stem + kLock);
+  if (!lock) throw JobIsRunning("the job " + name + " is running");
+  require_journal_here();  // its process may have completed it between the two lines above
+  clean(stem);
+  return JobFiles(stem, std::move(*lock));
+}
+
+JobFiles::JobFiles(std::string stem, LockFile lock) : stem_(std::move(stem)), bag_(free_bag(stem_)), lock_(std::move(lock)) {}
+
+std::string JobFiles::name() const { return bare_name(stem_); }
 
 std::vector<std::string> remove_leftovers(const std::string& directory) {
   std::vector<std::string> sentences;

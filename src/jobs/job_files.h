@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_JOBS_JOB_FILES_H_
 #define MECHANISM_CODESIGN_JOBS_JOB_FILES_H_
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -9,28 +10,43 @@
 
 namespace codesign {
 
+/// Another process, or another job of this one, works on the files of a job.
+class JobIsRunning : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Reserves the file names of one job in a folder that is shared by jobs of several processes. The stem is `<robot>_%Y-%m-%d-%H-%M-%S` in
-/// local time, followed by `-2`, `-3`, ... if it is taken; the files are `<stem>.bag`, `<stem>.best.json`, ... The lock file `<stem>.job`
-/// shows that the job is running.
+/// local time, followed by `-2`, `-3`, ... if it is taken; the files are `<stem>.bag`, `<stem>.best.json`, `<stem>.journal.jsonl`. The lock
+/// file
+/// `<stem>.job` shows that the job is running.
 class JobFiles {
  public:
   /// Creates the folder and reserves a stem. Characters of the robot's name other than letters, digits and `-` become `_`, and a long name
   /// is shortened to the limit of the file system. @throws OutputError if the folder or the lock file cannot be created.
   JobFiles(const std::string& directory, const std::string& robot);
 
+  /// Takes over the files of a job that was killed or cancelled, and removes its unfinished ones. @param name of the job, see name().
+  /// @throws InputError naming `resume` if `name` is no bare name or the folder has no journal of it; JobIsRunning.
+  static JobFiles resume(const std::string& directory, const std::string& name);
+
+  /// The stem without the folder.
+  std::string name() const;
   const std::string& stem() const { return stem_; }
-  std::string bag() const { return stem_ + ".bag"; }
+  /// A file that does not exist yet: `<stem>.bag`, or, of a job that had one when it was resumed, `<stem>.resumed.bag`, ...
+  const std::string& bag() const { return bag_; }
+  std::string journal() const { return stem_ + ".journal.jsonl"; }
 
  private:
-  JobFiles(std::string stem, LockFile lock) : stem_(std::move(stem)), lock_(std::move(lock)) {}
+  JobFiles(std::string stem, LockFile lock);
   static JobFiles reserve(const std::string& directory, const std::string& robot);
 
-  std::string stem_;
+  std::string stem_, bag_;
   LockFile lock_;
 };
 
-/// Removes the unfinished files of killed jobs in a folder; files of running jobs and best points stay. @returns one sentence per killed
-/// job.
+/// Removes the unfinished files of killed jobs in a folder; files of running jobs, best points and journals stay. @returns one sentence per
+/// killed job.
 std::vector<std::string> remove_leftovers(const std::string& directory);
 
 }  // namespace codesign

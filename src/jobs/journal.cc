@@ -100,8 +100,10 @@ void Journal::add_line(std::int64_t number, const std::string& line) {
 void Journal::open_file(Mode mode) {
   const int flags = O_RDWR | O_APPEND | O_CLOEXEC | (mode == Mode::kNew ? O_CREAT | O_EXCL : 0);
   file_ = open(path_.c_str(), flags, kFileMode);
-  if (file_ < 0 || ftruncate(file_, end_) != 0) throw OutputError::of_system(path_, errno);
-  if (end_ == 0 && !append(header_)) throw OutputError::of_system(path_, errno);
+  if (file_ >= 0 && ftruncate(file_, end_) == 0 && (end_ > 0 || append(header_))) return;
+  const int cause = errno;
+  if (file_ >= 0) close(file_);
+  throw OutputError::of_system(path_, cause);
 }
 
 bool Journal::append(const std::string& line) {
@@ -154,6 +156,11 @@ void Journal::keep(const EvaluationTask& task, const Evaluation& evaluation) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const Line place{end_, static_cast<std::int64_t>(line.size())};
   if (append(line)) lines_.emplace(key, place);
+}
+
+std::size_t Journal::evaluations() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return lines_.size();
 }
 
 std::string Journal::failure() const {

@@ -37,7 +37,9 @@ class Journal final : public EvaluationMemory {
   /// Appends a line. A file that cannot be written stays as it is from then on; see failure().
   void keep(const EvaluationTask& task, const Evaluation& evaluation) override;
 
-  /// How many evaluations were in the file when it was opened.
+  /// How many evaluations are in the file.
+  std::size_t evaluations() const;
+  /// How many were when it was opened.
   std::size_t resumed() const { return resumed_; }
   /// Sentences for the user about what was found.
   const std::vector<std::string>& notes() const { return notes_; }

@@ -17,13 +17,27 @@ struct Part {
   const char* key;
   const char* name;
 };
-constexpr Part kParts[] = {{"model", "the model differs"},           {"overlays", "the overlays differ"},
-                           {"study", "the study differs"},           {"start", "the values of the parameters at the start (--set) differ"},
-                           {"tuned", "the tuned parameters differ"}, {"optimizer", "the options of the optimizer differ"}};
+constexpr Part kParts[] = {{"model", "the model differs"},
+                           {"overlays", "the overlays differ"},
+                           {"study", "the study differs"},
+                           {"start", "the values of the parameters at the start (--set, ~set or a request's start) differ"},
+                           {"tuned", "the tuned parameters differ"},
+                           {"optimizer", "the options of the optimizer differ"},
+                           {"trajectories", "the recorded trajectories that the study names differ"}};
 
 std::string overlay_texts(const Problem& problem) {
   std::string text;
   for (const SourceText& overlay : problem.overlays()) text += fingerprint(overlay.text);
+  return text;
+}
+
+std::string trajectory_numbers(const Problem& problem) {
+  std::string text;
+  for (const LoadedTrajectory& loaded : problem.contents().trajectories) {
+    const RecordedTrajectory& recorded = loaded.trajectory;
+    for (const auto* column : {&recorded.times, &recorded.positions, &recorded.velocities, &recorded.accelerations})
+      text += format_numbers(*column) + "\n";
+  }
   return text;
 }
 
@@ -34,14 +48,15 @@ std::string journal_header(const Problem& problem, const OptimizerOptions& optio
   for (const std::string& name : problem.tuned_names()) tuned += name + "\n";
   const std::string optimizer =
       options.algorithm + " " + std::to_string(options.max_evaluations) + " " + to_decimal(options.relative_tolerance);
-  const Json header = {{"journal", kFormat},
-                       {"version", version()},
-                       {"model", fingerprint(problem.urdf().text)},
-                       {"overlays", fingerprint(overlay_texts(problem))},
-                       {"study", fingerprint(problem.study_text().text)},
-                       {"start", fingerprint(format_numbers(problem.parameters()))},
-                       {"tuned", fingerprint(tuned)},
-                       {"optimizer", fingerprint(optimizer)}};
+  Json header = {{"journal", kFormat},
+                 {"version", version()},
+                 {"model", fingerprint(problem.urdf().text)},
+                 {"overlays", fingerprint(overlay_texts(problem))},
+                 {"study", fingerprint(problem.study_text().text)},
+                 {"start", fingerprint(format_numbers(problem.parameters()))},
+                 {"tuned", fingerprint(tuned)},
+                 {"optimizer", fingerprint(optimizer)}};
+  if (const std::string numbers = trajectory_numbers(problem); !numbers.empty()) header["trajectories"] = fingerprint(numbers);
   return header.dump();
 }
 
@@ -54,7 +69,7 @@ std::string header_difference(const std::string& found, const std::string& expec
     return "the journal is of version " + version.dump() + " of this program, which is version " + ours["version"].dump() +
            "; the bits of results may differ between versions";
   for (const Part& part : kParts)
-    if (theirs.value(part.key, Json()) != ours[part.key])
+    if (theirs.value(part.key, Json()) != ours.value(part.key, Json()))
       return std::string(part.name) + " from that of the journal, which is of another job";
   return theirs == ours ? "" : "the journal has a header that this program does not know";
 }

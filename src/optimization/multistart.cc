@@ -31,7 +31,8 @@ class Multistart {
         asked_(study_.ensemble.multistart),
         options_(options),
         cancel_(cancel),
-        meter_(options.max_evaluations, hooks.progress),
+        own_meter_(options.max_evaluations, hooks.progress),
+        meter_(hooks.meter ? *hooks.meter : own_meter_),
         trial_(counted_trials(hooks, &meter_)),
         observer_(trial_),
         ensemble_(problem, asked_.screen, records_of(hooks, &meter_)),
@@ -205,7 +206,8 @@ class Multistart {
   const MultistartOptions& asked_;
   const OptimizerOptions& options_;
   const std::atomic<bool>* cancel_;
-  ProgressMeter meter_;
+  ProgressMeter own_meter_;
+  ProgressMeter& meter_;
   const TrialObserver trial_;
   SharedObserver observer_;
   const Ensemble ensemble_;

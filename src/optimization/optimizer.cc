@@ -32,12 +32,13 @@ namespace {
 
 OptimizationResult search_once(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
                                const std::atomic<bool>* cancel) {
-  ProgressMeter meter(options.max_evaluations, hooks.progress);
-  const Ensemble ensemble(problem, 1, records_of(hooks, &meter));
-  meter.begin(SearchStage::kSearching, 0, ensemble.scenarios().size());
-  const TrialObserver observer = counted_trials(hooks, &meter);
+  ProgressMeter own_meter(options.max_evaluations, hooks.progress);
+  ProgressMeter* const meter = hooks.meter ? hooks.meter : &own_meter;
+  const Ensemble ensemble(problem, 1, records_of(hooks, meter));
+  meter->begin(SearchStage::kSearching, 0, ensemble.scenarios().size());
+  const TrialObserver observer = counted_trials(hooks, meter);
   OptimizationResult result = search_locally(problem.study(), options, problem.start(), ensemble, observer, cancel);
-  describe_scenarios(problem, ensemble, cancel, &meter, &result);
+  describe_scenarios(problem, ensemble, cancel, meter, &result);
   return result;
 }
 

@@ -22,7 +22,7 @@ void ProgressMeter::begin(SearchStage stage, std::int64_t of, std::size_t scenar
 void ProgressMeter::count_run(bool computed) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++runs_;
-  if (computed) ++computed_;
+  ++(computed ? computed_ : remembered_);
   tell(false);
 }
 
@@ -64,6 +64,7 @@ Progress ProgressMeter::measure() const {
   progress.done = done_;
   progress.of = of_;
   progress.runs = runs_;
+  progress.remembered = remembered_;
   if (stage_ == SearchStage::kValidating) {
     progress.done = runs_ - runs_before_;
     progress.of = of_ * scenarios_;

@@ -21,6 +21,7 @@ struct Progress {
   std::int64_t done = 0, of = 0;
   std::int64_t starts = 0;       ///< number of searches; 0: one from the study's start
   std::int64_t runs = 0;         ///< runs at one design that are finished, those remembered from an earlier process included
+  std::int64_t remembered = 0;   ///< runs that were not computed, but remembered
   double runs_per_second = 0.0;  ///< computed since the stage began; 0 while none is
   /// Until the end of the stage [s]; nothing while no run has been computed.
   std::optional<double> seconds_left;
@@ -59,7 +60,8 @@ class ProgressMeter {
   const Clock::duration period_;
   mutable std::mutex mutex_;  // guards all that follows
   SearchStage stage_ = SearchStage::kSearching;
-  std::int64_t scenarios_ = 1, done_ = 0, of_ = 0, runs_ = 0, runs_before_ = 0, computed_ = 0, trials_ = 0, ended_trials_ = 0;
+  std::int64_t scenarios_ = 1, done_ = 0, of_ = 0, runs_ = 0, remembered_ = 0, runs_before_ = 0, computed_ = 0, trials_ = 0,
+               ended_trials_ = 0;
   Clock::time_point began_, told_;
 };
 

@@ -16,6 +16,7 @@ struct SearchHooks {
   ProgressObserver progress = nullptr;       ///< told about once a second, while screening and validating too
   std::shared_ptr<EvaluationMemory> memory;  ///< evaluations of an earlier process, and the place for those of this one
   Dispatcher* ranks = nullptr;               ///< the processes of the job, as in require_engine()
+  ProgressMeter* meter = nullptr;            ///< of a caller who asks how far the job is; `progress` is not told then, but its observer
 };
 
 /// What the engine of a job records: its memory, and runs for the meter, which must outlive the engine.

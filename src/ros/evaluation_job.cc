@@ -2,11 +2,14 @@
 #include <cstdint>
 
 #include "ensemble/ensemble.h"
+#include "ensemble/parameter_rows.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/gradient.h"
+#include "optimization/smooth_program.h"
 #include "ros/conversions.h"
 #include "ros/job.h"
 #include "ros/request.h"
+#include "ros/watched_messages.h"
 #include "text/unknown_name.h"
 
 namespace codesign {
@@ -18,18 +21,32 @@ CheckMethod method_of(const std::string& check) {
   throw unknown_name({"request", 0}, "check", "gradient check", check, {"complex_step", "ridders"});
 }
 
+/// Margins of the constraints on parameters, and the ranges of the watched signals.
+void add_constraints(const Problem& problem, const Ensemble& ensemble, const Eigen::VectorXd& rho, const std::vector<Extremes>& extremes,
+                     mechanism_codesign::EvaluateResponse* reply) {
+  for (const ParameterConstraint& constraint : problem.study().constraints) reply->constraints.push_back(constraint.text);
+  reply->margins = to_array(ParameterRows(problem.study(), ensemble.scenarios()).margins(rho));
+  reply->signals = watched_messages(problem, SmoothProgram(ensemble).describe(extremes, extremes, rho), rho);
+}
+
 void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& request, Dispatcher* ranks, const std::atomic<bool>& cancel,
              mechanism_codesign::EvaluateResponse* reply) {
   const Eigen::VectorXd rho = design_of(problem, request);
   const Ensemble ensemble(problem, 1, {nullptr, nullptr, ranks});
   GradientCheck check;
+  std::vector<Extremes> extremes;
   if (request.check.empty()) {
-    check.evaluation = ensemble.evaluate(rho, !request.objective_only, &cancel).total;
+    EnsembleEvaluation all = ensemble.evaluate(rho, !request.objective_only, &cancel);
+    check.evaluation = std::move(all.total);
     check.status = check.evaluation.status;
+    extremes = std::move(all.extremes);
   } else {
     check = check_gradient(ensemble, rho, method_of(request.check), &cancel);
+    // A check computes many runs; one more for the signals of all scenarios does not count.
+    if (check.status.ok() && !problem.study().watched.empty()) extremes = ensemble.evaluate(rho, false, &cancel).extremes;
   }
   set_status(check.status, reply);
+  add_constraints(problem, ensemble, rho, extremes, reply);
   reply->parameters = problem.tuned_names();
   reply->values = to_array(rho);
   reply->objective = check.evaluation.objective;

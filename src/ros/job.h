@@ -34,10 +34,11 @@ struct OptimizationOutcome {
   std::string tuned_urdf;  ///< empty if the start could not be evaluated
 };
 
-/// Called for each trial point, in the thread of the computation.
+/// Called for each trial point, and about once a second between them, by one thread at a time.
 using FeedbackObserver = std::function<void(const mechanism_codesign::OptimizationProgress&)>;
 
-/// Optimizes, records runs of the initial and of the tuned design, and writes the bag. Bad input, numerical failures and a full disk are
+/// Optimizes, records runs of the initial and of the tuned design, and writes the bag. A journal beside the bag makes the job resumable; it
+/// stays until the job has ended by itself. Bad input, numerical failures and a full disk are
 /// returned as code and message of the result.
 /// @param study text of the study, for the bag. @param cancel once set, the optimization ends with its best point so far.
 OptimizationOutcome run_optimization(const Problem& problem, const std::string& study, const mechanism_codesign::OptimizeGoal& request,

@@ -1,14 +1,18 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <ros/console.h>
 #include <ros/init.h>
+#include <unistd.h>
 
 #include <cstdint>
 #include <limits>
 #include <utility>
 
+#include "description/friction.h"
 #include "ensemble/scenario.h"
 #include "jobs/best_record.h"
 #include "jobs/ensemble_records.h"
 #include "jobs/job_files.h"
+#include "jobs/journal.h"
 #include "jobs/output_error.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/optimization.h"
@@ -17,8 +21,9 @@
 #include "ros/ensemble_messages.h"
 #include "ros/job.h"
 #include "ros/job_bag.h"
-#include "ros/progress_log.h"
+#include "ros/job_feedback.h"
 #include "ros/request.h"
+#include "ros/watched_messages.h"
 
 namespace codesign {
 namespace {
@@ -45,18 +50,21 @@ mechanism_codesign::OptimizeResult to_message(const OptimizationResult& result, 
   message.constraint_drift = result.statistics.constraint_drift;
   message.energy_error = result.statistics.energy_error;
   set_ensemble(result, &message);
+  message.signals = watched_messages(problem, result.watched, result.rho);
   return message;
 }
 
-/// Limits the time for recording the runs of a job after it was cancelled (30 s) or the node is shutting down (8 s): roslaunch kills a node
-/// after 15 s.
+/// Limits the time for recording the runs of a job after it was cancelled (half a second, so that a cancel is answered within one) or the
+/// node is shutting down (8 s: roslaunch kills a node after 15 s).
 class Patience {
  public:
   explicit Patience(const std::atomic<bool>& cancel) : cancel_(cancel) {}
 
   bool operator()() {
     const ros::WallTime now = ros::WallTime::now();
-    return is_over(ros::isShuttingDown(), 8.0, now, &shutdown_) || is_over(cancel_, 30.0, now, &cancelled_);
+    // A node that shuts down cancels its job, too, but nobody waits for the answer.
+    if (ros::isShuttingDown()) return is_over(true, 8.0, now, &shutdown_);
+    return is_over(cancel_, 0.5, now, &cancelled_);
   }
 
  private:
@@ -70,49 +78,74 @@ class Patience {
   ros::WallTime shutdown_, cancelled_;  ///< time of the first call that saw it
 };
 
-/// Both designs of a result in one scenario.
+/// Both designs of a result in one scenario, the tuned one first: it counts if time runs out.
 BagRuns run_both(const Problem& problem, const OptimizationResult& result, const Scenario& scenario, double rate, Patience* patience) {
   const auto side = [&](const Eigen::VectorXd& rho) {
     const std::vector<double> parameters = scenario.parameters(rho);
-    return BagSide{write_tuned_urdf(problem.urdf(), problem.overlays(), parameters),
+    return BagSide{write_tuned_urdf(problem.urdf(), problem.overlays(), parameters, friction_model(scenario.friction_law)),
                    record_run(scenario.system, parameters, rate, [patience] { return (*patience)(); })};
   };
-  return {side(result.initial_rho), side(result.rho)};
+  BagSide tuned = side(result.rho);
+  return {side(result.initial_rho), std::move(tuned)};
+}
+
+JobFiles files_of(const std::string& resume, const std::string& directory, const std::string& robot) {
+  return resume.empty() ? JobFiles(directory, robot) : JobFiles::resume(directory, resume);
 }
 
 /// One optimization job, from the changed problem to its bag.
 class Job {
  public:
-  Job(const OptimizationRequest& request, const JobOptions& options, JobRecord* record, OptimizationOutcome* outcome)
+  /// @param resume name of the job to go on with; empty: a new job.
+  Job(const OptimizationRequest& request, const std::string& resume, const JobOptions& options, JobRecord* record,
+      OptimizationOutcome* outcome)
       : problem_(request.problem),
         optimizer_options_(request.options),
         options_(options),
-        files_(options.output_directory, problem_.robot().name),
+        files_(files_of(resume, options.output_directory, problem_.robot().name)),
         best_(files_.stem() + ".", problem_),
         record_(record),
-        outcome_(outcome) {}
+        outcome_(outcome) {
+    open_journal(!resume.empty());
+  }
+
+  /// A journal without an evaluation is of no use, unless somebody was told the name of its job by a cancelled one.
+  ~Job() {
+    const bool is_of_use = journal_ && (journal_->evaluations() > 0 || is_interrupted());
+    if (has_ended_ || !is_of_use) unlink(files_.journal().c_str());
+  }
+  Job(const Job&) = delete;
+  Job& operator=(const Job&) = delete;
 
   void optimize(const FeedbackObserver& observer, const std::atomic<bool>& cancel) {
-    const std::vector<std::string> parameters = problem_.tuned_names();
-    ProgressLog log;
+    JobFeedback feedback(files_.name(), problem_.tuned_names(), observer);
+    ProgressMeter meter(optimizer_options_.max_evaluations, [&](const Progress& progress) { feedback.tell(progress); });
     const auto observe = [&](const Trial& trial) {
       best_.note(trial);
-      log.add(optimization_progress(trial, parameters, ros::Time::now()));
-      if (observer) observer(log.last());
+      feedback.tell(trial, meter.now());
       return true;
     };
-    result_ = run_search(problem_, optimizer_options_, {observe, nullptr, nullptr, options_.ranks}, &cancel);
-    record_->progress = log.take();
+    result_ = run_search(problem_, optimizer_options_, {observe, nullptr, journal_, options_.ranks, &meter}, &cancel);
+    feedback.finish(meter.now());
+    record_->progress = feedback.take();
     outcome_->result = to_message(result_, problem_);
+    outcome_->result.job = files_.name();
+    outcome_->result.runs = static_cast<std::uint64_t>(meter.now().runs);
+    outcome_->result.remembered_runs = static_cast<std::uint64_t>(meter.now().remembered);
     outcome_->result.warnings = warning_messages(problem_.warnings(), warnings());
     outcome_->result.setup_seconds = problem_.setup_seconds();
   }
 
-  /// Records the runs and writes the bag. A cancelled job is recorded as well; before the first evaluation its tuned design is the start.
+  /// Records the runs and writes the bag; after that the journal is not needed, unless the job was cancelled. A cancelled job is recorded
+  /// as well; before the first evaluation its tuned design is the start.
   void record(const std::atomic<bool>& cancel) {
     const bool is_evaluated = result_.gradient.size() > 0;
-    if (!is_evaluated && !result_.status.is_interrupted()) return;
-    if (!is_evaluated) outcome_->result.initial_objective = outcome_->result.objective = std::numeric_limits<double>::quiet_NaN();
+    has_ended_ = !is_evaluated && !is_interrupted();
+    if (has_ended_) return;
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    if (!is_evaluated) outcome_->result.initial_objective = kUnknown;
+    // Screening computes objectives without gradients.
+    if (!is_evaluated && result_.screened <= result_.unusable) outcome_->result.objective = kUnknown;
     Patience patience(cancel);
     Scenario nominal;
     nominal.system = problem_.system();
@@ -126,13 +159,37 @@ class Job {
     write_bag(files_.bag(), *record_);
     outcome_->result.bag = files_.bag();
     best_.remove();
+    has_ended_ = !is_interrupted();
   }
 
  private:
+  /// Whether the job did not end by itself, so that it may go on.
+  bool is_interrupted() const { return result_.status.is_interrupted(); }
+
+  /// A disk that does not take the journal of a new job costs the journal, not the job.
+  void open_journal(bool resume) {
+    const Journal::Mode mode = resume ? Journal::Mode::kResume : Journal::Mode::kNew;
+    try {
+      journal_ = std::make_shared<Journal>(files_.journal(), problem_, optimizer_options_, mode);
+    } catch (const OutputError& error) {
+      if (resume) throw;
+      journal_failure_ = error.what();
+      return;
+    }
+    for (const std::string& sentence : journal_->notes()) ROS_INFO_STREAM(files_.name() << ": " << sentence);
+  }
+
   Warnings warnings() const {
     Warnings warnings = result_.warnings;
     if (!best_.failure().empty())
       warnings.push_back({"best_point_not_on_disk", "the best point so far was not on disk while the job ran: " + best_.failure(), {}});
+    const std::string failure = journal_ ? journal_->failure() : journal_failure_;
+    if (!failure.empty())
+      warnings.push_back({"journal_incomplete",
+                          "finished evaluations are missing in the journal, so that they would be computed again "
+                          "if the job had to be resumed: " +
+                              failure,
+                          {}});
     add_early_ends("", record_->nominal, &warnings);
     if (record_->worst) add_early_ends("worst ", *record_->worst, &warnings);
     return warnings;
@@ -153,6 +210,9 @@ class Job {
   const JobOptions& options_;
   const JobFiles files_;
   BestRecord best_;
+  std::shared_ptr<Journal> journal_;  ///< null if the disk does not take it
+  std::string journal_failure_;
+  bool has_ended_ = false;  ///< by itself, with all files written
   JobRecord* record_;
   OptimizationOutcome* outcome_;
   OptimizationResult result_;
@@ -168,11 +228,13 @@ OptimizationOutcome run_optimization(const Problem& problem, const std::string& 
   record.study = study;
   OptimizationOutcome outcome;
   try {
-    Job job(apply_request(problem, request), options, &record, &outcome);
+    Job job(apply_request(problem, request), request.resume, options, &record, &outcome);
     job.optimize(observer, cancel);
     job.record(cancel);
   } catch (const InputError& error) {
     refuse("bad_input", error.what(), &outcome.result);
+  } catch (const JobIsRunning& error) {
+    refuse("busy", error.what(), &outcome.result);
   } catch (const OutputError& error) {
     refuse("output_failed", error.what(), &outcome.result);
   } catch (const std::exception& error) {

@@ -3,6 +3,7 @@
 
 #include <std_msgs/String.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <future>
 #include <sstream>
@@ -115,6 +116,7 @@ OptimizationNode::Result OptimizationNode::run(const mechanism_codesign::Optimiz
     progress_.publish(progress);
     state_.show("evaluation", std::to_string(progress.evaluation));
     state_.show("best objective", std::to_string(progress.best_objective));
+    tell_progress(progress);
     if (observer) observer(progress);
   };
   const OptimizationOutcome outcome = run_optimization(*problem_, study_, request, options_, publish, cancel);
@@ -126,6 +128,15 @@ OptimizationNode::Result OptimizationNode::run(const mechanism_codesign::Optimiz
   state_.warn("last job", added_warnings(outcome.result, problem_->warnings().size()));
   tell_result(outcome.result);
   return outcome.result;
+}
+
+void OptimizationNode::tell_progress(const mechanism_codesign::OptimizationProgress& progress) {
+  state_.show("job", progress.job);
+  state_.show("stage", progress.stage + ", " + std::to_string(progress.done) + " of " + std::to_string(progress.of));
+  state_.show("runs", std::to_string(progress.runs));
+  state_.show("runs per second", std::to_string(progress.runs_per_second));
+  const std::string seconds = std::isnan(progress.seconds_left) ? "unknown" : std::to_string(progress.seconds_left);
+  state_.show("seconds left", (progress.at_most ? "at most " : "") + seconds);
 }
 
 void OptimizationNode::tell_result(const Result& result) {

@@ -57,6 +57,7 @@ class OptimizationNode {
   /// Whether the lists of a request have admissible lengths; fills `refusal` if not.
   template <class Reply>
   bool has_size(const std::vector<std::string>& names, const std::vector<double>& values, const std::string& field, Reply* refusal) const;
+  void tell_progress(const mechanism_codesign::OptimizationProgress& progress);
   void tell_result(const Result& result);
 
   ros::NodeHandle node_, private_node_{"~"};

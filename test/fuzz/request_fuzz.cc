@@ -54,6 +54,7 @@ std::string optimize_once(const Problem& problem, const std::string& study, cons
   goal.max_evaluations = dice->one_in(8) ? 4294967295U : 1 + static_cast<std::uint32_t>(dice->below(3));
   goal.algorithm = dice->pick(kAlgorithms);
   goal.relative_tolerance = dice->one_in(2) ? 0.0 : odd_number(1e-6, dice);
+  if (dice->one_in(8)) goal.resume = odd_name("robot_2026-01-01-00-00-00", dice);
   JobOptions options;
   options.output_directory = (std::filesystem::temp_directory_path() / ("codesign_fuzz_bags_" + std::to_string(getpid()))).string();
   options.rate = 200.0;

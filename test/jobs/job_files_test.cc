@@ -11,6 +11,7 @@
 #include <set>
 
 #include "jobs/output_error.h"
+#include "mechanism_codesign/error.h"
 #include "temporary_directory.h"
 
 namespace codesign {
@@ -34,6 +35,16 @@ class Names : public testing::Test {
     for (const auto& entry : std::filesystem::directory_iterator(folder()))
       if (entry.path().extension() == ".job") return (entry.path().parent_path() / entry.path().stem()).string();
     return "";
+  }
+
+  void expect_refusal(const std::string& name, const std::string& message) const {
+    try {
+      JobFiles::resume(folder(), name);
+      ADD_FAILURE() << name;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.fault().element, "resume");
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+    }
   }
 
   TemporaryDirectory directory_;
@@ -69,7 +80,7 @@ TEST_F(Names, OfManyJobsInOneSecondDiffer) {
 
 TEST_F(Names, OfJobsThatFollowEachOtherDoNotMeetWhatIsThere) {
   std::set<std::string> stems;
-  for (const std::string suffix : {".bag", ".bag.active", ".best.json", ".best.urdf"}) {
+  for (const std::string suffix : {".bag", ".bag.active", ".best.json", ".best.urdf", ".journal.jsonl"}) {
     const JobFiles job(folder(), "r");
     EXPECT_TRUE(stems.insert(job.stem()).second) << suffix;
     std::ofstream(job.stem() + suffix) << "x";
@@ -87,6 +98,59 @@ TEST_F(Names, LeftoversOfKilledJobsGoAndAreSaid) {
   for (const char* gone : {".bag.active", ".best.json.part", ".job"}) EXPECT_FALSE(is_there(stem + gone)) << gone;
   for (const char* kept : {".best.json", ".best.urdf"}) EXPECT_TRUE(is_there(stem + kept)) << kept;
   EXPECT_TRUE(remove_leftovers(folder()).empty());
+}
+
+TEST_F(Names, OfAKilledJobAreTakenOverByTheOneThatGoesOnWithIt) {
+  const std::string stem = killed_job({".bag.active", ".best.json", ".journal.jsonl"});
+  const std::string name = std::filesystem::path(stem).filename();
+  {
+    const JobFiles job = JobFiles::resume(folder(), name);
+    EXPECT_EQ(job.stem(), stem);
+    EXPECT_EQ(job.name(), name);
+    EXPECT_EQ(job.bag(), stem + ".bag");
+    EXPECT_EQ(job.journal(), stem + ".journal.jsonl");
+    EXPECT_TRUE(is_there(stem + ".job"));
+    EXPECT_FALSE(is_there(stem + ".bag.active"));
+    EXPECT_TRUE(is_there(job.journal()));
+    EXPECT_THROW(JobFiles::resume(folder(), name), JobIsRunning);
+    EXPECT_TRUE(is_there(stem + ".job")) << "still locked";
+    EXPECT_TRUE(remove_leftovers(folder()).empty());
+  }
+  EXPECT_FALSE(is_there(stem + ".job"));
+}
+
+TEST_F(Names, ANodeThatStartsSaysHowAKilledJobIsResumed) {
+  const std::string stem = killed_job({".bag.active", ".journal.jsonl"});
+  const std::vector<std::string> said = remove_leftovers(folder());
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_NE(said[0].find("resume: " + std::filesystem::path(stem).filename().string() + " goes on"), std::string::npos) << said[0];
+  EXPECT_TRUE(is_there(stem + ".journal.jsonl"));
+}
+
+TEST_F(Names, TheBagOfAResumedJobReplacesNone) {
+  const std::string stem = folder() + "/arm_2026-01-01-00-00-00";
+  std::ofstream(stem + ".journal.jsonl") << "x";
+  for (const std::string next : {".bag", ".resumed.bag", ".resumed-2.bag", ".resumed-3.bag"}) {
+    const std::string bag = JobFiles::resume(folder(), "arm_2026-01-01-00-00-00").bag();
+    EXPECT_EQ(bag, stem + next);
+    std::ofstream(bag) << "x";
+  }
+}
+
+TEST_F(Names, ToResumeAreBareNamesOfJobsInTheFolder) {
+  std::ofstream(folder() + "/there.journal.jsonl") << "x";
+  std::ofstream(folder() + "/done.bag") << "x";
+  std::filesystem::create_directory(folder() + "/below");
+  std::ofstream(folder() + "/below/there.journal.jsonl") << "x";
+  std::filesystem::create_symlink(folder() + "/below/there.journal.jsonl", folder() + "/link.journal.jsonl");
+  for (const std::string& name : {std::string("below/there"), std::string("./there"), std::string("/etc/passwd"), std::string(".."),
+                                  std::string("there.journal.jsonl"), std::string("there\0", 6), std::string(256, 'a')})
+    expect_refusal(name, "not the name of a job");
+  expect_refusal("where", "there is no journal " + folder() + "/where.journal.jsonl");
+  expect_refusal("link", "there is no journal");
+  expect_refusal("done", "the job is complete, its bag is " + folder() + "/done.bag");
+  EXPECT_FALSE(is_there(folder() + "/where.job")) << "a refusal leaves nothing";
+  EXPECT_EQ(JobFiles::resume(folder(), "there").name(), "there");
 }
 
 TEST_F(Names, FilesOfLivingJobsAndOfOtherProgramsStay) {

@@ -26,6 +26,19 @@ TEST(JournalHeader, SaysWhatDiffers) {
   EXPECT_NE(header_difference(header_of(with_study(problem, study)), own).find("tuned parameters"), std::string::npos);
 }
 
+TEST(JournalHeader, KnowsTheTrajectoriesInBags) {
+  const auto header = [](double end) {
+    const Problem plain = block("");
+    std::string study = plain.study_text().text;
+    const std::string setpoint = "setpoint: 0.5";
+    study.replace(study.find(setpoint), setpoint.size(), "setpoint: {type: trajectory, bag: a.bag, topic: t, joint: slide}");
+    const auto loader = [end](const TrajectoryAddress&) { return RecordedTrajectory{{0.0, 0.5}, {0.0, end}, {}, {}}; };
+    return header_of(load_problem(plain.urdf(), {}, {"block.yaml", study}, {}, loader));
+  };
+  EXPECT_EQ(header_difference(header(0.5), header(0.5)), "");
+  EXPECT_EQ(header_difference(header(0.5), header(0.6)).find("the recorded trajectories that the study names differ"), 0u);
+}
+
 TEST(JournalHeader, RefusesOtherVersionsAndOtherFiles) {
   const std::string own = header_of(block(""));
   Json other = Json::parse(own);

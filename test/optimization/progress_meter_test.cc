@@ -64,6 +64,7 @@ TEST(ProgressMeter, RememberedRunsCountButAreNoMeasureOfSpeed) {
   meter.begin(SearchStage::kSearching, 0, 1);
   for (int k = 0; k < 1000; ++k) meter.count_run(false);
   EXPECT_EQ(meter.now().runs, 1000);
+  EXPECT_EQ(meter.now().remembered, 1000);
   EXPECT_EQ(meter.now().runs_per_second, 0.0);
   EXPECT_FALSE(meter.now().seconds_left);
 }

@@ -79,6 +79,18 @@ TEST(SearchHooks, EveryStageIsTold) {
   EXPECT_EQ(told.front().runs, 18);
 }
 
+TEST(SearchHooks, ACallersMeterCountsTheWholeJob) {
+  for (const Problem& problem : {nested(), block("engine: {workers: 2}\n")}) {
+    const auto memory = std::make_shared<Notebook>();
+    ProgressMeter first(1, nullptr), again(1, nullptr);
+    run_search(problem, problem.optimizer_options(), {nullptr, nullptr, memory, &first}, nullptr);
+    EXPECT_EQ(first.now().runs - first.now().remembered, memory->kept);
+    run_search(problem, problem.optimizer_options(), {nullptr, nullptr, memory, &again}, nullptr);
+    EXPECT_EQ(again.now().runs, first.now().runs);
+    EXPECT_EQ(again.now().remembered, first.now().runs) << "nothing is computed twice";
+  }
+}
+
 TEST(SearchHooks, CancelledWhileScreeningItKeepsTheBestPointWithinASecond) {
   const Problem problem = block("multistart: {starts: 2, screen: 4000}\nengine: {workers: 2}\n");
   const auto memory = std::make_shared<Notebook>();

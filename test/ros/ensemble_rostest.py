@@ -70,7 +70,11 @@ class EnsembleTest(NodesTestCase):
                     for _, message, _ in list(bag.read_messages(topics=[topic]))[-1:]]
             self.assertNotEqual(*ends)
             ((_, description, _),) = bag.read_messages(topics=["worst/tuned/robot_description"])
-            self.assertIn(repr(self.result.scenarios[self.result.worst - 1].values[0])[:10], description.data)
+            worst = self.result.scenarios[self.result.worst - 1]
+            self.assertIn(repr(worst.values[0])[:10], description.data)
+            self.assertIn(f'model="{worst.friction_law}"', description.data)
+            ((_, nominal, _),) = bag.read_messages(topics=["tuned/robot_description"])
+            self.assertIn('model="brown_mcphee"', nominal.data)
 
     def last_position(self, topic):
         with rosbag.Bag(self.result.bag) as bag:
@@ -100,7 +104,7 @@ class EnsembleTest(NodesTestCase):
         client = actionlib.SimpleActionClient("/many/optimize", OptimizeAction)
         self.assertTrue(client.wait_for_server(rospy.Duration(TIMEOUT)))
         numbers = set()
-        client.send_goal(OptimizeGoal(), feedback_cb=lambda feedback: numbers.add(feedback.progress.search))
+        client.send_goal(OptimizeGoal(), feedback_cb=lambda feedback: feedback.progress.evaluation and numbers.add(feedback.progress.search))
         self.assertTrue(client.wait_for_result(rospy.Duration(5 * TIMEOUT)))
         result = client.get_result()
         self.assertTrue(result.success, result.message)

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "ensemble/ensemble_fixture.h"
 #include "ros/job.h"
 #include "ros/pendulum.h"
 
@@ -44,6 +45,29 @@ TEST_F(EvaluationJob, ChecksItsGradient) {
     ASSERT_EQ(reply.reference.size(), 2U);
     for (int k : {0, 1}) EXPECT_NEAR(reply.gradient[k], reply.reference[k], tolerance * std::abs(reply.reference[k])) << check;
     EXPECT_LT(reply.largest_relative_difference, tolerance);
+  }
+}
+
+TEST_F(EvaluationJob, TellsConstraintsAndSignals) {
+  const Problem problem = block(
+      "path: [{signal: slide/velocity, at_most: 0.5}]\nconstraints: [\"Kp - 4*Kd <= 100\"]\n"
+      "runs: {one: {}, two: {set: {mass: 8.0}}}\nrobust: {measure: worst}\n");
+  mechanism_codesign::EvaluateResponse first;
+  for (const std::string check : {"", "complex_step"}) {
+    EvaluateRequest request;
+    request.check = check;
+    const auto reply = run_evaluation(problem, request, cancel_);
+    ASSERT_TRUE(reply.success) << reply.message;
+    ASSERT_EQ(reply.constraints.size(), 1U);
+    EXPECT_EQ(reply.margins, (std::vector<double>{100.0}));
+    ASSERT_EQ(reply.signals.size(), 1U);
+    EXPECT_EQ(reply.signals[0].upper, 0.5);
+    EXPECT_NEAR(reply.signals[0].largest, 1.0, 1e-9) << "the initial velocity";
+    EXPECT_EQ(reply.signals[0].largest_time, 0.0);
+    EXPECT_NEAR(reply.signals[0].violation, 0.5, 1e-9);
+    EXPECT_EQ(reply.signals[0].initial_largest, reply.signals[0].largest);
+    if (check.empty()) first = reply;
+    EXPECT_NEAR(reply.signals[0].smallest, first.signals[0].smallest, 1e-6);
   }
 }
 

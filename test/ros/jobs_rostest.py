@@ -91,8 +91,10 @@ class JobsTest(NodesTestCase):
             result, frames = self.result_of(bag)
             self.assertEqual(result.code, "cancelled")
             self.assertEqual(frames, 401)
-            self.assertEqual(os.listdir(self.folder), [os.path.basename(bag)])
+            journal = bag.replace(".bag", ".journal.jsonl")
+            self.assertEqual(sorted(os.listdir(self.folder)), sorted(map(os.path.basename, (bag, journal))), "it can be gone on with")
             os.remove(bag)
+            os.remove(journal)
 
     def test_a_job_of_the_service_can_be_cancelled(self):
         node = self.start_job_node("cancelled", study=long_study())
@@ -124,6 +126,10 @@ class JobsTest(NodesTestCase):
         next_node.end()
         self.assertIn("a job was killed", next_node.output())
         self.assertIn(best, next_node.output())
+        (journal,) = files(self.folder, ".journal.jsonl")
+        self.assertEqual(journal, best.replace(".best.json", ".journal.jsonl"))
+        name = os.path.basename(journal).replace(".journal.jsonl", "")
+        self.assertIn(f"a request with resume: {name} goes on with it", next_node.output())
 
     def test_a_running_job_keeps_its_files_when_another_node_starts(self):
         node = self.start_job_node("running", study=long_study())

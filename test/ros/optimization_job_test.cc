@@ -41,7 +41,9 @@ class OptimizationJob : public testing::Test {
 TEST_F(OptimizationJob, ImprovesAndReportsEveryTrial) {
   unsigned trials = 0;
   const auto result = run(OptimizeGoal(), [&](const mechanism_codesign::OptimizationProgress& progress) {
-                        EXPECT_EQ(progress.evaluation, ++trials);
+                        // Between trial points the last one may be repeated.
+                        EXPECT_LE(progress.evaluation, trials + 1);
+                        trials = progress.evaluation;
                       }).result;
   EXPECT_TRUE(result.success) << result.message;
   EXPECT_EQ(result.code, "success");
@@ -118,12 +120,12 @@ TEST_F(OptimizationJob, CancelledBeforeTheFirstEvaluationItRecordsItsStart) {
 }
 
 TEST_F(OptimizationJob, TheBestPointIsOnDiskUntilTheBagIs) {
-  int seen = 0;
-  const auto result = run(OptimizeGoal(), [&](const mechanism_codesign::OptimizationProgress&) {
+  std::set<unsigned> seen;
+  const auto result = run(OptimizeGoal(), [&](const mechanism_codesign::OptimizationProgress& progress) {
                         for (const auto& entry : std::filesystem::directory_iterator(directory_.path()))
-                          if (entry.path().string().find(".best.json") != std::string::npos) ++seen;
+                          if (entry.path().string().find(".best.json") != std::string::npos) seen.insert(progress.evaluation);
                       }).result;
-  EXPECT_EQ(seen, static_cast<int>(result.evaluations));
+  EXPECT_EQ(seen.size(), result.evaluations);
   const auto entries = std::filesystem::directory_iterator(directory_.path());
   EXPECT_EQ(std::distance(begin(entries), end(entries)), 1) << "the bag alone";
 }
@@ -151,8 +153,10 @@ TEST_F(OptimizationJob, ADiskThatIsFullAtTheEndKeepsWhatWasComputedInTheReply) {
   int status = 0;
   waitpid(child, &status, 0);
   EXPECT_EQ(status, 0);
-  for (const auto& entry : std::filesystem::directory_iterator(directory_.path()))
-    EXPECT_NE(entry.path().string().find(".best."), std::string::npos) << entry.path();
+  for (const auto& entry : std::filesystem::directory_iterator(directory_.path())) {
+    const bool is_kept = entry.path().string().find(".best.") != std::string::npos || entry.path().extension() == ".jsonl";
+    EXPECT_TRUE(is_kept) << entry.path();
+  }
 }
 
 TEST_F(OptimizationJob, ABadRequestIsAnAnswerAndLeavesNothing) {

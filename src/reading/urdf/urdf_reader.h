@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_READING_URDF_URDF_READER_H_
 #define MECHANISM_CODESIGN_READING_URDF_URDF_READER_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,11 @@ RobotDescription read_urdf(const SourceText& urdf, const std::vector<SourceText>
 
 /// The merged URDF as XML for other parameter values: every attribute with a twin, every parameter's default and every inertial computed
 /// from shapes is set to its value at `parameters` (all named parameters; those after the model's are ignored). Reading it gives a model
-/// whose default design is this one. @throws InputError if values are missing or not finite.
-std::string write_tuned_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays, const std::vector<double>& parameters);
+/// whose default design is this one.
+/// @param law the friction law of every joint and loop with friction; numbers that it does not use are left out. Without it each keeps its
+/// own. @throws InputError if values are missing or not finite.
+std::string write_tuned_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays, const std::vector<double>& parameters,
+                             std::optional<FrictionModel> law = std::nullopt);
 
 }  // namespace codesign
 

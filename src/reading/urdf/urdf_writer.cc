@@ -79,9 +79,24 @@ void write_inertials(XMLElement* robot, const std::vector<LinkDescription>& link
   }
 }
 
+/// Gives each joint and loop with friction the law. What the law does not use goes, since a file with it could not be read.
+void write_friction_law(XMLElement* robot, FrictionModel law) {
+  for (XMLElement* joint = robot->FirstChildElement(); joint != nullptr; joint = joint->NextSiblingElement()) {
+    XMLElement* friction = joint->FirstChildElement("codesign:friction");
+    if (friction == nullptr) continue;
+    friction->SetAttribute("model", kFrictionModelNames[static_cast<std::size_t>(law)]);
+    visit_friction_numbers([&](const FrictionNumberRule& rule) {
+      if (rule.is_used_by(law)) return;
+      friction->DeleteAttribute(rule.attribute);
+      friction->DeleteAttribute((std::string(kPrefix) + rule.attribute).c_str());
+    });
+  }
+}
+
 }  // namespace
 
-std::string write_tuned_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays, const std::vector<double>& parameters) {
+std::string write_tuned_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays, const std::vector<double>& parameters,
+                             std::optional<FrictionModel> law) {
   XmlDocument document = load_annotated_urdf(urdf, overlays);
   const RobotDescription robot = read_robot(document);
   const std::size_t count = robot.parameters.size();
@@ -99,6 +114,7 @@ std::string write_tuned_urdf(const SourceText& urdf, const std::vector<SourceTex
   write_twins(document.robot(), "robot", {document, ParameterTable(robot.parameters), values});
   write_inertials(document.robot(), robot.links, values);
   write_parameters(document.robot(), robot.parameters, values);
+  if (law) write_friction_law(document.robot(), *law);
   return document.text();
 }
 

@@ -78,6 +78,42 @@ TEST(UrdfWriter, BoundsThatAStudyWidenedFollow) {
   EXPECT_EQ(robot.parameters.at(0).lower, 0.1);
 }
 
+TEST(UrdfWriter, AnotherFrictionLawReadsBackWithTheNumbersThatItUses) {
+  const auto friction = [](const std::string& content) {
+    return pendulum(
+        "<codesign:friction mu_static=\"0.2\" codesign:mu_static=\"${length}\" mu_dynamic=\"0.1\" joint_length=\"0.05\" "
+        "joint_width=\"0.05\" pin_radius=\"0.01\" " +
+        content + "/>");
+  };
+  const std::string numbers = "bristle_stiffness=\"4000\" bristle_damping=\"7\" codesign:bristle_damping=\"${35*length}\"";
+  const SourceText plain = friction(""), lugre = friction("model=\"lugre\" " + numbers),
+                   gonthier = friction("model=\"gonthier\" dwell_time=\"3\" codesign:dwell_time=\"${15*length}\" " + numbers);
+  for (const SourceText& urdf : {plain, lugre, gonthier})
+    for (const FrictionModel law : {FrictionModel::kBrownMcPhee, FrictionModel::kGonthier, FrictionModel::kLuGre}) {
+      const std::string text = write_tuned_urdf(urdf, {}, {0.3}, law);
+      const FrictionDescription read = *read_urdf({"written.urdf", text}).joints[0].friction, own = *read_urdf(urdf).joints[0].friction;
+      EXPECT_EQ(read.model, law);
+      EXPECT_EQ(read.mu_static.nominal(), 0.3) << "the twin at the design";
+      const bool both = own.model != FrictionModel::kBrownMcPhee && law != FrictionModel::kBrownMcPhee;
+      EXPECT_EQ(read.bristle_stiffness.nominal(), both ? 4000.0 : 1e4) << text;
+      EXPECT_DOUBLE_EQ(read.bristle_damping.nominal(), both ? 10.5 : 10.0) << text;
+      const bool dwells = own.model == FrictionModel::kGonthier && law == FrictionModel::kGonthier;
+      EXPECT_DOUBLE_EQ(read.dwell_time.nominal(), dwells ? 4.5 : 2.0) << text;
+    }
+  EXPECT_EQ(write_tuned_urdf(pendulum(""), {}, {0.3}, FrictionModel::kLuGre), write_tuned_urdf(pendulum(""), {}, {0.3}));
+}
+
+TEST(UrdfWriter, TheFrictionLawIsThatOfLoopsToo) {
+  const RobotDescription robot = read_urdf({"w", write_tuned_urdf(slider_crank(), {}, {0.08, 0.3, 0.05, 0.025}, FrictionModel::kLuGre)});
+  int frictions = 0;
+  for (const JointDescription& joint : robot.joints) {
+    if (!joint.friction) continue;
+    ++frictions;
+    EXPECT_EQ(joint.friction->model, FrictionModel::kLuGre) << joint.name;
+  }
+  EXPECT_GT(frictions, 0);
+}
+
 TEST(UrdfWriter, Faults) {
   EXPECT_THROW(write_tuned_urdf(pendulum(""), {}, {}), InputError);
   EXPECT_THROW(write_tuned_urdf(pendulum(""), {}, {std::nan("")}), InputError);
