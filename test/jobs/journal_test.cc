@@ -63,10 +63,25 @@ TEST_F(JournalTest, FindsWhatAnEarlierProcessKept) {
   EXPECT_EQ(journal.find(task(2.0, true))->gradient, Eigen::Vector2d(20.0, -20.0));
   EXPECT_FALSE(journal.find(task(1.0, true))) << "its gradient is not known";
   EXPECT_FALSE(journal.find(task(1.0 + 1e-16 * 4))) << "other bits";
-  EXPECT_FALSE(journal.find({block("").system(), task(1.0).parameters, false})) << "a system of another problem";
+  EXPECT_FALSE(journal.find({block("").system(), task(1.0).parameters, Derivatives::kNone})) << "a system of another problem";
   journal.keep(task(3.0), value(30.0));
   EXPECT_EQ(journal.find(task(3.0))->objective, 30.0);
   EXPECT_EQ(open(Journal::Mode::kResume).resumed(), 3u);
+}
+
+TEST_F(JournalTest, KeepsTheRootOfWhatWasAskedForWithIt) {
+  EvaluationTask asked = task(2.0);
+  asked.derivatives = Derivatives::kGaussNewton;
+  Evaluation evaluation = value(20.0);
+  evaluation.jacobian_root = (Eigen::Matrix2d() << 0.1, 1.0 / 3.0, 0.0, 2.0).finished();
+  write_two();
+  open(Journal::Mode::kResume).keep(asked, evaluation);
+  Journal journal = open(Journal::Mode::kResume);
+  ASSERT_TRUE(journal.find(asked));
+  EXPECT_EQ(journal.find(asked)->jacobian_root, evaluation.jacobian_root);
+  EXPECT_EQ(journal.find(task(2.0, true))->jacobian_root.size(), 0) << "another line of the same design";
+  asked.parameters = task(1.0).parameters;
+  EXPECT_FALSE(journal.find(asked));
 }
 
 TEST_F(JournalTest, DropsAnUnfinishedLastLineAndSaysSo) {
@@ -129,11 +144,11 @@ TEST_F(JournalTest, TellsVariantsOfTheSystemApart) {
   ASSERT_NE(a, b);
   {
     Journal journal(path(), problem, problem.optimizer_options(), Journal::Mode::kNew);
-    journal.keep({b, problem.parameters(), false}, value(5.0));
+    journal.keep({b, problem.parameters(), Derivatives::kNone}, value(5.0));
   }
   Journal journal(path(), problem, problem.optimizer_options(), Journal::Mode::kResume);
-  EXPECT_FALSE(journal.find({a, problem.parameters(), false}));
-  EXPECT_TRUE(journal.find({b, problem.parameters(), false}));
+  EXPECT_FALSE(journal.find({a, problem.parameters(), Derivatives::kNone}));
+  EXPECT_TRUE(journal.find({b, problem.parameters(), Derivatives::kNone}));
 }
 
 }  // namespace
