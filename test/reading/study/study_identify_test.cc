@@ -9,19 +9,19 @@ namespace codesign {
 namespace {
 
 // Lines 1 and 2; what is identified begins in line 3.
-const std::string kTunedStudy = "duration: 2.0\nparameters: {rod_length: {}, crank_length: {tune: false}}\n";
+const std::string kStudyToIdentify = "duration: 2.0\nparameters: {rod_length: {}, crank_length: {tune: false}}\n";
 const std::string kSomeData = "data: [{csv: excite.csv}]";
 
 IdentificationDescription identification_of(const std::string& keys) {
-  return read_text(kTunedStudy + "identify: {" + kSomeData + (keys.empty() ? "" : ", ") + keys + "}\n").identification.value();
+  return read_text(kStudyToIdentify + "identify: {" + kSomeData + (keys.empty() ? "" : ", ") + keys + "}\n").identification.value();
 }
 
 void expect_bad_identify(const std::string& keys, const std::string& element, const std::string& message) {
-  expect_fault(kTunedStudy + "identify: {" + kSomeData + ", " + keys + "}\n", element, message, 3);
+  expect_fault(kStudyToIdentify + "identify: {" + kSomeData + ", " + keys + "}\n", element, message, 3);
 }
 
 TEST(StudyIdentify, IsThereOnlyIfWritten) {
-  EXPECT_FALSE(read_text(kTunedStudy).identification.has_value());
+  EXPECT_FALSE(read_text(kStudyToIdentify).identification.has_value());
   const IdentificationDescription description = identification_of("");
   EXPECT_EQ(description.data.size(), 1U);
   EXPECT_TRUE(description.holdout.empty());
