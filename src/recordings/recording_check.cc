@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kHalfTurn = 3.14159265358979323846;
 
 [[noreturn]] void fail_at(const JointRecording& recording, std::size_t k, const std::string& message, const std::string& value,
                           const std::string& allowed) {
@@ -130,8 +130,8 @@ void unwrap_turns(const RobotDescription& robot, JointRecording* recording, Warn
     std::size_t jumps = 0, first = 0;
     for (std::size_t k = 1; k < position.size(); ++k) {
       const double step = position[k] + turns - position[k - 1];
-      if (std::abs(step) > kPi) {
-        turns -= 2.0 * kPi * std::round(step / (2.0 * kPi));
+      if (std::abs(step) > kHalfTurn) {
+        turns -= 2.0 * kHalfTurn * std::round(step / (2.0 * kHalfTurn));
         if (jumps++ == 0) first = k;
       }
       position[k] += turns;

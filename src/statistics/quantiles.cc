@@ -1,0 +1,37 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "statistics/quantiles.h"
+
+#include <boost/math/special_functions/beta.hpp>
+#include <boost/math/special_functions/erf.hpp>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+
+namespace codesign {
+namespace {
+
+// No long double, whose width differs from platform to platform.
+namespace policies = boost::math::policies;
+using Policy = policies::policy<policies::promote_double<false>>;
+
+/// t > 0 that is exceeded with probability `tail` below 1/2.
+double student_exceeded_with(double tail, double degrees) {
+  constexpr double kNormalFrom = 1e8;
+  if (degrees >= kNormalFrom) return std::sqrt(2.0) * boost::math::erfc_inv(2.0 * tail, Policy());
+  // P(|T| > t) = I_x(n/2, 1/2) with x = n / (n + t^2); Abramowitz and Stegun 26.7.1. 1 - x comes with all its digits.
+  double complement = 0.0;
+  const double x = boost::math::ibeta_inv(0.5 * degrees, 0.5, 2.0 * tail, &complement, Policy());
+  return std::sqrt(degrees * complement / x);
+}
+
+}  // namespace
+
+double student_quantile(double p, double degrees) {
+  if (p == 0.5) return 0.0;
+  return p > 0.5 ? student_exceeded_with(1.0 - p, degrees) : -student_exceeded_with(p, degrees);
+}
+
+double interval_factor(double level, double degrees) { return student_exceeded_with(0.5 * (1.0 - level), degrees); }
+
+double chi_squared_tail(double x, double degrees) { return boost::math::gamma_q(0.5 * degrees, 0.5 * x, Policy()); }
+
+}  // namespace codesign
