@@ -86,13 +86,13 @@ struct FittedNumber {
   SourceLocation where;
 };
 
-/// How what was recorded as the effort of a joint, e(t), becomes the effort Q(t) on the joint: Q(t) = effort_scale e(t - delay) - offset;
-/// doc/theory.md (28).
+/// How the effort tau(t) on a joint shows in what was recorded as its effort, e: effort_scale e(t + delay) = tau(t) + offset;
+/// doc/theory.md (28c).
 struct JointCalibration {
   std::string joint;
   FittedNumber effort_scale{1.0};  ///< e.g. torque constant times gear ratio; not 0
-  FittedNumber delay{0.0};         ///< [s], 0 or more
-  FittedNumber offset{0.0};        ///< [N m or N]
+  FittedNumber delay{0.0};         ///< by which the recorded effort is late beside the recorded motion [s]; negative: early
+  FittedNumber offset{0.0};        ///< recorded beyond the effort that the mechanism needs [N m or N]
   SourceLocation where;
 };
 

@@ -39,22 +39,20 @@ FilterOptions read_filter(const YamlValue& filter) {
   return options;
 }
 
-/// A number is known; a map is to be fitted, from `initial` within `lower` and `upper`.
-void read_fitted(const YamlValue& value, double least, FittedNumber* number) {
+/// A number is known; a map is to be fitted, from `initial` within `lower` and `upper`. @param lower the bound unless another one is given
+void read_fitted(const YamlValue& value, double lower, FittedNumber* number) {
   number->where = value.where();
   if (!value.is_map()) {
     number->value = value.number();
-    if (number->value < least) value.fail("number out of range", "0 or more, or a map {initial, lower, upper} to fit it");
     return;
   }
   value.require_keys({}, {"initial", "lower", "upper"});
-  number->is_fitted = true;
   Parameter parameter;
   parameter.value = number->value;
-  parameter.lower = least;
+  parameter.lower = lower;
   if (const auto initial = value.find("initial")) parameter.value = initial->number();
   read_bounds(value, &parameter);
-  if (parameter.lower < least) value.at("lower").fail("number out of range", "0 or more");
+  number->is_fitted = true;
   number->value = parameter.value;
   number->lower = parameter.lower;
   number->upper = parameter.upper;
