@@ -5,6 +5,8 @@
 #include <atomic>
 #include <ostream>
 
+#include "recordings/bag_reader.h"
+
 namespace codesign::cli {
 
 /// The output streams and the cancel flag of a command.
@@ -13,6 +15,7 @@ struct Console {
   std::ostream& err;                ///< progress and messages
   const std::atomic<bool>& cancel;  ///< once set, the command ends soon and keeps its results so far
   void (*loaded)() = nullptr;       ///< called after the input is loaded, before the computation; may be null
+  BagReader bags = {};              ///< reads the bags that a study names; empty: they are refused
 };
 
 /// The program's exit codes.

@@ -6,5 +6,6 @@
 
 int main(int argc, char** argv) {
   codesign::cli::watch_interrupts();
-  return codesign::cli::run({argv + 1, argv + argc}, {std::cout, std::cerr, codesign::cli::interrupted(), codesign::cli::keep_results});
+  return codesign::cli::run({argv + 1, argv + argc}, {std::cout, std::cerr, codesign::cli::interrupted(), codesign::cli::keep_results,
+                                                      codesign::linked_bag_reader()});
 }
