@@ -21,11 +21,11 @@ void require_below_half_rate(const std::string& key, double cutoff, const Filter
 }
 
 void choose_samples(const JointRecording& recording, const FilterOptions& filter, MeasuredMotion* motion) {
-  constexpr double kDifferences = 4.0;
+  constexpr double kDifferences = 4.0, kSettling = 2.0;
   const double rate = motion->times.rate();
   double edge = kDifferences;
   for (const double cutoff : {filter.cutoff, filter.residual_cutoff})
-    if (cutoff > 0.0) edge += rate / cutoff;
+    if (cutoff > 0.0) edge += kSettling * rate / cutoff;
   motion->first = static_cast<Eigen::Index>(std::ceil(edge));
   motion->end = motion->times.count - motion->first;
   motion->every = filter.decimate;

@@ -25,8 +25,8 @@ struct JointMotion {
 struct MeasuredMotion {
   UniformTimes times;
   std::vector<JointMotion> joints;  ///< in the order of the recording
-  /// The samples to fit: `first`, `first + every`, ... below `end`. Near the ends filters know one side only, so that 1/cutoff is left out
-  /// there, for both cutoffs.
+  /// The samples to fit: `first`, `first + every`, ... below `end`. Near the ends filters know one side only, so that 2/cutoff is left out
+  /// there, for both cutoffs; what a mirrored end does to the filter of order four has then decayed to 1 %.
   Eigen::Index first = 0, end = 0, every = 1;
 
   Eigen::Index fitted() const { return end > first ? (end - first + every - 1) / every : 0; }

@@ -31,7 +31,8 @@ class Side {
       if (!(s > inside)) break;
       const std::optional<double> height = height_at(s);
       if (!height) return {inside, ProfileEnd::kFailed};
-      if (*height >= 0.0) return {crossing(inside, inside_height, s, *height), ProfileEnd::kFound};
+      if (is_end(*height)) return {s, ProfileEnd::kFound};
+      if (*height > 0.0) return {crossing(inside, inside_height, s, *height), ProfileEnd::kFound};
       inside = s;
       inside_height = *height;
     }
@@ -39,6 +40,8 @@ class Side {
   }
 
  private:
+  bool is_end(double height) const { return std::abs(height) < kTolerance * std::sqrt(problem_.threshold); }
+
   /// sqrt(excess) - sqrt(threshold): negative inside.
   std::optional<double> height_at(double s) {
     ++evaluations_;
@@ -57,7 +60,7 @@ class Side {
       const double s = std::clamp((a * fb - b * fa) / (fb - fa), a + 1e-3 * (b - a), b - 1e-3 * (b - a));
       const std::optional<double> height = height_at(s);
       if (!height) break;
-      if (std::abs(*height) < kTolerance * std::sqrt(problem_.threshold)) return s;
+      if (is_end(*height)) return s;
       if (*height < 0.0) {
         a = s;
         fa = *height;

@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "statistics/quantiles.h"
 
-#include <boost/math/special_functions/beta.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
@@ -17,10 +17,7 @@ using Policy = policies::policy<policies::promote_double<false>>;
 double student_exceeded_with(double tail, double degrees) {
   constexpr double kNormalFrom = 1e8;
   if (degrees >= kNormalFrom) return std::sqrt(2.0) * boost::math::erfc_inv(2.0 * tail, Policy());
-  // P(|T| > t) = I_x(n/2, 1/2) with x = n / (n + t^2); Abramowitz and Stegun 26.7.1. 1 - x comes with all its digits.
-  double complement = 0.0;
-  const double x = boost::math::ibeta_inv(0.5 * degrees, 0.5, 2.0 * tail, &complement, Policy());
-  return std::sqrt(degrees * complement / x);
+  return quantile(complement(boost::math::students_t_distribution<double, Policy>(degrees), tail));
 }
 
 }  // namespace

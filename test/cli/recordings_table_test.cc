@@ -40,12 +40,12 @@ TEST_F(RecordingsTable, CheckShowsTheRecordingsOfAStudy) {
   const std::string columns = "time: t, hinge/position: {column: angle, scale: 0.0174532925}, hinge/effort: current";
   const Outcome outcome = check(columns);
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
-  EXPECT_NE(outcome.out.find("identify.data[0]      300        100         0    2.99     252"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("identify.data[0]      300        100         0    2.99     212"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("identify.data[0]: hinge/position, hinge/effort ("), std::string::npos) << outcome.out;
   EXPECT_TRUE(outcome.err.empty()) << outcome.err;
   const Json recordings = json_of(check(columns, true))["recordings"];
   ASSERT_EQ(recordings.size(), 1U);
-  EXPECT_EQ(recordings[0]["fitted"], 252);
+  EXPECT_EQ(recordings[0]["fitted"], 212);
 }
 
 TEST_F(RecordingsTable, CheckNamesThePlaceOfWhatIsWrongInARecording) {

@@ -16,7 +16,7 @@ TEST(RecordingRecords, TellWhatARecordingHolds) {
   const RecordingSummary summary = summary_of(recording, measured_motion(recording, filter, &warnings));
   EXPECT_EQ(summary.samples, 400U);
   EXPECT_NEAR(summary.rate, 100.0, 1e-9);
-  EXPECT_EQ(summary.fitted, 186);
+  EXPECT_EQ(summary.fitted, 176);
   EXPECT_EQ(summary.measured, (std::vector<std::string>{"hinge/position", "hinge/effort"}));
   const Json list = to_json(std::vector<RecordingSummary>{summary});
   ASSERT_EQ(list.size(), 1U);

