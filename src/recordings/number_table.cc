@@ -111,8 +111,14 @@ void NumberTable::split(std::string_view line, Cells* cells) const {
   cells->clear();
   const bool blanks = delimiter_ == ' ';
   if (blanks) line = trimmed(line);
-  bool quoted = false;
   std::size_t begin = 0;
+  if (!blanks && line.find('"') == line.npos) {
+    for (std::size_t end = 0; (end = line.find(delimiter_, begin)) != line.npos; begin = end + 1)
+      cells->push_back(line.substr(begin, end - begin));
+    cells->push_back(line.substr(begin));
+    return;
+  }
+  bool quoted = false;
   for (std::size_t k = 0; k < line.size(); ++k) {
     if (line[k] == '"') quoted = !quoted;
     const bool ends = !quoted && (line[k] == delimiter_ || (blanks && line[k] == '\t'));
