@@ -67,7 +67,7 @@ int check(const Arguments& arguments, const Console& console) {
   if (!arguments.json && status.ok()) {
     print_table(counts, console.out);
     for (const LimitCrossing& crossing : crossings) console.out << describe(crossing) << '\n';
-    print(recordings, console.out);
+    print_recordings(recordings, console.out);
   }
   Json object;
   object["model"] = problem.robot().name;

@@ -22,7 +22,7 @@ std::vector<RecordingSummary> check_recordings(const Problem& problem, const Con
   return summaries;
 }
 
-void print(const std::vector<RecordingSummary>& recordings, std::ostream& out) {
+void print_recordings(const std::vector<RecordingSummary>& recordings, std::ostream& out) {
   if (recordings.empty()) return;
   constexpr int kDigits = 6;
   Table table;

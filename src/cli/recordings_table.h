@@ -15,7 +15,7 @@ namespace codesign::cli {
 std::vector<RecordingSummary> check_recordings(const Problem& problem, const Console& console, Warnings* warnings);
 
 /// A row per recording, and what each holds.
-void print(const std::vector<RecordingSummary>& recordings, std::ostream& out);
+void print_recordings(const std::vector<RecordingSummary>& recordings, std::ostream& out);
 
 }  // namespace codesign::cli
 
