@@ -5,6 +5,7 @@ set(message_dependencies actionlib_msgs std_msgs)
 set(ros_dependencies
   actionlib diagnostic_updater geometry_msgs rosbag roscpp rosgraph_msgs sensor_msgs tf2_msgs tf2_ros trajectory_msgs visualization_msgs xmlrpcpp ${message_dependencies})
 find_package(catkin REQUIRED COMPONENTS message_generation ${ros_dependencies})
+find_package(rosbag_storage REQUIRED)
 
 file(GLOB message_files RELATIVE ${PROJECT_SOURCE_DIR}/msg CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/msg/*.msg)
 file(GLOB service_files RELATIVE ${PROJECT_SOURCE_DIR}/srv CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/srv/*.srv)
@@ -27,13 +28,25 @@ set(node_mains ${ros_sources})
 list(FILTER node_mains INCLUDE REGEX "_node_main\\.cc$")
 list(FILTER ros_sources EXCLUDE REGEX "_node_main\\.cc$")
 
+# Reads recordings from bags, for the nodes and for the program codesign, which links nothing else of ROS.
+set(bag_sources ${PROJECT_SOURCE_DIR}/src/ros/recording_bag.cc ${PROJECT_SOURCE_DIR}/src/ros/linked_bag_reader.cc)
+list(REMOVE_ITEM ros_sources ${bag_sources})
+add_library(codesign_bags STATIC ${bag_sources})
+set_target_properties(codesign_bags PROPERTIES POSITION_INDEPENDENT_CODE ON)
+target_include_directories(codesign_bags PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
+target_include_directories(codesign_bags SYSTEM PRIVATE ${catkin_INCLUDE_DIRS} ${rosbag_storage_INCLUDE_DIRS})
+target_link_libraries(codesign_bags PUBLIC codesign_core ${rosbag_storage_LIBRARIES})
+codesign_warnings(codesign_bags)
+codesign_sanitize(codesign_bags)
+target_link_libraries(codesign PRIVATE codesign_bags)
+
 add_library(codesign_ros ${ros_sources})
 add_dependencies(codesign_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 target_include_directories(codesign_ros
   PUBLIC ${PROJECT_SOURCE_DIR}/include
   PRIVATE ${PROJECT_SOURCE_DIR}/src)
 target_include_directories(codesign_ros SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/include ${catkin_INCLUDE_DIRS})
-target_link_libraries(codesign_ros PUBLIC codesign_core ${catkin_LIBRARIES} PRIVATE yaml-cpp)
+target_link_libraries(codesign_ros PUBLIC codesign_core codesign_bags ${catkin_LIBRARIES} PRIVATE yaml-cpp)
 codesign_warnings(codesign_ros)
 # Two units, for two processors.
 set(ros_jobs ${ros_sources})

@@ -2,6 +2,7 @@
 #include "assembly/count_equations.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
+#include "cli/recordings_table.h"
 #include "cli/report.h"
 #include "cli/table.h"
 #include "jobs/limit_watch.h"
@@ -61,16 +62,20 @@ int check(const Arguments& arguments, const Console& console) {
   Status status;
   const Counts counts = count_equations(*problem.system(), parameters, &status);
   const std::vector<LimitCrossing> crossings = crossings_at_start(problem, parameters);
+  Warnings of_recordings;
+  const std::vector<RecordingSummary> recordings = check_recordings(problem, console, &of_recordings);
   if (!arguments.json && status.ok()) {
     print_table(counts, console.out);
     for (const LimitCrossing& crossing : crossings) console.out << describe(crossing) << '\n';
+    print_recordings(recordings, console.out);
   }
   Json object;
   object["model"] = problem.robot().name;
   object["parameters"] = parameters_json(problem, parameters);
   if (status.ok()) object["counts"] = to_json(counts);
   object["limits_exceeded"] = to_json(crossings);
-  add_warnings(arguments, problem, {}, &object, console);
+  if (problem.study().identification) object["recordings"] = to_json(recordings);
+  add_warnings(arguments, problem, of_recordings, &object, console);
   return finish(arguments, status, std::move(object), console);
 }
 

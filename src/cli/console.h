@@ -5,6 +5,8 @@
 #include <atomic>
 #include <ostream>
 
+#include "recordings/bag_reader.h"
+
 namespace codesign {
 class Dispatcher;
 }
@@ -18,6 +20,7 @@ struct Console {
   const std::atomic<bool>& cancel;  ///< once set, the command ends soon and keeps its results so far
   void (*loaded)() = nullptr;       ///< called after the input is loaded, before the computation; may be null
   Dispatcher* ranks = nullptr;      ///< the processes of the job, as in require_engine()
+  BagReader bags = {};              ///< reads the bags that a study names; empty: they are refused
 };
 
 /// The program's exit codes.

@@ -11,6 +11,7 @@
 
 #include "description/basis.h"
 #include "description/ensemble.h"
+#include "description/identification.h"
 #include "description/quantity.h"
 #include "description/reference.h"
 #include "description/signal.h"
@@ -127,6 +128,7 @@ struct Study {
   SolverOptions solver;
   OptimizerOptions optimizer;
   EnsembleDescription ensemble;
+  std::optional<IdentificationDescription> identification;
   std::string file;  ///< the file it was read from, for messages
 };
 

@@ -42,6 +42,17 @@ PivotedColumns pivot_columns(const Eigen::MatrixXd& A, double threshold) {
   return {qr.rank(), std::vector<int>(indices.data(), indices.data() + indices.size()), qr.matrixQR().diagonal().cwiseAbs()};
 }
 
+Eigen::MatrixXd upper_factor(const Eigen::MatrixXd& A) {
+  const Eigen::Index rows = std::min(A.rows(), A.cols());
+  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(A.cols(), A.cols());
+  if (rows == 0) return R;
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(A);
+  R.topRows(rows) = qr.matrixQR().topRows(rows).triangularView<Eigen::Upper>();
+  for (Eigen::Index k = 0; k < rows; ++k)
+    if (R(k, k) < 0.0) R.row(k) *= -1.0;
+  return R;
+}
+
 Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& A, double threshold) {
   const Qr qr = factor(A, threshold);
   const Eigen::MatrixXd Q = qr.householderQ();

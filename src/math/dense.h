@@ -28,6 +28,10 @@ struct PivotedColumns {
 /// @param threshold a pivot counts as zero below this fraction of the largest one.
 PivotedColumns pivot_columns(const Eigen::MatrixXd& A, double threshold);
 
+/// R of the QR decomposition A = Q R, square and upper triangular with diagonal entries of 0 or more; rows of zeros where A has fewer rows
+/// than columns. R^T R = A^T A.
+Eigen::MatrixXd upper_factor(const Eigen::MatrixXd& A);
+
 /// An orthonormal basis (one vector per column) of the vectors orthogonal to all columns of A. @param threshold as pivot_columns().
 Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& A, double threshold);
 

@@ -17,6 +17,8 @@ ROWS = [
     ["sparse"],
     ["description"],
     ["sampling"],
+    ["statistics"],
+    ["recordings"],
     ["mechanism"],
     ["reading"],
     ["joints", "forces", "control"],

@@ -75,5 +75,18 @@ TEST(Dense, PrincipalMomentsDoNotDependOnTheAxes) {
   EXPECT_LT((principal_moments(R * moments.asDiagonal() * R.transpose()) - moments).norm(), 1e-14);
 }
 
+TEST(Dense, UpperFactorHasTheProductOfTheMatrix) {
+  const Eigen::MatrixXd A =
+      Eigen::MatrixXd::NullaryExpr(7, 4, [](Eigen::Index i, Eigen::Index j) { return std::sin(double(3 * i + j * j)); });
+  const Eigen::MatrixXd R = upper_factor(A);
+  ASSERT_EQ(R.rows(), 4);
+  EXPECT_LT((R.transpose() * R - A.transpose() * A).norm(), 1e-13);
+  EXPECT_TRUE(R.isUpperTriangular(0.0));
+  EXPECT_GT(R.diagonal().minCoeff(), 0.0);
+  const Eigen::MatrixXd flat = upper_factor(A.topRows(2));
+  ASSERT_EQ(flat.rows(), 4);
+  EXPECT_LT((flat.transpose() * flat - A.topRows(2).transpose() * A.topRows(2)).norm(), 1e-13);
+}
+
 }  // namespace
 }  // namespace codesign

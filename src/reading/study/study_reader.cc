@@ -6,6 +6,7 @@
 #include "reading/study/study_constraints.h"
 #include "reading/study/study_controllers.h"
 #include "reading/study/study_ensemble.h"
+#include "reading/study/study_identify.h"
 #include "reading/study/study_initial_state.h"
 #include "reading/study/study_loads.h"
 #include "reading/study/study_objective.h"
@@ -17,7 +18,11 @@
 namespace codesign {
 namespace {
 
-double read_duration(const YamlValue& value) {
+/// A study that only identifies has no run of its own that could have a duration.
+double read_duration(const YamlValue& root) {
+  const auto identify = root.find("identify");
+  if (identify && !root.find("duration")) return segment_of(*identify);
+  const YamlValue value = root.at("duration");
   const double duration = value.number();
   if (duration <= 0.0) value.fail("the duration must be positive", "more than 0 s");
   return duration;
@@ -33,7 +38,7 @@ std::array<double, 3> read_gravity(const YamlValue& value) {
 Study read_single_run(const YamlValue& root, const std::string& file, const RobotDescription& robot, const TrajectoryLoader& loader) {
   Study study;
   study.file = file;
-  study.duration = read_duration(root.at("duration"));
+  study.duration = read_duration(root);
   if (const auto gravity = root.find("gravity")) study.gravity = read_gravity(*gravity);
   read_parameters(root, robot, &study);
   declare_coefficients(root, &study);
@@ -62,11 +67,13 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
 
 Study read_study(const SourceText& yaml, const RobotDescription& robot, const TrajectoryLoader& loader) {
   const YamlValue root = YamlValue::parse(yaml);
-  root.require_keys({"duration"}, {"gravity", "initial_state", "controllers", "loads", "parameters", "objective", "path", "final",
-                                   "constraints", "limits", "solver", "optimizer", "runs", "uncertain", "robust", "multistart", "engine"});
+  root.require_keys(
+      {}, {"duration", "gravity", "initial_state", "controllers", "loads", "parameters", "objective", "path", "final", "constraints",
+           "limits", "solver", "optimizer", "runs", "uncertain", "robust", "multistart", "engine", "identify"});
   const auto read_run = [&](const YamlValue& study_value) { return read_single_run(study_value, yaml.name, robot, loader); };
   Study study = read_run(root);
   study.ensemble = read_ensemble(root, robot, read_run, study);
+  if (const auto identify = root.find("identify")) study.identification = read_identification(*identify, robot, study);
   return study;
 }
 

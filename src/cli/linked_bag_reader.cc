@@ -1,0 +1,8 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/bag_reader.h"
+
+namespace codesign {
+
+BagReader linked_bag_reader() { return {}; }
+
+}  // namespace codesign

@@ -1,0 +1,38 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "cli/recordings_table.h"
+
+#include <filesystem>
+
+#include "cli/table.h"
+#include "recordings/load_recordings.h"
+#include "text/number_text.h"
+#include "text/unknown_name.h"
+
+namespace codesign::cli {
+
+std::vector<RecordingSummary> check_recordings(const Problem& problem, const Console& console, Warnings* warnings) {
+  std::vector<RecordingSummary> summaries;
+  const std::optional<IdentificationDescription>& identification = problem.study().identification;
+  if (!identification) return summaries;
+  const std::string folder = std::filesystem::absolute(problem.study_text().name).parent_path().string();
+  const StudyRecordings recordings = load_recordings(*identification, problem.robot(), folder, console.bags, warnings);
+  for (const std::vector<JointRecording>* list : {&recordings.data, &recordings.holdout})
+    for (const JointRecording& recording : *list)
+      summaries.push_back(summary_of(recording, measured_motion(recording, identification->filter, warnings)));
+  return summaries;
+}
+
+void print_recordings(const std::vector<RecordingSummary>& recordings, std::ostream& out) {
+  if (recordings.empty()) return;
+  constexpr int kDigits = 6;
+  Table table;
+  table.add({"recording", "samples", "rate [Hz]", "from [s]", "to [s]", "fitted"});
+  for (const RecordingSummary& summary : recordings)
+    table.add({summary.element, std::to_string(summary.samples), readable(summary.rate, kDigits), readable(summary.from, kDigits),
+               readable(summary.to, kDigits), std::to_string(summary.fitted)});
+  table.print(out);
+  for (const RecordingSummary& summary : recordings)
+    out << summary.element << ": " << list_names(summary.measured) << " (" << summary.file << ")\n";
+}
+
+}  // namespace codesign::cli

@@ -1,0 +1,156 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_DESCRIPTION_IDENTIFICATION_H_
+#define MECHANISM_CODESIGN_DESCRIPTION_IDENTIFICATION_H_
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanism_codesign/error.h"
+
+namespace codesign {
+
+// The block `identify:` of a study: which recordings a model is fitted to, and how; doc/study.md describes the keys.
+
+/// What a recording may hold of a joint, in the units of the joint: [rad or m], [rad/s or m/s], [N m or N].
+enum class MeasuredQuantity { kPosition, kVelocity, kEffort };
+constexpr std::array<const char*, 3> kMeasuredQuantityNames{"position", "velocity", "effort"};
+
+/// A column of a table of numbers, by its name or its number. What counts is scale * (number as written) + offset.
+struct ColumnDescription {
+  std::string name;     ///< empty: the column has the number `number`
+  int number = 0;       ///< from 1; 0: the column has the name `name`
+  double scale = 1.0;   ///< not 0
+  double offset = 0.0;  ///< in the unit of the scaled value
+  SourceLocation where;
+  std::string element;  ///< its place in the study, for messages: `identify.data[0].columns.time`
+};
+
+/// A column that holds a quantity of a joint.
+struct MeasuredColumn {
+  std::string joint;
+  MeasuredQuantity quantity = MeasuredQuantity::kPosition;
+  ColumnDescription column;
+};
+
+/// What separates the cells of a row.
+enum class CellDelimiter {
+  kAuto,  ///< the first of tab, semicolon and comma that the first row contains; white space if none is there
+  kComma,
+  kSemicolon,
+  kTab,
+  kSpace  ///< any white space
+};
+constexpr std::array<const char*, 5> kCellDelimiterNames{"auto", "comma", "semicolon", "tab", "space"};
+
+/// Which time of a message counts.
+enum class StampKind {
+  kHeader,  ///< the stamp that the publisher wrote
+  kReceive  ///< when the bag's recorder received it
+};
+constexpr std::array<const char*, 2> kStampNames{"header", "receive"};
+
+/// What to do where samples are missing for longer than a few periods.
+enum class GapRule {
+  kRefuse,  ///< it is an error
+  kSplit    ///< the recording is used as several
+};
+constexpr std::array<const char*, 2> kGapRuleNames{"refuse", "split"};
+
+/// One entry of `identify.data` or `identify.holdout`: a topic of a bag, or a table of numbers as text.
+struct RecordingDescription {
+  std::string file;  ///< as written; relative to the folder of the study
+  bool is_bag = false;
+  std::string topic;                                       ///< of a bag: sensor_msgs/JointState
+  StampKind stamp = StampKind::kHeader;                    ///< of a bag
+  CellDelimiter delimiter = CellDelimiter::kAuto;          ///< of a table
+  std::optional<ColumnDescription> time;                   ///< of a table; without columns they are found by their names
+  std::vector<MeasuredColumn> columns;                     ///< of a table
+  double from = -std::numeric_limits<double>::infinity();  ///< part to use [s]: of the time column, or from the bag's first message
+  double to = std::numeric_limits<double>::infinity();
+  GapRule gaps = GapRule::kRefuse;
+  std::string element;  ///< `identify.data[0]`
+  SourceLocation where;
+};
+
+/// A number that is known, or to be fitted together with the tuned parameters.
+struct FittedNumber {
+  explicit FittedNumber(double known = 0.0) : value(known) {}
+
+  double value;  ///< known, or where the fit starts
+  bool is_fitted = false;
+  double lower = -std::numeric_limits<double>::infinity();  ///< bounds of a fitted number
+  double upper = std::numeric_limits<double>::infinity();
+  SourceLocation where;
+};
+
+/// How the effort tau(t) on a joint shows in what was recorded as its effort, e: effort_scale e(t + delay) = tau(t) + offset;
+/// doc/theory.md (28c).
+struct JointCalibration {
+  std::string joint;
+  FittedNumber effort_scale{1.0};  ///< e.g. torque constant times gear ratio; not 0
+  FittedNumber delay{0.0};         ///< by which the recorded effort is late beside the recorded motion [s]; negative: early
+  FittedNumber offset{0.0};        ///< recorded beyond the effort that the mechanism needs [N m or N]
+  SourceLocation where;
+};
+
+/// What is compared with the recording.
+enum class ResidualKind {
+  kEffort,  ///< inverse dynamics at the measured motion
+  kMotion   ///< simulated motion, in segments
+};
+constexpr std::array<const char*, 2> kResidualNames{"effort", "motion"};
+
+/// Zero-phase low-pass filters and the rate of what is fitted; doc/theory.md (29)-(31).
+struct FilterOptions {
+  double cutoff = 0.0;           ///< of measured motion before it is differentiated [Hz]; 0: no filter
+  double residual_cutoff = 0.0;  ///< of measured and computed efforts alike [Hz]; 0: no filter
+  int order = 4;                 ///< of the Butterworth filter, which runs forward and backward
+  int decimate = 1;              ///< every so many samples of what is filtered are fitted
+  SourceLocation where;
+};
+
+/// A loss that lets outliers count less. `scale` is in units of the spread of the residuals of each joint.
+enum class LossKind {
+  kNone,   ///< sum of squares
+  kHuber,  ///< quadratic up to `scale`, linear beyond
+  kSoftL1  ///< 2 (sqrt(1 + x^2) - 1), a smooth Huber loss
+};
+constexpr std::array<const char*, 3> kLossNames{"none", "huber", "soft_l1"};
+struct LossOptions {
+  LossKind kind = LossKind::kNone;
+  double scale = 1.345;  ///< 95 % efficient for normal residuals (Huber)
+};
+
+/// How the noise of residuals is taken in intervals; doc/theory.md (33)-(36).
+enum class NoiseModel {
+  kWhite,       ///< independent, equal variance
+  kCorrelated,  ///< Newey and West
+  kBootstrap    ///< moving blocks
+};
+constexpr std::array<const char*, 3> kNoiseNames{"white", "correlated", "bootstrap"};
+struct IntervalOptions {
+  double level = 0.95;  ///< in (0, 1)
+  NoiseModel noise = NoiseModel::kCorrelated;
+  int lag = 0;            ///< of the kernel, or length of the blocks, in fitted samples; 0: chosen automatically
+  bool profiles = false;  ///< intervals of the profile likelihood, too
+};
+
+/// The whole block.
+struct IdentificationDescription {
+  std::vector<RecordingDescription> data;     ///< fitted; at least one
+  std::vector<RecordingDescription> holdout;  ///< judged on, never fitted
+  ResidualKind residual = ResidualKind::kEffort;
+  double segment = 1.0;  ///< duration of the segments of kMotion [s]
+  FilterOptions filter;
+  std::vector<JointCalibration> joints;  ///< those that the study names
+  LossOptions loss;
+  IntervalOptions intervals;
+  SourceLocation where;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_DESCRIPTION_IDENTIFICATION_H_

@@ -1,0 +1,129 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/study/study_identify.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "reading/study/study_fields.h"
+#include "reading/study/study_parameters.h"
+#include "reading/study/study_recordings.h"
+#include "reading/study/study_values.h"
+
+namespace codesign {
+namespace {
+
+double read_positive_number(const YamlValue& value, const std::string& unit) {
+  const double number = value.number();
+  if (!(number > 0.0)) value.fail("not above zero", "more than 0" + unit);
+  return number;
+}
+
+void read_cutoff(const YamlValue& filter, const std::string& key, double* cutoff) {
+  const auto value = filter.find(key);
+  if (!value) return;
+  *cutoff = value->number();
+  if (*cutoff < 0.0) value->fail("a cutoff is a frequency", "more than 0 Hz, or 0 for no filter");
+}
+
+FilterOptions read_filter(const YamlValue& filter) {
+  constexpr int kHighestOrder = 8, kMostDecimated = 1000;
+  filter.require_keys({}, {"cutoff", "residual_cutoff", "order", "decimate"});
+  FilterOptions options;
+  options.where = filter.where();
+  read_cutoff(filter, "cutoff", &options.cutoff);
+  options.residual_cutoff = options.cutoff;
+  read_cutoff(filter, "residual_cutoff", &options.residual_cutoff);
+  read_whole(filter, "order", 1, kHighestOrder, &options.order);
+  read_whole(filter, "decimate", 1, kMostDecimated, &options.decimate);
+  return options;
+}
+
+/// A number is known; a map is to be fitted, from `initial` within `lower` and `upper`. @param lower the bound unless another one is given
+void read_fitted(const YamlValue& value, double lower, FittedNumber* number) {
+  number->where = value.where();
+  if (!value.is_map()) {
+    number->value = value.number();
+    return;
+  }
+  value.require_keys({}, {"initial", "lower", "upper"});
+  Parameter parameter;
+  parameter.value = number->value;
+  parameter.lower = lower;
+  if (const auto initial = value.find("initial")) parameter.value = initial->number();
+  read_bounds(value, &parameter);
+  number->is_fitted = true;
+  number->value = parameter.value;
+  number->lower = parameter.lower;
+  number->upper = parameter.upper;
+}
+
+JointCalibration read_calibration(const std::string& name, const YamlValue& value, const RobotDescription& robot) {
+  constexpr double kAny = -std::numeric_limits<double>::infinity();
+  JointCalibration calibration;
+  calibration.joint = scalar_joint(name, robot, value).name;
+  calibration.where = value.where();
+  value.require_keys({}, {"effort_scale", "delay", "offset"});
+  if (const auto scale = value.find("effort_scale")) {
+    read_fitted(*scale, kAny, &calibration.effort_scale);
+    if (calibration.effort_scale.value == 0.0) scale->fail("a scale of zero leaves nothing of the measurement", "any other number");
+  }
+  if (const auto delay = value.find("delay")) read_fitted(*delay, 0.0, &calibration.delay);
+  if (const auto offset = value.find("offset")) read_fitted(*offset, kAny, &calibration.offset);
+  return calibration;
+}
+
+bool has_fitted(const JointCalibration& joint) { return joint.effort_scale.is_fitted || joint.delay.is_fitted || joint.offset.is_fitted; }
+
+LossOptions read_loss(const YamlValue& loss) {
+  loss.require_keys({"type"}, {"scale"});
+  LossOptions options;
+  read_choice(loss, "type", kLossNames, &options.kind);
+  if (const auto scale = loss.find("scale")) {
+    options.scale = read_positive_number(*scale, ", in units of the residuals' spread");
+    if (options.kind == LossKind::kNone) scale->fail("without a loss there is nothing to scale", "type: huber or soft_l1");
+  }
+  return options;
+}
+
+IntervalOptions read_intervals(const YamlValue& intervals) {
+  intervals.require_keys({}, {"level", "noise", "lag", "profiles"});
+  IntervalOptions options;
+  if (const auto level = intervals.find("level")) {
+    options.level = level->number();
+    if (!(options.level > 0.0 && options.level < 1.0)) level->fail("the level is a probability", "between 0 and 1, such as 0.95");
+  }
+  read_choice(intervals, "noise", kNoiseNames, &options.noise);
+  read_whole(intervals, "lag", 1, std::numeric_limits<int>::max(), &options.lag);
+  if (const auto lag = intervals.find("lag"); lag && options.noise == NoiseModel::kWhite)
+    lag->fail("white noise has no lag", "noise: correlated or bootstrap");
+  if (const auto profiles = intervals.find("profiles")) options.profiles = profiles->boolean();
+  return options;
+}
+
+}  // namespace
+
+double segment_of(const YamlValue& identify) {
+  const auto segment = identify.find("segment");
+  return segment ? read_positive_number(*segment, " s") : IdentificationDescription().segment;
+}
+
+IdentificationDescription read_identification(const YamlValue& identify, const RobotDescription& robot, const Study& study) {
+  identify.require_keys({"data"}, {"holdout", "residual", "segment", "filter", "joints", "loss", "intervals"});
+  IdentificationDescription description;
+  description.where = identify.where();
+  description.data = read_recording_list(identify.at("data"), robot);
+  if (const auto holdout = identify.find("holdout")) description.holdout = read_recording_list(*holdout, robot);
+  read_choice(identify, "residual", kResidualNames, &description.residual);
+  description.segment = segment_of(identify);
+  if (const auto filter = identify.find("filter")) description.filter = read_filter(*filter);
+  if (const auto joints = identify.find("joints"))
+    for (const auto& [name, value] : joints->entries()) description.joints.push_back(read_calibration(name, value, robot));
+  if (const auto loss = identify.find("loss")) description.loss = read_loss(*loss);
+  if (const auto intervals = identify.find("intervals")) description.intervals = read_intervals(*intervals);
+  if (study.tuned.empty() && std::none_of(description.joints.begin(), description.joints.end(), has_fitted))
+    identify.fail("there is nothing to identify", "at least one parameter under parameters, or a map under identify.joints.JOINT");
+  return description;
+}
+
+}  // namespace codesign

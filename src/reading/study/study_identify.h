@@ -1,0 +1,20 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_IDENTIFY_H_
+#define MECHANISM_CODESIGN_READING_STUDY_STUDY_IDENTIFY_H_
+
+#include "description/identification.h"
+#include "description/robot.h"
+#include "description/study.h"
+#include "reading/yaml/yaml_reader.h"
+
+namespace codesign {
+
+/// Reads the map `identify:` of a study whose parameters have been read. The recordings themselves are not opened. @throws InputError
+IdentificationDescription read_identification(const YamlValue& identify, const RobotDescription& robot, const Study& study);
+
+/// The duration of a study with `identify:` that gives none: that of a segment, `identify.segment` or its default [s].
+double segment_of(const YamlValue& identify);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_IDENTIFY_H_

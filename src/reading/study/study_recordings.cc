@@ -1,0 +1,118 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/study/study_recordings.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "reading/study/study_fields.h"
+#include "reading/study/study_values.h"
+#include "text/nearest_name.h"
+
+namespace codesign {
+namespace {
+
+constexpr const char* kColumnForms = "a name, a number from 1, or {column, scale, offset}";
+constexpr const char* kTime = "time";
+
+void read_column_place(const YamlValue& value, ColumnDescription* column) {
+  const std::string text = value.text();
+  const std::optional<double> number = number_in(text);
+  if (!number) {
+    column->name = text;
+    return;
+  }
+  column->number = value.integer();
+  if (column->number < 1) value.fail("columns are numbered from 1", kColumnForms);
+}
+
+ColumnDescription read_column(const YamlValue& value) {
+  ColumnDescription column;
+  column.where = value.where();
+  column.element = value.path();
+  if (value.is_list()) value.fail("not a column", kColumnForms);
+  if (!value.is_map()) {
+    read_column_place(value, &column);
+    return column;
+  }
+  value.require_keys({"column"}, {"scale", "offset"});
+  read_column_place(value.at("column"), &column);
+  if (const auto scale = value.find("scale")) {
+    column.scale = scale->number();
+    if (column.scale == 0.0) scale->fail("a scale of zero leaves nothing of the measurement", "any other number");
+  }
+  if (const auto offset = value.find("offset")) column.offset = offset->number();
+  return column;
+}
+
+/// `JOINT/position`, as signals are spelled. The name of a joint may contain slashes.
+MeasuredColumn read_measured(const std::string& key, const YamlValue& value, const RobotDescription& robot) {
+  constexpr const char* kAllowed = "time, JOINT/position, JOINT/velocity or JOINT/effort";
+  const std::size_t slash = key.rfind('/');
+  const std::vector<std::string> names(kMeasuredQuantityNames.begin(), kMeasuredQuantityNames.end());
+  if (slash == std::string::npos) value.fail("not a measured quantity" + did_you_mean(nearest_name(key, {kTime})), kAllowed);
+  MeasuredColumn measured;
+  const std::string quantity = key.substr(slash + 1);
+  const auto found = std::find(names.begin(), names.end(), quantity);
+  if (found == names.end()) value.fail("not a measured quantity" + did_you_mean(nearest_name(quantity, names)), kAllowed);
+  measured.quantity = static_cast<MeasuredQuantity>(found - names.begin());
+  measured.joint = scalar_joint(key.substr(0, slash), robot, value).name;
+  measured.column = read_column(value);
+  return measured;
+}
+
+void read_columns(const YamlValue& columns, const RobotDescription& robot, RecordingDescription* recording) {
+  for (const auto& [key, value] : columns.entries()) {
+    if (key == kTime)
+      recording->time = read_column(value);
+    else
+      recording->columns.push_back(read_measured(key, value, robot));
+  }
+  if (!recording->time) columns.fail("the column of the time is missing", "time: COLUMN beside the quantities");
+  if (recording->columns.empty()) columns.fail("no column of a joint", "JOINT/position: COLUMN, JOINT/velocity or JOINT/effort");
+}
+
+void read_bag(const YamlValue& value, RecordingDescription* recording) {
+  value.require_keys({"bag", "topic"}, {"from", "to", "gaps", "stamp"});
+  recording->is_bag = true;
+  recording->file = value.at("bag").text();
+  recording->topic = value.at("topic").text();
+  read_choice(value, "stamp", kStampNames, &recording->stamp);
+}
+
+void read_table(const YamlValue& value, const RobotDescription& robot, RecordingDescription* recording) {
+  value.require_keys({"csv"}, {"columns", "delimiter", "from", "to", "gaps"});
+  recording->file = value.at("csv").text();
+  read_choice(value, "delimiter", kCellDelimiterNames, &recording->delimiter);
+  if (const auto columns = value.find("columns")) read_columns(*columns, robot, recording);
+}
+
+RecordingDescription read_recording(const YamlValue& value, const RobotDescription& robot) {
+  if (!value.is_map()) value.fail("not a recording", "{bag: FILE, topic: NAME} or {csv: FILE, columns: {time: COLUMN, ...}}");
+  RecordingDescription recording;
+  recording.element = value.path();
+  recording.where = value.where();
+  const bool is_bag = value.find("bag").has_value();
+  if (is_bag == value.find("csv").has_value()) value.fail("a recording is one file", "either bag: FILE with topic: NAME, or csv: FILE");
+  if (is_bag)
+    read_bag(value, &recording);
+  else
+    read_table(value, robot, &recording);
+  const auto from = value.find("from"), to = value.find("to");
+  if (from) recording.from = from->number();
+  if (to) recording.to = to->number();
+  if (!(recording.from < recording.to)) (to ? *to : *from).fail("the part to use ends before it begins", "from < to");
+  read_choice(value, "gaps", kGapRuleNames, &recording.gaps);
+  return recording;
+}
+
+}  // namespace
+
+std::vector<RecordingDescription> read_recording_list(const YamlValue& list, const RobotDescription& robot) {
+  std::vector<RecordingDescription> recordings;
+  for (const YamlValue& item : list.items()) recordings.push_back(read_recording(item, robot));
+  if (recordings.empty()) list.fail("no recording", "at least one {bag: FILE, topic: NAME} or {csv: FILE}");
+  return recordings;
+}
+
+}  // namespace codesign

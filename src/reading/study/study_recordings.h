@@ -1,0 +1,18 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_RECORDINGS_H_
+#define MECHANISM_CODESIGN_READING_STUDY_STUDY_RECORDINGS_H_
+
+#include <vector>
+
+#include "description/identification.h"
+#include "description/robot.h"
+#include "reading/yaml/yaml_reader.h"
+
+namespace codesign {
+
+/// Reads a list of recordings, `identify.data` or `identify.holdout`; at least one. @throws InputError
+std::vector<RecordingDescription> read_recording_list(const YamlValue& list, const RobotDescription& robot);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_RECORDINGS_H_

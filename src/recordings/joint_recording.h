@@ -1,0 +1,47 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_RECORDINGS_JOINT_RECORDING_H_
+#define MECHANISM_CODESIGN_RECORDINGS_JOINT_RECORDING_H_
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "description/identification.h"
+
+namespace codesign {
+
+/// What was measured of one joint, one number per time in the joint's units; an empty column was not measured.
+struct JointSamples {
+  std::string joint;
+  std::vector<double> position, velocity, effort;
+
+  std::vector<double>& of(MeasuredQuantity quantity) {
+    return quantity == MeasuredQuantity::kPosition ? position : quantity == MeasuredQuantity::kVelocity ? velocity : effort;
+  }
+  const std::vector<double>& of(MeasuredQuantity quantity) const { return const_cast<JointSamples*>(this)->of(quantity); }
+};
+
+/// Measurements of several joints at common times. What load_recordings() returns has ascending times, finite numbers and no gap.
+struct JointRecording {
+  std::string file;                 ///< the path that was read
+  std::string topic;                ///< of a bag; empty for a table
+  std::vector<double> times;        ///< [s], as written in a table's column, or from the bag's beginning
+  std::vector<std::size_t> places;  ///< one per time: the line of the file, or the number of the topic's message, from 1
+  std::vector<JointSamples> joints;
+  std::string element;   ///< the entry of the study, for messages: `identify.data[0]`
+  SourceLocation where;  ///< likewise
+
+  /// The samples of a joint; null if it was not recorded.
+  const JointSamples* find(const std::string& joint) const;
+  /// The place of sample k in words: `line 812, t = 8.11 s`.
+  std::string place_of(std::size_t k) const;
+  /// The file and, of a table, the line of sample k.
+  SourceLocation location_of(std::size_t k) const;
+};
+
+/// Samples `begin` to `end` - 1. @param begin at most `end`, which is at most the number of samples
+JointRecording part_of(const JointRecording& recording, std::size_t begin, std::size_t end);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_RECORDINGS_JOINT_RECORDING_H_

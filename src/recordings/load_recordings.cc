@@ -1,0 +1,81 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/load_recordings.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "recordings/recording_check.h"
+#include "recordings/table_recording.h"
+#include "recordings/unit_check.h"
+#include "text/unknown_name.h"
+
+namespace codesign {
+namespace {
+
+/// What is the same for all recordings of a study.
+struct Context {
+  const IdentificationDescription& identification;
+  const RobotDescription& robot;
+  const std::string& folder;
+  const BagReader& reader;
+  Warnings* warnings;
+  std::vector<std::string> joints;
+};
+
+std::string path_of(const RecordingDescription& description, const std::string& folder) {
+  const std::filesystem::path path(description.file);
+  if (path.is_absolute()) return description.file;
+  if (folder.empty())
+    throw InputError({description.where, description.element + (description.is_bag ? ".bag" : ".csv"),
+                      "a relative path is allowed only in a study file, not in a study on the parameter server", description.file,
+                      "an absolute path"});
+  return (std::filesystem::path(folder) / path).lexically_normal().string();
+}
+
+JointRecording read(const RecordingDescription& description, const Context& context) {
+  const std::string path = path_of(description, context.folder);
+  if (!description.is_bag) return read_table_recording(description, path, context.joints);
+  if (!context.reader)
+    throw InputError({description.where, description.element + ".bag", "this program was built without ROS, which reads bags", path,
+                      "csv: FILE; `rostopic echo -b BAG -p TOPIC` writes such a table where ROS is there"});
+  return context.reader(description, path, context.joints, context.warnings);
+}
+
+/// Each joint that the study calibrates must have been recorded with an effort.
+void require_calibrated_joints(const JointRecording& recording, const IdentificationDescription& identification) {
+  std::vector<std::string> names;
+  for (const JointSamples& samples : recording.joints) names.push_back(samples.joint);
+  for (const JointCalibration& calibration : identification.joints) {
+    const std::string element = "identify.joints." + calibration.joint;
+    const JointSamples* samples = recording.find(calibration.joint);
+    if (samples == nullptr) throw unknown_name(calibration.where, element, "joint in " + recording.file, calibration.joint, names);
+    if (samples->effort.empty())
+      throw InputError({calibration.where, element, "no effort of this joint was recorded, which its scale, delay and offset are about",
+                        recording.file, "a recording with " + calibration.joint + "/effort"});
+  }
+}
+
+std::vector<JointRecording> load(const std::vector<RecordingDescription>& descriptions, const Context& context) {
+  std::vector<JointRecording> recordings;
+  for (const RecordingDescription& description : descriptions) {
+    const JointRecording whole = read(description, context);
+    require_calibrated_joints(whole, context.identification);
+    JointRecording part = checked_part(whole, description.from, description.to);
+    unwrap_turns(context.robot, &part, context.warnings);
+    check_units(context.robot, part, context.warnings);
+    for (JointRecording& piece : without_gaps(part, description.gaps, context.warnings)) recordings.push_back(std::move(piece));
+  }
+  return recordings;
+}
+
+}  // namespace
+
+StudyRecordings load_recordings(const IdentificationDescription& identification, const RobotDescription& robot, const std::string& folder,
+                                const BagReader& reader, Warnings* warnings) {
+  Context context{identification, robot, folder, reader, warnings, {}};
+  for (const JointDescription& joint : robot.joints)
+    if (has_one_coordinate(joint.type)) context.joints.push_back(joint.name);
+  return {load(identification.data, context), load(identification.holdout, context)};
+}
+
+}  // namespace codesign

@@ -1,0 +1,31 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_RECORDINGS_LOAD_RECORDINGS_H_
+#define MECHANISM_CODESIGN_RECORDINGS_LOAD_RECORDINGS_H_
+
+#include <string>
+#include <vector>
+
+#include "description/identification.h"
+#include "description/robot.h"
+#include "mechanism_codesign/warning.h"
+#include "recordings/bag_reader.h"
+#include "recordings/joint_recording.h"
+
+namespace codesign {
+
+/// The recordings of a study.
+struct StudyRecordings {
+  std::vector<JointRecording> data, holdout;
+};
+
+/// Reads and checks the recordings that a study names: checked_part(), without_gaps(), unwrap_turns(), check_units(). Each joint of
+/// `identify.joints` must be in each recording.
+/// @param folder base of relative paths; empty: only absolute paths are accepted.
+/// @param reader reads bags; if it is empty, a study that names one is refused.
+/// @throws InputError with the place in the study or in the file.
+StudyRecordings load_recordings(const IdentificationDescription& identification, const RobotDescription& robot, const std::string& folder,
+                                const BagReader& reader, Warnings* warnings);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_RECORDINGS_LOAD_RECORDINGS_H_

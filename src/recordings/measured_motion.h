@@ -1,0 +1,46 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_RECORDINGS_MEASURED_MOTION_H_
+#define MECHANISM_CODESIGN_RECORDINGS_MEASURED_MOTION_H_
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "description/identification.h"
+#include "mechanism_codesign/warning.h"
+#include "recordings/joint_recording.h"
+#include "recordings/uniform_samples.h"
+
+namespace codesign {
+
+/// The motion of a joint at equal steps, and the effort that was recorded with it; in the joint's units.
+struct JointMotion {
+  std::string joint;
+  Eigen::VectorXd position, velocity, acceleration;  ///< empty if nothing was recorded that tells them
+  Eigen::VectorXd effort;                            ///< as recorded, not filtered; empty if it was not
+  bool velocity_measured = false;                    ///< or else it is the derivative of the position
+};
+
+/// A recording at equal steps, with velocities and accelerations; doc/theory.md (29)-(31).
+struct MeasuredMotion {
+  UniformTimes times;
+  std::vector<JointMotion> joints;  ///< in the order of the recording
+  /// The samples to fit: `first`, `first + every`, ... below `end`. Near the ends filters know one side only, so that 2/cutoff is left out
+  /// there, for both cutoffs; what a mirrored end does to the filter of order four has then decayed to 1 %.
+  Eigen::Index first = 0, end = 0, every = 1;
+
+  Eigen::Index fitted() const { return end > first ? (end - first + every - 1) / every : 0; }
+};
+
+/// Positions and measured velocities are resampled by cubics, efforts by lines; positions and velocities are filtered at `cutoff`; a
+/// velocity that was not measured is the derivative of the position, an acceleration always that of the velocity.
+///
+/// Residuals in effort are to be filtered at `residual_cutoff`, the measured and the computed ones alike, and then to be taken at the
+/// samples to fit.
+/// @param recording as load_recordings() returns it. Warns with `recording_resampled`, `recording_not_filtered` and `recording_aliased`.
+/// @throws InputError if a cutoff is not below half of the rate, or the recording is too short for the filter.
+MeasuredMotion measured_motion(const JointRecording& recording, const FilterOptions& filter, Warnings* warnings);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_RECORDINGS_MEASURED_MOTION_H_

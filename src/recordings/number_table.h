@@ -1,0 +1,60 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_RECORDINGS_NUMBER_TABLE_H_
+#define MECHANISM_CODESIGN_RECORDINGS_NUMBER_TABLE_H_
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "description/identification.h"
+#include "mechanism_codesign/error.h"
+
+namespace codesign {
+
+/// A table of numbers as text: one row per line, all rows with the same number of cells.
+///
+/// Lines that are empty or begin with `#` are skipped. The first row holds the names of the columns, unless all its cells are numbers; then
+/// a comment right above it with as many cells counts as names, as numpy writes them. Names may be quoted.
+class NumberTable {
+ public:
+  /// @param file for messages. @throws InputError if there is no row.
+  NumberTable(std::string file, std::string text, CellDelimiter delimiter);
+
+  /// Names of the columns; empty if the table has none.
+  const std::vector<std::string>& names() const { return names_; }
+  /// Number of columns.
+  int width() const { return width_; }
+  const std::string& file() const { return file_; }
+  /// The line of the names, or else of the first row.
+  int first_line() const { return first_line_; }
+
+  /// The numbers of some columns.
+  struct Columns {
+    std::vector<std::vector<double>> values;  ///< one per column asked for, with one number per row
+    std::vector<std::size_t> lines;           ///< of each row, from 1
+  };
+  /// Reads some columns; the others may hold any text. `nan` and `inf` are numbers here. @param indices from 0 to width() - 1.
+  /// @throws InputError with the line for a row with more or fewer cells and a cell that is not a number.
+  Columns read(const std::vector<int>& indices) const;
+
+ private:
+  using Cells = std::vector<std::string_view>;
+  void split(std::string_view line, Cells* cells) const;
+  void read_row(const Cells& cells, std::size_t line, const std::vector<int>& indices, Columns* columns) const;
+  double read_cell(std::string_view cell, std::size_t number, std::size_t column) const;
+  [[noreturn]] void fail(std::size_t line, const std::string& element, const std::string& message, std::string_view value,
+                         const std::string& allowed) const;
+
+  std::string file_, text_;
+  char delimiter_ = ',';  ///< a blank: any white space
+  std::vector<std::string> names_;
+  int width_ = 0;
+  std::size_t body_ = 0;  ///< where the rows begin in the text
+  int body_line_ = 1;     ///< the line there
+  int first_line_ = 1;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_RECORDINGS_NUMBER_TABLE_H_

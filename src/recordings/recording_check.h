@@ -1,0 +1,37 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_RECORDINGS_RECORDING_CHECK_H_
+#define MECHANISM_CODESIGN_RECORDINGS_RECORDING_CHECK_H_
+
+#include <vector>
+
+#include "description/robot.h"
+#include "mechanism_codesign/warning.h"
+#include "recordings/joint_recording.h"
+
+namespace codesign {
+
+/// A pause between two samples counts as a gap if it is longer than this many median periods; shorter ones are interpolated.
+constexpr double kGapPeriods = 5.0;
+/// Fewer samples than these are no recording.
+constexpr std::size_t kLeastSamples = 20;
+
+/// The samples with `from` <= t <= `to`. Numbers must be finite and times ascend in that part alone.
+/// @throws InputError with the place of a number that is not finite, of a time that repeats or jumps back, and if fewer than kLeastSamples
+/// are left.
+JointRecording checked_part(const JointRecording& recording, double from, double to);
+
+/// The recording in pieces without gaps. With GapRule::kSplit pieces of fewer than kLeastSamples are left out, with the warning
+/// `recording_piece_dropped`; interpolated pauses of more than 1.5 periods give `recording_samples_missing`.
+/// @throws InputError with the place of the first gap for GapRule::kRefuse, or if nothing is left.
+std::vector<JointRecording> without_gaps(const JointRecording& recording, GapRule rule, Warnings* warnings);
+
+/// Adds whole turns to the positions of turning joints where they jump by more than half a turn between two samples, as encoders that count
+/// from -pi to pi do; warning `recording_unwrapped`.
+void unwrap_turns(const RobotDescription& robot, JointRecording* recording, Warnings* warnings);
+
+/// The median of the periods between the times [s]. @param times at least two
+double median_period(const std::vector<double>& times);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_RECORDINGS_RECORDING_CHECK_H_

@@ -1,0 +1,22 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_RECORDINGS_TABLE_RECORDING_H_
+#define MECHANISM_CODESIGN_RECORDINGS_TABLE_RECORDING_H_
+
+#include <string>
+#include <vector>
+
+#include "description/identification.h"
+#include "recordings/joint_recording.h"
+
+namespace codesign {
+
+/// Reads a table of numbers; what its numbers mean is left to check_recording(). Without `columns` in the description, those named `time`
+/// (or `t`) and `JOINT/position`, `JOINT/velocity`, `JOINT/effort` are read.
+/// @param path of the file, at most 2 GB. @param joints known names of joints.
+/// @throws InputError for a file that cannot be read, a column that is not there, or a cell that is not a number.
+JointRecording read_table_recording(const RecordingDescription& description, const std::string& path,
+                                    const std::vector<std::string>& joints);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_RECORDINGS_TABLE_RECORDING_H_

@@ -1,0 +1,17 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_RECORDINGS_UNIT_CHECK_H_
+#define MECHANISM_CODESIGN_RECORDINGS_UNIT_CHECK_H_
+
+#include "description/robot.h"
+#include "mechanism_codesign/warning.h"
+#include "recordings/joint_recording.h"
+
+namespace codesign {
+
+/// Warns of what looks like other units: `recording_units` where a measured velocity is not the derivative of the position but nearly
+/// proportional to it, and `recording_beyond_limits` where positions lie far outside the joint's `<limit>`.
+void check_units(const RobotDescription& robot, const JointRecording& recording, Warnings* warnings);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_RECORDINGS_UNIT_CHECK_H_

@@ -1,0 +1,8 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "ros/recording_bag.h"
+
+namespace codesign {
+
+BagReader linked_bag_reader() { return read_recording_bag; }
+
+}  // namespace codesign

@@ -1,0 +1,24 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_RECORDING_BAG_H_
+#define MECHANISM_CODESIGN_ROS_RECORDING_BAG_H_
+
+#include <string>
+#include <vector>
+
+#include "recordings/bag_reader.h"
+
+namespace codesign {
+
+/// Reads the sensor_msgs/JointState messages of a topic.
+///
+/// A time counts from the first message of the bag: the first message of the topic stands where it was received, the others by their
+/// stamps. Several publishers may share the topic; used are the messages that name most of the joints, and `recording_joints_left_out`
+/// warns of the others. An array that is empty in all messages, or NaN throughout, was not measured. `recording_clock` warns where stamps
+/// and times of reception differ by more than half a second, `recording_all_zero` of efforts and velocities that are zero throughout.
+/// @throws InputError as BagReader says, and for stamps of zero and arrays of other sizes than the names.
+JointRecording read_recording_bag(const RecordingDescription& description, const std::string& path, const std::vector<std::string>& joints,
+                                  Warnings* warnings);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_RECORDING_BAG_H_

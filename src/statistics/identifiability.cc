@@ -1,0 +1,95 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "statistics/identifiability.h"
+
+#include <cmath>
+
+#include "math/dense.h"
+#include "text/number_text.h"
+
+namespace codesign {
+namespace {
+
+// Entries of C, for columns of length one, that are rounding.
+constexpr double kNegligible = 1e-6;
+
+Eigen::VectorXd column_lengths(const Eigen::MatrixXd& R) {
+  Eigen::VectorXd lengths = R.colwise().norm();
+  for (double& length : lengths)
+    if (length == 0.0) length = 1.0;
+  return lengths;
+}
+
+Eigen::MatrixXd columns_of(const Eigen::MatrixXd& A, const std::vector<int>& indices) {
+  Eigen::MatrixXd result(A.rows(), static_cast<Eigen::Index>(indices.size()));
+  for (std::size_t k = 0; k < indices.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = A.col(indices[k]);
+  return result;
+}
+
+/// `+ 0.98 mass_3`, `- mass_3`.
+std::string term(double factor, const std::string& name) {
+  constexpr int kDigits = 3;
+  const std::string number = readable(std::abs(factor), kDigits);
+  return std::string(factor < 0.0 ? " - " : " + ") + (number == "1" ? "" : number + " ") + name;
+}
+
+/// `a`, `a and b`, `a, b and c`.
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t k = 0; k < words.size(); ++k) text += (k == 0 ? "" : k + 1 < words.size() ? ", " : " and ") + words[k];
+  return text;
+}
+
+}  // namespace
+
+Identifiability find_identifiable(const Eigen::MatrixXd& R, double threshold) {
+  const Eigen::Index p = R.cols();
+  Identifiability found;
+  found.is_determined.assign(static_cast<std::size_t>(p), true);
+  if (p == 0) return found;
+  const Eigen::VectorXd lengths = column_lengths(R);
+  const Eigen::MatrixXd scaled = R * lengths.cwiseInverse().asDiagonal();
+  found.singular_values = singular_values(scaled).values;
+  const PivotedColumns pivots = pivot_columns(scaled, threshold);
+  found.rank = scaled.isZero(0.0) ? 0 : static_cast<int>(pivots.rank);
+  const std::vector<int> independent(pivots.order.begin(), pivots.order.begin() + found.rank);
+  found.dependent.assign(pivots.order.begin() + found.rank, pivots.order.end());
+  const auto count = static_cast<Eigen::Index>(found.dependent.size());
+  found.null_directions = Eigen::MatrixXd::Zero(p, count);
+  if (count == 0) return found;
+  const Eigen::MatrixXd C =
+      found.rank == 0 ? Eigen::MatrixXd(0, count) : least_norm(columns_of(scaled, independent)).solve(columns_of(scaled, found.dependent));
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const int d = found.dependent[static_cast<std::size_t>(k)];
+    found.null_directions(d, k) = 1.0;
+    for (std::size_t row = 0; row < independent.size(); ++row) {
+      const double c = C(static_cast<Eigen::Index>(row), k);
+      const int i = independent[row];
+      if (std::abs(c) > kNegligible) found.null_directions(i, k) = -c * lengths[d] / lengths[i];
+    }
+  }
+  for (Eigen::Index i = 0; i < p; ++i) found.is_determined[static_cast<std::size_t>(i)] = found.null_directions.row(i).isZero(0.0);
+  return found;
+}
+
+std::vector<std::string> describe_undetermined(const Identifiability& found, const std::vector<std::string>& names) {
+  std::vector<std::string> sentences;
+  const auto name = [&names](Eigen::Index index) { return names[static_cast<std::size_t>(index)]; };
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(names.size()); ++i) {
+    std::vector<std::string> involved = {name(i)};
+    std::string sum = name(i);
+    for (Eigen::Index k = 0; k < found.null_directions.cols(); ++k) {
+      const int d = found.dependent[static_cast<std::size_t>(k)];
+      const double factor = -found.null_directions(i, k);
+      if (d == i || factor == 0.0) continue;
+      involved.push_back(name(d));
+      sum += term(factor, name(d));
+    }
+    if (involved.size() > 1) sentences.push_back(joined(involved) + " appear only as " + sum);
+  }
+  for (Eigen::Index k = 0; k < found.null_directions.cols(); ++k)
+    if ((found.null_directions.col(k).array() != 0.0).count() == 1)
+      sentences.push_back(name(found.dependent[static_cast<std::size_t>(k)]) + " has no effect");
+  return sentences;
+}
+
+}  // namespace codesign

@@ -1,0 +1,35 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_STATISTICS_LONG_RUN_H_
+#define MECHANISM_CODESIGN_STATISTICS_LONG_RUN_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace codesign {
+
+/// Lengths of the time series that stand one after the other in the rows of a matrix; positive, their sum is the number of rows.
+using SeriesLengths = std::vector<Eigen::Index>;
+
+/// The covariance of a sum over correlated times.
+struct LongRunCovariance {
+  Eigen::MatrixXd covariance;  ///< p x p
+  int lag = 0;                 ///< of the kernel
+  double degrees = 0.0;        ///< equivalent degrees of freedom of each variance, for Student's t
+};
+
+/// The covariance of the sums over all rows of `terms` (p columns of mean about zero), as Newey and West estimate it, on terms made less
+/// correlated by one autoregression of order one per column; doc/theory.md (34), (35). Never negative. Terms of different series are taken
+/// as independent.
+/// @param lag of the Bartlett kernel; 0: automatic, automatic_lag(). At most a quarter of the rows is used.
+LongRunCovariance long_run_covariance(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, int lag = 0);
+
+/// The lag that is used without one given: the larger of 1.3 sqrt(N) (Lazarus, Lewis, Stock and Watson) and that of Andrews for the column
+/// whose correlation lasts longest; N rows.
+int automatic_lag(const Eigen::MatrixXd& terms, const SeriesLengths& lengths);
+
+/// sum_|l| <= lag (1 - |l| / (lag + 1)) Gamma_l with Gamma_l = sum_t x_t x_{t-l}^T over all t of each series: the plain estimate.
+Eigen::MatrixXd bartlett_sum(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, int lag);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_STATISTICS_LONG_RUN_H_

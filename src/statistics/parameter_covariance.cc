@@ -1,0 +1,119 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "statistics/parameter_covariance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "math/dense.h"
+#include "statistics/block_bootstrap.h"
+#include "statistics/quantiles.h"
+
+namespace codesign {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr int kDraws = 2000;
+constexpr std::uint32_t kSeed = 1;
+
+/// (J^T J)^-1 with zeros for the parameters that depend on others: these are held while the others are told.
+Eigen::MatrixXd inverse_of_normal_matrix(const Eigen::MatrixXd& R, const Identifiability& identifiability) {
+  const Eigen::Index p = R.cols();
+  const auto& dependent = identifiability.dependent;
+  std::vector<int> told;
+  for (int k = 0; k < static_cast<int>(p); ++k)
+    if (std::find(dependent.begin(), dependent.end(), k) == dependent.end()) told.push_back(k);
+  const auto rank = static_cast<Eigen::Index>(told.size());
+  Eigen::MatrixXd scaled(R.rows(), rank);
+  Eigen::VectorXd lengths(rank);
+  for (Eigen::Index k = 0; k < rank; ++k) {
+    lengths[k] = R.col(told[static_cast<std::size_t>(k)]).norm();
+    scaled.col(k) = R.col(told[static_cast<std::size_t>(k)]) / lengths[k];
+  }
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(p, p);
+  if (rank == 0) return result;
+  const SingularValues svd = singular_values(scaled, SingularVectors::kRight);
+  const Eigen::MatrixXd root = lengths.cwiseInverse().asDiagonal() * svd.V * svd.values.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd inverse = root * root.transpose();
+  for (Eigen::Index i = 0; i < rank; ++i)
+    for (Eigen::Index j = 0; j < rank; ++j) result(told[static_cast<std::size_t>(i)], told[static_cast<std::size_t>(j)]) = inverse(i, j);
+  return result;
+}
+
+/// What each time contributes to the error of the parameters, N x p: (J^T J)^-1 sum over outputs of J^T r.
+Eigen::MatrixXd contributions(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& inverse) {
+  Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(residuals.rows(), jacobian.cols());
+  for (Eigen::Index output = 0; output < residuals.cols(); ++output)
+    scores += residuals.col(output).asDiagonal() * jacobian.middleRows(output * residuals.rows(), residuals.rows());
+  return scores * inverse;
+}
+
+void set_symmetric_intervals(double level, ParameterCovariance* result) {
+  result->below = interval_factor(level, result->degrees) * result->covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  result->above = result->below;
+}
+
+void use_kernel(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, double correction, const IntervalOptions& options,
+                ParameterCovariance* result) {
+  const LongRunCovariance estimate = long_run_covariance(terms, lengths, options.lag);
+  result->covariance = correction * estimate.covariance;
+  result->lag = estimate.lag;
+  result->degrees = std::min(result->degrees, estimate.degrees);
+  set_symmetric_intervals(options.level, result);
+}
+
+// The errors of the parameters are distributed like the drawn sums, so that the interval mirrors their quantiles.
+void use_bootstrap(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, double correction, const IntervalOptions& options,
+                   ParameterCovariance* result) {
+  result->lag = options.lag > 0 ? options.lag : automatic_lag(terms, lengths);
+  const Eigen::MatrixXd draws = std::sqrt(correction) * bootstrap_sums(terms, lengths, result->lag, kDraws, kSeed);
+  result->covariance = draws.transpose() * draws / (kDraws - 1.0);
+  result->below.resize(draws.cols());
+  result->above.resize(draws.cols());
+  for (Eigen::Index k = 0; k < draws.cols(); ++k) {
+    result->below[k] = empirical_quantile(draws.col(k), 0.5 * (1.0 + options.level));
+    result->above[k] = -empirical_quantile(draws.col(k), 0.5 * (1.0 - options.level));
+  }
+}
+
+void mark_undetermined(ParameterCovariance* result) {
+  for (Eigen::Index k = 0; k < result->below.size(); ++k) {
+    if (result->identifiability.is_determined[static_cast<std::size_t>(k)]) continue;
+    result->covariance.row(k).setConstant(kUnknown);
+    result->covariance.col(k).setConstant(kUnknown);
+    result->covariance(k, k) = result->below[k] = result->above[k] = kInfinite;
+  }
+}
+
+}  // namespace
+
+Eigen::MatrixXd ParameterCovariance::correlation() const {
+  const Eigen::VectorXd deviations = covariance.diagonal().cwiseSqrt();
+  Eigen::MatrixXd result = deviations.cwiseInverse().asDiagonal() * covariance * deviations.cwiseInverse().asDiagonal();
+  result.diagonal().setOnes();
+  return result;
+}
+
+ParameterCovariance parameter_covariance(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd& jacobian, const SeriesLengths& lengths,
+                                         const IntervalOptions& options) {
+  ParameterCovariance result;
+  const Eigen::MatrixXd R = upper_factor(jacobian);
+  result.identifiability = find_identifiable(R);
+  const auto rows = static_cast<double>(residuals.size());
+  result.degrees = std::max(1.0, rows - result.identifiability.rank);
+  result.residual_variance = residuals.squaredNorm() / result.degrees;
+  const Eigen::MatrixXd inverse = inverse_of_normal_matrix(R, result.identifiability);
+  if (options.noise == NoiseModel::kWhite) {
+    result.covariance = result.residual_variance * inverse;
+    set_symmetric_intervals(options.level, &result);
+  } else {
+    const Eigen::MatrixXd terms = contributions(residuals, jacobian, inverse);
+    const double correction = rows / result.degrees;
+    (options.noise == NoiseModel::kCorrelated ? use_kernel : use_bootstrap)(terms, lengths, correction, options, &result);
+  }
+  mark_undetermined(&result);
+  return result;
+}
+
+}  // namespace codesign

@@ -1,0 +1,39 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_STATISTICS_PARAMETER_COVARIANCE_H_
+#define MECHANISM_CODESIGN_STATISTICS_PARAMETER_COVARIANCE_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "description/identification.h"
+#include "statistics/identifiability.h"
+#include "statistics/long_run.h"
+
+namespace codesign {
+
+/// How well the p parameters of a least-squares fit are known, to first order; doc/theory.md (33)-(36).
+struct ParameterCovariance {
+  Identifiability identifiability;
+  /// p x p. Of a parameter that the data do not tell, the variance is infinite and its covariances are not a number.
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd below, above;    ///< the interval at the level is [x - below, x + above]; infinite where the data do not tell x
+  double residual_variance = 0.0;  ///< sum of squares by rows minus rank, in squared units of the residuals
+  double degrees = 0.0;            ///< of Student's t in the intervals
+  int lag = 0;                     ///< of the kernel, or neighbours in a block; 0 for white noise
+
+  /// p x p, ones on the diagonal; not a number where the covariance is not.
+  Eigen::MatrixXd correlation() const;
+};
+
+/// @param residuals at the fit, one row per time and one column per output (joint), N x m; those of several recordings stand below each
+/// other
+/// @param jacobian of the residuals, N m x p: the rows of output 0 in the order of time, then those of output 1, and so on. With a robust
+/// loss both are multiplied by the square roots of the weights.
+/// @param lengths of the recordings, with the sum N. Outputs at one time may depend on each other, recordings do not.
+/// @param options level, noise and lag
+ParameterCovariance parameter_covariance(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd& jacobian, const SeriesLengths& lengths,
+                                         const IntervalOptions& options);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_STATISTICS_PARAMETER_COVARIANCE_H_

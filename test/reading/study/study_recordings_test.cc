@@ -1,0 +1,88 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/study/study_recordings.h"
+
+#include <cmath>
+
+#include "reading/study/study_fixture.h"
+
+namespace codesign {
+namespace {
+
+const std::string kRecordedStudy = "duration: 2.0\nparameters: {rod_length: {}}\nidentify:\n  data: ";
+
+std::vector<RecordingDescription> recordings_of(const std::string& list) {
+  return read_text(kRecordedStudy + list + "\n").identification.value().data;
+}
+
+void expect_bad_recording(const std::string& entry, const std::string& element, const std::string& message) {
+  expect_fault(kRecordedStudy + "[" + entry + "]\n", "identify.data[0]" + element, message, 4);
+}
+
+TEST(StudyRecordings, ReadsABag) {
+  const RecordingDescription bag = recordings_of("[{bag: excite.bag, topic: /joint_states, from: 7.0, to: 37.0}]").at(0);
+  EXPECT_TRUE(bag.is_bag);
+  EXPECT_EQ(bag.file, "excite.bag");
+  EXPECT_EQ(bag.topic, "/joint_states");
+  EXPECT_EQ(bag.from, 7.0);
+  EXPECT_EQ(bag.to, 37.0);
+  EXPECT_EQ(bag.stamp, StampKind::kHeader);
+  EXPECT_EQ(bag.gaps, GapRule::kRefuse);
+  EXPECT_EQ(bag.element, "identify.data[0]");
+  EXPECT_EQ(bag.where.line, 4);
+  EXPECT_EQ(recordings_of("[{bag: a.bag, topic: b, stamp: receive}]").at(0).stamp, StampKind::kReceive);
+}
+
+TEST(StudyRecordings, ReadsATable) {
+  const std::vector<RecordingDescription> both = recordings_of(
+      "\n    - {csv: a.csv}\n    - {csv: b.txt, delimiter: space, gaps: split, columns: {time: {column: t, scale: 0.001}, "
+      "crank_joint/position: 2, slider_joint/effort: {column: force, scale: 35.15, offset: -1}}}");
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_FALSE(both[0].is_bag);
+  EXPECT_FALSE(both[0].time.has_value());
+  EXPECT_TRUE(std::isinf(both[0].from) && std::isinf(both[0].to));
+  const RecordingDescription& table = both[1];
+  EXPECT_EQ(table.delimiter, CellDelimiter::kSpace);
+  EXPECT_EQ(table.gaps, GapRule::kSplit);
+  EXPECT_EQ(table.time.value().name, "t");
+  EXPECT_EQ(table.time.value().scale, 0.001);
+  ASSERT_EQ(table.columns.size(), 2U);
+  EXPECT_EQ(table.columns[0].joint, "crank_joint");
+  EXPECT_EQ(table.columns[0].quantity, MeasuredQuantity::kPosition);
+  EXPECT_EQ(table.columns[0].column.number, 2);
+  EXPECT_EQ(table.columns[1].quantity, MeasuredQuantity::kEffort);
+  EXPECT_EQ(table.columns[1].column.name, "force");
+  EXPECT_EQ(table.columns[1].column.offset, -1.0);
+}
+
+TEST(StudyRecordings, RefusesOtherEntries) {
+  expect_bad_recording("excite.bag", "", "not a recording");
+  expect_bad_recording("{topic: a}", "", "a recording is one file");
+  expect_bad_recording("{bag: a, csv: b}", "", "a recording is one file");
+  expect_bad_recording("{bag: a.bag}", ".topic", "required key is missing");
+  expect_bad_recording("{bag: a.bag, topic: t, columns: {}}", ".columns", "unknown key");
+  expect_bad_recording("{csv: a.csv, topic: t}", ".topic", "unknown key");
+  expect_bad_recording("{csv: a.csv, from: 3, to: 3}", ".to", "ends before it begins");
+  expect_bad_recording("{csv: a.csv, delimiter: coma}", ".delimiter", "did you mean \"comma\"");
+  expect_bad_recording("{csv: a.csv, gaps: splt}", ".gaps", "did you mean \"split\"");
+  expect_fault(kRecordedStudy + "[]\n", "identify.data", "no recording", 4);
+}
+
+TEST(StudyRecordings, RefusesOtherColumns) {
+  const auto expect_bad_columns = [](const std::string& columns, const std::string& element, const std::string& message) {
+    expect_bad_recording("{csv: a.csv, columns: {" + columns + "}}", ".columns" + element, message);
+  };
+  expect_bad_columns("crank_joint/position: q", "", "the column of the time is missing");
+  expect_bad_columns("time: t", "", "no column of a joint");
+  expect_bad_columns("time: t, crank_joint/positon: q", ".crank_joint/positon", "did you mean \"position\"");
+  expect_bad_columns("time: t, crank_jont/position: q", ".crank_jont/position", "did you mean \"crank_joint\"");
+  expect_bad_columns("time: t, ball_joint/position: q", ".ball_joint/position", "no single coordinate");
+  expect_bad_columns("tiem: t", ".tiem", "did you mean \"time\"");
+  expect_bad_columns("time: 0, crank_joint/position: q", ".time", "numbered from 1");
+  expect_bad_columns("time: 1.5, crank_joint/position: q", ".time", "not an integer");
+  expect_bad_columns("time: {scale: 2}", ".time.column", "required key is missing");
+  expect_bad_columns("time: {column: t, scale: 0}", ".time.scale", "leaves nothing");
+  expect_bad_columns("time: [1]", ".time", "not a column");
+}
+
+}  // namespace
+}  // namespace codesign

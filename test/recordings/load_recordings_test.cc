@@ -1,0 +1,90 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/load_recordings.h"
+
+#include <fstream>
+
+#include "recordings/some_recording.h"
+#include "temporary_directory.h"
+
+namespace codesign {
+namespace {
+
+class LoadRecordings : public testing::Test {
+ protected:
+  LoadRecordings() {
+    std::ofstream file(directory_.path() / "swing.csv");
+    const JointRecording recording = swing(100);
+    file << "time,hinge/position,hinge/effort\n";
+    for (std::size_t k = 0; k < 100; ++k)
+      file << recording.times[k] << "," << recording.joints[0].position[k] << "," << recording.joints[0].effort[k] << "\n";
+    file.close();
+    identification_.data = {entry("swing.csv", "identify.data[0]")};
+  }
+  static RecordingDescription entry(const std::string& file, const std::string& element) {
+    RecordingDescription description;
+    description.file = file;
+    description.element = element;
+    description.where = {"study.yaml", 4};
+    return description;
+  }
+  StudyRecordings load(const std::string& folder, const BagReader& reader = {}) {
+    return load_recordings(identification_, recorded_robot(), folder, reader, &warnings_);
+  }
+  StudyRecordings load() { return load(directory_.path().string()); }
+
+  TemporaryDirectory directory_;
+  IdentificationDescription identification_;
+  Warnings warnings_;
+};
+
+TEST_F(LoadRecordings, ReadsDataAndHoldout) {
+  identification_.holdout = {entry((directory_.path() / "swing.csv").string(), "identify.holdout[0]")};
+  identification_.holdout[0].from = 0.5;
+  const StudyRecordings recordings = load();
+  ASSERT_EQ(recordings.data.size(), 1U);
+  ASSERT_EQ(recordings.holdout.size(), 1U);
+  EXPECT_EQ(recordings.data[0].times.size(), 100U);
+  EXPECT_EQ(recordings.holdout[0].times.size(), 50U);
+  EXPECT_EQ(recordings.holdout[0].element, "identify.holdout[0]");
+  EXPECT_TRUE(warnings_.empty());
+}
+
+TEST_F(LoadRecordings, ARelativePathNeedsAFolder) {
+  const InputFault fault = refusal_of([this] { load(""); });
+  EXPECT_EQ(fault.element, "identify.data[0].csv");
+  expect_word(fault.message, "a relative path is allowed only in a study file");
+}
+
+TEST_F(LoadRecordings, CalibratedJointsMustBeThereWithTheirEffort) {
+  identification_.joints.resize(1);
+  identification_.joints[0].joint = "hinge";
+  identification_.joints[0].where = {"study.yaml", 9};
+  EXPECT_EQ(load().data.size(), 1U);
+  identification_.joints[0].joint = "wheel";
+  const InputFault fault = refusal_of([this] { load(); });
+  EXPECT_EQ(fault.where.line, 9);
+  EXPECT_EQ(fault.element, "identify.joints.wheel");
+  expect_word(fault.message, "unknown joint in");
+  EXPECT_EQ(fault.allowed, "hinge");
+  std::ofstream(directory_.path() / "swing.csv") << "time,wheel/position\n0,1\n";
+  expect_word(refusal_of([this] { load(); }).message, "no effort of this joint was recorded");
+}
+
+TEST_F(LoadRecordings, BagsAreReadByTheCaller) {
+  identification_.data[0].is_bag = true;
+  identification_.data[0].file = "swing.bag";
+  const InputFault fault = refusal_of([this] { load(); });
+  EXPECT_EQ(fault.element, "identify.data[0].bag");
+  expect_word(fault.message, "built without ROS");
+  std::string asked;
+  const BagReader reader = [&asked](const RecordingDescription&, const std::string& path, const std::vector<std::string>& joints,
+                                    Warnings*) {
+    asked = path + " " + std::to_string(joints.size());
+    return swing(50);
+  };
+  EXPECT_EQ(load("/logs", reader).data[0].times.size(), 50U);
+  EXPECT_EQ(asked, "/logs/swing.bag 3");
+}
+
+}  // namespace
+}  // namespace codesign
