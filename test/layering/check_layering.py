@@ -31,6 +31,7 @@ ROWS = [
     ["engine"],
     ["ensemble"],
     ["optimization"],
+    ["identification"],
     ["jobs"],
     ["cli", "ros"],
 ]
