@@ -57,7 +57,7 @@ EffortModel::EffortModel(const CompiledSystem& system, std::vector<MeasuredJoint
   velocity_ = rows_of(motion_.velocity, driven_.drives);
   acceleration_ = rows_of(motion_.acceleration, driven_.drives);
   states_.resize(to_index(samples()));
-  for (int k = 0; k < std::max(threads, 1); ++k) workers_.push_back(std::make_unique<Worker>(driven_));
+  workers_.resize(to_index(std::max(threads, 1)));
 }
 
 EffortModel::~EffortModel() = default;
@@ -87,9 +87,8 @@ Status EffortModel::follow(const MotionProjection& projection, int sample, Worke
 }
 
 Status EffortModel::begin(const std::vector<double>& parameters) {
-  Worker& worker = *workers_.front();
+  Worker worker(driven_);
   if (Status status = prepare(parameters, &worker); !status.ok()) return status;
-  worker.forget();
   const MotionProjection projection(driven_, joints_);
   for (int sample = 0; sample < samples(); ++sample) {
     if (is_set(cancel_)) return {StatusCode::kCancelled, 0.0, "cancelled"};
@@ -100,11 +99,11 @@ Status EffortModel::begin(const std::vector<double>& parameters) {
     if (!status.ok()) return at_sample(sample, status);
     states_[to_index(sample)] = worker.state;
   }
-  // All workers begin with the same pivots, so that it does not matter which of them evaluates a sample.
-  for (const std::unique_ptr<Worker>& each : workers_) {
+  // All workers begin with the same pivots, chosen here, so that it does not matter which of them evaluates a sample.
+  if (samples() == 0) return {};
+  for (std::unique_ptr<Worker>& each : workers_) {
+    each = std::make_unique<Worker>(driven_);
     each->motion.set_design(parameters);
-    each->forget();
-    if (samples() == 0) continue;
     if (Status status = each->motion.linearize(states_.front()); !status.ok()) return at_sample(0, status);
     each->motion.settle();
   }
