@@ -21,7 +21,7 @@ void EffortTangent<N>::correct(const DrivenMotion& motion, const Directions<N>& 
   solution_.setZero();
   solution_.middleCols(layout_.n, layout_.m) = -errors;
   motion.lu().template solve_rows<N>(solution_.part(0, layout_.columns()));
-  y_.middleCols(first, layout_.n) = solution_.leftCols(layout_.n);
+  y_.middleCols(first, layout_.n) += solution_.leftCols(layout_.n);
 }
 
 template <int N>
@@ -30,12 +30,18 @@ void EffortTangent<N>::differentiate(const DrivenMotion& motion, const State<dou
   y_.setZero();
   equations_.constraint_errors(state, y_, &Phi_, &Phi_rate_);
   // Parameters that do not move the geometry leave positions and velocities where they are.
-  const bool moves = !Phi_.isZero(0.0);
-  if (moves) {
-    correct(motion, Phi_, at_.x());
-    equations_.constraint_errors(state, y_, &Phi_, &Phi_rate_);
+  if (!Phi_.isZero(0.0) || !Phi_rate_.isZero(0.0)) {
+    // A compliance, which the solution itself does not feel once it has converged, takes its share of one correction.
+    const int rounds = system_.compliance() == 0.0 ? 1 : 2;
+    for (int round = 0; round < rounds; ++round) {
+      correct(motion, Phi_, at_.x());
+      equations_.constraint_errors(state, y_, &Phi_, &Phi_rate_);
+    }
+    for (int round = 0; round < rounds; ++round) {
+      if (round > 0) equations_.constraint_errors(state, y_, &Phi_, &Phi_rate_);
+      correct(motion, Phi_rate_, at_.v());
+    }
   }
-  if (moves || !Phi_rate_.isZero(0.0)) correct(motion, Phi_rate_, at_.v());
   equations_.residual(state, y_, &G_);
   solution_.leftCols(layout_.columns()) = G_.leftCols(layout_.columns());
   motion.lu().template solve_rows<N>(solution_.part(0, layout_.columns()));

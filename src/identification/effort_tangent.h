@@ -32,7 +32,7 @@ class EffortTangent {
   void differentiate(const DrivenMotion& motion, const State<double>& state, Eigen::Index first_row, RowJacobian* jacobian);
 
  private:
-  /// part' of y_ from the derivatives of the errors of the constraints, n entries from `first` on.
+  /// Corrects the n directions of y_ from `first` on for the derivatives of the errors of the constraints.
   void correct(const DrivenMotion& motion, const Directions<N>& errors, int first);
 
   const CompiledSystem& system_;
