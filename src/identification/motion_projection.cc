@@ -95,12 +95,12 @@ Status MotionProjection::project(const Eigen::VectorXd (&measured)[3], Eigen::Ve
     (*drives)[0] += change;
     if (change.cwiseAbs().maxCoeff() < kSmallStep) break;
   }
-  (*drives)[1] += correction(K, Eigen::VectorXd::Zero(given[1].size()), part_of(measured[1]) - K * given[1]);
-  if (Status status = motion->follow(motion_of(*drives), state); !status.ok()) return status;
-  // With the velocities known, theta'' = K theta''_drives + a part that depends on them alone.
-  const Eigen::VectorXd rest = values(2, motion, *state) - K * given[2];
-  (*drives)[2] += correction(K, Eigen::VectorXd::Zero(given[2].size()), part_of(measured[2]) - rest - K * given[2]);
-  return motion->follow(motion_of(*drives), state);
+  // Rates depend on those of the drives by K too, and so do accelerations once the rates are known: both are one linear problem.
+  for (int order : {1, 2}) {
+    (*drives)[order] += correction(K, Eigen::VectorXd::Zero(given[order].size()), part_of(measured[order]) - values(order, motion, *state));
+    if (Status status = motion->follow(motion_of(*drives), state); !status.ok()) return status;
+  }
+  return {};
 }
 
 }  // namespace codesign
