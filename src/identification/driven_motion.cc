@@ -11,11 +11,11 @@ namespace codesign {
 namespace {
 
 constexpr int kMostIterations = 40;
-constexpr double kRounding = 4e-15;    // a relative step below this is rounding
-constexpr double kConverged = 1e-11;   // a relative step below this that no longer shrinks is rounding, too
+constexpr double kRounding = 4e-15;       // a relative step below this is rounding
+constexpr double kConverged = 1e-11;      // a relative step below this that no longer shrinks is rounding, too
 constexpr double kSharedRounding = 1e-7;  // the same for reactions of redundant rows, which a compliance of 1e-9 divides
-constexpr double kSlow = 0.05;         // a step that is not this much smaller than the one before asks for a new matrix
-constexpr double kFar = 0.25;          // a larger step of an Euler parameter, half a radian, might leave the branch
+constexpr double kSlow = 0.05;            // a step that is not this much smaller than the one before asks for a new matrix
+constexpr double kFar = 0.25;             // a larger step of an Euler parameter, half a radian, might leave the branch
 constexpr int kMostDivisions = 12;
 
 /// Convergence of a Newton iteration by the sizes of its steps, relative to the unknowns.
@@ -38,16 +38,13 @@ class Convergence {
 
 double largest_turn(const VectorX<double>& step, int bodies) {
   double largest = 0.0;
-  for (int body = 0; body < bodies; ++body)
-    largest = std::max(largest, step.segment<4>(kBodySize * body + 3).cwiseAbs().maxCoeff());
+  for (int body = 0; body < bodies; ++body) largest = std::max(largest, step.segment<4>(kBodySize * body + 3).cwiseAbs().maxCoeff());
   return largest;
 }
 
 Status singular() { return {StatusCode::kSingularMatrix, 0.0, "the matrix of the equations of the driven motion is singular"}; }
 
-Status not_closed() {
-  return {StatusCode::kAssemblyFailed, 0.0, "the loops and couplings cannot follow the measured positions"};
-}
+Status not_closed() { return {StatusCode::kAssemblyFailed, 0.0, "the loops and couplings cannot follow the measured positions"}; }
 
 }  // namespace
 

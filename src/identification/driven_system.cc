@@ -77,12 +77,13 @@ class DependentCoordinates {
       (depends(tree.offset[to_index(joints_[k])]) ? driven.surplus : driven.drives).push_back(static_cast<int>(k));
     for (int k : driven.surplus)
       if (const MeasuredJoint& joint = measured_[to_index(k)]; joint.with_effort)
-        throw InputError({joint.where, "identify",
-                          "more joints have an effort than the mechanism has degrees of freedom, so that their efforts are not determined by "
-                          "the motion",
-                          joint.name,
-                          "efforts of " + std::to_string(driven.drives.size()) + " independent joints; here " + drive_names(driven) +
-                              " are, at the start of the study"});
+        throw InputError(
+            {joint.where, "identify",
+             "more joints have an effort than the mechanism has degrees of freedom, so that their efforts are not determined by "
+             "the motion",
+             joint.name,
+             "efforts of " + std::to_string(driven.drives.size()) + " independent joints; here " + drive_names(driven) +
+                 " are, at the start of the study"});
     return driven;
   }
 
@@ -116,7 +117,8 @@ class DependentCoordinates {
       if (!depends(c))
         throw InputError({description.where, description.element(),
                           "its motion is not determined: it is not measured, and does not follow from the measured joints",
-                          "measured: " + list_of(measured_), "recordings that contain this joint, or as many as there are degrees of freedom"});
+                          "measured: " + list_of(measured_),
+                          "recordings that contain this joint, or as many as there are degrees of freedom"});
   }
 
   const CompiledSystem& system_;

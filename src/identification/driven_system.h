@@ -23,7 +23,8 @@ struct MeasuredJoint {
 /// its own whose multiplier is minus the effort. It has neither controllers nor an objective.
 struct DrivenSystem {
   std::shared_ptr<const CompiledSystem> system;
-  std::vector<int> drives;   ///< the driven joints as indices in the list of measured joints, ascending; drive k has row System::drive_row(k)
+  std::vector<int>
+      drives;  ///< the driven joints as indices in the list of measured joints, ascending; drive k has row System::drive_row(k)
   std::vector<int> surplus;  ///< the other measured joints likewise: their motion follows from that of the drives
 };
 

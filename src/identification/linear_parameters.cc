@@ -10,9 +10,9 @@
 namespace codesign {
 namespace {
 
-constexpr double kChange = 0.1;          // of a parameter, relative
-constexpr double kChangeOfZero = 0.01;   // of a parameter that is zero and has no bounds
-constexpr double kUnchanged = 1e-7;      // smaller relative changes of a column of the Jacobian are rounding
+constexpr double kChange = 0.1;         // of a parameter, relative
+constexpr double kChangeOfZero = 0.01;  // of a parameter that is zero and has no bounds
+constexpr double kUnchanged = 1e-7;     // smaller relative changes of a column of the Jacobian are rounding
 
 using Conflicts = std::vector<std::vector<bool>>;
 

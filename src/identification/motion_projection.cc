@@ -90,8 +90,7 @@ Status MotionProjection::project(const Eigen::VectorXd (&measured)[3], Eigen::Ve
     if (Status status = motion->follow(motion_of(*drives), state); !status.ok()) return status;
     if (Status status = motion->linearize(*state); !status.ok()) return status;
     K = slopes(motion, *state);
-    const Eigen::VectorXd change =
-        correction(K, given[0] - (*drives)[0], part_of(measured[0]) - values(0, motion, *state));
+    const Eigen::VectorXd change = correction(K, given[0] - (*drives)[0], part_of(measured[0]) - values(0, motion, *state));
     (*drives)[0] += change;
     if (change.cwiseAbs().maxCoeff() < kSmallStep) break;
   }

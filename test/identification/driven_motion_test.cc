@@ -65,7 +65,8 @@ TEST_F(DrivenMotionTest, SolvesFromNearbyToTheSameEffort) {
   const double effort = motion.effort(state, 0);
   ASSERT_TRUE(follow(0.52, 1.5, 4.0).ok());
   const double given[] = {0.5, 2.0, -3.0};
-  ASSERT_TRUE(motion.solve({In<double>(given).subspan(0, 1), In<double>(given).subspan(1, 1), In<double>(given).subspan(2, 1)}, &state).ok());
+  ASSERT_TRUE(
+      motion.solve({In<double>(given).subspan(0, 1), In<double>(given).subspan(1, 1), In<double>(given).subspan(2, 1)}, &state).ok());
   EXPECT_NEAR(motion.effort(state, 0), effort, 1e-10);
 }
 

@@ -1,8 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "identification/driven_system.h"
 
-#include "identification/recorded_motion.h"
 #include "equations/compiled.h"
+#include "identification/recorded_motion.h"
 
 namespace codesign {
 namespace {

@@ -42,8 +42,7 @@ void expect_exact_jacobian(const CompiledSystem& system, const std::vector<std::
   efforts_of(&model, system, &jacobian);
   const auto drives = static_cast<Eigen::Index>(model.drives().size());
   Eigen::VectorXd rho(model.parameters());
-  for (int k = 0; k < model.parameters(); ++k)
-    rho[k] = system.parameters()[to_index(system.study().tuned[to_index(k)])];
+  for (int k = 0; k < model.parameters(); ++k) rho[k] = system.parameters()[to_index(system.study().tuned[to_index(k)])];
   EXPECT_GT(jacobian.cwiseAbs().colwise().maxCoeff().minCoeff(), 1e-6) << "a parameter without effect tests nothing";
   for (int sample = 0; sample < model.samples(); sample += 10) {
     const auto column = [&](const Eigen::MatrixXd& of) { return In<double>(of.data() + sample * drives, drives); };
@@ -88,7 +87,8 @@ TEST(EffortModel, APendulumNeedsInertiaGravityAndDamping) {
 std::string point_mass_slider_crank() {
   const std::string mass = "<mass value='0.5'/><inertia ixx='0.01' ixy='0' ixz='0' iyy='0.02' iyz='0' izz='0.01'/></inertial></link>";
   return robot(
-      "<link name='crank'><inertial><origin xyz='0.1 0 0'/>" + mass + "<link name='rod'><inertial><origin xyz='0.3 0 0'/><mass value='0.4'/>" +
+      "<link name='crank'><inertial><origin xyz='0.1 0 0'/>" + mass +
+      "<link name='rod'><inertial><origin xyz='0.3 0 0'/><mass value='0.4'/>" +
       "<inertia ixx='0.001' ixy='0' ixz='0' iyy='0.036' iyz='0' izz='0.036'/></inertial></link><link name='slider'><inertial>" + mass +
       hinge("crank_joint", "ground", "crank", "0 0 0") + hinge("rod_joint", "crank", "rod", "0.2 0 0") +
       "<joint name='slider_joint' type='prismatic'><parent link='ground'/><child link='slider'/><axis xyz='1 0 0'/><limit effort='0' "
@@ -98,9 +98,9 @@ std::string point_mass_slider_crank() {
 }
 
 TEST(EffortModel, ASliderCrankWithFrictionByHand) {
-  const auto system = compiled(point_mass_slider_crank(),
-                               "gravity: [0, 0, 0]\n" + let_go("{crank_joint: {position: 0.6}, slider_joint: {guess: 0.7}}",
-                                                               "crank_joint/velocity"));
+  const auto system =
+      compiled(point_mass_slider_crank(),
+               "gravity: [0, 0, 0]\n" + let_go("{crank_joint: {position: 0.6}, slider_joint: {guess: 0.7}}", "crank_joint/velocity"));
   const double r = 0.2, l = 0.6, J = 0.02 + 0.5 * 0.01 + 0.2 * r * r, M = 0.5 + 0.2;
   const MeasuredMotion motion = swing(200, 0.3, 0.9);
   EffortModel model(*system, measured({"crank_joint"}), motion);
@@ -108,7 +108,7 @@ TEST(EffortModel, ASliderCrankWithFrictionByHand) {
   for (int k = 0; k < 200; ++k) {
     const double angle = motion.position(0, k), rate = motion.velocity(0, k), second = motion.acceleration(0, k);
     const double s = r * std::sin(angle), c = r * std::cos(angle), root = std::sqrt(l * l - s * s);
-    const double slope = -s - s * c / root;                                               // dx / d angle
+    const double slope = -s - s * c / root;  // dx / d angle
     const double curvature = -c - (c * c - s * s) / root - s * s * c * c / (root * root * root);
     const double x_rate = slope * rate, x_second = slope * second + curvature * rate * rate;
     // The rod pushes the slider with P along itself, P cos - S |P sin| = M x''.
@@ -157,7 +157,8 @@ TEST(EffortModel, JacobianOfTheSliderCrankWithItsDimensions) {
 /// A four-bar linkage drawn in the plane, whose redundant reactions friction depends on, with parameters of every kind.
 std::string tunable_four_bar() {
   std::string urdf = four_bar(
-      "<codesign:friction model='brown_mcphee' mu_static='0.2' codesign:mu_static='${mu+0.05}' mu_dynamic='0.15' codesign:mu_dynamic='${mu}' "
+      "<codesign:friction model='brown_mcphee' mu_static='0.2' codesign:mu_static='${mu+0.05}' mu_dynamic='0.15' "
+      "codesign:mu_dynamic='${mu}' "
       "transition_velocity='0.01' joint_length='0.05' pin_radius='0.02' codesign:pin_radius='${radius}'/>");
   const auto replace = [&urdf](const std::string& from, const std::string& to) {
     const std::size_t at = urdf.find(from);
@@ -175,7 +176,8 @@ std::string tunable_four_bar() {
 }
 
 const char* driven_four_bar() {
-  return "controllers: {motor: {type: pid, input: left_hinge/position, setpoint: {type: sine, offset: 0.3, amplitude: 0.4, frequency: 0.8}, "
+  return "controllers: {motor: {type: pid, input: left_hinge/position, setpoint: {type: sine, offset: 0.3, amplitude: 0.4, frequency: "
+         "0.8}, "
          "output: left_hinge, gains: {p: 200.0, d: 20.0}}}\n"
          "parameters: {mu: {tune: true}, radius: {tune: true}, mass: {tune: true}, height: {tune: true}}";
 }

@@ -32,7 +32,8 @@ inline int joint_index(const RobotDescription& robot, const std::string& name) {
   return 0;
 }
 
-inline RecordedMotion record_motion(const CompiledSystem& system, const std::vector<std::string>& joints, int samples, double largest_step) {
+inline RecordedMotion record_motion(const CompiledSystem& system, const std::vector<std::string>& joints, int samples,
+                                    double largest_step) {
   RosenbrockIntegrator integrator(system);
   EXPECT_TRUE(integrator.start(system.parameters()).ok());
   RecordedMotion recorded;

@@ -20,8 +20,16 @@ MassProperties<double> cuboid(double mass, const Vector3<double>& size, const Ve
 TEST(LogCholesky, OfACuboidByHand) {
   const auto numbers = log_cholesky(cuboid(2.0, {0.3, 0.2, 0.1}, {0.5, -0.4, 0.3}));
   ASSERT_TRUE(numbers);
-  const double expected[] = {0.5 * std::log(2.0), std::log(0.3 / std::sqrt(12.0)), std::log(0.2 / std::sqrt(12.0)),
-                             std::log(0.1 / std::sqrt(12.0)), 0.0, 0.0, 0.0, 0.5, -0.4, 0.3};
+  const double expected[] = {0.5 * std::log(2.0),
+                             std::log(0.3 / std::sqrt(12.0)),
+                             std::log(0.2 / std::sqrt(12.0)),
+                             std::log(0.1 / std::sqrt(12.0)),
+                             0.0,
+                             0.0,
+                             0.0,
+                             0.5,
+                             -0.4,
+                             0.3};
   for (std::size_t k = 0; k < 10; ++k) EXPECT_NEAR((*numbers)[k], expected[k], 1e-14) << kLogCholeskyNames[k];
 }
 

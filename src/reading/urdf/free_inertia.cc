@@ -55,8 +55,8 @@ void write_inertial_twins(XMLElement* inertial, const MassProperties<double>& pl
   const auto term = [](const std::string& expression) { return "${" + expression + "}"; };
   const std::string m = exp2("alpha"), s12 = name("s12"), s23 = name("s23"), s13 = name("s13"), l2 = "exp(" + name("d2") + ")",
                     l3 = "exp(" + name("d3") + ")";
-  const std::string xx = exp2("d1") + "+" + s12 + "*" + s12 + "+" + s13 + "*" + s13,
-                    yy = exp2("d2") + "+" + s23 + "*" + s23, zz = exp2("d3");
+  const std::string xx = exp2("d1") + "+" + s12 + "*" + s12 + "+" + s13 + "*" + s13, yy = exp2("d2") + "+" + s23 + "*" + s23,
+                    zz = exp2("d3");
   XMLElement* origin = inertial->FirstChildElement("origin");
   if (origin == nullptr) origin = inertial->InsertNewChildElement("origin");
   write_twin(origin, "xyz", format_numbers({plain.centre[0], plain.centre[1], plain.centre[2]}),
@@ -83,10 +83,10 @@ void write_out(XMLElement* node, const std::string& link, XmlDocument* document)
   const MassProperties<double> plain = read_plain(inertial);
   const std::optional<std::array<double, 10>> numbers = log_cholesky(plain);
   if (!numbers)
-    inertial.fail("no body with an extent in all directions has this inertia, so that it cannot be free",
-                  "ixx=" + to_decimal(plain.inertia(0, 0)) + " iyy=" + to_decimal(plain.inertia(1, 1)) +
-                      " izz=" + to_decimal(plain.inertia(2, 2)),
-                  "principal moments each above zero and below the sum of the other two");
+    inertial.fail(
+        "no body with an extent in all directions has this inertia, so that it cannot be free",
+        "ixx=" + to_decimal(plain.inertia(0, 0)) + " iyy=" + to_decimal(plain.inertia(1, 1)) + " izz=" + to_decimal(plain.inertia(2, 2)),
+        "principal moments each above zero and below the sum of the other two");
   const std::string prefix = prefix_of(link);
   for (std::size_t k = 0; k < numbers->size(); ++k) {
     XMLElement* parameter = document->append_new(document->robot(), "codesign:parameter", inertial.where());
