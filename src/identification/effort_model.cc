@@ -36,8 +36,8 @@ void require_shape(const MeasuredMotion& motion, std::size_t joints) {
 }  // namespace
 
 /// What one thread works with.
-struct EffortModel::Worker {
-  explicit Worker(const DrivenSystem& driven) : motion(driven), tangents(*driven.system) {}
+struct EffortModel::EffortWorker {
+  explicit EffortWorker(const DrivenSystem& driven) : motion(driven), tangents(*driven.system) {}
 
   void forget() {
     motion.forget();
@@ -68,13 +68,13 @@ DriveMotion EffortModel::given(int sample) const {
   return {column(position_), column(velocity_), column(acceleration_)};
 }
 
-Status EffortModel::prepare(const std::vector<double>& parameters, Worker* worker) const {
+Status EffortModel::prepare(const std::vector<double>& parameters, EffortWorker* worker) const {
   worker->motion.set_design(parameters);
   const std::string fault = find_impossible(driven_.system->robot(), driven_.system->topology(), worker->motion.equations().constants());
   return fault.empty() ? Status() : Status{StatusCode::kInvalidDesign, 0.0, fault};
 }
 
-Status EffortModel::follow(const MotionProjection& projection, int sample, Worker* worker) {
+Status EffortModel::follow(const MotionProjection& projection, int sample, EffortWorker* worker) {
   if (projection.empty()) return worker->motion.follow(given(sample), &worker->state);
   const Eigen::VectorXd measured[] = {motion_.position.col(sample), motion_.velocity.col(sample), motion_.acceleration.col(sample)};
   Eigen::VectorXd drives[3];
@@ -87,7 +87,7 @@ Status EffortModel::follow(const MotionProjection& projection, int sample, Worke
 }
 
 Status EffortModel::begin(const std::vector<double>& parameters) {
-  Worker worker(driven_);
+  EffortWorker worker(driven_);
   if (Status status = prepare(parameters, &worker); !status.ok()) return status;
   const MotionProjection projection(driven_, joints_);
   for (int sample = 0; sample < samples(); ++sample) {
@@ -101,8 +101,8 @@ Status EffortModel::begin(const std::vector<double>& parameters) {
   }
   // All workers begin with the same pivots, chosen here, so that it does not matter which of them evaluates a sample.
   if (samples() == 0) return {};
-  for (std::unique_ptr<Worker>& each : workers_) {
-    each = std::make_unique<Worker>(driven_);
+  for (std::unique_ptr<EffortWorker>& each : workers_) {
+    each = std::make_unique<EffortWorker>(driven_);
     each->motion.set_design(parameters);
     if (Status status = each->motion.linearize(states_.front()); !status.ok()) return at_sample(0, status);
     each->motion.settle();
@@ -110,7 +110,7 @@ Status EffortModel::begin(const std::vector<double>& parameters) {
   return {};
 }
 
-EffortModel::Failure EffortModel::evaluate_block(int block, Worker* worker, Eigen::MatrixXd* efforts, RowJacobian* jacobian) const {
+EffortModel::Failure EffortModel::evaluate_block(int block, EffortWorker* worker, Eigen::MatrixXd* efforts, RowJacobian* jacobian) const {
   worker->forget();
   const int end = std::min(samples(), (block + 1) * kBlock), drives = static_cast<int>(position_.rows());
   for (int sample = block * kBlock; sample < end; ++sample) {
@@ -133,7 +133,7 @@ Status EffortModel::evaluate(const std::vector<double>& parameters, Eigen::Matri
   if (Status status = prepare(parameters, workers_.front().get()); !status.ok()) return status;
   std::atomic<int> next{0};
   side_by_side(workers_.size(), static_cast<int>(workers_.size()), [&](std::size_t k) {
-    Worker& worker = *workers_[k];
+    EffortWorker& worker = *workers_[k];
     if (k > 0) worker.motion.set_design(parameters);
     if (jacobian != nullptr) worker.tangents.for_each([&](auto* group) { group->set_design(parameters); });
     for (int block = next++; block < blocks && !is_set(cancel_); block = next++)

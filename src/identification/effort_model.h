@@ -63,15 +63,15 @@ class EffortModel {
   void obey(const std::atomic<bool>* cancel) { cancel_ = cancel; }
 
  private:
-  struct Worker;
+  struct EffortWorker;
   struct Failure {
     int sample = -1;
     Status status;
   };
   DriveMotion given(int sample) const;
-  Status follow(const MotionProjection& projection, int sample, Worker* worker);
-  Status prepare(const std::vector<double>& parameters, Worker* worker) const;
-  Failure evaluate_block(int block, Worker* worker, Eigen::MatrixXd* efforts, RowJacobian* jacobian) const;
+  Status follow(const MotionProjection& projection, int sample, EffortWorker* worker);
+  Status prepare(const std::vector<double>& parameters, EffortWorker* worker) const;
+  Failure evaluate_block(int block, EffortWorker* worker, Eigen::MatrixXd* efforts, RowJacobian* jacobian) const;
 
   const CompiledSystem& system_;
   const std::vector<MeasuredJoint> joints_;
@@ -80,7 +80,7 @@ class EffortModel {
   std::vector<std::string> names_;
   Eigen::MatrixXd position_, velocity_, acceleration_;
   std::vector<State<double>> states_;
-  std::vector<std::unique_ptr<Worker>> workers_;
+  std::vector<std::unique_ptr<EffortWorker>> workers_;
   const std::atomic<bool>* cancel_ = nullptr;
 };
 
