@@ -59,9 +59,32 @@ void refuse_friction_states(const CompiledSystem& system) {
                     "brown_mcphee for residuals in effort; residuals in motion for laws with states"});
 }
 
+/// The study with the start near measured positions: there the joints of `held` (indices in `joints`) are put, the others are sought from
+/// there, or from where they are at the study's own start.
+/// @param usual holds positions at the study's own start. @param joints of the description, @param positions one for each.
+Study study_near(const StartWorkspace& usual, const CompiledSystem& of, const std::vector<int>& joints, const Eigen::VectorXd& positions,
+                 const std::vector<int>& held) {
+  Study study = without_control(of.study());
+  study.initial_state.clear();
+  for (std::size_t joint = 0; joint < of.robot().joints.size(); ++joint) {
+    const JointDescription& description = of.robot().joints[joint];
+    if (description.is_loop || !has_one_coordinate(description.type)) continue;
+    InitialJointState& initial = study.initial_state.emplace_back();
+    initial.joint = description.name;
+    const auto k = static_cast<int>(std::find(joints.begin(), joints.end(), static_cast<int>(joint)) - joints.begin());
+    const bool known = k < static_cast<int>(joints.size());
+    if (known && std::binary_search(held.begin(), held.end(), k))
+      initial.position = Quantity(positions[k]);
+    else
+      initial.guess = known ? positions[k] : usual.assembly.theta()[usual.assembly.tree().offset[joint]];
+  }
+  return study;
+}
+
 /// Which tree coordinates follow from the others, preferably those that are not measured, then those without an effort.
 class DependentCoordinates {
  public:
+  /// @param system its start is the position at which the rank is examined.
   DependentCoordinates(const CompiledSystem& system, const std::vector<MeasuredJoint>& measured, const std::vector<int>& joints)
       : system_(system), measured_(measured), joints_(joints), start_(system, system.parameters()) {
     if (Status status = start_.solve_positions(); !status.ok())
@@ -73,8 +96,11 @@ class DependentCoordinates {
     const TreeLayout& tree = start_.assembly.tree();
     for (std::size_t joint = 0; joint < system_.robot().joints.size(); ++joint) require_determined(tree, static_cast<int>(joint));
     DrivenSystem driven;
-    for (std::size_t k = 0; k < joints_.size(); ++k)
+    for (std::size_t k = 0; k < joints_.size(); ++k) {
+      const bool moves_mass = system_.topology().joint_pair[to_index(joints_[k])] >= 0;
+      if (!moves_mass && !measured_[k].with_effort) continue;  // a tool's frame, say, which needs no effort
       (depends(tree.offset[to_index(joints_[k])]) ? driven.surplus : driven.drives).push_back(static_cast<int>(k));
+    }
     for (int k : driven.surplus)
       if (const MeasuredJoint& joint = measured_[to_index(k)]; joint.with_effort)
         throw InputError(
@@ -128,12 +154,35 @@ class DependentCoordinates {
   std::vector<int> dependent_;
 };
 
+/// The drives at the study's start or, where the rank is not the usual one there (a stretched-out linkage), at the first of the other
+/// positions where they are as many as they should be.
+DrivenSystem choose_drives(const CompiledSystem& of, const std::vector<MeasuredJoint>& measured, const std::vector<int>& joints,
+                           const Eigen::MatrixXd& positions) {
+  try {
+    return DependentCoordinates(of, measured, joints).sort_out();
+  } catch (const InputError&) {
+    StartWorkspace usual(of, of.parameters());
+    if (!usual.solve_positions().ok()) throw;
+    std::vector<int> held;  // those that are probably driven, so that the linkage cannot fall back to where it was
+    for (std::size_t k = 0; k < measured.size(); ++k)
+      if (measured[k].with_effort) held.push_back(static_cast<int>(k));
+    for (Eigen::Index sample = 0; sample < positions.cols(); ++sample) {
+      try {
+        const CompiledSystem there(of.robot(), study_near(usual, of, joints, positions.col(sample), held), of.sharing());
+        return DependentCoordinates(there, measured, joints).sort_out();
+      } catch (const InputError&) {  // the first error tells more
+      }
+    }
+    throw;
+  }
+}
+
 }  // namespace
 
-DrivenSystem make_driven_system(const CompiledSystem& of, const std::vector<MeasuredJoint>& measured) {
+DrivenSystem make_driven_system(const CompiledSystem& of, const std::vector<MeasuredJoint>& measured, const Eigen::MatrixXd& positions) {
   const std::vector<int> joints = find_joints(of.robot(), measured);
   refuse_friction_states(of);
-  DrivenSystem driven = DependentCoordinates(of, measured, joints).sort_out();
+  DrivenSystem driven = choose_drives(of, measured, joints, positions);
   std::vector<int> drives;
   for (int k : driven.drives) drives.push_back(joints[to_index(k)]);
   driven.system = std::make_shared<const CompiledSystem>(of.robot(), without_control(of.study()), of.sharing(), drives);
@@ -144,24 +193,7 @@ Status assemble_driven(const CompiledSystem& of, const std::vector<MeasuredJoint
                        const std::vector<double>& parameters, const Eigen::VectorXd& positions, State<double>* state) {
   StartWorkspace usual(of, parameters);
   if (Status status = usual.solve_positions(); !status.ok()) return status;
-  const std::vector<int> joints = find_joints(of.robot(), measured);
-  Study study = without_control(of.study());
-  study.initial_state.clear();
-  for (std::size_t joint = 0; joint < of.robot().joints.size(); ++joint) {
-    const JointDescription& description = of.robot().joints[joint];
-    if (description.is_loop || !has_one_coordinate(description.type)) continue;
-    InitialJointState& initial = study.initial_state.emplace_back();
-    initial.joint = description.name;
-    initial.guess = usual.assembly.theta()[usual.assembly.tree().offset[joint]];
-    const auto found = std::find(joints.begin(), joints.end(), static_cast<int>(joint));
-    if (found == joints.end()) continue;
-    const auto k = static_cast<int>(found - joints.begin());
-    initial.guess = positions[k];
-    if (!std::binary_search(driven.drives.begin(), driven.drives.end(), k)) continue;
-    initial.guess.reset();
-    initial.position = Quantity(positions[k]);
-  }
-  const CompiledSystem first(of.robot(), study, of.sharing());
+  const CompiledSystem first(of.robot(), study_near(usual, of, find_joints(of.robot(), measured), positions, driven.drives), of.sharing());
   StartWorkspace start(first, parameters);
   if (Status status = start.solve_positions(); !status.ok()) return status;
   state->resize(driven.system->layout());

@@ -25,13 +25,16 @@ struct DrivenSystem {
   std::shared_ptr<const CompiledSystem> system;
   std::vector<int>
       drives;  ///< the driven joints as indices in the list of measured joints, ascending; drive k has row System::drive_row(k)
-  std::vector<int> surplus;  ///< the other measured joints likewise: their motion follows from that of the drives
+  std::vector<int> surplus;  ///< other measured joints likewise: their motion follows from that of the drives
 };
 
 /// @param of the mechanism as make_system() compiled it; its redundant reactions are shared as there.
+/// @param positions measured positions, one column per instant, at which the rank of the loops is examined where it is not the usual one at
+/// the study's start, as in a stretched-out linkage; may have no columns.
 /// @throws InputError for unknown or repeated joints and joints without one coordinate, for a joint whose motion the measured ones do not
 /// determine, for more joints with an effort than degrees of freedom, and for friction laws with states.
-DrivenSystem make_driven_system(const CompiledSystem& of, const std::vector<MeasuredJoint>& measured);
+DrivenSystem make_driven_system(const CompiledSystem& of, const std::vector<MeasuredJoint>& measured,
+                                const Eigen::MatrixXd& positions = {});
 
 /// A position of the mechanism from which the first instant of a recording is assembled: all measured joints near `positions` [rad or m,
 /// order of `measured`], the drives exactly there.

@@ -33,6 +33,16 @@ void require_shape(const MeasuredMotion& motion, std::size_t joints) {
     throw std::invalid_argument("the first samples of the recordings begin with 0 and ascend");
 }
 
+/// Measured positions at a few instants.
+Eigen::MatrixXd some_positions(const MeasuredMotion& motion) {
+  constexpr int kInstants = 4;
+  const Eigen::Index samples = motion.position.cols();
+  if (samples == 0) return {};
+  Eigen::MatrixXd some(motion.position.rows(), kInstants);
+  for (int k = 0; k < kInstants; ++k) some.col(k) = motion.position.col(k * (samples - 1) / kInstants);
+  return some;
+}
+
 }  // namespace
 
 /// What one thread works with.
@@ -50,7 +60,10 @@ struct EffortModel::EffortWorker {
 };
 
 EffortModel::EffortModel(const CompiledSystem& system, std::vector<MeasuredJoint> joints, MeasuredMotion motion, int threads)
-    : system_(system), joints_(std::move(joints)), motion_(std::move(motion)), driven_(make_driven_system(system, joints_)) {
+    : system_(system),
+      joints_(std::move(joints)),
+      motion_(std::move(motion)),
+      driven_(make_driven_system(system, joints_, some_positions(motion_))) {
   require_shape(motion_, joints_.size());
   for (int k : driven_.drives) names_.push_back(joints_[to_index(k)].name);
   position_ = rows_of(motion_.position, driven_.drives);

@@ -74,6 +74,29 @@ TEST(DrivenSystem, FrictionWithStatesIsRefused) {
   EXPECT_EQ(refusal(*system, measured({"hinge"})).value, "lugre");
 }
 
+TEST(DrivenSystem, AStretchedOutStartDoesNotCount) {
+  // All bars of the parallelogram hang on one line, where two motions meet.
+  std::string urdf = four_bar();
+  const auto replace = [&urdf](const std::string& from, const std::string& to) { urdf.replace(urdf.find(from), from.size(), to); };
+  replace("<origin xyz='1.2 0 0'/>", "<origin xyz='0 0 -1.2'/>");
+  const auto system = compiled(
+      urdf,
+      let_go("{left_hinge: {position: 0.0}, right_hinge: {guess: 0.0}, left_pin: {guess: 1.5707963267948966}}", "left_hinge/velocity"));
+  const Eigen::MatrixXd positions = Eigen::MatrixXd::Constant(1, 1, 0.7);
+  EXPECT_EQ(make_driven_system(*system, measured({"left_hinge"}), positions).drives, std::vector<int>{0});
+}
+
+TEST(DrivenSystem, AJointWithoutMassIsLeftOutUnlessItHasAnEffort) {
+  std::string urdf = pendulum();
+  const std::string end = "</robot>";
+  urdf.replace(urdf.find(end), end.size(), "<link name='tool'/>" + hinge("tool_joint", "bar", "tool", "0 0 -1") + end);
+  const auto system = compiled(urdf, let_go("{}", "hinge/velocity"));
+  const DrivenSystem driven = make_driven_system(*system, measured({"hinge"}, {"tool_joint"}));
+  EXPECT_EQ(driven.drives, std::vector<int>{0});
+  EXPECT_TRUE(driven.surplus.empty());
+  EXPECT_EQ(refusal(*system, measured({"hinge", "tool_joint"})).element, "<joint name=\"tool_joint\">");
+}
+
 TEST(DrivenSystem, AssemblesTheLoopsAtTheMeasuredPositions) {
   const auto system = compiled(four_bar(), let_go("{left_hinge: {position: 0.3}}", "left_hinge/velocity"));
   const std::vector<MeasuredJoint> joints = measured({"left_hinge"}, {"right_hinge"});

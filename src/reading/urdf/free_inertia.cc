@@ -18,7 +18,7 @@ constexpr const char* kAttribute = "codesign:inertia";
 constexpr std::array<const char*, 6> kMoments = {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"};
 
 /// A link's name as the beginning of parameters' names: other characters than letters, digits and _ become _.
-std::string prefix_of(const std::string& link) {
+std::string names_begin_with(const std::string& link) {
   std::string prefix = link;
   for (char& c : prefix)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
@@ -87,7 +87,7 @@ void write_out(XMLElement* node, const std::string& link, XmlDocument* document)
         "no body with an extent in all directions has this inertia, so that it cannot be free",
         "ixx=" + to_decimal(plain.inertia(0, 0)) + " iyy=" + to_decimal(plain.inertia(1, 1)) + " izz=" + to_decimal(plain.inertia(2, 2)),
         "principal moments each above zero and below the sum of the other two");
-  const std::string prefix = prefix_of(link);
+  const std::string prefix = names_begin_with(link);
   for (std::size_t k = 0; k < numbers->size(); ++k) {
     XMLElement* parameter = document->append_new(document->robot(), "codesign:parameter", inertial.where());
     parameter->SetAttribute("name", (prefix + "_" + kLogCholeskyNames[k]).c_str());
