@@ -25,7 +25,7 @@ Eigen::MatrixXd rows_of(const Eigen::MatrixXd& all, const std::vector<int>& rows
   return part;
 }
 
-void require_shape(const MeasuredMotion& motion, std::size_t joints) {
+void require_shape(const MotionSamples& motion, std::size_t joints) {
   for (const Eigen::MatrixXd* part : {&motion.position, &motion.velocity, &motion.acceleration})
     if (part->rows() != static_cast<Eigen::Index>(joints) || part->cols() != motion.position.cols())
       throw std::invalid_argument("a measured motion needs one row per joint and one column per sample");
@@ -34,7 +34,7 @@ void require_shape(const MeasuredMotion& motion, std::size_t joints) {
 }
 
 /// Measured positions at a few instants.
-Eigen::MatrixXd some_positions(const MeasuredMotion& motion) {
+Eigen::MatrixXd some_positions(const MotionSamples& motion) {
   constexpr int kInstants = 4;
   const Eigen::Index samples = motion.position.cols();
   if (samples == 0) return {};
@@ -59,7 +59,7 @@ struct EffortModel::EffortWorker {
   State<double> state;
 };
 
-EffortModel::EffortModel(const CompiledSystem& system, std::vector<MeasuredJoint> joints, MeasuredMotion motion, int threads)
+EffortModel::EffortModel(const CompiledSystem& system, std::vector<MeasuredJoint> joints, MotionSamples motion, int threads)
     : system_(system),
       joints_(std::move(joints)),
       motion_(std::move(motion)),

@@ -17,7 +17,7 @@ namespace codesign {
 class MotionProjection;
 
 /// The measured motion, one row per measured joint and one column per instant (a sample), recording after recording.
-struct MeasuredMotion {
+struct MotionSamples {
   Eigen::MatrixXd position, velocity, acceleration;  ///< [rad or m], per s, per s^2
   std::vector<int> begins{0};  ///< the first sample of each recording, ascending; between samples of one recording joints move little
 };
@@ -32,7 +32,7 @@ class EffortModel {
   /// @param motion as many rows as `joints`; finite numbers.
   /// @param threads how many samples are evaluated at the same time.
   /// @throws InputError as make_driven_system().
-  EffortModel(const CompiledSystem& system, std::vector<MeasuredJoint> joints, MeasuredMotion motion, int threads = 1);
+  EffortModel(const CompiledSystem& system, std::vector<MeasuredJoint> joints, MotionSamples motion, int threads = 1);
   ~EffortModel();
 
   /// The joints whose efforts are computed, in the order of the rows of efforts: those of DrivenSystem::drives.
@@ -75,7 +75,7 @@ class EffortModel {
 
   const CompiledSystem& system_;
   const std::vector<MeasuredJoint> joints_;
-  const MeasuredMotion motion_;
+  const MotionSamples motion_;
   const DrivenSystem driven_;
   std::vector<std::string> names_;
   Eigen::MatrixXd position_, velocity_, acceleration_;

@@ -55,10 +55,10 @@ Conflicts find_conflicts(EffortModel* model, const std::vector<double>& paramete
 
 }  // namespace
 
-MeasuredMotion thinned(const MeasuredMotion& motion, int count) {
+MotionSamples thinned(const MotionSamples& motion, int count) {
   const auto samples = static_cast<int>(motion.position.cols()), stride = std::max(1, samples / std::max(1, count));
   std::vector<int> chosen;
-  MeasuredMotion result;
+  MotionSamples result;
   result.begins.clear();
   for (std::size_t k = 0; k < motion.begins.size(); ++k) {
     const int end = k + 1 < motion.begins.size() ? motion.begins[k + 1] : samples;

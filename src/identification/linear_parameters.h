@@ -9,7 +9,7 @@
 namespace codesign {
 
 /// About `count` samples of a motion, evenly chosen, with the first of every recording.
-MeasuredMotion thinned(const MeasuredMotion& motion, int count);
+MotionSamples thinned(const MotionSamples& motion, int count);
 
 /// Which tuned parameters enter the efforts linearly together, so that a linear regression finds them for any values of the others.
 struct LinearParameters {

@@ -14,7 +14,7 @@ TEST(EffortSamples, AskForNoMemoryOnceWarm) {
   const std::string ground = "<link name='ground'/>";
   urdf.replace(urdf.find(ground), ground.size(), "<codesign:parameter name='mu' value='0.15'/><link name='ground'/>");
   const auto system = compiled(urdf, let_go("{left_hinge: {position: 0.3}}", "left_hinge/velocity", "parameters: {mu: {tune: true}}"));
-  MeasuredMotion measured_motion;
+  MotionSamples measured_motion;
   for (Eigen::MatrixXd* part : {&measured_motion.position, &measured_motion.velocity, &measured_motion.acceleration}) part->resize(1, 100);
   for (int k = 0; k < 100; ++k) {
     measured_motion.position(0, k) = 0.3 + 0.4 * std::sin(0.05 * k);

@@ -35,7 +35,7 @@ void expect_applied_efforts(const CompiledSystem& system, const std::vector<std:
 }
 
 /// Compares every derivative at every tenth sample with a complex step.
-void expect_exact_jacobian(const CompiledSystem& system, const std::vector<std::string>& joints, const MeasuredMotion& motion,
+void expect_exact_jacobian(const CompiledSystem& system, const std::vector<std::string>& joints, const MotionSamples& motion,
                            const std::vector<std::string>& passive = {}) {
   EffortModel model(system, measured(joints, passive), motion);
   RowJacobian jacobian;
@@ -55,8 +55,8 @@ void expect_exact_jacobian(const CompiledSystem& system, const std::vector<std::
   }
 }
 
-MeasuredMotion swing(int samples, double amplitude, double offset = 0.0, int joints = 1) {
-  MeasuredMotion motion;
+MotionSamples swing(int samples, double amplitude, double offset = 0.0, int joints = 1) {
+  MotionSamples motion;
   for (Eigen::MatrixXd* part : {&motion.position, &motion.velocity, &motion.acceleration}) part->resize(joints, samples);
   for (int joint = 0; joint < joints; ++joint) {
     for (int k = 0; k < samples; ++k) {
@@ -72,7 +72,7 @@ MeasuredMotion swing(int samples, double amplitude, double offset = 0.0, int joi
 TEST(EffortModel, APendulumNeedsInertiaGravityAndDamping) {
   const auto system = compiled(robot(bar("bar") + hinge("hinge", "ground", "bar", "0 0 0", "<dynamics damping='0.3' friction='0'/>")),
                                let_go("{}", "hinge/velocity"));
-  const MeasuredMotion motion = swing(300, 1.2);
+  const MotionSamples motion = swing(300, 1.2);
   EffortModel model(*system, measured({"hinge"}), motion);
   const Eigen::MatrixXd efforts = efforts_of(&model, *system);
   for (int k = 0; k < 300; ++k) {
@@ -102,7 +102,7 @@ TEST(EffortModel, ASliderCrankWithFrictionByHand) {
       compiled(point_mass_slider_crank(),
                "gravity: [0, 0, 0]\n" + let_go("{crank_joint: {position: 0.6}, slider_joint: {guess: 0.7}}", "crank_joint/velocity"));
   const double r = 0.2, l = 0.6, J = 0.02 + 0.5 * 0.01 + 0.2 * r * r, M = 0.5 + 0.2;
-  const MeasuredMotion motion = swing(200, 0.3, 0.9);
+  const MotionSamples motion = swing(200, 0.3, 0.9);
   EffortModel model(*system, measured({"crank_joint"}), motion);
   const Eigen::MatrixXd efforts = efforts_of(&model, *system);
   for (int k = 0; k < 200; ++k) {
@@ -188,6 +188,15 @@ TEST(EffortModel, FindsTheTorqueOfARedundantFourBar) {
   expect_applied_efforts(*system, {"left_hinge"}, 0.01);
 }
 
+TEST(EffortModel, FindsTheTorqueWhereRedundantRowsHaveACompliance) {
+  const std::string control = driven_four_bar();
+  const auto system =
+      compiled(four_bar(), let_go("{left_hinge: {position: 0.3}}", "left_hinge/velocity", control.substr(0, control.find("parameters"))));
+  ASSERT_FALSE(system->sharing().drops());
+  ASSERT_GT(system->compliance(), 0.0);
+  expect_applied_efforts(*system, {"left_hinge"}, 0.01);
+}
+
 TEST(EffortModel, JacobianOfARedundantFourBarWithItsDimensions) {
   const auto system = compiled(tunable_four_bar(), let_go("{left_hinge: {position: 0.3}}", "left_hinge/velocity", driven_four_bar()));
   const RecordedMotion recorded = record_motion(*system, {"left_hinge"}, 100, 0.01);
@@ -229,8 +238,8 @@ TEST(EffortModel, TheSameBitsForAnyNumberOfThreads) {
 
 TEST(EffortModel, FollowsAMotionThatBeginsFarFromTheStart) {
   const auto system = compiled(four_bar(), let_go("{left_hinge: {position: 0.3}}", "left_hinge/velocity"));
-  const MeasuredMotion near = swing(50, 0.2, 0.3);
-  MeasuredMotion far = near;
+  const MotionSamples near = swing(50, 0.2, 0.3);
+  MotionSamples far = near;
   far.position.array() += 2.0 * M_PI;  // one turn on, from the same position in space
   EffortModel model(*system, measured({"left_hinge"}), near), turned(*system, measured({"left_hinge"}), far);
   const Eigen::MatrixXd efforts = efforts_of(&model, *system);
@@ -240,7 +249,7 @@ TEST(EffortModel, FollowsAMotionThatBeginsFarFromTheStart) {
 TEST(EffortModel, AnImpossibleMotionIsAStatusThatNamesTheSample) {
   const Shipped shipped("slider_crank");
   const auto system = make_system(shipped.robot, shipped.study, nullptr);
-  MeasuredMotion motion = record_motion(*system, {"crank_joint"}, 20, 0.01).motion;
+  MotionSamples motion = record_motion(*system, {"crank_joint"}, 20, 0.01).motion;
   motion.position(0, 7) = std::nan("");
   EffortModel model(*system, measured({"crank_joint"}), motion);
   const Status status = model.begin(system->parameters());

@@ -23,8 +23,8 @@ std::shared_ptr<const CompiledSystem> tunable_pendulum(const std::string& tuned)
       let_go("{}", "hinge/velocity", "parameters: {" + tuned + "}"));
 }
 
-MeasuredMotion some_motion() {
-  MeasuredMotion motion;
+MotionSamples some_motion() {
+  MotionSamples motion;
   for (Eigen::MatrixXd* part : {&motion.position, &motion.velocity, &motion.acceleration}) part->resize(1, 60);
   for (int k = 0; k < 60; ++k) {
     motion.position(0, k) = std::sin(0.1 * k);
@@ -74,9 +74,9 @@ TEST(LinearParameters, AFailureAtTheStartIsReported) {
 }
 
 TEST(LinearParameters, ThinningKeepsTheFirstSampleOfEveryRecording) {
-  MeasuredMotion motion = some_motion();
+  MotionSamples motion = some_motion();
   motion.begins = {0, 25};
-  const MeasuredMotion few = thinned(motion, 6);
+  const MotionSamples few = thinned(motion, 6);
   EXPECT_EQ(few.begins, (std::vector<int>{0, 3}));
   EXPECT_EQ(few.position.cols(), 7);
   EXPECT_EQ(few.position(0, 3), motion.position(0, 25));

@@ -27,7 +27,7 @@ class MotionProjectionTest : public testing::Test {
 
   /// Gives the right hinge the motion that follows from the left one's to rounding, not just to the integrator's tolerance.
   void make_consistent() {
-    MeasuredMotion left = recorded.motion;
+    MotionSamples left = recorded.motion;
     for (Eigen::MatrixXd* part : {&left.position, &left.velocity, &left.acceleration}) *part = part->topRows(1).eval();
     EffortModel model(*system, measured({"left_hinge"}), left);
     EXPECT_TRUE(model.begin(system->parameters()).ok());
@@ -73,7 +73,7 @@ TEST_F(MotionProjectionTest, AMotionThatFitsStays) {
 }
 
 TEST_F(MotionProjectionTest, PositionsMissByTheLeastWeightedSquares) {
-  MeasuredMotion noisy = recorded.motion;
+  MotionSamples noisy = recorded.motion;
   for (int k = 0; k < noisy.position.cols(); ++k) {
     noisy.position(0, k) += 0.02 * std::sin(1.7 * k);
     noisy.position(1, k) += 0.03 * std::cos(2.3 * k);
@@ -94,7 +94,7 @@ TEST_F(MotionProjectionTest, PositionsMissByTheLeastWeightedSquares) {
 }
 
 TEST_F(MotionProjectionTest, AccelerationsOfEqualWeightAreShared) {
-  MeasuredMotion noisy = recorded.motion;
+  MotionSamples noisy = recorded.motion;
   noisy.acceleration.row(1).array() += 0.7;
   noisy.velocity.row(1).array() += 0.3;
   EffortModel model(*system, measured({"left_hinge"}, {"right_hinge"}), noisy);

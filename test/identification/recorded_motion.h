@@ -21,7 +21,7 @@ namespace codesign {
 /// A simulated motion as an ideal rig would record it, at the ends of the integrator's steps: accelerations and efforts are those of the
 /// equations at the very positions and velocities.
 struct RecordedMotion {
-  MeasuredMotion motion;
+  MotionSamples motion;
   Eigen::MatrixXd efforts;  ///< of the controllers, joints x samples [N m or N]
 };
 

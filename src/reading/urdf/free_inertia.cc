@@ -48,7 +48,7 @@ void write_twin(XMLElement* element, const std::string& attribute, const std::st
   element->SetAttribute((kPrefix + attribute).c_str(), twin.c_str());
 }
 
-/// The expressions of (29).
+/// The expressions of (28e).
 void write_inertial_twins(XMLElement* inertial, const MassProperties<double>& plain, const std::string& link) {
   const auto name = [&link](const char* number) { return link + "_" + number; };
   const auto exp2 = [&name](const char* number) { return "exp(2*" + name(number) + ")"; };

@@ -7,7 +7,7 @@
 namespace codesign {
 
 /// Writes out every `<inertial codesign:inertia="free">`: the document gets ten `<codesign:parameter>` LINK_alpha, LINK_d1 and so on (see
-/// kLogCholeskyNames), and mass, centre and inertia get twins, so that every value of the parameters is physically possible; theory (29).
+/// kLogCholeskyNames), and mass, centre and inertia get twins, so that every value of the parameters is physically possible; theory (28e).
 /// The plain numbers stay what they are, in the link's axes. The attribute is removed.
 /// @throws InputError for another value than `free`, beside a density or a twin, and for numbers of a body without extent.
 void write_out_free_inertias(XmlDocument* document);
