@@ -100,6 +100,7 @@ Status EffortModel::follow(const MotionProjection& projection, int sample, Effor
 }
 
 Status EffortModel::begin(const std::vector<double>& parameters) {
+  for (std::unique_ptr<EffortWorker>& each : workers_) each.reset();
   EffortWorker worker(driven_);
   if (Status status = prepare(parameters, &worker); !status.ok()) return status;
   const MotionProjection projection(driven_, joints_);
@@ -113,10 +114,10 @@ Status EffortModel::begin(const std::vector<double>& parameters) {
     states_[to_index(sample)] = worker.state;
   }
   // All workers begin with the same pivots, chosen here, so that it does not matter which of them evaluates a sample.
-  if (samples() == 0) return {};
   for (std::unique_ptr<EffortWorker>& each : workers_) {
     each = std::make_unique<EffortWorker>(driven_);
     each->motion.set_design(parameters);
+    if (samples() == 0) continue;
     if (Status status = each->motion.linearize(states_.front()); !status.ok()) return at_sample(0, status);
     each->motion.settle();
   }
@@ -139,6 +140,7 @@ EffortModel::Failure EffortModel::evaluate_block(int block, EffortWorker* worker
 }
 
 Status EffortModel::evaluate(const std::vector<double>& parameters, Eigen::MatrixXd* efforts, RowJacobian* jacobian) {
+  if (!workers_.back()) throw std::logic_error("EffortModel::begin() must succeed before evaluate()");
   efforts->resize(position_.rows(), samples());
   if (jacobian != nullptr) jacobian->resize(position_.size(), this->parameters());
   const int blocks = (samples() + kBlock - 1) / kBlock;

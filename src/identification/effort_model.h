@@ -46,6 +46,7 @@ class EffortModel {
   /// @param parameters all named parameters (Study::parameters order). @return a failure names the sample.
   Status begin(const std::vector<double>& parameters);
 
+  /// After begin() has succeeded; else it throws std::logic_error.
   /// @param parameters all named parameters.
   /// @param efforts resized to drives x samples: effort on the child along the joint coordinate [N m or N].
   /// @param jacobian may be null; else resized to (drives * samples) x tuned parameters, row sample * drives + k for drive k.

@@ -257,6 +257,37 @@ TEST(EffortModel, AnImpossibleMotionIsAStatusThatNamesTheSample) {
   EXPECT_NE(status.cause.find("sample 7"), std::string::npos) << status.cause;
 }
 
+TEST(EffortModel, BeginComesFirstAndNoSamplesAreNoEfforts) {
+  const auto system = compiled(pendulum(), let_go("{}", "hinge/velocity"));
+  EffortModel model(*system, measured({"hinge"}), swing(10, 1.0));
+  Eigen::MatrixXd efforts;
+  EXPECT_THROW(model.evaluate(system->parameters(), &efforts, nullptr), std::logic_error);
+  EffortModel empty(*system, measured({"hinge"}), swing(0, 1.0), 2);
+  RowJacobian jacobian;
+  EXPECT_EQ(efforts_of(&empty, *system, &jacobian).size(), 0);
+  MotionSamples uneven = swing(10, 1.0);
+  uneven.velocity.resize(1, 9);
+  EXPECT_THROW(EffortModel(*system, measured({"hinge"}), uneven), std::invalid_argument);
+  uneven = swing(10, 1.0);
+  uneven.begins = {3};
+  EXPECT_THROW(EffortModel(*system, measured({"hinge"}), uneven), std::invalid_argument);
+}
+
+TEST(EffortModel, AnImpossibleDesignIsAStatus) {
+  const auto system = compiled(tunable_four_bar(), let_go("{left_hinge: {position: 0.3}}", "left_hinge/velocity", driven_four_bar()));
+  EffortModel model(*system, measured({"left_hinge"}), swing(70, 0.2, 0.4), 2);
+  Eigen::MatrixXd efforts;
+  ASSERT_TRUE(model.begin(system->parameters()).ok());
+  std::vector<double> parameters = system->parameters();
+  parameters[2] = -1.0;  // the mass
+  EXPECT_EQ(model.evaluate(parameters, &efforts, nullptr).code, StatusCode::kInvalidDesign);
+  parameters = system->parameters();
+  parameters[3] = 4.0;  // the height: Newton's method does not get there from where the bars are
+  const Status status = model.evaluate(parameters, &efforts, nullptr);
+  EXPECT_EQ(status.code, StatusCode::kAssemblyFailed);
+  EXPECT_EQ(status.cause.find("sample "), 0u) << status.cause;
+}
+
 TEST(EffortModel, ObeysACancel) {
   const auto system = compiled(pendulum(), let_go("{}", "hinge/velocity"));
   EffortModel model(*system, measured({"hinge"}), swing(100, 1.0));
