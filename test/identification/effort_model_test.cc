@@ -274,18 +274,22 @@ TEST(EffortModel, BeginComesFirstAndNoSamplesAreNoEfforts) {
 }
 
 TEST(EffortModel, AnImpossibleDesignIsAStatus) {
-  const auto system = compiled(tunable_four_bar(), let_go("{left_hinge: {position: 0.3}}", "left_hinge/velocity", driven_four_bar()));
-  EffortModel model(*system, measured({"left_hinge"}), swing(70, 0.2, 0.4), 2);
+  const Shipped shipped("slider_crank");
+  const auto system = make_system(shipped.robot, shipped.study, nullptr);
+  EffortModel model(*system, measured({"crank_joint"}), swing(70, 0.2, 0.4), 2);
   Eigen::MatrixXd efforts;
   ASSERT_TRUE(model.begin(system->parameters()).ok());
-  std::vector<double> parameters = system->parameters();
-  parameters[2] = -1.0;  // the mass
-  EXPECT_EQ(model.evaluate(parameters, &efforts, nullptr).code, StatusCode::kInvalidDesign);
-  parameters = system->parameters();
-  parameters[3] = 4.0;  // the height: Newton's method does not get there from where the bars are
-  const Status status = model.evaluate(parameters, &efforts, nullptr);
-  EXPECT_EQ(status.code, StatusCode::kAssemblyFailed);
-  EXPECT_EQ(status.cause.find("sample "), 0u) << status.cause;
+  const auto with_crank = [&](double length) {
+    std::vector<double> parameters = system->parameters();
+    for (std::size_t k = 0; k < parameters.size(); ++k)
+      if (system->study().parameters[k].name == "crank_length") parameters[k] = length;
+    return model.evaluate(parameters, &efforts, nullptr);
+  };
+  EXPECT_EQ(with_crank(-0.1).code, StatusCode::kInvalidDesign);
+  const Status too_long = with_crank(1.5);
+  EXPECT_EQ(too_long.code, StatusCode::kAssemblyFailed);
+  EXPECT_EQ(too_long.cause.find("sample "), 0u) << too_long.cause;
+  EXPECT_TRUE(with_crank(0.09).ok());
 }
 
 TEST(EffortModel, ObeysACancel) {
