@@ -154,6 +154,22 @@ TEST(EffortModel, JacobianOfTheSliderCrankWithItsDimensions) {
   expect_exact_jacobian(*make_system(shipped.robot, shipped.study, nullptr), {"crank_joint"}, recorded.motion);
 }
 
+TEST(EffortModel, JacobianByTheTenNumbersOfAFreeInertia) {
+  std::string tuned;
+  for (const char* name : {"alpha", "d1", "d2", "d3", "s12", "s23", "s13", "t1", "t2", "t3"})
+    tuned += std::string(tuned.empty() ? "" : ", ") + "camera_" + name + ": {tune: true}";
+  const auto system = compiled(
+      robot(
+          "<link name='head'><inertial><mass value='1'/><inertia ixx='0.01' ixy='0' ixz='0' iyy='0.01' iyz='0' "
+          "izz='0.01'/></inertial></link>"
+          "<link name='camera'><inertial codesign:inertia='free'><origin xyz='0.1 0.05 -0.2' rpy='0.2 0.1 0.3'/><mass value='2'/><inertia "
+          "ixx='0.02' ixy='0.001' ixz='0' iyy='0.03' iyz='0.002' izz='0.04'/></inertial></link>"
+          "<joint name='pan' type='continuous'><parent link='ground'/><child link='head'/><axis xyz='0.2 0.1 1'/></joint>" +
+          hinge("tilt", "head", "camera", "0.1 0 0.3")),
+      let_go("{}", "pan/velocity", "parameters: {" + tuned + "}"));
+  expect_exact_jacobian(*system, {"pan", "tilt"}, swing(100, 1.2, 0.1, 2));
+}
+
 /// A four-bar linkage drawn in the plane, whose redundant reactions friction depends on, with parameters of every kind.
 std::string tunable_four_bar() {
   std::string urdf = four_bar(
