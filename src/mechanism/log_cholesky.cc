@@ -25,4 +25,16 @@ std::optional<std::array<double, 10>> log_cholesky(const MassProperties<double>&
       0.5 * std::log(properties.mass), 0.5 * std::log(first), std::log(l2), std::log(l3), s12, s23, s13, t[0], t[1], t[2]};
 }
 
+MassProperties<double> properties_of(const std::array<double, 10>& numbers) {
+  const auto& [alpha, d1, d2, d3, s12, s23, s13, t1, t2, t3] = numbers;
+  Matrix3<double> L;
+  L << std::exp(d1), s12, s13, 0.0, std::exp(d2), s23, 0.0, 0.0, std::exp(d3);
+  const Matrix3<double> S = L * L.transpose();
+  MassProperties<double> result;
+  result.mass = std::exp(2.0 * alpha);
+  result.centre = {t1, t2, t3};
+  result.inertia = result.mass * (S.trace() * Matrix3<double>::Identity() - S);
+  return result;
+}
+
 }  // namespace codesign

@@ -75,6 +75,14 @@ void write_inertial_twins(XMLElement* inertial, const MassProperties<double>& pl
   moment("iyz", 1, 2, "-" + s23 + "*" + l3);
 }
 
+/// The `<codesign:parameter>` of this name, for instance of an overlay with identified values; null if there is none.
+const XMLElement* find_parameter(const XmlDocument& document, const std::string& name) {
+  const char* tag = "codesign:parameter";
+  const XMLElement* element = document.robot()->FirstChildElement(tag);
+  while (element != nullptr && !element->Attribute("name", name.c_str())) element = element->NextSiblingElement(tag);
+  return element;
+}
+
 void write_out(XMLElement* node, const std::string& link, XmlDocument* document) {
   const XmlElement inertial(node, document);
   if (inertial.text(kAttribute) != "free") inertial.fail_at(kAttribute, "unknown kind of inertia", "free");
@@ -88,13 +96,19 @@ void write_out(XMLElement* node, const std::string& link, XmlDocument* document)
         "ixx=" + to_decimal(plain.inertia(0, 0)) + " iyy=" + to_decimal(plain.inertia(1, 1)) + " izz=" + to_decimal(plain.inertia(2, 2)),
         "principal moments each above zero and below the sum of the other two");
   const std::string prefix = names_begin_with(link);
-  for (std::size_t k = 0; k < numbers->size(); ++k) {
+  std::array<double, 10> values = *numbers;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const std::string name = prefix + "_" + kLogCholeskyNames[k];
+    if (const XMLElement* declared = find_parameter(*document, name)) {
+      values[k] = read_number(XmlElement(declared, document), "value", Range::kAny);
+      continue;
+    }
     XMLElement* parameter = document->append_new(document->robot(), "codesign:parameter", inertial.where());
-    parameter->SetAttribute("name", (prefix + "_" + kLogCholeskyNames[k]).c_str());
-    parameter->SetAttribute("value", to_decimal((*numbers)[k]).c_str());
+    parameter->SetAttribute("name", name.c_str());
+    parameter->SetAttribute("value", to_decimal(values[k]).c_str());
     if (kLogCholeskyUnits[k][0] != '\0') parameter->SetAttribute("unit", kLogCholeskyUnits[k]);
   }
-  write_inertial_twins(node, plain, prefix);
+  write_inertial_twins(node, properties_of(values), prefix);
   node->DeleteAttribute(kAttribute);
 }
 

@@ -97,6 +97,20 @@ TEST(FreeInertia, AnOverlayMayFreeAVendorsLink) {
   EXPECT_EQ(robot.parameters.size(), 11u);
 }
 
+TEST(FreeInertia, ADeclaredParameterKeepsItsValueAndBounds) {
+  const SourceText overlay{"found.urdf",
+                           "<robot name='r' xmlns:codesign='urn:t'><codesign:parameter name='arm_1_alpha' value='0.5' lower='0' upper='1'/>"
+                           "<codesign:parameter name='arm_1_t3' value='-0.25'/></robot>"};
+  const RobotDescription robot = read_urdf({"arm.urdf", arm_with("codesign:inertia='free'", arm_numbers())}, {overlay});
+  ASSERT_EQ(robot.parameters.size(), 11u);
+  EXPECT_EQ(robot.parameters[1].name, "arm_1_alpha");
+  EXPECT_EQ(robot.parameters[1].upper, 1.0);
+  const InertialDescription& inertial = *robot.links[1].inertial;
+  EXPECT_NEAR(inertial.mass.nominal(), std::exp(1.0), 1e-14);
+  EXPECT_NEAR(inertial.origin.xyz[2].nominal(), -0.25, 1e-15);
+  EXPECT_NEAR(inertial.origin.xyz[1].nominal(), 0.2, 1e-15);
+}
+
 TEST(FreeInertia, RefusesWhatCannotBeFree) {
   EXPECT_EQ(arm_refusal("codesign:inertia='fre'").allowed, "free");
   EXPECT_NE(arm_refusal("codesign:inertia='free' codesign:density='100'").message.find("shapes"), std::string::npos);
