@@ -25,13 +25,19 @@ void coupling_error(const StateView<T>& view, std::size_t k, VectorX<T>* Phi, Ve
   }
 }
 
+/// epsilon of the coupling's row, theory (23). A drive prescribes a motion exactly, theory (28).
+template <class T>
+double compliance_in(const StateView<T>& view, const Coupling& coupling) {
+  return coupling.is_drive ? 0.0 : view.system.compliance();
+}
+
 /// Sets the coupling's row to Phi'' - epsilon lambda and adds J_k^T c_k lambda to the rows of motion.
 template <class T>
 void coupling_residual(const StateView<T>& view, std::size_t k, VectorX<T>* G) {
   const Coupling& coupling = view.system.topology().couplings[k];
   const int row = view.layout.lambda_column(view.layout.coupling_row(static_cast<int>(k)));
   const T lambda = view.state->z[row];
-  (*G)[row] = T(-view.system.compliance()) * lambda;
+  (*G)[row] = T(-compliance_in(view, coupling)) * lambda;
   for (std::size_t t = 0; t < coupling.terms.size(); ++t) {
     const CouplingTerm& term = coupling.terms[t];
     const T coefficient = view.design.constants.couplings[k].coefficients[t];
@@ -47,7 +53,7 @@ template <class T, class Sink>
 void assemble_coupling(const StateView<T>& view, std::size_t k, Sink* sink) {
   const Coupling& coupling = view.system.topology().couplings[k];
   const int row = view.layout.lambda_column(view.layout.coupling_row(static_cast<int>(k)));
-  if (view.system.compliance() != 0.0) sink->rate(row, row, T(-view.system.compliance()));
+  if (const double epsilon = compliance_in(view, coupling); epsilon != 0.0) sink->rate(row, row, T(-epsilon));
   for (std::size_t t = 0; t < coupling.terms.size(); ++t) {
     const CouplingTerm& term = coupling.terms[t];
     const T coefficient = view.design.constants.couplings[k].coefficients[t];

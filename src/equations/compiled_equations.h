@@ -38,6 +38,8 @@ class CompiledEquations {
   void set_design(const std::vector<T>& parameters);
   /// With false every function returns false at once, so that the formulas are used.
   void allow(bool allowed) { allowed_ = allowed; }
+  /// Forgets which evaluations failed before, so that the last bits of later results do not depend on them.
+  void forget() { misses_ = {}; }
 
   /// The functions of Equations of the same name. False if there is no code, or if the state needs a branch that was not recorded; the
   /// results are then undefined.
@@ -93,6 +95,7 @@ class NoCompiledEquations {
  public:
   explicit NoCompiledEquations(const CompiledSystem&) {}
   void set_design(const std::vector<T>&) {}
+  void forget() {}
   template <class... Arguments>
   bool residual(const Arguments&...) {
     return false;

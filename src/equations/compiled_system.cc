@@ -6,8 +6,8 @@
 
 namespace codesign {
 
-CompiledSystem::CompiledSystem(const RobotDescription& robot, const Study& study, ReactionSharing sharing)
-    : System(robot, study, std::move(sharing)), plan_(record_assembly(*this)), code_(std::make_unique<LazyEquationCode>()) {}
+CompiledSystem::CompiledSystem(const RobotDescription& robot, const Study& study, ReactionSharing sharing, const std::vector<int>& drives)
+    : System(robot, study, std::move(sharing), drives), plan_(record_assembly(*this)), code_(std::make_unique<LazyEquationCode>()) {}
 
 CompiledSystem::~CompiledSystem() = default;
 

@@ -17,8 +17,9 @@ class LazyEquationCode;
 class CompiledSystem final : public System {
  public:
   /// @param sharing which redundant rows are dropped and which share reactions, theory (23); by default none.
+  /// @param drives joints whose motion is prescribed, see System::System().
   /// @throws InputError for a mechanism or a study without equations of motion, as System::System().
-  CompiledSystem(const RobotDescription& robot, const Study& study, ReactionSharing sharing = {});
+  CompiledSystem(const RobotDescription& robot, const Study& study, ReactionSharing sharing = {}, const std::vector<int>& drives = {});
   ~CompiledSystem();
 
   /// The patterns, and the nonzero that each call of Formulas::assemble() adds to.

@@ -82,7 +82,10 @@ Coupling plus_coupling(const RobotDescription& robot, const Topology& topology, 
 
 }  // namespace
 
-std::string Coupling::element() const { return is_mimic ? "<joint name=\"" + name + "\"> <mimic>" : "<coupling name=\"" + name + "\">"; }
+std::string Coupling::element() const {
+  if (is_drive) return "<joint name=\"" + name + "\">";
+  return is_mimic ? "<joint name=\"" + name + "\"> <mimic>" : "<coupling name=\"" + name + "\">";
+}
 
 std::vector<Coupling> derive_couplings(const RobotDescription& robot, const Topology& topology) {
   std::vector<Coupling> couplings;
@@ -90,6 +93,15 @@ std::vector<Coupling> derive_couplings(const RobotDescription& robot, const Topo
     if (robot.joints[k].mimic && topology.joint_pair[k] >= 0) couplings.push_back(mimic_coupling(robot, topology, static_cast<int>(k)));
   for (const CouplingDescription& description : robot.couplings) couplings.push_back(plus_coupling(robot, topology, description));
   return couplings;
+}
+
+Coupling drive_of(const RobotDescription& robot, const Topology& topology, int joint) {
+  Coupling coupling;
+  coupling.name = robot.joints[to_index(joint)].name;
+  coupling.is_drive = true;
+  coupling.where = robot.joints[to_index(joint)].where;
+  coupling.terms.push_back(term_of(robot, topology, joint, coupling));
+  return coupling;
 }
 
 }  // namespace codesign

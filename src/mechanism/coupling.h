@@ -22,7 +22,8 @@ struct CouplingTerm {
 /// A constraint row between joint coordinates: sum of coefficient * theta over the terms, minus offset, = 0; doc/theory.md (8a).
 struct Coupling {
   std::string name;                 ///< of the joint with the `<mimic>`, or of the `<coupling>`
-  bool is_mimic = false;            ///< from `<mimic>`, else from URDF+ `<coupling>`
+  bool is_mimic = false;            ///< from `<mimic>`, else from URDF+ `<coupling>`, or a drive
+  bool is_drive = false;            ///< made by drive_of(): the row prescribes the motion of one joint coordinate
   std::vector<CouplingTerm> terms;  ///< first the coordinate that follows the others, with coefficient 1
   Quantity offset{0.0};             ///< [rad or m]
   SourceLocation where;
@@ -39,6 +40,12 @@ struct Coupling {
 /// @throws InputError if a coupled joint moves only a link without `<inertial>`, if a joint between the links of a coupling has several
 /// coordinates, or if no joint moves the successor.
 std::vector<Coupling> derive_couplings(const RobotDescription& robot, const Topology& topology);
+
+/// The row theta = 0 of one joint coordinate, whose motion somebody else prescribes; doc/theory.md (28). Its multiplier is minus the effort
+/// that the motion needs. Without a compliance.
+/// @param joint index of a revolute, continuous or prismatic joint.
+/// @throws InputError if the joint moves only a link without `<inertial>`.
+Coupling drive_of(const RobotDescription& robot, const Topology& topology, int joint);
 
 }  // namespace codesign
 

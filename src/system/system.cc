@@ -9,8 +9,10 @@
 
 namespace codesign {
 
-System::System(const RobotDescription& robot, const Study& study, ReactionSharing sharing)
+System::System(const RobotDescription& robot, const Study& study, ReactionSharing sharing, const std::vector<int>& drives)
     : robot_(with_start_rotations(robot, study)), study_(study), topology_(derive_topology(robot_)), sharing_(std::move(sharing)) {
+  for (int joint : drives) topology_.couplings.push_back(drive_of(robot_, topology_, joint));
+  drives_ = static_cast<int>(drives.size());
   refuse_unsupported();
   lay_out();
   find_coordinates();

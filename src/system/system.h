@@ -55,9 +55,10 @@ struct LinkLoad {
 class System {
  public:
   /// @param sharing how redundant constraints are treated, theory (23); by default there are none.
+  /// @param drives joints (indices in `robot`) whose motion is prescribed: each gets a row behind those of the couplings, theory (28).
   /// @throws InputError for a mechanism without moving mass, loads or actuators on joints without a coordinate of their own, and signals,
   /// controllers or couplings that cannot be resolved.
-  System(const RobotDescription& robot, const Study& study, ReactionSharing sharing = {});
+  System(const RobotDescription& robot, const Study& study, ReactionSharing sharing = {}, const std::vector<int>& drives = {});
   System(const System&) = delete;
   System& operator=(const System&) = delete;
 
@@ -67,6 +68,8 @@ class System {
   const Topology& topology() const { return topology_; }
   const Layout& layout() const { return layout_; }
   const std::vector<Controller>& controllers() const { return controllers_; }
+  /// Row of Phi of the k-th drive.
+  int drive_row(int k) const { return layout_.coupling_row(layout_.couplings - drives_ + k); }
   /// One entry per joint coordinate on which anything acts.
   const std::vector<JointLoad>& loads() const { return loads_; }
   const std::vector<LinkLoad>& link_loads() const { return link_loads_; }
@@ -115,6 +118,7 @@ class System {
   RobotDescription robot_;
   Study study_;
   Topology topology_;
+  int drives_ = 0;  ///< the last ones of Topology::couplings
   Layout layout_;
   ReactionSharing sharing_;
   SharingLayout sharing_layout_;

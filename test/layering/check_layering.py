@@ -33,6 +33,7 @@ ROWS = [
     ["engine"],
     ["ensemble"],
     ["optimization"],
+    ["identification"],
     ["jobs"],
     ["mpi"],
     ["cli", "ros"],

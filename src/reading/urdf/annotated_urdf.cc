@@ -8,6 +8,7 @@
 #include "reading/urdf/annotation_rules.h"
 #include "reading/urdf/annotation_schema.h"
 #include "reading/urdf/foreign_loops.h"
+#include "reading/urdf/free_inertia.h"
 #include "reading/urdf/inertial_reader.h"
 #include "reading/urdf/joint_reader.h"
 #include "reading/urdf/overlay.h"
@@ -105,6 +106,7 @@ XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<Source
   Warnings warnings;
   check_vocabulary(document, &warnings);
   document.note(warnings);
+  write_out_free_inertias(&document);
   return document;
 }
 

@@ -49,7 +49,7 @@ std::vector<ElementRule> make_rules() {
       {"robot/codesign:spring_damper", true, {"name"}, {"stiffness", "damping", "free_length"}, {}, {"predecessor", "successor"}});
   add_ends("robot/codesign:spring_damper", true, &rules);
 
-  rules.push_back({"robot/link/inertial", false, {}, {}, {"density", "from"}, {}});
+  rules.push_back({"robot/link/inertial", false, {}, {}, {"density", "from", "inertia"}, {}});
   rules.push_back({"robot/link/inertial/origin", false, {}, {"xyz", "rpy"}, {}, {}});
   rules.push_back({"robot/link/inertial/mass", false, {}, {"value"}, {}, {}});
   rules.push_back({"robot/link/inertial/inertia", false, {}, {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}, {}, {}});

@@ -64,6 +64,13 @@ SourceLocation XmlDocument::location(const tinyxml2::XMLElement* element, const 
   return {file_, own->GetLineNum()};
 }
 
+tinyxml2::XMLElement* XmlDocument::append_new(tinyxml2::XMLElement* parent, const char* tag, const SourceLocation& where) {
+  tinyxml2::XMLElement* element = dom_->NewElement(tag);
+  parent->InsertEndChild(element);
+  foreign_elements_[element] = where;
+  return element;
+}
+
 tinyxml2::XMLElement* XmlDocument::append_copy(tinyxml2::XMLElement* parent, const tinyxml2::XMLElement* original,
                                                const XmlDocument& source) {
   tinyxml2::XMLElement* copy = dom_->NewElement(original->Name());

@@ -36,6 +36,8 @@ class XmlDocument {
   SourceLocation location(const tinyxml2::XMLElement* element) const;
   SourceLocation location(const tinyxml2::XMLElement* element, const std::string& attribute) const;
 
+  /// Appends a new element to `parent`, to be located at `where`.
+  tinyxml2::XMLElement* append_new(tinyxml2::XMLElement* parent, const char* tag, const SourceLocation& where);
   /// Appends to `parent` a copy of an element of another document, with its children and their locations; returns the copy.
   tinyxml2::XMLElement* append_copy(tinyxml2::XMLElement* parent, const tinyxml2::XMLElement* original, const XmlDocument& source);
   /// Copies all attributes of `original`, an element of another document, to `target`, with their locations.

@@ -1,0 +1,169 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "identification/driven_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "math/to_index.h"
+
+namespace codesign {
+namespace {
+
+constexpr int kMostIterations = 40;
+constexpr double kRounding = 4e-15;       // a relative step below this is rounding
+constexpr double kConverged = 1e-11;      // a relative step below this that no longer shrinks is rounding, too
+constexpr double kSharedRounding = 1e-7;  // the same for reactions of redundant rows, which a compliance of 1e-9 divides
+constexpr double kSlow = 0.05;            // a step that is not this much smaller than the one before asks for a new matrix
+constexpr double kFar = 0.25;             // a larger step of an Euler parameter, half a radian, might leave the branch
+constexpr int kMostDivisions = 12;
+
+/// Convergence of a Newton iteration by the sizes of its steps, relative to the unknowns.
+class Convergence {
+ public:
+  explicit Convergence(double converged) : converged_(converged) {}
+  /// Takes the next step; true if no further one is needed.
+  bool done(double step) {
+    slow_ = !(step < kSlow * previous_);
+    const bool rounding = step < kRounding || (step < converged_ && step >= 0.5 * previous_);
+    previous_ = step;
+    return rounding;
+  }
+  bool slow() const { return slow_; }
+
+ private:
+  double converged_, previous_ = std::numeric_limits<double>::infinity();
+  bool slow_ = false;
+};
+
+double largest_turn(const VectorX<double>& step, int bodies) {
+  double largest = 0.0;
+  for (int body = 0; body < bodies; ++body) largest = std::max(largest, step.segment<4>(kBodySize * body + 3).cwiseAbs().maxCoeff());
+  return largest;
+}
+
+Status singular() { return {StatusCode::kSingularMatrix, 0.0, "the matrix of the equations of the driven motion is singular"}; }
+
+Status not_closed() { return {StatusCode::kAssemblyFailed, 0.0, "the loops and couplings cannot follow the measured positions"}; }
+
+}  // namespace
+
+DrivenMotion::DrivenMotion(const DrivenSystem& driven)
+    : system_(*driven.system), drives_(static_cast<int>(driven.drives.size())), equations_(system_), matrix_(system_) {
+  derivatives_.resize(system_.patterns());
+  step_.setZero(system_.layout().columns());
+}
+
+void DrivenMotion::set_design(const std::vector<double>& parameters) { equations_.set_design(parameters); }
+
+void DrivenMotion::forget() {
+  matrix_.forget();
+  equations_.compiled().forget();
+}
+
+int DrivenMotion::turn_slot(int k) const {
+  const Coupling& drive = system_.topology().couplings[system_.topology().couplings.size() - to_index(drives_) + to_index(k)];
+  return system_.layout().turn(drive.terms.front().pair, drive.terms.front().element);
+}
+
+Status DrivenMotion::linearize(const State<double>& state) {
+  equations_.linearize(state, &derivatives_);
+  return matrix_.factor(derivatives_, 0.0, 0.0, 0.0) ? Status() : singular();
+}
+
+// As the projection (17): the rows of G below those of the bodies are Phi_q times the unknown, so that one matrix serves positions,
+// velocities and rates.
+void DrivenMotion::find_correction(Part part, In<double> given, const State<double>& state) {
+  const Layout& layout = system_.layout();
+  equations_.constraint_errors(state, &Phi_, &Phi_rate_);
+  VectorX<double>& errors = part == Part::kPositions ? Phi_ : Phi_rate_;
+  for (int k = 0; k < drives_; ++k) errors[system_.drive_row(k)] -= given[k];
+  step_.setZero();
+  step_.segment(layout.n, layout.m) = errors;
+  matrix_.lu().solve(step_);
+}
+
+Status DrivenMotion::solve_positions(In<double> given, State<double>* state) {
+  const Layout& layout = system_.layout();
+  for (int k = 0; k < drives_; ++k) state->turns[to_index(turn_slot(k))] = given[k];
+  Convergence convergence(kConverged);
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    find_correction(Part::kPositions, given, *state);
+    const double size = step_.head(layout.n).cwiseAbs().maxCoeff();
+    if (!std::isfinite(size) || largest_turn(step_, layout.bodies) > kFar) return not_closed();
+    state->q -= step_.head(layout.n);
+    if (convergence.done(size / (1.0 + state->q.cwiseAbs().maxCoeff()))) return {};
+    if (iteration > 0 && convergence.slow())
+      if (Status status = linearize(*state); !status.ok()) return status;
+  }
+  return not_closed();
+}
+
+Status DrivenMotion::solve_velocities(In<double> given, State<double>* state) {
+  const Layout& layout = system_.layout();
+  Convergence convergence(kConverged);
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    find_correction(Part::kVelocities, given, *state);
+    const double size = step_.head(layout.n).cwiseAbs().maxCoeff();
+    if (!std::isfinite(size)) break;
+    state->v -= step_.head(layout.n);
+    if (convergence.done(size / (1.0 + state->v.cwiseAbs().maxCoeff()))) return {};
+    if (iteration > 0 && convergence.slow())
+      if (Status status = linearize(*state); !status.ok()) return status;
+  }
+  return {StatusCode::kInitialVelocityFailed, 0.0, "the loops and couplings cannot follow the measured velocities"};
+}
+
+Status DrivenMotion::solve_rates(In<double> given, State<double>* state) {
+  double g = 0.0;
+  Convergence convergence(system_.compliance() == 0.0 ? kConverged : kSharedRounding);
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    equations_.residual(*state, &step_, &g);
+    for (int k = 0; k < drives_; ++k) step_[system_.layout().lambda_column(system_.drive_row(k))] -= given[k];
+    matrix_.lu().solve(step_);
+    const double size = step_.cwiseAbs().maxCoeff();
+    if (!std::isfinite(size)) return {StatusCode::kNonFinite, 0.0, "the equations of the driven motion are not finite"};
+    state->z -= step_;
+    if (convergence.done(size / (1.0 + state->z.cwiseAbs().maxCoeff()))) return {};
+    if (convergence.slow())
+      if (Status status = linearize(*state); !status.ok()) return status;
+  }
+  return {StatusCode::kInitialReactionsFailed, 0.0, "no reactions satisfy the equations of the driven motion with friction"};
+}
+
+Status DrivenMotion::solve(const DriveMotion& given, State<double>* state) {
+  if (Status status = linearize(*state); !status.ok()) return status;
+  if (Status status = solve_positions(given.position, state); !status.ok()) return status;
+  if (Status status = solve_velocities(given.velocity, state); !status.ok()) return status;
+  return solve_rates(given.acceleration, state);
+}
+
+// On failure the way is halved; `state` is then at the last position that was reached.
+Status DrivenMotion::move_to(In<double> given, int depth, State<double>* state) {
+  State<double> trial = *state;
+  Status status = linearize(trial);
+  if (status.ok()) status = solve_positions(given, &trial);
+  if (status.ok()) {
+    *state = trial;
+    equations_.track_turns(state);
+    return status;
+  }
+  if (depth == kMostDivisions) return status;
+  std::vector<double> half;
+  for (int k = 0; k < drives_; ++k) half.push_back(0.5 * (given[k] + state->turns[to_index(turn_slot(k))]));
+  if (Status first = move_to(half, depth + 1, state); !first.ok()) return first;
+  return move_to(given, depth + 1, state);
+}
+
+Status DrivenMotion::follow(const DriveMotion& given, State<double>* state) {
+  if (Status status = move_to(given.position, 0, state); !status.ok()) return status;
+  if (Status status = linearize(*state); !status.ok()) return status;
+  if (Status status = solve_velocities(given.velocity, state); !status.ok()) return status;
+  const Status status = solve_rates(given.acceleration, state);
+  if (status.code != StatusCode::kInitialReactionsFailed) return status;
+  state->z.setZero();  // once more from reactions without friction
+  if (Status again = linearize(*state); !again.ok()) return again;
+  return solve_rates(given.acceleration, state);
+}
+
+}  // namespace codesign

@@ -1,0 +1,70 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_IDENTIFICATION_DRIVEN_MOTION_H_
+#define MECHANISM_CODESIGN_IDENTIFICATION_DRIVEN_MOTION_H_
+
+#include <vector>
+
+#include "equations/equations.h"
+#include "equations/iteration_matrix.h"
+#include "identification/driven_system.h"
+#include "math/span.h"
+
+namespace codesign {
+
+/// The motion of the drives at one instant, in the order of DrivenSystem::drives.
+struct DriveMotion {
+  In<double> position, velocity, acceleration;  ///< [rad or m], per s, per s^2
+};
+
+/// Positions, velocities, accelerations, reactions and efforts of a driven mechanism at one design; doc/theory.md (28). A workspace: no
+/// allocation once warm, not thread-safe.
+///
+/// Statuses: kAssemblyFailed (no position near the start has the drives where they are given), kSingularMatrix, kNonFinite,
+/// kInitialReactionsFailed (no reactions satisfy the equations with friction).
+class DrivenMotion {
+ public:
+  /// @param driven must outlive this.
+  explicit DrivenMotion(const DrivenSystem& driven);
+
+  /// Evaluates all constants at `parameters` (all named parameters). Allocates.
+  void set_design(const std::vector<double>& parameters);
+  /// Later solutions do not depend on earlier ones, to the last bit.
+  void forget();
+  /// The pivots in use become those with which forget() begins again; for a state near all later ones.
+  void settle() { matrix_.settle(); }
+
+  /// Finds everything for a motion of the drives near the one of `state`, from which each unknown begins.
+  Status solve(const DriveMotion& given, State<double>* state);
+  /// solve(), for drives that may be far from where they are in `state`: they are moved there in steps. Counts whole turns.
+  Status follow(const DriveMotion& given, State<double>* state);
+  /// Makes matrix() the one of a solution, G_z of (14), for derivatives of it.
+  Status linearize(const State<double>& state);
+
+  /// Effort of drive k on the child of its joint, positive along the coordinate [N m or N].
+  double effort(const State<double>& state, int k) const { return -state.z[system_.layout().lambda_column(system_.drive_row(k))]; }
+  const SparseLu& lu() const { return matrix_.lu(); }
+  const CompiledSystem& system() const { return system_; }
+  Equations<double>& equations() { return equations_; }
+  int drives() const { return drives_; }
+
+ private:
+  enum class Part { kPositions, kVelocities };
+  Status solve_positions(In<double> given, State<double>* state);
+  Status solve_velocities(In<double> given, State<double>* state);
+  Status solve_rates(In<double> given, State<double>* state);
+  /// The correction of q or v that the errors of the constraints ask for, in the first n entries of step_.
+  void find_correction(Part part, In<double> given, const State<double>& state);
+  Status move_to(In<double> given, int depth, State<double>* state);
+  int turn_slot(int k) const;
+
+  const CompiledSystem& system_;
+  const int drives_;
+  Equations<double> equations_;
+  Linearization<double> derivatives_;
+  IterationMatrix matrix_;
+  VectorX<double> step_, Phi_, Phi_rate_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_IDENTIFICATION_DRIVEN_MOTION_H_

@@ -1,0 +1,48 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_IDENTIFICATION_DRIVEN_SYSTEM_H_
+#define MECHANISM_CODESIGN_IDENTIFICATION_DRIVEN_SYSTEM_H_
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "equations/compiled_system.h"
+#include "mechanism_codesign/status.h"
+
+namespace codesign {
+
+/// A joint whose motion was measured.
+struct MeasuredJoint {
+  std::string name;
+  bool with_effort = false;  ///< its effort was measured, too, or is known to be zero
+  double deviation = 1.0;    ///< of its measured position [rad or m]; only the ratios of several joints count, theory (28a)
+  SourceLocation where;      ///< where the joint is named, for messages
+};
+
+/// A mechanism whose motion is prescribed, doc/theory.md (28): the measured joints that determine the motion are driven, each by a row of
+/// its own whose multiplier is minus the effort. It has neither controllers nor an objective.
+struct DrivenSystem {
+  std::shared_ptr<const CompiledSystem> system;
+  std::vector<int>
+      drives;  ///< the driven joints as indices in the list of measured joints, ascending; drive k has row System::drive_row(k)
+  std::vector<int> surplus;  ///< other measured joints likewise: their motion follows from that of the drives
+};
+
+/// @param of the mechanism as make_system() compiled it; its redundant reactions are shared as there.
+/// @param positions measured positions, one column per instant, at which the rank of the loops is examined where it is not the usual one at
+/// the study's start, as in a stretched-out linkage; may have no columns.
+/// @throws InputError for unknown or repeated joints and joints without one coordinate, for a joint whose motion the measured ones do not
+/// determine, for more joints with an effort than degrees of freedom, and for friction laws with states.
+DrivenSystem make_driven_system(const CompiledSystem& of, const std::vector<MeasuredJoint>& measured,
+                                const Eigen::MatrixXd& positions = {});
+
+/// A position of the mechanism from which the first instant of a recording is assembled: all measured joints near `positions` [rad or m,
+/// order of `measured`], the drives exactly there.
+/// @param of, measured, driven as above and its result. @param parameters all named parameters. @param state of driven.system; velocities,
+/// accelerations and multipliers are zero.
+Status assemble_driven(const CompiledSystem& of, const std::vector<MeasuredJoint>& measured, const DrivenSystem& driven,
+                       const std::vector<double>& parameters, const Eigen::VectorXd& positions, State<double>* state);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_IDENTIFICATION_DRIVEN_SYSTEM_H_

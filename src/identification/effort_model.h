@@ -1,0 +1,90 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_MODEL_H_
+#define MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_MODEL_H_
+
+#include <Eigen/Core>
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "identification/driven_system.h"
+#include "identification/effort_tangent.h"
+#include "mechanism_codesign/status.h"
+
+namespace codesign {
+
+class MotionProjection;
+
+/// The measured motion, one row per measured joint and one column per instant (a sample), recording after recording.
+struct MotionSamples {
+  Eigen::MatrixXd position, velocity, acceleration;  ///< [rad or m], per s, per s^2
+  std::vector<int> begins{0};  ///< the first sample of each recording, ascending; between samples of one recording joints move little
+};
+
+/// The efforts that a mechanism needs for a measured motion, and their exact derivatives by the tuned parameters; doc/theory.md (28).
+///
+/// Samples are independent of each other, so that they are shared among threads: the results are the same bits for any number of them.
+/// Nothing is allocated per sample once warm. Not thread-safe itself.
+class EffortModel {
+ public:
+  /// @param system as make_system() compiled it; only needed by the constructor and begin(), but must outlive this.
+  /// @param motion as many rows as `joints`; finite numbers.
+  /// @param threads how many samples are evaluated at the same time.
+  /// @throws InputError as make_driven_system().
+  EffortModel(const CompiledSystem& system, std::vector<MeasuredJoint> joints, MotionSamples motion, int threads = 1);
+  ~EffortModel();
+
+  /// The joints whose efforts are computed, in the order of the rows of efforts: those of DrivenSystem::drives.
+  const std::vector<std::string>& drives() const { return names_; }
+  const DrivenSystem& driven() const { return driven_; }
+  int samples() const { return static_cast<int>(motion_.position.cols()); }
+  int parameters() const { return static_cast<int>(driven_.system->study().tuned.size()); }
+
+  /// Follows the motion through all samples at a design, which evaluate() later starts from at each sample, and projects the motion of
+  /// surplus joints onto that of the drives, theory (28a). To be called first, and again for dimensions that differ much.
+  /// @param parameters all named parameters (Study::parameters order). @return a failure names the sample.
+  Status begin(const std::vector<double>& parameters);
+
+  /// After begin() has succeeded; else it throws std::logic_error.
+  /// @param parameters all named parameters.
+  /// @param efforts resized to drives x samples: effort on the child along the joint coordinate [N m or N].
+  /// @param jacobian may be null; else resized to (drives * samples) x tuned parameters, row sample * drives + k for drive k.
+  /// @return kInvalidDesign for impossible masses or dimensions, kCancelled, or the failure of the first sample that has one.
+  Status evaluate(const std::vector<double>& parameters, Eigen::MatrixXd* efforts, RowJacobian* jacobian);
+
+  /// The motion of the drives that is used: as measured, or projected if there are surplus joints; drives x samples.
+  const Eigen::MatrixXd& position() const { return position_; }
+  const Eigen::MatrixXd& velocity() const { return velocity_; }
+  const Eigen::MatrixXd& acceleration() const { return acceleration_; }
+  /// The whole state of a sample at the design of begin().
+  const State<double>& state(int sample) const { return states_[static_cast<std::size_t>(sample)]; }
+
+  /// Once `cancel` is set (by any thread), begin() and evaluate() end soon with kCancelled. nullptr: no cancellation.
+  void obey(const std::atomic<bool>* cancel) { cancel_ = cancel; }
+
+ private:
+  struct EffortWorker;
+  struct Failure {
+    int sample = -1;
+    Status status;
+  };
+  DriveMotion given(int sample) const;
+  Status follow(const MotionProjection& projection, int sample, EffortWorker* worker);
+  Status prepare(const std::vector<double>& parameters, EffortWorker* worker) const;
+  Failure evaluate_block(int block, EffortWorker* worker, Eigen::MatrixXd* efforts, RowJacobian* jacobian) const;
+
+  const CompiledSystem& system_;
+  const std::vector<MeasuredJoint> joints_;
+  const MotionSamples motion_;
+  const DrivenSystem driven_;
+  std::vector<std::string> names_;
+  Eigen::MatrixXd position_, velocity_, acceleration_;
+  std::vector<State<double>> states_;
+  std::vector<std::unique_ptr<EffortWorker>> workers_;
+  const std::atomic<bool>* cancel_ = nullptr;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_MODEL_H_

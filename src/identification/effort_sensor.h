@@ -1,0 +1,51 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_SENSOR_H_
+#define MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_SENSOR_H_
+
+#include <vector>
+
+namespace codesign {
+
+/// The recorded effort of one joint as a continuous function of time: cubic between the samples, with the slopes of the parabolas through
+/// three neighbours, so that its first derivative is continuous. Outside the recording it is held.
+class RecordedEffort {
+ public:
+  /// @param times ascending [s]. @param values as recorded, one per time, finite; at least one.
+  /// @throws std::invalid_argument for other sizes or orders.
+  RecordedEffort(std::vector<double> times, std::vector<double> values);
+
+  /// Value and slope [1/s] at a time [s].
+  struct Sample {
+    double value = 0.0, slope = 0.0;
+  };
+  Sample at(double time) const;
+  /// Whether the recording covers a time.
+  bool covers(double time) const { return times_.front() <= time && time <= times_.back(); }
+
+ private:
+  std::vector<double> times_, values_, slopes_;
+};
+
+/// What a joint's effort sensor, often a motor current, makes of the effort tau on the child: the number r recorded at t + delay is
+/// (tau(t) + offset) / scale; doc/theory.md (28c).
+struct EffortSensor {
+  double scale = 1.0;        ///< N m (or N) per unit of the recorded number: the torque constant, gear included
+  double offset = 0.0;       ///< shown beyond the effort that the mechanism needs [N m or N]
+  double delay = 0.0;        ///< by which the recorded effort is late beside the recorded motion [s]; negative: early
+  double start_scale = 1.0;  ///< scale at the start of the identification, by which residuals get their unit
+};
+
+/// The residual of one joint at one instant and its derivatives.
+struct EffortResidual {
+  double value = 0.0;      ///< start_scale ((tau + offset) / scale - r(t + delay)) [N m or N]
+  double by_effort = 0.0;  ///< by tau, and by the offset [-]
+  double by_scale = 0.0;   ///< [N m or N per unit of the scale]
+  double by_delay = 0.0;   ///< [N m/s or N/s]
+};
+
+/// @param effort tau of the model at `time`.
+EffortResidual effort_residual(const EffortSensor& sensor, const RecordedEffort& recorded, double time, double effort);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_SENSOR_H_

@@ -1,0 +1,58 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "identification/effort_tangent.h"
+
+namespace codesign {
+
+template <int N>
+EffortTangent<N>::EffortTangent(const CompiledSystem& system, LaneRange<N> lanes)
+    : system_(system),
+      layout_(system.layout()),
+      at_(layout_),
+      lanes_(lanes),
+      equations_(system),
+      y_(at_.size()),
+      G_(layout_.columns() + 1),
+      Phi_(layout_.m),
+      Phi_rate_(layout_.m),
+      solution_(layout_.columns()) {}
+
+template <int N>
+void EffortTangent<N>::correct(const DrivenMotion& motion, const Directions<N>& errors, int first) {
+  solution_.setZero();
+  solution_.middleCols(layout_.n, layout_.m) = -errors;
+  motion.lu().template solve_rows<N>(solution_.part(0, layout_.columns()));
+  y_.middleCols(first, layout_.n) += solution_.leftCols(layout_.n);
+}
+
+template <int N>
+void EffortTangent<N>::differentiate(const DrivenMotion& motion, const State<double>& state, Eigen::Index first_row,
+                                     RowJacobian* jacobian) {
+  y_.setZero();
+  equations_.constraint_errors(state, y_, &Phi_, &Phi_rate_);
+  // Parameters that do not move the geometry leave positions and velocities where they are.
+  if (!Phi_.isZero(0.0) || !Phi_rate_.isZero(0.0)) {
+    // A compliance, which the solution itself does not feel once it has converged, takes its share of one correction.
+    const int rounds = system_.compliance() == 0.0 ? 1 : 2;
+    for (int round = 0; round < rounds; ++round) {
+      correct(motion, Phi_, at_.x());
+      equations_.constraint_errors(state, y_, &Phi_, &Phi_rate_);
+    }
+    for (int round = 0; round < rounds; ++round) {
+      if (round > 0) equations_.constraint_errors(state, y_, &Phi_, &Phi_rate_);
+      correct(motion, Phi_rate_, at_.v());
+    }
+  }
+  equations_.residual(state, y_, &G_);
+  solution_.leftCols(layout_.columns()) = G_.leftCols(layout_.columns());
+  motion.lu().template solve_rows<N>(solution_.part(0, layout_.columns()));
+  // The effort is minus the multiplier, whose derivative is minus the solution.
+  for (int k = 0; k < motion.drives(); ++k) {
+    const int column = layout_.lambda_column(system_.drive_row(k));
+    for (int lane = 0; lane < lanes_.count; ++lane) (*jacobian)(first_row + k, lanes_.first + lane) = solution_(lane, column);
+  }
+}
+
+template class EffortTangent<4>;
+template class EffortTangent<8>;
+
+}  // namespace codesign

@@ -1,0 +1,48 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_TANGENT_H_
+#define MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_TANGENT_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "identification/driven_motion.h"
+#include "sensitivity/lane_groups.h"
+#include "sensitivity/tangent_equations.h"
+
+namespace codesign {
+
+/// Derivatives, one row per number and one column per tuned parameter; rows lie side by side in memory.
+using RowJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Exact derivatives of the efforts by up to N tuned parameters, doc/theory.md (28b): the implicit function theorem for positions,
+/// velocities and then rates, with the matrix of the solution. No allocation once warm.
+template <int N>
+class EffortTangent {
+ public:
+  /// @param system of the DrivenMotion whose solutions are differentiated; must outlive this.
+  EffortTangent(const CompiledSystem& system, LaneRange<N> lanes);
+
+  /// @param parameters all named parameters. Allocates.
+  void set_design(const std::vector<double>& parameters) { equations_.equations().set_design(lanes_.seed(system_, parameters)); }
+  /// Later results do not depend on earlier ones, to the last bit.
+  void forget() { equations_.equations().compiled().forget(); }
+
+  /// @param motion with the design of set_design() and linearized at `state`, its solution.
+  /// @param jacobian the rows first_row ... first_row + motion.drives() - 1 get d effort / d rho in the columns of the parameters.
+  void differentiate(const DrivenMotion& motion, const State<double>& state, Eigen::Index first_row, RowJacobian* jacobian);
+
+ private:
+  /// Corrects the n directions of y_ from `first` on for the derivatives of the errors of the constraints.
+  void correct(const DrivenMotion& motion, const Directions<N>& errors, int first);
+
+  const CompiledSystem& system_;
+  const Layout& layout_;
+  const IncrementLayout at_;
+  const LaneRange<N> lanes_;
+  TangentEquations<N> equations_;
+  Directions<N> y_, G_, Phi_, Phi_rate_, solution_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_TANGENT_H_

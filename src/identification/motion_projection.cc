@@ -1,0 +1,105 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "identification/motion_projection.h"
+
+#include <Eigen/Cholesky>
+
+#include "math/to_index.h"
+
+namespace codesign {
+namespace {
+
+constexpr int kMostSteps = 50;
+constexpr double kSmallStep = 1e-13;  // [rad or m] of Gauss-Newton's iteration, which converges linearly
+
+DriveMotion motion_of(const Eigen::VectorXd (&drives)[3]) { return {drives[0], drives[1], drives[2]}; }
+
+}  // namespace
+
+MotionProjection::MotionProjection(const DrivenSystem& driven, const std::vector<MeasuredJoint>& measured) : driven_(driven) {
+  const System& system = *driven.system;
+  const auto weights = [&measured](const std::vector<int>& of) {
+    Eigen::VectorXd result(static_cast<Eigen::Index>(of.size()));
+    for (std::size_t k = 0; k < of.size(); ++k) {
+      const double deviation = measured[to_index(of[k])].deviation;
+      result[static_cast<Eigen::Index>(k)] = 1.0 / (deviation * deviation);
+    }
+    return result;
+  };
+  drive_weights_ = weights(driven.drives);
+  surplus_weights_ = weights(driven.surplus);
+  for (int k : driven.surplus)
+    for (std::size_t joint = 0; joint < system.robot().joints.size(); ++joint)
+      if (system.robot().joints[joint].name == measured[to_index(k)].name) {
+        const CouplingTerm term = drive_of(system.robot(), system.topology(), static_cast<int>(joint)).terms.front();
+        surplus_.push_back({k, term.pair, term.element});
+      }
+}
+
+Eigen::VectorXd MotionProjection::part_of(const Eigen::VectorXd& measured) const {
+  Eigen::VectorXd part(static_cast<Eigen::Index>(surplus_.size()));
+  for (std::size_t k = 0; k < surplus_.size(); ++k) part[static_cast<Eigen::Index>(k)] = measured[surplus_[k].measured];
+  return part;
+}
+
+Eigen::VectorXd MotionProjection::values(int order, DrivenMotion* motion, const State<double>& state) const {
+  Eigen::VectorXd result(static_cast<Eigen::Index>(surplus_.size()));
+  Formulas<double>& formulas = motion->equations().formulas();
+  formulas.load(state);
+  for (std::size_t k = 0; k < surplus_.size(); ++k) {
+    const CoordinateMotion<double>& at = formulas.coordinate(surplus_[k].pair, surplus_[k].element);
+    result[static_cast<Eigen::Index>(k)] = order == 0 ? at.position : order == 1 ? at.rate : at.acceleration;
+  }
+  return result;
+}
+
+// K = d theta_surplus / d theta_drives: the displacement of the bodies for a unit displacement of each drive.
+Eigen::MatrixXd MotionProjection::slopes(DrivenMotion* motion, const State<double>& state) const {
+  const CompiledSystem& system = motion->system();
+  Eigen::MatrixXd K(static_cast<Eigen::Index>(surplus_.size()), motion->drives());
+  Formulas<double>& formulas = motion->equations().formulas();
+  formulas.load(state);
+  VectorX<double> unit(system.layout().columns());
+  for (int drive = 0; drive < motion->drives(); ++drive) {
+    unit.setZero();
+    unit[system.layout().lambda_column(system.drive_row(drive))] = 1.0;
+    motion->lu().solve(unit);
+    for (std::size_t k = 0; k < surplus_.size(); ++k) {
+      const CoordinateMotion<double>& at = formulas.coordinate(surplus_[k].pair, surplus_[k].element);
+      double slope = 0.0;
+      for (int local = 0; local < kLocalSize; ++local)
+        if (const int column = formulas.view().column(surplus_[k].pair, local); column >= 0) slope += at.J[local] * unit[column];
+      K(static_cast<Eigen::Index>(k), drive) = slope;
+    }
+  }
+  return K;
+}
+
+Eigen::VectorXd MotionProjection::correction(const Eigen::MatrixXd& K, const Eigen::VectorXd& drive_misses,
+                                             const Eigen::VectorXd& surplus_misses) const {
+  const Eigen::MatrixXd weighted = K.transpose() * surplus_weights_.asDiagonal();
+  Eigen::MatrixXd normal = weighted * K;
+  normal.diagonal() += drive_weights_;
+  return normal.llt().solve(Eigen::VectorXd(drive_weights_.cwiseProduct(drive_misses) + weighted * surplus_misses));
+}
+
+Status MotionProjection::project(const Eigen::VectorXd (&measured)[3], Eigen::VectorXd (*drives)[3], DrivenMotion* motion,
+                                 State<double>* state) const {
+  const Eigen::VectorXd given[] = {(*drives)[0], (*drives)[1], (*drives)[2]};
+  Eigen::MatrixXd K;
+  for (int step = 0; step < kMostSteps; ++step) {
+    if (Status status = motion->follow(motion_of(*drives), state); !status.ok()) return status;
+    if (Status status = motion->linearize(*state); !status.ok()) return status;
+    K = slopes(motion, *state);
+    const Eigen::VectorXd change = correction(K, given[0] - (*drives)[0], part_of(measured[0]) - values(0, motion, *state));
+    (*drives)[0] += change;
+    if (change.cwiseAbs().maxCoeff() < kSmallStep) break;
+  }
+  // Rates depend on those of the drives by K too, and so do accelerations once the rates are known: both are one linear problem.
+  for (int order : {1, 2}) {
+    (*drives)[order] += correction(K, Eigen::VectorXd::Zero(given[order].size()), part_of(measured[order]) - values(order, motion, *state));
+    if (Status status = motion->follow(motion_of(*drives), state); !status.ok()) return status;
+  }
+  return {};
+}
+
+}  // namespace codesign

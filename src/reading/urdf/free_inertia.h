@@ -1,0 +1,18 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_URDF_FREE_INERTIA_H_
+#define MECHANISM_CODESIGN_READING_URDF_FREE_INERTIA_H_
+
+#include "reading/xml/xml_document.h"
+
+namespace codesign {
+
+/// Writes out every `<inertial codesign:inertia="free">`: the document gets ten `<codesign:parameter>` LINK_alpha, LINK_d1 and so on (see
+/// kLogCholeskyNames), and mass, centre and inertia get twins, so that every value of the parameters is physically possible; theory (28e).
+/// The plain numbers stay what they are, in the link's axes; a parameter that is declared already, with bounds of its own or by an overlay
+/// with identified values, keeps its value and the plain numbers follow. The attribute is removed.
+/// @throws InputError for another value than `free`, beside a density or a twin, and for numbers of a body without extent.
+void write_out_free_inertias(XmlDocument* document);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_URDF_FREE_INERTIA_H_

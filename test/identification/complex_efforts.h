@@ -1,0 +1,81 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_IDENTIFICATION_COMPLEX_EFFORTS_H_
+#define MECHANISM_CODESIGN_TEST_IDENTIFICATION_COMPLEX_EFFORTS_H_
+
+#include <Eigen/LU>
+#include <complex>
+#include <vector>
+
+#include "identification/driven_motion.h"
+#include "math/to_index.h"
+
+namespace codesign {
+
+/// The efforts of a driven mechanism by Newton's method in complex numbers with dense matrices, which shares nothing with the tangents that
+/// it checks but the formulas.
+class ComplexEfforts {
+ public:
+  using Complex = std::complex<double>;
+
+  ComplexEfforts(const DrivenSystem& driven, DriveMotion given, const State<double>& near)
+      : system_(*driven.system), drives_(static_cast<int>(driven.drives.size())), given_(given), near_(near), equations_(system_) {
+    derivatives_.resize(system_.patterns());
+  }
+
+  /// @param rho the tuned parameters.
+  Eigen::VectorXcd operator()(const Eigen::VectorXcd& rho) {
+    std::vector<Complex> parameters;
+    for (double value : system_.parameters()) parameters.emplace_back(value);
+    for (Eigen::Index k = 0; k < rho.size(); ++k) parameters[to_index(system_.study().tuned[to_index(static_cast<int>(k))])] = rho[k];
+    equations_.set_design(parameters);
+    state_.resize(system_.layout());
+    cast_state(near_, &state_);
+    for (int iteration = 0; iteration < 4; ++iteration) correct(given_.position, true);
+    for (int iteration = 0; iteration < 3; ++iteration) correct(given_.velocity, false);
+    for (int iteration = 0; iteration < 6; ++iteration) correct_rates();
+    Eigen::VectorXcd efforts(drives_);
+    for (int k = 0; k < drives_; ++k) efforts[k] = -state_.z[system_.layout().lambda_column(system_.drive_row(k))];
+    return efforts;
+  }
+
+ private:
+  Eigen::VectorXcd solve(const Eigen::VectorXcd& right) {
+    equations_.linearize(state_, &derivatives_);
+    const Sparsity& pattern = system_.patterns().rate;
+    Eigen::MatrixXcd matrix = Eigen::MatrixXcd::Zero(right.size(), right.size());
+    for (int row = 0; row < right.size(); ++row)
+      for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) matrix(row, pattern.column(e)) = derivatives_.rate[to_index(e)];
+    return matrix.fullPivLu().solve(right);
+  }
+
+  void correct(In<double> given, bool positions) {
+    const Layout& layout = system_.layout();
+    VectorX<Complex> Phi, Phi_rate;
+    equations_.constraint_errors(state_, &Phi, &Phi_rate);
+    VectorX<Complex>& errors = positions ? Phi : Phi_rate;
+    for (int k = 0; k < drives_; ++k) errors[system_.drive_row(k)] -= given[k];
+    Eigen::VectorXcd right = Eigen::VectorXcd::Zero(layout.columns());
+    right.segment(layout.n, layout.m) = errors;
+    (positions ? state_.q : state_.v) -= solve(right).head(layout.n);
+  }
+
+  void correct_rates() {
+    VectorX<Complex> G;
+    Complex g;
+    equations_.residual(state_, &G, &g);
+    for (int k = 0; k < drives_; ++k) G[system_.layout().lambda_column(system_.drive_row(k))] -= given_.acceleration[k];
+    state_.z -= solve(G);
+  }
+
+  const CompiledSystem& system_;
+  const int drives_;
+  const DriveMotion given_;
+  const State<double>& near_;
+  Equations<Complex> equations_;
+  State<Complex> state_;
+  Linearization<Complex> derivatives_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_TEST_IDENTIFICATION_COMPLEX_EFFORTS_H_

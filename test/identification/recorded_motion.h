@@ -1,0 +1,76 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_IDENTIFICATION_RECORDED_MOTION_H_
+#define MECHANISM_CODESIGN_TEST_IDENTIFICATION_RECORDED_MOTION_H_
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "assembly/make_system.h"
+#include "identification/effort_model.h"
+#include "integration/rosenbrock_integrator.h"
+#include "math/to_index.h"
+#include "reading/study/study_reader.h"
+#include "reading/urdf/urdf_reader.h"
+
+namespace codesign {
+
+/// A simulated motion as an ideal rig would record it, at the ends of the integrator's steps: accelerations and efforts are those of the
+/// equations at the very positions and velocities.
+struct RecordedMotion {
+  MotionSamples motion;
+  Eigen::MatrixXd efforts;  ///< of the controllers, joints x samples [N m or N]
+};
+
+inline int joint_index(const RobotDescription& robot, const std::string& name) {
+  for (std::size_t k = 0; k < robot.joints.size(); ++k)
+    if (robot.joints[k].name == name) return static_cast<int>(k);
+  ADD_FAILURE() << "no joint " << name;
+  return 0;
+}
+
+inline RecordedMotion record_motion(const CompiledSystem& system, const std::vector<std::string>& joints, int samples,
+                                    double largest_step) {
+  RosenbrockIntegrator integrator(system);
+  EXPECT_TRUE(integrator.start(system.parameters()).ok());
+  RecordedMotion recorded;
+  for (Eigen::MatrixXd* part : {&recorded.motion.position, &recorded.motion.velocity, &recorded.motion.acceleration, &recorded.efforts})
+    part->resize(static_cast<Eigen::Index>(joints.size()), samples);
+  Assembly assembly(system);
+  for (int sample = 0; sample < samples; ++sample) {
+    State<double> state = integrator.state();
+    EXPECT_TRUE(assembly.solve_rates(&integrator.equations(), &state).ok());
+    Formulas<double>& formulas = integrator.equations().formulas();
+    formulas.load(state);
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      const CouplingTerm at = drive_of(system.robot(), system.topology(), joint_index(system.robot(), joints[k])).terms.front();
+      const CoordinateMotion<double>& motion = formulas.coordinate(at.pair, at.element);
+      const auto row = static_cast<Eigen::Index>(k);
+      recorded.motion.position(row, sample) = motion.position;
+      recorded.motion.velocity(row, sample) = motion.rate;
+      recorded.motion.acceleration(row, sample) = motion.acceleration;
+      recorded.efforts(row, sample) = formulas.effort(at.pair, at.element);
+    }
+    EXPECT_TRUE(integrator.advance(state.t + largest_step).ok());
+  }
+  return recorded;
+}
+
+inline std::shared_ptr<const CompiledSystem> compiled(const std::string& urdf, const std::string& study) {
+  const RobotDescription robot = read_urdf({"test.urdf", urdf});
+  return make_system(robot, read_study({"test.yaml", study}, robot), nullptr);
+}
+
+inline std::vector<MeasuredJoint> measured(const std::vector<std::string>& with_effort, const std::vector<std::string>& without = {}) {
+  std::vector<MeasuredJoint> joints;
+  for (const std::string& name : with_effort) joints.push_back({name, true, 1.0, {"study.yaml", 3}});
+  for (const std::string& name : without) joints.push_back({name, false, 1.0, {"study.yaml", 4}});
+  return joints;
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_TEST_IDENTIFICATION_RECORDED_MOTION_H_
