@@ -1,0 +1,175 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "identification/effort_residuals.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace codesign {
+namespace {
+
+const JointMotion& motion_of(const MeasuredMotion& recording, const std::string& joint) {
+  return *std::find_if(recording.joints.begin(), recording.joints.end(), [&](const JointMotion& motion) { return motion.joint == joint; });
+}
+
+InputError recording_error(const JointRecording& recording, const std::string& message, const std::string& value,
+                           const std::string& allowed) {
+  return InputError({recording.where, recording.element, message, value, allowed});
+}
+
+std::vector<std::string> names_of(const std::vector<MeasuredJoint>& joints) {
+  std::vector<std::string> names;
+  for (const MeasuredJoint& joint : joints) names.push_back(joint.name);
+  return names;
+}
+
+}  // namespace
+
+std::vector<MeasuredJoint> require_same_joints(const std::vector<JointRecording>& recordings) {
+  std::vector<MeasuredJoint> joints;
+  const JointRecording& first = recordings.front();
+  for (const JointSamples& samples : first.joints) {
+    MeasuredJoint joint{samples.joint, !samples.effort.empty(), 1.0, first.where};
+    if (samples.position.empty())
+      throw recording_error(first, "the recording has no positions of this joint", samples.joint, "positions of each joint");
+    for (const JointRecording& other : recordings) {
+      const JointSamples* found = other.find(joint.name);
+      if (!found || found->position.empty())
+        throw recording_error(other, "the recording has no positions of a joint that " + first.element + " has", joint.name,
+                              "the same joints in all recordings");
+      joint.with_effort = joint.with_effort && !found->effort.empty();
+    }
+    joints.push_back(std::move(joint));
+  }
+  for (const JointRecording& other : recordings)
+    for (const JointSamples& samples : other.joints)
+      if (!first.find(samples.joint))
+        throw recording_error(other, "the recording has a joint that " + first.element + " lacks", samples.joint,
+                              "the same joints in all recordings");
+  if (std::none_of(joints.begin(), joints.end(), [](const MeasuredJoint& joint) { return joint.with_effort; }))
+    throw recording_error(first, "no joint has efforts in all recordings, so that there is nothing to fit", "",
+                          "efforts of at least one joint");
+  return joints;
+}
+
+EffortResiduals::EffortResiduals(const CompiledSystem& system, const FitVariables& variables, std::vector<MeasuredJoint> joints,
+                                 std::vector<MeasuredMotion> recordings, const FilterOptions& filter, int threads)
+    : variables_(variables), recordings_(std::move(recordings)), filter_(filter) {
+  const std::vector<std::string> names = names_of(joints);
+  std::vector<bool> with_effort;
+  for (const MeasuredJoint& joint : joints) with_effort.push_back(joint.with_effort);
+  model_ = std::make_unique<EffortModel>(system, std::move(joints), samples_of_all(names), threads);
+  const std::vector<int>& drives = model_->driven().drives;
+  for (std::size_t k = 0; k < drives.size(); ++k) {
+    const auto joint = static_cast<std::size_t>(drives[k]);
+    if (!with_effort[joint]) continue;
+    outputs_.push_back(names[joint]);
+    drives_.push_back(static_cast<int>(k));
+  }
+  for (const MeasuredMotion& recording : recordings_) {
+    std::vector<double> times;
+    for (Eigen::Index k = 0; k < recording.times.count; ++k) times.push_back(recording.times.at(k));
+    efforts_.emplace_back();
+    for (const std::string& output : outputs_) {
+      const Eigen::VectorXd& effort = motion_of(recording, output).effort;
+      efforts_.back().emplace_back(times, std::vector<double>(effort.begin(), effort.end()));
+    }
+    lengths_.push_back(recording.fitted());
+    rows_ += recording.fitted();
+  }
+  record();
+}
+
+// Filters need all samples; without them, only those that are fitted are computed.
+MotionSamples EffortResiduals::samples_of_all(const std::vector<std::string>& joints) {
+  MotionSamples samples;
+  begins_.assign(1, 0);
+  for (const MeasuredMotion& recording : recordings_)
+    begins_.push_back(begins_.back() + (filter_.residual_cutoff > 0.0 ? recording.times.count : recording.fitted()));
+  samples.begins.assign(begins_.begin(), begins_.end() - 1);
+  for (Eigen::MatrixXd* rows : {&samples.position, &samples.velocity, &samples.acceleration})
+    rows->resize(static_cast<Eigen::Index>(joints.size()), begins_.back());
+  for (std::size_t r = 0; r < recordings_.size(); ++r) {
+    const MeasuredMotion& recording = recordings_[r];
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      const JointMotion& motion = motion_of(recording, joints[j]);
+      const auto row = static_cast<Eigen::Index>(j);
+      for (Eigen::Index k = begins_[r]; k < begins_[r + 1]; ++k) {
+        const Eigen::Index at = filter_.residual_cutoff > 0.0 ? k - begins_[r] : recording.first + (k - begins_[r]) * recording.every;
+        samples.position(row, k) = motion.position[at];
+        samples.velocity(row, k) = motion.velocity[at];
+        samples.acceleration(row, k) = motion.acceleration[at];
+      }
+    }
+  }
+  return samples;
+}
+
+double EffortResiduals::time(std::size_t recording, Eigen::Index sample) const {
+  const MeasuredMotion& motion = recordings_[recording];
+  return motion.times.at(filter_.residual_cutoff > 0.0 ? sample : motion.first + sample * motion.every);
+}
+
+void EffortResiduals::fill(std::size_t recording, std::size_t output, const Eigen::VectorXd& x, bool with_slopes,
+                           Eigen::MatrixXd* columns) const {
+  const EffortSensor sensor = variables_.sensor(outputs_[output], x);
+  const FitVariables::SensorColumns at = variables_.columns(outputs_[output]);
+  const Eigen::Index drives = model_efforts_.rows(), drive = drives_[output], count = begins_[recording + 1] - begins_[recording];
+  columns->setZero(count, with_slopes ? 1 + x.size() : 1);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Eigen::Index sample = begins_[recording] + k;
+    const EffortResidual residual = effort_residual(sensor, efforts_[recording][output], time(recording, k), model_efforts_(drive, sample));
+    (*columns)(k, 0) = residual.value;
+    if (!with_slopes) continue;
+    columns->row(k).segment(1, variables_.tuned()) = residual.by_effort * model_jacobian_.row(sample * drives + drive);
+    if (at.scale >= 0) (*columns)(k, 1 + at.scale) = residual.by_scale;
+    if (at.delay >= 0) (*columns)(k, 1 + at.delay) = residual.by_delay;
+    if (at.offset >= 0) (*columns)(k, 1 + at.offset) = residual.by_effort;
+  }
+}
+
+Eigen::MatrixXd EffortResiduals::fitted(std::size_t recording, Eigen::MatrixXd* columns) const {
+  const MeasuredMotion& motion = recordings_[recording];
+  if (!(filter_.residual_cutoff > 0.0)) return std::move(*columns);
+  ZeroPhaseFilter::Workspace workspace;
+  ZeroPhaseFilter(filter_.order, filter_.residual_cutoff, motion.times.rate()).apply_to_columns(*columns, &workspace);
+  Eigen::MatrixXd kept(motion.fitted(), columns->cols());
+  for (Eigen::Index k = 0; k < kept.rows(); ++k) kept.row(k) = columns->row(motion.first + k * motion.every);
+  return kept;
+}
+
+void EffortResiduals::record() {
+  recorded_.resize(rows_, static_cast<Eigen::Index>(outputs_.size()));
+  Eigen::Index row = 0;
+  for (std::size_t r = 0; r < recordings_.size(); ++r) {
+    for (std::size_t o = 0; o < outputs_.size(); ++o) {
+      Eigen::MatrixXd columns(begins_[r + 1] - begins_[r], 1);
+      for (Eigen::Index k = 0; k < columns.rows(); ++k) columns(k, 0) = efforts_[r][o].at(time(r, k)).value;
+      columns *= variables_.sensor(outputs_[o], variables_.start()).start_scale;
+      recorded_.col(static_cast<Eigen::Index>(o)).segment(row, lengths_[r]) = fitted(r, &columns).col(0);
+    }
+    row += lengths_[r];
+  }
+}
+
+Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) {
+  const Status status = model_->evaluate(variables_.parameters(x), &model_efforts_, jacobian ? &model_jacobian_ : nullptr);
+  if (!status.ok()) return status;
+  const auto outputs = static_cast<Eigen::Index>(outputs_.size());
+  residuals->resize(rows_, outputs);
+  if (jacobian) jacobian->resize(rows_ * outputs, x.size());
+  Eigen::Index row = 0;
+  Eigen::MatrixXd columns;
+  for (std::size_t r = 0; r < recordings_.size(); ++r) {
+    for (std::size_t o = 0; o < outputs_.size(); ++o) {
+      const auto output = static_cast<Eigen::Index>(o);
+      fill(r, o, x, jacobian != nullptr, &columns);
+      const Eigen::MatrixXd kept = fitted(r, &columns);
+      residuals->col(output).segment(row, lengths_[r]) = kept.col(0);
+      if (jacobian) jacobian->middleRows(output * rows_ + row, lengths_[r]) = kept.rightCols(x.size());
+    }
+    row += lengths_[r];
+  }
+  return {};
+}
+
+}  // namespace codesign

@@ -1,0 +1,75 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_RESIDUALS_H_
+#define MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_RESIDUALS_H_
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "identification/effort_model.h"
+#include "identification/fit_variables.h"
+#include "identification/residual_source.h"
+#include "recordings/measured_motion.h"
+#include "recordings/zero_phase_filter.h"
+#include "statistics/long_run.h"
+
+namespace codesign {
+
+/// The joints that all recordings measured, and whether their efforts, too. @throws InputError if a recording lacks a joint of another one,
+/// if the position of a joint or all efforts are missing.
+std::vector<MeasuredJoint> require_same_joints(const std::vector<JointRecording>& recordings);
+
+/// What several recordings of one robot say about x: computed minus recorded efforts, doc/theory.md (28c), at the samples to fit, and their
+/// exact derivatives. Both sides pass the same zero-phase filter if FilterOptions::residual_cutoff asks for it.
+class EffortResiduals final : public ResidualSource {
+ public:
+  /// @param system, variables must outlive this. @param recordings all with the same joints.
+  /// @param joints those of the recordings whose motion counts, as require_same_joints() returns them. @throws InputError as
+  /// make_driven_system().
+  EffortResiduals(const CompiledSystem& system, const FitVariables& variables, std::vector<MeasuredJoint> joints,
+                  std::vector<MeasuredMotion> recordings, const FilterOptions& filter, int threads);
+
+  /// The joints with a residual, one column each.
+  const std::vector<std::string>& outputs() const override { return outputs_; }
+  /// Fitted samples of each recording.
+  const SeriesLengths& lengths() const override { return lengths_; }
+  Eigen::Index rows() const { return rows_; }
+  /// Fitted efforts as recorded, filtered like the residuals, times the scale at the start [N m or N]; rows() x outputs.
+  const Eigen::MatrixXd& recorded() const { return recorded_; }
+  const std::vector<MeasuredMotion>& recordings() const { return recordings_; }
+
+  /// Follows the motion at a design; to be called first.
+  Status begin(const Eigen::VectorXd& x) { return model_->begin(variables_.parameters(x)); }
+  /// @param residuals resized to rows() x outputs [N m or N]. @param jacobian may be null; else resized to (rows() outputs) x variables,
+  /// the rows of output 0 first.
+  Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) override;
+  /// Once set, evaluations end soon with kCancelled; nullptr: never.
+  void obey(const std::atomic<bool>* cancel) { model_->obey(cancel); }
+
+ private:
+  MotionSamples samples_of_all(const std::vector<std::string>& joints);
+  double time(std::size_t recording, Eigen::Index sample) const;
+  /// The residual of an output in the first column of `columns`, its derivatives in the others; one row per sample of the model.
+  void fill(std::size_t recording, std::size_t output, const Eigen::VectorXd& x, bool with_slopes, Eigen::MatrixXd* columns) const;
+  /// Filters the columns and keeps the rows to fit.
+  Eigen::MatrixXd fitted(std::size_t recording, Eigen::MatrixXd* columns) const;
+  void record();
+
+  const FitVariables& variables_;
+  const std::vector<MeasuredMotion> recordings_;
+  const FilterOptions filter_;
+  std::vector<std::string> outputs_;
+  std::vector<int> drives_;                           ///< of each output: its row in the model's efforts
+  std::vector<std::vector<RecordedEffort>> efforts_;  ///< [recording][output]
+  std::vector<Eigen::Index> begins_;                  ///< the first sample of each recording in the model; at the end, their number
+  std::unique_ptr<EffortModel> model_;
+  SeriesLengths lengths_;
+  Eigen::Index rows_ = 0;
+  Eigen::MatrixXd recorded_, model_efforts_;
+  RowJacobian model_jacobian_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_RESIDUALS_H_

@@ -1,0 +1,53 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_IDENTIFICATION_FIT_VARIABLES_H_
+#define MECHANISM_CODESIGN_IDENTIFICATION_FIT_VARIABLES_H_
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "description/study.h"
+#include "identification/effort_sensor.h"
+
+namespace codesign {
+
+/// The unknowns x of an identification: the tuned parameters in the order of Study::tuned, then the fitted numbers of effort sensors, joint
+/// by joint in the order of the study: scale, delay, offset.
+class FitVariables {
+ public:
+  /// Where the numbers of one sensor stand in x; -1: known.
+  struct SensorColumns {
+    int scale = -1, delay = -1, offset = -1;
+  };
+
+  /// @param study with a block `identify`; must outlive this.
+  explicit FitVariables(const Study& study);
+
+  Eigen::Index size() const { return start_.size(); }
+  Eigen::Index tuned() const { return static_cast<Eigen::Index>(study_.tuned.size()); }
+  /// `mu_slider`, `elbow_joint/effort_scale`
+  const std::vector<std::string>& names() const { return names_; }
+  const std::vector<std::string>& units() const { return units_; }  ///< for display; may be empty
+  const Eigen::VectorXd& start() const { return start_; }
+  const Eigen::VectorXd& lower() const { return lower_; }  ///< -infinity: none
+  const Eigen::VectorXd& upper() const { return upper_; }
+
+  /// All named parameters, in the order of Study::parameters.
+  std::vector<double> parameters(const Eigen::VectorXd& x) const;
+  /// The effort sensor of a joint; that of a joint which the study does not name passes efforts on as they are.
+  EffortSensor sensor(const std::string& joint, const Eigen::VectorXd& x) const;
+  SensorColumns columns(const std::string& joint) const;
+
+ private:
+  int add(const std::string& name, const FittedNumber& number, const std::string& unit);
+  int find(const std::string& joint) const;
+
+  const Study& study_;
+  std::vector<std::string> names_, units_;
+  std::vector<SensorColumns> columns_;  ///< one per entry of IdentificationDescription::joints
+  Eigen::VectorXd start_, lower_, upper_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_IDENTIFICATION_FIT_VARIABLES_H_

@@ -1,0 +1,177 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "identification/residual_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "identification/loss.h"
+#include "math/triangular_root.h"
+#include "optimization/levenberg_marquardt.h"
+
+namespace codesign {
+namespace {
+
+constexpr int kMostPasses = 10;
+constexpr double kSpreadTolerance = 1e-3;  // relative change of all spreads at which they count as settled
+constexpr double kLeastSpread = 1e-9;      // of the root mean square at the start: exact data leave nothing else
+
+Eigen::VectorXd rms_of(const Eigen::MatrixXd& residuals) {
+  return (residuals.colwise().squaredNorm() / static_cast<double>(residuals.rows())).cwiseSqrt().transpose();
+}
+
+double median_magnitude(const Eigen::VectorXd& column) {
+  std::vector<double> numbers(column.begin(), column.end());
+  for (double& number : numbers) number = std::abs(number);
+  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+  std::nth_element(numbers.begin(), middle, numbers.end());
+  return *middle;
+}
+
+/// The spreads of residuals, none below a fraction of those at the start.
+Eigen::VectorXd spreads_of(const Eigen::MatrixXd& residuals, const LossOptions& loss, const Eigen::VectorXd& at_start) {
+  constexpr double kNormalMedian = 1.4826;  // standard deviation over median magnitude of a normal variable
+  Eigen::VectorXd spreads = rms_of(residuals);
+  if (loss.kind != LossKind::kNone)
+    for (Eigen::Index k = 0; k < spreads.size(); ++k) spreads[k] = kNormalMedian * median_magnitude(residuals.col(k));
+  for (Eigen::Index k = 0; k < spreads.size(); ++k) spreads[k] = std::max(spreads[k], kLeastSpread * at_start[k]);
+  return spreads.unaryExpr([](double spread) { return spread > 0.0 ? spread : 1.0; });
+}
+
+const char* termination_of(LevenbergMarquardtEnd end) {
+  switch (end) {
+    case LevenbergMarquardtEnd::kOptimum:
+      return "success";
+    case LevenbergMarquardtEnd::kValueTolerance:
+      return "objective_tolerance_reached";
+    case LevenbergMarquardtEnd::kVariableTolerance:
+      return "parameter_tolerance_reached";
+    case LevenbergMarquardtEnd::kMaxEvaluations:
+      return "max_evaluations_reached";
+    case LevenbergMarquardtEnd::kStartFailed:
+      return "start_failed";
+    case LevenbergMarquardtEnd::kStopped:
+      return "cancelled";
+  }
+  return "";
+}
+
+/// The cost with fixed spreads. Keeps residuals and Jacobian of the best point, and the counts.
+class WeightedCost final : public LeastSquaresModel {
+ public:
+  WeightedCost(const LossOptions& loss, const Eigen::VectorXd& spreads, ResidualSource* source, const FitObserver& observer,
+               ResidualFit* fit)
+      : loss_(loss), spreads_(spreads), source_(*source), observer_(observer), fit_(*fit) {}
+
+  Outcome evaluate(const Eigen::VectorXd& x, LeastSquaresPoint* point) override {
+    const Status status = source_.evaluate(x, &residuals_, &jacobian_);
+    if (status.code == StatusCode::kCancelled) return stop(status);
+    ++fit_.evaluations;
+    FitTrial trial{fit_.evaluations, status, std::numeric_limits<double>::infinity(), {}, x};
+    if (!status.ok()) {
+      ++fit_.failed_evaluations;
+      if (!is_begun_) fit_.status = status;
+      return tell(trial) ? Outcome::kFailed : stop({StatusCode::kCancelled, 0.0, "cancelled"});
+    }
+    const WeightedResiduals weighted = weigh(residuals_, &jacobian_, spreads_, loss_);
+    point->value = weighted.value;
+    point->gradient = 2.0 * (weighted.jacobian.transpose() * weighted.residuals.reshaped());
+    point->root = triangular_root(weighted.jacobian);
+    keep(x, weighted.value);
+    trial.cost = weighted.value;
+    trial.rms = rms_of(residuals_);
+    return tell(trial) ? Outcome::kUsable : stop({StatusCode::kCancelled, 0.0, "cancelled"});
+  }
+
+ private:
+  Outcome stop(const Status& status) {
+    fit_.status = status;
+    return Outcome::kStop;
+  }
+  bool tell(const FitTrial& trial) const { return !observer_ || observer_(trial); }
+
+  void keep(const Eigen::VectorXd& x, double cost) {
+    if (is_begun_ && !(cost < fit_.cost)) return;
+    if (is_begun_) ++fit_.iterations;
+    is_begun_ = true;
+    fit_.cost = cost;
+    fit_.x = x;
+    fit_.residuals = residuals_;
+    fit_.jacobian = jacobian_;
+  }
+
+  const LossOptions& loss_;
+  const Eigen::VectorXd& spreads_;
+  ResidualSource& source_;
+  const FitObserver& observer_;
+  ResidualFit& fit_;
+  Eigen::MatrixXd residuals_, jacobian_;
+  bool is_begun_ = false;
+};
+
+void search(const FitProblem& problem, ResidualSource* source, const FitObserver& observer, ResidualFit* fit) {
+  WeightedCost cost(problem.loss, fit->spreads, source, observer, fit);
+  LevenbergMarquardtOptions options;
+  options.max_evaluations = std::max(1, problem.max_evaluations - fit->evaluations);
+  options.relative_tolerance = problem.relative_tolerance;
+  options.largest_first_step = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd x = fit->x;
+  LeastSquaresPoint best;
+  fit->termination = termination_of(minimize_squares(options, problem.lower, problem.upper, &cost, &x, &best));
+}
+
+}  // namespace
+
+WeightedResiduals weigh(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd* jacobian, const Eigen::VectorXd& spreads,
+                        const LossOptions& loss) {
+  WeightedResiduals weighted;
+  weighted.residuals.resize(residuals.rows(), residuals.cols());
+  if (jacobian) weighted.jacobian.resize(jacobian->rows(), jacobian->cols());
+  for (Eigen::Index k = 0; k < residuals.cols(); ++k)
+    for (Eigen::Index row = 0; row < residuals.rows(); ++row) {
+      const double u = residuals(row, k) / spreads[k];
+      const LossValue counted = loss_of(loss, u);
+      const double root = std::sqrt(counted.weight);
+      weighted.value += counted.value;
+      weighted.residuals(row, k) = root * u;
+      const Eigen::Index at = k * residuals.rows() + row;
+      if (jacobian) weighted.jacobian.row(at) = root / spreads[k] * jacobian->row(at);
+    }
+  return weighted;
+}
+
+ResidualFit fit_with_spreads(const FitProblem& problem, const Eigen::VectorXd& spreads, ResidualSource* source,
+                             const FitObserver& observer) {
+  ResidualFit fit;
+  fit.x = problem.start.cwiseMax(problem.lower).cwiseMin(problem.upper);
+  fit.spreads = spreads;
+  search(problem, source, observer, &fit);
+  return fit;
+}
+
+ResidualFit fit_residuals(const FitProblem& problem, ResidualSource* source, const FitObserver& observer) {
+  ResidualFit fit;
+  fit.x = problem.start.cwiseMax(problem.lower).cwiseMin(problem.upper);
+  fit.status = source->evaluate(fit.x, &fit.start_residuals, nullptr);
+  if (!fit.status.ok()) {
+    fit.termination = fit.status.code == StatusCode::kCancelled ? "cancelled" : "start_failed";
+    return fit;
+  }
+  const Eigen::VectorXd at_start = rms_of(fit.start_residuals);
+  fit.spreads = spreads_of(fit.start_residuals, problem.loss, at_start);
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    search(problem, source, observer, &fit);
+    if (!fit.status.ok() || fit.evaluations >= problem.max_evaluations) break;
+    const Eigen::VectorXd spreads = spreads_of(fit.residuals, problem.loss, at_start);
+    const bool is_settled = ((spreads - fit.spreads).array().abs() <= kSpreadTolerance * spreads.array()).all();
+    const bool has_one_scale = spreads.size() == 1 && problem.loss.kind == LossKind::kNone;
+    fit.cost = weigh(fit.residuals, nullptr, spreads, problem.loss).value;
+    fit.spreads = spreads;
+    if (is_settled || has_one_scale) break;
+  }
+  return fit;
+}
+
+}  // namespace codesign

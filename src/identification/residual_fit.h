@@ -1,0 +1,67 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_IDENTIFICATION_RESIDUAL_FIT_H_
+#define MECHANISM_CODESIGN_IDENTIFICATION_RESIDUAL_FIT_H_
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+
+#include "description/identification.h"
+#include "identification/residual_source.h"
+#include "mechanism_codesign/optimizer_options.h"
+
+namespace codesign {
+
+/// Residuals as a fit counts them: over the spread s_k of their output k, and times the square roots of the weights of the loss.
+struct WeightedResiduals {
+  double value = 0.0;         ///< sum of rho(r / s)
+  Eigen::MatrixXd residuals;  ///< rows x outputs
+  Eigen::MatrixXd jacobian;   ///< (rows outputs) x p; empty if none was given
+};
+
+/// @param spreads positive, one per output. @param jacobian may be null
+WeightedResiduals weigh(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd* jacobian, const Eigen::VectorXd& spreads,
+                        const LossOptions& loss);
+
+/// One evaluation of a fit, for progress.
+struct FitTrial {
+  int evaluation = 0;   ///< from 1
+  Status status;        ///< not ok: the fit turns back from this point
+  double cost = 0.0;    ///< sum of rho(r / s); infinite if the status is not ok
+  Eigen::VectorXd rms;  ///< of each output, in its unit; empty if the status is not ok
+  Eigen::VectorXd x;    ///< the point
+};
+/// Called after each evaluation; false ends the fit with kCancelled and the best point.
+using FitObserver = std::function<bool(const FitTrial&)>;
+
+/// Limits of a fit.
+struct FitProblem {
+  Eigen::VectorXd start, lower, upper;  ///< the start lies within the bounds, which may be infinite or equal
+  LossOptions loss;
+  int max_evaluations = 200;
+  double relative_tolerance = 1e-6;  ///< of the cost
+};
+
+/// The best point of a fit.
+struct ResidualFit {
+  Status status;            ///< ok, kCancelled, or the status at the start, without which the members below hold nothing
+  std::string termination;  ///< as OptimizationResult::termination
+  Eigen::VectorXd x;
+  Eigen::VectorXd spreads;              ///< s_k: root mean square of the residuals; with a robust loss 1.4826 times the median of |r|
+  double cost = 0.0;                    ///< sum of rho(r / s) at x
+  Eigen::MatrixXd residuals, jacobian;  ///< at x, not weighted
+  Eigen::MatrixXd start_residuals;
+  int evaluations = 0, failed_evaluations = 0, iterations = 0;
+};
+
+/// Minimizes the sum over all residuals of rho(r_k / s_k) by Levenberg-Marquardt within bounds, doc/theory.md (39). The spreads s_k of
+/// several outputs, or of a robust loss, are those of the fit itself: the fit is repeated until they stay, at most ten times.
+ResidualFit fit_residuals(const FitProblem& problem, ResidualSource* source, const FitObserver& observer = {});
+
+/// The same with spreads that are known: one search.
+ResidualFit fit_with_spreads(const FitProblem& problem, const Eigen::VectorXd& spreads, ResidualSource* source,
+                             const FitObserver& observer = {});
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_IDENTIFICATION_RESIDUAL_FIT_H_
