@@ -26,6 +26,7 @@ enum class StatusCode {
   kAlgorithmFailed,         ///< the optimization algorithm gave up
   kWorkerLost,              ///< a process that evaluates for this one has ended or does not answer
   kNonFiniteGradient,       ///< the objective is finite, its gradient is not
+  kNotIdentifiable,         ///< recordings do not tell all numbers that were to be identified
 };
 
 /// Snake-case name, as sent over ROS and printed in JSON: "assembly_failed".

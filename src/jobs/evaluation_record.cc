@@ -76,7 +76,7 @@ StatusCode code_of(const std::string& name) {
   for (int k = 0;; ++k) {
     const auto code = static_cast<StatusCode>(k);
     if (name == name_of(code)) return code;
-    if (code == StatusCode::kNonFiniteGradient) throw std::invalid_argument("unknown status: " + name);
+    if (code == StatusCode::kNotIdentifiable) throw std::invalid_argument("unknown status: " + name);
   }
 }
 

@@ -41,6 +41,8 @@ const char* name_of(StatusCode code) {
       return "non_finite_gradient";
     case StatusCode::kWorkerLost:
       return "worker_lost";
+    case StatusCode::kNotIdentifiable:
+      return "not_identifiable";
   }
   return "unknown";
 }

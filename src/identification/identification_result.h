@@ -1,0 +1,61 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_IDENTIFICATION_IDENTIFICATION_RESULT_H_
+#define MECHANISM_CODESIGN_IDENTIFICATION_IDENTIFICATION_RESULT_H_
+
+#include <Eigen/Core>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanism_codesign/status.h"
+#include "mechanism_codesign/warning.h"
+#include "statistics/profile.h"
+#include "statistics/whiteness.h"
+
+namespace codesign {
+
+/// One entry of x after the fit, and how well it is known.
+struct IdentifiedNumber {
+  std::string name, unit;  ///< FitVariables::names()
+  double start = 0.0, value = 0.0;
+  double lower = -std::numeric_limits<double>::infinity();  ///< bounds
+  double upper = std::numeric_limits<double>::infinity();
+  bool is_on_bound = false;      ///< it then counts as known in the intervals of the others, and has none itself
+  bool is_determined = true;     ///< whether the data tell it
+  double deviation = 0.0;        ///< standard deviation; infinite if not determined
+  double low = 0.0, high = 0.0;  ///< the interval at IntervalOptions::level
+  std::optional<ProfileInterval> profile;
+};
+
+/// The residuals of one joint.
+struct OutputFit {
+  std::string joint;
+  double recorded = 0.0;  ///< root mean square of what was recorded [N m or N]
+  double start = 0.0;     ///< root mean square of the residuals at the start
+  double rms = 0.0;       ///< the same after the fit
+  double worst = 0.0;     ///< largest magnitude after the fit
+  Whiteness whiteness;    ///< after the fit
+};
+
+/// What codesign identify answers.
+struct IdentificationResult {
+  Status status;            ///< ok; kNotIdentifiable, with all members; kCancelled, with the best point; the status of the start
+  std::string termination;  ///< as OptimizationResult::termination
+  std::vector<IdentifiedNumber> numbers;  ///< empty if the start failed
+  Eigen::VectorXd x;
+  std::vector<double> parameters;         ///< all named parameters (order of Study::parameters)
+  Eigen::MatrixXd covariance;             ///< of x; zero for numbers on a bound, infinite or not a number where the data tell nothing
+  int rank = 0;                           ///< of the numbers that are not on a bound
+  std::vector<std::string> undetermined;  ///< sentences: what the data do not tell
+  std::vector<OutputFit> data, holdout;   ///< one per joint; the holdout is empty if the study names none
+  Eigen::Index samples = 0, holdout_samples = 0;  ///< times, not residuals
+  int lag = 0;                                    ///< of the noise model, in samples
+  int evaluations = 0, failed_evaluations = 0, iterations = 0;
+  double cpu_seconds = 0.0;
+  Warnings warnings;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_IDENTIFICATION_IDENTIFICATION_RESULT_H_

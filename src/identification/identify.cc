@@ -1,0 +1,107 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "identification/identify.h"
+
+#include <algorithm>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "identification/judgement.h"
+#include "math/cpu_timer.h"
+#include "problem/load_problem.h"
+#include "text/cancel.h"
+
+namespace codesign {
+namespace {
+
+int threads_of(const EngineOptions& engine) {
+  if (engine.kind == EngineKind::kSerial) return 1;
+  return engine.workers > 0 ? engine.workers : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+std::unique_ptr<EffortResiduals> make_residuals(const Problem& problem, const FitVariables& variables,
+                                                const std::vector<JointRecording>& recordings, Warnings* warnings) {
+  const FilterOptions& filter = problem.study().identification->filter;
+  std::vector<MeasuredMotion> motions;
+  for (const JointRecording& recording : recordings) motions.push_back(measured_motion(recording, filter, warnings));
+  return std::make_unique<EffortResiduals>(*problem.system(), variables, require_same_joints(recordings), std::move(motions), filter,
+                                           threads_of(problem.study().ensemble.engine));
+}
+
+FitProblem fit_problem(const Problem& problem, const FitVariables& variables) {
+  FitProblem fit;
+  fit.start = variables.start();
+  fit.lower = variables.lower();
+  fit.upper = variables.upper();
+  fit.loss = problem.study().identification->loss;
+  fit.max_evaluations = problem.optimizer_options().max_evaluations;
+  fit.relative_tolerance = problem.optimizer_options().relative_tolerance;
+  return fit;
+}
+
+/// The residuals of recordings that were not fitted, at x.
+Status judge_holdout(const FitVariables& variables, EffortResiduals* residuals, IdentificationResult* result) {
+  Eigen::MatrixXd at_start, at_end;
+  Status status = residuals->begin(variables.start());
+  if (status.ok()) status = residuals->evaluate(variables.start(), &at_start, nullptr);
+  if (status.ok()) status = residuals->evaluate(result->x, &at_end, nullptr);
+  if (!status.ok()) return status;
+  result->holdout = judge_outputs(*residuals, residuals->recorded(), at_start, at_end);
+  result->holdout_samples = residuals->rows();
+  return status;
+}
+
+Status not_identifiable(const std::vector<std::string>& sentences) {
+  Status status{StatusCode::kNotIdentifiable, 0.0, "the data do not tell all numbers"};
+  for (std::size_t k = 0; k < sentences.size(); ++k) status.cause += (k == 0 ? ": " : "; ") + sentences[k];
+  return status;
+}
+
+}  // namespace
+
+IdentificationResult identify(const Problem& problem, const StudyRecordings& recordings, const FitObserver& observer,
+                              const std::atomic<bool>* cancel) {
+  const CpuTimer timer;
+  const IdentificationDescription& options = *problem.study().identification;
+  const FitVariables variables(problem.study());
+  IdentificationResult result;
+  const std::unique_ptr<EffortResiduals> data = make_residuals(problem, variables, recordings.data, &result.warnings);
+  EffortResiduals& residuals = *data;
+  std::unique_ptr<EffortResiduals> holdout;
+  if (!recordings.holdout.empty()) holdout = make_residuals(problem, variables, recordings.holdout, &result.warnings);
+  residuals.obey(cancel);
+
+  const FitProblem limits = fit_problem(problem, variables);
+  result.status = residuals.begin(limits.start);
+  if (!result.status.ok()) {
+    result.termination = result.status.code == StatusCode::kCancelled ? "cancelled" : "start_failed";
+    return result;
+  }
+  const ResidualFit fit = fit_residuals(limits, &residuals, observer);
+  result.status = fit.status;
+  result.termination = fit.termination;
+  result.evaluations = fit.evaluations;
+  result.failed_evaluations = fit.failed_evaluations;
+  result.iterations = fit.iterations;
+  if (fit.residuals.size() == 0) return result;
+
+  // What is known of the best point is computed even after a cancel; it takes no evaluation.
+  result.x = fit.x;
+  result.parameters = variables.parameters(fit.x);
+  result.samples = residuals.rows();
+  result.data = judge_outputs(residuals, residuals.recorded(), fit.start_residuals, fit.residuals);
+  judge_numbers(variables, options, residuals.lengths(), fit, &result);
+  if (options.intervals.profiles && !is_set(cancel)) add_profiles(limits, options, fit, &residuals, cancel, &result);
+  if (holdout) {
+    const Status status = judge_holdout(variables, holdout.get(), &result);
+    if (result.status.ok()) result.status = status;
+  }
+  Warnings found = warnings_of(options, result);
+  append(result.warnings, &found);
+  result.warnings = std::move(found);
+  if (result.status.ok() && !result.undetermined.empty()) result.status = not_identifiable(result.undetermined);
+  result.cpu_seconds = timer.seconds();
+  return result;
+}
+
+}  // namespace codesign

@@ -1,0 +1,25 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_IDENTIFICATION_IDENTIFY_H_
+#define MECHANISM_CODESIGN_IDENTIFICATION_IDENTIFY_H_
+
+#include <atomic>
+
+#include "identification/identification_result.h"
+#include "identification/residual_fit.h"
+#include "mechanism_codesign/problem.h"
+#include "recordings/load_recordings.h"
+
+namespace codesign {
+
+/// Fits the tuned parameters and the numbers of effort sensors to recordings, and tells how well they are known; doc/theory.md (28)-(39).
+/// The holdout is judged on, never fitted.
+/// @param problem whose study has a block `identify`. @param recordings as load_recordings() returns them.
+/// @param observer told of each evaluation; false ends the fit. @param cancel the fit ends soon after it is set, from any thread; null:
+/// never
+/// @throws InputError for recordings that do not fit the mechanism
+IdentificationResult identify(const Problem& problem, const StudyRecordings& recordings, const FitObserver& observer,
+                              const std::atomic<bool>* cancel);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_IDENTIFICATION_IDENTIFY_H_

@@ -1,0 +1,156 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "identification/judgement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "statistics/parameter_covariance.h"
+#include "text/cancel.h"
+#include "text/number_text.h"
+
+namespace codesign {
+namespace {
+
+constexpr double kNearBound = 1e-9;     // of the range, or of the magnitude: a number this near to its bound is on it
+constexpr double kHoldoutFactor = 1.5;  // times the residuals of the fitted data: a holdout beyond was not explained
+constexpr double kWhiteBelow = 0.01;    // probability below which residuals are not taken for white
+
+double rms_of(const Eigen::VectorXd& column) { return std::sqrt(column.squaredNorm() / static_cast<double>(column.size())); }
+
+bool is_at(double x, double bound, double range) {
+  return std::isfinite(bound) && std::abs(x - bound) <= kNearBound * (std::isfinite(range) ? range : std::abs(bound));
+}
+
+/// The columns of the numbers that are not on a bound.
+std::vector<int> free_columns(const IdentificationResult& result) {
+  std::vector<int> columns;
+  for (std::size_t k = 0; k < result.numbers.size(); ++k)
+    if (!result.numbers[k].is_on_bound) columns.push_back(static_cast<int>(k));
+  return columns;
+}
+
+/// The covariance of the free numbers, by the noise model of `intervals`.
+ParameterCovariance covariance_of(const ResidualFit& fit, const LossOptions& loss, const SeriesLengths& lengths,
+                                  const IntervalOptions& intervals, const std::vector<int>& columns) {
+  const WeightedResiduals weighted = weigh(fit.residuals, &fit.jacobian, fit.spreads, loss);
+  Eigen::MatrixXd jacobian(weighted.jacobian.rows(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) jacobian.col(static_cast<Eigen::Index>(k)) = weighted.jacobian.col(columns[k]);
+  return parameter_covariance(weighted.residuals, jacobian, lengths, intervals);
+}
+
+void begin_numbers(const FitVariables& variables, const ResidualFit& fit, IdentificationResult* result) {
+  for (Eigen::Index k = 0; k < variables.size(); ++k) {
+    IdentifiedNumber number;
+    number.name = variables.names()[static_cast<std::size_t>(k)];
+    number.unit = variables.units()[static_cast<std::size_t>(k)];
+    number.start = variables.start()[k];
+    number.value = number.low = number.high = fit.x[k];
+    number.lower = variables.lower()[k];
+    number.upper = variables.upper()[k];
+    const double range = number.upper - number.lower;
+    number.is_on_bound = is_at(number.value, number.lower, range) || is_at(number.value, number.upper, range);
+    result->numbers.push_back(std::move(number));
+  }
+}
+
+}  // namespace
+
+std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::MatrixXd& recorded, const Eigen::MatrixXd& start,
+                                     const Eigen::MatrixXd& residuals) {
+  std::vector<OutputFit> fits;
+  for (Eigen::Index k = 0; k < residuals.cols(); ++k) {
+    OutputFit fit;
+    fit.joint = source.outputs()[static_cast<std::size_t>(k)];
+    fit.recorded = rms_of(recorded.col(k));
+    fit.start = rms_of(start.col(k));
+    fit.rms = rms_of(residuals.col(k));
+    fit.worst = residuals.col(k).cwiseAbs().maxCoeff();
+    fit.whiteness = ljung_box(residuals.col(k), source.lengths());
+    fits.push_back(std::move(fit));
+  }
+  return fits;
+}
+
+void judge_numbers(const FitVariables& variables, const IdentificationDescription& options, const SeriesLengths& lengths,
+                   const ResidualFit& fit, IdentificationResult* result) {
+  begin_numbers(variables, fit, result);
+  const std::vector<int> columns = free_columns(*result);
+  result->covariance.setZero(variables.size(), variables.size());
+  if (columns.empty()) return;
+  const ParameterCovariance known = covariance_of(fit, options.loss, lengths, options.intervals, columns);
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    IdentifiedNumber& number = result->numbers[static_cast<std::size_t>(columns[k])];
+    number.is_determined = known.identifiability.is_determined[k];
+    number.deviation = std::sqrt(known.covariance(i, i));
+    number.low = number.value - known.below[i];
+    number.high = number.value + known.above[i];
+    names.push_back(number.name);
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      result->covariance(columns[k], columns[j]) = known.covariance(i, static_cast<Eigen::Index>(j));
+  }
+  result->rank = known.identifiability.rank;
+  result->lag = known.lag;
+  result->undetermined = describe_undetermined(known.identifiability, names);
+}
+
+void add_profiles(const FitProblem& problem, const IdentificationDescription& options, const ResidualFit& fit, ResidualSource* source,
+                  const std::atomic<bool>* cancel, IdentificationResult* result) {
+  const std::vector<int> columns = free_columns(*result);
+  IntervalOptions white = options.intervals;
+  white.noise = NoiseModel::kWhite;
+  const ParameterCovariance plain = covariance_of(fit, options.loss, source->lengths(), white, columns);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    IdentifiedNumber& number = result->numbers[static_cast<std::size_t>(columns[k])];
+    if (!number.is_determined || is_set(cancel)) continue;
+    const auto i = static_cast<Eigen::Index>(k);
+    const double inflation = number.deviation * number.deviation / plain.covariance(i, i);
+    ProfileProblem profile;
+    profile.optimum = number.value;
+    profile.cost = fit.cost;
+    profile.threshold = profile_threshold(options.intervals.level, plain.residual_variance, inflation, plain.degrees);
+    profile.step = 0.5 * (number.high - number.low);
+    profile.lower = number.lower;
+    profile.upper = number.upper;
+    if (!(profile.step > 0.0) || !(profile.threshold > 0.0)) continue;
+    number.profile = profile_interval(profile, [&](double value) -> std::optional<double> {
+      FitProblem fixed = problem;
+      fixed.start = fit.x;
+      fixed.start[columns[k]] = fixed.lower[columns[k]] = fixed.upper[columns[k]] = value;
+      const ResidualFit refit = fit_with_spreads(fixed, fit.spreads, source);
+      result->evaluations += refit.evaluations;
+      if (!refit.status.ok()) return std::nullopt;
+      return refit.cost;
+    });
+  }
+}
+
+Warnings warnings_of(const IdentificationDescription& options, const IdentificationResult& result) {
+  Warnings warnings;
+  for (std::size_t k = 0; k < result.holdout.size(); ++k) {
+    const double here = result.holdout[k].rms, there = result.data[k].rms;
+    if (!(here > kHoldoutFactor * there)) continue;
+    warnings.push_back(warn("holdout_failed", {options.where, "identify.holdout",
+                                               "the fitted model does not explain the holdout: root mean square of the residuals of " +
+                                                   result.holdout[k].joint + ", " + readable(there) + " on the fitted data",
+                                               readable(here), "at most " + readable(kHoldoutFactor * there)}));
+  }
+  for (const IdentifiedNumber& number : result.numbers)
+    if (number.is_on_bound)
+      warnings.push_back(
+          warn("identified_on_bound", {options.where, number.name, "the fit ends on a bound, so that this number has no interval",
+                                       readable(number.value), "wider bounds, or other data"}));
+  for (const OutputFit& fit : result.data)
+    if (options.intervals.noise == NoiseModel::kWhite && fit.whiteness.probability < kWhiteBelow)
+      warnings.push_back(
+          warn("correlated_residuals", {options.where, "identify.intervals.noise",
+                                        "the residuals of " + fit.joint + " are correlated (correlation of neighbours " +
+                                            readable(fit.whiteness.first_correlation) + "), so that these intervals are too narrow",
+                                        "white", "correlated"}));
+  return warnings;
+}
+
+}  // namespace codesign

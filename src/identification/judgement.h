@@ -1,0 +1,31 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_IDENTIFICATION_JUDGEMENT_H_
+#define MECHANISM_CODESIGN_IDENTIFICATION_JUDGEMENT_H_
+
+#include <vector>
+
+#include "identification/effort_residuals.h"
+#include "identification/identification_result.h"
+#include "identification/residual_fit.h"
+
+namespace codesign {
+
+/// One OutputFit per output. @param recorded, start, residuals rows x outputs
+std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::MatrixXd& recorded, const Eigen::MatrixXd& start,
+                                     const Eigen::MatrixXd& residuals);
+
+/// Sets numbers, covariance, rank, lag and the sentences about what the data do not tell, from a fit that has a best point.
+void judge_numbers(const FitVariables& variables, const IdentificationDescription& options, const SeriesLengths& lengths,
+                   const ResidualFit& fit, IdentificationResult* result);
+
+/// Intervals of the profile likelihood of all numbers that the data tell: each is fixed and all others are fitted anew.
+/// @param problem of the fit. @param source the fit's. Ends early once `cancel` is set.
+void add_profiles(const FitProblem& problem, const IdentificationDescription& options, const ResidualFit& fit, ResidualSource* source,
+                  const std::atomic<bool>* cancel, IdentificationResult* result);
+
+/// Warnings about the result: `holdout_failed` first, `identified_on_bound`, `correlated_residuals`.
+Warnings warnings_of(const IdentificationDescription& options, const IdentificationResult& result);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_IDENTIFICATION_JUDGEMENT_H_
