@@ -76,7 +76,7 @@ const std::map<std::string, Option>& options() {
       {"--csv", {Value::kRequired, {"simulate"}, [](const std::string& text, Arguments* to) { to->csv = text; }}},
       {"--samples", {Value::kRequired, {"simulate"}, set_samples}},
       {"--verify", {Value::kOptional, {"gradient"}, set_method}},
-      {"--output", {Value::kRequired, {"optimize"}, [](const std::string& text, Arguments* to) { set_folder(text, false, to); }}},
+      {"--output", {Value::kRequired, {"optimize", "identify"}, [](const std::string& text, Arguments* to) { set_folder(text, false, to); }}},
       {"--resume", {Value::kRequired, {"optimize"}, [](const std::string& text, Arguments* to) { set_folder(text, true, to); }}},
   };
   return kOptions;
@@ -131,7 +131,7 @@ bool asks_for_help(const Names& words) {
 }  // namespace
 
 Arguments parse_arguments(const std::vector<std::string>& words) {
-  const Names commands = {"check", "urdf", "simulate", "gradient", "optimize", "help"};
+  const Names commands = {"check", "urdf", "simulate", "gradient", "optimize", "identify", "help"};
   Arguments arguments;
   if (words.empty()) throw UsageError("no command given");
   arguments.command = asks_for_help(words) ? "help" : words[0];

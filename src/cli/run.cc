@@ -20,6 +20,7 @@ int dispatch(const Arguments& arguments, const Console& console) {
   if (arguments.command == "simulate") return simulate(arguments, console);
   if (arguments.command == "gradient") return gradient(arguments, console);
   if (arguments.command == "optimize") return optimize(arguments, console);
+  if (arguments.command == "identify") return identify(arguments, console);
   if (arguments.command == "version")
     console.out << "codesign " << version() << '\n';
   else

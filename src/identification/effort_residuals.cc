@@ -104,6 +104,13 @@ MotionSamples EffortResiduals::samples_of_all(const std::vector<std::string>& jo
   return samples;
 }
 
+std::vector<double> EffortResiduals::times() const {
+  std::vector<double> times;
+  for (const MeasuredMotion& motion : recordings_)
+    for (Eigen::Index k = 0; k < motion.fitted(); ++k) times.push_back(motion.times.at(motion.first + k * motion.every));
+  return times;
+}
+
 double EffortResiduals::time(std::size_t recording, Eigen::Index sample) const {
   const MeasuredMotion& motion = recordings_[recording];
   return motion.times.at(filter_.residual_cutoff > 0.0 ? sample : motion.first + sample * motion.every);

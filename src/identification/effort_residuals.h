@@ -37,7 +37,8 @@ class EffortResiduals final : public ResidualSource {
   Eigen::Index rows() const { return rows_; }
   /// Fitted efforts as recorded, filtered like the residuals, times the scale at the start [N m or N]; rows() x outputs.
   const Eigen::MatrixXd& recorded() const { return recorded_; }
-  const std::vector<MeasuredMotion>& recordings() const { return recordings_; }
+  /// Times of the rows [s], each from the clock of its recording.
+  std::vector<double> times() const;
 
   /// Follows the motion at a design; to be called first.
   Status begin(const Eigen::VectorXd& x) { return model_->begin(variables_.parameters(x)); }

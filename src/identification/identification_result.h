@@ -10,6 +10,7 @@
 
 #include "mechanism_codesign/status.h"
 #include "mechanism_codesign/warning.h"
+#include "statistics/long_run.h"
 #include "statistics/profile.h"
 #include "statistics/whiteness.h"
 
@@ -38,6 +39,13 @@ struct OutputFit {
   Whiteness whiteness;    ///< after the fit
 };
 
+/// Recorded and computed efforts of several recordings, filtered like the residuals.
+struct FittedSeries {
+  SeriesLengths lengths;               ///< rows of each recording
+  std::vector<double> times;           ///< one per row [s]
+  Eigen::MatrixXd recorded, computed;  ///< rows x joints [N m or N]
+};
+
 /// What codesign identify answers.
 struct IdentificationResult {
   Status status;            ///< ok; kNotIdentifiable, with all members; kCancelled, with the best point; the status of the start
@@ -49,6 +57,7 @@ struct IdentificationResult {
   int rank = 0;                           ///< of the numbers that are not on a bound
   std::vector<std::string> undetermined;  ///< sentences: what the data do not tell
   std::vector<OutputFit> data, holdout;   ///< one per joint; the holdout is empty if the study names none
+  FittedSeries data_series, holdout_series;
   Eigen::Index samples = 0, holdout_samples = 0;  ///< times, not residuals
   int lag = 0;                                    ///< of the noise model, in samples
   int evaluations = 0, failed_evaluations = 0, iterations = 0;

@@ -39,6 +39,10 @@ FitProblem fit_problem(const Problem& problem, const FitVariables& variables) {
   return fit;
 }
 
+FittedSeries series_of(const EffortResiduals& source, const Eigen::MatrixXd& residuals) {
+  return {source.lengths(), source.times(), source.recorded(), source.recorded() + residuals};
+}
+
 /// The residuals of recordings that were not fitted, at x.
 Status judge_holdout(const FitVariables& variables, EffortResiduals* residuals, IdentificationResult* result) {
   Eigen::MatrixXd at_start, at_end;
@@ -47,6 +51,7 @@ Status judge_holdout(const FitVariables& variables, EffortResiduals* residuals, 
   if (status.ok()) status = residuals->evaluate(result->x, &at_end, nullptr);
   if (!status.ok()) return status;
   result->holdout = judge_outputs(*residuals, residuals->recorded(), at_start, at_end);
+  result->holdout_series = series_of(*residuals, at_end);
   result->holdout_samples = residuals->rows();
   return status;
 }
@@ -90,6 +95,7 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
   result.parameters = variables.parameters(fit.x);
   result.samples = residuals.rows();
   result.data = judge_outputs(residuals, residuals.recorded(), fit.start_residuals, fit.residuals);
+  result.data_series = series_of(residuals, fit.residuals);
   judge_numbers(variables, options, residuals.lengths(), fit, &result);
   if (options.intervals.profiles && !is_set(cancel)) add_profiles(limits, options, fit, &residuals, cancel, &result);
   if (holdout) {

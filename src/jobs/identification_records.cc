@@ -1,0 +1,143 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/identification_records.h"
+
+#include <cmath>
+#include <utility>
+
+#include "text/decimal.h"
+#include "text/number_text.h"
+
+namespace codesign {
+namespace {
+
+const char* name_of(ProfileEnd end) {
+  switch (end) {
+    case ProfileEnd::kFound:
+      return "found";
+    case ProfileEnd::kBound:
+      return "bound";
+    case ProfileEnd::kUnbounded:
+      return "unbounded";
+    case ProfileEnd::kFailed:
+      return "failed";
+  }
+  return "";
+}
+
+Json number_json(const IdentifiedNumber& number) {
+  Json object = {{"value", number.value}, {"start", number.start}, {"unit", number.unit}};
+  object["determined"] = number.is_determined;
+  object["on_bound"] = number.is_on_bound;
+  object["deviation"] = number.is_on_bound ? Json() : Json(number.deviation);
+  object["interval"] = number.is_on_bound ? Json() : Json::array({number.low, number.high});
+  if (number.profile) {
+    const ProfileInterval& profile = *number.profile;
+    object["profile"] = {{"interval", {profile.lower, profile.upper}},
+                         {"ends", {name_of(profile.lower_end), name_of(profile.upper_end)}},
+                         {"found_better", profile.found_better}};
+  }
+  return object;
+}
+
+Json rows_json(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    rows.push_back(Json::array());
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) rows.back().push_back(matrix(i, j));
+  }
+  return rows;
+}
+
+Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance) {
+  const Eigen::VectorXd deviations = covariance.diagonal().cwiseSqrt();
+  return covariance.cwiseQuotient(deviations * deviations.transpose());
+}
+
+Json outputs_json(const std::vector<OutputFit>& fits, Eigen::Index samples) {
+  Json joints = Json::object();
+  for (const OutputFit& fit : fits)
+    joints[fit.joint] = {{"recorded_rms", fit.recorded},
+                         {"start_rms", fit.start},
+                         {"rms", fit.rms},
+                         {"worst", fit.worst},
+                         {"whiteness",
+                          {{"ljung_box", fit.whiteness.statistic},
+                           {"lags", fit.whiteness.lags},
+                           {"probability", fit.whiteness.probability},
+                           {"first_correlation", fit.whiteness.first_correlation}}}};
+  return {{"samples", samples}, {"joints", std::move(joints)}};
+}
+
+void add_rows(const std::string& set, const FittedSeries& series, std::vector<std::vector<std::string>>* rows) {
+  Eigen::Index row = 0;
+  for (std::size_t recording = 0; recording < series.lengths.size(); ++recording)
+    for (const Eigen::Index end = row + series.lengths[recording]; row < end; ++row) {
+      std::vector<std::string> cells = {set, std::to_string(recording + 1), to_decimal(series.times[static_cast<std::size_t>(row)])};
+      for (Eigen::Index k = 0; k < series.recorded.cols(); ++k) {
+        cells.push_back(to_decimal(series.recorded(row, k)));
+        cells.push_back(to_decimal(series.computed(row, k)));
+      }
+      rows->push_back(std::move(cells));
+    }
+}
+
+std::string sentence_of(const std::string& set, const OutputFit& fit) {
+  return set + ", " + fit.joint + ": root mean square of the residuals " + readable(fit.start) + " -> " + readable(fit.rms) + " of " +
+         readable(fit.recorded) + " recorded";
+}
+
+}  // namespace
+
+Json identification_json(const Problem& problem, const IdentificationResult& result) {
+  Json object;
+  object["termination"] = result.termination;
+  object["evaluations"] = result.evaluations;
+  object["failed_evaluations"] = result.failed_evaluations;
+  object["iterations"] = result.iterations;
+  object["cpu_seconds"] = result.cpu_seconds;
+  if (result.numbers.empty()) return object;
+  object["parameters"] = parameters_json(problem, result.parameters);
+  Json names = Json::array();
+  for (const IdentifiedNumber& number : result.numbers) {
+    object["identified"][number.name] = number_json(number);
+    names.push_back(number.name);
+  }
+  const IntervalOptions& intervals = problem.study().identification->intervals;
+  object["level"] = intervals.level;
+  object["noise"] = kNoiseNames[static_cast<std::size_t>(intervals.noise)];
+  object["lag"] = result.lag;
+  object["rank"] = result.rank;
+  object["undetermined"] = result.undetermined;
+  object["names"] = std::move(names);
+  object["covariance"] = rows_json(result.covariance);
+  object["correlation"] = rows_json(correlation_of(result.covariance));
+  object["data"] = outputs_json(result.data, result.samples);
+  if (!result.holdout.empty()) object["holdout"] = outputs_json(result.holdout, result.holdout_samples);
+  return object;
+}
+
+std::vector<std::string> identification_sentences(const IdentificationResult& result) {
+  std::vector<std::string> sentences;
+  for (const OutputFit& fit : result.holdout) sentences.push_back(sentence_of("holdout", fit));
+  for (const OutputFit& fit : result.data) sentences.push_back(sentence_of("fitted data", fit));
+  for (const std::string& sentence : result.undetermined) sentences.push_back("not identifiable: " + sentence);
+  return sentences;
+}
+
+std::vector<std::string> residual_columns(const IdentificationResult& result) {
+  std::vector<std::string> columns = {"set", "recording", "time"};
+  for (const OutputFit& fit : result.data) {
+    columns.push_back(fit.joint + "/recorded");
+    columns.push_back(fit.joint + "/computed");
+  }
+  return columns;
+}
+
+std::vector<std::vector<std::string>> residual_rows(const IdentificationResult& result) {
+  std::vector<std::vector<std::string>> rows;
+  add_rows("data", result.data_series, &rows);
+  add_rows("holdout", result.holdout_series, &rows);
+  return rows;
+}
+
+}  // namespace codesign

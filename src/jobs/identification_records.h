@@ -1,0 +1,28 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOBS_IDENTIFICATION_RECORDS_H_
+#define MECHANISM_CODESIGN_JOBS_IDENTIFICATION_RECORDS_H_
+
+#include <string>
+#include <vector>
+
+#include "identification/identification_result.h"
+#include "jobs/json.h"
+
+namespace codesign {
+
+/// identification.json, doc/study.md: `identified` (by name: value, start, deviation, interval, ...), `undetermined`, `covariance`,
+/// `correlation`, `data` and `holdout` (residuals by joint), `parameters`, `termination` and counts. Infinite numbers and numbers that
+/// nothing tells are null.
+Json identification_json(const Problem& problem, const IdentificationResult& result);
+
+/// What people read first, one sentence per line: whether the holdout is explained, what the data do not tell, residuals by joint.
+std::vector<std::string> identification_sentences(const IdentificationResult& result);
+
+/// Columns and rows of residuals.csv: set (data or holdout), recording (from 1), time [s], then per joint JOINT/recorded and
+/// JOINT/computed.
+std::vector<std::string> residual_columns(const IdentificationResult& result);
+std::vector<std::vector<std::string>> residual_rows(const IdentificationResult& result);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOBS_IDENTIFICATION_RECORDS_H_
