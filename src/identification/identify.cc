@@ -20,11 +20,12 @@ int threads_of(const EngineOptions& engine) {
 }
 
 std::unique_ptr<EffortResiduals> make_residuals(const Problem& problem, const FitVariables& variables,
-                                                const std::vector<JointRecording>& recordings, Warnings* warnings) {
+                                                const std::vector<MeasuredJoint>& joints, const std::vector<JointRecording>& recordings,
+                                                Warnings* warnings) {
   const FilterOptions& filter = problem.study().identification->filter;
   std::vector<MeasuredMotion> motions;
   for (const JointRecording& recording : recordings) motions.push_back(measured_motion(recording, filter, warnings));
-  return std::make_unique<EffortResiduals>(*problem.system(), variables, require_same_joints(recordings), std::move(motions), filter,
+  return std::make_unique<EffortResiduals>(*problem.system(), variables, joints, std::move(motions), filter,
                                            threads_of(problem.study().ensemble.engine));
 }
 
@@ -70,10 +71,13 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
   const IdentificationDescription& options = *problem.study().identification;
   const FitVariables variables(problem.study());
   IdentificationResult result;
-  const std::unique_ptr<EffortResiduals> data = make_residuals(problem, variables, recordings.data, &result.warnings);
+  std::vector<JointRecording> all = recordings.data;
+  all.insert(all.end(), recordings.holdout.begin(), recordings.holdout.end());
+  const std::vector<MeasuredJoint> joints = require_same_joints(all);
+  const std::unique_ptr<EffortResiduals> data = make_residuals(problem, variables, joints, recordings.data, &result.warnings);
   EffortResiduals& residuals = *data;
   std::unique_ptr<EffortResiduals> holdout;
-  if (!recordings.holdout.empty()) holdout = make_residuals(problem, variables, recordings.holdout, &result.warnings);
+  if (!recordings.holdout.empty()) holdout = make_residuals(problem, variables, joints, recordings.holdout, &result.warnings);
   residuals.obey(cancel);
 
   const FitProblem limits = fit_problem(problem, variables);

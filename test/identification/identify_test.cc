@@ -1,0 +1,165 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "identification/identify.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "problem/load_problem.h"
+
+namespace codesign {
+namespace {
+
+/// An arm that turns about a vertical axis: gravity does not act on it. Its centre is 0.5 m from the axis.
+constexpr const char* kArm = R"(<robot name="arm" xmlns:codesign="https://mechanism-codesign.org">
+  <codesign:parameter name="mass" value="2" lower="0.1" upper="10"/>
+  <codesign:parameter name="inertia" value="0.1" lower="0.001" upper="5"/>
+  <codesign:parameter name="viscous" value="0.1" lower="0" upper="10"/>
+  <link name="base"/>
+  <link name="bar"><inertial><origin xyz="0.5 0 0"/><mass value="2" codesign:value="${mass}"/>
+    <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0" codesign:ixx="${inertia}" codesign:iyy="${inertia}" codesign:izz="${inertia}"/>
+  </inertial></link>
+  <joint name="hinge" type="continuous"><parent link="base"/><child link="bar"/><axis xyz="0 0 1"/>
+    <dynamics damping="0.1" friction="0" codesign:damping="${viscous}"/></joint>
+</robot>)";
+
+std::string study_of(const std::string& parameters, const std::string& more = "") {
+  return "identify:\n  data: [{csv: data.csv}]\n  filter: {cutoff: 20.0}\n" + more + "parameters: {" + parameters +
+         "}\noptimizer: {algorithm: levenberg_marquardt, relative_tolerance: 1.0e-10}\n";
+}
+
+Problem problem_of(const std::string& parameters, const std::string& more = "") {
+  return load_problem({"arm.urdf", kArm}, {}, {"study.yaml", study_of(parameters, more)});
+}
+
+/// What a rig records of the arm: `total` is its inertia about the axis [kg m^2], `damping` that of the joint [N m s].
+struct Rig {
+  double total = 0.8, damping = 0.4, scale = 1.0, offset = 0.0, noise = 0.0;
+  double speed = 2.0;
+
+  JointRecording record(const std::string& element) const {
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    JointRecording recording;
+    recording.file = "data.csv";
+    recording.element = element;
+    recording.where = {"study.yaml", 2};
+    JointSamples hinge{"hinge", {}, {}, {}};
+    for (int k = 0; k < 2000; ++k) {
+      const double t = 0.005 * k, w = speed;
+      recording.times.push_back(t);
+      recording.places.push_back(static_cast<std::size_t>(k) + 2);
+      hinge.position.push_back(std::sin(w * t) + 0.3 * std::sin(2.3 * w * t));
+      hinge.velocity.push_back(w * std::cos(w * t) + 0.69 * w * std::cos(2.3 * w * t));
+      const double acceleration = -w * w * (std::sin(w * t) + 0.3 * 2.3 * 2.3 * std::sin(2.3 * w * t));
+      const double effort = total * acceleration + damping * hinge.velocity.back() + offset;
+      hinge.effort.push_back(effort / scale + noise * normal(random));
+    }
+    recording.joints = {hinge};
+    return recording;
+  }
+};
+
+IdentificationResult run(const Problem& problem, const Rig& rig, const Rig* holdout = nullptr) {
+  StudyRecordings recordings;
+  recordings.data = {rig.record("identify.data[0]")};
+  if (holdout) recordings.holdout = {holdout->record("identify.holdout[0]")};
+  return identify(problem, recordings, {}, nullptr);
+}
+
+TEST(Identify, FindsWhatARigWithoutNoiseHas) {
+  const IdentificationResult result = run(problem_of("inertia: {}, viscous: {}"), Rig());
+  ASSERT_TRUE(result.status.ok()) << result.status.cause;
+  ASSERT_EQ(result.numbers.size(), 2U);
+  EXPECT_NEAR(result.numbers[0].value, 0.8 - 2.0 * 0.25, 1e-6);
+  EXPECT_NEAR(result.numbers[1].value, 0.4, 1e-6);
+  EXPECT_LT(result.data[0].rms, 1e-5 * result.data[0].recorded);
+  EXPECT_GT(result.data[0].start, 0.01 * result.data[0].recorded);
+  EXPECT_EQ(result.parameters.size(), 3U);
+}
+
+TEST(Identify, ScaleAndOffsetOfTheSensor) {
+  Rig rig;
+  rig.total = 0.6;  // that of the model
+  rig.scale = 11.0;
+  rig.offset = 0.2;
+  const IdentificationResult result =
+      run(problem_of("viscous: {}", "  joints: {hinge: {effort_scale: {initial: 9.0}, offset: {}}}\n"), rig);
+  ASSERT_TRUE(result.status.ok()) << result.status.cause;
+  ASSERT_EQ(result.numbers.size(), 3U);
+  EXPECT_EQ(result.numbers[1].name, "hinge/effort_scale");
+  EXPECT_NEAR(result.numbers[1].value, 11.0, 1e-4);
+  EXPECT_NEAR(result.numbers[2].value, 0.2, 1e-5);
+}
+
+TEST(Identify, MassAndInertiaOfAnArmWithoutGravityCannotBeToldApart) {
+  const IdentificationResult result = run(problem_of("mass: {}, inertia: {}, viscous: {}"), Rig());
+  EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable);
+  ASSERT_EQ(result.undetermined.size(), 1U);
+  EXPECT_NE(result.undetermined[0].find("mass"), std::string::npos) << result.undetermined[0];
+  EXPECT_NE(result.undetermined[0].find("inertia"), std::string::npos);
+  EXPECT_NE(result.status.cause.find(result.undetermined[0]), std::string::npos);
+  EXPECT_EQ(result.rank, 2);
+  EXPECT_FALSE(result.numbers[0].is_determined);
+  EXPECT_TRUE(result.numbers[2].is_determined);
+  EXPECT_NEAR(result.numbers[2].value, 0.4, 1e-6) << "what the data tell is found all the same";
+  EXPECT_NEAR(0.25 * result.numbers[0].value + result.numbers[1].value, 0.8, 1e-6);
+  EXPECT_TRUE(std::isinf(result.numbers[0].deviation));
+}
+
+TEST(Identify, IntervalsCoverTheTruth) {
+  Rig rig;
+  rig.noise = 0.05;
+  const IdentificationResult result = run(problem_of("inertia: {}, viscous: {}", "  intervals: {profiles: true}\n"), rig);
+  ASSERT_TRUE(result.status.ok());
+  const double truth[] = {0.3, 0.4};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const IdentifiedNumber& number = result.numbers[k];
+    EXPECT_GT(number.deviation, 0.0);
+    EXPECT_LT(std::abs(number.value - truth[k]), 4.0 * number.deviation);
+    ASSERT_TRUE(number.profile);
+    // The efforts are linear in both numbers, so that the profile agrees with the linear interval.
+    EXPECT_NEAR(number.profile->lower, number.low, 0.02 * (number.high - number.low));
+    EXPECT_NEAR(number.profile->upper, number.high, 0.02 * (number.high - number.low));
+  }
+  EXPECT_NEAR(result.data[0].rms, 0.05, 0.02);
+}
+
+TEST(Identify, AHoldoutThatIsNotExplainedComesFirst) {
+  Rig rig, other;
+  rig.noise = other.noise = 0.02;
+  const Problem problem = problem_of("inertia: {}, viscous: {}");
+  EXPECT_TRUE(run(problem, rig, &rig).warnings.empty());
+  other.damping = 1.5;
+  const IdentificationResult result = run(problem, rig, &other);
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_EQ(result.warnings[0].code, "holdout_failed");
+  ASSERT_EQ(result.holdout.size(), 1U);
+  EXPECT_GT(result.holdout[0].rms, 5.0 * result.data[0].rms);
+}
+
+TEST(Identify, ANumberOnItsBoundIsReported) {
+  const IdentificationResult result = run(problem_of("inertia: {}, viscous: {upper: 0.2}"), Rig());
+  EXPECT_TRUE(result.numbers[1].is_on_bound);
+  EXPECT_EQ(result.numbers[1].value, 0.2);
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_EQ(result.warnings[0].code, "identified_on_bound");
+}
+
+TEST(Identify, RecordingsNeedTheSameJoints) {
+  const Problem problem = problem_of("viscous: {}");
+  StudyRecordings recordings;
+  recordings.data = {Rig().record("identify.data[0]"), Rig().record("identify.data[1]")};
+  recordings.data[1].joints[0].joint = "other";
+  try {
+    identify(problem, recordings, {}, nullptr);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.fault().element, "identify.data[1]");
+    EXPECT_EQ(error.fault().value, "hinge");
+  }
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,164 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "identification/residual_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+namespace codesign {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Decays x0 exp(-x1 t), one output per row of `measured`, of amplitude x0 times `factors`.
+class Decays final : public ResidualSource {
+ public:
+  Decays(Eigen::MatrixXd measured, Eigen::VectorXd factors) : measured_(std::move(measured)), factors_(std::move(factors)) {
+    lengths_ = {measured_.rows()};
+    for (Eigen::Index k = 0; k < measured_.cols(); ++k) outputs_.push_back("output_" + std::to_string(k));
+  }
+  static double value(const Eigen::VectorXd& x, Eigen::Index row) { return x[0] * std::exp(-x[1] * time(row)); }
+  static double time(Eigen::Index row) { return 0.05 * static_cast<double>(row); }
+
+  const std::vector<std::string>& outputs() const override { return outputs_; }
+  const SeriesLengths& lengths() const override { return lengths_; }
+  Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) override {
+    if (x[0] < fails_below) return {StatusCode::kInvalidDesign, 0.0, "the amplitude is too small"};
+    residuals->resize(measured_.rows(), measured_.cols());
+    if (jacobian) jacobian->setZero(measured_.size(), x.size());
+    for (Eigen::Index k = 0; k < measured_.cols(); ++k)
+      for (Eigen::Index row = 0; row < measured_.rows(); ++row) {
+        (*residuals)(row, k) = factors_[k] * value(x, row) - measured_(row, k);
+        if (!jacobian) continue;
+        (*jacobian)(k * measured_.rows() + row, 0) = factors_[k] * value(x, row) / x[0];
+        (*jacobian)(k * measured_.rows() + row, 1) = -factors_[k] * time(row) * value(x, row);
+      }
+    return {};
+  }
+
+  double fails_below = -kInfinity;
+
+ private:
+  Eigen::MatrixXd measured_;
+  Eigen::VectorXd factors_;
+  std::vector<std::string> outputs_;
+  SeriesLengths lengths_;
+};
+
+const Eigen::Vector2d kTruth(3.0, 0.7);
+
+Eigen::MatrixXd decay(Eigen::Index rows, const Eigen::VectorXd& factors, const Eigen::VectorXd& noise) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  Eigen::MatrixXd measured(rows, factors.size());
+  for (Eigen::Index k = 0; k < factors.size(); ++k)
+    for (Eigen::Index row = 0; row < rows; ++row) measured(row, k) = factors[k] * Decays::value(kTruth, row) + noise[k] * normal(random);
+  return measured;
+}
+
+FitProblem from(double amplitude, double rate) {
+  FitProblem problem;
+  problem.start = Eigen::Vector2d(amplitude, rate);
+  problem.lower = Eigen::Vector2d(-kInfinity, -kInfinity);
+  problem.upper = Eigen::Vector2d(kInfinity, kInfinity);
+  problem.relative_tolerance = 1e-12;
+  return problem;
+}
+
+Eigen::VectorXd one(double number) { return Eigen::VectorXd::Constant(1, number); }
+
+TEST(ResidualFit, ExactDataAreFoundExactly) {
+  Decays source(decay(60, one(1.0), one(0.0)), one(1.0));
+  const ResidualFit fit = fit_residuals(from(1.0, 0.1), &source);
+  ASSERT_TRUE(fit.status.ok()) << fit.status.cause;
+  EXPECT_LT((fit.x - kTruth).norm(), 1e-8);
+  EXPECT_LT(fit.residuals.cwiseAbs().maxCoeff(), 1e-8);
+  EXPECT_GT(fit.start_residuals.norm(), 1.0);
+}
+
+TEST(ResidualFit, TheNoisyOutputCountsLess) {
+  const Eigen::Vector2d factors(1.0, 2.0), noise(0.001, 1.0);
+  Decays both(decay(200, factors, noise), factors);
+  const ResidualFit fit = fit_residuals(from(1.0, 0.1), &both);
+  ASSERT_TRUE(fit.status.ok());
+  EXPECT_NEAR(fit.spreads[0], 0.001, 0.0002);
+  EXPECT_NEAR(fit.spreads[1], 1.0, 0.15);
+  EXPECT_LT((fit.x - kTruth).norm(), 0.002) << "equal weights would be wrong by more than 0.02";
+}
+
+TEST(ResidualFit, ARobustLossIgnoresOutliers) {
+  Eigen::MatrixXd measured = decay(200, one(1.0), one(0.01));
+  for (Eigen::Index row = 0; row < 200; row += 10) measured(row, 0) += 5.0;
+  Decays source(measured, one(1.0));
+  const double plain = (fit_residuals(from(1.0, 0.1), &source).x - kTruth).norm();
+  FitProblem problem = from(1.0, 0.1);
+  problem.loss = {LossKind::kHuber, 1.345};
+  const ResidualFit fit = fit_residuals(problem, &source);
+  EXPECT_GT(plain, 0.05);
+  EXPECT_LT((fit.x - kTruth).norm(), 0.02);
+  EXPECT_NEAR(fit.spreads[0], 0.01, 0.004) << "outliers do not widen the spread";
+}
+
+TEST(ResidualFit, StaysWithinItsBounds) {
+  Decays source(decay(60, one(1.0), one(0.0)), one(1.0));
+  FitProblem problem = from(1.0, 0.1);
+  problem.upper[1] = 0.5;
+  const ResidualFit fit = fit_residuals(problem, &source);
+  EXPECT_EQ(fit.x[1], 0.5);
+  EXPECT_LT(fit.x[0], 3.0);
+  problem.lower[1] = problem.upper[1] = problem.start[1] = 0.7;
+  EXPECT_NEAR(fit_residuals(problem, &source).x[0], 3.0, 1e-9) << "equal bounds fix a number";
+}
+
+TEST(ResidualFit, TurnsBackFromPointsThatFail) {
+  Decays source(decay(60, one(1.0), one(0.0)), one(1.0));
+  source.fails_below = 0.5;
+  FitProblem problem = from(40.0, 3.0);
+  const ResidualFit fit = fit_residuals(problem, &source);
+  ASSERT_TRUE(fit.status.ok());
+  EXPECT_LT((fit.x - kTruth).norm(), 1e-6);
+  problem.start[0] = 0.1;
+  const ResidualFit failed = fit_residuals(problem, &source);
+  EXPECT_EQ(failed.status.code, StatusCode::kInvalidDesign);
+  EXPECT_EQ(failed.termination, "start_failed");
+}
+
+TEST(ResidualFit, AnObserverEndsItWithTheBestPoint) {
+  Decays source(decay(60, one(1.0), one(0.0)), one(1.0));
+  int trials = 0;
+  const ResidualFit fit = fit_residuals(from(1.0, 0.1), &source, [&trials](const FitTrial& trial) {
+    EXPECT_EQ(trial.evaluation, ++trials);
+    return trials < 3;
+  });
+  EXPECT_EQ(fit.status.code, StatusCode::kCancelled);
+  EXPECT_EQ(fit.termination, "cancelled");
+  EXPECT_EQ(fit.evaluations, 3);
+  EXPECT_LT(fit.residuals.norm(), fit.start_residuals.norm());
+}
+
+TEST(ResidualFit, WeightedRowsGiveTheCostAndItsSlope) {
+  const Eigen::Vector2d factors(1.0, 2.0);
+  Decays source(decay(30, factors, Eigen::Vector2d(0.3, 0.3)), factors);
+  const LossOptions loss{LossKind::kSoftL1, 1.0};
+  const Eigen::Vector2d spreads(0.2, 0.5), x(2.0, 0.5);
+  const auto cost = [&](const Eigen::VectorXd& at) {
+    Eigen::MatrixXd residuals, jacobian;
+    EXPECT_TRUE(source.evaluate(at, &residuals, &jacobian).ok());
+    return weigh(residuals, &jacobian, spreads, loss);
+  };
+  const WeightedResiduals weighted = cost(x);
+  const Eigen::VectorXd gradient = 2.0 * weighted.jacobian.transpose() * weighted.residuals.reshaped();
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    const double h = 1e-6;
+    Eigen::VectorXd above = x, below = x;
+    above[k] += h;
+    below[k] -= h;
+    EXPECT_NEAR(gradient[k], (cost(above).value - cost(below).value) / (2.0 * h), 1e-5 * std::abs(gradient[k]));
+  }
+}
+
+}  // namespace
+}  // namespace codesign
