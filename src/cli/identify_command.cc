@@ -6,13 +6,13 @@
 #include "cli/csv_writer.h"
 #include "cli/inputs.h"
 #include "cli/output_file.h"
+#include "cli/recordings_table.h"
 #include "cli/report.h"
 #include "cli/table.h"
 #include "identification/identify.h"
 #include "jobs/identification_records.h"
 #include "jobs/whole_file.h"
 #include "reading/urdf/urdf_reader.h"
-#include "recordings/load_recordings.h"
 #include "text/number_text.h"
 
 namespace codesign::cli {
@@ -79,10 +79,8 @@ void write(const std::string& folder, const std::string& name, Text text, std::v
 int identify(const Arguments& arguments, const Console& console) {
   const Problem problem = load_identifiable(arguments, console);
   if (!arguments.output.empty()) make_folder(arguments.output, "--output");
-  const std::string folder = std::filesystem::path(arguments.study).parent_path().string();
   Warnings warnings;
-  const StudyRecordings recordings =
-      load_recordings(*problem.study().identification, problem.robot(), folder.empty() ? "." : folder, console.bags, &warnings);
+  const StudyRecordings recordings = read_recordings(problem, console, &warnings);
   const auto observer = [&console](const FitTrial& trial) {
     print_trial(trial, console.err);
     return !console.cancel;

@@ -4,18 +4,21 @@
 #include <filesystem>
 
 #include "cli/table.h"
-#include "recordings/load_recordings.h"
 #include "text/number_text.h"
 #include "text/unknown_name.h"
 
 namespace codesign::cli {
 
+StudyRecordings read_recordings(const Problem& problem, const Console& console, Warnings* warnings) {
+  const std::string folder = std::filesystem::absolute(problem.study_text().name).parent_path().string();
+  return load_recordings(*problem.study().identification, problem.robot(), folder, console.bags, warnings);
+}
+
 std::vector<RecordingSummary> check_recordings(const Problem& problem, const Console& console, Warnings* warnings) {
   std::vector<RecordingSummary> summaries;
   const std::optional<IdentificationDescription>& identification = problem.study().identification;
   if (!identification) return summaries;
-  const std::string folder = std::filesystem::absolute(problem.study_text().name).parent_path().string();
-  const StudyRecordings recordings = load_recordings(*identification, problem.robot(), folder, console.bags, warnings);
+  const StudyRecordings recordings = read_recordings(problem, console, warnings);
   for (const std::vector<JointRecording>* list : {&recordings.data, &recordings.holdout})
     for (const JointRecording& recording : *list)
       summaries.push_back(summary_of(recording, measured_motion(recording, identification->filter, warnings)));

@@ -7,11 +7,16 @@
 
 #include "cli/console.h"
 #include "jobs/recording_records.h"
+#include "recordings/load_recordings.h"
 
 namespace codesign::cli {
 
-/// Reads and filters the recordings of the study's `identify:`; none without one. Relative paths count from the study's folder.
-/// @param warnings gets those of the recordings. @throws InputError as load_recordings() and measured_motion().
+/// Reads the recordings of the study, which has a block `identify`. Relative paths count from the study's folder. @throws InputError as
+/// load_recordings().
+StudyRecordings read_recordings(const Problem& problem, const Console& console, Warnings* warnings);
+
+/// Reads and filters the recordings of the study's `identify:`; none without one. @param warnings gets those of the recordings. @throws
+/// InputError as load_recordings() and measured_motion().
 std::vector<RecordingSummary> check_recordings(const Problem& problem, const Console& console, Warnings* warnings);
 
 /// A row per recording, and what each holds.
