@@ -69,6 +69,8 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
                               const std::atomic<bool>* cancel) {
   const CpuTimer timer;
   const IdentificationDescription& options = *problem.study().identification;
+  if (options.residual == ResidualKind::kMotion)
+    throw InputError({options.where, "identify.residual", "residuals in motion are not available yet", "motion", "effort"});
   const FitVariables variables(problem.study());
   IdentificationResult result;
   std::vector<JointRecording> all = recordings.data;
