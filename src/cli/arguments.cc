@@ -76,7 +76,8 @@ const std::map<std::string, Option>& options() {
       {"--csv", {Value::kRequired, {"simulate"}, [](const std::string& text, Arguments* to) { to->csv = text; }}},
       {"--samples", {Value::kRequired, {"simulate"}, set_samples}},
       {"--verify", {Value::kOptional, {"gradient"}, set_method}},
-      {"--output", {Value::kRequired, {"optimize", "identify"}, [](const std::string& text, Arguments* to) { set_folder(text, false, to); }}},
+      {"--output",
+       {Value::kRequired, {"optimize", "identify"}, [](const std::string& text, Arguments* to) { set_folder(text, false, to); }}},
       {"--resume", {Value::kRequired, {"optimize"}, [](const std::string& text, Arguments* to) { set_folder(text, true, to); }}},
   };
   return kOptions;
