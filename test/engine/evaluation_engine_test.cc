@@ -15,7 +15,8 @@ namespace {
 
 std::vector<EvaluationTask> tasks(const Problem& problem, int count) {
   std::vector<EvaluationTask> result;
-  for (int k = 0; k < count; ++k) result.push_back({problem.system(), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)), gradient_if(k % 3 != 0)});
+  for (int k = 0; k < count; ++k)
+    result.push_back({problem.system(), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)), gradient_if(k % 3 != 0)});
   return result;
 }
 

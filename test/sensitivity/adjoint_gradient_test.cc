@@ -81,7 +81,8 @@ TEST(AdjointGradient, AtTheStartOnlyTerminalTermsCount) {
   RosenbrockGradient direct(*system);
   AdjointGradient adjoint(*system, plan_lanes(*system));
   Eigen::VectorXd a, b;
-  ASSERT_TRUE(direct.start(system->parameters(), Derivatives::kGradient).ok() && adjoint.start(system->parameters(), Derivatives::kGradient).ok());
+  ASSERT_TRUE(direct.start(system->parameters(), Derivatives::kGradient).ok() &&
+              adjoint.start(system->parameters(), Derivatives::kGradient).ok());
   direct.gradient(&a);
   adjoint.gradient(&b);
   EXPECT_GT(a.norm(), 0.0);
