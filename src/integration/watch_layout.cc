@@ -38,9 +38,10 @@ WatchLayout::WatchLayout(const Study& study) {
   }
 }
 
-bool WatchLayout::has_break(double time, double slack) const {
+std::optional<double> WatchLayout::break_near(double time, double slack) const {
   const auto found = std::lower_bound(breaks_.begin(), breaks_.end(), time - slack);
-  return found != breaks_.end() && *found <= time + slack;
+  if (found == breaks_.end() || *found > time + slack) return std::nullopt;
+  return *found;
 }
 
 }  // namespace codesign

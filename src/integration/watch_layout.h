@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_INTEGRATION_WATCH_LAYOUT_H_
 #define MECHANISM_CODESIGN_INTEGRATION_WATCH_LAYOUT_H_
 
+#include <optional>
 #include <vector>
 
 #include "description/study.h"
@@ -35,8 +36,8 @@ class WatchLayout {
   /// One entry per watched signal.
   const std::vector<Entry>& entries() const { return entries_; }
   int size() const { return size_; }
-  /// Whether a break time lies within `slack` of `time`; both in [s].
-  bool has_break(double time, double slack) const;
+  /// The break time within `slack` of `time`, if there is one; all in [s].
+  std::optional<double> break_near(double time, double slack) const;
 
  private:
   std::vector<Entry> entries_;

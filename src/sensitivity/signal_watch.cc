@@ -5,15 +5,17 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "equations/compiled_system.h"
 
 namespace codesign {
 namespace {
 
-constexpr int kPieces = 4;         // of a step: the slope is computed at their ends
-constexpr double kInside = 1e-10;  // fraction of a step: at its ends a reference may have a kink, so that slopes are taken just inside
-constexpr int kBits = 50;          // accuracy of the instant of an extremum
+constexpr int kPieces = 4;           // of a step: the slope is computed at their ends
+constexpr double kInside = 1e-10;    // fraction of a step: at its ends a reference may have a kink, so that slopes are taken just inside
+constexpr double kRounding = 1e-14;  // fraction of the duration: where a step ends at a break time, the two may differ by rounding
+constexpr int kBits = 50;            // accuracy of the instant of an extremum
 constexpr std::uintmax_t kMostIterations = 60;
 
 bool jumps(double before, double after) { return std::abs(after - before) > 1e-8 * (std::abs(before) + std::abs(after)); }
@@ -47,7 +49,6 @@ Status SignalWatch::start(Integrator* integrator, Differentiate differentiate) {
 
 Status SignalWatch::look() {
   const double from = time_, to = integrator_->state().t;
-  if (!curves_.empty()) ends_at_break_ = layout_.has_break(to, kInside * (to - from));
   for (std::size_t k = 0; k < curves_.size() && status_.ok(); ++k) follow(k, from, to);
   time_ = to;
   return status_;
@@ -94,7 +95,8 @@ SignalWatch::Sample SignalWatch::sample(std::size_t k, double time) {
 void SignalWatch::follow(std::size_t k, double from, double to) {
   const std::vector<double>& instants = layout_.entries()[k].instants;
   Curve& curve = curves_[k];
-  const double slack = kInside * (to - from);
+  const double slack = kInside * (to - from) + kRounding * system_.study().duration;
+  std::optional<double> break_time = layout_.break_near(to, slack);
   if (to < instants.front() - slack || curve.next >= instants.size()) return;
   const double begin = std::max(from, instants.front()), end = std::min(to, instants.back());
   points_.clear();
@@ -104,11 +106,11 @@ void SignalWatch::follow(std::size_t k, double from, double to) {
   points_.push_back(end);
   std::sort(points_.begin(), points_.end());
   const auto inside = [&](double time) { return std::min(std::max(time, from + slack), to - slack); };
-  const auto reach = [&](double time) {
-    while (status_.ok() && curve.next < instants.size() && instants[curve.next] <= time + slack) reach_instant(k, time);
+  const auto reach = [&](double time, double at) {
+    while (status_.ok() && curve.next < instants.size() && instants[curve.next] <= time + slack) reach_instant(k, at);
   };
-  if (instants.size() == 1) return reach(end);
-  reach(begin);
+  if (instants.size() == 1) return reach(end, end);
+  reach(begin, begin);
   if (!status_.ok()) return;
   Sample last = sample(k, inside(begin));
   // Where one step ends and the next begins, the slope may jump.
@@ -117,9 +119,12 @@ void SignalWatch::follow(std::size_t k, double from, double to) {
     if (!status_.ok()) return;
     const Sample next = sample(k, inside(point));
     if (next.time > last.time) search(k, last, next);
-    const bool is_instant = curve.next < instants.size() && instants[curve.next] <= point + slack;
-    if (is_instant || (ends_at_break_ && point >= to)) look_for_jump(k, next, point, is_instant);
-    reach(point);
+    const bool is_break = break_time && point >= to - 2.0 * slack;
+    // Functions of time are those behind a break time from that time on, which rounding may have put behind the end of the step.
+    const double behind = is_break ? std::min(std::max(point, *break_time), system_.study().duration) : point;
+    if (is_break) look_for_jump(k, next, behind, curve.next < instants.size() && instants[curve.next] <= point + slack);
+    reach(point, behind);
+    if (is_break) break_time.reset();
     last = next;
   }
   curve.end_slope = end < to ? 0.0 : last.slope;
@@ -127,10 +132,12 @@ void SignalWatch::follow(std::size_t k, double from, double to) {
 
 /// A signal may jump where a reference has a kink. Then the value before the jump counts, too, and the one behind it, which at an instant
 /// counts anyway.
-void SignalWatch::look_for_jump(std::size_t k, const Sample& before, double time, bool is_instant) {
-  if (!status_.ok() || !jumps(before.value, value(k, time))) return;
-  offer(k, before.time);
-  if (!is_instant) offer(k, time);
+void SignalWatch::look_for_jump(std::size_t k, const Sample& before, double behind, bool is_instant) {
+  if (!status_.ok()) return;
+  const double time = std::min(before.time, behind - kRounding * system_.study().duration);
+  if (!jumps(value(k, time), value(k, behind))) return;
+  if (time > layout_.entries()[k].instants.front()) offer(k, time);
+  if (!is_instant) offer(k, behind);
 }
 
 /// Looks for an extremum between two points by the sign of the slope.

@@ -51,7 +51,7 @@ class SignalWatch {
   void follow(std::size_t k, double from, double to);
   void search(std::size_t k, const Sample& from, const Sample& to);
   void reach_instant(std::size_t k, double time);
-  void look_for_jump(std::size_t k, const Sample& before, double time, bool is_instant);
+  void look_for_jump(std::size_t k, const Sample& before, double behind, bool is_instant);
   void offer(std::size_t k, double time);
   void set(int place, double time, double number);
   Status failed(std::size_t k, double time) const;
@@ -62,8 +62,7 @@ class SignalWatch {
   Differentiate differentiate_;
   std::vector<Curve> curves_;
   Extremes extremes_;
-  double time_ = 0.0;           ///< end of the step before [s]
-  bool ends_at_break_ = false;  ///< whether the last step ends at a break time
+  double time_ = 0.0;  ///< end of the step before [s]
   State<double> state_, rates_;
   SparseGradient<double> sparse_;
   Eigen::VectorXd gradient_;

@@ -54,11 +54,11 @@ TEST(WatchLayout, ManyBreakTimesEndNoWindows) {
   for (int k = 0; k <= 500; ++k) controller.setpoint.waypoints.times.push_back(k / 500.0);
   const WatchLayout layout(study);
   EXPECT_EQ(layout.entries()[0].windows(), 16);
-  EXPECT_TRUE(layout.has_break(0.502, 1e-12));
-  EXPECT_TRUE(layout.has_break(1.0, 1e-12));
-  EXPECT_TRUE(layout.has_break(0.5021, 1.1e-4));
-  EXPECT_FALSE(layout.has_break(0.5021, 0.9e-4));
-  EXPECT_FALSE(layout.has_break(1.1, 1e-3));
+  EXPECT_EQ(layout.break_near(0.502, 1e-12), 251 / 500.0);
+  EXPECT_TRUE(layout.break_near(1.0, 1e-12));
+  EXPECT_TRUE(layout.break_near(0.5021, 1.1e-4));
+  EXPECT_FALSE(layout.break_near(0.5021, 0.9e-4));
+  EXPECT_FALSE(layout.break_near(1.1, 1e-3));
 }
 
 }  // namespace
