@@ -83,9 +83,9 @@ TEST(SearchHooks, ACallersMeterCountsTheWholeJob) {
   for (const Problem& problem : {nested(), block("engine: {workers: 2}\n")}) {
     const auto memory = std::make_shared<Notebook>();
     ProgressMeter first(1, nullptr), again(1, nullptr);
-    run_search(problem, problem.optimizer_options(), {nullptr, nullptr, memory, &first}, nullptr);
+    run_search(problem, problem.optimizer_options(), {nullptr, nullptr, memory, nullptr, &first}, nullptr);
     EXPECT_EQ(first.now().runs - first.now().remembered, memory->kept);
-    run_search(problem, problem.optimizer_options(), {nullptr, nullptr, memory, &again}, nullptr);
+    run_search(problem, problem.optimizer_options(), {nullptr, nullptr, memory, nullptr, &again}, nullptr);
     EXPECT_EQ(again.now().runs, first.now().runs);
     EXPECT_EQ(again.now().remembered, first.now().runs) << "nothing is computed twice";
   }
