@@ -31,7 +31,7 @@ double seconds_of(clockid_t clock) {
 }
 
 int measure_gradient(Dispatcher* ranks) {
-  constexpr int kRepetitions = 15;
+  constexpr int kRepetitions = 7;
   const Problem problem = with_uncertain_masses(load_slider_crank(), kSamples, "{type: mpi}");
   const Ensemble ensemble(problem, 1, {nullptr, nullptr, ranks});
   double wall = std::numeric_limits<double>::infinity(), cpu = wall;
