@@ -95,15 +95,15 @@ double measure_gradients(Report* report) {
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   Table table{"ensemble_ranks",
               "The gradient over 32 samples on ranks of mpirun, rank 0 among those that compute: the best of 7 repetitions",
-              {"ranks", "ms", "processor time of rank 0, ms", "speed-up", "per core"},
+              {"ranks", "ms", "processor time of all evaluations, ms", "of rank 0, ms", "speed-up", "per core"},
               {}};
   double alone = 0.0;
   for (int ranks = 1; ranks <= kMostRanks; ++ranks) {
     const std::vector<double> numbers = run_ranks(ranks, "gradient");
     if (ranks == 1) alone = numbers.at(0);
     const double speed_up = alone / numbers.at(0);
-    table.rows.push_back({std::to_string(ranks), three_digits(1e3 * numbers[0]), three_digits(1e3 * numbers.at(1)), three_digits(speed_up),
-                          three_digits(speed_up / std::min(ranks, cores))});
+    table.rows.push_back({std::to_string(ranks), three_digits(1e3 * numbers[0]), three_digits(1e3 * numbers.at(2)),
+                          three_digits(1e3 * numbers.at(1)), three_digits(speed_up), three_digits(speed_up / std::min(ranks, cores))});
     if (ranks == 2) report->findings.push_back({"efficiency of two ranks at 32 samples", "", speed_up / 2.0, 0.95, true});
   }
   report->tables.push_back(table);
