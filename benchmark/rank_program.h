@@ -10,7 +10,7 @@ namespace codesign {
 constexpr const char* kRankProgram = "--rank-program";
 
 /// What such a program measures, printed by rank 0 as numbers in one line:
-/// - "gradient": wall time and processor time of rank 0 [s] of the gradient over 32 samples;
+/// - "gradient", over 32 samples: wall time, processor time of rank 0, and of the evaluations of all ranks [s];
 /// - "messages": of a task that costs nothing: processor time of the dispatcher and of the caller [s], and the time until it is answered
 ///   if it is the only one [s]; then the sizes of the messages with a task, a result and a problem [bytes].
 /// @returns the exit code.

@@ -74,7 +74,7 @@ class TwoHostsTest(unittest.TestCase):
 
     def test_a_host_that_vanishes_is_missed_and_the_job_goes_on_without_it(self):
         begin = time.monotonic()
-        job = subprocess.Popen(self.on_hosts(self.job("--output", "cut", duration=2.0)), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        job = subprocess.Popen(self.on_hosts(self.job("--output", "cut", duration=0.5)), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                text=True)
         journal = self.path("cut", "journal.jsonl")
         while not os.path.exists(journal) or os.path.getsize(journal) < 4000:
@@ -87,9 +87,9 @@ class TwoHostsTest(unittest.TestCase):
         self.assertRegex(output, r"rank [23] of 4 on host beta (has said nothing|does not answer)")
         with open(self.path("cut", "result.json")) as file:
             self.assertEqual(json.load(file)["error"]["code"], "worker_lost")
-        done = self.run_job(self.job("--resume", "cut", duration=2.0))
+        done = self.run_job(self.job("--resume", "cut", duration=0.5))
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(self.run_job(self.job("--output", "alone", duration=2.0)).returncode, 0)
+        self.assertEqual(self.run_job(self.job("--output", "alone", duration=0.5)).returncode, 0)
         self.assertEqual(without_times(self.path("cut", "result.json")), without_times(self.path("alone", "result.json")))
 
 
