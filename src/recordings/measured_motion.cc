@@ -47,7 +47,7 @@ void warn_of_samples(const JointRecording& recording, const FilterOptions& filte
     warn_of("recording_resampled", "the times are not equally spaced; values were interpolated at " + readable(rate, 6) + " Hz", "");
   if (filter.cutoff <= 0.0)
     warn_of("recording_not_filtered", "accelerations are differences of samples that no filter smoothed, which makes noise large",
-            "identify.filter.cutoff above the fastest motion, such as " + readable(0.1 * rate, 2) + " Hz");
+            "identify.filter.cutoff above the fastest motion, such as " + readable(0.1 * rate, 4) + " Hz");
   if (filter.decimate > 1 && (filter.residual_cutoff <= 0.0 || filter.residual_cutoff > 0.5 * fitted_rate))
     warn_of("recording_aliased",
             "every " + std::to_string(filter.decimate) + "th sample is fitted, which folds noise above " + readable(0.5 * fitted_rate, 6) +

@@ -34,10 +34,10 @@ class RecordingBag {
 
  private:
   [[noreturn]] void fail(const std::string& key, const std::string& message, const std::string& value, const std::string& allowed) const {
-    throw InputError({description_.where, description_.element + key, message + ": " + path_, value, allowed});
+    throw InputError({description_.where, description_.element + key, message + " (" + path_ + ")", value, allowed});
   }
   [[noreturn]] void fail_at(std::size_t message, const std::string& what, const std::string& allowed) const {
-    fail("", what + " (message " + std::to_string(message + 1) + " on " + topic_ + ")", "", allowed);
+    fail("", what + ", message " + std::to_string(message + 1) + " on " + topic_, "", allowed);
   }
   void warn_of(const std::string& code, const std::string& message, const std::string& allowed) {
     warnings_->push_back(warn(code, {description_.where, description_.element, message + ": " + path_, "", allowed}));

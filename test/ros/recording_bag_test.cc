@@ -143,11 +143,11 @@ TEST_F(RecordedStates, ArraysMustFitTheNames) {
   write([](int k, sensor_msgs::JointState* message) {
     if (k == 7) message->velocity = {1.0};
   });
-  expect_message("3 names, and an array of 1 numbers (message 8 on /joint_states)");
+  expect_message("3 names, and an array of 1 numbers, message 8 on /joint_states");
   write([](int k, sensor_msgs::JointState* message) {
     if (k == 7) message->effort.clear();
   });
-  expect_message("the array of efforts is empty, but was not in the messages before (message 8");
+  expect_message("the array of efforts is empty, but was not in the messages before, message 8");
 }
 
 TEST_F(RecordedStates, WhatIsNotANumberThroughoutWasNotMeasured) {
@@ -172,7 +172,7 @@ TEST_F(RecordedStates, StampsAreCheckedAgainstTheTimesOfReception) {
   expect_warning("recording_clock", "message 1 was received 90.002 s after its stamp");
   EXPECT_NEAR(read().times[0], 1.0, 1e-9);
   write([](int, sensor_msgs::JointState* message) { message->header.stamp = ros::Time(); });
-  expect_message("the stamp of the header is zero (message 1");
+  expect_message("the stamp of the header is zero, message 1");
 }
 
 }  // namespace
