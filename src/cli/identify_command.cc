@@ -66,7 +66,7 @@ std::string residuals_text(const IdentificationResult& result) {
 
 /// Writes one file of the folder; a failure is reported and does not affect the others.
 template <class Text>
-void write(const std::string& folder, const std::string& name, Text text, std::vector<Failure>* failures) {
+void write_in(const std::string& folder, const std::string& name, Text text, std::vector<Failure>* failures) {
   try {
     write_whole_file((std::filesystem::path(folder) / name).string(), text());
   } catch (const std::exception& error) {
