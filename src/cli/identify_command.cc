@@ -94,12 +94,12 @@ int identify(const Arguments& arguments, const Console& console) {
   if (!result.status.ok()) object["error"] = to_json(result.status);
   std::vector<Failure> failures;
   if (!arguments.output.empty() && known) {
-    write(
+    write_in(
         arguments.output, "identification.json", [&] { return to_text(object); }, &failures);
-    write(
+    write_in(
         arguments.output, "identified.urdf", [&] { return write_tuned_urdf(problem.urdf(), problem.overlays(), result.parameters); },
         &failures);
-    write(
+    write_in(
         arguments.output, "residuals.csv", [&] { return residuals_text(result); }, &failures);
   }
   return finish(arguments, result.status, std::move(object), console, failures);

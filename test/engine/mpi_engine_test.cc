@@ -13,7 +13,8 @@ namespace {
 
 std::vector<EvaluationTask> block_tasks(const Problem& problem, int count) {
   std::vector<EvaluationTask> result;
-  for (int k = 0; k < count; ++k) result.push_back({problem.system(), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)), k % 3 != 0});
+  for (int k = 0; k < count; ++k)
+    result.push_back({problem.system(), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)), gradient_if(k % 3 != 0)});
   return result;
 }
 

@@ -53,7 +53,7 @@ TEST_F(SearchTrialsTest, AnObserverOrACancelEndsTheSearch) {
   SearchTrials stopped = trials(enough);
   stopped.start(problem_.start());
   EXPECT_FALSE(stopped.evaluate(problem_.start(), Derivatives::kGradient));
-  EXPECT_TRUE(stopped.cancelled());
+  EXPECT_TRUE(stopped.interrupted());
   stopped.conclude("");
   EXPECT_EQ(stopped.result().termination, "cancelled");
   EXPECT_EQ(stopped.result().status.code, StatusCode::kCancelled);
