@@ -47,22 +47,22 @@ void ResidualRows::look() {
   for (const double point : kGaussPoints) {
     double psi = 0.0;
     integrator_->interpolate(from + point * (to - from), &state_, &psi);
-    differentiate_(ObjectivePart::kIntegral, state_, &rows_);
-    add(kGaussWeight * (to - from));
+    differentiate_(ObjectivePart::kIntegral, state_, &integral_rows_);
+    add(kGaussWeight * (to - from), &integral_rows_);
   }
 }
 
 void ResidualRows::finish(const State<double>& state, Eigen::MatrixXd* root) {
   if (!system_.terminal().empty()) {
-    differentiate_(ObjectivePart::kTerminal, state, &rows_);
-    add(1.0);
+    differentiate_(ObjectivePart::kTerminal, state, &terminal_rows_);
+    add(1.0, &terminal_rows_);
   }
   *root = root_.root();
 }
 
-void ResidualRows::add(double weight) {
-  rows_ *= std::sqrt(weight);
-  for (Eigen::Index k = 0; k < rows_.cols(); ++k) root_.add(rows_.col(k));
+void ResidualRows::add(double weight, Eigen::MatrixXd* rows) {
+  *rows *= std::sqrt(weight);
+  for (Eigen::Index k = 0; k < rows->cols(); ++k) root_.add(rows->col(k));
 }
 
 }  // namespace codesign

@@ -43,14 +43,14 @@ class ResidualRows {
 
  private:
   Status check_weights(ObjectivePart part) const;
-  void add(double weight);
+  void add(double weight, Eigen::MatrixXd* rows);
 
   const CompiledSystem& system_;
   Integrator* integrator_ = nullptr;
   Differentiate differentiate_;
   double time_ = 0.0;  ///< end of the step before [s]
   State<double> state_;
-  Eigen::MatrixXd rows_;
+  Eigen::MatrixXd integral_rows_, terminal_rows_;
   RowRoot root_;
 };
 

@@ -64,7 +64,7 @@ void RosenbrockGradient::differentiate_residuals(ObjectivePart part, const State
   const auto terms = static_cast<Eigen::Index>((at_end ? system_.terminal() : system_.integral()).size());
   rows->resize(count(), terms);
   groups_->for_each([&](auto* group) {
-    auto* const own = &group->residuals;
+    auto* const own = at_end ? &group->terminal_residuals : &group->integral_residuals;
     if (at_end)
       group->step.terminal_residuals(state, own);
     else

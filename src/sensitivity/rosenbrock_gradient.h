@@ -41,7 +41,7 @@ class RosenbrockGradient final : public GradientEngine {
     Group(const CompiledSystem& system, LaneRange<N> lanes, const RosenbrockTableau& tableau) : range(lanes), step(system, tableau) {}
     LaneRange<N> range;
     TangentStep<N> step;
-    Directions<N> residuals;  ///< derivatives, one column per term
+    Directions<N> integral_residuals, terminal_residuals;  ///< derivatives, one column per term
   };
 
   int count() const { return static_cast<int>(system_.study().tuned.size()); }

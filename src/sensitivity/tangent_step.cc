@@ -223,21 +223,22 @@ Eigen::Matrix<double, N, 1> TangentStep<N>::watched(std::size_t k, const Rosenbr
 template <int N>
 void TangentStep<N>::integral_residuals(const RosenbrockStep<double>& step, const State<double>& state, Directions<N>* residuals) {
   interpolate(step, state.t);
-  differentiate_residuals(ObjectivePart::kIntegral, equations_.lanes(state, stage_y_), residuals);
+  differentiate_residuals(ObjectivePart::kIntegral, equations_.lanes(state, stage_y_), &integral_errors_, residuals);
 }
 
 template <int N>
 void TangentStep<N>::terminal_residuals(const State<double>& state, Directions<N>* residuals) {
-  differentiate_residuals(ObjectivePart::kTerminal, equations_.lanes(state, y_), residuals);
+  differentiate_residuals(ObjectivePart::kTerminal, equations_.lanes(state, y_), &terminal_errors_, residuals);
 }
 
 template <int N>
-void TangentStep<N>::differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state, Directions<N>* residuals) {
+void TangentStep<N>::differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state, VectorX<Lanes<N>>* errors,
+                                             Directions<N>* residuals) {
   Formulas<Lanes<N>>& formulas = equations_.equations().formulas();
-  formulas.errors(part, state, &term_errors_);
-  residuals_of(part, formulas.view().design, &term_errors_);
-  residuals->resize(term_errors_.size());
-  for (Eigen::Index k = 0; k < term_errors_.size(); ++k) residuals->col(k) = term_errors_[k].directions();
+  formulas.errors(part, state, errors);
+  residuals_of(part, formulas.view().design, errors);
+  residuals->resize(errors->size());
+  for (Eigen::Index k = 0; k < errors->size(); ++k) residuals->col(k) = (*errors)[k].directions();
 }
 
 template class TangentStep<4>;

@@ -66,7 +66,7 @@ class TangentStep {
   void measure();
   /// Sets stage_y_ to the derivatives at `time` within the last step.
   void interpolate(const RosenbrockStep<double>& step, double time);
-  void differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state, Directions<N>* residuals);
+  void differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state, VectorX<Lanes<N>>* errors, Directions<N>* residuals);
   void project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu, Out<double> target);
 
   const CompiledSystem& system_;
@@ -78,7 +78,7 @@ class TangentStep {
   Directions<N> y_, stage_y_, residual_, rows_, errors_, rates_;
   Directions<N> previous_y_;  ///< y_ at the start of the last accepted step; only if keeps_previous_
   bool keeps_previous_ = false;
-  VectorX<Lanes<N>> term_errors_;
+  VectorX<Lanes<N>> integral_errors_, terminal_errors_;
   State<Lanes<N>> point_;                             ///< a point of the dense output
   std::vector<Directions<N>> stages_;                 ///< u' of each stage
   std::vector<Directions<N>> matrix_changes_;         ///< dG u of each stage, row by row

@@ -92,7 +92,7 @@ TEST(Ensemble, AFailedSampleRefusesTheDesignOrCountsInTheTail) {
 // The residuals of the mean are those of all scenarios, times the roots of the weights.
 TEST(Ensemble, TheRootOfTheMeanHasTheSumOfTheSquares) {
   const std::string runs = "runs: {a: {weight: 3.0}, b: {set: {mu: 0.4}}, c: {set: {mu: 0.2}}}\n";
-  const Problem problem = block(runs + "robust: {measure: mean, failed: tail, level: 0.7}\n");
+  const Problem problem = block(runs + "robust: {measure: mean, failed: tail}\n");
   const Ensemble ensemble(problem);
   const EnsembleEvaluation all = ensemble.evaluate(problem.start(), Derivatives::kGaussNewton);
   ASSERT_TRUE(all.total.status.ok()) << all.total.status.cause;
@@ -109,9 +109,10 @@ TEST(Ensemble, TheRootOfTheMeanHasTheSumOfTheSquares) {
   // A scenario that fails counts as the worst of the others.
   std::vector<Scenario> scenarios = make_scenarios(problem);
   scenarios[2].values = {{1, -1.0}};
+  RobustOptions options = *problem.study().ensemble.robust;
+  options.level = 0.7;
   const auto engine = std::shared_ptr<EvaluationEngine>(make_engine({}, 3));
-  const EnsembleEvaluation tail =
-      Ensemble(scenarios, *problem.study().ensemble.robust, engine).evaluate(problem.start(), Derivatives::kGaussNewton);
+  const EnsembleEvaluation tail = Ensemble(scenarios, options, engine).evaluate(problem.start(), Derivatives::kGaussNewton);
   ASSERT_TRUE(tail.total.status.ok()) << tail.total.status.cause;
   ASSERT_EQ(tail.failed, std::vector<int>{2});
   const Eigen::MatrixXd& worst = squares[all.values[0] > all.values[1] ? 0 : 1];
