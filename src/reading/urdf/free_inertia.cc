@@ -70,9 +70,9 @@ void write_inertial_twins(XMLElement* inertial, const MassProperties<double>& pl
   moment("ixx", 0, 0, yy + "+" + zz);
   moment("iyy", 1, 1, xx + "+" + zz);
   moment("izz", 2, 2, xx + "+" + yy);
-  moment("ixy", 0, 1, "-" + s12 + "*" + l2 + "-" + s13 + "*" + s23);
-  moment("ixz", 0, 2, "-" + s13 + "*" + l3);
-  moment("iyz", 1, 2, "-" + s23 + "*" + l3);
+  moment("ixy", 0, 1, "0-" + s12 + "*" + l2 + "-" + s13 + "*" + s23);
+  moment("ixz", 0, 2, "0-" + s13 + "*" + l3);
+  moment("iyz", 1, 2, "0-" + s23 + "*" + l3);
 }
 
 /// The `<codesign:parameter>` of this name, for instance of an overlay with identified values; null if there is none.
