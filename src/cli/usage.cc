@@ -21,7 +21,7 @@ commands
     --output DIR           write tuned.urdf, result.json, convergence.csv, initial.csv, tuned.csv;
                            journal.jsonl, and best.urdf and best.json while it runs
     --resume DIR           go on with the optimization of DIR/journal.jsonl, killed or cancelled
-  identify MODEL STUDY     fit the study's parameters to recordings, and tell how well they are known
+  identify MODEL STUDY     fit parameters to recordings, and tell how well they are known
     --output DIR           write identification.json, identified.urdf, residuals.csv
   help                     this text
   --version                the version of this program, as "codesign 0.1.0"
