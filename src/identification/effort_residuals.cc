@@ -22,13 +22,18 @@ std::vector<std::string> names_of(const std::vector<MeasuredJoint>& joints) {
   return names;
 }
 
+// Drivers without a sensor, and joints without a motor, are recorded with zeros: their efforts are not known.
+bool has_efforts(const JointSamples& samples) {
+  return std::any_of(samples.effort.begin(), samples.effort.end(), [](double effort) { return effort != 0.0; });
+}
+
 }  // namespace
 
 std::vector<MeasuredJoint> require_same_joints(const std::vector<JointRecording>& recordings) {
   std::vector<MeasuredJoint> joints;
   const JointRecording& first = recordings.front();
   for (const JointSamples& samples : first.joints) {
-    MeasuredJoint joint{samples.joint, !samples.effort.empty(), 1.0, first.where};
+    MeasuredJoint joint{samples.joint, has_efforts(samples), 1.0, first.where};
     if (samples.position.empty())
       throw recording_error(first, "the recording has no positions of this joint", samples.joint, "positions of each joint");
     for (const JointRecording& other : recordings) {
@@ -36,7 +41,7 @@ std::vector<MeasuredJoint> require_same_joints(const std::vector<JointRecording>
       if (!found || found->position.empty())
         throw recording_error(other, "the recording has no positions of a joint that " + first.element + " has", joint.name,
                               "the same joints in all recordings");
-      joint.with_effort = joint.with_effort && !found->effort.empty();
+      joint.with_effort = joint.with_effort && has_efforts(*found);
     }
     joints.push_back(std::move(joint));
   }

@@ -16,8 +16,8 @@
 
 namespace codesign {
 
-/// The joints that all recordings measured, and whether their efforts, too. @throws InputError if a recording lacks a joint of another one,
-/// if the position of a joint or all efforts are missing.
+/// The joints that all recordings measured, and whether their efforts, too: efforts that are all zero were not.
+/// @throws InputError if a recording lacks a joint of another one, if the position of a joint or all efforts are missing.
 std::vector<MeasuredJoint> require_same_joints(const std::vector<JointRecording>& recordings);
 
 /// What several recordings of one robot say about x: computed minus recorded efforts, doc/theory.md (28c), at the samples to fit, and their
