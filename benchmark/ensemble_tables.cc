@@ -88,6 +88,7 @@ void measure_ensembles(Report* report) {
   const Problem problem = load_slider_crank();
   measure_threads(problem, report);
   measure_samples(problem, report);
+  measure_lanes(report);
 }
 
 }  // namespace codesign

@@ -34,6 +34,8 @@ void measure_optimization(Report* report);
 void measure_scaling(Report* report);
 void measure_setup(Report* report);
 void measure_ensembles(Report* report);
+/// Part of the one before: whether samples could share vector lanes.
+void measure_lanes(Report* report);
 void measure_ranks(Report* report);
 void measure_simbody(Report* report);
 
