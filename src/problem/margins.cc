@@ -49,15 +49,22 @@ void require_numbers_at_start(const Study& study, const std::vector<double>& par
                         "expressions that are finite at the parameters' start"});
 }
 
-void require_satisfiable(const Study& study) {
+Warnings unsatisfiable_constraints(const Study& study) {
   const std::vector<ValueRange> ranges = ranges_of(study);
+  Warnings warnings;
+  for (const ParameterConstraint& constraint : study.constraints)
+    if (const double most = constraint.margin->range(ranges).upper; most < kMet)
+      warnings.push_back(
+          warn("unsatisfiable_constraint",
+               {constraint.where, constraint.element, "no design within the parameters' bounds meets the constraint", constraint.text,
+                "the margin is at most " + to_decimal(most) + "; widen the bounds, or relax the constraint"}));
+  return warnings;
+}
+
+void require_ordered_bounds(const Study& study) {
   const std::vector<double> start = start_parameters(study);
   const ParameterConstraint* before = nullptr;
   for (const ParameterConstraint& constraint : study.constraints) {
-    const double most = constraint.margin->range(ranges).upper;
-    if (most < kMet)
-      throw InputError({constraint.where, constraint.element, "no design within the parameters' bounds meets the constraint",
-                        constraint.text, "the margin is at most " + to_decimal(most) + "; widen the bounds, or relax the constraint"});
     // The sum of the margins e - lower and upper - e.
     if (before && before->element == constraint.element && before->margin->value(start) + constraint.margin->value(start) < kMet)
       throw InputError({constraint.where, constraint.element, "the lower bound must be less than the upper one at the parameters' start",

@@ -53,10 +53,11 @@ Problem compile(const RobotDescription& robot, Study study, const ParameterSetti
   apply_settings(settings, &study);
   const CpuTimer timer;
   require_numbers_at_start(study, start_parameters(study));
-  if (!study.tuned.empty()) require_satisfiable(study);
+  require_ordered_bounds(study);
   for (const WatchedSignal& watched : study.watched) require_ordered_bounds(watched, start_parameters(study));
   require_compatible(study);
   append(unused_parameters(study), &contents.warnings);
+  if (!study.tuned.empty()) append(unsatisfiable_constraints(study), &contents.warnings);
   for (RunDescription& run : study.ensemble.runs)
     if (run.study) {
       // Settings and requests change values and choice of the tuned parameters, for all runs alike.
