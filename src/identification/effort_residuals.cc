@@ -18,6 +18,7 @@ InputError recording_error(const JointRecording& recording, const std::string& m
 
 std::vector<std::string> names_of(const std::vector<MeasuredJoint>& joints) {
   std::vector<std::string> names;
+  names.reserve(joints.size());
   for (const MeasuredJoint& joint : joints) names.push_back(joint.name);
   return names;
 }
@@ -61,6 +62,7 @@ EffortResiduals::EffortResiduals(const CompiledSystem& system, const FitVariable
     : variables_(variables), recordings_(std::move(recordings)), filter_(filter) {
   const std::vector<std::string> names = names_of(joints);
   std::vector<bool> with_effort;
+  with_effort.reserve(joints.size());
   for (const MeasuredJoint& joint : joints) with_effort.push_back(joint.with_effort);
   model_ = std::make_unique<EffortModel>(system, std::move(joints), samples_of_all(names), threads);
   const std::vector<int>& drives = model_->driven().drives;
@@ -141,7 +143,7 @@ void EffortResiduals::fill(std::size_t recording, std::size_t output, const Eige
 
 Eigen::MatrixXd EffortResiduals::fitted(std::size_t recording, Eigen::MatrixXd* columns) const {
   const MeasuredMotion& motion = recordings_[recording];
-  if (!(filter_.residual_cutoff > 0.0)) return std::move(*columns);
+  if (!(filter_.residual_cutoff > 0.0)) return *columns;
   ZeroPhaseFilter::Workspace workspace;
   ZeroPhaseFilter(filter_.order, filter_.residual_cutoff, motion.times.rate()).apply_to_columns(*columns, &workspace);
   Eigen::MatrixXd kept(motion.fitted(), columns->cols());
@@ -164,7 +166,7 @@ void EffortResiduals::record() {
 }
 
 Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) {
-  const Status status = model_->evaluate(variables_.parameters(x), &model_efforts_, jacobian ? &model_jacobian_ : nullptr);
+  Status status = model_->evaluate(variables_.parameters(x), &model_efforts_, jacobian ? &model_jacobian_ : nullptr);
   if (!status.ok()) return status;
   const auto outputs = static_cast<Eigen::Index>(outputs_.size());
   residuals->resize(rows_, outputs);

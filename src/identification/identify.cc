@@ -24,6 +24,7 @@ std::unique_ptr<EffortResiduals> make_residuals(const Problem& problem, const Fi
                                                 Warnings* warnings) {
   const FilterOptions& filter = problem.study().identification->filter;
   std::vector<MeasuredMotion> motions;
+  motions.reserve(recordings.size());
   for (const JointRecording& recording : recordings) motions.push_back(measured_motion(recording, filter, warnings));
   return std::make_unique<EffortResiduals>(*problem.system(), variables, joints, std::move(motions), filter,
                                            threads_of(problem.study().ensemble.engine));
