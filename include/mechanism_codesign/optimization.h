@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_OPTIMIZATION_H_
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -75,6 +76,10 @@ struct WatchedResult {
   double smallest = 0.0, largest = 0.0;                ///< at `rho`
   double smallest_time = 0.0, largest_time = 0.0;      ///< [s]
   double violation = 0.0;                              ///< of its bounds at `rho`; 0 if they are met, and for peaks
+  int smallest_scenario = 0, largest_scenario = 0;     ///< in which run and sample; index into OptimizationResult::scenarios
+  /// Bounds at `rho` and the nominal values of the other parameters; infinite without one, as for peaks in the objective.
+  double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
+  double after = 0.0, before = 0.0;  ///< the interval in which it counts [s]; of `final` the end of the run
 };
 
 /// The best point of an optimization and how the search ended.

@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/watched_records.h"
 
+#include <cmath>
+
 #include "text/number_text.h"
 
 namespace codesign {
@@ -8,21 +10,36 @@ namespace {
 
 constexpr double kShown = 1e-8;  // smaller violations are rounding
 
+/// A number, or null where there is no bound.
+Json bound(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json place(const ScenarioResult& scenario) { return {{"run", scenario.run}, {"sample", scenario.sample + 1}}; }
+
 }  // namespace
 
 void add_watched(const OptimizationResult& result, Json* object) {
   if (result.watched.empty()) return;
   Json list = Json::array();
-  for (const WatchedResult& watched : result.watched)
-    list.push_back({{"element", watched.element},
-                    {"signal", watched.signal},
-                    {"initial_smallest", watched.initial_smallest},
-                    {"initial_largest", watched.initial_largest},
-                    {"smallest", watched.smallest},
-                    {"largest", watched.largest},
-                    {"smallest_time", watched.smallest_time},
-                    {"largest_time", watched.largest_time},
-                    {"violation", watched.violation}});
+  for (const WatchedResult& watched : result.watched) {
+    Json one = {{"element", watched.element},
+                {"signal", watched.signal},
+                {"lower", bound(watched.lower)},
+                {"upper", bound(watched.upper)},
+                {"after", watched.after},
+                {"before", watched.before},
+                {"initial_smallest", watched.initial_smallest},
+                {"initial_largest", watched.initial_largest},
+                {"smallest", watched.smallest},
+                {"largest", watched.largest},
+                {"smallest_time", watched.smallest_time},
+                {"largest_time", watched.largest_time},
+                {"violation", watched.violation}};
+    if (!result.scenarios.empty()) {
+      one["smallest_in"] = place(result.scenarios[static_cast<std::size_t>(watched.smallest_scenario)]);
+      one["largest_in"] = place(result.scenarios[static_cast<std::size_t>(watched.largest_scenario)]);
+    }
+    list.push_back(std::move(one));
+  }
   (*object)["signals"] = std::move(list);
 }
 

@@ -10,7 +10,8 @@
 
 namespace codesign {
 
-/// Adds the list `signals`: of each signal with a constraint or a peak its range before and after, and the violation. Nothing without one.
+/// Adds the list `signals`: of each signal with a constraint or a peak its bounds, its range before and after, in which run and sample, and
+/// the violation. Nothing without one.
 void add_watched(const OptimizationResult& result, Json* object);
 
 /// One sentence per such signal, for people.

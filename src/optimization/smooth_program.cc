@@ -3,12 +3,51 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "equations/compiled_system.h"
 #include "sampling/measure.h"
 #include "sensitivity/peaks.h"
 
 namespace codesign {
+namespace {
+
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+/// A watched signal before any scenario is looked at.
+WatchedResult describe_bounds(const WatchedSignal& signal, const std::vector<double>& parameters) {
+  WatchedResult result;
+  result.element = signal.element;
+  result.signal = signal.signal.text;
+  if (signal.lower) result.lower = signal.lower->at(parameters);
+  if (signal.upper) result.upper = signal.upper->at(parameters);
+  result.after = signal.after;
+  result.before = signal.before;
+  result.smallest = result.initial_smallest = kUnbounded;
+  result.largest = result.initial_largest = -kUnbounded;
+  return result;
+}
+
+/// Extends the ranges of a watched signal by those of one scenario.
+void widen(const WatchLayout::Entry& entry, const Extremes& extremes, const Extremes& initial, int scenario, WatchedResult* result) {
+  const auto now = extremes.values.segment(entry.first, entry.size()), before = initial.values.segment(entry.first, entry.size());
+  Eigen::Index low = 0, high = 0;
+  const double smallest = now.minCoeff(&low), largest = now.maxCoeff(&high);
+  if (smallest < result->smallest) {
+    result->smallest = smallest;
+    result->smallest_time = extremes.times[entry.first + low];
+    result->smallest_scenario = scenario;
+  }
+  if (largest > result->largest) {
+    result->largest = largest;
+    result->largest_time = extremes.times[entry.first + high];
+    result->largest_scenario = scenario;
+  }
+  result->initial_smallest = std::min(result->initial_smallest, before.minCoeff());
+  result->initial_largest = std::max(result->initial_largest, before.maxCoeff());
+}
+
+}  // namespace
 
 SmoothProgram::SmoothProgram(const Ensemble& ensemble) : ensemble_(ensemble), slack_(ensemble.options(), ensemble.weights()) {
   const std::vector<Scenario>& scenarios = ensemble.scenarios();
@@ -143,31 +182,15 @@ std::vector<WatchedResult> SmoothProgram::describe(const std::vector<Extremes>& 
                                                    const Eigen::VectorXd& rho) const {
   std::vector<WatchedResult> results;
   if (extremes.size() != rows_.size() || initial.size() != rows_.size()) return results;
-  const std::vector<WatchedSignal>& watched = ensemble_.scenarios().front().system->study().watched;
-  for (std::size_t k = 0; k < watched.size(); ++k) {
-    WatchedResult& result = results.emplace_back();
-    result.element = watched[k].element;
-    result.signal = watched[k].signal.text;
-    bool first = true;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const WatchLayout::Entry& entry = rows_[i].layout().entries()[k];
-      const auto now = extremes[i].values.segment(entry.first, entry.size()), before = initial[i].values.segment(entry.first, entry.size());
-      Eigen::Index low = 0, high = 0;
-      const double smallest = now.minCoeff(&low), largest = now.maxCoeff(&high);
-      if (first || smallest < result.smallest) {
-        result.smallest = smallest;
-        result.smallest_time = extremes[i].times[entry.first + low];
-      }
-      if (first || largest > result.largest) {
-        result.largest = largest;
-        result.largest_time = extremes[i].times[entry.first + high];
-      }
-      result.initial_smallest = first ? before.minCoeff() : std::min(result.initial_smallest, before.minCoeff());
-      result.initial_largest = first ? before.maxCoeff() : std::max(result.initial_largest, before.maxCoeff());
-      result.violation = std::max(result.violation, rows_[i].violation(k, extremes[i], ensemble_.scenarios()[i].parameters(rho)));
-      first = false;
+  Scenario nominal = ensemble_.scenarios().front();
+  nominal.values.clear();
+  const std::vector<double> parameters = nominal.parameters(rho);
+  for (const WatchedSignal& signal : nominal.system->study().watched) results.push_back(describe_bounds(signal, parameters));
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    for (std::size_t k = 0; k < results.size(); ++k) {
+      widen(rows_[i].layout().entries()[k], extremes[i], initial[i], static_cast<int>(i), &results[k]);
+      results[k].violation = std::max(results[k].violation, rows_[i].violation(k, extremes[i], ensemble_.scenarios()[i].parameters(rho)));
     }
-  }
   return results;
 }
 

@@ -26,7 +26,7 @@ void add_constraints(const Problem& problem, const Ensemble& ensemble, const Eig
                      mechanism_codesign::EvaluateResponse* reply) {
   for (const ParameterConstraint& constraint : problem.study().constraints) reply->constraints.push_back(constraint.text);
   reply->margins = to_array(ParameterRows(problem.study(), ensemble.scenarios()).margins(rho));
-  reply->signals = watched_messages(problem, SmoothProgram(ensemble).describe(extremes, extremes, rho), rho);
+  reply->signals = watched_messages(SmoothProgram(ensemble).describe(extremes, extremes, rho), problem.study().ensemble.is_ensemble());
 }
 
 void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& request, Dispatcher* ranks, const std::atomic<bool>& cancel,

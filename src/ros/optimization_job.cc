@@ -50,7 +50,7 @@ mechanism_codesign::OptimizeResult to_message(const OptimizationResult& result, 
   message.constraint_drift = result.statistics.constraint_drift;
   message.energy_error = result.statistics.energy_error;
   set_ensemble(result, &message);
-  message.signals = watched_messages(problem, result.watched, result.rho);
+  message.signals = watched_messages(result.watched, !result.scenarios.empty());
   return message;
 }
 

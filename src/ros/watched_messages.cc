@@ -1,41 +1,36 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/watched_messages.h"
 
-#include <limits>
+#include <cstdint>
 
 namespace codesign {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::infinity();
-
-mechanism_codesign::WatchedSignal to_message(const WatchedSignal& signal, const WatchedResult& result,
-                                             const std::vector<double>& parameters) {
+mechanism_codesign::WatchedSignal to_message(const WatchedResult& result, bool is_ensemble) {
   mechanism_codesign::WatchedSignal message;
   message.element = result.element;
   message.signal = result.signal;
-  message.lower = signal.lower ? signal.lower->at(parameters) : -kNone;
-  message.upper = signal.upper ? signal.upper->at(parameters) : kNone;
-  message.after = signal.after;
-  message.before = signal.before;
+  message.lower = result.lower;
+  message.upper = result.upper;
+  message.after = result.after;
+  message.before = result.before;
   message.initial_smallest = result.initial_smallest;
   message.initial_largest = result.initial_largest;
   message.smallest = result.smallest;
   message.largest = result.largest;
   message.smallest_time = result.smallest_time;
   message.largest_time = result.largest_time;
+  message.smallest_scenario = is_ensemble ? static_cast<std::uint32_t>(result.smallest_scenario) + 1 : 0;
+  message.largest_scenario = is_ensemble ? static_cast<std::uint32_t>(result.largest_scenario) + 1 : 0;
   message.violation = result.violation;
   return message;
 }
 
 }  // namespace
 
-std::vector<mechanism_codesign::WatchedSignal> watched_messages(const Problem& problem, const std::vector<WatchedResult>& watched,
-                                                                const Eigen::VectorXd& rho) {
+std::vector<mechanism_codesign::WatchedSignal> watched_messages(const std::vector<WatchedResult>& watched, bool is_ensemble) {
   std::vector<mechanism_codesign::WatchedSignal> messages;
-  const std::vector<WatchedSignal>& signals = problem.study().watched;
-  if (watched.size() != signals.size()) return messages;
-  const std::vector<double> parameters = problem.parameters(rho);
-  for (std::size_t k = 0; k < signals.size(); ++k) messages.push_back(to_message(signals[k], watched[k], parameters));
+  for (const WatchedResult& one : watched) messages.push_back(to_message(one, is_ensemble));
   return messages;
 }
 

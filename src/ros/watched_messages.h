@@ -7,14 +7,11 @@
 #include <vector>
 
 #include "mechanism_codesign/optimization.h"
-#include "problem/load_problem.h"
 
 namespace codesign {
 
-/// Messages for the signals with bounds or peaks, with their bounds at the tuned parameters `rho`.
-/// @param watched one entry per watched signal of the study, in its order, or none.
-std::vector<mechanism_codesign::WatchedSignal> watched_messages(const Problem& problem, const std::vector<WatchedResult>& watched,
-                                                                const Eigen::VectorXd& rho);
+/// Messages for the signals with bounds or peaks. @param is_ensemble whether the study has runs or uncertain parameters.
+std::vector<mechanism_codesign::WatchedSignal> watched_messages(const std::vector<WatchedResult>& watched, bool is_ensemble);
 
 }  // namespace codesign
 

@@ -58,6 +58,19 @@ TEST(SmoothProgram, BoundsAreKeptInEveryRun) {
   EXPECT_LE(bounded.watched[0].violation, 1e-8);
   EXPECT_GT(bounded.objective, free.objective);
   EXPECT_NEAR(std::max(bounded.watched[0].largest, -bounded.watched[0].smallest), 6.0, 1e-6) << "the bound is active";
+  EXPECT_EQ(bounded.watched[0].lower, -6.0);
+  EXPECT_EQ(bounded.watched[0].upper, 6.0);
+  EXPECT_EQ(bounded.watched[0].before, 0.8);
+  EXPECT_EQ(free.watched.size(), 0U);
+}
+
+TEST(SmoothProgram, TellsInWhichRunASignalWasExtreme) {
+  // The set-point of the second run is farther away, so the controller pushes harder there and pulls harder in the first one.
+  const OptimizationResult result = tune_with(kTwoRuns + "path: [{signal: hold/output, between: [\"${-Kp}\", 600]}]\n");
+  ASSERT_EQ(result.watched.size(), 1U);
+  EXPECT_EQ(result.watched[0].largest_scenario, 1);
+  EXPECT_EQ(result.watched[0].smallest_scenario, 0);
+  EXPECT_DOUBLE_EQ(result.watched[0].lower, -result.rho[0]);
 }
 
 TEST(SmoothProgram, AlgorithmsAgreeOnABoundedDesign) {

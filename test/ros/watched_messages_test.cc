@@ -5,44 +5,53 @@
 
 #include <limits>
 
-#include "ensemble/ensemble_fixture.h"
-
 namespace codesign {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Problem watching() {
-  return block(
-      "path: [{signal: slide/velocity, between: [-2.0, \"${Kp}\"], after: 0.1}]\nfinal: [{signal: slide/position, at_most: 0.6}]\n");
+WatchedResult watched() {
+  WatchedResult result;
+  result.element = "path[0]";
+  result.signal = "slide/velocity";
+  result.lower = -2.0;
+  result.after = 0.1;
+  result.before = 0.8;
+  result.initial_smallest = -0.5;
+  result.initial_largest = 1.0;
+  result.smallest = -0.25;
+  result.largest = 0.75;
+  result.smallest_time = 0.3;
+  result.largest_time = 0.2;
+  result.largest_scenario = 4;
+  result.violation = 0.25;
+  return result;
 }
 
-TEST(WatchedMessages, TellBoundsAtTheTunedParameters) {
-  const std::vector<WatchedResult> watched = {{"path[0]", "slide/velocity", -0.5, 1.0, -0.25, 0.75, 0.3, 0.2, 0.0},
-                                              {"final[0]", "slide/position", 0.1, 0.2, 0.7, 0.8, 0.8, 0.8, 0.2}};
-  const auto messages = watched_messages(watching(), watched, Eigen::Vector2d(30.0, 5.0));
-  ASSERT_EQ(messages.size(), 2U);
-  EXPECT_EQ(messages[0].element, "path[0]");
-  EXPECT_EQ(messages[0].signal, "slide/velocity");
-  EXPECT_EQ(messages[0].lower, -2.0);
-  EXPECT_EQ(messages[0].upper, 30.0);
-  EXPECT_EQ(messages[0].after, 0.1);
-  EXPECT_EQ(messages[0].before, 0.8);
-  EXPECT_EQ(messages[0].initial_smallest, -0.5);
-  EXPECT_EQ(messages[0].initial_largest, 1.0);
-  EXPECT_EQ(messages[0].smallest, -0.25);
-  EXPECT_EQ(messages[0].largest, 0.75);
-  EXPECT_EQ(messages[0].smallest_time, 0.3);
-  EXPECT_EQ(messages[0].largest_time, 0.2);
-  EXPECT_EQ(messages[1].lower, -kInfinity);
-  EXPECT_EQ(messages[1].upper, 0.6);
-  EXPECT_EQ(messages[1].after, 0.8);
-  EXPECT_EQ(messages[1].violation, 0.2);
+TEST(WatchedMessages, TellBoundsAndRanges) {
+  const auto messages = watched_messages({watched()}, true);
+  ASSERT_EQ(messages.size(), 1U);
+  const mechanism_codesign::WatchedSignal& message = messages[0];
+  EXPECT_EQ(message.element, "path[0]");
+  EXPECT_EQ(message.signal, "slide/velocity");
+  EXPECT_EQ(message.lower, -2.0);
+  EXPECT_EQ(message.upper, kInfinity);
+  EXPECT_EQ(message.after, 0.1);
+  EXPECT_EQ(message.before, 0.8);
+  EXPECT_EQ(message.initial_smallest, -0.5);
+  EXPECT_EQ(message.initial_largest, 1.0);
+  EXPECT_EQ(message.smallest, -0.25);
+  EXPECT_EQ(message.largest, 0.75);
+  EXPECT_EQ(message.smallest_time, 0.3);
+  EXPECT_EQ(message.largest_time, 0.2);
+  EXPECT_EQ(message.smallest_scenario, 1U);
+  EXPECT_EQ(message.largest_scenario, 5U);
+  EXPECT_EQ(message.violation, 0.25);
 }
 
-TEST(WatchedMessages, AreNoneForAResultWithoutPoint) {
-  EXPECT_TRUE(watched_messages(watching(), {}, Eigen::VectorXd()).empty());
-  EXPECT_TRUE(watched_messages(block(""), {}, Eigen::Vector2d(1.0, 1.0)).empty());
+TEST(WatchedMessages, NameNoScenarioWhereThereIsOne) {
+  EXPECT_EQ(watched_messages({watched()}, false).at(0).largest_scenario, 0U);
+  EXPECT_TRUE(watched_messages({}, true).empty());
 }
 
 }  // namespace
