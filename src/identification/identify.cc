@@ -59,8 +59,10 @@ Status judge_holdout(const FitVariables& variables, EffortResiduals* residuals, 
 }
 
 Status not_identifiable(const std::vector<std::string>& sentences) {
+  constexpr std::size_t kTold = 5;
   Status status{StatusCode::kNotIdentifiable, 0.0, "the data do not tell all numbers"};
-  for (std::size_t k = 0; k < sentences.size(); ++k) status.cause += (k == 0 ? ": " : "; ") + sentences[k];
+  for (std::size_t k = 0; k < std::min(kTold, sentences.size()); ++k) status.cause += (k == 0 ? ": " : "; ") + sentences[k];
+  if (sentences.size() > kTold) status.cause += "; and " + std::to_string(sentences.size() - kTold) + " more (\"undetermined\")";
   return status;
 }
 
@@ -68,7 +70,7 @@ Status not_identifiable(const std::vector<std::string>& sentences) {
 
 IdentificationResult identify(const Problem& problem, const StudyRecordings& recordings, const FitObserver& observer,
                               const std::atomic<bool>* cancel) {
-  const CpuTimer timer;
+  const CpuTimer timer(CpuTimer::Of::kProcess);
   const IdentificationDescription& options = *problem.study().identification;
   if (options.residual == ResidualKind::kMotion)
     throw InputError({options.where, "identify.residual", "residuals in motion are not available yet", "motion", "effort"});

@@ -30,6 +30,17 @@ double median_magnitude(const Eigen::VectorXd& column) {
   return *middle;
 }
 
+/// Sets columns that are rounding to zero: those of variables whose change by their magnitude, or by 1 if that is more, changes the
+/// residuals by less than 1e-12 of what the most influential one does.
+void drop_rounding(const Eigen::VectorXd& x, Eigen::MatrixXd* jacobian) {
+  constexpr double kRounding = 1e-12;
+  const Eigen::VectorXd effects = jacobian->colwise().norm().transpose().cwiseProduct(x.cwiseAbs().cwiseMax(1.0));
+  if (effects.size() == 0) return;
+  const double least = kRounding * effects.maxCoeff();
+  for (Eigen::Index k = 0; k < effects.size(); ++k)
+    if (effects[k] <= least) jacobian->col(k).setZero();
+}
+
 /// The spreads of residuals, none below a fraction of those at the start.
 Eigen::VectorXd spreads_of(const Eigen::MatrixXd& residuals, const LossOptions& loss, const Eigen::VectorXd& at_start) {
   constexpr double kNormalMedian = 1.4826;  // standard deviation over median magnitude of a normal variable
@@ -75,6 +86,7 @@ class WeightedCost final : public LeastSquaresModel {
       if (!is_begun_) fit_.status = status;
       return tell(trial) ? Outcome::kFailed : stop({StatusCode::kCancelled, 0.0, "cancelled"});
     }
+    drop_rounding(x, &jacobian_);
     const WeightedResiduals weighted = weigh(residuals_, &jacobian_, spreads_, loss_);
     point->value = weighted.value;
     point->gradient = 2.0 * (weighted.jacobian.transpose() * weighted.residuals.reshaped());

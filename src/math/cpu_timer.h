@@ -6,17 +6,24 @@
 
 namespace codesign {
 
-/// Processor time [s] of the constructing thread since construction; seconds() must be called in the same thread.
+/// Processor time [s] since construction.
 class CpuTimer {
  public:
+  enum class Of {
+    kThread,  ///< of the constructing thread; seconds() must be called in the same thread
+    kProcess  ///< of all threads, for work that several of them share
+  };
+  explicit CpuTimer(Of of = Of::kThread) : clock_(of == Of::kThread ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID) {}
+
   double seconds() const { return now() - start_; }
 
  private:
-  static double now() {
+  double now() const {
     timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    clock_gettime(clock_, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
   }
+  clockid_t clock_;
   double start_ = now();
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "math/dense.h"
 #include "math/triangular_root.h"
 
 namespace codesign {
@@ -12,6 +13,7 @@ namespace {
 
 using Eigen::Index;
 constexpr double kLeastDamping = 1e-16;  // of columns of norm 1
+constexpr double kNull = 1e-9;           // of the largest singular value: smaller ones are rounding
 constexpr double kRounding = 1e-12;      // of the gradient: a component on a bound stays there if it would gain less
 constexpr int kMostBisections = 60;
 
@@ -25,7 +27,24 @@ BoundedStep::BoundedStep(const Eigen::VectorXd& gradient, const Eigen::MatrixXd&
       step_lower_(std::move(lower)),
       step_upper_(std::move(upper)),
       lower_(step_lower_.cwiseProduct(scale_)),
-      upper_(step_upper_.cwiseProduct(scale_)) {}
+      upper_(step_upper_.cwiseProduct(scale_)) {
+  hold_null_directions();
+}
+
+// Singular values that are rounding are replaced by the largest one, and the gradient, which is zero along their directions but for
+// rounding, by its part across them.
+void BoundedStep::hold_null_directions() {
+  const SingularValues svd = singular_values(root_, SingularVectors::kRight);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(root_.cols());
+  values.head(svd.values.size()) = svd.values;
+  if (values.size() == 0 || values[values.size() - 1] > kNull * values[0] || values[0] == 0.0) return;
+  for (Index k = 0; k < values.size(); ++k) {
+    if (values[k] > kNull * values[0]) continue;
+    values[k] = values[0];
+    gradient_ -= svd.V.col(k).dot(gradient_) * svd.V.col(k);
+  }
+  root_ = values.asDiagonal() * svd.V.transpose();
+}
 
 Eigen::VectorXd BoundedStep::damped(double mu) const {
   const auto size = static_cast<std::size_t>(gradient_.size());

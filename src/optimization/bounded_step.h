@@ -11,6 +11,9 @@ namespace codesign {
 ///   minimize g^T p + |R p|^2 + mu |D p|^2    over    lower <= p <= upper,
 /// solved exactly by an active set. For the free components it uses QR factorizations of the columns of [R D^-1; sqrt(mu) 1] and the
 /// corrected seminormal equations, since g is known and R^T R p = -g/2 has no other right side.
+///
+/// Directions in which R D^-1 changes nothing, as far as 1e-9 of its largest singular value tells, are held: the step has no component
+/// along them that no bound asks for. Rounding alone would decide on it.
 class BoundedStep {
  public:
   /// @param root R. @param scale the diagonal of D, positive. @param lower at most 0, @param upper at least 0; may be infinite.
@@ -19,8 +22,7 @@ class BoundedStep {
 
   /// The minimum for one damping mu > 0. Components on a bound equal it exactly.
   Eigen::VectorXd damped(double mu) const;
-  /// The minimum of g^T p + |R p|^2 over the bounds and |D p| <= radius, to 10 % of the radius where that counts. A damping of rounding
-  /// makes it unique where R is singular.
+  /// The minimum of g^T p + |R p|^2 over the bounds and |D p| <= radius, to 10 % of the radius where that counts.
   Eigen::VectorXd within(double radius) const;
   /// What the model promises, -(g^T p + |R p|^2).
   double promise(const Eigen::VectorXd& p) const;
@@ -31,6 +33,7 @@ class BoundedStep {
 
  private:
   enum class Place { kFree, kLower, kUpper };
+  void hold_null_directions();
   void solve_free(double mu, const std::vector<Eigen::Index>& free, Eigen::VectorXd* y) const;
   bool move_towards(const Eigen::VectorXd& target, const std::vector<Eigen::Index>& free, std::vector<Place>* places,
                     Eigen::VectorXd* y) const;
@@ -38,8 +41,9 @@ class BoundedStep {
   Eigen::VectorXd unscaled(const Eigen::VectorXd& y, const std::vector<Place>& places) const;
 
   // In y = D p.
-  const Eigen::VectorXd scale_, gradient_;
-  const Eigen::MatrixXd root_;
+  const Eigen::VectorXd scale_;
+  Eigen::VectorXd gradient_;
+  Eigen::MatrixXd root_;
   const Eigen::VectorXd step_lower_, step_upper_;  ///< of p
   const Eigen::VectorXd lower_, upper_;
 };

@@ -160,5 +160,38 @@ TEST(ResidualFit, WeightedRowsGiveTheCostAndItsSlope) {
   }
 }
 
+/// Decays with a third variable, of which the derivatives are rounding alone.
+class WithRounding final : public ResidualSource {
+ public:
+  explicit WithRounding(Decays decays) : decays_(std::move(decays)) {}
+  const std::vector<std::string>& outputs() const override { return decays_.outputs(); }
+  const SeriesLengths& lengths() const override { return decays_.lengths(); }
+  Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) override {
+    Eigen::MatrixXd of_two;
+    Status status = decays_.evaluate(x.head(2), residuals, jacobian ? &of_two : nullptr);
+    if (!jacobian) return status;
+    jacobian->resize(of_two.rows(), 3);
+    *jacobian << of_two, 1e-14 * Eigen::VectorXd::Random(of_two.rows());
+    return status;
+  }
+
+ private:
+  Decays decays_;
+};
+
+TEST(ResidualFit, AVariableOfRoundingStaysAtItsStart) {
+  const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
+  WithRounding source(Decays(decay(100, one, 0.05 * one), one));
+  FitProblem problem;
+  problem.start = Eigen::Vector3d(1.0, 0.2, 0.5);
+  problem.lower.setConstant(3, -kInfinity);
+  problem.upper.setConstant(3, kInfinity);
+  const ResidualFit fit = fit_residuals(problem, &source);
+  ASSERT_TRUE(fit.status.ok()) << fit.status.cause;
+  EXPECT_EQ(fit.x[2], 0.5);
+  EXPECT_TRUE(fit.jacobian.col(2).isZero(0.0)) << "so that nothing is told of it";
+  EXPECT_NEAR(fit.x[0], 3.0, 0.1);
+}
+
 }  // namespace
 }  // namespace codesign

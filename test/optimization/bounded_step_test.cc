@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/dense.h"
 #include "math/triangular_root.h"
 
 namespace codesign {
@@ -102,6 +103,27 @@ TEST(BoundedStep, WithEverythingHeldThereIsNone) {
   problem.lower.setZero();
   problem.upper.setZero();
   EXPECT_EQ(problem.step().within(1.0), Eigen::VectorXd::Zero(3));
+}
+
+TEST(BoundedStep, HasNoComponentAlongDirectionsWithoutInfluence) {
+  StepProblem problem = random_problem(6, 5);
+  // The third column is the sum of the first two but for rounding, and the gradient belongs to residuals with that Jacobian.
+  problem.root.col(2) = problem.root.col(0) + problem.root.col(1) + 1e-13 * Eigen::VectorXd::Random(6);
+  const Eigen::VectorXd residuals = 1e3 * Eigen::VectorXd::Random(6);
+  problem.gradient = 2.0 * problem.root.transpose() * residuals;
+  problem.scale.setOnes();
+  problem.lower.setConstant(-kNoBound);
+  problem.upper.setConstant(kNoBound);
+  const Eigen::VectorXd shortest = -LeastNorm(problem.root, 1e-9).solve(residuals);
+  const Eigen::VectorXd p = problem.step().within(kNoBound);
+  EXPECT_LE((p - shortest).norm(), 1e-8 * shortest.norm());
+  EXPECT_NEAR(p.dot(Eigen::VectorXd::Unit(6, 0) + Eigen::VectorXd::Unit(6, 1) - Eigen::VectorXd::Unit(6, 2)), 0.0, 1e-8 * p.norm());
+
+  // A bound on the way: the other columns do what the held one cannot.
+  problem.lower[0] = problem.upper[0] = 0.0;
+  const Eigen::VectorXd held = problem.step().within(kNoBound);
+  EXPECT_EQ(held[0], 0.0);
+  EXPECT_LT((problem.root * held + residuals).norm(), residuals.norm());
 }
 
 }  // namespace
