@@ -13,6 +13,7 @@
 #include "optimization/scenario_results.h"
 #include "optimization/search_trials.h"
 #include "optimization/shared_observer.h"
+#include "optimization/violated_bounds.h"
 #include "problem/margins.h"
 #include "sampling/sampler.h"
 #include "text/cancel.h"
@@ -160,7 +161,7 @@ class Multistart {
     const OptimizationResult* best = nullptr;
     for (const OptimizationResult& result : *found) {
       if (result.gradient.size() == 0) continue;
-      const bool met = result.status.code != StatusCode::kInfeasible, best_met = best && best->status.code != StatusCode::kInfeasible;
+      const bool met = meets_constraints(result), best_met = best && meets_constraints(*best);
       if (!best || (met && !best_met) || (met == best_met && result.objective < best->objective)) best = &result;
     }
     if (best) return *best;

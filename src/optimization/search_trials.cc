@@ -50,14 +50,23 @@ void SearchTrials::conclude(const std::string& failure) {
   } else if (!have_best_) {
     result_.status = first_failure_;
     result_.termination = "start_failed";
-  } else if (result_.termination == "algorithm_failed") {
-    result_.status = {StatusCode::kAlgorithmFailed, study_.duration,
-                      "the algorithm \"" + options_.algorithm + "\" failed (" + failure +
-                          "); the best point so far is kept; try another algorithm or another start"};
-  } else if (best_violation_ > 0.0) {
-    result_.status = {StatusCode::kInfeasible, study_.duration,
-                      all_met(result_.margins) ? describe_violated(result_.watched) : describe_unmet(study_, result_.margins)};
+  } else {
+    judge_end(failure);
   }
+}
+
+// Where no point meets the constraints an algorithm may end in any way, and rounding decides in which: that it failed is then the smaller
+// news. One that gave up at its start, as with equalities that depend on each other, has tried nothing.
+void SearchTrials::judge_end(const std::string& failure) {
+  const bool has_failed = result_.termination == "algorithm_failed", is_outside = best_violation_ > 0.0;
+  std::string cause;
+  if (is_outside) cause = all_met(result_.margins) ? describe_violated(result_.watched) : describe_unmet(study_, result_.margins);
+  if (has_failed)
+    cause += (cause.empty() ? "" : "; ") + ("the algorithm \"" + options_.algorithm + "\" failed (" + failure) +
+             "); the best point so far is kept; try another algorithm or another start";
+  if (cause.empty()) return;
+  const bool has_tried = !has_failed || result_.evaluations > 1;
+  result_.status = {is_outside && has_tried ? StatusCode::kInfeasible : StatusCode::kAlgorithmFailed, study_.duration, cause};
 }
 
 Trial SearchTrials::note(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {

@@ -50,6 +50,7 @@ class SearchTrials {
   Trial note(const EnsembleEvaluation& all, const Eigen::VectorXd& rho);
   void note_influences(const Eigen::MatrixXd& gradients);
   double violation(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) const;
+  void judge_end(const std::string& failure);
   void take_best(const EnsembleEvaluation& all, const Eigen::VectorXd& rho);
 
   const Study& study_;

@@ -1,9 +1,17 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "optimization/violated_bounds.h"
 
+#include <algorithm>
+
+#include "problem/margins.h"
 #include "text/decimal.h"
 
 namespace codesign {
+
+bool meets_constraints(const OptimizationResult& result) {
+  return all_met(result.margins) && std::all_of(result.watched.begin(), result.watched.end(),
+                                                [](const WatchedResult& watched) { return watched.violation <= kMostViolation; });
+}
 
 std::string describe_violated(const std::vector<WatchedResult>& watched) {
   std::string list;

@@ -12,6 +12,9 @@ namespace codesign {
 /// A violation of a bound on a signal that counts as met, in the unit of the signal.
 constexpr double kMostViolation = 1e-8;
 
+/// Whether the best point of a search meets all constraints, on parameters and on signals.
+bool meets_constraints(const OptimizationResult& result);
+
 /// A sentence that lists the violated bounds of signals, for the status.
 std::string describe_violated(const std::vector<WatchedResult>& watched);
 

@@ -75,5 +75,32 @@ TEST_F(SearchTrialsTest, AnAlgorithmThatGaveUpSaysWhy) {
   EXPECT_NE(trials.result().status.cause.find("its matrix is singular"), std::string::npos);
 }
 
+TEST(SearchTrials, OutsideTheConstraintsItDoesNotMatterHowTheAlgorithmEnded) {
+  const Problem problem = block("final: [{signal: slide/position, at_least: 4.0}]\n");
+  const OptimizerOptions options = problem.optimizer_options();
+  const Ensemble ensemble(problem);
+  const Scaling scaling(problem.study());
+  const TrialObserver none;
+  for (const bool has_failed : {false, true}) {
+    SmoothProgram program(ensemble);
+    SearchTrials trials(problem.study(), options, ensemble, none, nullptr, scaling, &program);
+    trials.start(problem.start());
+    ASSERT_TRUE(trials.evaluate(problem.start(), Derivatives::kGradient));
+    ASSERT_TRUE(trials.evaluate(Eigen::Vector2d(30.0, 5.0), Derivatives::kGradient));
+    trials.result().termination = has_failed ? "algorithm_failed" : "objective_tolerance_reached";
+    trials.conclude("its matrix is singular");
+    EXPECT_EQ(trials.result().status.code, StatusCode::kInfeasible);
+    EXPECT_NE(trials.result().status.cause.find("final[0] (slide/position)"), std::string::npos) << trials.result().status.cause;
+    EXPECT_EQ(trials.result().status.cause.find("its matrix is singular") != std::string::npos, has_failed);
+  }
+  SmoothProgram program(ensemble);
+  SearchTrials trials(problem.study(), options, ensemble, none, nullptr, scaling, &program);
+  trials.start(problem.start());
+  ASSERT_TRUE(trials.evaluate(problem.start(), Derivatives::kGradient));
+  trials.result().termination = "algorithm_failed";
+  trials.conclude("its matrix is singular");
+  EXPECT_EQ(trials.result().status.code, StatusCode::kAlgorithmFailed) << "it tried nothing but the start";
+}
+
 }  // namespace
 }  // namespace codesign

@@ -20,5 +20,19 @@ TEST(ViolatedBounds, AreThoseBeyondTheTolerance) {
       "no point was found that keeps the bounds of all signals: constraints[1] (slide/effort) goes from -3 to 2, beyond its bounds by 1.5");
 }
 
+TEST(ViolatedBounds, ARestIsNoViolation) {
+  OptimizationResult result;
+  EXPECT_TRUE(meets_constraints(result)) << "there are none";
+  result.watched.resize(2);
+  result.watched[1].violation = 1e-9;
+  result.margins = Eigen::Vector2d(0.0, 3.0);
+  EXPECT_TRUE(meets_constraints(result));
+  result.watched[1].violation = 1e-6;
+  EXPECT_FALSE(meets_constraints(result));
+  result.watched[1].violation = 0.0;
+  result.margins[0] = -1e-3;
+  EXPECT_FALSE(meets_constraints(result));
+}
+
 }  // namespace
 }  // namespace codesign
