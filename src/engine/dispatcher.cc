@@ -39,6 +39,11 @@ Status Dispatcher::lost() const {
   return lost_;
 }
 
+bool Dispatcher::is_complete() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::all_of(ranks_.begin() + 1, ranks_.end(), [](const RankState& state) { return state.is_ready; });
+}
+
 std::uint32_t Dispatcher::add(PortableProblem problem) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::uint32_t number = next_problem_++;

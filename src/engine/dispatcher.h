@@ -41,6 +41,9 @@ class Dispatcher {
   /// Why no task can be done any more; ok as long as all ranks are there.
   Status lost() const;
 
+  /// Whether all ranks have said that they are there. Those that have not yet are neither asked nor given tasks.
+  bool is_complete() const;
+
   /// Asks all ranks whether they are there. @returns kWorkerLost with the first one that does not answer in time, else ok.
   Status call_roll();
 

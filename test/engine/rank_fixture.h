@@ -57,10 +57,17 @@ class MailTransport final : public Transport {
   int rank_;
 };
 
+/// Times of a job whose ranks all live, however busy the machine is.
+inline RankTimes patient_times() {
+  RankTimes times;
+  times.silence = times.orphaned = times.goodbye = times.answer = std::chrono::seconds(60);
+  return times;
+}
+
 /// A job with real workers.
 class RankJob {
  public:
-  explicit RankJob(int ranks, const RankTimes& times = {}) : mail_(ranks), first_(&mail_, 0), times_(times) {
+  explicit RankJob(int ranks, const RankTimes& times = patient_times()) : mail_(ranks), first_(&mail_, 0), times_(times) {
     for (int rank = 1; rank < ranks; ++rank)
       threads_.emplace_back([this, rank] {
         MailTransport transport(&mail_, rank);
@@ -102,6 +109,9 @@ class PlayedJob {
   PlayedJob(const PlayedJob&) = delete;
   PlayedJob& operator=(const PlayedJob&) = delete;
   Dispatcher* ranks() { return &dispatcher_; }
+  void wait_for_hello() const {
+    while (!dispatcher_.is_complete()) std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
 
  private:
   static RankTimes without_goodbye(RankTimes times) {
