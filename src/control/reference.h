@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_CONTROL_REFERENCE_H_
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "codegen/traced.h"
@@ -24,7 +25,8 @@ class Reference {
   Reference() = default;
   Reference(const ReferenceDescription& description, const std::vector<T>& parameters);
 
-  /// The function at time t [s]. At a way-point the derivatives are those of the piece that follows.
+  /// The function at time t [s]. At a way-point the derivatives are those of the piece that follows. Of a function through samples, only
+  /// the first derivative is computed, the others are zero.
   ReferenceMotion<T> at(double t) const;
 
  private:
@@ -33,12 +35,14 @@ class Reference {
     double start;
     std::array<T, 6> c;
   };
+  ReferenceMotion<T> sampled_at(double t) const;
   void set_waypoints(const WaypointsDescription& description, const std::vector<T>& parameters);
   static Piece hold(double start, const T& value);
 
   ReferenceDescription::Kind kind_ = ReferenceDescription::Kind::kConstant;
   T offset_{0.0}, amplitude_{0.0}, angular_frequency_{0.0}, phase_{0.0};
-  std::vector<Piece> pieces_;  ///< by ascending start; the first begins at minus infinity, the last never ends
+  std::shared_ptr<const SampledFunction> samples_;  ///< scaled by amplitude_, early by phase_, minus offset_
+  std::vector<Piece> pieces_;                       ///< by ascending start; the first begins at minus infinity, the last never ends
 };
 
 /// For recorded equations: a constant, or inputs that are supplied for each instant (Recording::timed()).
