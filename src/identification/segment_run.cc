@@ -52,6 +52,8 @@ Status SegmentRun::run(const std::vector<double>& parameters, const SegmentBegin
     }
     if (Status status = sample(time, row); !status.ok()) return status;
   }
+  if (!slopes_.allFinite())
+    return {StatusCode::kNonFiniteGradient, times.back(), "the derivatives of the simulated motion are not finite, though the motion is"};
   return {};
 }
 

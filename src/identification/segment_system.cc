@@ -21,6 +21,7 @@ class SegmentStudy {
     study_.watched.clear();
     study_.constraints.clear();
     study_.ensemble = {};
+    if (study_.controllers.empty()) study_.limits.effort = false;  // what was recorded was applied, whatever the limit
     if (!(study_.solver.maximum_speed > 0.0)) study_.solver.maximum_speed = kNoLimit;
     for (Eigen::Index k = 0; k < variables.tuned(); ++k) columns_.push_back(static_cast<int>(k));
   }
