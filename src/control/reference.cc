@@ -129,10 +129,13 @@ void Reference<T>::set_waypoints(const WaypointsDescription& description, const 
 template <class T>
 ReferenceMotion<T> Reference<T>::sampled_at(double t) const {
   const double delay = value_of(phase_);
+  const T moved = phase_ - T(delay);
   const SampledFunction::Sample sample = samples_->at(t + delay);
   ReferenceMotion<T> motion;
-  motion.value = amplitude_ * (T(sample.value) + T(sample.slope) * (phase_ - T(delay))) - offset_;
-  motion.rate = amplitude_ * T(sample.slope);
+  motion.value = amplitude_ * (T(sample.value) + T(sample.slope) * moved) - offset_;
+  motion.rate = amplitude_ * (T(sample.slope) + T(sample.second) * moved);
+  motion.acceleration = amplitude_ * (T(sample.second) + T(sample.third) * moved);
+  motion.jerk = amplitude_ * T(sample.third);
   return motion;
 }
 

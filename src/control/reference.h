@@ -25,8 +25,7 @@ class Reference {
   Reference() = default;
   Reference(const ReferenceDescription& description, const std::vector<T>& parameters);
 
-  /// The function at time t [s]. At a way-point the derivatives are those of the piece that follows. Of a function through samples, only
-  /// the first derivative is computed, the others are zero.
+  /// The function at time t [s]. At a way-point the derivatives are those of the piece that follows.
   ReferenceMotion<T> at(double t) const;
 
  private:

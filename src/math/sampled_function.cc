@@ -25,16 +25,19 @@ SampledFunction::SampledFunction(std::vector<double> times, std::vector<double> 
 }
 
 SampledFunction::Sample SampledFunction::at(double time) const {
-  if (time < times_.front()) return {values_.front(), 0.0};
-  if (time > times_.back() || times_.size() == 1) return {values_.back(), 0.0};
+  if (time < times_.front()) return {values_.front()};
+  if (time > times_.back() || times_.size() == 1) return {values_.back()};
   const auto above = std::upper_bound(times_.begin() + 1, times_.end() - 1, time);
   const auto k = static_cast<std::size_t>(above - times_.begin()) - 1;
   const double h = times_[k + 1] - times_[k], s = (time - times_[k]) / h, rise = values_[k + 1] - values_[k];
-  const double a = h * slopes_[k] - rise, b = rise - h * slopes_[k + 1];
-  // v0 + s rise + s (1 - s) (a (1 - s) + b s)
-  const double value = values_[k] + s * rise + s * (1.0 - s) * (a * (1.0 - s) + b * s);
-  const double slope = rise + (1.0 - 2.0 * s) * (a * (1.0 - s) + b * s) + s * (1.0 - s) * (b - a);
-  return {value, slope / h};
+  // v0 + s rise + s (1 - s) c with c = a (1 - s) + b s
+  const double a = h * slopes_[k] - rise, b = rise - h * slopes_[k + 1], c = a * (1.0 - s) + b * s, turn = b - a;
+  Sample sample;
+  sample.value = values_[k] + s * rise + s * (1.0 - s) * c;
+  sample.slope = (rise + (1.0 - 2.0 * s) * c + s * (1.0 - s) * turn) / h;
+  sample.second = (2.0 * (1.0 - 2.0 * s) * turn - 2.0 * c) / (h * h);
+  sample.third = -6.0 * turn / (h * h * h);
+  return sample;
 }
 
 }  // namespace codesign

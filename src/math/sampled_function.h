@@ -14,9 +14,9 @@ class SampledFunction {
   /// @throws std::invalid_argument for other sizes or orders.
   SampledFunction(std::vector<double> times, std::vector<double> values);
 
-  /// Value and slope [1/s] at a time [s].
+  /// Value and time derivatives at a time [s]; at a sample the second and third are those of the piece that follows.
   struct Sample {
-    double value = 0.0, slope = 0.0;
+    double value = 0.0, slope = 0.0, second = 0.0, third = 0.0;
   };
   Sample at(double time) const;
   /// Whether the samples reach from before a time to after it.

@@ -34,6 +34,8 @@ TEST(SampledFunction, AParabolaIsReproduced) {
   for (double t = 0.01; t < 0.7; t += 0.013) {
     EXPECT_NEAR(recorded.at(t).value, 1.0 + 2.0 * t - 3.0 * t * t, 1e-13);
     EXPECT_NEAR(recorded.at(t).slope, 2.0 - 6.0 * t, 1e-12);
+    EXPECT_NEAR(recorded.at(t).second, -6.0, 1e-10);
+    EXPECT_NEAR(recorded.at(t).third, 0.0, 1e-8);
   }
 }
 
