@@ -24,13 +24,14 @@ constexpr Part kParts[] = {{"kernels", measure_kernels},
                            {"scaling", measure_scaling},
                            {"setup", measure_setup},
                            {"ensembles", measure_ensembles},
+                           {"identification", measure_identification},
                            {"ranks", measure_ranks},
                            {"simbody", measure_simbody}};
 
 constexpr const char* kUsage =
     "usage: benchmarks [--markdown] [PART...]\n"
     "Run it where urdf/ and config/ are. PART: kernels, steps, work_precision, parameters, optimization, scaling, setup, ensembles, "
-    "ranks, simbody; all by default.\n";
+    "identification, ranks, simbody; all by default.\n";
 
 Table summary(const std::vector<Finding>& findings) {
   Table table{"summary", "What the package sets out to reach, and what was measured", {"figure", "measured", "target", "reached"}, {}};

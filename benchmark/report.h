@@ -36,6 +36,7 @@ void measure_setup(Report* report);
 void measure_ensembles(Report* report);
 /// Part of the one before: whether samples could share vector lanes.
 void measure_lanes(Report* report);
+void measure_identification(Report* report);
 void measure_ranks(Report* report);
 void measure_simbody(Report* report);
 

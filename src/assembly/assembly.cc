@@ -49,6 +49,11 @@ Assembly::Assembly(const CompiledSystem& system)
   derivatives_.resize(system.patterns());
 }
 
+void Assembly::begin_at(double time, const VectorX<double>& theta) {
+  start_time_ = time;
+  guess_ = theta;
+}
+
 void Assembly::set_start(const std::vector<double>& parameters) {
   matrix_.forget();
   theta_.setZero(tree_.size);
@@ -57,6 +62,7 @@ void Assembly::set_start(const std::vector<double>& parameters) {
     const int joint = tree_joint(system_.robot(), initial);
     if (joint >= 0 && initial.guess) theta_[tree_.offset[static_cast<std::size_t>(joint)]] = *initial.guess;
   }
+  if (guess_.size() > 0) theta_ = guess_;
   set_given_start(system_, tree_, parameters, &theta_, &theta_rate_);
 }
 
@@ -234,7 +240,8 @@ Status Assembly::solve_positions(const std::vector<double>& parameters, Equation
   warnings_.clear();
   contradicting_.clear();
   state->resize(system_.layout());
-  state->t = 0.0;
+  state->t = start_time_;
+  set_extra_states(system_, parameters, &state->s);
   set_start(parameters);
   follow_couplings(equations->constants());
   Status status = solve_positions(parameters, equations);
@@ -332,6 +339,7 @@ void Assembly::extend(const std::vector<T>& parameters, const State<double>& sta
   state->resize(system_.layout());
   state->t = start.t;
   state->turns = start.turns;
+  set_extra_states(system_, parameters, &state->s);
   VectorX<T> theta = theta_.template cast<T>(), rate = theta_rate_.template cast<T>(), Phi, Phi_rate;
   set_given_start(system_, tree_, parameters, &theta, &rate);
   const auto place_extended = [&] {

@@ -32,7 +32,11 @@ class Assembly {
  public:
   explicit Assembly(const CompiledSystem& system);
 
-  /// Finds positions, velocities, accelerations and multipliers and writes them to `state`, with t = 0 and the extra states zero.
+  /// Later solutions start at `time` [s] in place of 0, with the coordinates `theta` (TreeLayout order) in place of the study's guesses.
+  void begin_at(double time, const VectorX<double>& theta);
+
+  /// Finds positions, velocities, accelerations and multipliers and writes them to `state`, with t = 0, or as begin_at() says, and the
+  /// extra states as set_extra_states() says.
   /// @param parameters all named parameters (Study::parameters order).
   /// @param equations must hold the design at `parameters`.
   Status solve(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
@@ -129,6 +133,8 @@ class Assembly {
   std::vector<bool> follows_;   ///< per coordinate: whether it is in followers_
   std::vector<bool> position_given_, guess_given_, velocity_given_;
   VectorX<double> theta_, theta_rate_;
+  double start_time_ = 0.0;  ///< [s]
+  VectorX<double> guess_;    ///< of theta_, instead of the study's; empty: none
   Dependents positions_, velocities_;
   Linearization<double> derivatives_;
   IterationMatrix matrix_;

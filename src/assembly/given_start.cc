@@ -65,8 +65,16 @@ void set_given_start(const System& system, const TreeLayout& tree, const std::ve
   }
 }
 
-#define CODESIGN_INSTANTIATE(T) \
-  template void set_given_start(const System&, const TreeLayout&, const std::vector<T>&, VectorX<T>*, VectorX<T>*);
+template <class T>
+void set_extra_states(const System& system, const std::vector<T>& parameters, VectorX<T>* s) {
+  s->setZero(system.layout().states);
+  const std::vector<Quantity>& given = system.study().initial_extra_states;
+  for (std::size_t k = 0; k < given.size(); ++k) (*s)[static_cast<Eigen::Index>(k)] = given[k].at(parameters);
+}
+
+#define CODESIGN_INSTANTIATE(T)                                                                                     \
+  template void set_given_start(const System&, const TreeLayout&, const std::vector<T>&, VectorX<T>*, VectorX<T>*); \
+  template void set_extra_states(const System&, const std::vector<T>&, VectorX<T>*);
 CODESIGN_FOR_EACH_VALUE_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 

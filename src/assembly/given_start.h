@@ -23,6 +23,10 @@ struct GivenStart {
 template <class T>
 void set_given_start(const System& system, const TreeLayout& tree, const std::vector<T>& parameters, VectorX<T>* theta, VectorX<T>* rate);
 
+/// The extra states at the start, Study::initial_extra_states and then zeros; resized to Layout::states.
+template <class T>
+void set_extra_states(const System& system, const std::vector<T>& parameters, VectorX<T>* s);
+
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_ASSEMBLY_GIVEN_START_H_

@@ -91,6 +91,12 @@ Reference<T>::Reference(const ReferenceDescription& description, const std::vect
     case ReferenceDescription::Kind::kWaypoints:
       set_waypoints(description.waypoints, parameters);
       break;
+    case ReferenceDescription::Kind::kSampled:
+      samples_ = description.sampled.samples;
+      amplitude_ = description.sampled.scale.at(parameters);
+      phase_ = description.sampled.delay.at(parameters);
+      offset_ = description.sampled.offset.at(parameters);
+      break;
   }
 }
 
@@ -119,6 +125,20 @@ void Reference<T>::set_waypoints(const WaypointsDescription& description, const 
   pieces_.push_back(hold(times.back(), knots.back().position));
 }
 
+// scale f(t + delay) - offset. The first-order part of the delay is carried by the slope of f.
+template <class T>
+ReferenceMotion<T> Reference<T>::sampled_at(double t) const {
+  const double delay = value_of(phase_);
+  const T moved = phase_ - T(delay);
+  const SampledFunction::Sample sample = samples_->at(t + delay);
+  ReferenceMotion<T> motion;
+  motion.value = amplitude_ * (T(sample.value) + T(sample.slope) * moved) - offset_;
+  motion.rate = amplitude_ * (T(sample.slope) + T(sample.second) * moved);
+  motion.acceleration = amplitude_ * (T(sample.second) + T(sample.third) * moved);
+  motion.jerk = amplitude_ * T(sample.third);
+  return motion;
+}
+
 template <class T>
 ReferenceMotion<T> Reference<T>::at(double t) const {
   using std::cos;
@@ -128,6 +148,7 @@ ReferenceMotion<T> Reference<T>::at(double t) const {
     motion.value = offset_;
     return motion;
   }
+  if (kind_ == ReferenceDescription::Kind::kSampled) return sampled_at(t);
   if (kind_ == ReferenceDescription::Kind::kSine) {
     const T angle = angular_frequency_ * T(t) + phase_, s = amplitude_ * sin(angle), c = amplitude_ * cos(angle);
     const T square = angular_frequency_ * angular_frequency_;

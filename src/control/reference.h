@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_CONTROL_REFERENCE_H_
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "codegen/traced.h"
@@ -33,12 +34,14 @@ class Reference {
     double start;
     std::array<T, 6> c;
   };
+  ReferenceMotion<T> sampled_at(double t) const;
   void set_waypoints(const WaypointsDescription& description, const std::vector<T>& parameters);
   static Piece hold(double start, const T& value);
 
   ReferenceDescription::Kind kind_ = ReferenceDescription::Kind::kConstant;
   T offset_{0.0}, amplitude_{0.0}, angular_frequency_{0.0}, phase_{0.0};
-  std::vector<Piece> pieces_;  ///< by ascending start; the first begins at minus infinity, the last never ends
+  std::shared_ptr<const SampledFunction> samples_;  ///< scaled by amplitude_, early by phase_, minus offset_
+  std::vector<Piece> pieces_;                       ///< by ascending start; the first begins at minus infinity, the last never ends
 };
 
 /// For recorded equations: a constant, or inputs that are supplied for each instant (Recording::timed()).

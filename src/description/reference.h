@@ -3,11 +3,13 @@
 #define MECHANISM_CODESIGN_DESCRIPTION_REFERENCE_H_
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "description/quantity.h"
+#include "math/sampled_function.h"
 #include "mechanism_codesign/error.h"
 
 namespace codesign {
@@ -31,10 +33,16 @@ struct WaypointsDescription {
   std::vector<Quantity> accelerations;  ///< likewise
 };
 
-/// A prescribed function of time: the setpoint of a controller or the reference of an objective's term. Of the three alternatives the one
+/// scale f(t + delay) - offset, with f through samples; theory (C2a).
+struct SampledDescription {
+  std::shared_ptr<const SampledFunction> samples;  ///< f
+  Quantity scale{1.0}, delay, offset;              ///< delay [s]
+};
+
+/// A prescribed function of time: the setpoint of a controller or the reference of an objective's term. Of the alternatives the one
 /// that `kind` names is used.
 struct ReferenceDescription {
-  enum class Kind { kConstant, kSine, kWaypoints };
+  enum class Kind { kConstant, kSine, kWaypoints, kSampled };
 
   ReferenceDescription(Quantity value = 0.0)
       : constant(std::move(value)) {}                      // NOLINT(google-explicit-constructor): a number is a constant reference
@@ -44,6 +52,7 @@ struct ReferenceDescription {
   Quantity constant;
   SineDescription sine;
   WaypointsDescription waypoints;
+  SampledDescription sampled;  ///< of recorded efforts; studies do not name it
 };
 
 /// The address of a joint's trajectory in a trajectory_msgs/JointTrajectory message of a bag.

@@ -189,6 +189,14 @@ DrivenSystem make_driven_system(const CompiledSystem& of, const std::vector<Meas
   return driven;
 }
 
+std::vector<std::string> independent_joints(const CompiledSystem& of, const std::vector<MeasuredJoint>& measured,
+                                            const Eigen::MatrixXd& positions) {
+  std::vector<std::string> names;
+  for (int k : choose_drives(of, measured, find_joints(of.robot(), measured), positions).drives)
+    names.push_back(measured[to_index(k)].name);
+  return names;
+}
+
 Status assemble_driven(const CompiledSystem& of, const std::vector<MeasuredJoint>& measured, const DrivenSystem& driven,
                        const std::vector<double>& parameters, const Eigen::VectorXd& positions, State<double>* state) {
   StartWorkspace usual(of, parameters);

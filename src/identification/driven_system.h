@@ -36,6 +36,11 @@ struct DrivenSystem {
 DrivenSystem make_driven_system(const CompiledSystem& of, const std::vector<MeasuredJoint>& measured,
                                 const Eigen::MatrixXd& positions = {});
 
+/// The measured joints that determine the motion of the mechanism, as make_driven_system() chooses drives; friction laws with states are no
+/// obstacle. @throws InputError likewise
+std::vector<std::string> independent_joints(const CompiledSystem& of, const std::vector<MeasuredJoint>& measured,
+                                            const Eigen::MatrixXd& positions = {});
+
 /// A position of the mechanism from which the first instant of a recording is assembled: all measured joints near `positions` [rad or m,
 /// order of `measured`], the drives exactly there.
 /// @param of, measured, driven as above and its result. @param parameters all named parameters. @param state of driven.system; velocities,

@@ -51,10 +51,13 @@ std::vector<MeasuredJoint> require_same_joints(const std::vector<JointRecording>
       if (!first.find(samples.joint))
         throw recording_error(other, "the recording has a joint that " + first.element + " lacks", samples.joint,
                               "the same joints in all recordings");
-  if (std::none_of(joints.begin(), joints.end(), [](const MeasuredJoint& joint) { return joint.with_effort; }))
-    throw recording_error(first, "no joint has efforts in all recordings, so that there is nothing to fit", "",
-                          "efforts of at least one joint");
   return joints;
+}
+
+void require_efforts(const std::vector<MeasuredJoint>& joints, const std::vector<JointRecording>& recordings) {
+  if (std::none_of(joints.begin(), joints.end(), [](const MeasuredJoint& joint) { return joint.with_effort; }))
+    throw recording_error(recordings.front(), "no joint has efforts in all recordings, so that there is nothing to fit", "",
+                          "efforts of at least one joint, or residual: motion");
 }
 
 EffortResiduals::EffortResiduals(const CompiledSystem& system, const FitVariables& variables, std::vector<MeasuredJoint> joints,

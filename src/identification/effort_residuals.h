@@ -17,12 +17,14 @@
 namespace codesign {
 
 /// The joints that all recordings measured, and whether their efforts, too: efforts that are all zero were not.
-/// @throws InputError if a recording lacks a joint of another one, if the position of a joint or all efforts are missing.
+/// @throws InputError if a recording lacks a joint of another one, or the position of a joint.
 std::vector<MeasuredJoint> require_same_joints(const std::vector<JointRecording>& recordings);
+/// @throws InputError if none of these joints has efforts.
+void require_efforts(const std::vector<MeasuredJoint>& joints, const std::vector<JointRecording>& recordings);
 
 /// What several recordings of one robot say about x: computed minus recorded efforts, doc/theory.md (28c), at the samples to fit, and their
 /// exact derivatives. Both sides pass the same zero-phase filter if FilterOptions::residual_cutoff asks for it.
-class EffortResiduals final : public ResidualSource {
+class EffortResiduals final : public RecordingResiduals {
  public:
   /// @param system, variables must outlive this. @param recordings all with the same joints.
   /// @param joints those of the recordings whose motion counts, as require_same_joints() returns them. @throws InputError as
@@ -34,19 +36,19 @@ class EffortResiduals final : public ResidualSource {
   const std::vector<std::string>& outputs() const override { return outputs_; }
   /// Fitted samples of each recording.
   const SeriesLengths& lengths() const override { return lengths_; }
-  Eigen::Index rows() const { return rows_; }
+  Eigen::Index rows() const override { return rows_; }
   /// Fitted efforts as recorded, filtered like the residuals, times the scale at the start [N m or N]; rows() x outputs.
-  const Eigen::MatrixXd& recorded() const { return recorded_; }
+  const Eigen::MatrixXd& recorded() const override { return recorded_; }
   /// Times of the rows [s], each from the clock of its recording.
-  std::vector<double> times() const;
+  std::vector<double> times() const override;
 
   /// Follows the motion at a design; to be called first.
-  Status begin(const Eigen::VectorXd& x) { return model_->begin(variables_.parameters(x)); }
+  Status begin(const Eigen::VectorXd& x) override { return model_->begin(variables_.parameters(x)); }
   /// @param residuals resized to rows() x outputs [N m or N]. @param jacobian may be null; else resized to (rows() outputs) x variables,
   /// the rows of output 0 first.
   Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) override;
   /// Once set, evaluations end soon with kCancelled; nullptr: never.
-  void obey(const std::atomic<bool>* cancel) { model_->obey(cancel); }
+  void obey(const std::atomic<bool>* cancel) override { model_->obey(cancel); }
 
  private:
   MotionSamples samples_of_all(const std::vector<std::string>& joints);

@@ -1,41 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "identification/effort_sensor.h"
 
-#include <algorithm>
-#include <functional>
-#include <stdexcept>
-#include <utility>
-
 namespace codesign {
-
-RecordedEffort::RecordedEffort(std::vector<double> times, std::vector<double> values)
-    : times_(std::move(times)), values_(std::move(values)), slopes_(times_.size(), 0.0) {
-  if (times_.empty() || times_.size() != values_.size()) throw std::invalid_argument("a recorded effort needs one value per time");
-  if (std::adjacent_find(times_.begin(), times_.end(), std::greater_equal<>()) != times_.end())
-    throw std::invalid_argument("the times of a recorded effort must ascend");
-  const std::size_t last = times_.size() - 1;
-  if (last == 0) return;
-  const auto chord = [this](std::size_t k) { return (values_[k + 1] - values_[k]) / (times_[k + 1] - times_[k]); };
-  for (std::size_t k = 1; k < last; ++k) {
-    const double before = times_[k] - times_[k - 1], after = times_[k + 1] - times_[k];
-    slopes_[k] = (after * chord(k - 1) + before * chord(k)) / (before + after);
-  }
-  slopes_[0] = last > 1 ? 2.0 * chord(0) - slopes_[1] : chord(0);
-  slopes_[last] = last > 1 ? 2.0 * chord(last - 1) - slopes_[last - 1] : chord(0);
-}
-
-RecordedEffort::Sample RecordedEffort::at(double time) const {
-  if (time < times_.front()) return {values_.front(), 0.0};
-  if (time > times_.back() || times_.size() == 1) return {values_.back(), 0.0};
-  const auto above = std::upper_bound(times_.begin() + 1, times_.end() - 1, time);
-  const auto k = static_cast<std::size_t>(above - times_.begin()) - 1;
-  const double h = times_[k + 1] - times_[k], s = (time - times_[k]) / h, rise = values_[k + 1] - values_[k];
-  const double a = h * slopes_[k] - rise, b = rise - h * slopes_[k + 1];
-  // v0 + s rise + s (1 - s) (a (1 - s) + b s)
-  const double value = values_[k] + s * rise + s * (1.0 - s) * (a * (1.0 - s) + b * s);
-  const double slope = rise + (1.0 - 2.0 * s) * (a * (1.0 - s) + b * s) + s * (1.0 - s) * (b - a);
-  return {value, slope / h};
-}
 
 EffortResidual effort_residual(const EffortSensor& sensor, const RecordedEffort& recorded, double time, double effort) {
   const RecordedEffort::Sample r = recorded.at(time + sensor.delay);

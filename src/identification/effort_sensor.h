@@ -2,29 +2,12 @@
 #ifndef MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_SENSOR_H_
 #define MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_SENSOR_H_
 
-#include <vector>
+#include "math/sampled_function.h"
 
 namespace codesign {
 
-/// The recorded effort of one joint as a continuous function of time: cubic between the samples, with the slopes of the parabolas through
-/// three neighbours, so that its first derivative is continuous. Outside the recording it is held.
-class RecordedEffort {
- public:
-  /// @param times ascending [s]. @param values as recorded, one per time, finite; at least one.
-  /// @throws std::invalid_argument for other sizes or orders.
-  RecordedEffort(std::vector<double> times, std::vector<double> values);
-
-  /// Value and slope [1/s] at a time [s].
-  struct Sample {
-    double value = 0.0, slope = 0.0;
-  };
-  Sample at(double time) const;
-  /// Whether the recording covers a time.
-  bool covers(double time) const { return times_.front() <= time && time <= times_.back(); }
-
- private:
-  std::vector<double> times_, values_, slopes_;
-};
+/// The recorded effort of one joint; outside the recording it is held.
+using RecordedEffort = SampledFunction;
 
 /// What a joint's effort sensor, often a motor current, makes of the effort tau on the child: the number r recorded at t + delay is
 /// (tau(t) + offset) / scale; doc/theory.md (28c).

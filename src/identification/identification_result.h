@@ -29,21 +29,21 @@ struct IdentifiedNumber {
   std::optional<ProfileInterval> profile;
 };
 
-/// The residuals of one joint.
+/// The residuals of one output: the effort of a joint, or with residuals in motion its position, velocity or effort.
 struct OutputFit {
-  std::string joint;
-  double recorded = 0.0;  ///< root mean square of what was recorded [N m or N]
+  std::string joint;      ///< `elbow_joint`, or `elbow_joint/position`
+  double recorded = 0.0;  ///< root mean square of what was recorded, in the unit of the output
   double start = 0.0;     ///< root mean square of the residuals at the start
   double rms = 0.0;       ///< the same after the fit
   double worst = 0.0;     ///< largest magnitude after the fit
   Whiteness whiteness;    ///< after the fit
 };
 
-/// Recorded and computed efforts of several recordings, filtered like the residuals.
+/// Recorded and computed outputs of several recordings; efforts filtered like the residuals.
 struct FittedSeries {
   SeriesLengths lengths;               ///< rows of each recording
   std::vector<double> times;           ///< one per row [s]
-  Eigen::MatrixXd recorded, computed;  ///< rows x joints [N m or N]
+  Eigen::MatrixXd recorded, computed;  ///< rows x outputs
 };
 
 /// What codesign identify answers.
@@ -56,7 +56,7 @@ struct IdentificationResult {
   Eigen::MatrixXd covariance;             ///< of x; zero for numbers on a bound, infinite or not a number where the data tell nothing
   int rank = 0;                           ///< of the numbers that are not on a bound
   std::vector<std::string> undetermined;  ///< sentences: what the data do not tell
-  std::vector<OutputFit> data, holdout;   ///< one per joint; the holdout is empty if the study names none
+  std::vector<OutputFit> data, holdout;   ///< one per output; the holdout is empty if the study names none
   FittedSeries data_series, holdout_series;
   Eigen::Index samples = 0, holdout_samples = 0;  ///< times, not residuals
   int lag = 0;                                    ///< of the noise model, in samples

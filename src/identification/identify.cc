@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "identification/judgement.h"
+#include "identification/motion_residuals.h"
 #include "math/cpu_timer.h"
 #include "problem/load_problem.h"
 #include "text/cancel.h"
@@ -19,15 +20,19 @@ int threads_of(const EngineOptions& engine) {
   return engine.workers > 0 ? engine.workers : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-std::unique_ptr<EffortResiduals> make_residuals(const Problem& problem, const FitVariables& variables,
-                                                const std::vector<MeasuredJoint>& joints, const std::vector<JointRecording>& recordings,
-                                                Warnings* warnings) {
-  const FilterOptions& filter = problem.study().identification->filter;
+std::unique_ptr<RecordingResiduals> make_residuals(const Problem& problem, const FitVariables& variables,
+                                                   const std::vector<MeasuredJoint>& joints, const std::vector<JointRecording>& recordings,
+                                                   Warnings* warnings) {
+  const IdentificationDescription& options = *problem.study().identification;
+  const int threads = threads_of(problem.study().ensemble.engine);
+  if (options.residual == ResidualKind::kMotion)
+    return std::make_unique<MotionResiduals>(*problem.system(), variables, options, joints, recordings, threads, warnings);
+  require_efforts(joints, recordings);
+  const FilterOptions& filter = options.filter;
   std::vector<MeasuredMotion> motions;
   motions.reserve(recordings.size());
   for (const JointRecording& recording : recordings) motions.push_back(measured_motion(recording, filter, warnings));
-  return std::make_unique<EffortResiduals>(*problem.system(), variables, joints, std::move(motions), filter,
-                                           threads_of(problem.study().ensemble.engine));
+  return std::make_unique<EffortResiduals>(*problem.system(), variables, joints, std::move(motions), filter, threads);
 }
 
 FitProblem fit_problem(const Problem& problem, const FitVariables& variables) {
@@ -41,13 +46,15 @@ FitProblem fit_problem(const Problem& problem, const FitVariables& variables) {
   return fit;
 }
 
-FittedSeries series_of(const EffortResiduals& source, const Eigen::MatrixXd& residuals) {
+FittedSeries series_of(const RecordingResiduals& source, const Eigen::MatrixXd& residuals) {
   return {source.lengths(), source.times(), source.recorded(), source.recorded() + residuals};
 }
 
 /// The residuals of recordings that were not fitted, at x.
-Status judge_holdout(const FitVariables& variables, EffortResiduals* residuals, IdentificationResult* result) {
+Status judge_holdout(const FitVariables& variables, const ResidualFit& fit, const LossOptions& loss, RecordingResiduals* residuals,
+                     IdentificationResult* result) {
   Eigen::MatrixXd at_start, at_end;
+  residuals->count_by(fit.spreads, loss);
   Status status = residuals->begin(variables.start());
   if (status.ok()) status = residuals->evaluate(variables.start(), &at_start, nullptr);
   if (status.ok()) status = residuals->evaluate(result->x, &at_end, nullptr);
@@ -72,16 +79,14 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
                               const std::atomic<bool>* cancel) {
   const CpuTimer timer(CpuTimer::Of::kProcess);
   const IdentificationDescription& options = *problem.study().identification;
-  if (options.residual == ResidualKind::kMotion)
-    throw InputError({options.where, "identify.residual", "residuals in motion are not available yet", "motion", "effort"});
   const FitVariables variables(problem.study());
   IdentificationResult result;
   std::vector<JointRecording> all = recordings.data;
   all.insert(all.end(), recordings.holdout.begin(), recordings.holdout.end());
   const std::vector<MeasuredJoint> joints = require_same_joints(all);
-  const std::unique_ptr<EffortResiduals> data = make_residuals(problem, variables, joints, recordings.data, &result.warnings);
-  EffortResiduals& residuals = *data;
-  std::unique_ptr<EffortResiduals> holdout;
+  const std::unique_ptr<RecordingResiduals> data = make_residuals(problem, variables, joints, recordings.data, &result.warnings);
+  RecordingResiduals& residuals = *data;
+  std::unique_ptr<RecordingResiduals> holdout;
   if (!recordings.holdout.empty()) holdout = make_residuals(problem, variables, joints, recordings.holdout, &result.warnings);
   residuals.obey(cancel);
 
@@ -108,7 +113,7 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
   judge_numbers(variables, options, residuals.lengths(), fit, &result);
   if (options.intervals.profiles && !is_set(cancel)) add_profiles(limits, options, fit, &residuals, cancel, &result);
   if (holdout) {
-    const Status status = judge_holdout(variables, holdout.get(), &result);
+    const Status status = judge_holdout(variables, fit, options.loss, holdout.get(), &result);
     if (result.status.ok()) result.status = status;
   }
   Warnings found = warnings_of(options, result);

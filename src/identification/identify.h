@@ -11,7 +11,7 @@
 
 namespace codesign {
 
-/// Fits the tuned parameters and the numbers of effort sensors to recordings, and tells how well they are known; doc/theory.md (28)-(39).
+/// Fits the tuned parameters and the numbers of effort sensors to recordings, and tells how well they are known; doc/theory.md (28)-(43).
 /// The holdout is judged on, never fitted.
 /// @param problem whose study has a block `identify`. @param recordings as load_recordings() returns them.
 /// @param observer told of each evaluation; false ends the fit. @param cancel the fit ends soon after it is set, from any thread; null:

@@ -37,7 +37,7 @@ ParameterCovariance covariance_of(const ResidualFit& fit, const LossOptions& los
   const WeightedResiduals weighted = weigh(fit.residuals, &fit.jacobian, fit.spreads, loss);
   Eigen::MatrixXd jacobian(weighted.jacobian.rows(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t k = 0; k < columns.size(); ++k) jacobian.col(static_cast<Eigen::Index>(k)) = weighted.jacobian.col(columns[k]);
-  return parameter_covariance(weighted.residuals, jacobian, lengths, intervals);
+  return parameter_covariance(weighted.residuals, jacobian, lengths, intervals, fit.own_unknowns);
 }
 
 void begin_numbers(const FitVariables& variables, const ResidualFit& fit, IdentificationResult* result) {

@@ -124,6 +124,8 @@ class WeightedCost final : public LeastSquaresModel {
 };
 
 void search(const FitProblem& problem, ResidualSource* source, const FitObserver& observer, ResidualFit* fit) {
+  source->count_by(fit->spreads, problem.loss);
+  fit->own_unknowns = source->own_unknowns();
   WeightedCost cost(problem.loss, fit->spreads, source, observer, fit);
   LevenbergMarquardtOptions options;
   options.max_evaluations = std::max(1, problem.max_evaluations - fit->evaluations);

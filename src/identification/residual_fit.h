@@ -51,6 +51,7 @@ struct ResidualFit {
   double cost = 0.0;                    ///< sum of rho(r / s) at x
   Eigen::MatrixXd residuals, jacobian;  ///< at x, not weighted
   Eigen::MatrixXd start_residuals;
+  Eigen::Index own_unknowns = 0;  ///< of the source
   int evaluations = 0, failed_evaluations = 0, iterations = 0;
 };
 

@@ -3,9 +3,11 @@
 #define MECHANISM_CODESIGN_IDENTIFICATION_RESIDUAL_SOURCE_H_
 
 #include <Eigen/Core>
+#include <atomic>
 #include <string>
 #include <vector>
 
+#include "description/identification.h"
 #include "mechanism_codesign/status.h"
 #include "statistics/long_run.h"
 
@@ -22,6 +24,29 @@ class ResidualSource {
   /// @param residuals resized to rows x outputs. @param jacobian may be null; else resized to (rows outputs) x size of x, the rows of
   /// output 0 first. @return a failure at this point, kCancelled, or ok
   virtual Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) = 0;
+
+  /// How the fit counts residuals from now on. Only a source that has unknowns of its own, which it fits at each x, needs to know: its
+  /// residuals are then those of the best ones, and its Jacobian is that of these residuals, doc/theory.md (42).
+  /// @param spreads positive, one per output
+  virtual void count_by(const Eigen::VectorXd& spreads, const LossOptions& loss);
+  /// How many unknowns of its own it has: they take degrees of freedom from the residuals.
+  virtual Eigen::Index own_unknowns() const { return 0; }
+};
+
+inline void ResidualSource::count_by(const Eigen::VectorXd& /*spreads*/, const LossOptions& /*loss*/) {}
+
+/// Residuals of recordings, as an identification needs them.
+class RecordingResiduals : public ResidualSource {
+ public:
+  /// Prepares for the neighbourhood of a design; to be called first.
+  virtual Status begin(const Eigen::VectorXd& x) = 0;
+  /// Once set, evaluations end soon with kCancelled; nullptr: never.
+  virtual void obey(const std::atomic<bool>* cancel) = 0;
+  virtual Eigen::Index rows() const = 0;
+  /// Times of the rows [s], each from the clock of its recording.
+  virtual std::vector<double> times() const = 0;
+  /// What was recorded of the outputs; rows() x outputs. Residuals are computed minus recorded.
+  virtual const Eigen::MatrixXd& recorded() const = 0;
 };
 
 }  // namespace codesign

@@ -21,8 +21,10 @@ BreakTimes::BreakTimes(const Study& study) : apart_(1e-12 * study.duration) {
 }
 
 void BreakTimes::add(const ReferenceDescription& reference) {
-  if (reference.kind != ReferenceDescription::Kind::kWaypoints) return;
-  times_.insert(times_.end(), reference.waypoints.times.begin(), reference.waypoints.times.end());
+  if (reference.kind == ReferenceDescription::Kind::kSampled)
+    for (double time : reference.sampled.samples->times()) times_.push_back(time - reference.sampled.delay.nominal());
+  if (reference.kind == ReferenceDescription::Kind::kWaypoints)
+    times_.insert(times_.end(), reference.waypoints.times.begin(), reference.waypoints.times.end());
 }
 
 double BreakTimes::next(double t, double limit) const {

@@ -96,12 +96,12 @@ Eigen::MatrixXd ParameterCovariance::correlation() const {
 }
 
 ParameterCovariance parameter_covariance(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd& jacobian, const SeriesLengths& lengths,
-                                         const IntervalOptions& options) {
+                                         const IntervalOptions& options, Eigen::Index eliminated) {
   ParameterCovariance result;
   const Eigen::MatrixXd R = upper_factor(jacobian);
   result.identifiability = find_identifiable(R);
   const auto rows = static_cast<double>(residuals.size());
-  result.degrees = std::max(1.0, rows - result.identifiability.rank);
+  result.degrees = std::max(1.0, rows - static_cast<double>(result.identifiability.rank + eliminated));
   result.residual_variance = residuals.squaredNorm() / result.degrees;
   const Eigen::MatrixXd inverse = inverse_of_normal_matrix(R, result.identifiability);
   if (options.noise == NoiseModel::kWhite) {

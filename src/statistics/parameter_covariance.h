@@ -31,8 +31,10 @@ struct ParameterCovariance {
 /// loss both are multiplied by the square roots of the weights.
 /// @param lengths of the recordings, with the sum N. Outputs at one time may depend on each other, recordings do not.
 /// @param options level, noise and lag
+/// @param eliminated unknowns that were fitted beside the parameters and whose columns were projected out of the Jacobian, doc/theory.md
+/// (43); they take degrees of freedom.
 ParameterCovariance parameter_covariance(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd& jacobian, const SeriesLengths& lengths,
-                                         const IntervalOptions& options);
+                                         const IntervalOptions& options, Eigen::Index eliminated = 0);
 
 }  // namespace codesign
 

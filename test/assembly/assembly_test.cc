@@ -35,6 +35,42 @@ TEST(Assembly, GivenPositionsStayAndTheLoopIsClosed) {
   EXPECT_LT(rates.cwiseAbs().maxCoeff(), 1e-13);
 }
 
+TEST(Assembly, ATimeAndPositionsToBeginWithTakeThePlaceOfTheStudys) {
+  const double below = std::asin(0.6), above = 3.141592653589793 - below;
+  Compiled c(triangle(), let_go("{left_hinge: {guess: -0.5}, right_hinge: {guess: 0.5}}", "left_hinge/velocity"), kCompliance);
+  c.assembly.begin_at(1.5, Eigen::Vector2d(-2.6, 2.6));
+  ASSERT_TRUE(c.start().ok());
+  EXPECT_EQ(c.state.t, 1.5);
+  EXPECT_NEAR(c.assembly.theta()[0], -above, 1e-12);
+  c.assembly.begin_at(0.0, {});
+  ASSERT_TRUE(c.start().ok());
+  EXPECT_EQ(c.state.t, 0.0);
+  EXPECT_NEAR(c.assembly.theta()[0], -below, 1e-12);
+}
+
+TEST(Assembly, ExtraStatesBeginWhereTheStudySays) {
+  const RobotDescription robot = read_urdf({"test.urdf", pendulum()});
+  Study study = read_study({"test.yaml",
+                            "duration: 1.0\ncontrollers: {servo: {type: pid, input: hinge/position, setpoint: 0.0, output: hinge, "
+                            "gains: {i: 2.0}}}\nparameters: {start: {initial: 0.75}}\n"},
+                           robot);
+  study.initial_extra_states = {Quantity(0.75, std::make_shared<const Expression>("start", std::vector<std::string>{"start"}))};
+  const CompiledSystem system(robot, study);
+  Equations<double> equations(system);
+  Assembly assembly(system);
+  State<double> state;
+  equations.set_design(system.parameters());
+  ASSERT_TRUE(assembly.solve(system.parameters(), &equations, &state).ok());
+  ASSERT_EQ(state.s.size(), 1);
+  EXPECT_EQ(state.s[0], 0.75);
+  Equations<C> complex(system);
+  const std::vector<C> parameters{C(0.75, 1e-30)};
+  complex.set_design(parameters);
+  State<C> extended;
+  assembly.extend(parameters, state, &complex, &extended);
+  EXPECT_EQ(extended.s[0].imag(), 1e-30);
+}
+
 TEST(Assembly, AGuessChoosesTheBranch) {
   // The tips meet below the hinges or above them, half way between.
   const double below = std::asin(0.6), above = 3.141592653589793 - below;

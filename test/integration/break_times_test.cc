@@ -36,6 +36,18 @@ TEST(BreakTimes, OfAShapedInputAreItsKinks) {
   EXPECT_EQ(BreakTimes(study_of("  a: {type: basis, output: hinge, coefficients: [0, 1]}\n")).next(0.0, 0.3), 0.3);
 }
 
+TEST(BreakTimes, OfSamplesAreTheSamplesAtTheDelayOfTheStart) {
+  Study study = study_of("  a: {type: pid, input: hinge/position, output: hinge, gains: {p: 1.0}, setpoint: 0.0}\n");
+  ReferenceDescription& setpoint = study.controllers.front().setpoint;
+  setpoint.kind = ReferenceDescription::Kind::kSampled;
+  setpoint.sampled.samples = std::make_shared<const SampledFunction>(std::vector<double>{0.5, 0.75}, std::vector<double>{0.0, 1.0});
+  setpoint.sampled.delay = Quantity(0.125);
+  const BreakTimes breaks(study);
+  EXPECT_EQ(breaks.next(0.0, 2.0), 0.375);
+  EXPECT_EQ(breaks.next(0.375, 2.0), 0.625);
+  EXPECT_EQ(breaks.next(0.625, 2.0), 2.0);
+}
+
 // The push acts for 20 ms in the middle of a long rest.
 TEST(BreakTimes, NothingIsOverlookedAfterARest) {
   for (const char* integrator : {"rosenbrock", "idas"}) {

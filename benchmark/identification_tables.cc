@@ -1,0 +1,124 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include "benchmark/mechanisms.h"
+#include "benchmark/report.h"
+#include "identification/effort_residuals.h"
+#include "identification/motion_residuals.h"
+#include "identification/residual_fit.h"
+#include "math/cpu_timer.h"
+#include "mechanism_codesign/simulation.h"
+#include "problem/load_problem.h"
+
+namespace codesign {
+namespace {
+
+constexpr int kArm = 6;
+constexpr double kSeconds = 3.0, kRate = 100.0, kNoise = 1e-3;
+const std::vector<int> kFitted = {1, 4, 8, 16};
+
+std::string hinge_name(int k) { return "hinge_" + std::to_string(k); }
+
+/// The chain as an arm: each hinge follows a sine. @returns the block of the study
+std::string servos() {
+  std::string controllers = "controllers:\n";
+  for (int k = 0; k < kArm; ++k)
+    controllers += "  servo_" + std::to_string(k) + ": {type: pid, input: " + hinge_name(k) + "/position, output: " + hinge_name(k) +
+                   ", setpoint: {type: sine, amplitude: 0.4, offset: 0.5, frequency: " + std::to_string(0.5 + 0.13 * k) +
+                   "}, gains: {p: 40.0, d: 3.0}}\n";
+  return controllers;
+}
+
+/// Positions, velocities and efforts of all hinges, with noise on the positions.
+JointRecording record_arm(const GeneratedCase& arm) {
+  GeneratedCase driven = arm;
+  driven.study.text += servos();
+  const Problem problem = load_problem(driven.urdf, {}, driven.study);
+  std::vector<std::string> signals;
+  JointRecording recording;
+  recording.element = "identify.data[0]";
+  for (int k = 0; k < kArm; ++k) {
+    for (const char* quantity : {"/position", "/velocity", "/effort"}) signals.push_back(hinge_name(k) + quantity);
+    recording.joints.push_back({hinge_name(k), {}, {}, {}});
+  }
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal(0.0, kNoise);
+  Simulation simulation(problem, problem.parameters(), signals);
+  const Status status = simulate(&simulation, kSeconds, static_cast<int>(kSeconds * kRate) + 1, [&](const Frame& frame) {
+    recording.times.push_back(frame.time);
+    for (std::size_t k = 0; k < recording.joints.size(); ++k) {
+      recording.joints[k].position.push_back(frame.signals[3 * k] + normal(random));
+      recording.joints[k].velocity.push_back(frame.signals[3 * k + 1]);
+      recording.joints[k].effort.push_back(frame.signals[3 * k + 2]);
+    }
+    return true;
+  });
+  if (!status.ok()) throw std::runtime_error(status.cause);
+  return recording;
+}
+
+/// Processor time of the segments simulated without derivatives [s], the least of a few.
+double plain_seconds(const MotionResiduals& residuals, const FitVariables& variables) {
+  const SegmentSystem& of = residuals.systems().front();
+  RosenbrockIntegrator integrator(*of.system);
+  double least = std::numeric_limits<double>::infinity();
+  for (int repetition = 0; repetition < 5; ++repetition) {
+    const CpuTimer timer;
+    for (const Segment& segment : residuals.segments().front()) {
+      integrator.assembly().begin_at(segment.begin.time, segment.begin.theta);
+      Status status = integrator.start(of.parameters(variables, variables.start(), segment.start));
+      while (status.ok() && integrator.state().t < segment.times.back()) status = integrator.advance(segment.times.back());
+      if (!status.ok()) throw std::runtime_error(status.cause);
+    }
+    least = std::min(least, timer.seconds());
+  }
+  return least;
+}
+
+/// A fit from numbers that are off by a tenth. @returns the cost of an iteration, in simulations
+double add_fit(int fitted, const JointRecording& recording, Table* table) {
+  GeneratedCase arm = parametric_chain(kArm, fitted);
+  arm.study.text += "identify:\n  data: [{csv: none.csv}]\n  residual: motion\n  segment: 1.0\n  filter: {cutoff: 20.0}\n";
+  const Problem problem = load_problem(arm.urdf, {}, arm.study);
+  const FitVariables variables(problem.study());
+  Warnings warnings;
+  const std::vector<JointRecording> recordings = {recording};
+  MotionResiduals residuals(*problem.system(), variables, *problem.study().identification, require_same_joints(recordings), recordings, 1,
+                            &warnings);
+  FitProblem fit;
+  fit.start = 1.1 * variables.start();
+  fit.lower = variables.lower();
+  fit.upper = variables.upper();
+  if (Status status = residuals.begin(fit.start); !status.ok()) throw std::runtime_error(status.cause);
+  const double plain = plain_seconds(residuals, variables);
+  const CpuTimer timer;
+  const ResidualFit result = fit_residuals(fit, &residuals);
+  const double seconds = timer.seconds();
+  if (!result.status.ok()) throw std::runtime_error(result.status.cause);
+  const double evaluations = result.evaluations + 1.0;  // one for the spreads at the start
+  const double per_iteration = seconds / evaluations / plain;
+  table->rows.push_back({std::to_string(fitted), three_digits(1e3 * plain), three_digits(evaluations),
+                         three_digits(residuals.simulations() / evaluations), three_digits(1e3 * seconds / evaluations),
+                         three_digits(per_iteration)});
+  return per_iteration;
+}
+
+}  // namespace
+
+void measure_identification(Report* report) {
+  Table table{
+      "motion_residuals",
+      "Fit of an arm of six joints in motion, under recorded efforts at 100 Hz: three segments of one second, 12 numbers of each start",
+      {"parameters", "simulation of all segments, ms", "iterations", "runs per segment and iteration", "iteration, ms", "in simulations"},
+      {}};
+  const JointRecording recording = record_arm(parametric_chain(kArm, 0));
+  double most = 0.0;
+  for (int fitted : kFitted) most = std::max(most, add_fit(fitted, recording, &table));
+  report->findings.push_back({"residuals in motion: an iteration with up to 16 parameters, in simulations", "", most, 20.0, false});
+  report->tables.push_back(table);
+}
+
+}  // namespace codesign

@@ -1,0 +1,183 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "identification/motion_residuals.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <utility>
+
+#include "engine/side_by_side.h"
+#include "text/cancel.h"
+#include "text/number_text.h"
+
+namespace codesign {
+namespace {
+
+/// Recorded positions at a few instants, joints x instants.
+Eigen::MatrixXd positions_of_some(const JointRecording& recording, const std::vector<MeasuredJoint>& joints) {
+  constexpr Eigen::Index kInstants = 4;
+  Eigen::MatrixXd some(static_cast<Eigen::Index>(joints.size()), kInstants);
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    for (Eigen::Index k = 0; k < kInstants; ++k)
+      some(static_cast<Eigen::Index>(j), k) =
+          recording.find(joints[j].name)->position[(recording.times.size() - 1) * static_cast<std::size_t>(k) / kInstants];
+  return some;
+}
+
+/// How much each column varies, a first guess of what its residuals are compared with.
+Eigen::VectorXd variation_of(const Eigen::MatrixXd& recorded) {
+  Eigen::VectorXd variation(recorded.cols());
+  for (Eigen::Index k = 0; k < recorded.cols(); ++k) {
+    variation[k] = std::sqrt((recorded.col(k).array() - recorded.col(k).mean()).square().mean());
+    if (!(variation[k] > 0.0)) variation[k] = 1.0;
+  }
+  return variation;
+}
+
+}  // namespace
+
+/// What one thread works with: a run per recording, made when first needed.
+struct MotionResiduals::MotionWorker {
+  std::vector<std::unique_ptr<SegmentRun>> runs;
+};
+
+MotionResiduals::MotionResiduals(const CompiledSystem& system, const FitVariables& variables, const IdentificationDescription& options,
+                                 const std::vector<MeasuredJoint>& joints, std::vector<JointRecording> recordings, int threads,
+                                 Warnings* warnings)
+    : system_(system), variables_(variables), recordings_(std::move(recordings)) {
+  independent_ = independent_joints(system, joints, positions_of_some(recordings_.front(), joints));
+  const std::vector<MotionOutput> outputs = motion_outputs(system, joints, recordings_);
+  for (const MotionOutput& output : outputs) names_.push_back(output.name());
+  Eigen::Index rows = 0;
+  for (std::size_t r = 0; r < recordings_.size(); ++r) {
+    const JointRecording& recording = recordings_[r];
+    systems_.push_back(make_segment_system(system, variables, joints, independent_, outputs, recording));
+    segments_.push_back(cut_into_segments(recording, systems_.back(), variables, independent_, options, warnings));
+    std::vector<double> times = recording.times;
+    for (double& time : times) time -= systems_.back().epoch;
+    efforts_.emplace_back();
+    for (const MotionOutput& output : outputs) {
+      std::optional<RecordedEffort>& effort = efforts_.back().emplace_back();
+      if (output.quantity == MeasuredQuantity::kEffort) effort.emplace(times, recording.find(output.joint)->effort);
+    }
+    const Eigen::Index begin = rows;
+    for (std::size_t k = 0; k < segments_.back().size(); ++k) {
+      places_.push_back({r, k, rows});
+      rows += segments_.back()[k].recorded.rows();
+    }
+    lengths_.push_back(rows - begin);
+  }
+  recorded_.resize(rows, static_cast<Eigen::Index>(outputs.size()));
+  for (const Place& place : places_) {
+    const Eigen::MatrixXd& part = segments_[place.recording][place.segment].recorded;
+    recorded_.middleRows(place.row, part.rows()) = part;
+  }
+  spreads_ = variation_of(recorded_);
+  for (int k = 0; k < std::max(threads, 1); ++k) workers_.push_back(std::make_unique<MotionWorker>());
+}
+
+MotionResiduals::~MotionResiduals() = default;
+
+std::vector<double> MotionResiduals::times() const {
+  std::vector<double> times;
+  for (const Place& place : places_)
+    for (const double time : segments_[place.recording][place.segment].times) times.push_back(time + systems_[place.recording].epoch);
+  return times;
+}
+
+Eigen::Index MotionResiduals::own_unknowns() const {
+  Eigen::Index sum = 0;
+  for (const Place& place : places_) sum += systems_[place.recording].starts;
+  return sum;
+}
+
+Status MotionResiduals::failure_of(std::size_t place, Status status) const {
+  if (status.code == StatusCode::kCancelled) return status;
+  const Place& at = places_[place];
+  const double begin = segments_[at.recording][at.segment].begin.time + systems_[at.recording].epoch;
+  status.cause = "segment at " + readable(begin, 6) + " s of " + recordings_[at.recording].element + ": " + status.cause;
+  return status;
+}
+
+Status MotionResiduals::begin(const Eigen::VectorXd& x) {
+  for (std::unique_ptr<MotionWorker>& worker : workers_) worker->runs.clear();
+  reference_ = {};
+  for (std::size_t r = 0; r < recordings_.size(); ++r) {
+    Status status = set_branches(recordings_[r], systems_[r], system_, variables_, x, independent_, cancel_, &segments_[r]);
+    if (!status.ok()) {
+      status.cause = recordings_[r].element + ": " + status.cause;
+      return status;
+    }
+  }
+  return {};
+}
+
+void MotionResiduals::count_by(const Eigen::VectorXd& spreads, const LossOptions& loss) {
+  spreads_ = spreads;
+  loss_ = loss;
+  is_counted_anew_ = true;
+}
+
+std::vector<Eigen::VectorXd> MotionResiduals::guesses(std::size_t place, const Eigen::VectorXd& x) const {
+  std::vector<Eigen::VectorXd> guesses;
+  if (reference_.x.size() > 0) {
+    guesses.push_back(reference_.starts[place] - reference_.slopes[place] * (x - reference_.x));
+    if (x != reference_.x) guesses.push_back(reference_.starts[place]);
+  }
+  guesses.push_back(segments_[places_[place].recording][places_[place].segment].start);
+  return guesses;
+}
+
+std::vector<SegmentSolution> MotionResiduals::solve(const Eigen::VectorXd& x) {
+  std::vector<SegmentSolution> solutions(places_.size());
+  std::atomic<std::size_t> next{0};
+  side_by_side(workers_.size(), static_cast<int>(workers_.size()), [&](std::size_t worker) {
+    std::vector<std::unique_ptr<SegmentRun>>& runs = workers_[worker]->runs;
+    runs.resize(recordings_.size());
+    for (std::size_t k = next++; k < places_.size() && !is_set(cancel_); k = next++) {
+      const Place& place = places_[k];
+      std::unique_ptr<SegmentRun>& run = runs[place.recording];
+      if (!run) run = std::make_unique<SegmentRun>(systems_[place.recording], segments_[place.recording].front().begin);
+      run->obey(cancel_);
+      const SegmentProblem problem{
+          systems_[place.recording], variables_, efforts_[place.recording], segments_[place.recording][place.segment], x, spreads_, loss_};
+      solutions[k] = fit_segment(problem, guesses(k, x), run.get());
+    }
+  });
+  for (const SegmentSolution& solution : solutions) runs_ += solution.runs;
+  return solutions;
+}
+
+void MotionResiduals::remember(const Eigen::VectorXd& x, double value, const std::vector<SegmentSolution>& solutions) {
+  if (!is_counted_anew_ && !(value < reference_.value)) return;
+  is_counted_anew_ = false;
+  reference_ = {x, value, {}, {}};
+  for (const SegmentSolution& solution : solutions) {
+    reference_.starts.push_back(solution.start);
+    reference_.slopes.push_back(solution.slope);
+  }
+}
+
+Status MotionResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) {
+  const std::vector<SegmentSolution> solutions = solve(x);
+  if (is_set(cancel_)) return {StatusCode::kCancelled, 0.0, "cancelled"};
+  double value = 0.0;
+  for (std::size_t k = 0; k < solutions.size(); ++k) {
+    if (!solutions[k].status.ok()) return failure_of(k, solutions[k].status);
+    value += solutions[k].value;
+  }
+  remember(x, value, solutions);
+  const Eigen::Index outputs = recorded_.cols();
+  residuals->resize(rows(), outputs);
+  if (jacobian) jacobian->resize(rows() * outputs, x.size());
+  for (std::size_t k = 0; k < solutions.size(); ++k) {
+    const Eigen::MatrixXd& part = solutions[k].residuals;
+    residuals->middleRows(places_[k].row, part.rows()) = part;
+    for (Eigen::Index output = 0; jacobian && output < outputs; ++output)
+      jacobian->middleRows(output * rows() + places_[k].row, part.rows()) =
+          solutions[k].jacobian.middleRows(output * part.rows(), part.rows());
+  }
+  return {};
+}
+
+}  // namespace codesign

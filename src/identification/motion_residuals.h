@@ -1,0 +1,86 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_IDENTIFICATION_MOTION_RESIDUALS_H_
+#define MECHANISM_CODESIGN_IDENTIFICATION_MOTION_RESIDUALS_H_
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "identification/residual_source.h"
+#include "identification/segments.h"
+
+namespace codesign {
+
+/// What several recordings of one robot say about x when the motion is simulated in segments: computed minus recorded positions,
+/// velocities, and efforts of controllers, doc/theory.md (40)-(43). Each segment starts where it fits best; the residuals are those of
+/// these starts, and their Jacobian takes into account that starts follow x. Segments are spread over threads, with the same bits for any
+/// number.
+class MotionResiduals final : public RecordingResiduals {
+ public:
+  /// @param system, variables, options must outlive this. @param recordings all with the same joints. @param joints those of the
+  /// recordings, as require_same_joints() returns them. @throws InputError for motion that the joints do not determine, and for too short
+  /// segments.
+  MotionResiduals(const CompiledSystem& system, const FitVariables& variables, const IdentificationDescription& options,
+                  const std::vector<MeasuredJoint>& joints, std::vector<JointRecording> recordings, int threads, Warnings* warnings);
+  ~MotionResiduals() override;
+
+  /// `elbow_joint/position`, and so on.
+  const std::vector<std::string>& outputs() const override { return names_; }
+  const SeriesLengths& lengths() const override { return lengths_; }
+  Eigen::Index rows() const override { return recorded_.rows(); }
+  std::vector<double> times() const override;
+  const Eigen::MatrixXd& recorded() const override { return recorded_; }
+  Status begin(const Eigen::VectorXd& x) override;
+  /// A segment that cannot be simulated fails the evaluation; the status names it.
+  Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) override;
+  void count_by(const Eigen::VectorXd& spreads, const LossOptions& loss) override;
+  Eigen::Index own_unknowns() const override;
+  void obey(const std::atomic<bool>* cancel) override { cancel_ = cancel; }
+
+  /// Simulations of segments with their sensitivities so far, over the number of segments: what evaluations cost.
+  double simulations() const { return static_cast<double>(runs_) / static_cast<double>(places_.size()); }
+  const std::vector<SegmentSystem>& systems() const { return systems_; }
+  const std::vector<std::vector<Segment>>& segments() const { return segments_; }
+
+ private:
+  struct MotionWorker;
+  /// Where a segment stands.
+  struct Place {
+    std::size_t recording, segment;
+    Eigen::Index row;  ///< of its first sample
+  };
+  /// The best starts so far, and how they follow x.
+  struct Reference {
+    Eigen::VectorXd x;
+    double value = 0.0;
+    std::vector<Eigen::VectorXd> starts;
+    std::vector<Eigen::MatrixXd> slopes;
+  };
+  std::vector<Eigen::VectorXd> guesses(std::size_t place, const Eigen::VectorXd& x) const;
+  std::vector<SegmentSolution> solve(const Eigen::VectorXd& x);
+  void remember(const Eigen::VectorXd& x, double value, const std::vector<SegmentSolution>& solutions);
+  Status failure_of(std::size_t place, Status status) const;
+
+  const CompiledSystem& system_;
+  const FitVariables& variables_;
+  const std::vector<JointRecording> recordings_;
+  LossOptions loss_;
+  Eigen::VectorXd spreads_;
+  std::vector<std::string> independent_, names_;
+  std::vector<SegmentSystem> systems_;                               ///< per recording
+  std::vector<std::vector<std::optional<RecordedEffort>>> efforts_;  ///< [recording][output], of efforts
+  std::vector<std::vector<Segment>> segments_;                       ///< [recording]
+  std::vector<Place> places_;                                        ///< of all segments
+  std::vector<std::unique_ptr<MotionWorker>> workers_;               ///< one per thread
+  SeriesLengths lengths_;
+  Eigen::MatrixXd recorded_;
+  Reference reference_;
+  bool is_counted_anew_ = true;  ///< whether reference_.value was counted otherwise
+  std::int64_t runs_ = 0;
+  const std::atomic<bool>* cancel_ = nullptr;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_IDENTIFICATION_MOTION_RESIDUALS_H_

@@ -1,0 +1,77 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "identification/segment_run.h"
+
+#include <algorithm>
+
+namespace codesign {
+
+SegmentRun::SegmentRun(const SegmentSystem& of, const SegmentBegin& first)
+    : system_(*of.system), integrator_(system_), groups_(system_, integrator_.step().tableau()) {
+  state_.resize(system_.layout());
+  groups_.for_each([](auto* group) { group->step.keep_previous(true); });
+  const double tolerance = system_.study().solver.sensitivity_tolerance;
+  stages_ = [this, tolerance](const RosenbrockStep<double>& step) {
+    double error = 0.0;
+    groups_.for_each([&](auto* group) {
+      group->step.attempt(step);
+      if (tolerance > 0.0) error = std::max(error, group->step.error(tolerance));
+    });
+    return error;
+  };
+  // The first start of an integrator chooses the pivots of all later ones; a design that cannot start leaves that to them.
+  integrator_.assembly().begin_at(first.time, first.theta);
+  static_cast<void>(integrator_.start(system_.parameters()));
+}
+
+Status SegmentRun::start(const std::vector<double>& parameters, const SegmentBegin& begin) {
+  integrator_.assembly().begin_at(begin.time, begin.theta);
+  if (Status status = integrator_.start(parameters); !status.ok()) return status;
+  groups_.for_each(
+      [&](auto* group) { group->step.start(group->range.seed(system_, parameters), integrator_.assembly(), integrator_.initial_state()); });
+  reads_rates_.clear();
+  for (std::size_t k = 0; k < system_.watched().size(); ++k) {
+    sparse_.clear();
+    integrator_.equations().formulas().watched(k, integrator_.state(), &sparse_);
+    reads_rates_.push_back(!sparse_.rate.empty());
+  }
+  return {};
+}
+
+Status SegmentRun::run(const std::vector<double>& parameters, const SegmentBegin& begin, const std::vector<double>& times) {
+  const auto outputs = static_cast<Eigen::Index>(system_.watched().size()), count = static_cast<Eigen::Index>(times.size());
+  values_.resize(count, outputs);
+  slopes_.resize(count * outputs, static_cast<Eigen::Index>(system_.study().tuned.size()));
+  if (Status status = start(parameters, begin); !status.ok()) return status;
+  for (Eigen::Index row = 0; row < count; ++row) {
+    const double time = times[static_cast<std::size_t>(row)];
+    while (integrator_.state().t < time) {
+      const Status status = integrator_.advance(times.back(), stages_);
+      if (!status.ok()) return status;
+      ++steps_;
+      groups_.for_each([this](auto* group) { group->step.accept(integrator_.step()); });
+    }
+    if (Status status = sample(time, row); !status.ok()) return status;
+  }
+  if (!slopes_.allFinite())
+    return {StatusCode::kNonFiniteGradient, times.back(), "the derivatives of the simulated motion are not finite, though the motion is"};
+  return {};
+}
+
+Status SegmentRun::sample(double time, Eigen::Index row) {
+  double psi = 0.0;
+  integrator_.interpolate(time, &state_, &psi);
+  for (std::size_t k = 0; k < reads_rates_.size(); ++k) {
+    if (reads_rates_[k])
+      if (Status status = integrator_.assembly().solve_rates(&integrator_.equations(), &state_); !status.ok()) return status;
+    const auto output = static_cast<Eigen::Index>(k);
+    values_(row, output) = integrator_.equations().formulas().watched(k, state_, nullptr);
+    groups_.for_each([&](auto* group) {
+      const auto all = group->step.watched(k, integrator_.step(), state_, reads_rates_[k], integrator_.assembly());
+      slopes_.row(output * values_.rows() + row).segment(group->range.first, group->range.count) = all.head(group->range.count).transpose();
+    });
+  }
+  if (values_.row(row).allFinite()) return {};
+  return {StatusCode::kNonFinite, time, "the simulated motion is not finite"};
+}
+
+}  // namespace codesign

@@ -1,0 +1,64 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_IDENTIFICATION_SEGMENT_RUN_H_
+#define MECHANISM_CODESIGN_IDENTIFICATION_SEGMENT_RUN_H_
+
+#include <Eigen/Core>
+#include <atomic>
+#include <vector>
+
+#include "identification/segment_system.h"
+#include "integration/rosenbrock_integrator.h"
+#include "sensitivity/lane_groups.h"
+#include "sensitivity/tangent_step.h"
+
+namespace codesign {
+
+/// Where a segment begins.
+struct SegmentBegin {
+  double time = 0.0;      ///< [s] of the system
+  VectorX<double> theta;  ///< tree coordinates near its start, from which loops are closed
+};
+
+/// The simulated outputs of one segment and their exact derivatives by all tuned parameters of a SegmentSystem, start included;
+/// doc/theory.md (41). A workspace: not thread-safe. Results do not depend on earlier runs, to the last bit.
+class SegmentRun {
+ public:
+  /// @param of must outlive this. @param first the first segment, near whose start pivots are chosen.
+  SegmentRun(const SegmentSystem& of, const SegmentBegin& first);
+
+  /// Integrates from begin.time to the last of `times`. @param parameters all of the system. @param times [s] of the system, ascending,
+  /// none before begin.time
+  Status run(const std::vector<double>& parameters, const SegmentBegin& begin, const std::vector<double>& times);
+  /// times x outputs, of the last run
+  const Eigen::MatrixXd& values() const { return values_; }
+  /// (times outputs) x tuned parameters, the rows of output 0 first
+  const Eigen::MatrixXd& slopes() const { return slopes_; }
+  void obey(const std::atomic<bool>* cancel) { integrator_.obey(cancel); }
+  /// Steps of all runs so far, rejected ones included.
+  std::int64_t steps() const { return steps_; }
+
+ private:
+  template <int N>
+  struct Group {
+    Group(const CompiledSystem& system, LaneRange<N> lanes, const RosenbrockTableau& tableau) : range(lanes), step(system, tableau) {}
+    LaneRange<N> range;
+    TangentStep<N> step;
+  };
+
+  Status start(const std::vector<double>& parameters, const SegmentBegin& begin);
+  Status sample(double time, Eigen::Index row);
+
+  const CompiledSystem& system_;
+  RosenbrockIntegrator integrator_;
+  LaneGroups<Group> groups_;
+  RosenbrockIntegrator::BeforeAccept stages_;
+  std::vector<bool> reads_rates_;  ///< per output: whether it depends on accelerations or reactions
+  State<double> state_;
+  SparseGradient<double> sparse_;
+  Eigen::MatrixXd values_, slopes_;
+  std::int64_t steps_ = 0;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_IDENTIFICATION_SEGMENT_RUN_H_

@@ -1,0 +1,57 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_IDENTIFICATION_SEGMENT_SYSTEM_H_
+#define MECHANISM_CODESIGN_IDENTIFICATION_SEGMENT_SYSTEM_H_
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "equations/compiled_system.h"
+#include "identification/driven_system.h"
+#include "identification/fit_variables.h"
+#include "recordings/joint_recording.h"
+
+namespace codesign {
+
+/// A recorded quantity of a joint that a simulated motion is compared with.
+struct MotionOutput {
+  std::string joint;
+  MeasuredQuantity quantity = MeasuredQuantity::kPosition;
+
+  std::string name() const { return joint + "/" + kMeasuredQuantityNames[static_cast<std::size_t>(quantity)]; }
+};
+
+/// A mechanism as one recording shows it, to be simulated in segments, doc/theory.md (40): recorded efforts drive the joints that no
+/// controller of the study drives, and each segment starts from numbers of its own.
+///
+/// Its study has further parameters behind those of the study that it is made of: scale, delay and offset of each input, then the numbers
+/// of a start. Its tuned parameters are those of the study, the fitted numbers of inputs, then the start. Its watched signals are the
+/// outputs.
+struct SegmentSystem {
+  std::shared_ptr<const CompiledSystem> system;
+  std::vector<MotionOutput> outputs;
+  std::vector<std::string> inputs;  ///< joints that a recorded effort drives
+  std::vector<int> columns;         ///< of the tuned parameters before the start: their entries of x
+  int starts = 0;                   ///< numbers of a start: positions and velocities of the independent joints, integrals of controllers
+  double epoch = 0.0;               ///< the time of the recording [s] at which the system's time is zero
+
+  /// All parameters of the system. @param x as FitVariables orders them. @param start of a segment, `starts` numbers
+  std::vector<double> parameters(const FitVariables& variables, const Eigen::VectorXd& x, const Eigen::VectorXd& start) const;
+};
+
+/// What to compare with recordings that all have `joints`: positions, velocities that are recorded everywhere, and recorded efforts of
+/// joints that a controller of the study drives.
+std::vector<MotionOutput> motion_outputs(const CompiledSystem& of, const std::vector<MeasuredJoint>& joints,
+                                         const std::vector<JointRecording>& recordings);
+
+/// @param of the mechanism as make_system() compiled it. @param independent joints whose positions determine the motion,
+/// independent_joints().
+/// @throws InputError for a study that integrates by IDAS.
+SegmentSystem make_segment_system(const CompiledSystem& of, const FitVariables& variables, const std::vector<MeasuredJoint>& joints,
+                                  const std::vector<std::string>& independent, const std::vector<MotionOutput>& outputs,
+                                  const JointRecording& recording);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_IDENTIFICATION_SEGMENT_SYSTEM_H_

@@ -1,0 +1,173 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "identification/segments.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "assembly/start_workspace.h"
+#include "recordings/measured_motion.h"
+#include "text/cancel.h"
+#include "text/number_text.h"
+
+namespace codesign {
+namespace {
+
+using Samples = std::vector<std::size_t>;
+
+constexpr double kSmallMove = 0.1;  // [rad or m] positions are followed in steps of this size
+constexpr double kMostMoves = 1e4;
+
+/// The samples that count, by segments. The last segment is longer or shorter than the others by up to a half.
+std::vector<Samples> samples_by_segment(const JointRecording& recording, const IdentificationDescription& options) {
+  const double begin = recording.times.front(), span = recording.times.back() - begin;
+  const auto count = std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(span / options.segment)));
+  std::vector<Samples> segments(count);
+  for (std::size_t k = 0; k < recording.times.size(); k += static_cast<std::size_t>(options.filter.decimate)) {
+    const auto segment = static_cast<std::size_t>((recording.times[k] - begin) / options.segment * (1.0 + 1e-12));
+    segments[std::min(segment, count - 1)].push_back(k);
+  }
+  segments.erase(std::remove_if(segments.begin(), segments.end(), [](const Samples& samples) { return samples.empty(); }), segments.end());
+  return segments;
+}
+
+void require_enough(const JointRecording& recording, const std::vector<Samples>& segments, const SegmentSystem& of,
+                    const IdentificationDescription& options) {
+  const auto least = static_cast<std::size_t>(of.starts) / of.outputs.size() + 2;
+  for (const Samples& samples : segments)
+    if (samples.size() < least)
+      throw InputError({options.where, "identify.segment",
+                        "the segment at " + readable(recording.times[samples.front()], 6) + " s has " + std::to_string(samples.size()) +
+                            " samples that count, too few for its start and the parameters: " + recording.file,
+                        readable(options.segment), "longer segments, with at least " + std::to_string(least) + " samples each"});
+}
+
+/// The start that was measured at a time of the recording.
+Eigen::VectorXd measured_start(const MeasuredMotion& motion, const std::vector<std::string>& independent, double time, int starts) {
+  const auto nearest = static_cast<Eigen::Index>(std::llround((time - motion.times.start) / motion.times.step));
+  const Eigen::Index at = std::clamp<Eigen::Index>(nearest, 0, motion.times.count - 1);
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(starts);
+  for (std::size_t k = 0; k < independent.size(); ++k)
+    for (const JointMotion& joint : motion.joints)
+      if (joint.joint == independent[k]) {
+        start[static_cast<Eigen::Index>(k)] = joint.position[at];
+        start[static_cast<Eigen::Index>(independent.size() + k)] = joint.velocity[at];
+      }
+  return start;
+}
+
+Eigen::MatrixXd recorded_at(const JointRecording& recording, const SegmentSystem& of, const FitVariables& variables,
+                            const Samples& samples) {
+  Eigen::MatrixXd recorded(static_cast<Eigen::Index>(samples.size()), static_cast<Eigen::Index>(of.outputs.size()));
+  for (std::size_t output = 0; output < of.outputs.size(); ++output) {
+    const MotionOutput& at = of.outputs[output];
+    const std::vector<double>& column = recording.find(at.joint)->of(at.quantity);
+    const double scale = at.quantity == MeasuredQuantity::kEffort ? variables.sensor(at.joint, variables.start()).start_scale : 1.0;
+    for (std::size_t k = 0; k < samples.size(); ++k)
+      recorded(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(output)) = scale * column[samples[k]];
+  }
+  return recorded;
+}
+
+/// Moves the independent joints of a mechanism from where they are, on one branch.
+class Follower {
+ public:
+  Follower(const SegmentSystem& of, std::vector<double> parameters, VectorX<double> theta)
+      : first_(parameters.size() - static_cast<std::size_t>(of.starts)),
+        parameters_(std::move(parameters)),
+        theta_(std::move(theta)),
+        equations_(*of.system),
+        assembly_(*of.system) {
+    equations_.compiled().allow(false);
+    equations_.set_design(parameters_);
+  }
+
+  Status move_to(const Eigen::VectorXd& positions) {
+    const Eigen::VectorXd from = position_;
+    const double way = from.size() > 0 ? (positions - from).cwiseAbs().maxCoeff() : 0.0;
+    const int moves = static_cast<int>(std::clamp(std::ceil(way / kSmallMove), 1.0, kMostMoves));
+    for (int move = 1; move <= moves; ++move) {
+      position_ = from.size() > 0 ? Eigen::VectorXd(from + (positions - from) * move / moves) : positions;
+      std::copy(position_.begin(), position_.end(), parameters_.begin() + static_cast<std::ptrdiff_t>(first_));
+      assembly_.begin_at(0.0, theta_);
+      if (Status status = assembly_.solve_positions(parameters_, &equations_, &state_); !status.ok()) return status;
+      theta_ = assembly_.theta();
+    }
+    return {};
+  }
+  void is_at(const Eigen::VectorXd& positions) { position_ = positions; }
+  const VectorX<double>& theta() const { return theta_; }
+
+ private:
+  std::size_t first_;
+  std::vector<double> parameters_;
+  VectorX<double> theta_;
+  Eigen::VectorXd position_;
+  Equations<double> equations_;
+  Assembly assembly_;
+  State<double> state_;
+};
+
+Eigen::VectorXd positions_at(const JointRecording& recording, const std::vector<std::string>& independent, std::size_t sample) {
+  Eigen::VectorXd positions(static_cast<Eigen::Index>(independent.size()));
+  for (std::size_t k = 0; k < independent.size(); ++k)
+    positions[static_cast<Eigen::Index>(k)] = recording.find(independent[k])->position[sample];
+  return positions;
+}
+
+/// Where the independent joints are in tree coordinates.
+Eigen::VectorXd positions_of(const StartWorkspace& start, const RobotDescription& robot, const std::vector<std::string>& independent) {
+  Eigen::VectorXd positions(static_cast<Eigen::Index>(independent.size()));
+  for (std::size_t k = 0; k < independent.size(); ++k)
+    for (std::size_t joint = 0; joint < robot.joints.size(); ++joint)
+      if (robot.joints[joint].name == independent[k])
+        positions[static_cast<Eigen::Index>(k)] = start.assembly.theta()[start.assembly.tree().offset[joint]];
+  return positions;
+}
+
+}  // namespace
+
+std::vector<Segment> cut_into_segments(const JointRecording& recording, const SegmentSystem& of, const FitVariables& variables,
+                                       const std::vector<std::string>& independent, const IdentificationDescription& options,
+                                       Warnings* warnings) {
+  const std::vector<Samples> parts = samples_by_segment(recording, options);
+  require_enough(recording, parts, of, options);
+  FilterOptions filter = options.filter;
+  filter.residual_cutoff = 0.0;  // residuals in motion are not filtered
+  filter.decimate = 1;
+  Warnings found;
+  const MeasuredMotion motion = measured_motion(recording, filter, &found);
+  for (const Warning& warning : found)
+    if (warning.code != "recording_not_filtered" && warning.code != "recording_resampled") append({warning}, warnings);
+  std::vector<Segment> segments;
+  for (const Samples& samples : parts) {
+    Segment& segment = segments.emplace_back();
+    for (std::size_t k : samples) segment.times.push_back(recording.times[k] - of.epoch);
+    segment.begin.time = segment.times.front();
+    segment.recorded = recorded_at(recording, of, variables, samples);
+    segment.start = measured_start(motion, independent, recording.times[samples.front()], of.starts);
+  }
+  return segments;
+}
+
+Status set_branches(const JointRecording& recording, const SegmentSystem& of, const CompiledSystem& usual, const FitVariables& variables,
+                    const Eigen::VectorXd& x, const std::vector<std::string>& independent, const std::atomic<bool>* cancel,
+                    std::vector<Segment>* segments) {
+  StartWorkspace start(usual, variables.parameters(x));
+  if (Status status = start.solve_positions(); !status.ok()) return status;
+  const bool has_loops = start.assembly.loops().rows() > 0;
+  Follower follower(of, of.parameters(variables, x, segments->front().start), start.assembly.theta());
+  follower.is_at(positions_of(start, usual.robot(), independent));
+  std::size_t sample = 0;
+  for (Segment& segment : *segments) {
+    for (; has_loops && sample < recording.times.size() && recording.times[sample] - of.epoch <= segment.begin.time; ++sample) {
+      if (is_set(cancel)) return {StatusCode::kCancelled, 0.0, "cancelled"};
+      Status status = follower.move_to(positions_at(recording, independent, sample));
+      status.time = recording.times[sample];
+      if (!status.ok()) return status;
+    }
+    segment.begin.theta = follower.theta();
+  }
+  return {};
+}
+
+}  // namespace codesign
