@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "description/expression.h"
 #include "description/robot.h"
 #include "description/study.h"
 #include "mechanism_codesign/version.h"
@@ -37,9 +38,11 @@ std::string of_the_study(const IdentificationResult& result, const std::map<std:
   for (const IdentifiedNumber& number : result.numbers) {
     if (left.count(number.name) == 0) continue;
     const std::size_t slash = number.name.rfind('/');
-    const std::string place = slash == std::string::npos ? "parameters: {" + number.name + ": {initial: " + to_decimal(number.value) + "}}"
-                                                         : "identify: {joints: {" + number.name.substr(0, slash) + ": {" +
-                                                               number.name.substr(slash + 1) + ": " + to_decimal(number.value) + "}}}";
+    const std::string value = to_decimal(number.value);
+    std::string place = "identify." + number.name + ": " + value;
+    if (identifier_fault(number.name).empty()) place = "parameters: {" + number.name + ": {initial: " + value + "}}";
+    if (slash != std::string::npos)
+      place = "identify: {joints: {" + number.name.substr(0, slash) + ": {" + number.name.substr(slash + 1) + ": " + value + "}}}";
     lines += "\n       " + place + "   " + interval_text(number);
   }
   return lines.empty() ? "" : "Not of the model; a study takes them so:" + lines;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "description/expression.h"
 #include "description/tuned_parameters.h"
 #include "math/conditional_normal.h"
 #include "reading/study/study_values.h"
@@ -53,8 +54,8 @@ std::set<std::string> read_exceptions(const YamlValue& from, const std::vector<s
   return exceptions;
 }
 
-/// Numbers of a joint's sensor have a slash in their names, which parameters cannot have.
-bool is_of_sensor(const std::string& name) { return name.find('/') != std::string::npos; }
+/// Numbers of sensors and recordings have names that no parameter can have, as `elbow_joint/offset`.
+bool is_no_parameter(const std::string& name) { return !identifier_fault(name).empty(); }
 
 void require_parameter(const YamlValue& name, const Study& study) {
   const std::vector<std::string> known = names_of(study.parameters);
@@ -74,7 +75,7 @@ IdentifiedFile select(const YamlValue& from, const Study& study, const std::set<
   const std::set<std::string> exceptions = read_exceptions(from, names);
   for (std::size_t k = 0; k < names.size(); ++k) {
     const YamlValue entry = root.at("identified").at(names[k]);
-    if (is_of_sensor(names[k]) || exceptions.count(names[k]) != 0) continue;
+    if (is_no_parameter(names[k]) || exceptions.count(names[k]) != 0) continue;
     require_parameter(result.names[k], study);
     const bool is_determined = entry.at("determined").boolean();
     if (is_determined && own.count(names[k]) != 0)
