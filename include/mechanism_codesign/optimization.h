@@ -50,6 +50,8 @@ struct Validation {
   double promised = 0.0;   ///< the measure on the samples of the search
   double objective = 0.0;  ///< the same measure on the fresh samples
   double mean = 0.0, worst = 0.0;
+  double value_at_risk = 0.0;  ///< of the measure cvar: the value that fresh samples exceed with a probability of at most 1 - level
+  double within = 0.0;         ///< of the measure cvar: share of all fresh samples that keep OptimizationResult::value_at_risk
 };
 
 /// One local search of several.
@@ -107,6 +109,7 @@ struct OptimizationResult {
   Eigen::VectorXd initial_values, values;
   std::vector<ScenarioResult> scenarios;
   std::vector<int> initial_failed, failed;  ///< indices of the scenarios that could not be integrated at `initial_rho` and `rho`
+  std::optional<double> value_at_risk;      ///< of the measure cvar: what the samples of the search exceed with at most 1 - level
   std::optional<Validation> validation;     ///< if `robust.validate` asks for it
   // Of a study with several starts, else empty: the searches, best start first, and the optima, best first.
   std::vector<StartResult> starts;

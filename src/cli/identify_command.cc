@@ -11,6 +11,7 @@
 #include "cli/table.h"
 #include "identification/identify.h"
 #include "jobs/identification_records.h"
+#include "jobs/identified_overlay.h"
 #include "jobs/whole_file.h"
 #include "reading/urdf/urdf_reader.h"
 #include "text/number_text.h"
@@ -96,6 +97,8 @@ int identify(const Arguments& arguments, const Console& console) {
   if (!arguments.output.empty() && known) {
     write_in(
         arguments.output, "identification.json", [&] { return to_text(object); }, &failures);
+    write_in(
+        arguments.output, "identified_overlay.urdf", [&] { return identified_overlay(problem, result); }, &failures);
     write_in(
         arguments.output, "identified.urdf", [&] { return write_tuned_urdf(problem.urdf(), problem.overlays(), result.parameters); },
         &failures);

@@ -22,7 +22,8 @@ commands
                            journal.jsonl, and best.urdf and best.json while it runs
     --resume DIR           go on with the optimization of DIR/journal.jsonl, killed or cancelled
   identify MODEL STUDY     fit parameters to recordings, and tell how well they are known
-    --output DIR           write identification.json, identified.urdf, residuals.csv
+    --output DIR           write identification.json, identified_overlay.urdf, identified.urdf and
+                           residuals.csv
   help                     this text
   --version                the version of this program, as "codesign 0.1.0"
 

@@ -34,10 +34,16 @@ enum class DistributionKind {
 /// The distribution of one number.
 struct Distribution {
   DistributionKind kind = DistributionKind::kUniform;
-  double mean = 0.0, deviation = 0.0;                       ///< kNormal
+  double mean = 0.0, deviation = 0.0;                       ///< kNormal; a deviation of zero: the mean, within the bounds
   double lower = -std::numeric_limits<double>::infinity();  ///< kUniform; truncation of kNormal
   double upper = std::numeric_limits<double>::infinity();   ///< likewise
   std::vector<double> choices;                              ///< kChoice; for friction laws, the indices of `laws` of UncertainQuantity
+};
+
+/// How the mean of a normal distribution moves with another number, x_j: by slope (x_j - mean of x_j).
+struct MeanSlope {
+  std::size_t quantity = 0;  ///< j, an earlier entry of the list of uncertain quantities, with a normal distribution
+  double slope = 0.0;
 };
 
 /// One entry of `uncertain:`: a parameter of the model or the study that is not tuned, or the friction law of all joints.
@@ -47,6 +53,10 @@ struct UncertainQuantity {
   Distribution distribution;
   std::vector<std::string> laws;  ///< names of the friction laws to choose from; empty for a parameter
   SourceLocation where;
+  /// Of a number that depends on others: `distribution` is then that of it given those; doc/theory.md (24h).
+  std::vector<MeanSlope> slopes{};
+  bool is_identified = false;  ///< from a file that an identification wrote
+  double spread = 0.0;         ///< of an identified number: its standard deviation whatever the others are
 };
 
 /// What is minimized over all runs and samples psi_i with weights w_i, sum 1.

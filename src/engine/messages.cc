@@ -48,6 +48,16 @@ LoadedTrajectory get_trajectory(ByteReader* reader) {
   return one;
 }
 
+void add(const LoadedFile& one, ByteWriter* writer) {
+  writer->add_text(one.file);
+  add(one.source, writer);
+}
+
+LoadedFile get_file(ByteReader* reader) {
+  std::string file = reader->get_text();
+  return {std::move(file), get_source(reader)};
+}
+
 /// A list of anything that `get_one` reads.
 template <class GetOne>
 auto get_list(ByteReader* reader, const GetOne& get_one) {
@@ -97,7 +107,7 @@ Hello read_hello(ByteReader* reader) {
 }
 
 std::string write_problem(std::uint32_t number, const PortableProblem& problem) {
-  const auto& [urdf, overlays, study, trajectories, values, tuned] = problem;
+  const auto& [urdf, overlays, study, trajectories, files, values, tuned] = problem;
   ByteWriter writer = begin(MessageKind::kProblem, number);
   add(urdf, &writer);
   writer.add(size_of(overlays.size()));
@@ -105,6 +115,8 @@ std::string write_problem(std::uint32_t number, const PortableProblem& problem) 
   add(study, &writer);
   writer.add(size_of(trajectories.size()));
   for (const LoadedTrajectory& one : trajectories) add(one, &writer);
+  writer.add(size_of(files.size()));
+  for (const LoadedFile& one : files) add(one, &writer);
   writer.add_numbers(values);
   writer.add(size_of(tuned.size()));
   for (const std::string& name : tuned) writer.add_text(name);
@@ -117,6 +129,7 @@ PortableProblem read_problem(ByteReader* reader) {
   problem.overlays = get_list(reader, get_source);
   problem.study = get_source(reader);
   problem.trajectories = get_list(reader, get_trajectory);
+  problem.files = get_list(reader, get_file);
   problem.values = reader->get_numbers<std::vector<double>>();
   problem.tuned = get_list(reader, [](ByteReader* from) { return from->get_text(); });
   return problem;

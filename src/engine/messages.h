@@ -17,7 +17,7 @@ namespace codesign {
 // What the ranks of a job tell each other. A message is a byte of MessageKind and what the kind asks for; numbers keep their bits.
 
 /// Of every message but kHello; a change of any of them needs a new number.
-constexpr std::uint32_t kMessageFormat = 1;
+constexpr std::uint32_t kMessageFormat = 2;
 
 enum class MessageKind : std::uint8_t {
   // To rank 0.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "identification/many_starts.h"
 #include "mechanism_codesign/status.h"
 #include "mechanism_codesign/warning.h"
 #include "statistics/long_run.h"
@@ -62,6 +63,7 @@ struct IdentificationResult {
   int lag = 0;                                    ///< of the noise model, in samples
   int evaluations = 0, failed_evaluations = 0, iterations = 0;
   double cpu_seconds = 0.0;
+  FitSearches searches;  ///< of a study with several starts
   Warnings warnings;
 };
 

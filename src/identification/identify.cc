@@ -96,7 +96,7 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
     result.termination = result.status.code == StatusCode::kCancelled ? "cancelled" : "start_failed";
     return result;
   }
-  const ResidualFit fit = fit_residuals(limits, &residuals, observer);
+  const ResidualFit fit = fit_from_starts(limits, problem.study().ensemble.multistart, &residuals, observer, &result.searches);
   result.status = fit.status;
   result.termination = fit.termination;
   result.evaluations = fit.evaluations;

@@ -42,11 +42,8 @@ void drop_rounding(const Eigen::VectorXd& x, Eigen::MatrixXd* jacobian) {
 }
 
 /// The spreads of residuals, none below a fraction of those at the start.
-Eigen::VectorXd spreads_of(const Eigen::MatrixXd& residuals, const LossOptions& loss, const Eigen::VectorXd& at_start) {
-  constexpr double kNormalMedian = 1.4826;  // standard deviation over median magnitude of a normal variable
-  Eigen::VectorXd spreads = rms_of(residuals);
-  if (loss.kind != LossKind::kNone)
-    for (Eigen::Index k = 0; k < spreads.size(); ++k) spreads[k] = kNormalMedian * median_magnitude(residuals.col(k));
+Eigen::VectorXd spreads_above(const Eigen::MatrixXd& residuals, const LossOptions& loss, const Eigen::VectorXd& at_start) {
+  Eigen::VectorXd spreads = spreads_of(residuals, loss);
   for (Eigen::Index k = 0; k < spreads.size(); ++k) spreads[k] = std::max(spreads[k], kLeastSpread * at_start[k]);
   return spreads.unaryExpr([](double spread) { return spread > 0.0 ? spread : 1.0; });
 }
@@ -138,6 +135,14 @@ void search(const FitProblem& problem, ResidualSource* source, const FitObserver
 
 }  // namespace
 
+Eigen::VectorXd spreads_of(const Eigen::MatrixXd& residuals, const LossOptions& loss) {
+  constexpr double kNormalMedian = 1.4826;  // standard deviation over median magnitude of a normal variable
+  if (loss.kind == LossKind::kNone) return rms_of(residuals);
+  Eigen::VectorXd spreads(residuals.cols());
+  for (Eigen::Index k = 0; k < spreads.size(); ++k) spreads[k] = kNormalMedian * median_magnitude(residuals.col(k));
+  return spreads;
+}
+
 WeightedResiduals weigh(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd* jacobian, const Eigen::VectorXd& spreads,
                         const LossOptions& loss) {
   WeightedResiduals weighted;
@@ -174,11 +179,11 @@ ResidualFit fit_residuals(const FitProblem& problem, ResidualSource* source, con
     return fit;
   }
   const Eigen::VectorXd at_start = rms_of(fit.start_residuals);
-  fit.spreads = spreads_of(fit.start_residuals, problem.loss, at_start);
+  fit.spreads = spreads_above(fit.start_residuals, problem.loss, at_start);
   for (int pass = 0; pass < kMostPasses; ++pass) {
     search(problem, source, observer, &fit);
     if (!fit.status.ok() || fit.evaluations >= problem.max_evaluations) break;
-    const Eigen::VectorXd spreads = spreads_of(fit.residuals, problem.loss, at_start);
+    const Eigen::VectorXd spreads = spreads_above(fit.residuals, problem.loss, at_start);
     const bool is_settled = ((spreads - fit.spreads).array().abs() <= kSpreadTolerance * spreads.array()).all();
     const bool has_one_scale = spreads.size() == 1 && problem.loss.kind == LossKind::kNone;
     fit.cost = weigh(fit.residuals, nullptr, spreads, problem.loss).value;

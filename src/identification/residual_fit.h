@@ -23,6 +23,9 @@ struct WeightedResiduals {
 WeightedResiduals weigh(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd* jacobian, const Eigen::VectorXd& spreads,
                         const LossOptions& loss);
 
+/// The spread of each output's residuals: their root mean square; with a robust loss 1.4826 times the median of their magnitudes.
+Eigen::VectorXd spreads_of(const Eigen::MatrixXd& residuals, const LossOptions& loss);
+
 /// One evaluation of a fit, for progress.
 struct FitTrial {
   int evaluation = 0;   ///< from 1

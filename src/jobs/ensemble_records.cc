@@ -26,9 +26,13 @@ Json to_json(const ScenarioResult& scenario) {
   return object;
 }
 
-Json to_json(const Validation& validation) {
-  return {{"samples", validation.samples},     {"failed", validation.failed}, {"promised", validation.promised},
-          {"objective", validation.objective}, {"mean", validation.mean},     {"worst", validation.worst}};
+Json to_json(const Validation& validation, bool has_value_at_risk) {
+  Json object = {{"samples", validation.samples},     {"failed", validation.failed}, {"promised", validation.promised},
+                 {"objective", validation.objective}, {"mean", validation.mean},     {"worst", validation.worst}};
+  if (!has_value_at_risk) return object;
+  object["value_at_risk"] = validation.value_at_risk;
+  object["within"] = validation.within;
+  return object;
 }
 
 Json multistart_json(const Problem& problem, const OptimizationResult& result) {
@@ -66,6 +70,16 @@ std::string describe_worst(const OptimizationResult& result) {
          readable(scenario.objective) + (result.failed.empty() ? "" : "; " + std::to_string(result.failed.size()) + " failed");
 }
 
+/// What the value at risk says, and what fresh samples say of it.
+std::string describe_risk(const RobustOptions& options, const OptimizationResult& result) {
+  std::string text = "with a probability of " + readable(options.level) + " the objective is at most " + readable(*result.value_at_risk) +
+                     " on these samples";
+  if (const auto& v = result.validation)
+    text +=
+        ", and at most " + readable(v->value_at_risk) + " on fresh ones, of which " + readable(100.0 * v->within, 4) + " % keep the former";
+  return text;
+}
+
 }  // namespace
 
 int worst_scenario(const OptimizationResult& result) {
@@ -87,7 +101,8 @@ void add_ensemble(const Problem& problem, const OptimizationResult& result, Json
     if (const int worst = worst_scenario(result); worst >= 0)
       (*object)["worst_scenario"] = to_json(result.scenarios[static_cast<std::size_t>(worst)]);
   }
-  if (result.validation) (*object)["validation"] = to_json(*result.validation);
+  if (result.value_at_risk) (*object)["value_at_risk"] = *result.value_at_risk;
+  if (result.validation) (*object)["validation"] = to_json(*result.validation, result.value_at_risk.has_value());
   if (!result.starts.empty()) (*object)["multistart"] = multistart_json(problem, result);
 }
 
@@ -99,6 +114,7 @@ std::vector<std::string> ensemble_sentences(const Problem& problem, const Optimi
     lines.push_back(std::string("objective: ") + kRobustMeasureNames[static_cast<std::size_t>(options.measure)] + " over " +
                     std::to_string(result.scenarios.size()) + " scenarios" + describe_worst(result));
   }
+  if (result.value_at_risk) lines.push_back(describe_risk(asked.robust_options(), result));
   if (const auto& v = result.validation)
     lines.push_back("fresh samples: " + readable(v->objective) + " instead of " + readable(v->promised) + ", mean " + readable(v->mean) +
                     ", worst " + readable(v->worst) + ", " + std::to_string(v->failed) + " failed");

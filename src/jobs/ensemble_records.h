@@ -14,7 +14,7 @@ namespace codesign {
 int worst_scenario(const OptimizationResult& result);
 
 /// Adds what an optimization says about several runs, samples and starts: `scenarios`, `failed_scenarios`,
-/// `worst_scenario`, `validation`, `multistart`. Adds nothing for a study
+/// `worst_scenario`, `value_at_risk`, `validation`, `multistart`. Adds nothing for a study
 /// with one run and one start.
 void add_ensemble(const Problem& problem, const OptimizationResult& result, Json* object);
 

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/identification_records.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,6 +10,8 @@
 
 namespace codesign {
 namespace {
+
+constexpr std::size_t kShownOptima = 10;
 
 const char* name_of(ProfileEnd end) {
   switch (end) {
@@ -86,6 +89,17 @@ std::string sentence_of(const std::string& set, const OutputFit& fit) {
          readable(fit.recorded) + " recorded";
 }
 
+Json searches_json(const FitSearches& searches, const std::vector<IdentifiedNumber>& numbers) {
+  Json optima = Json::array();
+  for (const Optimum& optimum : searches.optima) {
+    Json values = Json::object();
+    for (std::size_t k = 0; k < numbers.size(); ++k) values[numbers[k].name] = optimum.rho[static_cast<Eigen::Index>(k)];
+    optima.push_back({{"mean_spread", optimum.objective}, {"found", optimum.found}, {"values", std::move(values)}});
+  }
+  return {
+      {"starts", searches.starts.size()}, {"screened", searches.screened}, {"unusable", searches.unusable}, {"optima", std::move(optima)}};
+}
+
 }  // namespace
 
 Json identification_json(const Problem& problem, const IdentificationResult& result) {
@@ -112,6 +126,7 @@ Json identification_json(const Problem& problem, const IdentificationResult& res
   object["covariance"] = rows_json(result.covariance);
   object["correlation"] = rows_json(correlation_of(result.covariance));
   object["data"] = outputs_json(result.data, result.samples);
+  if (!result.searches.starts.empty()) object["multistart"] = searches_json(result.searches, result.numbers);
   if (!result.holdout.empty()) object["holdout"] = outputs_json(result.holdout, result.holdout_samples);
   return object;
 }
@@ -121,6 +136,10 @@ std::vector<std::string> identification_sentences(const IdentificationResult& re
   for (const OutputFit& fit : result.holdout) sentences.push_back(sentence_of("holdout", fit));
   for (const OutputFit& fit : result.data) sentences.push_back(sentence_of("fitted data", fit));
   for (const std::string& sentence : result.undetermined) sentences.push_back("not identifiable: " + sentence);
+  const std::vector<Optimum>& optima = result.searches.optima;
+  for (std::size_t k = 0; k < std::min(kShownOptima, optima.size()); ++k)
+    sentences.push_back("optimum " + std::to_string(k + 1) + ": mean spread of the residuals " + readable(optima[k].objective) +
+                        ", found by " + std::to_string(optima[k].found) + " of " + std::to_string(result.searches.starts.size()) + " fits");
   return sentences;
 }
 

@@ -5,7 +5,8 @@ namespace codesign {
 
 Problem load(const Inputs& inputs, const TrajectoryLoader& loader) {
   if (inputs.study.name.empty()) return load_mechanism(inputs.urdf, inputs.overlays, inputs.settings);
-  return load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings, loader);
+  return load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings, loader,
+                      inputs.study_is_tree ? files_in("") : FileLoader());
 }
 
 }  // namespace codesign

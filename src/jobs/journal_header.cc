@@ -23,7 +23,8 @@ constexpr Part kParts[] = {{"model", "the model differs"},
                            {"start", "the values of the parameters at the start (--set, ~set or a request's start) differ"},
                            {"tuned", "the tuned parameters differ"},
                            {"optimizer", "the options of the optimizer differ"},
-                           {"trajectories", "the recorded trajectories that the study names differ"}};
+                           {"trajectories", "the recorded trajectories that the study names differ"},
+                           {"files", "the contents of the files that the study names differ"}};
 
 std::string overlay_texts(const Problem& problem) {
   std::string text;
@@ -38,6 +39,12 @@ std::string trajectory_numbers(const Problem& problem) {
     for (const auto* column : {&recorded.times, &recorded.positions, &recorded.velocities, &recorded.accelerations})
       text += format_numbers(*column) + "\n";
   }
+  return text;
+}
+
+std::string file_texts(const Problem& problem) {
+  std::string text;
+  for (const LoadedFile& loaded : problem.contents().files) text += fingerprint(loaded.source.text);
   return text;
 }
 
@@ -57,6 +64,7 @@ std::string journal_header(const Problem& problem, const OptimizerOptions& optio
                  {"tuned", fingerprint(tuned)},
                  {"optimizer", fingerprint(optimizer)}};
   if (const std::string numbers = trajectory_numbers(problem); !numbers.empty()) header["trajectories"] = fingerprint(numbers);
+  if (const std::string texts = file_texts(problem); !texts.empty()) header["files"] = fingerprint(texts);
   return header.dump();
 }
 

@@ -16,6 +16,14 @@ ScenarioResult describe(const Study& study, const Scenario& scenario, double ini
   return result;
 }
 
+/// The weight of the values up to `bound`; scenarios that failed are not among the values, and do not keep it.
+double share_within(double bound, const std::vector<double>& values, const std::vector<double>& weights) {
+  double share = 0.0;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (values[k] <= bound) share += weights[k];
+  return share;
+}
+
 /// The design on fresh samples. Unlike in the search, a sample that fails does not refuse the design; it is counted.
 /// @returns nothing if it was interrupted, with the status of that.
 std::optional<Validation> validate(const Problem& problem, const Ensemble& ensemble, const OptimizationResult& design,
@@ -44,7 +52,12 @@ std::optional<Validation> validate(const Problem& problem, const Ensemble& ensem
   const Eigen::VectorXd psi = Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   Eigen::VectorXd w = Eigen::Map<Eigen::VectorXd>(weights.data(), psi.size());
   w /= w.sum();
-  validation.objective = measure(options, psi, w).value;
+  const Measured measured = measure(options, psi, w);
+  validation.objective = measured.value;
+  if (design.value_at_risk) {
+    validation.value_at_risk = measured.threshold;
+    validation.within = share_within(*design.value_at_risk, values, weights);
+  }
   validation.mean = w.dot(psi);
   validation.worst = psi.maxCoeff();
   return validation;
@@ -64,6 +77,8 @@ void describe_scenarios(const Problem& problem, const Ensemble& ensemble, const 
   }
   for (int k : result->initial_failed) result->scenarios[static_cast<std::size_t>(k)].initial_failed = true;
   for (int k : result->failed) result->scenarios[static_cast<std::size_t>(k)].failed = true;
+  if (ensemble.options().measure == RobustMeasure::kCvar)
+    result->value_at_risk = measure(ensemble.options(), result->values, ensemble.weights()).threshold;
   if (ensemble.options().validate == 0 || is_set(cancel)) return;
   Status interruption;
   result->validation = validate(problem, ensemble, *result, cancel, meter, &interruption);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "description/named_file.h"
 #include "description/reference.h"
 #include "description/robot.h"
 #include "description/study.h"
@@ -18,6 +19,12 @@ struct LoadedTrajectory {
   RecordedTrajectory trajectory;
 };
 
+/// A text that a study names, as its loader has read it.
+struct LoadedFile {
+  std::string file;  ///< as the study names it
+  SourceText source;
+};
+
 /// The members of a Problem. Its model and study are in `system`.
 struct Problem::Contents {
   SourceText urdf;
@@ -28,12 +35,13 @@ struct Problem::Contents {
   double setup_seconds = 0.0;                                   ///< processor time of reading and compiling [s]
   Warnings warnings;
   std::vector<LoadedTrajectory> trajectories;  ///< in the order in which the study names them
+  std::vector<LoadedFile> files;               ///< likewise
 };
 
 /// load_problem() for studies that may read trajectories from bags. @param loader reads such a trajectory; if it is empty, a study that
-/// names a bag is refused.
+/// names a bag is refused. @param files reads other files that the study names; if it is empty, they are looked for in the study's folder.
 Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
-                     const ParameterSettings& settings, const TrajectoryLoader& loader);
+                     const ParameterSettings& settings, const TrajectoryLoader& loader, const FileLoader& files = {});
 
 /// The system compiled for one run of `Study::ensemble.runs` with one friction law for all joints.
 /// @param run index of the run; 0 if the study has no runs. @param law index in `laws` of the uncertain friction law; -1: the model's own.

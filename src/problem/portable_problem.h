@@ -16,6 +16,7 @@ struct PortableProblem {
   std::vector<SourceText> overlays;
   SourceText study;
   std::vector<LoadedTrajectory> trajectories;
+  std::vector<LoadedFile> files;
   std::vector<double> values;      ///< start values of all named parameters
   std::vector<std::string> tuned;  ///< names of the tuned parameters
 };

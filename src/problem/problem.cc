@@ -7,6 +7,7 @@
 #include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
 #include "math/cpu_timer.h"
+#include "problem/differing_nominals.h"
 #include "problem/load_problem.h"
 #include "problem/margins.h"
 #include "problem/portable_problem.h"
@@ -48,6 +49,14 @@ TrajectoryLoader keeping(const TrajectoryLoader& loader, std::vector<LoadedTraje
   };
 }
 
+/// Likewise.
+FileLoader keeping(const FileLoader& files, std::vector<LoadedFile>* loaded) {
+  return [&files, loaded](const FileAddress& address) {
+    loaded->push_back({address.file, files(address)});
+    return loaded->back().source;
+  };
+}
+
 /// Compiles the equations of motion of a model and a study with settings applied, and completes `contents`: system, warnings, time.
 Problem compile(const RobotDescription& robot, Study study, const ParameterSettings& settings, Problem::Contents contents) {
   apply_settings(settings, &study);
@@ -57,6 +66,7 @@ Problem compile(const RobotDescription& robot, Study study, const ParameterSetti
   for (const WatchedSignal& watched : study.watched) require_ordered_bounds(watched, start_parameters(study));
   require_compatible(study);
   append(unused_parameters(study), &contents.warnings);
+  append(differing_nominals(study), &contents.warnings);
   if (!study.tuned.empty()) append(unsatisfiable_constraints(study), &contents.warnings);
   for (RunDescription& run : study.ensemble.runs)
     if (run.study) {
@@ -96,13 +106,15 @@ Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& over
 }
 
 Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
-                     const ParameterSettings& settings, const TrajectoryLoader& loader) {
+                     const ParameterSettings& settings, const TrajectoryLoader& loader, const FileLoader& files) {
   const CpuTimer timer;
   const RobotDescription robot = read_urdf(urdf, overlays);
   std::vector<LoadedTrajectory> loaded;
-  Study read = read_study(study, robot, keeping(loader, &loaded));
+  std::vector<LoadedFile> loaded_files;
+  const FileLoader read_file = files ? files : files_beside(study.name);
+  Study read = read_study(study, robot, keeping(loader, &loaded), keeping(read_file, &loaded_files));
   return compile(robot, std::move(read), settings,
-                 {urdf, overlays, study, nullptr, {}, timer.seconds(), robot.warnings, std::move(loaded)});
+                 {urdf, overlays, study, nullptr, {}, timer.seconds(), robot.warnings, std::move(loaded), std::move(loaded_files)});
 }
 
 Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& overlays, const ParameterSettings& settings) {
@@ -112,7 +124,7 @@ Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& ov
   study.parameters = robot.parameters;
   study.used_parameters = robot.used_parameters;
   study.file = urdf.name;
-  return compile(robot, std::move(study), settings, {urdf, overlays, {}, nullptr, {}, timer.seconds(), robot.warnings, {}});
+  return compile(robot, std::move(study), settings, {urdf, overlays, {}, nullptr, {}, timer.seconds(), robot.warnings, {}, {}});
 }
 
 Problem with_settings(const Problem& problem, const ParameterSettings& settings) { return with_study(problem, problem.study(), settings); }
@@ -126,12 +138,14 @@ Problem with_study(const Problem& problem, Study study, const ParameterSettings&
                   {},
                   problem.setup_seconds(),
                   problem.warnings(),
-                  problem.contents().trajectories});
+                  problem.contents().trajectories,
+                  problem.contents().files});
 }
 
 PortableProblem make_portable(const Problem& problem) {
-  return {problem.urdf(),       problem.overlays(),   problem.study_text(), problem.contents().trajectories,
-          problem.parameters(), problem.tuned_names()};
+  const Problem::Contents& contents = problem.contents();
+  return {contents.urdf,  contents.overlays,    contents.study_text,  contents.trajectories,
+          contents.files, problem.parameters(), problem.tuned_names()};
 }
 
 Problem load_portable(const PortableProblem& portable) {
@@ -142,7 +156,12 @@ Problem load_portable(const PortableProblem& portable) {
       if (one.bag == address.bag && one.topic == address.topic && one.joint == address.joint) return one.trajectory;
     throw InputError({address.where, address.element, "the trajectory was not sent with the problem", address.bag, ""});
   };
-  Study study = read_study(portable.study, robot, loader);
+  const auto files = [&portable](const FileAddress& address) {
+    for (const LoadedFile& one : portable.files)
+      if (one.file == address.file) return one.source;
+    throw InputError({address.where, address.element, "the file was not sent with the problem", address.file, ""});
+  };
+  Study study = read_study(portable.study, robot, loader, files);
   if (study.parameters.size() != portable.values.size())
     throw InputError({{portable.study.name, 0}, "parameters", "the problem was sent with other parameters", "", ""});
   // Not by settings, which check bounds: these values have passed that already.
@@ -151,7 +170,15 @@ Problem load_portable(const PortableProblem& portable) {
   for (const std::string& name : portable.tuned)
     study.tuned.push_back(static_cast<int>(&find_parameter(&study, name) - study.parameters.data()));
   return compile(robot, std::move(study), {},
-                 {portable.urdf, portable.overlays, portable.study, nullptr, {}, timer.seconds(), robot.warnings, portable.trajectories});
+                 {portable.urdf,
+                  portable.overlays,
+                  portable.study,
+                  nullptr,
+                  {},
+                  timer.seconds(),
+                  robot.warnings,
+                  portable.trajectories,
+                  portable.files});
 }
 
 void require_objective(const Problem& problem) {

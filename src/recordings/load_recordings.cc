@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "recordings/load_recordings.h"
 
-#include <filesystem>
 #include <utility>
 
+#include "description/named_file.h"
 #include "recordings/recording_check.h"
 #include "recordings/table_recording.h"
 #include "recordings/unit_check.h"
@@ -22,18 +22,9 @@ struct Context {
   std::vector<std::string> joints;
 };
 
-std::string path_of(const RecordingDescription& description, const std::string& folder) {
-  const std::filesystem::path path(description.file);
-  if (path.is_absolute()) return description.file;
-  if (folder.empty())
-    throw InputError({description.where, description.element + (description.is_bag ? ".bag" : ".csv"),
-                      "a relative path is allowed only in a study file, not in a study on the parameter server", description.file,
-                      "an absolute path"});
-  return (std::filesystem::path(folder) / path).lexically_normal().string();
-}
-
 JointRecording read(const RecordingDescription& description, const Context& context) {
-  const std::string path = path_of(description, context.folder);
+  const std::string path =
+      path_of({description.file, description.where, description.element + (description.is_bag ? ".bag" : ".csv")}, context.folder);
   if (!description.is_bag) return read_table_recording(description, path, context.joints);
   if (!context.reader)
     throw InputError({description.where, description.element + ".bag", "this program was built without ROS, which reads bags", path,

@@ -37,6 +37,8 @@ mechanism_codesign::Validation to_message(const Validation& validation) {
   message.objective = validation.objective;
   message.mean = validation.mean;
   message.worst = validation.worst;
+  message.value_at_risk = validation.value_at_risk;
+  message.within = validation.within;
   return message;
 }
 
@@ -67,6 +69,7 @@ mechanism_codesign::Optimum to_message(const Optimum& optimum) {
 void set_ensemble(const OptimizationResult& result, mechanism_codesign::OptimizeResult* message) {
   for (const ScenarioResult& scenario : result.scenarios) message->scenarios.push_back(to_message(scenario));
   message->worst = count(worst_scenario(result) + 1);
+  message->value_at_risk = result.value_at_risk.value_or(0.0);
   if (result.validation) message->validation.push_back(to_message(*result.validation));
   for (const StartResult& search : result.starts) message->searches.push_back(to_message(search));
   for (const Optimum& optimum : result.optima) message->optima.push_back(to_message(optimum));

@@ -8,8 +8,9 @@
 
 namespace codesign {
 
-/// Sets what a result says about several runs, samples and starts: `scenarios`, `worst`, `validation`, `searches`, `optima`, `screened`,
-/// `unusable`. All stay empty for a study with one run and one start. Numbers of samples, scenarios and optima begin at 1 in messages.
+/// Sets what a result says about several runs, samples and starts: `scenarios`, `worst`, `value_at_risk`, `validation`, `searches`,
+/// `optima`, `screened`, `unusable`. All stay empty for a study with one run and one start. Numbers of samples, scenarios and optima begin
+/// at 1 in messages.
 void set_ensemble(const OptimizationResult& result, mechanism_codesign::OptimizeResult* message);
 
 }  // namespace codesign

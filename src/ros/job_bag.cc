@@ -44,6 +44,7 @@ visualization_msgs::Marker label(const std::string& side, const SceneLayout& lay
 
 void write_head(const JobRecord& record, const SceneLayout& layout, BagWriter* writer) {
   writer->write_text("study", record.study);
+  for (const std::string& file : record.study_files) writer->write_text("study_files", file);
   writer->write_latched("request", 0.0, record.request);
   tf2_msgs::TFMessage places;
   places.transforms = {place("initial", 0.5 * layout.separation), place("tuned", -0.5 * layout.separation)};

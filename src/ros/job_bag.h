@@ -33,7 +33,8 @@ struct JobRecord {
   std::vector<mechanism_codesign::OptimizationProgress> progress;
   mechanism_codesign::OptimizeGoal request;
   mechanism_codesign::OptimizeResult result;
-  std::string study;  ///< the text of the study
+  std::string study;                       ///< the text of the study
+  std::vector<std::string> study_files{};  ///< the texts of the files that it names, such as an identification
 };
 
 /// Writes the bag as `path`.active and renames it when it is complete. Topics: doc/ros_api.md.

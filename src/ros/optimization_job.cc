@@ -226,6 +226,7 @@ OptimizationOutcome run_optimization(const Problem& problem, const std::string& 
   record.request = request;
   record.request.version = version();
   record.study = study;
+  for (const LoadedFile& one : problem.contents().files) record.study_files.push_back(one.source.text);
   OptimizationOutcome outcome;
   try {
     Job job(apply_request(problem, request), request.resume, options, &record, &outcome);

@@ -9,21 +9,14 @@
 #include <filesystem>
 #include <vector>
 
+#include "description/named_file.h"
+
 namespace codesign {
 namespace {
 
 [[noreturn]] void fail(const TrajectoryAddress& address, const std::string& key, const std::string& message, const std::string& value,
                        const std::string& allowed) {
   throw InputError({address.where, address.element + "." + key, message, value, allowed});
-}
-
-std::string path_of(const TrajectoryAddress& address, const std::string& folder) {
-  const std::filesystem::path path(address.bag);
-  if (path.is_absolute()) return address.bag;
-  if (folder.empty())
-    fail(address, "bag", "a relative path is allowed only in a study file, not in a study on the parameter server", address.bag,
-         "an absolute path");
-  return (std::filesystem::path(folder) / path).string();
 }
 
 std::size_t index_of(const trajectory_msgs::JointTrajectory& message, const std::string& joint) {
@@ -77,7 +70,7 @@ RecordedTrajectory load(const TrajectoryAddress& address, const std::string& pat
 
 TrajectoryLoader bag_trajectory_loader(const std::string& folder) {
   return [folder](const TrajectoryAddress& address) {
-    const std::string path = path_of(address, folder);
+    const std::string path = path_of({address.bag, address.where, address.element + ".bag"}, folder);
     try {
       return load(address, path);
     } catch (const rosbag::BagException& error) {

@@ -21,6 +21,7 @@ double exceeded_with(double probability) { return kSqrt2 * boost::math::erfc_inv
 // Both the probabilities p below and q = 1 - p above the value are computed without subtracting from one, and the smaller one is inverted:
 // the other has lost its digits far out in a tail.
 double normal_quantile(const Distribution& d, double u) {
+  if (!(d.deviation > 0.0)) return std::clamp(d.mean, d.lower, d.upper);
   const double from = (d.lower - d.mean) / d.deviation, to = (d.upper - d.mean) / d.deviation;
   const double below = tail(-to) - tail(-from), above = tail(from) - tail(to);
   if (below <= 0.0 && above <= 0.0) return std::clamp(d.mean, d.lower, d.upper);

@@ -5,6 +5,17 @@
 #include "sampling/sampler.h"
 
 namespace codesign {
+namespace {
+
+/// The distribution of a quantity, given the values of those before it.
+Distribution given(const std::vector<UncertainQuantity>& quantities, std::size_t index, const std::vector<double>& earlier) {
+  Distribution distribution = quantities[index].distribution;
+  for (const MeanSlope& on : quantities[index].slopes)
+    distribution.mean += on.slope * (earlier[on.quantity] - quantities[on.quantity].distribution.mean);
+  return distribution;
+}
+
+}  // namespace
 
 std::vector<std::vector<double>> draw(const std::vector<UncertainQuantity>& quantities, SamplerKind sampler, int count,
                                       std::uint32_t seed) {
@@ -13,7 +24,7 @@ std::vector<std::vector<double>> draw(const std::vector<UncertainQuantity>& quan
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples[i].reserve(quantities.size());
     for (std::size_t j = 0; j < quantities.size(); ++j) {
-      samples[i].push_back(quantile(quantities[j].distribution, points(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
+      samples[i].push_back(quantile(given(quantities, j, samples[i]), points(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
     }
   }
   return samples;

@@ -64,8 +64,9 @@ TEST(Messages, ATaskKeepsItsBits) {
 }
 
 TEST(Messages, AProblemArrivesWhole) {
-  PortableProblem problem{{"a.urdf", "<robot/>"}, {{"b.urdf", "1"}, {"c.urdf", ""}}, {"d.yaml", "x: 1"}, {}, {1.5, 2.5}, {"p", "q"}};
+  PortableProblem problem{{"a.urdf", "<robot/>"}, {{"b.urdf", "1"}, {"c.urdf", ""}}, {"d.yaml", "x: 1"}, {}, {}, {1.5, 2.5}, {"p", "q"}};
   problem.trajectories = {{"e.bag", "/t", "j", {{0, 1}, {2, 3}, {}, {}}}};
+  problem.files = {{"i.json", {"folder/i.json", "{}"}}};
   const std::string message = write_problem(9, problem);
   ByteReader reader = body_of(message, MessageKind::kProblem, 9);
   const PortableProblem back = read_problem(&reader);
@@ -73,6 +74,10 @@ TEST(Messages, AProblemArrivesWhole) {
   EXPECT_EQ(write_problem(9, back), message);
   EXPECT_EQ(back.overlays[1].name, "c.urdf");
   EXPECT_EQ(back.trajectories[0].trajectory.positions, (std::vector<double>{2, 3}));
+  ASSERT_EQ(back.files.size(), 1U);
+  EXPECT_EQ(back.files[0].file, "i.json");
+  EXPECT_EQ(back.files[0].source.name, "folder/i.json");
+  EXPECT_EQ(back.files[0].source.text, "{}");
   EXPECT_EQ(back.tuned, problem.tuned);
 }
 

@@ -41,6 +41,26 @@ TEST(EnsembleRecords, JsonHoldsScenariosValidationAndOptima) {
   EXPECT_EQ(object["multistart"]["optima"][0]["parameters"]["Kd"], 4.0);
 }
 
+TEST(EnsembleRecords, TellTheValueAtRiskOfCvar) {
+  Json object;
+  add_ensemble(block(""), result(), &object);
+  EXPECT_FALSE(object.contains("value_at_risk")) << "another measure";
+  EXPECT_FALSE(object["validation"].contains("within"));
+  OptimizationResult risky = result();
+  risky.value_at_risk = 2.25;
+  risky.validation->value_at_risk = 2.5;
+  risky.validation->within = 0.875;
+  add_ensemble(block(""), risky, &object);
+  EXPECT_EQ(object["value_at_risk"], 2.25);
+  EXPECT_EQ(object["validation"]["value_at_risk"], 2.5);
+  EXPECT_EQ(object["validation"]["within"], 0.875);
+  const Problem asked = block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: cvar, level: 0.8}\n");
+  const std::string sentence = ensemble_sentences(asked, risky).at(1);
+  EXPECT_EQ(sentence,
+            "with a probability of 0.8 the objective is at most 2.25 on these samples, and at most 2.5 on fresh ones, of which 87.5 % keep "
+            "the former");
+}
+
 TEST(EnsembleRecords, TablesHaveOneRowPerSearchAndScenario) {
   const std::vector<std::string> columns = start_columns(block(""));
   const auto starts = start_rows(result()), scenarios = scenario_rows(result());

@@ -39,6 +39,21 @@ TEST(JournalHeader, KnowsTheTrajectoriesInBags) {
   EXPECT_EQ(header_difference(header(0.5), header(0.6)).find("the recorded trajectories that the study names differ"), 0u);
 }
 
+TEST(JournalHeader, KnowsTheContentsOfFiles) {
+  const auto header = [](const std::string& path, double variance) {
+    const Problem plain = block("");
+    const auto files = [&](const FileAddress&) {
+      return SourceText{
+          path, "{names: [mu], covariance: [[" + std::to_string(variance) + "]], identified: {mu: {value: 0.3, determined: true}}}"};
+    };
+    const std::string study = plain.study_text().text + "uncertain: {from: i.json}\n";
+    return header_of(load_problem(plain.urdf(), {}, {"block.yaml", study}, {}, {}, files));
+  };
+  EXPECT_EQ(header_difference(header("a.json", 0.01), header("b.json", 0.01)), "") << "the place does not count";
+  EXPECT_EQ(header_difference(header("a.json", 0.01), header("a.json", 0.02)).find("the contents of the files that the study names differ"),
+            0u);
+}
+
 TEST(JournalHeader, RefusesOtherVersionsAndOtherFiles) {
   const std::string own = header_of(block(""));
   Json other = Json::parse(own);

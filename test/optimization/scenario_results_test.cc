@@ -38,6 +38,24 @@ robust: {samples: 4, validate: 10}
   EXPECT_GT(result.validation->worst, result.validation->mean);
 }
 
+TEST(ScenarioResults, TellTheValueAtRisk) {
+  const Problem problem = block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: cvar, level: 0.75, samples: 8, validate: 64}\n");
+  const OptimizationResult result = optimize(problem);
+  ASSERT_TRUE(result.status.ok()) << result.status.cause;
+  ASSERT_TRUE(result.value_at_risk);
+  int beyond = 0;
+  for (const ScenarioResult& scenario : result.scenarios) beyond += scenario.objective > *result.value_at_risk ? 1 : 0;
+  EXPECT_EQ(beyond, 2) << "a quarter of the samples";
+  EXPECT_LE(*result.value_at_risk, result.objective) << "the mean of the worst quarter is beyond its edge";
+  ASSERT_TRUE(result.validation);
+  EXPECT_NEAR(result.validation->value_at_risk, *result.value_at_risk, 0.2 * result.objective);
+  EXPECT_NEAR(result.validation->within, 0.75, 0.15);
+}
+
+TEST(ScenarioResults, OtherMeasuresHaveNoValueAtRisk) {
+  EXPECT_FALSE(optimize(block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {samples: 4}\n")).value_at_risk);
+}
+
 TEST(ScenarioResults, StudiesWithOneRunHaveNone) {
   const OptimizationResult result = optimize(block(""));
   EXPECT_TRUE(result.scenarios.empty());

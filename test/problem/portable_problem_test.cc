@@ -56,6 +56,27 @@ TEST(PortableProblem, CarriesTrajectories) {
   EXPECT_THROW(load_portable(without), InputError);
 }
 
+TEST(PortableProblem, CarriesTheFilesThatTheStudyNames) {
+  int reads = 0;
+  const FileLoader files = [&reads](const FileAddress& address) {
+    ++reads;
+    return SourceText{"far/" + address.file,
+                      R"({"names": ["mu"], "covariance": [[1e-4]], "identified": {"mu": {"value": 0.3, "determined": true}}})"};
+  };
+  const Problem plain = block("");
+  const SourceText study{"block.yaml", plain.study_text().text + "uncertain: {from: i.json}\n"};
+  const Problem problem = load_problem(plain.urdf(), {}, study, {}, {}, files);
+  const Problem copy = load_portable(make_portable(problem));
+  EXPECT_EQ(reads, 1) << "the file is read once, by the process that has it";
+  ASSERT_EQ(copy.study().ensemble.uncertain.size(), 1U);
+  EXPECT_EQ(copy.study().ensemble.uncertain[0].distribution.deviation, 0.01);
+  EXPECT_EQ(load_portable(make_portable(copy)).study().ensemble.uncertain.size(), 1U) << "a copy of a copy";
+  EXPECT_EQ(make_portable(with_settings(problem, {{"mass", 2.5}})).files.size(), 1U);
+  PortableProblem without = make_portable(problem);
+  without.files.clear();
+  EXPECT_THROW(load_portable(without), InputError);
+}
+
 TEST(PortableProblem, RefusesOtherParameters) {
   PortableProblem portable = make_portable(block(""));
   portable.values.pop_back();

@@ -32,7 +32,8 @@ TEST(EnsembleMessages, ScenariosAndTheWorstAreNumberedFromOne) {
 
 TEST(EnsembleMessages, Validation) {
   OptimizationResult result;
-  result.validation = Validation{100, 2, 1.5, 1.75, 1.25, 3.25};
+  result.validation = Validation{100, 2, 1.5, 1.75, 1.25, 3.25, 2.5, 0.875};
+  result.value_at_risk = 2.25;
   mechanism_codesign::OptimizeResult message;
   set_ensemble(result, &message);
   ASSERT_EQ(message.validation.size(), 1U);
@@ -40,6 +41,7 @@ TEST(EnsembleMessages, Validation) {
   EXPECT_EQ(validation.samples, 100U);
   EXPECT_EQ(validation.failed, 2U);
   EXPECT_EQ((Numbers{validation.promised, validation.objective, validation.mean, validation.worst}), (Numbers{1.5, 1.75, 1.25, 3.25}));
+  EXPECT_EQ((Numbers{message.value_at_risk, validation.value_at_risk, validation.within}), (Numbers{2.25, 2.5, 0.875}));
 }
 
 TEST(EnsembleMessages, SearchesNameTheirOptimum) {

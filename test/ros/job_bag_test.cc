@@ -25,6 +25,7 @@ JobRecord sample_record() {
   record.request.max_evaluations = 9;
   record.result.objective = 0.25;
   record.study = "duration: 1.0";
+  record.study_files = {"{\"names\": []}", "second"};
   return record;
 }
 
@@ -53,8 +54,8 @@ TEST_F(JobBag, HoldsBothRunsAndEverythingAroundThem) {
   std::map<std::string, int> counts;
   rosbag::View view(bag_);
   for (const rosbag::MessageInstance& instance : view) ++counts[instance.getTopic()];
-  std::map<std::string, int> expected{{"study", 1},     {"request", 1}, {"result", 1}, {"optimization_progress", 5},
-                                      {"tf_static", 1}, {"labels", 1},  {"tf", 6}};
+  std::map<std::string, int> expected{{"study", 1},     {"study_files", 2}, {"request", 1}, {"result", 1}, {"optimization_progress", 5},
+                                      {"tf_static", 1}, {"labels", 1},      {"tf", 6}};
   for (const std::string side : {"initial/", "tuned/"}) {
     expected[side + "robot_description"] = 1;
     for (const char* topic : {"joint_states", "joint_friction", "controller_states", "loop_errors", "signals", "friction_markers"})
@@ -67,6 +68,8 @@ TEST_F(JobBag, ContentsSurvive) {
   EXPECT_EQ(read<std_msgs::String>("initial/robot_description").at(0)->data, "<robot name='before'/>");
   EXPECT_EQ(read<std_msgs::String>("tuned/robot_description").at(0)->data, "<robot name='after'/>");
   EXPECT_EQ(read<std_msgs::String>("study").at(0)->data, "duration: 1.0");
+  EXPECT_EQ(read<std_msgs::String>("study_files").at(0)->data, "{\"names\": []}");
+  EXPECT_EQ(read<std_msgs::String>("study_files").at(1)->data, "second");
   EXPECT_EQ(read<mechanism_codesign::OptimizeGoal>("request").at(0)->max_evaluations, 9U);
   EXPECT_EQ(read<mechanism_codesign::OptimizeResult>("result").at(0)->objective, 0.25);
 }

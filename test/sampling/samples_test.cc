@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "sampling/distribution.h"
 #include "sampling/sampler.h"
@@ -50,6 +51,50 @@ TEST(Samples, OneIsDrawnLikeTheFirstOfMany) {
 }
 
 TEST(Samples, OfNothingAreEmptyRows) { EXPECT_EQ(draw({}, SamplerKind::kSobol, 3, 1), std::vector<std::vector<double>>(3)); }
+
+/// Two correlated numbers, doc/theory.md (24h): deviations 0.1 and 0.2, correlation 0.8.
+std::vector<UncertainQuantity> correlated(double lower, double upper) {
+  UncertainQuantity first = quantity({DistributionKind::kNormal, 1.0, 0.1, lower, upper, {}});
+  UncertainQuantity second = quantity({DistributionKind::kNormal, -3.0, 0.2 * 0.6, -10.0, 10.0, {}});
+  second.slopes = {{0, 0.8 * 2.0}};
+  return {first, second};
+}
+
+TEST(Samples, HaveTheCovarianceOfCorrelatedNumbers) {
+  for (const SamplerKind sampler : {SamplerKind::kSobol, SamplerKind::kLatinHypercube, SamplerKind::kRandom}) {
+    constexpr int kCount = 4096;
+    const double tolerance = sampler == SamplerKind::kRandom ? 0.05 : 0.02;
+    double mean[2] = {}, square[3] = {};
+    for (const auto& sample : draw(correlated(-10.0, 10.0), sampler, kCount, 5)) {
+      const double a = (sample[0] - 1.0) / 0.1, b = (sample[1] + 3.0) / 0.2;
+      mean[0] += a / kCount;
+      mean[1] += b / kCount;
+      square[0] += a * a / kCount;
+      square[1] += b * b / kCount;
+      square[2] += a * b / kCount;
+    }
+    EXPECT_NEAR(mean[0], 0.0, tolerance);
+    EXPECT_NEAR(mean[1], 0.0, tolerance);
+    EXPECT_NEAR(square[0], 1.0, tolerance);
+    EXPECT_NEAR(square[1], 1.0, tolerance);
+    EXPECT_NEAR(square[2], 0.8, tolerance);
+  }
+}
+
+TEST(Samples, OfATruncatedNumberMoveTheOthersWithIt) {
+  double second = 0.0;
+  for (const auto& sample : draw(correlated(1.0, 10.0), SamplerKind::kSobol, 4096, 5)) {
+    EXPECT_GE(sample[0], 1.0);
+    second += sample[1] / 4096.0;
+  }
+  // The mean of the upper half of a normal distribution is sqrt(2 / pi) deviations above its middle.
+  EXPECT_NEAR(second, -3.0 + 1.6 * 0.1 * std::sqrt(2.0 / M_PI), 1e-3);
+}
+
+TEST(Samples, ANumberWithoutDeviationIsItsMean) {
+  UncertainQuantity known = quantity({DistributionKind::kNormal, 0.7, 0.0, 0.0, 1.0, {}});
+  for (const auto& sample : draw({known}, SamplerKind::kRandom, 4, 1)) EXPECT_EQ(sample[0], 0.7);
+}
 
 }  // namespace
 }  // namespace codesign

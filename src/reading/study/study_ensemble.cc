@@ -25,11 +25,11 @@ EngineOptions read_engine(const YamlValue& engine) {
 }  // namespace
 
 EnsembleDescription read_ensemble(const YamlValue& study_value, const RobotDescription& robot, const RunReader& read_run,
-                                  const Study& study) {
+                                  const FileLoader& files, const Study& study) {
   EnsembleDescription ensemble;
   const auto runs = study_value.find("runs"), uncertain = study_value.find("uncertain"), robust = study_value.find("robust");
   if (runs) ensemble.runs = read_runs(study_value, study, read_run);
-  if (uncertain) ensemble.uncertain = read_uncertain(*uncertain, robot, study, ensemble.runs);
+  if (uncertain) ensemble.uncertain = read_uncertain(*uncertain, robot, study, ensemble.runs, files);
   if (robust)
     ensemble.robust = read_robust(*robust, ensemble);
   else if (ensemble.is_ensemble())

@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_ENSEMBLE_H_
 #define MECHANISM_CODESIGN_READING_STUDY_STUDY_ENSEMBLE_H_
 
+#include "description/named_file.h"
 #include "description/robot.h"
 #include "description/study.h"
 #include "reading/study/study_runs.h"
@@ -10,9 +11,9 @@
 namespace codesign {
 
 /// Reads `runs:`, `uncertain:`, `robust:`, `multistart:` and `engine:`. All else of the study must have been read. `robust` is set exactly
-/// if the study has runs or uncertain quantities. @throws InputError
+/// if the study has runs or uncertain quantities. @param files as in read_study(). @throws InputError
 EnsembleDescription read_ensemble(const YamlValue& study_value, const RobotDescription& robot, const RunReader& read_run,
-                                  const Study& study);
+                                  const FileLoader& files, const Study& study);
 
 }  // namespace codesign
 

@@ -65,14 +65,14 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
 
 }  // namespace
 
-Study read_study(const SourceText& yaml, const RobotDescription& robot, const TrajectoryLoader& loader) {
+Study read_study(const SourceText& yaml, const RobotDescription& robot, const TrajectoryLoader& loader, const FileLoader& files) {
   const YamlValue root = YamlValue::parse(yaml);
   root.require_keys(
       {}, {"duration", "gravity", "initial_state", "controllers", "loads", "parameters", "objective", "path", "final", "constraints",
            "limits", "solver", "optimizer", "runs", "uncertain", "robust", "multistart", "engine", "identify"});
   const auto read_run = [&](const YamlValue& study_value) { return read_single_run(study_value, yaml.name, robot, loader); };
   Study study = read_run(root);
-  study.ensemble = read_ensemble(root, robot, read_run, study);
+  study.ensemble = read_ensemble(root, robot, read_run, files, study);
   if (const auto identify = root.find("identify")) study.identification = read_identification(*identify, robot, study);
   return study;
 }

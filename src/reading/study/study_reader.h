@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_READER_H_
 #define MECHANISM_CODESIGN_READING_STUDY_STUDY_READER_H_
 
+#include "description/named_file.h"
 #include "description/robot.h"
 #include "description/study.h"
 #include "reading/urdf/urdf_reader.h"
@@ -11,8 +12,9 @@ namespace codesign {
 /// Reads a study in YAML; doc/study.md. Unknown, missing or repeated keys are errors.
 /// @param robot supplies the default parameters and the names that the study may refer to.
 /// @param loader reads trajectories from bags; without it a study that names one is rejected.
+/// @param files reads other files that the study names, likewise.
 /// @throws InputError naming file, line, path, value and allowed range.
-Study read_study(const SourceText& yaml, const RobotDescription& robot, const TrajectoryLoader& loader = {});
+Study read_study(const SourceText& yaml, const RobotDescription& robot, const TrajectoryLoader& loader = {}, const FileLoader& files = {});
 
 }  // namespace codesign
 

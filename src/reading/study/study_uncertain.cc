@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <utility>
 
 #include "description/friction.h"
+#include "reading/study/study_identified.h"
 #include "reading/study/study_values.h"
 #include "text/decimal.h"
 
@@ -13,6 +15,7 @@ namespace codesign {
 namespace {
 
 constexpr const char* kFrictionLaw = "friction_law";
+constexpr const char* kFrom = "from";
 constexpr const char* kForms = "one of uniform: [lower, upper], normal: [mean, deviation], choice: [a, b]";
 
 std::array<YamlValue, 2> pair_at(const YamlValue& value, const std::string& names) {
@@ -109,19 +112,35 @@ UncertainQuantity read_quantity_entry(const std::string& name, const YamlValue& 
     read_laws(value, robot, &quantity);
     return quantity;
   }
-  quantity.parameter = untuned_parameter(name, study, value, {kFrictionLaw});
+  quantity.parameter = untuned_parameter(name, study, value, {kFrictionLaw, kFrom});
   read_distribution(value, all[static_cast<std::size_t>(quantity.parameter)], &quantity.distribution);
   return quantity;
+}
+
+/// Whether an entry names a file with distributions. A parameter of that name takes precedence.
+bool is_file(const std::string& name, const YamlValue& value, const Study& study) {
+  const std::vector<std::string> known = names_of(study.parameters);
+  const bool is_parameter = std::find(known.begin(), known.end(), kFrom) != known.end();
+  return name == kFrom && !(is_parameter && value.is_map() && !value.find("file"));
 }
 
 }  // namespace
 
 std::vector<UncertainQuantity> read_uncertain(const YamlValue& uncertain, const RobotDescription& robot, const Study& study,
-                                              const std::vector<RunDescription>& runs) {
+                                              const std::vector<RunDescription>& runs, const FileLoader& files) {
+  std::set<std::string> own;
+  for (const auto& [name, value] : uncertain.entries()) own.insert(name);
   std::vector<UncertainQuantity> quantities;
   for (const auto& [name, value] : uncertain.entries()) {
-    quantities.push_back(read_quantity_entry(name, value, robot, study));
-    refuse_set_by_run(name, value, runs);
+    if (!is_file(name, value, study)) {
+      quantities.push_back(read_quantity_entry(name, value, robot, study));
+      refuse_set_by_run(name, value, runs);
+      continue;
+    }
+    for (UncertainQuantity& identified : read_identified(value, study, own, files, quantities.size())) {
+      refuse_set_by_run(identified.name, value, runs);
+      quantities.push_back(std::move(identified));
+    }
   }
   if (quantities.empty()) uncertain.fail("nothing is uncertain", "at least one PARAMETER: {uniform: [lower, upper]}");
   return quantities;

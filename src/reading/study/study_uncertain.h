@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "description/named_file.h"
 #include "description/robot.h"
 #include "description/study.h"
 #include "reading/yaml/yaml_reader.h"
@@ -11,9 +12,11 @@
 namespace codesign {
 
 /// Reads the map `uncertain:`.
-/// @param study with its parameters. @param runs of the study; what they set cannot be uncertain. @throws InputError
+/// @param study with its parameters. @param runs of the study; what they set cannot be uncertain. @param files reads what `from` names;
+/// empty: refused.
+/// @throws InputError
 std::vector<UncertainQuantity> read_uncertain(const YamlValue& uncertain, const RobotDescription& robot, const Study& study,
-                                              const std::vector<RunDescription>& runs);
+                                              const std::vector<RunDescription>& runs, const FileLoader& files);
 
 }  // namespace codesign
 

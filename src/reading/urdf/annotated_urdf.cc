@@ -14,6 +14,7 @@
 #include "reading/urdf/overlay.h"
 #include "reading/urdf/parameter_reader.h"
 #include "reading/urdf/quantity_reader.h"
+#include "reading/urdf/set_values.h"
 #include "reading/urdf/transmission_reader.h"
 #include "reading/urdf/tree_check.h"
 #include "reading/urdf/urdfdom_check.h"
@@ -98,6 +99,7 @@ XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<Source
   check_namespace(document);
   check_prefixes(document);
   document.note(check_surroundings(document));
+  refuse_set_values(document);
   for (const SourceText& source : overlays) {
     const XmlDocument overlay = load_overlay(source);
     merge_overlay(overlay, &document);
@@ -107,6 +109,7 @@ XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<Source
   check_vocabulary(document, &warnings);
   document.note(warnings);
   write_out_free_inertias(&document);
+  apply_set_values(&document);
   return document;
 }
 

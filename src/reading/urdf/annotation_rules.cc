@@ -43,8 +43,9 @@ void add_joint_parts(const std::string& path, bool strict, std::vector<ElementRu
 
 std::vector<ElementRule> make_rules() {
   std::vector<ElementRule> rules;
-  rules.push_back({"robot", false, {}, {}, {}, {"codesign:parameter", "codesign:spring_damper"}});
+  rules.push_back({"robot", false, {}, {}, {}, {"codesign:parameter", "codesign:set", "codesign:spring_damper"}});
   rules.push_back({"robot/codesign:parameter", true, {"name", "value", "lower", "upper", "unit"}, {}, {}, {}});
+  rules.push_back({"robot/codesign:set", true, {"name", "value", "lower", "upper"}, {}, {}, {}});
   rules.push_back(
       {"robot/codesign:spring_damper", true, {"name"}, {"stiffness", "damping", "free_length"}, {}, {"predecessor", "successor"}});
   add_ends("robot/codesign:spring_damper", true, &rules);

@@ -6,6 +6,7 @@
 
 #include "mechanism/log_cholesky.h"
 #include "reading/urdf/quantity_reader.h"
+#include "reading/urdf/set_values.h"
 #include "text/decimal.h"
 #include "text/number_text.h"
 
@@ -75,14 +76,6 @@ void write_inertial_twins(XMLElement* inertial, const MassProperties<double>& pl
   moment("iyz", 1, 2, "0-" + s23 + "*" + l3);
 }
 
-/// The `<codesign:parameter>` of this name, for instance of an overlay with identified values; null if there is none.
-const XMLElement* find_parameter(const XmlDocument& document, const std::string& name) {
-  const char* tag = "codesign:parameter";
-  const XMLElement* element = document.robot()->FirstChildElement(tag);
-  while (element != nullptr && !element->Attribute("name", name.c_str())) element = element->NextSiblingElement(tag);
-  return element;
-}
-
 void write_out(XMLElement* node, const std::string& link, XmlDocument* document) {
   const XmlElement inertial(node, document);
   if (inertial.text(kAttribute) != "free") inertial.fail_at(kAttribute, "unknown kind of inertia", "free");
@@ -99,11 +92,11 @@ void write_out(XMLElement* node, const std::string& link, XmlDocument* document)
   std::array<double, 10> values = *numbers;
   for (std::size_t k = 0; k < values.size(); ++k) {
     const std::string name = prefix + "_" + kLogCholeskyNames[k];
-    if (const XMLElement* declared = find_parameter(*document, name)) {
+    if (const XMLElement* declared = find_named(document->robot(), kParameterTag, name)) {
       values[k] = read_number(XmlElement(declared, document), "value", Range::kAny);
       continue;
     }
-    XMLElement* parameter = document->append_new(document->robot(), "codesign:parameter", inertial.where());
+    XMLElement* parameter = document->append_new(document->robot(), kParameterTag, inertial.where());
     parameter->SetAttribute("name", name.c_str());
     parameter->SetAttribute("value", to_decimal(values[k]).c_str());
     if (kLogCholeskyUnits[k][0] != '\0') parameter->SetAttribute("unit", kLogCholeskyUnits[k]);

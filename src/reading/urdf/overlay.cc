@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reading/urdf/set_values.h"
 #include "reading/urdf/twin.h"
 #include "reading/xml/xml_element.h"
 #include "text/unknown_name.h"
@@ -71,12 +72,13 @@ class Merger {
     const bool known = is_annotation(tag) || tag == "link" || tag == "joint";
     if (!known)
       patch.fail("an overlay cannot contain this element", "<" + tag + ">",
-                 "link, joint, loop, coupling, codesign:parameter, codesign:spring_damper");
+                 "link, joint, loop, coupling, codesign:parameter, codesign:set, codesign:spring_damper");
     const std::string name = patch.text("name");
     XMLElement* like = find_like(base_->robot(), patch.node());
     const bool merged_already = !seen_.insert(tag + " " + name).second;
     if (merged_already && (is_annotation(tag) || added_.count(like) != 0))
       patch.fail("a second <" + tag + "> of this name in one overlay", name, "one of each name");
+    if (tag == kParameterTag || tag == kSetTag) give_value_once(patch, name);
     if (like != nullptr) {
       note_parts(patch, tag + " " + name);
       merge_element(patch.node(), overlay_, like, base_);
@@ -88,6 +90,15 @@ class Merger {
   }
 
  private:
+  /// A parameter has its value from its declaration or from what is set; of several overlays the last one counts.
+  void give_value_once(const XmlElement& patch, const std::string& name) {
+    const bool declares = patch.tag() == kParameterTag;
+    if (seen_.count(std::string(declares ? kSetTag : kParameterTag) + " " + name) != 0)
+      patch.fail("the overlay declares this parameter and sets it, too", name, "one of the two");
+    XMLElement* set = declares && patch.has("value") ? find_named(base_->robot(), kSetTag, name) : nullptr;
+    if (set != nullptr) base_->robot()->DeleteChild(set);
+  }
+
   // A second attribute or annotation of the same name would replace the first one.
   void note_parts(const XmlElement& element, const std::string& path) {
     for (const std::string& attribute : element.attributes()) {

@@ -85,4 +85,10 @@ void XmlElement::fail_at(const std::string& attribute, const std::string& messag
   throw InputError({where(attribute), label(), message, find(attribute).value_or(""), allowed});
 }
 
+tinyxml2::XMLElement* find_named(tinyxml2::XMLElement* parent, const char* tag, const std::string& name) {
+  tinyxml2::XMLElement* child = parent->FirstChildElement(tag);
+  while (child != nullptr && child->Attribute("name", name.c_str()) == nullptr) child = child->NextSiblingElement(tag);
+  return child;
+}
+
 }  // namespace codesign

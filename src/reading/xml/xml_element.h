@@ -54,6 +54,9 @@ class XmlElement {
   const XmlDocument* document_;
 };
 
+/// The first child of `parent` with this tag and name; null if there is none.
+tinyxml2::XMLElement* find_named(tinyxml2::XMLElement* parent, const char* tag, const std::string& name);
+
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_READING_XML_XML_ELEMENT_H_

@@ -1,0 +1,16 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_PROBLEM_DIFFERING_NOMINALS_H_
+#define MECHANISM_CODESIGN_PROBLEM_DIFFERING_NOMINALS_H_
+
+#include "description/study.h"
+#include "mechanism_codesign/warning.h"
+
+namespace codesign {
+
+/// A warning `nominal_differs` if parameters whose distribution an identification has found have other values in the model: samples lie
+/// around the identified values, but nominal runs do not.
+Warnings differing_nominals(const Study& study);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_PROBLEM_DIFFERING_NOMINALS_H_

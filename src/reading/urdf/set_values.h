@@ -1,0 +1,37 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_URDF_SET_VALUES_H_
+#define MECHANISM_CODESIGN_READING_URDF_SET_VALUES_H_
+
+#include <string>
+#include <vector>
+
+#include "mechanism_codesign/parameter.h"
+#include "reading/xml/xml_document.h"
+
+namespace codesign {
+
+inline constexpr const char* kParameterTag = "codesign:parameter";
+inline constexpr const char* kSetTag = "codesign:set";
+
+/// Refuses `<codesign:set>` in a model, whose parameters have their values from `<codesign:parameter>`. @throws InputError
+void refuse_set_values(const XmlDocument& model);
+
+/// Gives parameters the values of the `<codesign:set>` elements of merged overlays, and takes these elements out. First the model is read
+/// and checked at the values that it declares; then all numbers with twins follow the new values, as in write_design().
+/// @throws InputError for an unknown parameter, a value that is not a number or outside its bounds, and as read_robot()
+void apply_set_values(XmlDocument* document);
+
+/// One `<codesign:set>` to be written.
+struct SetValue {
+  Parameter parameter;  ///< name, and the bounds that the model declares
+  double value = 0.0;   ///< a bound that it exceeds is moved to it
+  std::string comment;  ///< written above it; may be empty
+};
+
+/// An overlay that sets values. @param robot name of the model. @param heading, ending comments at the beginning and the end; may be empty.
+std::string write_set_overlay(const std::string& robot, const std::string& heading, const std::vector<SetValue>& values,
+                              const std::string& ending);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_URDF_SET_VALUES_H_
