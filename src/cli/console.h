@@ -5,6 +5,7 @@
 #include <atomic>
 #include <ostream>
 
+#include "jobs/identification_files.h"
 #include "recordings/bag_reader.h"
 
 namespace codesign {
@@ -21,6 +22,7 @@ struct Console {
   void (*loaded)() = nullptr;       ///< called after the input is loaded, before the computation; may be null
   Dispatcher* ranks = nullptr;      ///< the processes of the job, as in require_engine()
   BagReader bags = {};              ///< reads the bags that a study names; empty: they are refused
+  IdentificationBagWriter identification_bag = {};  ///< writes the bag of an identification; empty: none is written
 };
 
 /// The program's exit codes.

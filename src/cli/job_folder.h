@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/csv_writer.h"
+#include "jobs/csv_writer.h"
 #include "cli/json_output.h"
 #include "cli/report.h"
 #include "jobs/best_record.h"

@@ -4,7 +4,7 @@
 
 #include "assembly/signal_warnings.h"
 #include "cli/commands.h"
-#include "cli/csv_writer.h"
+#include "jobs/csv_writer.h"
 #include "cli/inputs.h"
 #include "cli/output_file.h"
 #include "cli/report.h"
