@@ -81,6 +81,20 @@ Frame measured_frame(const Frame& model, const std::vector<ShownJoint>& joints, 
   return frame;
 }
 
+std::vector<ComparedJoint> compared_joints(const RobotDescription& robot, const std::vector<MeasuredJoint>& measured,
+                                           const std::vector<double>& parameters, const FrameNames& names) {
+  std::vector<ComparedJoint> joints;
+  for (const JointDescription& joint : robot.joints) {
+    const auto is_compared = [&](const MeasuredJoint& each) { return each.name == joint.name && each.with_effort; };
+    if (joint.is_loop || std::none_of(measured.begin(), measured.end(), is_compared)) continue;
+    const auto place = std::find(names.joints.begin(), names.joints.end(), joint.name) - names.joints.begin();
+    const Eigen::Vector3d axis(joint.axis[0].at(parameters), joint.axis[1].at(parameters), joint.axis[2].at(parameters));
+    joints.push_back({static_cast<std::size_t>(place), static_cast<std::size_t>(joint.child), axis.normalized(),
+                      joint.type != JointType::kPrismatic});
+  }
+  return joints;
+}
+
 /// What the instants of all recordings have in common.
 struct Comparison {
   double rate;
@@ -134,6 +148,7 @@ ComparedMotion compare_motion(const Problem& problem, const StudyRecordings& rec
   DrivenReplay replay(*problem.system(), joints, some_positions(motions.front(), joints), result.parameters);
   ComparedMotion compared;
   compared.names = replay.names();
+  compared.joints = compared_joints(problem.robot(), joints, result.parameters, compared.names);
   const double most = kMostMemory / (bytes_of_both(compared.names) * std::max(seconds, 1e-3));
   for (std::size_t k = 0; k < all.size(); ++k) {
     compared.recordings.push_back({all[k].element, {}, {}, {}});

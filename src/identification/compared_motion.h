@@ -24,15 +24,23 @@ struct ComparedRecording {
   Status status;             ///< not ok: the instants end there
 };
 
+/// A joint whose efforts are compared, for drawing them.
+struct ComparedJoint {
+  std::size_t joint = 0, link = 0;                  ///< indices in FrameNames: the joint, and its child, at whose origin it is
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< in the frame of the link, of unit length
+  bool is_torque = true;                            ///< else a force
+};
+
 /// What was measured beside what the model says of it, for showing both.
 struct ComparedMotion {
   FrameNames names;                           ///< of all frames
+  std::vector<ComparedJoint> joints;          ///< those whose efforts were recorded
   std::vector<ComparedRecording> recordings;  ///< data, then holdout: those of FittedSeries::lengths
 };
 
-/// The motion of all recordings at the identified design, at about `rate` instants per second [Hz], fewer if all frames would need more than
-/// 256 MB. For residuals in effort both move alike; the frames of the model have the efforts, reactions and frictions which that motion
-/// needs.
+/// The motion of all recordings at the identified design, at about `rate` instants per second [Hz], fewer if all frames would need more
+/// than 256 MB. For residuals in effort both move alike; the frames of the model have the efforts, reactions and frictions which that
+/// motion needs.
 /// @param recordings, result as identify() was given and has returned them; with numbers. @param stop if given, asked at each instant: true
 /// ends with kCancelled in the status of the recording; later ones have no instants.
 ComparedMotion compare_motion(const Problem& problem, const StudyRecordings& recordings, const IdentificationResult& result, double rate,

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "ros/bag_writer.h"
+#include "ros/effort_markers.h"
 #include "ros/scene_layout.h"
 
 namespace codesign {
@@ -41,6 +42,7 @@ class ShowWriter {
     std::vector<const std::vector<Frame>*> runs;
     for (const ComparedRecording& recording : show.motion.recordings) runs.push_back(&recording.model);
     layout_ = lay_out(runs);
+    efforts_ = effort_style(show.motion, layout_.size);
   }
 
   void write() {
@@ -91,6 +93,8 @@ class ShowWriter {
       const double time = begin + recording.model[k].time - recording.model.front().time;
       write_measured(recording.measured[k], time);
       write_model(recording.model[k], time);
+      const MessageContext context{BagWriter::stamp(time), "identified/" + show_.motion.names.links[0]};
+      writer_.write("efforts", time, effort_markers(show_.motion, recording.measured[k], recording.model[k], context, efforts_));
       end_ = std::max(end_, time);
     }
   }
@@ -133,7 +137,8 @@ class ShowWriter {
   const IdentificationAnswer* answer_;
   BagWriter writer_;
   SceneLayout layout_;
-  double end_ = 0.0;  ///< of what is written so far
+  MarkerStyle efforts_;  ///< of the arrows of efforts
+  double end_ = 0.0;     ///< of what is written so far
 };
 
 }  // namespace

@@ -52,6 +52,7 @@ SceneLayout lay_out(const std::vector<const std::vector<Frame>*>& runs) {
   for (const std::vector<Frame>* run : runs) extent.include(*run);
   const double size = std::max(extent.box.sizes().maxCoeff(), 1e-3);
   SceneLayout layout;
+  layout.size = size;
   layout.separation = extent.box.sizes().y() + 0.5 * size;
   layout.label_height = extent.box.max().z() + 0.15 * size;
   layout.label_size = 0.1 * size;

@@ -16,6 +16,7 @@ namespace codesign {
 
 /// Placement and scales for showing two runs of a mechanism together in rviz.
 struct SceneLayout {
+  double size = 0.0;          ///< largest extent of a mechanism [m]
   double separation = 0.0;    ///< distance of the second mechanism from the first one, along -y [m], if they stand side by side
   double label_height = 0.0;  ///< height of their labels above the root link [m]
   double label_size = 0.0;    ///< height of the letters [m]
