@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "mechanism_codesign/error.h"
+#include "ros/conversions.h"
 #include "ros/request.h"
 #include "ros/wire.h"
 
@@ -24,13 +25,6 @@ bool is_of_size(const LoadedStudy& loaded, const Request& request, mechanism_cod
     refuse("bad_input", error.what(), refusal);
     return false;
   }
-}
-
-Warnings warnings_of_job(const mechanism_codesign::IdentifyResult& result, std::size_t of_files) {
-  Warnings warnings;
-  for (std::size_t k = of_files; k < result.warnings.size(); ++k)
-    warnings.push_back({result.warnings[k].code, result.warnings[k].message, {}});
-  return warnings;
 }
 
 }  // namespace
@@ -80,7 +74,7 @@ IdentificationDoor::Result IdentificationDoor::run(const mechanism_codesign::Ide
     description.data = outcome.identified_urdf;
     identified_.publish(description);
   }
-  state_.warn("last identification", warnings_of_job(outcome.result, loaded_.problem->warnings().size()));
+  state_.warn("last identification", warnings_of_job(outcome.result.warnings, loaded_.problem->warnings().size()));
   tell_result(outcome.result);
   return outcome.result;
 }

@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 mechanism_codesign::IdentifiedNumber to_message(const IdentifiedNumber& number) {
   mechanism_codesign::IdentifiedNumber message;
@@ -22,12 +22,12 @@ mechanism_codesign::IdentifiedNumber to_message(const IdentifiedNumber& number) 
   message.upper = number.upper;
   message.determined = number.is_determined;
   message.on_bound = number.is_on_bound;
-  message.deviation = number.is_on_bound ? kNone : number.deviation;
-  message.low = number.is_on_bound ? kNone : number.low;
-  message.high = number.is_on_bound ? kNone : number.high;
-  const auto end = [&](ProfileEnd found, double value) { return found == ProfileEnd::kFailed ? kNone : value; };
-  message.profile_low = number.profile ? end(number.profile->lower_end, number.profile->lower) : kNone;
-  message.profile_high = number.profile ? end(number.profile->upper_end, number.profile->upper) : kNone;
+  message.deviation = number.is_on_bound ? kNotKnown : number.deviation;
+  message.low = number.is_on_bound ? kNotKnown : number.low;
+  message.high = number.is_on_bound ? kNotKnown : number.high;
+  const auto end = [&](ProfileEnd found, double value) { return found == ProfileEnd::kFailed ? kNotKnown : value; };
+  message.profile_low = number.profile ? end(number.profile->lower_end, number.profile->lower) : kNotKnown;
+  message.profile_high = number.profile ? end(number.profile->upper_end, number.profile->upper) : kNotKnown;
   return message;
 }
 

@@ -38,14 +38,6 @@ std::string default_output_directory() {
   return (ros_home != nullptr ? std::string(ros_home) : std::string(home != nullptr ? home : ".") + "/.ros") + "/mechanism_codesign";
 }
 
-/// The warnings of a job without those of the input files, which come first.
-Warnings added_warnings(const mechanism_codesign::OptimizeResult& result, std::size_t of_files) {
-  Warnings warnings;
-  for (std::size_t i = of_files; i < result.warnings.size(); ++i)
-    warnings.push_back({result.warnings[i].code, result.warnings[i].message, {}});
-  return warnings;
-}
-
 }  // namespace
 
 OptimizationNode::OptimizationNode(Dispatcher* ranks) : state_("optimization"), spinner_(kDoorThreads, &queue_) {
@@ -129,7 +121,7 @@ OptimizationNode::Result OptimizationNode::run(const mechanism_codesign::Optimiz
     description.data = outcome.tuned_urdf;
     tuned_.publish(description);
   }
-  state_.warn("last job", added_warnings(outcome.result, loaded_.problem->warnings().size()));
+  state_.warn("last job", warnings_of_job(outcome.result.warnings, loaded_.problem->warnings().size()));
   tell_result(outcome.result);
   return outcome.result;
 }
