@@ -39,8 +39,13 @@ struct ComparedMotion {
 };
 
 /// The motion of all recordings at the identified design, at about `rate` instants per second [Hz], fewer if all frames would need more
-/// than 256 MB. For residuals in effort both move alike; the frames of the model have the efforts, reactions and frictions which that
-/// motion needs.
+/// than 256 MB.
+///
+/// For residuals in effort both sides move alike, and the frames of the model have the efforts, reactions and frictions that this motion
+/// needs. For residuals in motion the model moves as it was simulated: by the columns `JOINT/position`, `JOINT/velocity` and `JOINT/effort`
+/// of the series; its frictions are those at the simulated positions and velocities and the measured accelerations.
+///
+/// Does not throw: what cannot be shown, such as friction laws with states, is told by the status of the recordings.
 /// @param recordings, result as identify() was given and has returned them; with numbers. @param stop if given, asked at each instant: true
 /// ends with kCancelled in the status of the recording; later ones have no instants.
 ComparedMotion compare_motion(const Problem& problem, const StudyRecordings& recordings, const IdentificationResult& result, double rate,

@@ -34,7 +34,7 @@ class IdentificationJob {
 
   void fit(const std::string& folder, const std::atomic<bool>& cancel) {
     feedback_.begin("reading");
-    recordings_ = load_recordings(*problem_.study().identification, problem_.robot(), folder, read_recording_bag, &warnings_);
+    recordings_ = load_recordings(*problem_.study().identification, problem_.robot(), folder, cancellable_bag_reader(cancel), &warnings_);
     const auto observe = [&](const FitTrial& trial) {
       feedback_.tell(trial);
       return !cancel;
@@ -131,6 +131,8 @@ IdentificationOutcome run_identification(const Problem& problem, const std::stri
     job.write(request, cancel);
   } catch (const InputError& error) {
     refuse("bad_input", error.what(), &outcome.result);
+  } catch (const ReadingCancelled& error) {
+    refuse("cancelled", error.what(), &outcome.result);
   } catch (const OutputError& error) {
     refuse("output_failed", error.what(), &outcome.result);
   } catch (const std::exception& error) {

@@ -85,6 +85,57 @@ TEST(CompareMotion, WhichJointsAreCompared) {
   EXPECT_TRUE(motion.joints[0].is_torque);
 }
 
+// The columns of a series with residuals in motion, here 0.1 rad and 0.2 rad/s beside what was measured, at every fourth sample.
+TEST(CompareMotion, AModelThatMovesByItselfIsShownWhereItWas) {
+  const SwingingRig rig;
+  const Problem problem = swinging_problem("{csv: data.csv}", "  residual: motion\n");
+  StudyRecordings recordings;
+  recordings.data = {rig.record("identify.data[0]")};
+  IdentificationResult result;
+  result.parameters = {0.3, 0.4};
+  result.x = Eigen::Vector2d(0.3, 0.4);
+  result.data.resize(2);
+  result.data[0].joint = "hinge/position";
+  result.data[1].joint = "hinge/velocity";
+  FittedSeries& series = result.data_series;
+  series.lengths = {250};
+  series.recorded.resize(250, 2);
+  for (Eigen::Index row = 0; row < 250; ++row) {
+    series.times.push_back(0.02 * static_cast<double>(row));
+    series.recorded.row(row) << rig.position(series.times.back()), rig.velocity(series.times.back());
+  }
+  series.computed = series.recorded.rowwise() + Eigen::RowVector2d(0.1, 0.2);
+  const ComparedMotion motion = compare_motion(problem, recordings, result, kRate);
+  ASSERT_EQ(motion.recordings.size(), 1U);
+  const ComparedRecording& recording = motion.recordings[0];
+  ASSERT_TRUE(recording.status.ok()) << recording.status.cause;
+  ASSERT_EQ(recording.model.size(), 84U) << "every third row: 20 a second were asked for";
+  for (std::size_t k = 0; k < recording.model.size(); ++k) {
+    const Frame &model = recording.model[k], &measured = recording.measured[k];
+    const double t = 0.06 * static_cast<double>(k);
+    ASSERT_NEAR(model.time, t, 1e-12);
+    EXPECT_NEAR(measured.joints[0].position, rig.position(t), 1e-9);
+    EXPECT_NEAR(model.joints[0].position, rig.position(t) + 0.1, 1e-9);
+    EXPECT_NEAR(model.joints[0].velocity, rig.velocity(t) + 0.2, 1e-9);
+    EXPECT_NEAR(model.joints[0].effort, rig.torque(t), 1e-9) << "the recorded effort was applied";
+    EXPECT_NEAR(model.links[1].orientation.angularDistance(measured.links[1].orientation), 0.1, 1e-9);
+  }
+}
+
+TEST(CompareMotion, WhatCannotBeShownIsToldByTheStatus) {
+  const Problem problem = swinging_problem();
+  StudyRecordings recordings;
+  recordings.data = {SwingingRig().record("identify.data[0]")};
+  recordings.data[0].joints[0].joint = "elbow";
+  IdentificationResult result;
+  result.parameters = {0.3, 0.4};
+  const ComparedMotion motion = compare_motion(problem, recordings, result, kRate);
+  ASSERT_EQ(motion.recordings.size(), 1U);
+  EXPECT_FALSE(motion.recordings[0].status.ok());
+  EXPECT_NE(motion.recordings[0].status.cause.find("elbow"), std::string::npos) << motion.recordings[0].status.cause;
+  EXPECT_TRUE(motion.recordings[0].model.empty());
+}
+
 TEST(CompareMotion, EndsEarlyWhenToldTo) {
   int asked = 0;
   const ComparedMotion motion = Compared(SwingingRig(), "", [&] { return ++asked > 10; }).motion;

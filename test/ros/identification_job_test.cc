@@ -151,6 +151,18 @@ TEST_F(IdentificationJobTest, CancelledBeforeTheFirstEvaluationItLeavesNothing) 
   EXPECT_TRUE(std::filesystem::is_empty(out()));
 }
 
+TEST_F(IdentificationJobTest, CancelledWhileItReadsABagItLeavesNothing) {
+  {
+    rosbag::Bag bag((folder_.path() / "data.bag").string(), rosbag::bagmode::Write);
+    for (int k = 0; k < 100; ++k) bag.write("joint_states", ros::Time(1.0 + 0.01 * k), sensor_msgs::JointState());
+  }
+  const Problem problem = swinging_problem("{bag: data.bag, topic: joint_states}");
+  const auto cancel_at_once = [this](const IdentificationProgress& progress) { cancel_ = progress.stage == "reading"; };
+  const auto result = run_identification(problem, folder_.path().string(), {}, {out(), 20.0}, cancel_at_once, cancel_).result;
+  EXPECT_EQ(result.code, "cancelled") << result.message;
+  EXPECT_TRUE(std::filesystem::is_empty(out()));
+}
+
 TEST_F(IdentificationJobTest, BadInputIsAnsweredWithItsPlace) {
   IdentifyGoal request;
   request.parameters = {"inertia", "viscos"};
