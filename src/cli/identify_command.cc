@@ -51,8 +51,8 @@ void print_result(const Problem& problem, const IdentificationResult& result, st
       << result.failed_evaluations << " failed), " << readable(result.cpu_seconds) << " s of processor time\n";
 }
 
-Problem load_identifiable(const Arguments& arguments, const Console& console) {
-  Problem problem = load(arguments, &console);
+Problem load_identifiable(const Arguments& arguments) {
+  Problem problem = load(arguments);
   require_identification(problem);
   return problem;
 }
@@ -84,16 +84,21 @@ void try_to(Write write, std::vector<Failure>* failures) {
   }
 }
 
-/// Replaces the bag of an earlier identification in this folder. Interrupted here, the bag ends early; interrupted before, it does not,
-/// since a second interrupt ends the program.
-void write_show(const Problem& problem, const StudyRecordings& recordings, const IdentificationResult& result, const Json& object,
-                const std::string& path, const Console& console, std::vector<Failure>* failures) {
+/// Replaces the bag of an earlier identification in this folder. Interrupted here, the bag ends early, which is a failure; interrupted
+/// before, it does not, since a second interrupt ends the program. A motion that cannot be shown is told, and the identification is no
+/// worse.
+void write_show(const Arguments& arguments, const Problem& problem, const StudyRecordings& recordings, const IdentificationResult& result,
+                const Json& object, const std::string& path, const Console& console, std::vector<Failure>* failures) {
   const bool is_told_before = console.cancel;
   ComparedMotion motion = compare_motion(problem, recordings, result, kShownRate, [&] { return !is_told_before && console.cancel; });
-  for (const ComparedRecording& recording : motion.recordings)
-    if (!recording.status.ok())
-      failures->push_back(
-          {name_of(recording.status.code), recording.element + " ends early in " + path + ": " + describe(recording.status)});
+  for (const ComparedRecording& recording : motion.recordings) {
+    if (recording.status.ok()) continue;
+    const std::string sentence = recording.element + " ends early in " + path + ": " + describe(recording.status);
+    if (recording.status.is_interrupted())
+      failures->push_back({name_of(recording.status.code), sentence});
+    else
+      console.err << "codesign " << arguments.command << ": warning: " << sentence << std::endl;
+  }
   for (const std::string& earlier : {path, path + ".active"}) unlink(earlier.c_str());
   console.identification_bag(path, identification_show(problem, result, object, std::move(motion)));
 }
@@ -105,17 +110,20 @@ std::vector<Failure> write_folder(const Arguments& arguments, const Problem& pro
   for (const IdentificationFile& file : identification_files(problem, result, object))
     try_to([&] { write_whole_file((folder / file.name).string(), file.text()); }, &failures);
   const std::string bag = (folder / "identification.bag").string();
-  if (console.identification_bag) try_to([&] { write_show(problem, recordings, result, object, bag, console, &failures); }, &failures);
+  if (console.identification_bag)
+    try_to([&] { write_show(arguments, problem, recordings, result, object, bag, console, &failures); }, &failures);
   return failures;
 }
 
 }  // namespace
 
 int identify(const Arguments& arguments, const Console& console) {
-  const Problem problem = load_identifiable(arguments, console);
+  const Problem problem = load_identifiable(arguments);
   if (!arguments.output.empty()) make_folder(arguments.output, "--output");
   Warnings warnings;
   const StudyRecordings recordings = read_recordings(problem, console, &warnings);
+  // Until here an interrupt ends the program at once: there is nothing to lose.
+  if (console.loaded) console.loaded();
   FitLines lines(console.err);
   const auto observer = [&](const FitTrial& trial) {
     lines.tell(trial);
