@@ -4,6 +4,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/JointState.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -238,7 +239,9 @@ JointRecording read(const RecordingDescription& description, const std::string& 
   } catch (const rosbag::BagUnindexedException& error) {
     throw refuse(error.what(), "a bag that was closed; `rosbag reindex` repairs one of a recorder that was killed");
   } catch (const rosbag::BagException& error) {
-    throw refuse(error.what(), "");
+    const bool is_recorded = access(path.c_str(), F_OK) != 0 && access((path + ".active").c_str(), F_OK) == 0;
+    throw refuse(error.what(),
+                 is_recorded ? "a bag that is complete; " + path + ".active is there: its recorder still runs, or was killed" : "");
   } catch (const ros::Exception& error) {
     throw refuse(error.what(), "");
   }
