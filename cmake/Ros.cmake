@@ -33,15 +33,18 @@ set(node_mains ${ros_sources})
 list(FILTER node_mains INCLUDE REGEX "_node_main\\.cc$")
 list(FILTER ros_sources EXCLUDE REGEX "_node_main\\.cc$")
 
-# Reads recordings from bags, for the nodes and for the program codesign, which links nothing else of ROS.
-set(bag_sources ${PROJECT_SOURCE_DIR}/src/ros/recording_bag.cc ${PROJECT_SOURCE_DIR}/src/ros/linked_bag_reader.cc)
+# Reads recordings from bags and writes identifications into them, for the nodes and for the program codesign, which links nothing else of ROS.
+set(bag_sources recording_bag linked_bag_reader identification_bag bag_file bag_writer conversions frame_messages friction_markers effort_markers scene_layout)
+list(TRANSFORM bag_sources REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/ros/\\1.cc")
 list(REMOVE_ITEM ros_sources ${bag_sources})
 add_library(codesign_bags STATIC ${bag_sources})
+add_dependencies(codesign_bags ${PROJECT_NAME}_generate_messages_cpp)
 set_target_properties(codesign_bags PROPERTIES POSITION_INDEPENDENT_CODE ON)
 target_include_directories(codesign_bags PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
-target_include_directories(codesign_bags SYSTEM PRIVATE ${catkin_INCLUDE_DIRS} ${rosbag_storage_INCLUDE_DIRS})
+target_include_directories(codesign_bags SYSTEM PRIVATE ${CATKIN_DEVEL_PREFIX}/include ${catkin_INCLUDE_DIRS} ${rosbag_storage_INCLUDE_DIRS})
 target_link_libraries(codesign_bags PUBLIC codesign_core ${bag_libraries})
 codesign_warnings(codesign_bags)
+codesign_unite(codesign_bags ros_bags ${bag_sources})
 codesign_sanitize(codesign_bags)
 target_link_libraries(codesign PRIVATE codesign_bags)
 

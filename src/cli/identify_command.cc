@@ -1,19 +1,19 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <unistd.h>
+
 #include <filesystem>
-#include <sstream>
+#include <utility>
 
 #include "cli/commands.h"
-#include "cli/csv_writer.h"
 #include "cli/inputs.h"
 #include "cli/output_file.h"
 #include "cli/recordings_table.h"
 #include "cli/report.h"
 #include "cli/table.h"
 #include "identification/identify.h"
+#include "jobs/identification_files.h"
 #include "jobs/identification_records.h"
-#include "jobs/identified_overlay.h"
 #include "jobs/whole_file.h"
-#include "reading/urdf/urdf_reader.h"
 #include "text/number_text.h"
 
 namespace codesign::cli {
@@ -51,39 +51,82 @@ void print_result(const Problem& problem, const IdentificationResult& result, st
       << result.failed_evaluations << " failed), " << readable(result.cpu_seconds) << " s of processor time\n";
 }
 
-Problem load_identifiable(const Arguments& arguments, const Console& console) {
-  Problem problem = load(arguments, &console);
-  if (!problem.study().identification)
-    throw InputError({{arguments.study, 1}, "identify", "the study has no recordings to identify from", "", "a block identify"});
+Problem load_identifiable(const Arguments& arguments) {
+  Problem problem = load(arguments);
+  require_identification(problem);
   return problem;
 }
 
-std::string residuals_text(const IdentificationResult& result) {
-  std::ostringstream text;
-  CsvWriter csv(text, residual_columns(result), "residuals.csv");
-  for (const std::vector<std::string>& row : residual_rows(result)) csv.write(row);
-  return text.str();
-}
+/// Progress as lines: each evaluation of the fit, and the number whose profile begins.
+class FitLines {
+ public:
+  explicit FitLines(std::ostream& err) : err_(err) {}
 
-/// Writes one file of the folder; a failure is reported and does not affect the others.
-template <class Text>
-void write_in(const std::string& folder, const std::string& name, Text text, std::vector<Failure>* failures) {
+  void tell(const FitTrial& trial) {
+    if (trial.profile == 0) return print_trial(trial, err_);
+    if (trial.profile == profile_) return;
+    profile_ = trial.profile;
+    err_ << "profile " << trial.profile << " of " << trial.profiles << std::endl;
+  }
+
+ private:
+  std::ostream& err_;
+  int profile_ = 0;
+};
+
+/// A failure to write one file is reported and does not affect the others.
+template <class Write>
+void try_to(Write write, std::vector<Failure>* failures) {
   try {
-    write_whole_file((std::filesystem::path(folder) / name).string(), text());
+    write();
   } catch (const std::exception& error) {
     failures->push_back({"output_failed", error.what()});
   }
 }
 
+/// Replaces the bag of an earlier identification in this folder. Interrupted here, the bag ends early, which is a failure; interrupted
+/// before, it does not, since a second interrupt ends the program. A motion that cannot be shown is told, and the identification is no
+/// worse.
+void write_show(const Arguments& arguments, const Problem& problem, const StudyRecordings& recordings, const IdentificationResult& result,
+                const Json& object, const std::string& path, const Console& console, std::vector<Failure>* failures) {
+  const bool is_told_before = console.cancel;
+  ComparedMotion motion = compare_motion(problem, recordings, result, kShownRate, [&] { return !is_told_before && console.cancel; });
+  for (const ComparedRecording& recording : motion.recordings) {
+    if (recording.status.ok()) continue;
+    const std::string sentence = recording.element + " ends early in " + path + ": " + describe(recording.status);
+    if (recording.status.is_interrupted())
+      failures->push_back({name_of(recording.status.code), sentence});
+    else
+      console.err << "codesign " << arguments.command << ": warning: " << sentence << std::endl;
+  }
+  for (const std::string& earlier : {path, path + ".active"}) unlink(earlier.c_str());
+  console.identification_bag(path, identification_show(problem, result, object, std::move(motion)));
+}
+
+std::vector<Failure> write_folder(const Arguments& arguments, const Problem& problem, const StudyRecordings& recordings,
+                                  const IdentificationResult& result, const Json& object, const Console& console) {
+  std::vector<Failure> failures;
+  const std::filesystem::path folder(arguments.output);
+  for (const IdentificationFile& file : identification_files(problem, result, object))
+    try_to([&] { write_whole_file((folder / file.name).string(), file.text()); }, &failures);
+  const std::string bag = (folder / "identification.bag").string();
+  if (console.identification_bag)
+    try_to([&] { write_show(arguments, problem, recordings, result, object, bag, console, &failures); }, &failures);
+  return failures;
+}
+
 }  // namespace
 
 int identify(const Arguments& arguments, const Console& console) {
-  const Problem problem = load_identifiable(arguments, console);
+  const Problem problem = load_identifiable(arguments);
   if (!arguments.output.empty()) make_folder(arguments.output, "--output");
   Warnings warnings;
   const StudyRecordings recordings = read_recordings(problem, console, &warnings);
-  const auto observer = [&console](const FitTrial& trial) {
-    print_trial(trial, console.err);
+  // Until here an interrupt ends the program at once: there is nothing to lose.
+  if (console.loaded) console.loaded();
+  FitLines lines(console.err);
+  const auto observer = [&](const FitTrial& trial) {
+    lines.tell(trial);
     return !console.cancel;
   };
   IdentificationResult result = codesign::identify(problem, recordings, observer, &console.cancel);
@@ -94,17 +137,7 @@ int identify(const Arguments& arguments, const Console& console) {
   add_warnings(arguments, problem, result.warnings, &object, console);
   if (!result.status.ok()) object["error"] = to_json(result.status);
   std::vector<Failure> failures;
-  if (!arguments.output.empty() && known) {
-    write_in(
-        arguments.output, "identification.json", [&] { return to_text(object); }, &failures);
-    write_in(
-        arguments.output, "identified_overlay.urdf", [&] { return identified_overlay(problem, result); }, &failures);
-    write_in(
-        arguments.output, "identified.urdf", [&] { return write_tuned_urdf(problem.urdf(), problem.overlays(), result.parameters); },
-        &failures);
-    write_in(
-        arguments.output, "residuals.csv", [&] { return residuals_text(result); }, &failures);
-  }
+  if (!arguments.output.empty() && known) failures = write_folder(arguments, problem, recordings, result, object, console);
   return finish(arguments, result.status, std::move(object), console, failures);
 }
 

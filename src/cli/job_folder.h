@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/csv_writer.h"
 #include "cli/json_output.h"
 #include "cli/report.h"
 #include "jobs/best_record.h"
+#include "jobs/csv_writer.h"
 #include "jobs/journal.h"
 #include "jobs/lock_file.h"
 #include "mechanism_codesign/optimization.h"

@@ -75,6 +75,11 @@ Status not_identifiable(const std::vector<std::string>& sentences) {
 
 }  // namespace
 
+void require_identification(const Problem& problem) {
+  if (!problem.study().identification)
+    throw InputError({{problem.study().file, 1}, "identify", "the study has no recordings to identify from", "", "a block identify"});
+}
+
 IdentificationResult identify(const Problem& problem, const StudyRecordings& recordings, const FitObserver& observer,
                               const std::atomic<bool>* cancel) {
   const CpuTimer timer(CpuTimer::Of::kProcess);
@@ -89,6 +94,7 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
   std::unique_ptr<RecordingResiduals> holdout;
   if (!recordings.holdout.empty()) holdout = make_residuals(problem, variables, joints, recordings.holdout, &result.warnings);
   residuals.obey(cancel);
+  if (holdout) holdout->obey(cancel);
 
   const FitProblem limits = fit_problem(problem, variables);
   result.status = residuals.begin(limits.start);
@@ -111,7 +117,8 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
   result.data = judge_outputs(residuals, residuals.recorded(), fit.start_residuals, fit.residuals);
   result.data_series = series_of(residuals, fit.residuals);
   judge_numbers(variables, options, residuals.lengths(), fit, &result);
-  if (options.intervals.profiles && !is_set(cancel)) add_profiles(limits, options, fit, &residuals, cancel, &result);
+  if (options.intervals.profiles && !is_set(cancel)) add_profiles(limits, options, fit, &residuals, observer, cancel, &result);
+  if (options.intervals.profiles && is_set(cancel) && result.status.ok()) result.status = {StatusCode::kCancelled, 0.0, "cancelled"};
   if (holdout) {
     const Status status = judge_holdout(variables, fit, options.loss, holdout.get(), &result);
     if (result.status.ok()) result.status = status;

@@ -11,6 +11,9 @@
 
 namespace codesign {
 
+/// @throws InputError if the study of the problem has no block `identify`.
+void require_identification(const Problem& problem);
+
 /// Fits the tuned parameters and the numbers of effort sensors to recordings, and tells how well they are known; doc/theory.md (28)-(43).
 /// The holdout is judged on, never fitted.
 /// @param problem whose study has a block `identify`. @param recordings as load_recordings() returns them.

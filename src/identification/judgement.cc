@@ -98,7 +98,7 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
 }
 
 void add_profiles(const FitProblem& problem, const IdentificationDescription& options, const ResidualFit& fit, ResidualSource* source,
-                  const std::atomic<bool>* cancel, IdentificationResult* result) {
+                  const FitObserver& observer, const std::atomic<bool>* cancel, IdentificationResult* result) {
   const std::vector<int> columns = free_columns(*result);
   IntervalOptions white = options.intervals;
   white.noise = NoiseModel::kWhite;
@@ -120,7 +120,13 @@ void add_profiles(const FitProblem& problem, const IdentificationDescription& op
       FitProblem fixed = problem;
       fixed.start = fit.x;
       fixed.start[columns[k]] = fixed.lower[columns[k]] = fixed.upper[columns[k]] = value;
-      const ResidualFit refit = fit_with_spreads(fixed, fit.spreads, source);
+      const ResidualFit refit = fit_with_spreads(fixed, fit.spreads, source, [&](FitTrial trial) {
+        trial.evaluation += result->evaluations;
+        trial.iteration = fit.iterations;
+        trial.profile = static_cast<int>(k) + 1;
+        trial.profiles = static_cast<int>(columns.size());
+        return !observer || observer(trial);
+      });
       result->evaluations += refit.evaluations;
       if (!refit.status.ok()) return std::nullopt;
       return refit.cost;

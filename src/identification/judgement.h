@@ -19,9 +19,10 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
                    const ResidualFit& fit, IdentificationResult* result);
 
 /// Intervals of the profile likelihood of all numbers that the data tell: each is fixed and all others are fitted anew.
-/// @param problem of the fit. @param source the fit's. Ends early once `cancel` is set.
+/// @param problem of the fit. @param source the fit's. Ends early once `cancel` is set. @param observer told of each evaluation, with
+/// FitTrial::profile; may be empty.
 void add_profiles(const FitProblem& problem, const IdentificationDescription& options, const ResidualFit& fit, ResidualSource* source,
-                  const std::atomic<bool>* cancel, IdentificationResult* result);
+                  const FitObserver& observer, const std::atomic<bool>* cancel, IdentificationResult* result);
 
 /// Warnings about the result: `holdout_failed` first, `identified_on_bound`, `correlated_residuals`.
 Warnings warnings_of(const IdentificationDescription& options, const IdentificationResult& result);

@@ -77,7 +77,7 @@ class WeightedCost final : public LeastSquaresModel {
     const Status status = source_.evaluate(x, &residuals_, &jacobian_);
     if (status.code == StatusCode::kCancelled) return stop(status);
     ++fit_.evaluations;
-    FitTrial trial{fit_.evaluations, status, std::numeric_limits<double>::infinity(), {}, x};
+    FitTrial trial{fit_.evaluations, status, std::numeric_limits<double>::infinity(), {}, x, source_.outputs(), fit_.iterations};
     if (!status.ok()) {
       ++fit_.failed_evaluations;
       if (!is_begun_) fit_.status = status;
@@ -90,6 +90,7 @@ class WeightedCost final : public LeastSquaresModel {
     point->root = triangular_root(weighted.jacobian);
     keep(x, weighted.value);
     trial.cost = weighted.value;
+    trial.iteration = fit_.iterations;
     trial.rms = rms_of(residuals_);
     return tell(trial) ? Outcome::kUsable : stop({StatusCode::kCancelled, 0.0, "cancelled"});
   }

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "description/identification.h"
 #include "identification/residual_source.h"
@@ -28,11 +29,15 @@ Eigen::VectorXd spreads_of(const Eigen::MatrixXd& residuals, const LossOptions& 
 
 /// One evaluation of a fit, for progress.
 struct FitTrial {
-  int evaluation = 0;   ///< from 1
-  Status status;        ///< not ok: the fit turns back from this point
-  double cost = 0.0;    ///< sum of rho(r / s); infinite if the status is not ok
-  Eigen::VectorXd rms;  ///< of each output, in its unit; empty if the status is not ok
-  Eigen::VectorXd x;    ///< the point
+  int evaluation = 0;                     ///< from 1
+  Status status;                          ///< not ok: the fit turns back from this point
+  double cost = 0.0;                      ///< sum of rho(r / s); infinite if the status is not ok
+  Eigen::VectorXd rms;                    ///< of each output, in its unit; empty if the status is not ok
+  Eigen::VectorXd x;                      ///< the point
+  std::vector<std::string> outputs = {};  ///< ResidualSource::outputs()
+  int iteration = 0;                      ///< improvements of the best point so far
+  int profile = 0;                        ///< 1, 2, ...: an evaluation for the profile of this number; 0: of the fit
+  int profiles = 0;                       ///< numbers with a profile
 };
 /// Called after each evaluation; false ends the fit with kCancelled and the best point.
 using FitObserver = std::function<bool(const FitTrial&)>;

@@ -147,4 +147,10 @@ std::vector<mechanism_codesign::Warning> warning_messages(const Warnings& of_fil
   return messages;
 }
 
+Warnings warnings_of_job(const std::vector<mechanism_codesign::Warning>& messages, std::size_t of_files) {
+  Warnings warnings;
+  for (std::size_t k = of_files; k < messages.size(); ++k) warnings.push_back({messages[k].code, messages[k].message, {}});
+  return warnings;
+}
+
 }  // namespace codesign

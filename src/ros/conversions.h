@@ -58,6 +58,9 @@ std::vector<double> to_array(const Eigen::VectorXd& values);
 /// Messages for the warnings of the input files, followed by those of a job.
 std::vector<mechanism_codesign::Warning> warning_messages(const Warnings& of_files, const Warnings& of_job);
 
+/// The warnings of the job alone. @param of_files the number of those before them.
+Warnings warnings_of_job(const std::vector<mechanism_codesign::Warning>& messages, std::size_t of_files);
+
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_ROS_CONVERSIONS_H_

@@ -21,7 +21,9 @@ std_msgs::ColorRGBA color_of(bool is_torque) {
   return color;
 }
 
-visualization_msgs::Marker arrow(const Eigen::Vector3d& from, const Eigen::Vector3d& along, double shaft_diameter) {
+}  // namespace
+
+visualization_msgs::Marker arrow_marker(const Eigen::Vector3d& from, const Eigen::Vector3d& along, double shaft_diameter) {
   visualization_msgs::Marker marker;
   marker.type = visualization_msgs::Marker::ARROW;
   marker.action = along.norm() > shaft_diameter ? visualization_msgs::Marker::ADD : visualization_msgs::Marker::DELETE;
@@ -32,9 +34,6 @@ visualization_msgs::Marker arrow(const Eigen::Vector3d& from, const Eigen::Vecto
   marker.scale.z = 3.0 * shaft_diameter;
   return marker;
 }
-
-}  // namespace
-
 visualization_msgs::MarkerArray friction_markers(const FrameNames& names, const Frame& frame, const MessageContext& context,
                                                  const MarkerStyle& style) {
   visualization_msgs::MarkerArray message;
@@ -42,7 +41,7 @@ visualization_msgs::MarkerArray friction_markers(const FrameNames& names, const 
     const FrictionSample& sample = frame.frictions[i];
     const bool is_torque = names.friction_is_torque[i];
     const Eigen::Vector3d along = is_torque ? style.metres_per_newton_metre * sample.torque : style.metres_per_newton * sample.force;
-    visualization_msgs::Marker marker = arrow(sample.position, along, style.shaft_diameter);
+    visualization_msgs::Marker marker = arrow_marker(sample.position, along, style.shaft_diameter);
     marker.header.stamp = context.stamp;
     marker.header.frame_id = context.root_frame;
     marker.ns = names.frictions[i];

@@ -16,8 +16,10 @@ struct MarkerStyle {
   double shaft_diameter = 0.006;         ///< [m]
 };
 
+/// An arrow without frame, name and color. One shorter than its shaft diameter, or not finite, is removed instead of drawn.
+visualization_msgs::Marker arrow_marker(const Eigen::Vector3d& from, const Eigen::Vector3d& along, double shaft_diameter);
+
 /// One arrow for each joint and loop with friction, from the joint along the friction force (red) or torque (cyan) on the child link.
-/// An arrow shorter than its shaft diameter is removed instead of drawn.
 visualization_msgs::MarkerArray friction_markers(const FrameNames& names, const Frame& frame, const MessageContext& context,
                                                  const MarkerStyle& style);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ros/bag_writer.h"
+#include "ros/scene_layout.h"
 
 namespace codesign {
 namespace {
@@ -18,39 +19,16 @@ void write_frame(const std::string& place, const std::string& side, const Record
   writer->write(place + "tf", frame.time, all_link_transforms(run.names, frame, BagWriter::stamp(frame.time), prefix));
 }
 
-geometry_msgs::TransformStamped place(const std::string& side, double y) {
-  geometry_msgs::TransformStamped transform;
-  transform.header.stamp = BagWriter::stamp(0.0);
-  transform.header.frame_id = "world";
-  transform.child_frame_id = side;
-  transform.transform.translation.y = y;
-  transform.transform.rotation.w = 1.0;
-  return transform;
-}
-
-visualization_msgs::Marker label(const std::string& side, const SceneLayout& layout) {
-  visualization_msgs::Marker marker;
-  marker.header.stamp = BagWriter::stamp(0.0);
-  marker.header.frame_id = side;
-  marker.ns = side;
-  marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
-  marker.text = side;
-  marker.pose.position.z = layout.label_height;
-  marker.pose.orientation.w = 1.0;
-  marker.scale.z = layout.label_size;
-  marker.color.a = 1.0F;
-  return marker;
-}
-
 void write_head(const JobRecord& record, const SceneLayout& layout, BagWriter* writer) {
   writer->write_text("study", record.study);
   for (const std::string& file : record.study_files) writer->write_text("study_files", file);
   writer->write_latched("request", 0.0, record.request);
   tf2_msgs::TFMessage places;
-  places.transforms = {place("initial", 0.5 * layout.separation), place("tuned", -0.5 * layout.separation)};
+  const ros::Time begin = BagWriter::stamp(0.0);
+  places.transforms = {place_in_world("initial", 0.5 * layout.separation, begin), place_in_world("tuned", -0.5 * layout.separation, begin)};
   writer->write_latched("tf_static", 0.0, places);
   visualization_msgs::MarkerArray labels;
-  labels.markers = {label("initial", layout), label("tuned", layout)};
+  for (const char* side : {"initial", "tuned"}) labels.markers.push_back(label(side, side, side, layout, begin));
   writer->write_latched("labels", 0.0, labels);
 }
 
@@ -76,7 +54,7 @@ void write_runs(const std::string& place, const BagRuns& runs, const MarkerStyle
 
 void write_contents(const JobRecord& record, BagWriter* writer) {
   const BagRuns& nominal = record.nominal;
-  const SceneLayout layout = lay_out(nominal.initial.run, nominal.tuned.run);
+  const SceneLayout layout = lay_out({&nominal.initial.run.frames, &nominal.tuned.run.frames});
   write_head(record, layout, writer);
   double duration = 0.0;
   for (const RecordedRun* run : {&nominal.initial.run, &nominal.tuned.run})

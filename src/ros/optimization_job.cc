@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <ros/console.h>
-#include <ros/init.h>
 #include <unistd.h>
 
 #include <cstdint>
@@ -18,10 +17,12 @@
 #include "mechanism_codesign/optimization.h"
 #include "optimization/search_hooks.h"
 #include "reading/urdf/urdf_reader.h"
+#include "ros/conversions.h"
 #include "ros/ensemble_messages.h"
 #include "ros/job.h"
 #include "ros/job_bag.h"
 #include "ros/job_feedback.h"
+#include "ros/patience.h"
 #include "ros/request.h"
 #include "ros/watched_messages.h"
 
@@ -53,30 +54,6 @@ mechanism_codesign::OptimizeResult to_message(const OptimizationResult& result, 
   message.signals = watched_messages(result.watched, !result.scenarios.empty());
   return message;
 }
-
-/// Limits the time for recording the runs of a job after it was cancelled (half a second, so that a cancel is answered within one) or the
-/// node is shutting down (8 s: roslaunch kills a node after 15 s).
-class Patience {
- public:
-  explicit Patience(const std::atomic<bool>& cancel) : cancel_(cancel) {}
-
-  bool operator()() {
-    const ros::WallTime now = ros::WallTime::now();
-    // A node that shuts down cancels its job, too, but nobody waits for the answer.
-    if (ros::isShuttingDown()) return is_over(true, 8.0, now, &shutdown_);
-    return is_over(cancel_, 0.5, now, &cancelled_);
-  }
-
- private:
-  static bool is_over(bool told, double seconds, const ros::WallTime& now, ros::WallTime* since) {
-    if (!told) return false;
-    if (since->isZero()) *since = now;
-    return now - *since > ros::WallDuration(seconds);
-  }
-
-  const std::atomic<bool>& cancel_;
-  ros::WallTime shutdown_, cancelled_;  ///< time of the first call that saw it
-};
 
 /// Both designs of a result in one scenario, the tuned one first: it counts if time runs out.
 BagRuns run_both(const Problem& problem, const OptimizationResult& result, const Scenario& scenario, double rate, Patience* patience) {

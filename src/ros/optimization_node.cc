@@ -23,8 +23,8 @@
 namespace codesign {
 namespace {
 
-/// Threads for callbacks: two callbacks may wait for their workers, the others answer `busy`.
-constexpr unsigned kDoorThreads = 4;
+/// Threads for callbacks: three callbacks may wait for their workers, the others answer `busy`.
+constexpr unsigned kDoorThreads = 5;
 
 std::vector<std::string> optimization_parameters() {
   std::vector<std::string> names = input_parameters();
@@ -38,18 +38,10 @@ std::string default_output_directory() {
   return (ros_home != nullptr ? std::string(ros_home) : std::string(home != nullptr ? home : ".") + "/.ros") + "/mechanism_codesign";
 }
 
-/// The warnings of a job without those of the input files, which come first.
-Warnings added_warnings(const mechanism_codesign::OptimizeResult& result, std::size_t of_files) {
-  Warnings warnings;
-  for (std::size_t i = of_files; i < result.warnings.size(); ++i)
-    warnings.push_back({result.warnings[i].code, result.warnings[i].message, {}});
-  return warnings;
-}
-
 }  // namespace
 
 OptimizationNode::OptimizationNode(Dispatcher* ranks) : state_("optimization"), spinner_(kDoorThreads, &queue_) {
-  options_.ranks = ranks;
+  loaded_.options.ranks = ranks;
   progress_ = node_.advertise<mechanism_codesign::OptimizationProgress>("optimization_progress", 100, true);
   tuned_ = node_.advertise<std_msgs::String>("tuned/robot_description", 1, true);
   load();
@@ -60,11 +52,14 @@ OptimizationNode::OptimizationNode(Dispatcher* ranks) : state_("optimization"), 
       doors_, "optimize", [this](const GoalHandle& goal) { on_goal(goal); }, [this](const GoalHandle& goal) { on_cancel(goal); }, false);
   // Subscribed in the action's namespace, so that a remapping of the action applies to it too.
   cancel_all_ = ros::NodeHandle(doors_, "optimize").subscribe("cancel", 10, &OptimizationNode::on_cancel_all, this);
+  identification_ = std::make_unique<IdentificationDoor>(node_, doors_, loaded_, &state_);
   spinner_.start();
   action_->start();
+  identification_->open();
 }
 
 OptimizationNode::~OptimizationNode() {
+  identification_->finish();
   optimizer_.finish();
   evaluator_.finish();
   spinner_.stop();
@@ -73,30 +68,31 @@ OptimizationNode::~OptimizationNode() {
 void OptimizationNode::load() {
   try {
     state_.warn("parameters", unknown_parameters(private_node_, optimization_parameters()));
-    options_.output_directory = read_path(private_node_, "output_directory", default_output_directory());
-    options_.rate = read_positive(private_node_, "rate", options_.rate);
+    loaded_.options.output_directory = read_path(private_node_, "output_directory", default_output_directory());
+    loaded_.options.rate = read_positive(private_node_, "rate", loaded_.options.rate);
     const Inputs inputs = read_inputs(node_, private_node_);
-    study_ = inputs.study.text;
-    Problem problem = codesign::load(inputs, bag_trajectory_loader(study_folder(inputs)));
+    loaded_.text = inputs.study.text;
+    loaded_.folder = study_folder(inputs);
+    Problem problem = codesign::load(inputs, bag_trajectory_loader(loaded_.folder));
     require_every_parameter(inputs, problem.robot());
-    require_engine(problem.study().ensemble.engine, options_.ranks);
-    check_recording(problem, options_.rate, private_node_.resolveName("rate"));
-    for (const std::string& sentence : remove_leftovers(options_.output_directory)) ROS_WARN_STREAM(sentence);
+    require_engine(problem.study().ensemble.engine, loaded_.options.ranks);
+    check_recording(problem, loaded_.options.rate, private_node_.resolveName("rate"));
+    for (const std::string& sentence : remove_leftovers(loaded_.options.output_directory)) ROS_WARN_STREAM(sentence);
     state_.warn("files", problem.warnings());
-    problem_ = std::move(problem);
-    state_.show("robot", problem_->robot().name);
-    state_.show("output directory", options_.output_directory);
-    state_.set(NodeState::Level::kOk,
-               "ready: " + problem_->robot().name + ", " + std::to_string(problem_->study().tuned.size()) + " parameters to tune");
+    loaded_.problem = std::move(problem);
+    state_.show("robot", loaded_.problem->robot().name);
+    state_.show("output directory", loaded_.options.output_directory);
+    state_.set(NodeState::Level::kOk, "ready: " + loaded_.problem->robot().name + ", " +
+                                          std::to_string(loaded_.problem->study().tuned.size()) + " parameters to tune");
   } catch (const InputError& error) {
-    fault_ = error.what();
-    state_.set(NodeState::Level::kError, "bad input: " + fault_);
+    loaded_.fault = error.what();
+    state_.set(NodeState::Level::kError, "bad input: " + loaded_.fault);
   }
 }
 
 bool OptimizationNode::start(const mechanism_codesign::OptimizeGoal& request, const Client& client, Result* refusal) {
-  if (!problem_) {
-    refuse("bad_input", fault_, refusal);
+  if (!loaded_.problem) {
+    refuse("bad_input", loaded_.fault, refusal);
     return false;
   }
   const auto result = std::make_shared<Result>();
@@ -119,13 +115,13 @@ OptimizationNode::Result OptimizationNode::run(const mechanism_codesign::Optimiz
     tell_progress(progress);
     if (observer) observer(progress);
   };
-  const OptimizationOutcome outcome = run_optimization(*problem_, study_, request, options_, publish, cancel);
+  const OptimizationOutcome outcome = run_optimization(*loaded_.problem, loaded_.text, request, loaded_.options, publish, cancel);
   if (!outcome.tuned_urdf.empty()) {
     std_msgs::String description;
     description.data = outcome.tuned_urdf;
     tuned_.publish(description);
   }
-  state_.warn("last job", added_warnings(outcome.result, problem_->warnings().size()));
+  state_.warn("last job", warnings_of_job(outcome.result.warnings, loaded_.problem->warnings().size()));
   tell_result(outcome.result);
   return outcome.result;
 }
@@ -154,7 +150,7 @@ template <class Reply>
 bool OptimizationNode::has_size(const std::vector<std::string>& names, const std::vector<double>& values, const std::string& field,
                                 Reply* refusal) const {
   try {
-    if (problem_) check_size(*problem_, names, values, field);
+    if (loaded_.problem) check_size(*loaded_.problem, names, values, field);
     return true;
   } catch (const InputError& error) {
     refuse("bad_input", error.what(), refusal);
@@ -176,14 +172,14 @@ bool OptimizationNode::on_optimize(mechanism_codesign::Optimize::Request& reques
 }
 
 bool OptimizationNode::on_evaluate(mechanism_codesign::Evaluate::Request& request, mechanism_codesign::Evaluate::Response& response) {
-  if (!problem_) {
-    refuse("bad_input", fault_, &response);
+  if (!loaded_.problem) {
+    refuse("bad_input", loaded_.fault, &response);
     return true;
   }
   if (!has_size(request.parameters, request.values, "values", &response)) return true;
   const auto done = std::make_shared<std::promise<void>>();
   const auto job = [this, &request, &response](const std::atomic<bool>& cancel) {
-    response = run_evaluation(*problem_, request, cancel, options_.ranks);
+    response = run_evaluation(*loaded_.problem, request, cancel, loaded_.options.ranks);
   };
   if (evaluator_.try_start(job, [done] { done->set_value(); }))
     done->get_future().wait();

@@ -12,20 +12,20 @@
 #include <ros/spinner.h>
 
 #include <functional>
-#include <optional>
 #include <string>
 
+#include "ros/identification_door.h"
 #include "ros/job.h"
 #include "ros/node_state.h"
 #include "ros/worker.h"
 
 namespace codesign {
 
-/// The node `optimization`: services `optimize` and `evaluate`, action `optimize`. See doc/ros_api.md.
+/// The node `optimization`: services `optimize`, `identify` and `evaluate`, actions `optimize` and `identify`. See doc/ros_api.md.
 ///
-/// One worker thread serves the service and the action `optimize`, another one `evaluate`; a request to a working one is answered with
-/// `busy`. Callbacks only hand the job over and wait for it. They have their own queue with several threads, so that the node answers at
-/// any time. With bad input the node stays up and answers every request with `bad_input`.
+/// One worker thread serves the service and the action `optimize`, another one `identify`, a third `evaluate`; a request to a working one
+/// is answered with `busy`. Callbacks only hand the job over and wait for it. They have their own queue with several threads, so that the
+/// node answers at any time. With bad input the node stays up and answers every request with `bad_input`.
 class OptimizationNode {
  public:
   /// @param ranks the processes that evaluate for this one, as in require_engine().
@@ -62,15 +62,13 @@ class OptimizationNode {
 
   ros::NodeHandle node_, private_node_{"~"};
   NodeState state_;
-  std::optional<Problem> problem_;  // empty after bad input
-  std::string fault_;               // message of the bad input
-  std::string study_;
-  JobOptions options_;
+  LoadedStudy loaded_;
   ros::Publisher progress_, tuned_;
   // The order of the members from here on matters: what callbacks and workers use must outlive them.
   ros::CallbackQueue queue_;
   ros::NodeHandle doors_;
   std::unique_ptr<ActionServer> action_;
+  std::unique_ptr<IdentificationDoor> identification_;
   Worker optimizer_, evaluator_;
   ros::AsyncSpinner spinner_;
   ros::ServiceServer optimize_, evaluate_;

@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "mechanism_codesign/frame.h"
+#include "mechanism_codesign/status.h"
 #include "problem/load_problem.h"
-#include "ros/friction_markers.h"
 
 namespace codesign {
 
@@ -28,18 +29,6 @@ void check_recording(const Problem& problem, double rate, const std::string& ele
 /// given, called repeatedly; true ends the run with kCancelled.
 RecordedRun record_run(const std::shared_ptr<const CompiledSystem>& system, const std::vector<double>& parameters, double rate,
                        const std::function<bool()>& stop = {});
-
-/// Placement and scales for showing the initial and the tuned run together in rviz.
-struct SceneLayout {
-  double separation = 0.0;    ///< distance of the tuned mechanism from the initial one, along -y [m]
-  double label_height = 0.0;  ///< height of their labels above the root link [m]
-  double label_size = 0.0;    ///< height of the letters [m]
-  MarkerStyle style;
-};
-
-/// A layout in which the two mechanisms do not overlap, an arrow of the root-mean-square friction is a third as long as the mechanism, and
-/// the largest arrow at most as long as the mechanism.
-SceneLayout lay_out(const RecordedRun& initial, const RecordedRun& tuned);
 
 }  // namespace codesign
 

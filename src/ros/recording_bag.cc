@@ -4,6 +4,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/JointState.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include <set>
 #include <utility>
 
+#include "text/cancel.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
 #include "text/unknown_name.h"
@@ -27,8 +29,9 @@ struct Group {
 /// One reading of a bag.
 class RecordingBag {
  public:
-  RecordingBag(const RecordingDescription& description, const std::string& path, const std::vector<std::string>& joints, Warnings* warnings)
-      : description_(description), path_(path), known_(joints.begin(), joints.end()), warnings_(warnings), bag_(path) {}
+  RecordingBag(const RecordingDescription& description, const std::string& path, const std::vector<std::string>& joints, Warnings* warnings,
+               const std::atomic<bool>* cancel)
+      : description_(description), path_(path), known_(joints.begin(), joints.end()), warnings_(warnings), cancel_(cancel), bag_(path) {}
 
   JointRecording read();
 
@@ -56,6 +59,7 @@ class RecordingBag {
   const std::string& path_;
   std::set<std::string> known_;
   Warnings* warnings_;
+  const std::atomic<bool>* cancel_;
   rosbag::Bag bag_;
   std::string topic_;
   ros::Time begin_;
@@ -90,6 +94,7 @@ void RecordingBag::find_topic() {
 void RecordingBag::read_messages() {
   rosbag::View view(bag_, rosbag::TopicQuery(topic_));
   for (const rosbag::MessageInstance& instance : view) {
+    if (is_set(cancel_)) throw ReadingCancelled();
     messages_.push_back(instance.instantiate<sensor_msgs::JointState>());
     received_.push_back(instance.getTime());
     const sensor_msgs::JointState::ConstPtr& message = messages_.back();
@@ -224,22 +229,34 @@ JointRecording RecordingBag::read() {
   return recording;
 }
 
-}  // namespace
-
-JointRecording read_recording_bag(const RecordingDescription& description, const std::string& path, const std::vector<std::string>& joints,
-                                  Warnings* warnings) {
+JointRecording read(const RecordingDescription& description, const std::string& path, const std::vector<std::string>& joints,
+                    Warnings* warnings, const std::atomic<bool>* cancel) {
   const auto refuse = [&](const std::string& cause, const std::string& allowed) {
     return InputError({description.where, description.element + ".bag", "the bag cannot be read: " + cause, path, allowed});
   };
   try {
-    return RecordingBag(description, path, joints, warnings).read();
+    return RecordingBag(description, path, joints, warnings, cancel).read();
   } catch (const rosbag::BagUnindexedException& error) {
     throw refuse(error.what(), "a bag that was closed; `rosbag reindex` repairs one of a recorder that was killed");
   } catch (const rosbag::BagException& error) {
-    throw refuse(error.what(), "");
+    const bool is_recorded = access(path.c_str(), F_OK) != 0 && access((path + ".active").c_str(), F_OK) == 0;
+    throw refuse(error.what(),
+                 is_recorded ? "a bag that is complete; " + path + ".active is there: its recorder still runs, or was killed" : "");
   } catch (const ros::Exception& error) {
     throw refuse(error.what(), "");
   }
+}
+
+}  // namespace
+
+JointRecording read_recording_bag(const RecordingDescription& description, const std::string& path, const std::vector<std::string>& joints,
+                                  Warnings* warnings) {
+  return read(description, path, joints, warnings, nullptr);
+}
+
+BagReader cancellable_bag_reader(const std::atomic<bool>& cancel) {
+  return [&cancel](const RecordingDescription& description, const std::string& path, const std::vector<std::string>& joints,
+                   Warnings* warnings) { return read(description, path, joints, warnings, &cancel); };
 }
 
 }  // namespace codesign

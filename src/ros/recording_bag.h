@@ -2,6 +2,8 @@
 #ifndef MECHANISM_CODESIGN_ROS_RECORDING_BAG_H_
 #define MECHANISM_CODESIGN_ROS_RECORDING_BAG_H_
 
+#include <atomic>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,15 @@ namespace codesign {
 /// @throws InputError as BagReader says, and for stamps of zero and arrays of other sizes than the names.
 JointRecording read_recording_bag(const RecordingDescription& description, const std::string& path, const std::vector<std::string>& joints,
                                   Warnings* warnings);
+
+/// Reading was ended by a cancel.
+class ReadingCancelled : public std::runtime_error {
+ public:
+  ReadingCancelled() : std::runtime_error("cancelled") {}
+};
+
+/// As above. @throws ReadingCancelled soon after `cancel` is set, from any thread; it must outlive the reader.
+BagReader cancellable_bag_reader(const std::atomic<bool>& cancel);
 
 }  // namespace codesign
 

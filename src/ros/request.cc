@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "description/tuned_parameters.h"
+#include "identification/identify.h"
 #include "text/decimal.h"
 #include "text/unknown_name.h"
 
@@ -64,12 +65,8 @@ void choose_tuned(const std::vector<std::string>& names, Study* study) {
   for (const std::string& name : names) study->tuned.push_back(static_cast<int>(index_of(name, known)));
 }
 
-void choose_options(const mechanism_codesign::OptimizeGoal& request, OptimizerOptions* options) {
-  check_length("algorithm", request.algorithm);
-  if (!request.algorithm.empty()) {
-    options->algorithm = request.algorithm;
-    options->where = {kRequest, 0};
-  }
+template <class Request>
+void choose_limits(const Request& request, OptimizerOptions* options) {
   if (request.max_evaluations > static_cast<unsigned>(std::numeric_limits<int>::max()))
     fail("max_evaluations", "count out of range", std::to_string(request.max_evaluations), "0 (take the study's value) to 2147483647");
   if (request.max_evaluations > 0) options->max_evaluations = static_cast<int>(request.max_evaluations);
@@ -77,6 +74,26 @@ void choose_options(const mechanism_codesign::OptimizeGoal& request, OptimizerOp
     fail("relative_tolerance", "tolerance out of range", to_decimal(request.relative_tolerance),
          "0 (take the study's value) or more, less than 1");
   if (request.relative_tolerance > 0.0) options->relative_tolerance = request.relative_tolerance;
+}
+
+void choose_options(const mechanism_codesign::OptimizeGoal& request, OptimizerOptions* options) {
+  check_length("algorithm", request.algorithm);
+  if (!request.algorithm.empty()) {
+    options->algorithm = request.algorithm;
+    options->where = {kRequest, 0};
+  }
+  choose_limits(request, options);
+}
+
+/// Sets the tuned parameters of the study. @returns their start values, where the request gives them.
+template <class Request>
+ParameterSettings choose_parameters(const Request& request, Study* study) {
+  if (!request.parameters.empty()) {
+    pair_up(request.parameters, std::vector<double>(request.parameters.size()), "parameters");
+    choose_tuned(request.parameters, study);
+  }
+  if (request.start.empty()) return {};
+  return pair_up(tuned_names(*study), request.start, "start");
 }
 
 }  // namespace
@@ -95,13 +112,19 @@ OptimizationRequest apply_request(const Problem& problem, const mechanism_codesi
   OptimizerOptions options = problem.optimizer_options();
   choose_options(request, &options);
   check_size(problem, request.parameters, request.start, "start");
-  if (!request.parameters.empty()) pair_up(request.parameters, std::vector<double>(request.parameters.size()), "parameters");
   if (request.parameters.empty() && request.start.empty()) return {problem, options};
   Study study = problem.study();
-  if (!request.parameters.empty()) choose_tuned(request.parameters, &study);
-  ParameterSettings starts;
-  if (!request.start.empty()) starts = pair_up(tuned_names(study), request.start, "start");
+  const ParameterSettings starts = choose_parameters(request, &study);
   return {with_study(problem, std::move(study), starts), options};
+}
+
+Problem apply_request(const Problem& problem, const mechanism_codesign::IdentifyGoal& request) {
+  require_identification(problem);
+  check_size(problem, request.parameters, request.start, "start");
+  Study study = problem.study();
+  choose_limits(request, &study.optimizer);
+  const ParameterSettings starts = choose_parameters(request, &study);
+  return with_study(problem, std::move(study), starts);
 }
 
 Eigen::VectorXd design_of(const Problem& problem, const mechanism_codesign::EvaluateRequest& request) {

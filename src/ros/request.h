@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_ROS_REQUEST_H_
 
 #include <mechanism_codesign/EvaluateRequest.h>
+#include <mechanism_codesign/IdentifyGoal.h>
 #include <mechanism_codesign/OptimizeGoal.h>
 
 #include <Eigen/Core>
@@ -29,6 +30,10 @@ struct OptimizationRequest {
 /// it; everything else is as in the study.
 /// @throws InputError naming the field of the request, or if the study has no objective.
 OptimizationRequest apply_request(const Problem& problem, const mechanism_codesign::OptimizeGoal& request);
+
+/// Applies a goal of `identify` to the loaded problem: the parameters to fit, their start values and the limits of the fit.
+/// @throws InputError naming the field of the request, or if the study has no recordings.
+Problem apply_request(const Problem& problem, const mechanism_codesign::IdentifyGoal& request);
 
 /// The tuned parameters rho (order of Study::tuned) at which a request wants an evaluation: the values of the request, and start values for
 /// the parameters that it does not name.

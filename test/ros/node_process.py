@@ -21,15 +21,17 @@ SHARE = rospkg.RosPack().get_path("mechanism_codesign")
 
 
 class Node:
-    """One node with its own name and the given parameters. `prefix`: the words of a launch-prefix."""
+    """One node with its own name and the given parameters. `model`: a shipped case, or the path of a URDF. `prefix`: the words of a launch-prefix."""
 
     def __init__(self, program, name, model="slider_crank", prefix=(), **parameters):
         self.name = name
-        for key, value in {"model": f"{SHARE}/urdf/{model}.urdf", "study": f"{SHARE}/config/{model}.yaml", **parameters}.items():
+        path = model if model.endswith(".urdf") else f"{SHARE}/urdf/{model}.urdf"
+        for key, value in {"model": path, "study": f"{SHARE}/config/{model}.yaml", **parameters}.items():
             if value is not None:
                 rospy.set_param(f"/{name}/{key}", value)
         self.log = tempfile.TemporaryFile("w+")
-        remappings = [f"{topic}:=/{name}/{topic}" for topic in ("optimize", "evaluate", "optimization_progress")]
+        remappings = [f"{topic}:=/{name}/{topic}" for topic in
+                      ("optimize", "evaluate", "identify", "optimization_progress", "identification_progress", "identified/robot_description")]
         path = roslib.packages.find_node("mechanism_codesign", program)[0]
         self.process = subprocess.Popen([*prefix, path, f"__name:={name}", *remappings], stdout=self.log, stderr=subprocess.STDOUT)
 

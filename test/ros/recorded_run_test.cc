@@ -6,40 +6,9 @@
 #include "ensemble/ensemble_fixture.h"
 #include "mechanism_codesign/error.h"
 #include "ros/pendulum.h"
-#include "ros/sample_frame.h"
 
 namespace codesign {
 namespace {
-
-RecordedRun sample_run(double force) {
-  RecordedRun run{sample_names(), {sample_frame(0.0), sample_frame(0.1)}, {}};
-  run.frames[1].frictions[0].force = {0.0, force, 0.0};
-  return run;
-}
-
-TEST(LayOut, TheMechanismsStandClearOfEachOther) {
-  // The sample's links span 1 m along x and 2 m along y.
-  EXPECT_DOUBLE_EQ(lay_out(sample_run(1.0), sample_run(1.0)).separation, 2.0 + 0.5 * 2.0);
-}
-
-TEST(LayOut, ATypicalArrowOfBothRunsIsAThirdOfTheMechanism) {
-  // Forces of 4, 3, 4 and 5 N, whose mean square is 16.5; torques of 2 N m throughout.
-  const SceneLayout layout = lay_out(sample_run(3.0), sample_run(5.0));
-  EXPECT_DOUBLE_EQ(layout.style.metres_per_newton * std::sqrt(16.5), 2.0 / 3.0);
-  EXPECT_DOUBLE_EQ(layout.style.metres_per_newton_metre * 2.0, 2.0 / 3.0);
-}
-
-TEST(LayOut, TheArrowOfAPeakIsNotLongerThanTheMechanism) {
-  RecordedRun peaked = sample_run(1e3);
-  peaked.frames.resize(100, sample_frame(0.0));
-  EXPECT_DOUBLE_EQ(lay_out(sample_run(3.0), peaked).style.metres_per_newton * 1e3, 2.0);
-}
-
-TEST(LayOut, WithoutFramesItStaysFinite) {
-  const SceneLayout layout = lay_out({}, {});
-  EXPECT_GT(layout.style.shaft_diameter, 0.0);
-  EXPECT_TRUE(std::isfinite(layout.style.metres_per_newton));
-}
 
 TEST(CheckRecording, RefusesWhatMemoryOrRosTimeCannotHold) {
   const auto fault_of = [](double duration, double rate) -> std::string {

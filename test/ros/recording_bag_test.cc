@@ -7,6 +7,7 @@
 #include <std_msgs/String.h>
 
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <limits>
 
@@ -108,6 +109,12 @@ TEST_F(RecordedStates, WhatIsNotThereIsSaid) {
   std::filesystem::remove(path());
   EXPECT_EQ(fault().element, "identify.data[0].bag");
   expect_message("the bag cannot be read");
+}
+
+TEST_F(RecordedStates, ABagThatIsStillRecordedIsSaidToBe) {
+  write();
+  std::filesystem::rename(path(), path() + ".active");
+  EXPECT_NE(fault().allowed.find("states.bag.active is there"), std::string::npos) << fault().allowed;
 }
 
 TEST_F(RecordedStates, OfAnotherRobotAreRefused) {

@@ -1,0 +1,59 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "ros/effort_markers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace codesign {
+namespace {
+
+std_msgs::ColorRGBA rgba(float red, float green, float blue, float alpha) {
+  std_msgs::ColorRGBA result;
+  result.r = red;
+  result.g = green;
+  result.b = blue;
+  result.a = alpha;
+  return result;
+}
+
+}  // namespace
+
+MarkerStyle effort_style(const ComparedMotion& motion, double size) {
+  double largest_force = 0.0, largest_torque = 0.0;
+  for (const ComparedRecording& recording : motion.recordings)
+    for (const std::vector<Frame>* frames : {&recording.measured, &recording.model})
+      for (const Frame& frame : *frames)
+        for (const ComparedJoint& joint : motion.joints) {
+          double& largest = joint.is_torque ? largest_torque : largest_force;
+          const double effort = std::abs(frame.joints[joint.joint].effort);
+          if (effort > largest) largest = effort;
+        }
+  MarkerStyle style;
+  style.shaft_diameter = 0.012 * size;
+  if (largest_force > 0.0) style.metres_per_newton = 0.5 * size / largest_force;
+  if (largest_torque > 0.0) style.metres_per_newton_metre = 0.5 * size / largest_torque;
+  return style;
+}
+
+visualization_msgs::MarkerArray effort_markers(const ComparedMotion& motion, const Frame& measured, const Frame& model,
+                                               const MessageContext& context, const MarkerStyle& style) {
+  visualization_msgs::MarkerArray message;
+  for (const ComparedJoint& joint : motion.joints) {
+    const LinkSample& link = model.links[joint.link];
+    const Eigen::Vector3d axis = link.orientation * joint.axis;
+    const double scale = joint.is_torque ? style.metres_per_newton_metre : style.metres_per_newton;
+    const auto add = [&](const std::string& side, double effort, double thickness, const std_msgs::ColorRGBA& colored) {
+      message.markers.push_back(arrow_marker(link.position, scale * effort * axis, thickness * style.shaft_diameter));
+      visualization_msgs::Marker& marker = message.markers.back();
+      marker.header.stamp = context.stamp;
+      marker.header.frame_id = context.root_frame;
+      marker.ns = motion.names.joints[joint.joint] + "/" + side;
+      marker.color = colored;
+    };
+    add("identified", model.joints[joint.joint].effort, 1.0, rgba(0.1F, 0.65F, 0.25F, 1.0F));
+    add("measured", measured.joints[joint.joint].effort, 2.2, rgba(0.3F, 0.3F, 0.35F, 0.45F));
+  }
+  return message;
+}
+
+}  // namespace codesign

@@ -1,0 +1,25 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_EFFORT_MARKERS_H_
+#define MECHANISM_CODESIGN_ROS_EFFORT_MARKERS_H_
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include "identification/compared_motion.h"
+#include "ros/friction_markers.h"
+
+namespace codesign {
+
+/// Scales of the arrows that show efforts: the largest one of each unit is as long as half the mechanism.
+/// @param size of the mechanism [m].
+MarkerStyle effort_style(const ComparedMotion& motion, double size);
+
+/// Two arrows for each compared joint, from its child's origin along its axis: the effort that the model needs (green), and around it the
+/// one that was recorded (grey, thick and transparent). Where the model explains the recording, the grey arrow ends where the green one
+/// does.
+/// @param context.root_frame the frame of the root link of the identified model.
+visualization_msgs::MarkerArray effort_markers(const ComparedMotion& motion, const Frame& measured, const Frame& model,
+                                               const MessageContext& context, const MarkerStyle& style);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_EFFORT_MARKERS_H_

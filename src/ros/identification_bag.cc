@@ -1,0 +1,150 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "ros/identification_bag.h"
+
+#include <mechanism_codesign/Residuals.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "ros/bag_writer.h"
+#include "ros/effort_markers.h"
+#include "ros/scene_layout.h"
+
+namespace codesign {
+namespace {
+
+/// Between the recordings [s].
+constexpr double kPause = 0.5;
+
+/// Rows of a series that belong to one recording.
+struct SeriesPart {
+  const FittedSeries* series;
+  Eigen::Index begin, end;
+};
+
+std::vector<SeriesPart> parts_of(const IdentificationShow& show) {
+  std::vector<SeriesPart> parts;
+  for (const FittedSeries* series : {&show.data, &show.holdout}) {
+    Eigen::Index row = 0;
+    for (const Eigen::Index length : series->lengths) {
+      parts.push_back({series, row, row + length});
+      row += length;
+    }
+  }
+  return parts;
+}
+
+/// One bag on its way.
+class ShowWriter {
+ public:
+  ShowWriter(const std::string& path, const IdentificationShow& show, const IdentificationAnswer* answer)
+      : show_(show), answer_(answer), writer_(path) {
+    std::vector<const std::vector<Frame>*> runs;
+    for (const ComparedRecording& recording : show.motion.recordings) runs.push_back(&recording.model);
+    layout_ = lay_out(runs);
+    efforts_ = effort_style(show.motion, layout_.size);
+  }
+
+  void write() {
+    write_head();
+    const std::vector<SeriesPart> parts = parts_of(show_);
+    for (std::size_t k = 0; k < std::max(parts.size(), show_.motion.recordings.size()); ++k) {
+      const double begin = k == 0 ? 0.0 : end_ + kPause;
+      end_ = begin;
+      if (k < show_.motion.recordings.size()) write_motion(show_.motion.recordings[k], begin);
+      if (k < parts.size()) write_residuals(parts[k], element(k), begin);
+    }
+    write_tail();
+    writer_.finish();
+  }
+
+ private:
+  std::string element(std::size_t k) const { return k < show_.motion.recordings.size() ? show_.motion.recordings[k].element : ""; }
+
+  void write_head() {
+    writer_.write_text("study", show_.study);
+    writer_.write_text("identification", show_.json);
+    if (answer_) writer_.write_latched("request", 0.0, answer_->request);
+    // The measured robot has no other dimensions than those that were identified.
+    for (const char* side : {"measured", "identified"}) writer_.write_text(std::string(side) + "/robot_description", show_.urdf);
+    tf2_msgs::TFMessage places;
+    for (const char* side : {"measured", "identified"}) places.transforms.push_back(place_in_world(side, 0.0, BagWriter::stamp(0.0)));
+    writer_.write_latched("tf_static", 0.0, places);
+  }
+
+  void write_tail() {
+    if (!answer_) return;
+    const double spacing = end_ / static_cast<double>(std::max<std::size_t>(answer_->progress.size(), 2) - 1);
+    double time = 0.0;
+    for (mechanism_codesign::IdentificationProgress progress : answer_->progress) {
+      progress.header.stamp = BagWriter::stamp(time);
+      writer_.write_latched("identification_progress", time, progress);
+      time += spacing;
+    }
+    writer_.write_latched("result", end_, answer_->result);
+  }
+
+  /// @param begin where the recording begins in the bag [s].
+  void write_motion(const ComparedRecording& recording, double begin) {
+    visualization_msgs::MarkerArray labels;
+    labels.markers = {label("recording", "world", recording.element, layout_, BagWriter::stamp(begin))};
+    writer_.write_latched("labels", begin, labels);
+    for (std::size_t k = 0; k < recording.model.size(); ++k) {
+      const double time = begin + recording.model[k].time - recording.model.front().time;
+      write_measured(recording.measured[k], time);
+      write_model(recording.model[k], time);
+      const MessageContext context{BagWriter::stamp(time), "identified/" + show_.motion.names.links[0]};
+      writer_.write("efforts", time, effort_markers(show_.motion, recording.measured[k], recording.model[k], context, efforts_));
+      end_ = std::max(end_, time);
+    }
+  }
+
+  void write_measured(const Frame& frame, double time) {
+    const FrameNames& names = show_.motion.names;
+    const ros::Time stamp = BagWriter::stamp(time);
+    writer_.write("measured/joint_states", time, joint_states(names, frame, {stamp, "measured/" + names.links[0]}));
+    writer_.write("tf", time, all_link_transforms(names, frame, stamp, "measured/"));
+  }
+
+  void write_model(Frame frame, double time) {
+    const FrameNames& names = show_.motion.names;
+    frame.time = time;
+    writer_.write_frame("identified/", "identified/" + names.links[0], names, frame, layout_.style);
+    writer_.write("tf", time, all_link_transforms(names, frame, BagWriter::stamp(time), "identified/"));
+  }
+
+  void write_residuals(const SeriesPart& part, const std::string& recording, double begin) {
+    const FittedSeries& series = *part.series;
+    for (Eigen::Index row = part.begin; row < part.end; ++row) {
+      const double clock = series.times[static_cast<std::size_t>(row)];
+      const double time = begin + clock - series.times[static_cast<std::size_t>(part.begin)];
+      mechanism_codesign::Residuals message;
+      message.header.stamp = BagWriter::stamp(time);
+      message.recording = recording;
+      message.time = clock;
+      message.name = show_.joints;
+      for (Eigen::Index k = 0; k < series.recorded.cols(); ++k) {
+        message.recorded.push_back(series.recorded(row, k));
+        message.computed.push_back(series.computed(row, k));
+        message.residual.push_back(series.computed(row, k) - series.recorded(row, k));
+      }
+      writer_.write("residuals", time, message);
+      end_ = std::max(end_, time);
+    }
+  }
+
+  const IdentificationShow& show_;
+  const IdentificationAnswer* answer_;
+  BagWriter writer_;
+  SceneLayout layout_;
+  MarkerStyle efforts_;  ///< of the arrows of efforts
+  double end_ = 0.0;     ///< of what is written so far
+};
+
+}  // namespace
+
+void write_identification_bag(const std::string& path, const IdentificationShow& show, const IdentificationAnswer* answer) {
+  ShowWriter(path, show, answer).write();
+}
+
+}  // namespace codesign

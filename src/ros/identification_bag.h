@@ -1,0 +1,33 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_IDENTIFICATION_BAG_H_
+#define MECHANISM_CODESIGN_ROS_IDENTIFICATION_BAG_H_
+
+#include <mechanism_codesign/IdentificationProgress.h>
+#include <mechanism_codesign/IdentifyGoal.h>
+#include <mechanism_codesign/IdentifyResult.h>
+
+#include <string>
+#include <vector>
+
+#include "jobs/identification_files.h"
+
+namespace codesign {
+
+/// What only the bag of a node's job holds.
+struct IdentificationAnswer {
+  mechanism_codesign::IdentifyGoal request;
+  mechanism_codesign::IdentifyResult result;
+  std::vector<mechanism_codesign::IdentificationProgress> progress;
+};
+
+/// Writes the bag as `path`.active and renames it when it is complete. Topics: doc/ros_api.md.
+///
+/// Recorded time starts at 1 s, and header stamps are the same; the recordings follow one another with pauses of half a second. TF frames
+/// are `measured/<link>` and `identified/<link>`, both at the origin of `world`, so that the measured robot is a ghost of the identified
+/// one.
+/// @param answer null: of the command line. @throws OutputError if writing fails; no unfinished bag is left.
+void write_identification_bag(const std::string& path, const IdentificationShow& show, const IdentificationAnswer* answer);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_IDENTIFICATION_BAG_H_

@@ -1,0 +1,75 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "ros/identification_feedback.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "ros/conversions.h"
+
+namespace codesign {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// The time left after `done` of `of` equal parts, of which the first took `seconds` together.
+double seconds_left(double seconds, int done, int of) { return done > 0 ? seconds * std::max(of - done, 0) / done : kUnknown; }
+
+}  // namespace
+
+IdentificationFeedback::IdentificationFeedback(std::string job, std::vector<std::string> names, int most_evaluations,
+                                               IdentificationObserver observer)
+    : most_evaluations_(most_evaluations), observer_(std::move(observer)), begin_(ros::WallTime::now()), stage_begin_(begin_) {
+  last_.job = std::move(job);
+  last_.names = std::move(names);
+  last_.cost = kUnknown;
+}
+
+void IdentificationFeedback::set_stage(const std::string& stage) {
+  if (stage == last_.stage) return;
+  last_.stage = stage;
+  stage_begin_ = ros::WallTime::now();
+  last_.done = last_.of = 0;
+  last_.seconds_left = kUnknown;
+  last_.at_most = false;
+}
+
+void IdentificationFeedback::begin(const std::string& stage) {
+  set_stage(stage);
+  send();
+}
+
+void IdentificationFeedback::tell(const FitTrial& trial) {
+  const bool is_fit = trial.profile == 0;
+  set_stage(is_fit ? "fitting" : "profiling");
+  const int done = is_fit ? trial.evaluation : trial.profile - 1, of = is_fit ? most_evaluations_ : trial.profiles;
+  last_.done = static_cast<std::uint32_t>(done);
+  last_.of = static_cast<std::uint32_t>(of);
+  last_.seconds_left = seconds_left((ros::WallTime::now() - stage_begin_).toSec(), done, of);
+  last_.at_most = is_fit;
+  last_.evaluation = static_cast<std::uint32_t>(trial.evaluation);
+  last_.iteration = static_cast<std::uint32_t>(trial.iteration);
+  last_.code = name_of(trial.status.code);
+  last_.message = trial.status.cause;
+  last_.cost = trial.cost;
+  last_.joints = trial.outputs;
+  last_.rms = to_array(trial.rms);
+  last_.values = to_array(trial.x);
+  send();
+  if (is_fit) kept_.push_back(last_);
+}
+
+void IdentificationFeedback::finish() {
+  last_.seconds_left = 0.0;
+  last_.at_most = false;
+  send();
+}
+
+void IdentificationFeedback::send() {
+  last_.header.stamp = ros::Time::now();
+  last_.seconds = (ros::WallTime::now() - begin_).toSec();
+  if (observer_) observer_(last_);
+}
+
+}  // namespace codesign

@@ -1,0 +1,144 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "ros/identification_job.h"
+
+#include <utility>
+
+#include "identification/fit_variables.h"
+#include "identification/identify.h"
+#include "jobs/identification_files.h"
+#include "jobs/identification_records.h"
+#include "jobs/job_files.h"
+#include "jobs/json_records.h"
+#include "jobs/output_error.h"
+#include "jobs/whole_file.h"
+#include "mechanism_codesign/error.h"
+#include "ros/conversions.h"
+#include "ros/identification_bag.h"
+#include "ros/identification_messages.h"
+#include "ros/patience.h"
+#include "ros/recording_bag.h"
+#include "ros/request.h"
+
+namespace codesign {
+namespace {
+
+/// One identification, from the changed problem to its files.
+class IdentificationJob {
+ public:
+  IdentificationJob(Problem problem, const JobOptions& options, const IdentificationObserver& observer, IdentificationOutcome* outcome)
+      : problem_(std::move(problem)),
+        options_(options),
+        files_(options.output_directory, problem_.robot().name),
+        feedback_(files_.name(), FitVariables(problem_.study()).names(), problem_.optimizer_options().max_evaluations, observer),
+        outcome_(outcome) {}
+
+  void fit(const std::string& folder, const std::atomic<bool>& cancel) {
+    feedback_.begin("reading");
+    recordings_ = load_recordings(*problem_.study().identification, problem_.robot(), folder, cancellable_bag_reader(cancel), &warnings_);
+    const auto observe = [&](const FitTrial& trial) {
+      feedback_.tell(trial);
+      return !cancel;
+    };
+    result_ = identify(problem_, recordings_, observe, &cancel);
+    append(result_.warnings, &warnings_);
+    outcome_->result = identification_message(problem_, result_);
+    outcome_->result.job = files_.name();
+    set_warnings();
+  }
+
+  /// Writes all files, if there is something to write. The bag comes last: it takes the time that a cancel leaves.
+  void write(const mechanism_codesign::IdentifyGoal& request, const std::atomic<bool>& cancel) {
+    if (result_.numbers.empty()) return;
+    feedback_.begin("recording");
+    Patience patience(cancel);
+    ComparedMotion motion = compare_motion(problem_, recordings_, result_, options_.rate, [&patience] { return patience(); });
+    for (const ComparedRecording& recording : motion.recordings)
+      if (!recording.status.ok())
+        warnings_.push_back({"run_ends_early", recording.element + " ends early in the bag: " + describe(recording.status), {}});
+    set_warnings();
+    const Json object = report();
+    write_texts(object);
+    write_bag(request, identification_show(problem_, result_, object, std::move(motion)));
+    feedback_.finish();
+    if (!failure_.empty()) refuse("output_failed", failure_, &outcome_->result);
+  }
+
+ private:
+  void set_warnings() { outcome_->result.warnings = warning_messages(problem_.warnings(), warnings_); }
+
+  Json report() const {
+    Json object = identification_json(problem_, result_);
+    Warnings warnings = problem_.warnings();
+    append(warnings_, &warnings);
+    object["setup_seconds"] = problem_.setup_seconds();
+    object["warnings"] = to_json(warnings);
+    if (!result_.status.ok()) object["error"] = to_json(result_.status);
+    return object;
+  }
+
+  /// The path of a file if it was written, else empty.
+  template <class Write>
+  std::string try_to(Write write, const std::string& path) {
+    try {
+      write();
+      return path;
+    } catch (const OutputError& error) {
+      failure_ += (failure_.empty() ? "" : "; ") + std::string(error.what());
+      return "";
+    }
+  }
+
+  void write_texts(const Json& object) {
+    mechanism_codesign::IdentifyResult& result = outcome_->result;
+    const std::pair<const char*, std::string*> told[] = {
+        {"identification.json", &result.report}, {"identified.urdf", &result.urdf}, {"residuals.csv", &result.residuals}};
+    for (const IdentificationFile& file : identification_files(problem_, result_, object)) {
+      const std::string path = files_.stem() + "." + file.name;
+      const std::string written = try_to([&] { write_whole_file(path, file.text()); }, path);
+      for (const auto& [name, place] : told)
+        if (file.name == name) *place = written;
+    }
+  }
+
+  void write_bag(const mechanism_codesign::IdentifyGoal& request, const IdentificationShow& show) {
+    outcome_->identified_urdf = show.urdf;
+    IdentificationAnswer answer{request, outcome_->result, feedback_.take()};
+    answer.request.version = version();
+    answer.result.bag = files_.bag();
+    outcome_->result.bag = try_to([&] { write_identification_bag(files_.bag(), show, &answer); }, files_.bag());
+  }
+
+  const Problem problem_;
+  const JobOptions& options_;
+  const JobFiles files_;
+  IdentificationFeedback feedback_;
+  IdentificationOutcome* outcome_;
+  StudyRecordings recordings_;
+  IdentificationResult result_;
+  Warnings warnings_;    ///< of recordings, fit and bag
+  std::string failure_;  ///< of files
+};
+
+}  // namespace
+
+IdentificationOutcome run_identification(const Problem& problem, const std::string& folder, const mechanism_codesign::IdentifyGoal& request,
+                                         const JobOptions& options, const IdentificationObserver& observer,
+                                         const std::atomic<bool>& cancel) {
+  IdentificationOutcome outcome;
+  try {
+    IdentificationJob job(apply_request(problem, request), options, observer, &outcome);
+    job.fit(folder, cancel);
+    job.write(request, cancel);
+  } catch (const InputError& error) {
+    refuse("bad_input", error.what(), &outcome.result);
+  } catch (const ReadingCancelled& error) {
+    refuse("cancelled", error.what(), &outcome.result);
+  } catch (const OutputError& error) {
+    refuse("output_failed", error.what(), &outcome.result);
+  } catch (const std::exception& error) {
+    refuse("internal_error", error.what(), &outcome.result);
+  }
+  return outcome;
+}
+
+}  // namespace codesign

@@ -1,0 +1,38 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_PATIENCE_H_
+#define MECHANISM_CODESIGN_ROS_PATIENCE_H_
+
+#include <ros/init.h>
+#include <ros/time.h>
+
+#include <atomic>
+
+namespace codesign {
+
+/// Limits the time for recording the motion of a job after it was cancelled (half a second, so that a cancel is answered within one) or the
+/// node is shutting down (8 s: roslaunch kills a node after 15 s).
+class Patience {
+ public:
+  explicit Patience(const std::atomic<bool>& cancel) : cancel_(cancel) {}
+
+  bool operator()() {
+    const ros::WallTime now = ros::WallTime::now();
+    // A node that shuts down cancels its job, too, but nobody waits for the answer.
+    if (ros::isShuttingDown()) return is_over(true, 8.0, now, &shutdown_);
+    return is_over(cancel_, 0.5, now, &cancelled_);
+  }
+
+ private:
+  static bool is_over(bool told, double seconds, const ros::WallTime& now, ros::WallTime* since) {
+    if (!told) return false;
+    if (since->isZero()) *since = now;
+    return now - *since > ros::WallDuration(seconds);
+  }
+
+  const std::atomic<bool>& cancel_;
+  ros::WallTime shutdown_, cancelled_;  ///< time of the first call that saw it
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_PATIENCE_H_
