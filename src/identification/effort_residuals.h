@@ -17,7 +17,7 @@
 namespace codesign {
 
 /// The joints that all recordings measured, and whether their efforts, too: efforts that are all zero were not.
-/// @throws InputError if a recording lacks a joint of another one, if the position of a joint or all efforts are missing.
+/// @throws InputError if a recording lacks a joint of another one, if position and start of a joint or all efforts are missing.
 std::vector<MeasuredJoint> require_same_joints(const std::vector<JointRecording>& recordings);
 
 /// What several recordings of one robot say about x: computed minus recorded efforts, doc/theory.md (28c), at the samples to fit, and their
@@ -41,7 +41,7 @@ class EffortResiduals final : public ResidualSource {
   std::vector<double> times() const;
 
   /// Follows the motion at a design; to be called first.
-  Status begin(const Eigen::VectorXd& x) { return model_->begin(variables_.parameters(x)); }
+  Status begin(const Eigen::VectorXd& x);
   /// @param residuals resized to rows() x outputs [N m or N]. @param jacobian may be null; else resized to (rows() outputs) x variables,
   /// the rows of output 0 first.
   Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) override;
@@ -50,6 +50,8 @@ class EffortResiduals final : public ResidualSource {
 
  private:
   MotionSamples samples_of_all(const std::vector<std::string>& joints);
+  /// Puts the joints whose starts are fitted to where x says.
+  void shift(const Eigen::VectorXd& x);
   double time(std::size_t recording, Eigen::Index sample) const;
   /// The residual of an output in the first column of `columns`, its derivatives in the others; one row per sample of the model.
   void fill(std::size_t recording, std::size_t output, const Eigen::VectorXd& x, bool with_slopes, Eigen::MatrixXd* columns) const;
@@ -65,6 +67,7 @@ class EffortResiduals final : public ResidualSource {
   std::vector<std::vector<RecordedEffort>> efforts_;  ///< [recording][output]
   std::vector<Eigen::Index> begins_;                  ///< the first sample of each recording in the model; at the end, their number
   std::unique_ptr<EffortModel> model_;
+  std::vector<std::vector<int>> start_columns_;  ///< [recording][shifted joint of the model]: where its start stands in x; -1: known
   SeriesLengths lengths_;
   Eigen::Index rows_ = 0;
   Eigen::MatrixXd recorded_, model_efforts_;

@@ -22,7 +22,7 @@ struct IdentifiedNumber {
   double start = 0.0, value = 0.0;
   double lower = -std::numeric_limits<double>::infinity();  ///< bounds
   double upper = std::numeric_limits<double>::infinity();
-  bool is_on_bound = false;      ///< it then counts as known in the intervals of the others, and has none itself
+  bool is_on_bound = false;      ///< and held there by the data: it then counts as known in the intervals of the others, and has none
   bool is_determined = true;     ///< whether the data tell it
   double deviation = 0.0;        ///< standard deviation; infinite if not determined
   double low = 0.0, high = 0.0;  ///< the interval at IntervalOptions::level
