@@ -183,24 +183,38 @@ void EffortResiduals::record() {
   }
 }
 
-void EffortResiduals::shift(const Eigen::VectorXd& x) {
-  if (start_columns_.empty() || start_columns_.front().empty()) return;
-  Eigen::MatrixXd shifts =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(start_columns_.front().size()), static_cast<Eigen::Index>(start_columns_.size()));
+Eigen::MatrixXd EffortResiduals::shifts(const Eigen::VectorXd& x) const {
+  Eigen::MatrixXd shifts = Eigen::MatrixXd::Zero(start_columns_.empty() ? 0 : static_cast<Eigen::Index>(start_columns_.front().size()),
+                                                 static_cast<Eigen::Index>(start_columns_.size()));
   for (Eigen::Index r = 0; r < shifts.cols(); ++r)
     for (Eigen::Index s = 0; s < shifts.rows(); ++s)
       if (const int column = start_columns_[static_cast<std::size_t>(r)][static_cast<std::size_t>(s)]; column >= 0)
         shifts(s, r) = x[column] - variables_.start()[column];
-  model_->shift(shifts);
+  return shifts;
 }
 
 Status EffortResiduals::begin(const Eigen::VectorXd& x) {
-  shift(x);
-  return model_->begin(variables_.parameters(x));
+  model_->shift(shifts(x));
+  Status status = model_->begin(variables_.parameters(x));
+  if (status.ok()) begun_ = x;
+  return status;
+}
+
+Status EffortResiduals::place(const Eigen::VectorXd& x) {
+  constexpr double kNear = 0.1;  // [rad or m]: from there the samples still find their solutions
+  const Eigen::MatrixXd here = shifts(x);
+  if (here.size() == 0) return {};
+  model_->shift(here);
+  if (begun_.size() > 0 && (here - shifts(begun_)).cwiseAbs().maxCoeff() <= kNear) return {};
+  const Eigen::VectorXd before = begun_;
+  Status status = begin(x);
+  if (!status.ok() && status.code != StatusCode::kCancelled && before.size() > 0)
+    if (Status back = begin(before); !back.ok()) return back;
+  return status;
 }
 
 Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) {
-  shift(x);
+  if (Status placed = place(x); !placed.ok()) return placed;
   Status status = model_->evaluate(variables_.parameters(x), &model_efforts_, jacobian ? &model_jacobian_ : nullptr);
   if (!status.ok()) return status;
   const auto outputs = static_cast<Eigen::Index>(outputs_.size());

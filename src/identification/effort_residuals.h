@@ -50,8 +50,10 @@ class EffortResiduals final : public ResidualSource {
 
  private:
   MotionSamples samples_of_all(const std::vector<std::string>& joints);
-  /// Puts the joints whose starts are fitted to where x says.
-  void shift(const Eigen::VectorXd& x);
+  /// How far x puts each joint whose start is fitted from where the recording was integrated; shifted joints x recordings [rad or m].
+  Eigen::MatrixXd shifts(const Eigen::VectorXd& x) const;
+  /// Puts these joints where x says. Far from where begin() found the whole motion, begins anew.
+  Status place(const Eigen::VectorXd& x);
   double time(std::size_t recording, Eigen::Index sample) const;
   /// The residual of an output in the first column of `columns`, its derivatives in the others; one row per sample of the model.
   void fill(std::size_t recording, std::size_t output, const Eigen::VectorXd& x, bool with_slopes, Eigen::MatrixXd* columns) const;
@@ -68,6 +70,7 @@ class EffortResiduals final : public ResidualSource {
   std::vector<Eigen::Index> begins_;                  ///< the first sample of each recording in the model; at the end, their number
   std::unique_ptr<EffortModel> model_;
   std::vector<std::vector<int>> start_columns_;  ///< [recording][shifted joint of the model]: where its start stands in x; -1: known
+  Eigen::VectorXd begun_;                        ///< the x of begin()
   SeriesLengths lengths_;
   Eigen::Index rows_ = 0;
   Eigen::MatrixXd recorded_, model_efforts_;

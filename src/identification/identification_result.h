@@ -61,6 +61,7 @@ struct IdentificationResult {
   Eigen::Index samples = 0, holdout_samples = 0;  ///< times, not residuals
   int lag = 0;                                    ///< of the noise model, in samples
   int evaluations = 0, failed_evaluations = 0, iterations = 0;
+  Status last_failure;  ///< of the last point that could not be evaluated; ok if there was none
   double cpu_seconds = 0.0;
   Warnings warnings;
 };

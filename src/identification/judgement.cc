@@ -146,6 +146,11 @@ Warnings warnings_of(const IdentificationDescription& options, const Identificat
                                                    result.holdout[k].joint + ", " + readable(there) + " on the fitted data",
                                                readable(here), "at most " + readable(kHoldoutFactor * there)}));
   }
+  if (2 * result.failed_evaluations > result.evaluations)
+    warnings.push_back(warn("fit_hindered", {options.where, "identify",
+                                             std::to_string(result.failed_evaluations) + " of " + std::to_string(result.evaluations) +
+                                                 " points could not be evaluated, the last one for: " + result.last_failure.cause,
+                                             "", "bounds or twins that leave such points out, or another start"}));
   for (const IdentifiedNumber& number : result.numbers)
     if (number.is_on_bound)
       warnings.push_back(

@@ -52,6 +52,7 @@ struct ResidualFit {
   Eigen::MatrixXd residuals, jacobian;  ///< at x, not weighted
   Eigen::MatrixXd start_residuals;
   int evaluations = 0, failed_evaluations = 0, iterations = 0;
+  Status last_failure;  ///< of the last failed evaluation; ok if none failed
 };
 
 /// Minimizes the sum over all residuals of rho(r_k / s_k) by Levenberg-Marquardt within bounds, doc/theory.md (39). The spreads s_k of

@@ -166,7 +166,7 @@ TEST(Identify, ASpeedAloneIsIntegratedFromAStartThatIsFitted) {
   hanging.replace(hanging.find("<axis xyz=\"0 0 1\"/>"), 19, "<axis xyz=\"0 -1 0\"/>");
   const Problem problem = load_problem({"arm.urdf", hanging}, {},
                                        {"study.yaml",
-                                        "identify:\n  data: [{csv: data.csv, start: {hinge: {initial: 0.2, lower: -1, upper: 1}}}]\n"
+                                        "identify:\n  data: [{csv: data.csv, start: {hinge: {initial: 0.7, lower: -1, upper: 1}}}]\n"
                                         "  filter: {cutoff: 20.0}\nparameters: {inertia: {}, viscous: {}}\n"
                                         "optimizer: {algorithm: levenberg_marquardt, relative_tolerance: 1.0e-10}\n"});
   JointRecording recording = Rig().record("identify.data[0]");
@@ -192,6 +192,16 @@ TEST(Identify, ASpeedAloneIsIntegratedFromAStartThatIsFitted) {
     EXPECT_EQ(error.fault().value, "hinge");
     EXPECT_NE(error.fault().allowed.find("start: {hinge: POSITION}"), std::string::npos) << error.fault().allowed;
   }
+}
+
+TEST(Identify, AFitThatRunsAgainstImpossibleDesignsSaysSo) {
+  // The rig's inertia is below what the mass at its place has, so that the model would need a negative one.
+  Rig rig;
+  rig.total = 0.4;
+  const IdentificationResult result = run(problem_of("inertia: {lower: -5}, viscous: {}"), rig);
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_EQ(result.warnings[0].code, "fit_hindered");
+  EXPECT_NE(result.warnings[0].message.find("inertia"), std::string::npos) << result.warnings[0].message;
 }
 
 TEST(Identify, RecordingsNeedTheSameJoints) {
