@@ -21,9 +21,15 @@ constexpr const char* kSwing = R"(<robot name="swing" xmlns:codesign="https://me
 </robot>)";
 
 std::string swing_study(const std::string& noise) {
-  return R"(duration: 10.0
+  return R"(duration: 20.0
 controllers:
-  servo: {type: pid, input: hinge/position, setpoint: {type: sine, amplitude: 0.8, frequency: 0.4}, output: hinge, gains: {p: 60.0, d: 6.0}}
+  servo:
+    type: pid
+    input: hinge/position
+    setpoint: {type: waypoints, times: [0.0, 1.5, 2.5, 4.5, 5.5, 7.0, 9.5, 10.5, 12.0, 14.5, 16.0, 17.0, 20.0],
+               positions: [0.0, 0.9, 0.2, -0.8, 0.5, 1.1, -0.4, 0.3, -1.0, 0.6, -0.2, 0.4, 0.0]}
+    output: hinge
+    gains: {p: 60.0, d: 6.0}
 identify:
   data: [{csv: run.csv}]
   filter: {cutoff: 30.0, residual_cutoff: 15.0, decimate: 2}
