@@ -194,6 +194,23 @@ TEST(Identify, ASpeedAloneIsIntegratedFromAStartThatIsFitted) {
   }
 }
 
+TEST(Identify, AStartThatNothingTellsIsNamed) {
+  // Nothing depends on the angle about a vertical axis.
+  const Problem problem = load_problem({"arm.urdf", kArm}, {},
+                                       {"study.yaml",
+                                        "identify:\n  data: [{csv: data.csv, start: {hinge: {}}}]\n  filter: {cutoff: 20.0}\n"
+                                        "parameters: {inertia: {}, viscous: {}}\noptimizer: {algorithm: levenberg_marquardt}\n"});
+  StudyRecordings recordings;
+  recordings.data = {Rig().record("identify.data[0]")};
+  recordings.data[0].joints[0].position.clear();
+  recordings.data[0].joints[0].start = problem.study().identification->data[0].starts.at(0).position;
+  const IdentificationResult result = identify(problem, recordings, {}, nullptr);
+  EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable);
+  ASSERT_EQ(result.undetermined.size(), 1U);
+  EXPECT_EQ(result.undetermined[0], "data[0].start.hinge has no effect");
+  EXPECT_NEAR(result.numbers[0].value, 0.3, 1e-4);
+}
+
 TEST(Identify, AFitThatRunsAgainstImpossibleDesignsSaysSo) {
   // The rig's inertia is below what the mass at its place has, so that the model would need a negative one.
   Rig rig;
