@@ -40,15 +40,19 @@ struct FrictionNumbers {
   Value bristle_stiffness{1.0};    ///< sigma_0 [1/m], per normal force
   Value bristle_damping{1.0};      ///< sigma_1 [s/m], per normal force
   Value dwell_time{1.0};           ///< tau_dw [s]
+  // Against the joint's axis, theory (48).
+  Value mu_static_backward{0.0};   ///< mu_s [-]
+  Value mu_dynamic_backward{0.0};  ///< mu_d [-]
+  Value viscous_backward{0.0};     ///< c [N s/m] or [N m s/rad]
 };
 
 /// The rule for one attribute of `<codesign:friction>`.
 struct FrictionNumberRule {
-  /// The value of a missing attribute: none (it is required), `standard`, 1, or the pin radius. A joint whose length or width is missing
-  /// has a law without them; the value 1 only keeps quotients finite.
-  enum class Missing { kRefused, kStandard, kLengthOfOne, kPinRadius };
+  /// The value of a missing attribute: none (it is required), `standard`, 1, or that of another one. A joint whose length or width is
+  /// missing has a law without them; the value 1 only keeps quotients finite.
+  enum class Missing { kRefused, kStandard, kLengthOfOne, kPinRadius, kMuStatic, kMuDynamic, kViscous };
   /// The friction laws that use the number.
-  enum class Models { kAll, kWithStates, kGonthierOnly };
+  enum class Models { kAll, kWithStates, kGonthierOnly, kBrownMcPheeOnly };
 
   const char* attribute;
   bool zero_allowed;  ///< whether zero is allowed; negative values never are
@@ -57,8 +61,12 @@ struct FrictionNumberRule {
   Models models = Models::kAll;
 
   bool is_used_by(FrictionModel model) const {
-    return models == Models::kAll || model == FrictionModel::kGonthier || (models == Models::kWithStates && model == FrictionModel::kLuGre);
+    if (models == Models::kAll) return true;
+    if (models == Models::kBrownMcPheeOnly) return model == FrictionModel::kBrownMcPhee;
+    return model == FrictionModel::kGonthier || (models == Models::kWithStates && model == FrictionModel::kLuGre);
   }
+  /// Whether the number counts for motion against the joint's axis only.
+  bool is_backward() const { return missing == Missing::kMuStatic || missing == Missing::kMuDynamic || missing == Missing::kViscous; }
 };
 
 /// Calls visit(rule, member of each structure...) for each number, in the order in which they are read. @param of structures whose members
@@ -80,6 +88,9 @@ void visit_friction_numbers(const Visit& visit, Values*... of) {
   visit(FrictionNumberRule{"bristle_stiffness", false, M::kStandard, 1e4, U::kWithStates}, of->bristle_stiffness...);
   visit(FrictionNumberRule{"bristle_damping", false, M::kStandard, 10.0, U::kWithStates}, of->bristle_damping...);
   visit(FrictionNumberRule{"dwell_time", false, M::kStandard, 2.0, U::kGonthierOnly}, of->dwell_time...);
+  visit(FrictionNumberRule{"mu_static_backward", true, M::kMuStatic, 0.0, U::kBrownMcPheeOnly}, of->mu_static_backward...);
+  visit(FrictionNumberRule{"mu_dynamic_backward", true, M::kMuDynamic, 0.0, U::kBrownMcPheeOnly}, of->mu_dynamic_backward...);
+  visit(FrictionNumberRule{"viscous_backward", true, M::kViscous}, of->viscous_backward...);
 }
 
 /// `<codesign:friction>`. Numbers that the model does not give keep the `standard` of their rule; lengths and arms are then zero.
@@ -89,6 +100,7 @@ struct FrictionDescription : FrictionNumbers<Quantity> {
   }
 
   FrictionModel model = FrictionModel::kBrownMcPhee;
+  bool is_directional = false;                           ///< a number for motion against the axis is given; else they are unused
   std::optional<std::array<double, 3>> transverse_axis;  ///< x'' in the joint frame
   SourceLocation where;
 };

@@ -59,6 +59,23 @@ enum class GapRule {
 };
 constexpr std::array<const char*, 2> kGapRuleNames{"refuse", "split"};
 
+/// A number that is known, or to be fitted together with the tuned parameters.
+struct FittedNumber {
+  explicit FittedNumber(double known = 0.0) : value(known) {}
+
+  double value;  ///< known, or where the fit starts
+  bool is_fitted = false;
+  double lower = -std::numeric_limits<double>::infinity();  ///< bounds of a fitted number
+  double upper = std::numeric_limits<double>::infinity();
+  SourceLocation where;
+};
+
+/// Where a joint is at the first sample of a recording that holds its velocity but no positions [rad or m].
+struct StartPosition {
+  std::string joint;
+  FittedNumber position;
+};
+
 /// One entry of `identify.data` or `identify.holdout`: a topic of a bag, or a table of numbers as text.
 struct RecordingDescription {
   std::string file;  ///< as written; relative to the folder of the study
@@ -71,18 +88,8 @@ struct RecordingDescription {
   double from = -std::numeric_limits<double>::infinity();  ///< part to use [s]: of the time column, or from the bag's first message
   double to = std::numeric_limits<double>::infinity();
   GapRule gaps = GapRule::kRefuse;
-  std::string element;  ///< `identify.data[0]`
-  SourceLocation where;
-};
-
-/// A number that is known, or to be fitted together with the tuned parameters.
-struct FittedNumber {
-  explicit FittedNumber(double known = 0.0) : value(known) {}
-
-  double value;  ///< known, or where the fit starts
-  bool is_fitted = false;
-  double lower = -std::numeric_limits<double>::infinity();  ///< bounds of a fitted number
-  double upper = std::numeric_limits<double>::infinity();
+  std::vector<StartPosition> starts;  ///< of joints whose positions are integrated
+  std::string element;                ///< `identify.data[0]`
   SourceLocation where;
 };
 

@@ -7,16 +7,17 @@
 #include "elements/gradient_rows.h"
 #include "elements/normal_force.h"
 #include "elements/state_view.h"
-#include "forces/brown_mcphee.h"
+#include "forces/directional_friction.h"
 
 namespace codesign {
 
 /// The load L of friction that depends on the reaction, along one joint coordinate [N or N m]; positive against the coordinate; theory (13)
-/// with S from (10), or mu of (13e), (13f) in its place. Appends its gradient if asked for; `motion` then needs detail kGradient.
+/// with S from (10) or (48), or mu of (13e), (13f) in its place. Appends its gradient if asked for; `motion` then needs detail kGradient.
 /// @param state receives velocity, normal force and load, if not null.
 template <class T>
-T reaction_friction(const StateView<T>& view, int pair, int element, const CoordinateMotion<T>& motion, OptionalGradient<T> gradient,
+T reaction_friction(const StateView<T>& view, const JointLoad& load, const CoordinateMotion<T>& motion, OptionalGradient<T> gradient,
                     std::common_type_t<FrictionState<T>*> state) {
+  const int pair = load.pair, element = load.element;
   const auto p = static_cast<std::size_t>(pair);
   const FrictionConstants<T>& c = view.design.constants.pairs[p].friction;
   const bool turning =
@@ -30,11 +31,14 @@ T reaction_friction(const StateView<T>& view, int pair, int element, const Coord
     law = bristle_law<T>(*bristle, Vector3<T>(radius * motion.rate, T(0.0), T(0.0)), view.state->s, c);
     S = {law.mu[0], law.mu_u(0, 0)};
   } else {
-    S = brown_mcphee<T>(radius * motion.rate, c.mu_static, c.mu_dynamic, c.transition_velocity);
+    S = load.directional ? directional_brown_mcphee<T>(radius * motion.rate, c)
+                         : brown_mcphee<T>(radius * motion.rate, c.mu_static, c.mu_dynamic, c.transition_velocity);
   }
-  if (state) *state = {motion.rate, N.value, T(radius * S.value * N.value + c.viscous * motion.rate)};
+  const ValueAndSlope<T> viscous =
+      load.directional ? directional_viscous<T>(motion.rate, radius, c) : ValueAndSlope<T>{T(c.viscous * motion.rate), c.viscous};
+  if (state) *state = {motion.rate, N.value, T(radius * S.value * N.value + viscous.value)};
   if (gradient) {
-    const T slope = radius * radius * S.slope * N.value + c.viscous;
+    const T slope = radius * radius * S.slope * N.value + viscous.slope;
     append_rate(view, pair, element, motion, slope, gradient);
     append_normal_gradient(view, pair, N.F, N.torque, T(radius * S.value), gradient);
     const T per_coefficient = radius * N.value;
@@ -42,7 +46,7 @@ T reaction_friction(const StateView<T>& view, int pair, int element, const Coord
       append_bristle_states(view, *bristle, Vector3<T>(per_coefficient * law.mu_zeta.row(0).transpose()),
                             T(per_coefficient * law.mu_dwell[0]), gradient);
   }
-  return radius * S.value * N.value + c.viscous * motion.rate;
+  return radius * S.value * N.value + viscous.value;
 }
 
 }  // namespace codesign

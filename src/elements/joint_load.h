@@ -70,7 +70,7 @@ T applied_effort(const StateView<T>& view, const JointLoad& load, OptionalGradie
 template <class T>
 T joint_load(const StateView<T>& view, const JointLoad& load, const CoordinateMotion<T>& motion, OptionalGradient<T> gradient) {
   T value(0.0);
-  if (load.reaction_friction) value += reaction_friction(view, load.pair, load.element, motion, gradient, nullptr);
+  if (load.reaction_friction) value += reaction_friction(view, load, motion, gradient, nullptr);
   if (load.passive || load.constant_friction) value += passive_load(view, load.pair, load.element, load, motion, gradient);
   if (load.stop) value += stop_load(view, load, motion, view.system.study().limits.dissipation, gradient);
   if (!load.constant.empty()) value -= constant_effort(view, load);
@@ -113,7 +113,7 @@ FrictionState<T> joint_friction(const StateView<T>& view, int pair, int element)
   for (const JointLoad& load : view.system.loads()) {
     if (load.pair != pair || load.element != element) continue;
     state.velocity = motion.rate;
-    if (load.reaction_friction) reaction_friction(view, pair, element, motion, nullptr, &state);
+    if (load.reaction_friction) reaction_friction(view, load, motion, nullptr, &state);
     if (load.constant_friction) {
       JointLoad dry = load;
       dry.passive = dry.spring = false;

@@ -33,6 +33,21 @@ void require_shape(const MotionSamples& motion, std::size_t joints) {
     throw std::invalid_argument("the first samples of the recordings begin with 0 and ascend");
 }
 
+/// Of each shifted joint, which drive it is. @throws InputError
+std::vector<int> drives_of(const std::vector<int>& shifted, const std::vector<MeasuredJoint>& joints, const DrivenSystem& driven) {
+  std::vector<int> drives;
+  for (int joint : shifted) {
+    const MeasuredJoint& measured = joints[to_index(joint)];
+    const auto found = std::find(driven.drives.begin(), driven.drives.end(), joint);
+    if (found == driven.drives.end() || !driven.surplus.empty())
+      throw InputError({measured.where, "identify",
+                        "a start can be fitted only if no more joints are measured than there are degrees of freedom", measured.name,
+                        "a known start, or recordings without the positions and velocities of other joints"});
+    drives.push_back(static_cast<int>(found - driven.drives.begin()));
+  }
+  return drives;
+}
+
 /// Measured positions at a few instants.
 Eigen::MatrixXd some_positions(const MotionSamples& motion) {
   constexpr int kInstants = 4;
@@ -47,7 +62,9 @@ Eigen::MatrixXd some_positions(const MotionSamples& motion) {
 
 /// What one thread works with.
 struct EffortModel::EffortWorker {
-  explicit EffortWorker(const DrivenSystem& driven) : motion(driven), tangents(*driven.system) {}
+  EffortWorker(const DrivenSystem& driven, const std::vector<int>& shifted)
+      : motion(driven),
+        tangents(LaneCount{static_cast<int>(driven.system->study().tuned.size() + shifted.size())}, *driven.system, shifted) {}
 
   void forget() {
     motion.forget();
@@ -63,8 +80,10 @@ EffortModel::EffortModel(const CompiledSystem& system, std::vector<MeasuredJoint
     : system_(system),
       joints_(std::move(joints)),
       motion_(std::move(motion)),
-      driven_(make_driven_system(system, joints_, some_positions(motion_))) {
+      driven_(make_driven_system(system, joints_, some_positions(motion_))),
+      unshifted_(rows_of(motion_.position, motion_.shifted)) {
   require_shape(motion_, joints_.size());
+  shifted_drives_ = drives_of(motion_.shifted, joints_, driven_);
   for (int k : driven_.drives) names_.push_back(joints_[to_index(k)].name);
   position_ = rows_of(motion_.position, driven_.drives);
   velocity_ = rows_of(motion_.velocity, driven_.drives);
@@ -99,9 +118,21 @@ Status EffortModel::follow(const MotionProjection& projection, int sample, Effor
   return {};
 }
 
+void EffortModel::shift(const Eigen::MatrixXd& shifts) {
+  for (std::size_t s = 0; s < motion_.shifted.size(); ++s)
+    for (std::size_t k = 0; k < motion_.begins.size(); ++k) {
+      const auto row = static_cast<Eigen::Index>(s);
+      const Eigen::Index first = motion_.begins[k];
+      const Eigen::Index count = (k + 1 < motion_.begins.size() ? motion_.begins[k + 1] : Eigen::Index{samples()}) - first;
+      auto position = motion_.position.row(motion_.shifted[s]).segment(first, count);
+      position = unshifted_.row(row).segment(first, count).array() + shifts(row, static_cast<Eigen::Index>(k));
+      position_.row(shifted_drives_[s]).segment(first, count) = position;
+    }
+}
+
 Status EffortModel::begin(const std::vector<double>& parameters) {
   for (std::unique_ptr<EffortWorker>& each : workers_) each.reset();
-  EffortWorker worker(driven_);
+  EffortWorker worker(driven_, shifted_drives_);
   if (Status status = prepare(parameters, &worker); !status.ok()) return status;
   const MotionProjection projection(driven_, joints_);
   for (int sample = 0; sample < samples(); ++sample) {
@@ -115,7 +146,7 @@ Status EffortModel::begin(const std::vector<double>& parameters) {
   }
   // All workers begin with the same pivots, chosen here, so that it does not matter which of them evaluates a sample.
   for (std::unique_ptr<EffortWorker>& each : workers_) {
-    each = std::make_unique<EffortWorker>(driven_);
+    each = std::make_unique<EffortWorker>(driven_, shifted_drives_);
     each->motion.set_design(parameters);
     if (samples() == 0) continue;
     if (Status status = each->motion.linearize(states_.front()); !status.ok()) return at_sample(0, status);
@@ -142,7 +173,7 @@ EffortModel::Failure EffortModel::evaluate_block(int block, EffortWorker* worker
 Status EffortModel::evaluate(const std::vector<double>& parameters, Eigen::MatrixXd* efforts, RowJacobian* jacobian) {
   if (!workers_.back()) throw std::logic_error("EffortModel::begin() must succeed before evaluate()");
   efforts->resize(position_.rows(), samples());
-  if (jacobian != nullptr) jacobian->resize(position_.size(), this->parameters());
+  if (jacobian != nullptr) jacobian->resize(position_.size(), this->parameters() + static_cast<Eigen::Index>(shifted_drives_.size()));
   const int blocks = (samples() + kBlock - 1) / kBlock;
   std::vector<Failure> failures(to_index(blocks));
   if (Status status = prepare(parameters, workers_.front().get()); !status.ok()) return status;

@@ -19,6 +19,7 @@ class MotionProjection;
 /// The measured motion, one row per measured joint and one column per instant (a sample), recording after recording.
 struct MotionSamples {
   Eigen::MatrixXd position, velocity, acceleration;  ///< [rad or m], per s, per s^2
+  std::vector<int> shifted{};                        ///< joints whose positions are known but for a constant in each recording, ascending
   std::vector<int> begins{0};  ///< the first sample of each recording, ascending; between samples of one recording joints move little
 };
 
@@ -29,7 +30,7 @@ struct MotionSamples {
 class EffortModel {
  public:
   /// @param system as make_system() compiled it; only needed by the constructor and begin(), but must outlive this.
-  /// @param motion as many rows as `joints`; finite numbers.
+  /// @param motion as many rows as `joints`; finite numbers. A shifted joint must be a drive, and no joint surplus.
   /// @param threads how many samples are evaluated at the same time.
   /// @throws InputError as make_driven_system().
   EffortModel(const CompiledSystem& system, std::vector<MeasuredJoint> joints, MotionSamples motion, int threads = 1);
@@ -41,6 +42,9 @@ class EffortModel {
   int samples() const { return static_cast<int>(motion_.position.cols()); }
   int parameters() const { return static_cast<int>(driven_.system->study().tuned.size()); }
 
+  /// Adds constants to the positions of the constructor. @param shifts [rad or m], one row per shifted joint and column per recording
+  void shift(const Eigen::MatrixXd& shifts);
+
   /// Follows the motion through all samples at a design, which evaluate() later starts from at each sample, and projects the motion of
   /// surplus joints onto that of the drives, theory (28a). To be called first, and again for dimensions that differ much.
   /// @param parameters all named parameters (Study::parameters order). @return a failure names the sample.
@@ -49,7 +53,8 @@ class EffortModel {
   /// After begin() has succeeded; else it throws std::logic_error.
   /// @param parameters all named parameters.
   /// @param efforts resized to drives x samples: effort on the child along the joint coordinate [N m or N].
-  /// @param jacobian may be null; else resized to (drives * samples) x tuned parameters, row sample * drives + k for drive k.
+  /// @param jacobian may be null; else resized to (drives * samples) x tuned parameters, row sample * drives + k for drive k;
+  /// then follow the derivatives by the shift of each shifted joint in the recording of the sample.
   /// @return kInvalidDesign for impossible masses or dimensions, kCancelled, or the failure of the first sample that has one.
   Status evaluate(const std::vector<double>& parameters, Eigen::MatrixXd* efforts, RowJacobian* jacobian);
 
@@ -76,8 +81,10 @@ class EffortModel {
 
   const CompiledSystem& system_;
   const std::vector<MeasuredJoint> joints_;
-  const MotionSamples motion_;
+  MotionSamples motion_;  ///< shifted
   const DrivenSystem driven_;
+  std::vector<int> shifted_drives_;
+  const Eigen::MatrixXd unshifted_;  ///< positions of the shifted joints
   std::vector<std::string> names_;
   Eigen::MatrixXd position_, velocity_, acceleration_;
   std::vector<State<double>> states_;

@@ -23,6 +23,8 @@ std::vector<std::string> names_of(const std::vector<MeasuredJoint>& joints) {
   return names;
 }
 
+bool has_positions(const JointSamples& samples) { return !samples.position.empty() || (!samples.velocity.empty() && samples.start); }
+
 // Drivers without a sensor, and joints without a motor, are recorded with zeros: their efforts are not known.
 bool has_efforts(const JointSamples& samples) {
   return std::any_of(samples.effort.begin(), samples.effort.end(), [](double effort) { return effort != 0.0; });
@@ -35,11 +37,13 @@ std::vector<MeasuredJoint> require_same_joints(const std::vector<JointRecording>
   const JointRecording& first = recordings.front();
   for (const JointSamples& samples : first.joints) {
     MeasuredJoint joint{samples.joint, has_efforts(samples), 1.0, first.where};
-    if (samples.position.empty())
-      throw recording_error(first, "the recording has no positions of this joint", samples.joint, "positions of each joint");
+    if (!has_positions(samples))
+      throw recording_error(first, "the recording has no positions of this joint", samples.joint,
+                            samples.velocity.empty() ? "positions of each joint"
+                                                     : "positions, or start: {" + samples.joint + ": POSITION} with its velocity");
     for (const JointRecording& other : recordings) {
       const JointSamples* found = other.find(joint.name);
-      if (!found || found->position.empty())
+      if (!found || !has_positions(*found))
         throw recording_error(other, "the recording has no positions of a joint that " + first.element + " has", joint.name,
                               "the same joints in all recordings");
       joint.with_effort = joint.with_effort && has_efforts(*found);
@@ -96,6 +100,15 @@ MotionSamples EffortResiduals::samples_of_all(const std::vector<std::string>& jo
   for (const MeasuredMotion& recording : recordings_)
     begins_.push_back(begins_.back() + (filter_.residual_cutoff > 0.0 ? recording.times.count : recording.fitted()));
   samples.begins.assign(begins_.begin(), begins_.end() - 1);
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const auto is_fitted = [&](const MeasuredMotion& recording) { return variables_.start_column(recording.element, joints[j]) >= 0; };
+    if (std::any_of(recordings_.begin(), recordings_.end(), is_fitted)) samples.shifted.push_back(static_cast<int>(j));
+  }
+  for (const MeasuredMotion& recording : recordings_) {
+    start_columns_.emplace_back();
+    for (int j : samples.shifted)
+      start_columns_.back().push_back(variables_.start_column(recording.element, joints[static_cast<std::size_t>(j)]));
+  }
   for (Eigen::MatrixXd* rows : {&samples.position, &samples.velocity, &samples.acceleration})
     rows->resize(static_cast<Eigen::Index>(joints.size()), begins_.back());
   for (std::size_t r = 0; r < recordings_.size(); ++r) {
@@ -137,10 +150,15 @@ void EffortResiduals::fill(std::size_t recording, std::size_t output, const Eige
     const EffortResidual residual = effort_residual(sensor, efforts_[recording][output], time(recording, k), model_efforts_(drive, sample));
     (*columns)(k, 0) = residual.value;
     if (!with_slopes) continue;
-    columns->row(k).segment(1, variables_.tuned()) = residual.by_effort * model_jacobian_.row(sample * drives + drive);
+    columns->row(k).segment(1, variables_.tuned()) =
+        residual.by_effort * model_jacobian_.row(sample * drives + drive).head(variables_.tuned());
     if (at.scale >= 0) (*columns)(k, 1 + at.scale) = residual.by_scale;
     if (at.delay >= 0) (*columns)(k, 1 + at.delay) = residual.by_delay;
     if (at.offset >= 0) (*columns)(k, 1 + at.offset) = residual.by_effort;
+    for (std::size_t s = 0; s < start_columns_[recording].size(); ++s)
+      if (const int start = start_columns_[recording][s]; start >= 0)
+        (*columns)(k, 1 + start) =
+            residual.by_effort * model_jacobian_(sample * drives + drive, variables_.tuned() + static_cast<Eigen::Index>(s));
   }
 }
 
@@ -168,7 +186,38 @@ void EffortResiduals::record() {
   }
 }
 
+Eigen::MatrixXd EffortResiduals::shifts(const Eigen::VectorXd& x) const {
+  Eigen::MatrixXd shifts = Eigen::MatrixXd::Zero(start_columns_.empty() ? 0 : static_cast<Eigen::Index>(start_columns_.front().size()),
+                                                 static_cast<Eigen::Index>(start_columns_.size()));
+  for (Eigen::Index r = 0; r < shifts.cols(); ++r)
+    for (Eigen::Index s = 0; s < shifts.rows(); ++s)
+      if (const int column = start_columns_[static_cast<std::size_t>(r)][static_cast<std::size_t>(s)]; column >= 0)
+        shifts(s, r) = x[column] - variables_.start()[column];
+  return shifts;
+}
+
+Status EffortResiduals::begin(const Eigen::VectorXd& x) {
+  model_->shift(shifts(x));
+  Status status = model_->begin(variables_.parameters(x));
+  if (status.ok()) begun_ = x;
+  return status;
+}
+
+Status EffortResiduals::place(const Eigen::VectorXd& x) {
+  constexpr double kNear = 0.1;  // [rad or m]: from there the samples still find their solutions
+  const Eigen::MatrixXd here = shifts(x);
+  if (here.size() == 0) return {};
+  model_->shift(here);
+  if (begun_.size() > 0 && (here - shifts(begun_)).cwiseAbs().maxCoeff() <= kNear) return {};
+  const Eigen::VectorXd before = begun_;
+  Status status = begin(x);
+  if (!status.ok() && status.code != StatusCode::kCancelled && before.size() > 0)
+    if (Status back = begin(before); !back.ok()) return back;
+  return status;
+}
+
 Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) {
+  if (Status placed = place(x); !placed.ok()) return placed;
   Status status = model_->evaluate(variables_.parameters(x), &model_efforts_, jacobian ? &model_jacobian_ : nullptr);
   if (!status.ok()) return status;
   const auto outputs = static_cast<Eigen::Index>(outputs_.size());

@@ -17,7 +17,7 @@
 namespace codesign {
 
 /// The joints that all recordings measured, and whether their efforts, too: efforts that are all zero were not.
-/// @throws InputError if a recording lacks a joint of another one, or the position of a joint.
+/// @throws InputError if a recording lacks a joint of another one, or position and start of a joint.
 std::vector<MeasuredJoint> require_same_joints(const std::vector<JointRecording>& recordings);
 /// @throws InputError if none of these joints has efforts.
 void require_efforts(const std::vector<MeasuredJoint>& joints, const std::vector<JointRecording>& recordings);
@@ -43,7 +43,7 @@ class EffortResiduals final : public RecordingResiduals {
   std::vector<double> times() const override;
 
   /// Follows the motion at a design; to be called first.
-  Status begin(const Eigen::VectorXd& x) override { return model_->begin(variables_.parameters(x)); }
+  Status begin(const Eigen::VectorXd& x) override;
   /// @param residuals resized to rows() x outputs [N m or N]. @param jacobian may be null; else resized to (rows() outputs) x variables,
   /// the rows of output 0 first.
   Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) override;
@@ -52,6 +52,10 @@ class EffortResiduals final : public RecordingResiduals {
 
  private:
   MotionSamples samples_of_all(const std::vector<std::string>& joints);
+  /// How far x puts each joint whose start is fitted from where the recording was integrated; shifted joints x recordings [rad or m].
+  Eigen::MatrixXd shifts(const Eigen::VectorXd& x) const;
+  /// Puts these joints where x says. Far from where begin() found the whole motion, begins anew.
+  Status place(const Eigen::VectorXd& x);
   double time(std::size_t recording, Eigen::Index sample) const;
   /// The residual of an output in the first column of `columns`, its derivatives in the others; one row per sample of the model.
   void fill(std::size_t recording, std::size_t output, const Eigen::VectorXd& x, bool with_slopes, Eigen::MatrixXd* columns) const;
@@ -67,6 +71,8 @@ class EffortResiduals final : public RecordingResiduals {
   std::vector<std::vector<RecordedEffort>> efforts_;  ///< [recording][output]
   std::vector<Eigen::Index> begins_;                  ///< the first sample of each recording in the model; at the end, their number
   std::unique_ptr<EffortModel> model_;
+  std::vector<std::vector<int>> start_columns_;  ///< [recording][shifted joint of the model]: where its start stands in x; -1: known
+  Eigen::VectorXd begun_;                        ///< the x of begin()
   SeriesLengths lengths_;
   Eigen::Index rows_ = 0;
   Eigen::MatrixXd recorded_, model_efforts_;

@@ -1,20 +1,33 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "identification/effort_tangent.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace codesign {
 
 template <int N>
-EffortTangent<N>::EffortTangent(const CompiledSystem& system, LaneRange<N> lanes)
+EffortTangent<N>::EffortTangent(const CompiledSystem& system, LaneRange<N> lanes, std::vector<int> shifted)
     : system_(system),
       layout_(system.layout()),
       at_(layout_),
       lanes_(lanes),
+      seeded_{lanes.first, std::clamp(static_cast<int>(system.study().tuned.size()) - lanes.first, 0, lanes.count)},
+      shifted_(std::move(shifted)),
       equations_(system),
       y_(at_.size()),
       G_(layout_.columns() + 1),
       Phi_(layout_.m),
       Phi_rate_(layout_.m),
       solution_(layout_.columns()) {}
+
+template <int N>
+void EffortTangent<N>::constraint_errors(const State<double>& state) {
+  equations_.constraint_errors(state, y_, &Phi_, &Phi_rate_);
+  const int parameters = static_cast<int>(system_.study().tuned.size());
+  for (int lane = seeded_.count; lane < lanes_.count; ++lane)
+    Phi_(lane, system_.drive_row(shifted_[static_cast<std::size_t>(lanes_.first + lane - parameters)])) -= 1.0;
+}
 
 template <int N>
 void EffortTangent<N>::correct(const DrivenMotion& motion, const Directions<N>& errors, int first) {
@@ -28,17 +41,17 @@ template <int N>
 void EffortTangent<N>::differentiate(const DrivenMotion& motion, const State<double>& state, Eigen::Index first_row,
                                      RowJacobian* jacobian) {
   y_.setZero();
-  equations_.constraint_errors(state, y_, &Phi_, &Phi_rate_);
+  constraint_errors(state);
   // Parameters that do not move the geometry leave positions and velocities where they are.
   if (!Phi_.isZero(0.0) || !Phi_rate_.isZero(0.0)) {
     // A compliance, which the solution itself does not feel once it has converged, takes its share of one correction.
     const int rounds = system_.compliance() == 0.0 ? 1 : 2;
     for (int round = 0; round < rounds; ++round) {
       correct(motion, Phi_, at_.x());
-      equations_.constraint_errors(state, y_, &Phi_, &Phi_rate_);
+      constraint_errors(state);
     }
     for (int round = 0; round < rounds; ++round) {
-      if (round > 0) equations_.constraint_errors(state, y_, &Phi_, &Phi_rate_);
+      if (round > 0) constraint_errors(state);
       correct(motion, Phi_rate_, at_.v());
     }
   }

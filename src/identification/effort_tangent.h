@@ -14,31 +14,36 @@ namespace codesign {
 /// Derivatives, one row per number and one column per tuned parameter; rows lie side by side in memory.
 using RowJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Exact derivatives of the efforts by up to N tuned parameters, doc/theory.md (28b): the implicit function theorem for positions,
-/// velocities and then rates, with the matrix of the solution. No allocation once warm.
+/// Exact derivatives of the efforts by up to N of the tuned parameters, followed by the positions of some drives, doc/theory.md (28b): the
+/// implicit function theorem for positions, velocities and then rates, with the matrix of the solution. No allocation once warm.
 template <int N>
 class EffortTangent {
  public:
   /// @param system of the DrivenMotion whose solutions are differentiated; must outlive this.
-  EffortTangent(const CompiledSystem& system, LaneRange<N> lanes);
+  /// @param lanes from the tuned parameters and then the drives. @param shifted drives by whose positions to differentiate, at given
+  /// velocities and accelerations
+  EffortTangent(const CompiledSystem& system, LaneRange<N> lanes, std::vector<int> shifted = {});
 
   /// @param parameters all named parameters. Allocates.
-  void set_design(const std::vector<double>& parameters) { equations_.equations().set_design(lanes_.seed(system_, parameters)); }
+  void set_design(const std::vector<double>& parameters) { equations_.equations().set_design(seeded_.seed(system_, parameters)); }
   /// Later results do not depend on earlier ones, to the last bit.
   void forget() { equations_.equations().compiled().forget(); }
 
   /// @param motion with the design of set_design() and linearized at `state`, its solution.
-  /// @param jacobian the rows first_row ... first_row + motion.drives() - 1 get d effort / d rho in the columns of the parameters.
+  /// @param jacobian the rows first_row ... first_row + motion.drives() - 1 get the derivatives in the columns of the lanes.
   void differentiate(const DrivenMotion& motion, const State<double>& state, Eigen::Index first_row, RowJacobian* jacobian);
 
  private:
+  /// The derivatives of Phi, theta - y for the drives, along y_ and the lanes.
+  void constraint_errors(const State<double>& state);
   /// Corrects the n directions of y_ from `first` on for the derivatives of the errors of the constraints.
   void correct(const DrivenMotion& motion, const Directions<N>& errors, int first);
 
   const CompiledSystem& system_;
   const Layout& layout_;
   const IncrementLayout at_;
-  const LaneRange<N> lanes_;
+  const LaneRange<N> lanes_, seeded_;  ///< all, and the parameters among them
+  const std::vector<int> shifted_;
   TangentEquations<N> equations_;
   Directions<N> y_, G_, Phi_, Phi_rate_, solution_;
 };

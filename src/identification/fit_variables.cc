@@ -29,6 +29,17 @@ FitVariables::FitVariables(const Study& study) : study_(study), names_(tuned_nam
     columns.offset = add(joint.joint + "/offset", joint.offset, "");
     columns_.push_back(columns);
   }
+  for (const RecordingDescription& recording : study.identification->data)
+    for (const StartPosition& start : recording.starts) {
+      const std::string name = recording.element.substr(recording.element.find('.') + 1) + ".start." + start.joint;
+      start_columns_.push_back({recording.element, start.joint, add(name, start.position, "")});
+    }
+}
+
+int FitVariables::start_column(const std::string& recording, const std::string& joint) const {
+  for (const StartColumn& start : start_columns_)
+    if (start.recording == recording && start.joint == joint) return start.column;
+  return -1;
 }
 
 int FitVariables::add(const std::string& name, const FittedNumber& number, const std::string& unit) {

@@ -12,7 +12,7 @@
 namespace codesign {
 
 /// The unknowns x of an identification: the tuned parameters in the order of Study::tuned, then the fitted numbers of effort sensors, joint
-/// by joint in the order of the study: scale, delay, offset.
+/// by joint in the order of the study: scale, delay, offset; then the fitted start positions, recording by recording.
 class FitVariables {
  public:
   /// Where the numbers of one sensor stand in x; -1: known.
@@ -37,6 +37,8 @@ class FitVariables {
   /// The effort sensor of a joint; that of a joint which the study does not name passes efforts on as they are.
   EffortSensor sensor(const std::string& joint, const Eigen::VectorXd& x) const;
   SensorColumns columns(const std::string& joint) const;
+  /// Where the start position of a joint in a recording stands in x; -1: known. @param recording `identify.data[0]`
+  int start_column(const std::string& recording, const std::string& joint) const;
 
  private:
   int add(const std::string& name, const FittedNumber& number, const std::string& unit);
@@ -45,6 +47,11 @@ class FitVariables {
   const Study& study_;
   std::vector<std::string> names_, units_;
   std::vector<SensorColumns> columns_;  ///< one per entry of IdentificationDescription::joints
+  struct StartColumn {
+    std::string recording, joint;
+    int column = -1;
+  };
+  std::vector<StartColumn> start_columns_;
   Eigen::VectorXd start_, lower_, upper_;
 };
 

@@ -23,7 +23,7 @@ struct IdentifiedNumber {
   double start = 0.0, value = 0.0;
   double lower = -std::numeric_limits<double>::infinity();  ///< bounds
   double upper = std::numeric_limits<double>::infinity();
-  bool is_on_bound = false;      ///< it then counts as known in the intervals of the others, and has none itself
+  bool is_on_bound = false;      ///< and held there by the data: it then counts as known in the intervals of the others, and has none
   bool is_determined = true;     ///< whether the data tell it
   double deviation = 0.0;        ///< standard deviation; infinite if not determined
   double low = 0.0, high = 0.0;  ///< the interval at IntervalOptions::level
@@ -62,6 +62,7 @@ struct IdentificationResult {
   Eigen::Index samples = 0, holdout_samples = 0;  ///< times, not residuals
   int lag = 0;                                    ///< of the noise model, in samples
   int evaluations = 0, failed_evaluations = 0, iterations = 0;
+  Status last_failure;  ///< of the last point that could not be evaluated; ok if there was none
   double cpu_seconds = 0.0;
   FitSearches searches;  ///< of a study with several starts
   Warnings warnings;

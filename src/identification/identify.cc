@@ -108,6 +108,7 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
   result.evaluations = fit.evaluations;
   result.failed_evaluations = fit.failed_evaluations;
   result.iterations = fit.iterations;
+  result.last_failure = fit.last_failure;
   if (fit.residuals.size() == 0) return result;
 
   // What is known of the best point is computed even after a cancel; it takes no evaluation.

@@ -55,6 +55,13 @@ void begin_numbers(const FitVariables& variables, const ResidualFit& fit, Identi
   }
 }
 
+/// A number on a bound that the residuals do not hold there, since others can make up for it, is not known but not determined.
+void release_undetermined(const ResidualFit& fit, const LossOptions& loss, IdentificationResult* result) {
+  const Identifiability all = find_identifiable(weigh(fit.residuals, &fit.jacobian, fit.spreads, loss).jacobian);
+  for (std::size_t k = 0; k < result->numbers.size(); ++k)
+    if (!all.is_determined[k]) result->numbers[k].is_on_bound = false;
+}
+
 }  // namespace
 
 std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::MatrixXd& recorded, const Eigen::MatrixXd& start,
@@ -76,6 +83,7 @@ std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::
 void judge_numbers(const FitVariables& variables, const IdentificationDescription& options, const SeriesLengths& lengths,
                    const ResidualFit& fit, IdentificationResult* result) {
   begin_numbers(variables, fit, result);
+  release_undetermined(fit, options.loss, result);
   const std::vector<int> columns = free_columns(*result);
   result->covariance.setZero(variables.size(), variables.size());
   if (columns.empty()) return;
@@ -144,6 +152,11 @@ Warnings warnings_of(const IdentificationDescription& options, const Identificat
                                                    result.holdout[k].joint + ", " + readable(there) + " on the fitted data",
                                                readable(here), "at most " + readable(kHoldoutFactor * there)}));
   }
+  if (2 * result.failed_evaluations > result.evaluations)
+    warnings.push_back(warn("fit_hindered", {options.where, "identify",
+                                             std::to_string(result.failed_evaluations) + " of " + std::to_string(result.evaluations) +
+                                                 " points could not be evaluated, the last one for: " + result.last_failure.cause,
+                                             "", "bounds or twins that leave such points out, or another start"}));
   for (const IdentifiedNumber& number : result.numbers)
     if (number.is_on_bound)
       warnings.push_back(

@@ -24,7 +24,7 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
 void add_profiles(const FitProblem& problem, const IdentificationDescription& options, const ResidualFit& fit, ResidualSource* source,
                   const FitObserver& observer, const std::atomic<bool>* cancel, IdentificationResult* result);
 
-/// Warnings about the result: `holdout_failed` first, `identified_on_bound`, `correlated_residuals`.
+/// Warnings about the result: `holdout_failed` first, `fit_hindered`, `identified_on_bound`, `correlated_residuals`.
 Warnings warnings_of(const IdentificationDescription& options, const IdentificationResult& result);
 
 }  // namespace codesign

@@ -24,6 +24,15 @@ Eigen::MatrixXd positions_of_some(const JointRecording& recording, const std::ve
   return some;
 }
 
+/// @throws InputError naming the joint: a simulated motion is compared with positions, and begins at them.
+void require_positions(const std::vector<JointRecording>& recordings) {
+  for (const JointRecording& recording : recordings)
+    for (const JointSamples& samples : recording.joints)
+      if (samples.position.empty())
+        throw InputError({recording.where, recording.element, "residuals in motion need recorded positions", samples.joint,
+                          "positions of each joint, or residual: effort, which integrates velocities from a start"});
+}
+
 /// How much each column varies, a first guess of what its residuals are compared with.
 Eigen::VectorXd variation_of(const Eigen::MatrixXd& recorded) {
   Eigen::VectorXd variation(recorded.cols());
@@ -45,6 +54,7 @@ MotionResiduals::MotionResiduals(const CompiledSystem& system, const FitVariable
                                  const std::vector<MeasuredJoint>& joints, std::vector<JointRecording> recordings, int threads,
                                  Warnings* warnings)
     : system_(system), variables_(variables), recordings_(std::move(recordings)) {
+  require_positions(recordings_);
   independent_ = independent_joints(system, joints, positions_of_some(recordings_.front(), joints));
   const std::vector<MotionOutput> outputs = motion_outputs(system, joints, recordings_);
   for (const MotionOutput& output : outputs) names_.push_back(output.name());

@@ -80,6 +80,7 @@ class WeightedCost final : public LeastSquaresModel {
     FitTrial trial{fit_.evaluations, status, std::numeric_limits<double>::infinity(), {}, x, source_.outputs(), fit_.iterations};
     if (!status.ok()) {
       ++fit_.failed_evaluations;
+      fit_.last_failure = status;
       if (!is_begun_) fit_.status = status;
       return tell(trial) ? Outcome::kFailed : stop({StatusCode::kCancelled, 0.0, "cancelled"});
     }

@@ -61,6 +61,7 @@ struct ResidualFit {
   Eigen::MatrixXd start_residuals;
   Eigen::Index own_unknowns = 0;  ///< of the source
   int evaluations = 0, failed_evaluations = 0, iterations = 0;
+  Status last_failure;  ///< of the last failed evaluation; ok if none failed
 };
 
 /// Minimizes the sum over all residuals of rho(r_k / s_k) by Levenberg-Marquardt within bounds, doc/theory.md (39). The spreads s_k of

@@ -70,7 +70,7 @@ std::string body_fault(const RobotDescription& robot, const Topology& topology, 
 }
 
 std::string friction_fault(const Pair& pair, const FrictionConstants<double>& f) {
-  bool possible = f.mu_static >= f.mu_dynamic;
+  bool possible = f.mu_static >= f.mu_dynamic && f.mu_static_backward >= f.mu_dynamic_backward;
   const auto check = [&possible](const FrictionNumberRule& rule, const double& number) {
     // A radius that is not given is zero; check_friction_geometry() asks for it where the law needs it.
     const bool may_be_zero = rule.zero_allowed || (rule.missing == FrictionNumberRule::Missing::kStandard && rule.standard == 0.0) ||

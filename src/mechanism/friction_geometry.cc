@@ -8,6 +8,10 @@ void check_friction_geometry(const FrictionDescription& friction, JointType type
     if (dimension.is_zero())  // the reader accepts only positive dimensions
       throw InputError({friction.where, element, std::string("the friction of this joint type needs the attribute ") + name, "", "> 0"});
   };
+  if (friction.is_directional && (type == JointType::kSpherical || type == JointType::kPlanar))
+    throw InputError(
+        {friction.where, element, "this joint slips in several directions, none of which is backward", "",
+         "mu_static_backward, mu_dynamic_backward and viscous_backward on revolute, continuous, prismatic and cylindrical joints"});
   switch (type) {
     case JointType::kPrismatic:
       require(friction.joint_length, "joint_length");

@@ -33,7 +33,7 @@ JointRecording part_of(const JointRecording& recording, std::size_t begin, std::
   part.times = cut(recording.times);
   part.places = cut(recording.places);
   for (const JointSamples& samples : recording.joints)
-    part.joints.push_back({samples.joint, cut(samples.position), cut(samples.velocity), cut(samples.effort)});
+    part.joints.push_back({samples.joint, cut(samples.position), cut(samples.velocity), cut(samples.effort), samples.start});
   return part;
 }
 

@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_RECORDINGS_JOINT_RECORDING_H_
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace codesign {
 struct JointSamples {
   std::string joint;
   std::vector<double> position, velocity, effort;
+  std::optional<FittedNumber> start = std::nullopt;  ///< where the joint is at the first time, if positions are to be integrated
 
   std::vector<double>& of(MeasuredQuantity quantity) {
     return quantity == MeasuredQuantity::kPosition ? position : quantity == MeasuredQuantity::kVelocity ? velocity : effort;

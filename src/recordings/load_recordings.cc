@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "recordings/load_recordings.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "description/named_file.h"
@@ -46,15 +47,48 @@ void require_calibrated_joints(const JointRecording& recording, const Identifica
   }
 }
 
+/// Gives the joints of a recording where they start.
+void add_starts(const RecordingDescription& description, JointRecording* recording) {
+  std::vector<std::string> names;
+  for (const JointSamples& samples : recording->joints) names.push_back(samples.joint);
+  for (const StartPosition& start : description.starts) {
+    const std::string element = description.element + ".start." + start.joint;
+    const auto found = std::find_if(recording->joints.begin(), recording->joints.end(),
+                                    [&start](const JointSamples& samples) { return samples.joint == start.joint; });
+    if (found == recording->joints.end())
+      throw unknown_name(start.position.where, element, "joint in " + recording->file, start.joint, names);
+    if (!found->position.empty())
+      throw InputError({start.position.where, element,
+                        "positions of this joint were recorded, which tell where it starts: " + recording->file, start.joint,
+                        "no start, or columns without its positions"});
+    if (found->velocity.empty())
+      throw InputError({start.position.where, element,
+                        "no velocity of this joint was recorded, from which positions follow: " + recording->file, start.joint,
+                        "a recording with " + start.joint + "/velocity"});
+    found->start = start.position;
+  }
+}
+
+/// Nothing tells how far a joint moves in a gap if only its velocity is recorded.
+void require_one_piece(const RecordingDescription& description, const std::vector<JointRecording>& pieces) {
+  if (pieces.size() < 2 || description.starts.empty()) return;
+  throw InputError({description.where, description.element + ".gaps",
+                    "after a gap nothing tells where joints without positions are: " + pieces.front().file, "split",
+                    "one entry for each piece, with `from`, `to` and `start`"});
+}
+
 std::vector<JointRecording> load(const std::vector<RecordingDescription>& descriptions, const Context& context) {
   std::vector<JointRecording> recordings;
   for (const RecordingDescription& description : descriptions) {
     const JointRecording whole = read(description, context);
     require_calibrated_joints(whole, context.identification);
     JointRecording part = checked_part(whole, description.from, description.to);
+    add_starts(description, &part);
     unwrap_turns(context.robot, &part, context.warnings);
     check_units(context.robot, part, context.warnings);
-    for (JointRecording& piece : without_gaps(part, description.gaps, context.warnings)) recordings.push_back(std::move(piece));
+    std::vector<JointRecording> pieces = without_gaps(part, description.gaps, context.warnings);
+    require_one_piece(description, pieces);
+    for (JointRecording& piece : pieces) recordings.push_back(std::move(piece));
   }
   return recordings;
 }

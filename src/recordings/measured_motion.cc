@@ -70,6 +70,9 @@ JointMotion motion_of(const JointSamples& samples, const std::vector<double>& ti
     motion.velocity = smooth(samples.velocity);
   else if (!samples.position.empty())
     motion.velocity = derivative(motion.position, uniform.step);
+  motion.position_measured = !samples.position.empty();
+  if (!motion.position_measured && motion.velocity_measured && samples.start)
+    motion.position = integral(motion.velocity, uniform.step).array() + samples.start->value;
   if (motion.velocity.size() > 0) motion.acceleration = derivative(motion.velocity, uniform.step);
   if (!samples.effort.empty()) motion.effort = resample(times, samples.effort, uniform, Between::kLinear);
   return motion;
@@ -79,6 +82,7 @@ JointMotion motion_of(const JointSamples& samples, const std::vector<double>& ti
 
 MeasuredMotion measured_motion(const JointRecording& recording, const FilterOptions& filter, Warnings* warnings) {
   MeasuredMotion motion;
+  motion.element = recording.element;
   motion.times = uniform_times(recording.times);
   require_below_half_rate("cutoff", filter.cutoff, filter, recording, motion.times.rate());
   require_below_half_rate("residual_cutoff", filter.residual_cutoff, filter, recording, motion.times.rate());

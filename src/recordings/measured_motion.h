@@ -19,10 +19,12 @@ struct JointMotion {
   Eigen::VectorXd position, velocity, acceleration;  ///< empty if nothing was recorded that tells them
   Eigen::VectorXd effort;                            ///< as recorded, not filtered; empty if it was not
   bool velocity_measured = false;                    ///< or else it is the derivative of the position
+  bool position_measured = true;                     ///< or else it is the integral of the velocity, from JointSamples::start
 };
 
 /// A recording at equal steps, with velocities and accelerations; doc/theory.md (29)-(31).
 struct MeasuredMotion {
+  std::string element;  ///< the entry of the study: `identify.data[0]`
   UniformTimes times;
   std::vector<JointMotion> joints;  ///< in the order of the recording
   /// The samples to fit: `first`, `first + every`, ... below `end`. Near the ends filters know one side only, so that 2/cutoff is left out
@@ -33,7 +35,8 @@ struct MeasuredMotion {
 };
 
 /// Positions and measured velocities are resampled by cubics, efforts by lines; positions and velocities are filtered at `cutoff`; a
-/// velocity that was not measured is the derivative of the position, an acceleration always that of the velocity.
+/// velocity that was not measured is the derivative of the position, an acceleration always that of the velocity. A position that was not
+/// measured is the integral of the filtered velocity from where the study says that the joint starts; without that it stays empty.
 ///
 /// Residuals in effort are to be filtered at `residual_cutoff`, the measured and the computed ones alike, and then to be taken at the
 /// samples to fit.

@@ -80,4 +80,23 @@ Eigen::VectorXd derivative(const Eigen::VectorXd& samples, double step) {
   return result;
 }
 
+Eigen::VectorXd integral(const Eigen::VectorXd& samples, double step) {
+  const Eigen::Index n = samples.size();
+  const auto at = [&samples](Eigen::Index k) { return samples[k]; };
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index k = 0; k + 1 < n; ++k) {
+    double mean = 0.0;
+    if (k >= 2 && k + 3 < n)
+      mean = (802.0 * (at(k) + at(k + 1)) - 93.0 * (at(k - 1) + at(k + 2)) + 11.0 * (at(k - 2) + at(k + 3))) / 1440.0;
+    else if (k >= 1 && k + 2 < n)
+      mean = (13.0 * (at(k) + at(k + 1)) - at(k - 1) - at(k + 2)) / 24.0;
+    else if (k == 0)
+      mean = (9.0 * at(0) + 19.0 * at(1) - 5.0 * at(2) + at(3)) / 24.0;
+    else
+      mean = (9.0 * at(n - 1) + 19.0 * at(n - 2) - 5.0 * at(n - 3) + at(n - 4)) / 24.0;
+    result[k + 1] = result[k] + step * mean;
+  }
+  return result;
+}
+
 }  // namespace codesign

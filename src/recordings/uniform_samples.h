@@ -35,6 +35,11 @@ Eigen::VectorXd resample(const std::vector<double>& times, const std::vector<dou
 /// @param samples at least three. @param step [s]
 Eigen::VectorXd derivative(const Eigen::VectorXd& samples, double step);
 
+/// The integral of equally spaced samples [unit s], zero at the first; doc/theory.md (49). Each step by the parabolas of order five through
+/// its six neighbours, at the two steps next to the ends by those of order three through four, so that it undoes derivative() up to the
+/// bandwidth of the filter. @param samples at least four. @param step [s]
+Eigen::VectorXd integral(const Eigen::VectorXd& samples, double step);
+
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_RECORDINGS_UNIFORM_SAMPLES_H_

@@ -89,6 +89,7 @@ void System::collect_loads() {
       load.pair = static_cast<int>(p);
       load.element = static_cast<int>(e);
       load.reaction_friction = pair.friction_joint >= 0 && !contact;
+      load.directional = load.reaction_friction && robot_.joints[static_cast<std::size_t>(pair.friction_joint)].friction->is_directional;
       if (e < pair.chain.size()) {
         const JointDescription& joint = robot_.joints[static_cast<std::size_t>(pair.chain[e].joint)];
         load.constant_friction = !joint.dry_friction.is_zero();

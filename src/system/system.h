@@ -25,6 +25,7 @@ struct ResolvedTerm {
 struct JointLoad {
   int pair = -1, element = -1;     ///< the coordinate: index in Topology::pairs and in the pair's chain
   bool reaction_friction = false;  ///< an annotated friction law acts on this coordinate
+  bool directional = false;        ///< its numbers differ with the sign of the velocity
   bool constant_friction = false;  ///< `<dynamics friction>`
   bool passive = false;            ///< damping or a torsion spring
   bool spring = false;             ///< a torsion spring, which depends on the position

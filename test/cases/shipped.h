@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <utility>
@@ -22,11 +23,15 @@ namespace codesign {
 
 /// A shipped case: urdf/NAME.urdf with config/NAME.yaml.
 struct Shipped {
-  /// @param overlay a name in urdf/overlays, or nothing.
+  /// @param overlay a name in urdf/overlays, or nothing: then the case's own, if there is one.
   explicit Shipped(const std::string& name, const std::string& overlay = "") {
     const std::string root = source_dir();
     std::vector<SourceText> overlays;
-    if (!overlay.empty()) overlays.push_back(read_source(root + "/urdf/overlays/" + overlay + ".urdf"));
+    const std::string own = root + "/urdf/overlays/" + name + ".urdf";
+    if (!overlay.empty())
+      overlays.push_back(read_source(root + "/urdf/overlays/" + overlay + ".urdf"));
+    else if (std::filesystem::exists(own))
+      overlays.push_back(read_source(own));
     robot = read_urdf(read_source(root + "/urdf/" + name + ".urdf"), overlays);
     study = read_study(read_source(root + "/config/" + name + ".yaml"), robot);
   }

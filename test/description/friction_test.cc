@@ -34,12 +34,15 @@ TEST(FrictionNumbers, ModelsUseTheirOwn) {
   const auto note = [&](const FrictionNumberRule& rule, const Quantity&) {
     if (rule.is_used_by(FrictionModel::kLuGre)) of_lugre.insert(rule.attribute);
     if (rule.is_used_by(FrictionModel::kGonthier)) of_gonthier.insert(rule.attribute);
-    EXPECT_EQ(rule.is_used_by(FrictionModel::kBrownMcPhee), rule.models == FrictionNumberRule::Models::kAll);
+    EXPECT_EQ(rule.is_used_by(FrictionModel::kBrownMcPhee),
+              rule.models == FrictionNumberRule::Models::kAll || rule.models == FrictionNumberRule::Models::kBrownMcPheeOnly);
   };
   const FrictionDescription friction;
   visit_friction_numbers(note, &friction);
   EXPECT_EQ(of_gonthier.size(), of_lugre.size() + 1);
   EXPECT_EQ(of_lugre.count("dwell_time"), 0U);
+  EXPECT_EQ(of_lugre.count("mu_static_backward"), 0U);
+  EXPECT_EQ(of_lugre.count("viscous_backward"), 1U);
   EXPECT_EQ(friction.dwell_time.nominal(), 2.0);
 }
 

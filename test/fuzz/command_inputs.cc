@@ -141,7 +141,8 @@ std::vector<Seed> shipped_seeds() {
   for (const auto& entry : std::filesystem::directory_iterator(source_dir() + "/urdf")) {
     const std::string name = entry.path().stem().string();
     const std::filesystem::path study = source_dir() + "/config/" + name + ".yaml";
-    if (entry.path().extension() != ".urdf" || !std::filesystem::exists(study)) continue;
+    const bool needs_overlay = std::filesystem::exists(source_dir() + "/urdf/overlays/" + name + ".urdf");
+    if (entry.path().extension() != ".urdf" || !std::filesystem::exists(study) || needs_overlay) continue;
     Seed seed{name, read(entry.path()), cut_short(read(study)), ""};
     seed.overlay = overlay_for(seed.urdf);
     seeds.push_back(std::move(seed));

@@ -22,8 +22,12 @@ class ComplexEfforts {
     derivatives_.resize(system_.patterns());
   }
 
-  /// @param rho the tuned parameters.
-  Eigen::VectorXcd operator()(const Eigen::VectorXcd& rho) {
+  /// @param rho the tuned parameters, then, if there are more numbers, what is added to the position of each drive.
+  Eigen::VectorXcd operator()(const Eigen::VectorXcd& rho_and_shifts) {
+    const auto tuned = static_cast<Eigen::Index>(system_.study().tuned.size());
+    const Eigen::VectorXcd rho = rho_and_shifts.head(tuned);
+    shifts_.setZero(drives_);
+    if (rho_and_shifts.size() > tuned) shifts_ = rho_and_shifts.tail(drives_);
     std::vector<Complex> parameters;
     for (double value : system_.parameters()) parameters.emplace_back(value);
     for (Eigen::Index k = 0; k < rho.size(); ++k) parameters[to_index(system_.study().tuned[to_index(static_cast<int>(k))])] = rho[k];
@@ -53,7 +57,7 @@ class ComplexEfforts {
     VectorX<Complex> Phi, Phi_rate;
     equations_.constraint_errors(state_, &Phi, &Phi_rate);
     VectorX<Complex>& errors = positions ? Phi : Phi_rate;
-    for (int k = 0; k < drives_; ++k) errors[system_.drive_row(k)] -= given[k];
+    for (int k = 0; k < drives_; ++k) errors[system_.drive_row(k)] -= given[k] + (positions ? shifts_[k] : Complex(0.0));
     Eigen::VectorXcd right = Eigen::VectorXcd::Zero(layout.columns());
     right.segment(layout.n, layout.m) = errors;
     (positions ? state_.q : state_.v) -= solve(right).head(layout.n);
@@ -71,6 +75,7 @@ class ComplexEfforts {
   const int drives_;
   const DriveMotion given_;
   const State<double>& near_;
+  Eigen::VectorXcd shifts_;
   Equations<Complex> equations_;
   State<Complex> state_;
   Linearization<Complex> derivatives_;

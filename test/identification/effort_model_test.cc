@@ -69,6 +69,43 @@ MotionSamples swing(int samples, double amplitude, double offset = 0.0, int join
   return motion;
 }
 
+/// Compares the derivatives by parameters and by shifts of all drives with a complex step, where the motion is shifted.
+TEST(EffortModel, DerivativesByShiftsAreExact) {
+  Shipped shipped("slider_crank");
+  const auto crank = make_system(shipped.robot, shipped.study, nullptr);
+  MotionSamples motion = record_motion(*crank, {"crank_joint"}, 60, 0.01).motion;
+  motion.shifted = {0};
+  motion.begins = {0, 30};
+  shipped.study.tuned.pop_back();
+  const auto system = make_system(shipped.robot, shipped.study, nullptr);
+  EffortModel model(*system, measured({"crank_joint"}), motion);
+  model.shift(Eigen::RowVector2d(0.02, -0.1));
+  EXPECT_EQ(model.position()(0, 0), motion.position(0, 0) + 0.02);
+  EXPECT_EQ(model.position()(0, 30), motion.position(0, 30) - 0.1);
+  RowJacobian jacobian;
+  efforts_of(&model, *system, &jacobian);
+  ASSERT_EQ(jacobian.cols(), model.parameters() + 1);
+  EXPECT_GT(jacobian.rightCols(1).cwiseAbs().maxCoeff(), 1e-3);
+  Eigen::VectorXd rho = Eigen::VectorXd::Zero(jacobian.cols());
+  for (int k = 0; k < model.parameters(); ++k) rho[k] = system->parameters()[to_index(system->study().tuned[to_index(k)])];
+  for (int sample = 0; sample < model.samples(); sample += 7) {
+    const auto column = [&](const Eigen::MatrixXd& of) { return In<double>(of.data() + sample, 1); };
+    ComplexEfforts complex(model.driven(), {column(model.position()), column(model.velocity()), column(model.acceleration())},
+                           model.state(sample));
+    const JacobianDifference difference =
+        compare_jacobians(jacobian.row(sample), complex_step_jacobian([&complex](const Eigen::VectorXcd& at) { return complex(at); }, rho));
+    EXPECT_LT(difference.largest, 1e-9) << "sample " << sample << ", column " << difference.column;
+  }
+}
+
+TEST(EffortModel, OnlyDrivesCanBeShiftedAndOnlyWithoutSurplus) {
+  const Shipped shipped("slider_crank");
+  const auto system = make_system(shipped.robot, shipped.study, nullptr);
+  RecordedMotion recorded = record_motion(*system, {"crank_joint", "slider_joint"}, 30, 0.01);
+  recorded.motion.shifted = {0};
+  EXPECT_THROW(EffortModel(*system, measured({"crank_joint"}, {"slider_joint"}), recorded.motion), InputError);
+}
+
 TEST(EffortModel, APendulumNeedsInertiaGravityAndDamping) {
   const auto system = compiled(robot(bar("bar") + hinge("hinge", "ground", "bar", "0 0 0", "<dynamics damping='0.3' friction='0'/>")),
                                let_go("{}", "hinge/velocity"));

@@ -149,6 +149,79 @@ TEST(Identify, ANumberOnItsBoundIsReported) {
   EXPECT_EQ(result.warnings[0].code, "identified_on_bound");
 }
 
+TEST(Identify, ABoundDoesNotMakeKnownWhatOthersMakeUpFor) {
+  // Only 0.25 mass + inertia is known, 0.8: with the mass on its bound, any inertia near 0.55 fits exactly.
+  const IdentificationResult result = run(problem_of("mass: {upper: 2.0}, inertia: {}, viscous: {}"), Rig());
+  EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable);
+  for (std::size_t k : {0U, 1U}) {
+    EXPECT_FALSE(result.numbers[k].is_on_bound);
+    EXPECT_FALSE(result.numbers[k].is_determined);
+  }
+  EXPECT_TRUE(result.numbers[2].is_determined);
+  EXPECT_EQ(result.rank, 2);
+}
+
+TEST(Identify, ASpeedAloneIsIntegratedFromAStartThatIsFitted) {
+  // Gravity acts on this arm, so that the effort tells where it is.
+  std::string hanging = kArm;
+  hanging.replace(hanging.find("<axis xyz=\"0 0 1\"/>"), 19, "<axis xyz=\"0 -1 0\"/>");
+  const Problem problem = load_problem({"arm.urdf", hanging}, {},
+                                       {"study.yaml",
+                                        "identify:\n  data: [{csv: data.csv, start: {hinge: {initial: 0.7, lower: -1, upper: 1}}}]\n"
+                                        "  filter: {cutoff: 20.0}\nparameters: {inertia: {}, viscous: {}}\n"
+                                        "optimizer: {algorithm: levenberg_marquardt, relative_tolerance: 1.0e-10}\n"});
+  JointRecording recording = Rig().record("identify.data[0]");
+  JointSamples& hinge = recording.joints[0];
+  for (std::size_t k = 0; k < hinge.effort.size(); ++k) hinge.effort[k] += 2.0 * 9.81 * 0.5 * std::cos(hinge.position[k] - 0.35);
+  hinge.position.clear();
+  hinge.start = problem.study().identification->data[0].starts.at(0).position;
+  StudyRecordings recordings;
+  recordings.data = {recording};
+  const IdentificationResult result = identify(problem, recordings, {}, nullptr);
+  ASSERT_TRUE(result.status.ok()) << result.status.cause;
+  ASSERT_EQ(result.numbers.size(), 3U);
+  EXPECT_NEAR(result.numbers[0].value, 0.3, 1e-4);
+  EXPECT_NEAR(result.numbers[1].value, 0.4, 1e-4);
+  EXPECT_EQ(result.numbers[2].name, "data[0].start.hinge");
+  EXPECT_NEAR(result.numbers[2].value, -0.35, 1e-3) << "the recording begins at 0, which the sensor of the test calls -0.35";
+  EXPECT_GT(result.numbers[2].deviation, 0.0);
+  recordings.data[0].joints[0].start.reset();
+  try {
+    identify(problem, recordings, {}, nullptr);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.fault().value, "hinge");
+    EXPECT_NE(error.fault().allowed.find("start: {hinge: POSITION}"), std::string::npos) << error.fault().allowed;
+  }
+}
+
+TEST(Identify, AStartThatNothingTellsIsNamed) {
+  // Nothing depends on the angle about a vertical axis.
+  const Problem problem = load_problem({"arm.urdf", kArm}, {},
+                                       {"study.yaml",
+                                        "identify:\n  data: [{csv: data.csv, start: {hinge: {}}}]\n  filter: {cutoff: 20.0}\n"
+                                        "parameters: {inertia: {}, viscous: {}}\noptimizer: {algorithm: levenberg_marquardt}\n"});
+  StudyRecordings recordings;
+  recordings.data = {Rig().record("identify.data[0]")};
+  recordings.data[0].joints[0].position.clear();
+  recordings.data[0].joints[0].start = problem.study().identification->data[0].starts.at(0).position;
+  const IdentificationResult result = identify(problem, recordings, {}, nullptr);
+  EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable);
+  ASSERT_EQ(result.undetermined.size(), 1U);
+  EXPECT_EQ(result.undetermined[0], "data[0].start.hinge has no effect");
+  EXPECT_NEAR(result.numbers[0].value, 0.3, 1e-4);
+}
+
+TEST(Identify, AFitThatRunsAgainstImpossibleDesignsSaysSo) {
+  // The rig's inertia is below what the mass at its place has, so that the model would need a negative one.
+  Rig rig;
+  rig.total = 0.4;
+  const IdentificationResult result = run(problem_of("inertia: {lower: -5}, viscous: {}"), rig);
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_EQ(result.warnings[0].code, "fit_hindered");
+  EXPECT_NE(result.warnings[0].message.find("inertia"), std::string::npos) << result.warnings[0].message;
+}
+
 TEST(Identify, RecordingsNeedTheSameJoints) {
   const Problem problem = problem_of("viscous: {}");
   StudyRecordings recordings;

@@ -141,5 +141,11 @@ TEST(MotionResiduals, RefusesShortSegmentsAndIdas) {
   }
 }
 
+TEST(MotionResiduals, RefusesRecordingsWithoutPositions) {
+  JointRecording recording = record_pendulum(MotionRig());
+  recording.joints.front().position.clear();
+  EXPECT_THROW(MotionCase(motion_problem("", "  segment: 1.0\n", "inertia: {}"), {recording}), InputError);
+}
+
 }  // namespace
 }  // namespace codesign

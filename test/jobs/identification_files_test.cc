@@ -24,14 +24,14 @@ TEST(IdentificationFiles, TextsOfOneResult) {
   EXPECT_EQ(Json::parse(files[0].text()), json);
   EXPECT_EQ(files[1].name, "identified_overlay.urdf");
   EXPECT_EQ(files[2].name, "identified.urdf");
-  EXPECT_EQ(read_urdf({"identified", files[1].text()}).parameters[1].value, result.numbers[1].value);
+  EXPECT_EQ(read_urdf({"identified", files[2].text()}).parameters[1].value, result.numbers[1].value);
   EXPECT_EQ(files[3].name, "residuals.csv");
-  EXPECT_EQ(files[2].text().substr(0, 50).find("set,recording,time,hinge/recorded,hinge/computed\n"), 0U);
+  EXPECT_EQ(files[3].text().substr(0, 50).find("set,recording,time,hinge/recorded,hinge/computed\n"), 0U);
 
   const IdentificationShow show = identification_show(problem, result, json, compare_motion(problem, recordings, result, kShownRate));
   EXPECT_EQ(show.study, swinging_study());
   EXPECT_EQ(show.joints, std::vector<std::string>{"hinge"});
-  EXPECT_EQ(show.urdf, files[1].text());
+  EXPECT_EQ(show.urdf, files[2].text());
   EXPECT_EQ(show.data.times.size(), static_cast<std::size_t>(result.samples));
   EXPECT_EQ(show.motion.recordings.size(), 1U);
 }

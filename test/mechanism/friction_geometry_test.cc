@@ -33,6 +33,16 @@ TEST(FrictionGeometry, EachJointTypeNeedsItsDimensions) {
     EXPECT_EQ(complaint(friction, type), "");
 }
 
+TEST(FrictionGeometry, WhatSlipsInSeveralDirectionsHasNoBackward) {
+  FrictionDescription friction;
+  friction.joint_length = friction.joint_width = friction.pin_radius = 0.1;
+  friction.is_directional = true;
+  for (JointType type : {JointType::kPrismatic, JointType::kRevolute, JointType::kContinuous, JointType::kCylindrical})
+    EXPECT_EQ(complaint(friction, type), "");
+  for (JointType type : {JointType::kSpherical, JointType::kPlanar})
+    EXPECT_NE(complaint(friction, type).find("slips in several directions"), std::string::npos);
+}
+
 TEST(FrictionGeometry, SomeJointsHaveNoFrictionLaw) {
   FrictionDescription friction;
   friction.joint_length = friction.joint_width = friction.pin_radius = 0.1;

@@ -86,5 +86,60 @@ TEST_F(LoadRecordings, BagsAreReadByTheCaller) {
   EXPECT_EQ(asked, "/logs/swing.bag 3");
 }
 
+class RecordedSpeed : public LoadRecordings {
+ protected:
+  RecordedSpeed() {
+    write(0.0);
+    identification_.data[0].file = "speed.csv";
+    StartPosition start;
+    start.joint = "hinge";
+    start.position.value = 0.3;
+    start.position.where = {"study.yaml", 5};
+    identification_.data[0].starts = {start};
+  }
+  /// @param gap in the middle [s]
+  void write(double gap) {
+    std::ofstream file(directory_.path() / "speed.csv");
+    const JointRecording recording = swing(100);
+    file << "time,hinge/velocity,slider/position\n";
+    for (std::size_t k = 0; k < 100; ++k)
+      file << recording.times[k] + (k < 50 ? 0.0 : gap) << "," << recording.joints[0].velocity[k] << ",0\n";
+  }
+};
+
+TEST_F(RecordedSpeed, GetsItsStart) {
+  const JointRecording recording = load().data.at(0);
+  EXPECT_EQ(recording.find("hinge")->start.value().value, 0.3);
+  EXPECT_FALSE(recording.find("slider")->start.has_value());
+  identification_.data[0].from = 0.5;
+  EXPECT_EQ(load().data.at(0).find("hinge")->start.value().value, 0.3);
+}
+
+TEST_F(RecordedSpeed, OnlyWhereAVelocityIsAllThatIsKnown) {
+  identification_.data[0].starts[0].joint = "slider";
+  InputFault fault = refusal_of([this] { load(); });
+  EXPECT_EQ(fault.element, "identify.data[0].start.slider");
+  EXPECT_EQ(fault.where.line, 5);
+  expect_word(fault.message, "positions of this joint were recorded");
+  identification_.data[0].starts[0].joint = "wheel";
+  fault = refusal_of([this] { load(); });
+  expect_word(fault.message, "unknown joint in");
+  expect_word(fault.allowed, "hinge");
+  identification_.data[0].starts[0].joint = "hinge";
+  std::ofstream(directory_.path() / "speed.csv") << "time,hinge/effort\n0,1\n1,1\n2,1\n3,1\n4,1\n5,1\n6,1\n7,1\n8,1\n9,1\n"
+                                                    "10,1\n11,1\n12,1\n13,1\n14,1\n15,1\n16,1\n17,1\n18,1\n19,1\n20,1\n";
+  expect_word(refusal_of([this] { load(); }).message, "no velocity of this joint was recorded");
+}
+
+TEST_F(RecordedSpeed, IsNotFollowedOverAGap) {
+  write(1.0);
+  identification_.data[0].gaps = GapRule::kSplit;
+  const InputFault fault = refusal_of([this] { load(); });
+  EXPECT_EQ(fault.element, "identify.data[0].gaps");
+  expect_word(fault.message, "after a gap nothing tells");
+  identification_.data[0].starts.clear();
+  EXPECT_EQ(load().data.size(), 2U);
+}
+
 }  // namespace
 }  // namespace codesign

@@ -101,5 +101,26 @@ TEST(MeasuredMotion, RefusesCutoffsAndLengthsThatCannotBe) {
   expect_word(length.message, "60 samples leave 0 to fit");
 }
 
+TEST(MeasuredMotion, APositionThatWasNotMeasuredIsTheIntegralOfTheVelocity) {
+  JointRecording recording = swing(400);
+  JointSamples& hinge = recording.joints[0];
+  const std::vector<double> truth = hinge.position;
+  hinge.position.clear();
+  FilterOptions filter;
+  filter.cutoff = 10.0;
+  Warnings warnings;
+  EXPECT_EQ(measured_motion(recording, filter, &warnings).joints[0].position.size(), 0);
+  hinge.start.emplace(0.25);
+  const MeasuredMotion motion = measured_motion(recording, filter, &warnings);
+  EXPECT_EQ(motion.element, "identify.data[0]");
+  EXPECT_FALSE(motion.joints[0].position_measured);
+  EXPECT_EQ(motion.joints[0].position[0], 0.25);
+  // The filter knows one side only at the beginning, which leaves a constant.
+  const double off = motion.joints[0].position[motion.first] - truth[static_cast<std::size_t>(motion.first)];
+  EXPECT_NEAR(off, 0.25, 2e-4);
+  for (Eigen::Index k = motion.first; k < motion.end; ++k)
+    EXPECT_NEAR(motion.joints[0].position[k], truth[static_cast<std::size_t>(k)] + off, 1e-6) << k;
+}
+
 }  // namespace
 }  // namespace codesign

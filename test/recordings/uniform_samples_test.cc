@@ -79,5 +79,28 @@ TEST(Derivative, HoldsUpToAFifthOfTheRate) {
   EXPECT_NEAR(derivative(wave, step)[50], w * std::cos(w * step * 50.0), 0.01 * w);
 }
 
+TEST(Integral, IsExactForPolynomialsOfItsOrder) {
+  const double step = 0.1;
+  const auto power = [step](int degree) {
+    return Eigen::VectorXd(Eigen::VectorXd::NullaryExpr(21, [=](Eigen::Index k) { return std::pow(step * double(k - 10), degree); }));
+  };
+  const auto expected = [step](int degree, Eigen::Index k) {
+    return (std::pow(step * double(k - 10), degree + 1) - std::pow(-10.0 * step, degree + 1)) / (degree + 1);
+  };
+  const Eigen::VectorXd third = integral(power(3), step), fifth = integral(power(5), step);
+  EXPECT_EQ(third[0], 0.0);
+  for (Eigen::Index k = 0; k < 21; ++k) EXPECT_NEAR(third[k], expected(3, k), 1e-13) << k;
+  for (Eigen::Index k = 2; k < 19; ++k) EXPECT_NEAR(fifth[k] - fifth[2], expected(5, k) - expected(5, 2), 1e-13) << k;
+  EXPECT_GT(std::abs(fifth[1] - expected(5, 1)), 1e-6);
+}
+
+// At 100 Hz, a motion of 10 Hz: the trapezoidal rule would lose 3 % of its amplitude.
+TEST(Integral, UndoesTheDerivative) {
+  const double step = 0.01, w = 2.0 * 3.14159265358979323846 * 10.0;
+  const Eigen::VectorXd wave = Eigen::VectorXd::NullaryExpr(201, [=](Eigen::Index k) { return std::sin(w * step * double(k) + 0.3); });
+  const Eigen::VectorXd again = integral(derivative(wave, step), step);
+  for (Eigen::Index k = 10; k < 191; ++k) EXPECT_NEAR(again[k] - again[10], wave[k] - wave[10], 3e-3) << k;
+}
+
 }  // namespace
 }  // namespace codesign

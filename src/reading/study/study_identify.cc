@@ -6,7 +6,7 @@
 #include <string>
 
 #include "reading/study/study_fields.h"
-#include "reading/study/study_parameters.h"
+#include "reading/study/study_fitted_number.h"
 #include "reading/study/study_recordings.h"
 #include "reading/study/study_values.h"
 
@@ -39,25 +39,6 @@ FilterOptions read_filter(const YamlValue& filter) {
   return options;
 }
 
-/// A number is known; a map is to be fitted, from `initial` within `lower` and `upper`. @param lower the bound unless another one is given
-void read_fitted(const YamlValue& value, double lower, FittedNumber* number) {
-  number->where = value.where();
-  if (!value.is_map()) {
-    number->value = value.number();
-    return;
-  }
-  value.require_keys({}, {"initial", "lower", "upper"});
-  Parameter parameter;
-  parameter.value = number->value;
-  parameter.lower = lower;
-  if (const auto initial = value.find("initial")) parameter.value = initial->number();
-  read_bounds(value, &parameter);
-  number->is_fitted = true;
-  number->value = parameter.value;
-  number->lower = parameter.lower;
-  number->upper = parameter.upper;
-}
-
 JointCalibration read_calibration(const std::string& name, const YamlValue& value, const RobotDescription& robot) {
   constexpr double kAny = -std::numeric_limits<double>::infinity();
   JointCalibration calibration;
@@ -71,6 +52,19 @@ JointCalibration read_calibration(const std::string& name, const YamlValue& valu
   if (const auto delay = value.find("delay")) read_fitted(*delay, 0.0, &calibration.delay);
   if (const auto offset = value.find("offset")) read_fitted(*offset, kAny, &calibration.offset);
   return calibration;
+}
+
+/// What is judged on must be known.
+void refuse_fitted_starts(const std::vector<RecordingDescription>& holdout) {
+  for (const RecordingDescription& recording : holdout)
+    for (const StartPosition& start : recording.starts)
+      if (start.position.is_fitted)
+        throw InputError({start.position.where, recording.element + ".start." + start.joint,
+                          "a holdout is never fitted, so that its start must be known", "a map", "a number in rad or m"});
+}
+
+bool has_fitted(const RecordingDescription& recording) {
+  return std::any_of(recording.starts.begin(), recording.starts.end(), [](const StartPosition& start) { return start.position.is_fitted; });
 }
 
 bool has_fitted(const JointCalibration& joint) { return joint.effort_scale.is_fitted || joint.delay.is_fitted || joint.offset.is_fitted; }
@@ -113,7 +107,10 @@ IdentificationDescription read_identification(const YamlValue& identify, const R
   IdentificationDescription description;
   description.where = identify.where();
   description.data = read_recording_list(identify.at("data"), robot);
-  if (const auto holdout = identify.find("holdout")) description.holdout = read_recording_list(*holdout, robot);
+  if (const auto holdout = identify.find("holdout")) {
+    description.holdout = read_recording_list(*holdout, robot);
+    refuse_fitted_starts(description.holdout);
+  }
   read_choice(identify, "residual", kResidualNames, &description.residual);
   description.segment = segment_of(identify);
   if (const auto filter = identify.find("filter")) description.filter = read_filter(*filter);
@@ -121,7 +118,10 @@ IdentificationDescription read_identification(const YamlValue& identify, const R
     for (const auto& [name, value] : joints->entries()) description.joints.push_back(read_calibration(name, value, robot));
   if (const auto loss = identify.find("loss")) description.loss = read_loss(*loss);
   if (const auto intervals = identify.find("intervals")) description.intervals = read_intervals(*intervals);
-  if (study.tuned.empty() && std::none_of(description.joints.begin(), description.joints.end(), has_fitted))
+  const bool fits_a_joint =
+      std::any_of(description.joints.begin(), description.joints.end(), [](const auto& of) { return has_fitted(of); });
+  const bool fits_a_start = std::any_of(description.data.begin(), description.data.end(), [](const auto& of) { return has_fitted(of); });
+  if (study.tuned.empty() && !fits_a_joint && !fits_a_start)
     identify.fail("there is nothing to identify", "at least one parameter under parameters, or a map under identify.joints.JOINT");
   return description;
 }

@@ -2,10 +2,12 @@
 #include "reading/study/study_recordings.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
 #include "reading/study/study_fields.h"
+#include "reading/study/study_fitted_number.h"
 #include "reading/study/study_values.h"
 #include "text/nearest_name.h"
 
@@ -73,7 +75,7 @@ void read_columns(const YamlValue& columns, const RobotDescription& robot, Recor
 }
 
 void read_bag(const YamlValue& value, RecordingDescription* recording) {
-  value.require_keys({"bag", "topic"}, {"from", "to", "gaps", "stamp"});
+  value.require_keys({"bag", "topic"}, {"from", "to", "gaps", "start", "stamp"});
   recording->is_bag = true;
   recording->file = value.at("bag").text();
   recording->topic = value.at("topic").text();
@@ -81,10 +83,19 @@ void read_bag(const YamlValue& value, RecordingDescription* recording) {
 }
 
 void read_table(const YamlValue& value, const RobotDescription& robot, RecordingDescription* recording) {
-  value.require_keys({"csv"}, {"columns", "delimiter", "from", "to", "gaps"});
+  value.require_keys({"csv"}, {"columns", "delimiter", "from", "to", "gaps", "start"});
   recording->file = value.at("csv").text();
   read_choice(value, "delimiter", kCellDelimiterNames, &recording->delimiter);
   if (const auto columns = value.find("columns")) read_columns(*columns, robot, recording);
+}
+
+void read_starts(const YamlValue& starts, const RobotDescription& robot, RecordingDescription* recording) {
+  for (const auto& [name, value] : starts.entries()) {
+    StartPosition start;
+    start.joint = scalar_joint(name, robot, value).name;
+    read_fitted(value, -std::numeric_limits<double>::infinity(), &start.position);
+    recording->starts.push_back(start);
+  }
 }
 
 RecordingDescription read_recording(const YamlValue& value, const RobotDescription& robot) {
@@ -103,6 +114,7 @@ RecordingDescription read_recording(const YamlValue& value, const RobotDescripti
   if (to) recording.to = to->number();
   if (!(recording.from < recording.to)) (to ? *to : *from).fail("the part to use ends before it begins", "from < to");
   read_choice(value, "gaps", kGapRuleNames, &recording.gaps);
+  if (const auto starts = value.find("start")) read_starts(*starts, robot, &recording);
   return recording;
 }
 

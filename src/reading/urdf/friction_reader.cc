@@ -18,22 +18,60 @@ FrictionModel read_model(const XmlElement& element) {
                      {kFrictionModelNames.begin(), kFrictionModelNames.end()});
 }
 
+/// The number that counts where an attribute is missing.
+const Quantity& value_if_missing(const FrictionNumberRule& rule, const FrictionDescription& friction, const Quantity& standard) {
+  switch (rule.missing) {
+    case FrictionNumberRule::Missing::kPinRadius:
+      return friction.pin_radius;
+    case FrictionNumberRule::Missing::kMuStatic:
+      return friction.mu_static;
+    case FrictionNumberRule::Missing::kMuDynamic:
+      return friction.mu_dynamic;
+    case FrictionNumberRule::Missing::kViscous:
+      return friction.viscous;
+    case FrictionNumberRule::Missing::kRefused:
+    case FrictionNumberRule::Missing::kStandard:
+    case FrictionNumberRule::Missing::kLengthOfOne:
+      break;
+  }
+  return standard;
+}
+
+/// The models that use a number, for messages.
+const char* models_of(const FrictionNumberRule& rule) {
+  switch (rule.models) {
+    case FrictionNumberRule::Models::kBrownMcPheeOnly:
+      return "with model=\"brown_mcphee\"";
+    case FrictionNumberRule::Models::kGonthierOnly:
+      return "with model=\"gonthier\"";
+    case FrictionNumberRule::Models::kWithStates:
+    case FrictionNumberRule::Models::kAll:
+      break;
+  }
+  return "with model=\"gonthier\" or model=\"lugre\"";
+}
+
+void require_ordered(const XmlElement& element, const std::string& dynamic_name, const Quantity& dynamic, const std::string& static_name,
+                     const Quantity& at_rest) {
+  if (dynamic.nominal() > at_rest.nominal())
+    element.fail_at(element.has(dynamic_name) ? dynamic_name : static_name, dynamic_name + " is above " + static_name,
+                    "at most " + static_name + "=" + to_decimal(at_rest.nominal()));
+}
+
 /// A number of the element. An attribute that the model does not use is an error, since it would have no effect.
 void read_number(const XmlElement& element, const FrictionNumberRule& rule, const ParameterTable& table, FrictionDescription* friction,
                  Quantity* number) {
   if (!rule.is_used_by(friction->model)) {
-    const bool gonthier = rule.models == FrictionNumberRule::Models::kGonthierOnly;
     if (element.has(rule.attribute))
-      element.fail_at(rule.attribute, std::string(rule.attribute) + " has no meaning for this friction model",
-                      gonthier ? "with model=\"gonthier\"" : "with model=\"gonthier\" or model=\"lugre\"");
+      element.fail_at(rule.attribute, std::string(rule.attribute) + " has no meaning for this friction model", models_of(rule));
     return;
   }
   const Range range = rule.zero_allowed ? Range::kNonNegative : Range::kPositive;
   if (rule.missing == FrictionNumberRule::Missing::kRefused)
     *number = read_quantity(element, rule.attribute, range, table);
   else
-    *number = read_quantity_or(rule.missing == FrictionNumberRule::Missing::kPinRadius ? friction->pin_radius : *number, element,
-                               rule.attribute, range, table);
+    *number = read_quantity_or(value_if_missing(rule, *friction, *number), element, rule.attribute, range, table);
+  if (rule.is_backward() && element.has(rule.attribute)) friction->is_directional = true;
 }
 
 std::array<double, 3> read_transverse_axis(const XmlElement& element, const QuantityVector& axis) {
@@ -54,8 +92,8 @@ FrictionDescription read_friction(const XmlElement& element, const QuantityVecto
   friction.model = read_model(element);
   const auto read = [&](const FrictionNumberRule& rule, Quantity& number) { read_number(element, rule, table, &friction, &number); };
   visit_friction_numbers(read, &friction);
-  if (friction.mu_dynamic.nominal() > friction.mu_static.nominal())
-    element.fail_at("mu_dynamic", "mu_dynamic is above mu_static", "at most mu_static=" + to_decimal(friction.mu_static.nominal()));
+  require_ordered(element, "mu_dynamic", friction.mu_dynamic, "mu_static", friction.mu_static);
+  require_ordered(element, "mu_dynamic_backward", friction.mu_dynamic_backward, "mu_static_backward", friction.mu_static_backward);
   if (friction.model == FrictionModel::kLuGre && friction.mu_dynamic.nominal() == 0.0)
     element.fail_at("mu_dynamic", "mu_dynamic is zero: the LuGre model divides by it", "> 0");
   if (element.has("transverse_axis")) friction.transverse_axis = read_transverse_axis(element, axis);

@@ -59,6 +59,12 @@ TEST(StudyIdentify, EffortsAreFilteredLikeTheMotionUnlessSaidOtherwise) {
   EXPECT_EQ(identification_of("filter: {cutoff: 30, residual_cutoff: 0}").filter.residual_cutoff, 0.0);
 }
 
+TEST(StudyIdentify, AHoldoutStartsWhereTheStudySays) {
+  const std::string start = "holdout: [{csv: ptp.csv, start: {crank_joint: ";
+  EXPECT_EQ(identification_of(start + "0.4}}]").holdout.at(0).starts.at(0).position.value, 0.4);
+  expect_bad_identify(start + "{}}}]", "identify.holdout[0].start.crank_joint", "a holdout is never fitted");
+}
+
 TEST(StudyIdentify, ANumberIsKnownAndAMapIsFitted) {
   const JointCalibration joint =
       identification_of("joints: {crank_joint: {effort_scale: 11.13, delay: {initial: 0.001, upper: 0.02}, offset: {}}}").joints.at(0);

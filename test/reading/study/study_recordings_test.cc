@@ -54,6 +54,24 @@ TEST(StudyRecordings, ReadsATable) {
   EXPECT_EQ(table.columns[1].column.offset, -1.0);
 }
 
+TEST(StudyRecordings, WhereJointsWithoutPositionsStart) {
+  const RecordingDescription both =
+      recordings_of("[{csv: a.csv, start: {crank_joint: {initial: 0.2, lower: -1, upper: 2}, slider_joint: 0.1}}]").at(0);
+  ASSERT_EQ(both.starts.size(), 2U);
+  EXPECT_EQ(both.starts[0].joint, "crank_joint");
+  EXPECT_TRUE(both.starts[0].position.is_fitted);
+  EXPECT_EQ(both.starts[0].position.value, 0.2);
+  EXPECT_EQ(both.starts[0].position.lower, -1.0);
+  EXPECT_EQ(both.starts[0].position.upper, 2.0);
+  EXPECT_FALSE(both.starts[1].position.is_fitted);
+  EXPECT_EQ(both.starts[1].position.value, 0.1);
+  EXPECT_EQ(both.starts[1].position.where.line, 4);
+  EXPECT_EQ(recordings_of("[{bag: a.bag, topic: b, start: {crank_joint: 1}}]").at(0).starts.size(), 1U);
+  expect_bad_recording("{csv: a.csv, start: {crank_joit: 1}}", ".start.crank_joit", "did you mean \"crank_joint\"?");
+  expect_bad_recording("{csv: a.csv, start: {crank_joint: {low: 1}}}", ".start.crank_joint.low", "unknown key");
+  expect_bad_recording("{csv: a.csv, start: {crank_joint: here}}", ".start.crank_joint", "");
+}
+
 TEST(StudyRecordings, RefusesOtherEntries) {
   expect_bad_recording("excite.bag", "", "not a recording");
   expect_bad_recording("{topic: a}", "", "a recording is one file");

@@ -70,6 +70,24 @@ TEST(FrictionReader, Faults) {
   expect_error(text_with(plain + " transverse_axis=\"0 1\""), {"wrong number"});
 }
 
+TEST(FrictionReader, NumbersAgainstTheAxis) {
+  const std::string plain = kPlain;
+  const FrictionDescription none = friction(plain);
+  EXPECT_FALSE(none.is_directional);
+  const FrictionDescription f = friction(plain + R"( viscous="2" mu_dynamic_backward="0.2" codesign:mu_dynamic_backward="${length}")");
+  EXPECT_TRUE(f.is_directional);
+  EXPECT_EQ(f.mu_static_backward.nominal(), 0.4) << "as along the axis";
+  EXPECT_DOUBLE_EQ(f.mu_dynamic_backward.at(std::vector<double>{0.3}), 0.3);
+  EXPECT_EQ(f.viscous_backward.nominal(), 2.0);
+  EXPECT_TRUE(friction(plain + " model=\"lugre\" viscous_backward=\"1\"").is_directional);
+  expect_error(text_with(plain + " mu_static_backward=\"0.2\""), {"mu_dynamic_backward is above mu_static_backward"});
+  expect_error(text_with(plain + " mu_dynamic_backward=\"0.5\""), {"mu_dynamic_backward is above mu_static_backward"});
+  expect_error(text_with(plain + " viscous_backward=\"-1\""), {"viscous_backward is negative"});
+  expect_error(text_with(plain + " model=\"lugre\" mu_static_backward=\"0.5\""),
+               {"mu_static_backward has no meaning for this friction model (value: 0.5, allowed: with model=\"brown_mcphee\")"});
+  expect_error(text_with(plain + " viscous_backwards=\"1\""), {"did you mean \"viscous_backward\"?"});
+}
+
 TEST(FrictionReader, AttributesBelongToTheirModels) {
   const std::string plain = kPlain;
   expect_error(

@@ -1,0 +1,16 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_FITTED_NUMBER_H_
+#define MECHANISM_CODESIGN_READING_STUDY_STUDY_FITTED_NUMBER_H_
+
+#include "description/identification.h"
+#include "reading/yaml/yaml_reader.h"
+
+namespace codesign {
+
+/// Reads a number that is known, or a map `{initial, lower, upper}`, which may be empty, of one to be fitted. What is not given stays.
+/// @param lower bound of a fitted number unless another one is given. @throws InputError
+void read_fitted(const YamlValue& value, double lower, FittedNumber* number);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_FITTED_NUMBER_H_

@@ -1,0 +1,85 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// Whether 95 % intervals hold the truth in 95 % of many runs with correlated noise, through the whole identification.
+#include <cmath>
+#include <random>
+
+#include "identification/identify.h"
+#include "identification/simulated_recording.h"
+
+namespace codesign {
+namespace {
+
+constexpr const char* kSwing = R"(<robot name="swing" xmlns:codesign="https://mechanism-codesign.org">
+  <codesign:parameter name="mass" value="1.5"/><codesign:parameter name="viscous" value="0.1"/>
+  <codesign:parameter name="mu_static" value="0.3"/><codesign:parameter name="mu_dynamic" value="0.2"/>
+  <link name="base"/>
+  <link name="bar"><inertial><origin xyz="0 0 -0.4"/><mass value="1.5" codesign:value="${mass}"/>
+    <inertia ixx="0.1" iyy="0.1" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="hinge" type="continuous"><parent link="base"/><child link="bar"/><axis xyz="0 1 0"/>
+    <codesign:friction mu_static="0.3" mu_dynamic="0.2" codesign:mu_static="${mu_static}" codesign:mu_dynamic="${mu_dynamic}" viscous="0.1"
+      codesign:viscous="${viscous}" transition_velocity="0.02" joint_length="0.1" pin_radius="0.05"/></joint>
+</robot>)";
+
+std::string swing_study(const std::string& noise) {
+  return R"(duration: 20.0
+controllers:
+  servo:
+    type: pid
+    input: hinge/position
+    setpoint: {type: waypoints, times: [0.0, 1.5, 2.5, 4.5, 5.5, 7.0, 9.5, 10.5, 12.0, 14.5, 16.0, 17.0, 20.0],
+               positions: [0.0, 0.9, 0.2, -0.8, 0.5, 1.1, -0.4, 0.3, -1.0, 0.6, -0.2, 0.4, 0.0]}
+    output: hinge
+    gains: {p: 60.0, d: 6.0}
+identify:
+  data: [{csv: run.csv}]
+  filter: {cutoff: 30.0, residual_cutoff: 15.0, decimate: 2}
+  joints: {hinge: {offset: {}}}
+  intervals: {noise: )" +
+         noise + R"(}
+parameters: {mass: {}, viscous: {}, mu_static: {}, mu_dynamic: {}}
+optimizer: {algorithm: levenberg_marquardt}
+)";
+}
+
+/// In how many of `runs` each interval holds the truth.
+std::map<std::string, double> coverage(const std::string& noise, int runs) {
+  const std::map<std::string, double> truth = {
+      {"mass", 2.0}, {"viscous", 0.3}, {"mu_static", 0.4}, {"mu_dynamic", 0.25}, {"hinge/offset", 0.0}};
+  const Problem problem = load_problem({"swing.urdf", kSwing}, {}, {"study.yaml", swing_study(noise)});
+  const JointRecording clean = record_run(problem, truth, {"hinge"}, 100.0);
+  std::map<std::string, double> held;
+  for (int run = 0; run < runs; ++run) {
+    StudyRecordings recordings;
+    recordings.data = {clean};
+    std::mt19937 random(static_cast<unsigned>(run) + 1);
+    std::normal_distribution<double> normal;
+    constexpr double kCorrelation = 0.9, kDeviation = 0.2;
+    double error = kDeviation * normal(random);
+    for (double& effort : recordings.data[0].joints[0].effort) {
+      effort += error;
+      error = kCorrelation * error + std::sqrt(1.0 - kCorrelation * kCorrelation) * kDeviation * normal(random);
+    }
+    const IdentificationResult result = identify(problem, recordings, {}, nullptr);
+    EXPECT_TRUE(result.status.ok()) << result.status.cause;
+    for (const IdentifiedNumber& number : result.numbers)
+      held[number.name] += number.low <= truth.at(number.name) && truth.at(number.name) <= number.high ? 1.0 / runs : 0.0;
+  }
+  return held;
+}
+
+TEST(IntervalCoverage, HoldsForCorrelatedNoise) {
+  const std::map<std::string, double> held = coverage("correlated", 200);
+  ASSERT_EQ(held.size(), 5U);
+  for (const auto& [name, share] : held) {
+    RecordProperty(name, std::to_string(share));
+    EXPECT_GE(share, 0.92) << name;
+    EXPECT_LE(share, 0.98) << name;
+  }
+}
+
+TEST(IntervalCoverage, IsFarFromPromisedIfTheNoiseIsTakenForWhite) {
+  for (const auto& [name, share] : coverage("white", 50)) EXPECT_LT(share, 0.85) << name;
+}
+
+}  // namespace
+}  // namespace codesign
