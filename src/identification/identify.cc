@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <memory>
-#include <thread>
 #include <utility>
 
+#include "engine/side_by_side.h"
 #include "identification/judgement.h"
 #include "math/cpu_timer.h"
 #include "problem/load_problem.h"
@@ -13,11 +13,6 @@
 
 namespace codesign {
 namespace {
-
-int threads_of(const EngineOptions& engine) {
-  if (engine.kind == EngineKind::kSerial) return 1;
-  return engine.workers > 0 ? engine.workers : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
 
 std::unique_ptr<EffortResiduals> make_residuals(const Problem& problem, const FitVariables& variables,
                                                 const std::vector<MeasuredJoint>& joints, const std::vector<JointRecording>& recordings,
@@ -27,7 +22,7 @@ std::unique_ptr<EffortResiduals> make_residuals(const Problem& problem, const Fi
   motions.reserve(recordings.size());
   for (const JointRecording& recording : recordings) motions.push_back(measured_motion(recording, filter, warnings));
   return std::make_unique<EffortResiduals>(*problem.system(), variables, joints, std::move(motions), filter,
-                                           threads_of(problem.study().ensemble.engine));
+                                           worker_threads(problem.study().ensemble.engine));
 }
 
 FitProblem fit_problem(const Problem& problem, const FitVariables& variables) {
@@ -72,6 +67,8 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
   const IdentificationDescription& options = *problem.study().identification;
   if (options.residual == ResidualKind::kMotion)
     throw InputError({options.where, "identify.residual", "residuals in motion are not available yet", "motion", "effort"});
+  if (recordings.data.empty())
+    throw InputError({options.where, "identify.data", "the study has no recordings to identify from", "", "at least one recording"});
   const FitVariables variables(problem.study());
   IdentificationResult result;
   std::vector<JointRecording> all = recordings.data;
