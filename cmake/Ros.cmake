@@ -33,8 +33,9 @@ set(node_mains ${ros_sources})
 list(FILTER node_mains INCLUDE REGEX "_node_main\\.cc$")
 list(FILTER ros_sources EXCLUDE REGEX "_node_main\\.cc$")
 
-# Reads recordings from bags, for the nodes and for the program codesign, which links nothing else of ROS.
-set(bag_sources ${PROJECT_SOURCE_DIR}/src/ros/recording_bag.cc ${PROJECT_SOURCE_DIR}/src/ros/linked_bag_reader.cc)
+# Reads recordings from bags and writes trajectories, for the nodes and for the program codesign, which links nothing else of ROS.
+set(bag_sources ${PROJECT_SOURCE_DIR}/src/ros/recording_bag.cc ${PROJECT_SOURCE_DIR}/src/ros/linked_bag_reader.cc
+  ${PROJECT_SOURCE_DIR}/src/ros/joint_trajectory_bag.cc ${PROJECT_SOURCE_DIR}/src/ros/bag_file.cc)
 list(REMOVE_ITEM ros_sources ${bag_sources})
 add_library(codesign_bags STATIC ${bag_sources})
 set_target_properties(codesign_bags PROPERTIES POSITION_INDEPENDENT_CODE ON)

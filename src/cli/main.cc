@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
   codesign::cli::watch_interrupts();
   using namespace codesign::cli;
   return codesign::run_on_ranks("codesign", [&](codesign::Dispatcher* ranks) {
-    return run({argv + 1, argv + argc}, {std::cout, std::cerr, interrupted(), keep_results, ranks, codesign::linked_bag_reader()});
+    return run({argv + 1, argv + argc}, {std::cout, std::cerr, interrupted(), keep_results, ranks, codesign::linked_bag_reader(),
+                                         codesign::linked_trajectory_writer()});
   });
 }
