@@ -77,7 +77,7 @@ const std::map<std::string, Option>& options() {
       {"--samples", {Value::kRequired, {"simulate"}, set_samples}},
       {"--verify", {Value::kOptional, {"gradient"}, set_method}},
       {"--output",
-       {Value::kRequired, {"optimize", "identify"}, [](const std::string& text, Arguments* to) { set_folder(text, false, to); }}},
+       {Value::kRequired, {"optimize", "identify", "excite"}, [](const std::string& text, Arguments* to) { set_folder(text, false, to); }}},
       {"--resume", {Value::kRequired, {"optimize"}, [](const std::string& text, Arguments* to) { set_folder(text, true, to); }}},
   };
   return kOptions;
@@ -132,7 +132,7 @@ bool asks_for_help(const Names& words) {
 }  // namespace
 
 Arguments parse_arguments(const std::vector<std::string>& words) {
-  const Names commands = {"check", "urdf", "simulate", "gradient", "optimize", "identify", "help"};
+  const Names commands = {"check", "urdf", "simulate", "gradient", "optimize", "identify", "excite", "help"};
   Arguments arguments;
   if (words.empty()) throw UsageError("no command given");
   arguments.command = asks_for_help(words) ? "help" : words[0];

@@ -19,7 +19,7 @@ class UsageError : public std::runtime_error {
 
 /// The parts of the command line `codesign COMMAND MODEL [STUDY] [OPTIONS]`. Members of options name their command.
 struct Arguments {
-  std::string command;  ///< check, urdf, simulate, gradient, optimize, identify, help or version
+  std::string command;  ///< check, urdf, simulate, gradient, optimize, identify, excite, help or version
   std::string model;
   std::string study;                  ///< path; empty: none given
   std::vector<std::string> overlays;  ///< paths, in order
@@ -30,7 +30,7 @@ struct Arguments {
   int samples = 101;                 ///< simulate; number of equally spaced instants, at least 2
   bool verify = false;               ///< gradient
   CheckMethod method = CheckMethod::kComplexStep;
-  std::string output;   ///< optimize, identify; empty: no files
+  std::string output;   ///< optimize, identify, excite; empty: no files
   bool resume = false;  ///< optimize; go on with the journal in `output`
 };
 

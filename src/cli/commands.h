@@ -18,6 +18,7 @@ int urdf(const Arguments& arguments, const Console& console);
 int gradient(const Arguments& arguments, const Console& console);
 int optimize(const Arguments& arguments, const Console& console);
 int identify(const Arguments& arguments, const Console& console);
+int excite(const Arguments& arguments, const Console& console);
 
 /// Runs the program and reports every error. @param words the command line without the program's name. @returns the exit code, an ExitCode.
 int run(const std::vector<std::string>& words, const Console& console);

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <ostream>
 
+#include "excitation/trajectory_points.h"
 #include "jobs/identification_files.h"
 #include "recordings/bag_reader.h"
 
@@ -23,6 +24,7 @@ struct Console {
   Dispatcher* ranks = nullptr;                      ///< the processes of the job, as in require_engine()
   BagReader bags = {};                              ///< reads the bags that a study names; empty: they are refused
   IdentificationBagWriter identification_bag = {};  ///< writes the bag of an identification; empty: none is written
+  TrajectoryBagWriter trajectories = {};            ///< writes bags of trajectories; empty: none are written
 };
 
 /// The program's exit codes.

@@ -10,6 +10,6 @@ int main(int argc, char** argv) {
   using namespace codesign::cli;
   return codesign::run_on_ranks("codesign", [&](codesign::Dispatcher* ranks) {
     return run({argv + 1, argv + argc}, {std::cout, std::cerr, interrupted(), keep_results, ranks, codesign::linked_bag_reader(),
-                                         codesign::linked_identification_bag()});
+                                         codesign::linked_identification_bag(), codesign::linked_trajectory_writer()});
   });
 }

@@ -21,6 +21,7 @@ int dispatch(const Arguments& arguments, const Console& console) {
   if (arguments.command == "gradient") return gradient(arguments, console);
   if (arguments.command == "optimize") return optimize(arguments, console);
   if (arguments.command == "identify") return identify(arguments, console);
+  if (arguments.command == "excite") return excite(arguments, console);
   if (arguments.command == "version")
     console.out << "codesign " << version() << '\n';
   else

@@ -24,6 +24,8 @@ commands
   identify MODEL STUDY     fit parameters to recordings, and tell how well they are known
     --output DIR           write identification.json, identified_overlay.urdf, identified.urdf and
                            residuals.csv
+  excite MODEL STUDY       a motion within all limits, after whose recording identify knows most
+    --output DIR           write trajectory.csv, plain.csv, excitation.json; with ROS trajectory.bag
   help                     this text
   --version                the version of this program, as "codesign 0.1.0"
 

@@ -11,6 +11,7 @@
 
 #include "description/basis.h"
 #include "description/ensemble.h"
+#include "description/excitation.h"
 #include "description/identification.h"
 #include "description/quantity.h"
 #include "description/reference.h"
@@ -132,6 +133,7 @@ struct Study {
   OptimizerOptions optimizer;
   EnsembleDescription ensemble;
   std::optional<IdentificationDescription> identification;
+  std::optional<ExcitationDescription> excitation;
   std::string file;  ///< the file it was read from, for messages
 };
 

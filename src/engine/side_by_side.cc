@@ -39,4 +39,9 @@ void side_by_side(std::size_t count, int threads, const std::function<void(std::
   if (error) std::rethrow_exception(error);
 }
 
+int worker_threads(const EngineOptions& engine) {
+  if (engine.kind == EngineKind::kSerial) return 1;
+  return engine.workers > 0 ? engine.workers : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
 }  // namespace codesign

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <memory>
-#include <thread>
 #include <utility>
 
+#include "engine/side_by_side.h"
 #include "identification/judgement.h"
 #include "identification/motion_residuals.h"
 #include "math/cpu_timer.h"
@@ -15,16 +15,11 @@
 namespace codesign {
 namespace {
 
-int threads_of(const EngineOptions& engine) {
-  if (engine.kind == EngineKind::kSerial) return 1;
-  return engine.workers > 0 ? engine.workers : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 std::unique_ptr<RecordingResiduals> make_residuals(const Problem& problem, const FitVariables& variables,
                                                    const std::vector<MeasuredJoint>& joints, const std::vector<JointRecording>& recordings,
                                                    Warnings* warnings) {
   const IdentificationDescription& options = *problem.study().identification;
-  const int threads = threads_of(problem.study().ensemble.engine);
+  const int threads = worker_threads(problem.study().ensemble.engine);
   if (options.residual == ResidualKind::kMotion)
     return std::make_unique<MotionResiduals>(*problem.system(), variables, options, joints, recordings, threads, warnings);
   require_efforts(joints, recordings);
@@ -84,6 +79,8 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
                               const std::atomic<bool>* cancel) {
   const CpuTimer timer(CpuTimer::Of::kProcess);
   const IdentificationDescription& options = *problem.study().identification;
+  if (recordings.data.empty())
+    throw InputError({options.where, "identify.data", "the study has no recordings to identify from", "", "at least one recording"});
   const FitVariables variables(problem.study());
   IdentificationResult result;
   std::vector<JointRecording> all = recordings.data;

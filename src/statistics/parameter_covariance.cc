@@ -95,6 +95,18 @@ Eigen::MatrixXd ParameterCovariance::correlation() const {
   return result;
 }
 
+ParameterCovariance predicted_covariance(const Eigen::MatrixXd& jacobian, Eigen::Index rows, double level) {
+  ParameterCovariance result;
+  const Eigen::MatrixXd R = upper_factor(jacobian);
+  result.identifiability = find_identifiable(R);
+  result.degrees = std::max(1.0, static_cast<double>(rows - result.identifiability.rank));
+  result.residual_variance = 1.0;
+  result.covariance = inverse_of_normal_matrix(R, result.identifiability);
+  set_symmetric_intervals(level, &result);
+  mark_undetermined(&result);
+  return result;
+}
+
 ParameterCovariance parameter_covariance(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd& jacobian, const SeriesLengths& lengths,
                                          const IntervalOptions& options, Eigen::Index eliminated) {
   ParameterCovariance result;

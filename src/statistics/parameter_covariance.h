@@ -36,6 +36,11 @@ struct ParameterCovariance {
 ParameterCovariance parameter_covariance(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd& jacobian, const SeriesLengths& lengths,
                                          const IntervalOptions& options, Eigen::Index eliminated = 0);
 
+/// What a fit is expected to tell, before there are data: the same for residuals that are white noise of variance one.
+/// @param jacobian of the residuals, each divided by its standard deviation, or a factor R of it with R^T R = J^T J
+/// @param rows of the jacobian. @param level of the intervals
+ParameterCovariance predicted_covariance(const Eigen::MatrixXd& jacobian, Eigen::Index rows, double level);
+
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_STATISTICS_PARAMETER_COVARIANCE_H_

@@ -34,6 +34,7 @@ ROWS = [
     ["ensemble"],
     ["optimization"],
     ["identification"],
+    ["excitation"],
     ["jobs"],
     ["mpi"],
     ["cli", "ros"],

@@ -102,11 +102,14 @@ double segment_of(const YamlValue& identify) {
   return segment ? read_positive_number(*segment, " s") : IdentificationDescription().segment;
 }
 
-IdentificationDescription read_identification(const YamlValue& identify, const RobotDescription& robot, const Study& study) {
-  identify.require_keys({"data"}, {"holdout", "residual", "segment", "filter", "joints", "loss", "intervals"});
+IdentificationDescription read_identification(const YamlValue& identify, const RobotDescription& robot, const Study& study,
+                                              bool is_planned) {
+  std::vector<std::string> required;
+  if (!is_planned) required.emplace_back("data");
+  identify.require_keys(required, {"data", "holdout", "residual", "segment", "filter", "joints", "loss", "intervals"});
   IdentificationDescription description;
   description.where = identify.where();
-  description.data = read_recording_list(identify.at("data"), robot);
+  if (const auto data = identify.find("data")) description.data = read_recording_list(*data, robot);
   if (const auto holdout = identify.find("holdout")) {
     description.holdout = read_recording_list(*holdout, robot);
     refuse_fitted_starts(description.holdout);

@@ -9,8 +9,10 @@
 
 namespace codesign {
 
-/// Reads the map `identify:` of a study whose parameters have been read. The recordings themselves are not opened. @throws InputError
-IdentificationDescription read_identification(const YamlValue& identify, const RobotDescription& robot, const Study& study);
+/// Reads the map `identify:` of a study whose parameters have been read. The recordings themselves are not opened.
+/// @param is_planned the study has a block `excite:`, so that there may be no data yet. @throws InputError
+IdentificationDescription read_identification(const YamlValue& identify, const RobotDescription& robot, const Study& study,
+                                              bool is_planned = false);
 
 /// The duration of a study with `identify:` that gives none: that of a segment, `identify.segment` or its default [s].
 double segment_of(const YamlValue& identify);

@@ -6,6 +6,7 @@
 #include "reading/study/study_constraints.h"
 #include "reading/study/study_controllers.h"
 #include "reading/study/study_ensemble.h"
+#include "reading/study/study_excite.h"
 #include "reading/study/study_identify.h"
 #include "reading/study/study_initial_state.h"
 #include "reading/study/study_loads.h"
@@ -67,13 +68,21 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
 
 Study read_study(const SourceText& yaml, const RobotDescription& robot, const TrajectoryLoader& loader, const FileLoader& files) {
   const YamlValue root = YamlValue::parse(yaml);
-  root.require_keys(
-      {}, {"duration", "gravity", "initial_state", "controllers", "loads", "parameters", "objective", "path", "final", "constraints",
-           "limits", "solver", "optimizer", "runs", "uncertain", "robust", "multistart", "engine", "identify"});
+  root.require_keys({}, {"duration",  "gravity", "initial_state", "controllers", "loads",    "parameters", "objective",
+                         "path",      "final",   "constraints",   "limits",      "solver",   "optimizer",  "runs",
+                         "uncertain", "robust",  "multistart",    "engine",      "identify", "excite"});
   const auto read_run = [&](const YamlValue& study_value) { return read_single_run(study_value, yaml.name, robot, loader); };
   Study study = read_run(root);
   study.ensemble = read_ensemble(root, robot, read_run, files, study);
-  if (const auto identify = root.find("identify")) study.identification = read_identification(*identify, robot, study);
+  if (const auto identify = root.find("identify")) {
+    const bool is_planned = root.find("excite").has_value();
+    study.identification = read_identification(*identify, robot, study, is_planned);
+  }
+  if (const auto excite = root.find("excite")) {
+    if (!study.identification)
+      excite->fail("the study identifies nothing, so that no motion is better than another", "a block identify; without data it may be {}");
+    study.excitation = read_excitation(*excite, robot);
+  }
   return study;
 }
 

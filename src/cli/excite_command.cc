@@ -1,0 +1,109 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <filesystem>
+#include <sstream>
+
+#include "cli/commands.h"
+#include "cli/csv_writer.h"
+#include "cli/inputs.h"
+#include "cli/output_file.h"
+#include "cli/report.h"
+#include "cli/table.h"
+#include "excitation/excite.h"
+#include "jobs/excitation_records.h"
+#include "jobs/whole_file.h"
+#include "text/number_text.h"
+
+namespace codesign::cli {
+namespace {
+
+void print_excitation_trial(const ExcitationTrial& trial, std::ostream& err) {
+  err << "start " << trial.start << ", evaluation " << trial.evaluation << ": ";
+  if (trial.status.ok())
+    err << "criterion " << readable(trial.criterion) << ", " << readable(100.0 * trial.worst) << " % of the limits" << std::endl;
+  else
+    err << "failed, " << describe(trial.status) << std::endl;
+}
+
+void print_predictions(const ExcitationResult& result, double level, std::ostream& out) {
+  Table table;
+  table.add({"number", "nominal", readable(100.0 * level) + " % +-, plain", "+-, found", "note"});
+  for (const PredictedNumber& number : result.numbers)
+    table.add({number.name, readable(number.nominal), readable(number.half_before), readable(number.half),
+               number.is_determined ? "" : "not identifiable"});
+  table.print(out);
+}
+
+void print_limits(const ExcitationResult& result, std::ostream& out) {
+  Table table;
+  table.add({"limit", "lower", "lowest", "highest", "upper"});
+  for (const KeptLimit& limit : result.limits)
+    table.add({limit.limits.name, readable(limit.limits.lower), readable(limit.reached.lowest), readable(limit.reached.highest),
+               readable(limit.limits.upper)});
+  table.print(out);
+}
+
+void print_excitation(const Problem& problem, const ExcitationResult& result, std::ostream& out) {
+  for (const std::string& sentence : excitation_sentences(result)) out << sentence << '\n';
+  print_predictions(result, problem.study().identification->intervals.level, out);
+  print_limits(result, out);
+  out << result.termination << " after " << result.starts.size() << " searches, " << result.evaluations << " evaluations, "
+      << readable(result.cpu_seconds) << " s of processor time\n";
+}
+
+Problem load_excitable(const Arguments& arguments, const Console& console) {
+  Problem problem = load(arguments, &console);
+  if (!problem.study().excitation)
+    throw InputError({{arguments.study, 1}, "excite", "the study has no joints to move", "", "a block excite"});
+  return problem;
+}
+
+std::string trajectory_text(const TrajectoryPoints& points) {
+  std::ostringstream text;
+  CsvWriter csv(text, trajectory_columns(points), "trajectory.csv");
+  for (const std::vector<std::string>& row : trajectory_rows(points)) csv.write(row);
+  return text.str();
+}
+
+/// Does one thing; a failure is reported and does not affect the others.
+template <class Action>
+void attempt(const Action& action, std::vector<Failure>* failures) {
+  try {
+    action();
+  } catch (const std::exception& error) {
+    failures->push_back({"output_failed", error.what()});
+  }
+}
+
+std::vector<Failure> write_excitation(const std::string& folder, const ExcitationResult& result, const Json& object,
+                                      const Console& console) {
+  const auto in_folder = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
+  std::vector<Failure> failures;
+  attempt([&] { write_whole_file(in_folder("excitation.json"), to_text(object)); }, &failures);
+  attempt([&] { write_whole_file(in_folder("trajectory.csv"), trajectory_text(result.points)); }, &failures);
+  attempt([&] { write_whole_file(in_folder("plain.csv"), trajectory_text(result.before)); }, &failures);
+  if (console.trajectories) attempt([&] { console.trajectories(in_folder("trajectory.bag"), result.points); }, &failures);
+  return failures;
+}
+
+}  // namespace
+
+int excite(const Arguments& arguments, const Console& console) {
+  const Problem problem = load_excitable(arguments, console);
+  if (!arguments.output.empty()) make_folder(arguments.output, "--output");
+  const auto observer = [&console](const ExcitationTrial& trial) {
+    print_excitation_trial(trial, console.err);
+    return !console.cancel;
+  };
+  const ExcitationResult result = codesign::excite(problem, observer, &console.cancel);
+  const bool is_found = !result.points.joints.empty();
+  if (!arguments.json && is_found) print_excitation(problem, result, console.out);
+  Json object = excitation_json(problem, result);
+  add_warnings(arguments, problem, {}, &object, console);
+  if (!result.status.ok()) object["error"] = to_json(result.status);
+  std::vector<Failure> failures;
+  if (!arguments.output.empty() && is_found) failures = write_excitation(arguments.output, result, object, console);
+  return finish(arguments, result.status, std::move(object), console, failures);
+}
+
+}  // namespace codesign::cli

@@ -1,0 +1,62 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_DESCRIPTION_EXCITATION_H_
+#define MECHANISM_CODESIGN_DESCRIPTION_EXCITATION_H_
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanism_codesign/error.h"
+
+namespace codesign {
+
+// The block `excite:` of a study: the motion that an identification is to be recorded from; doc/study.md describes the keys.
+
+/// What a trajectory is made of; doc/theory.md (45).
+enum class TrajectoryKind {
+  kFourier,  ///< a Fourier series
+  kSpline    ///< cubic B-splines
+};
+constexpr std::array<const char*, 2> kTrajectoryNames{"fourier", "spline"};
+
+/// The method of the search; NLopt's names.
+enum class TrajectorySearchMethod { kSlsqp, kCcsaq, kMma };
+constexpr std::array<const char*, 3> kTrajectorySearchNames{"slsqp", "ccsaq", "mma"};
+
+/// Limits of one joint that the study gives, in addition to those of `<limit>`: the narrower ones count.
+struct MotionLimitDescription {
+  std::string joint;
+  std::optional<std::array<double, 2>> position;         ///< lower and upper [rad or m]
+  std::optional<double> velocity, acceleration, effort;  ///< largest magnitudes, positive
+  std::string element;                                   ///< `excite.joints.shoulder`
+  SourceLocation where;
+};
+
+/// A joint that is moved.
+struct ExcitedJoint {
+  MotionLimitDescription limits;
+  double noise = 0.0;  ///< standard deviation of what one sample of its effort shows, positive [N m or N]
+};
+
+/// The whole block.
+struct ExcitationDescription {
+  std::vector<ExcitedJoint> joints;               ///< as many as there are degrees of freedom, independent of each other
+  std::vector<MotionLimitDescription> followers;  ///< limits of other joints
+  TrajectoryKind trajectory = TrajectoryKind::kFourier;
+  double period = 10.0;        ///< [s]
+  int harmonics = 5;           ///< of kFourier
+  int knots = 20;              ///< of kSpline: intervals between knots in a period
+  int periods = 1;             ///< that are recorded, one after the other
+  double sample_rate = 100.0;  ///< of the recording and of the way-points [Hz]
+  int starts = 4;              ///< searches, the first from the plain trajectory
+  std::uint32_t seed = 1;
+  TrajectorySearchMethod search = TrajectorySearchMethod::kSlsqp;
+  int max_evaluations = 200;  ///< of one search
+  SourceLocation where;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_DESCRIPTION_EXCITATION_H_

@@ -1,0 +1,22 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_EXCITATION_EXCITE_H_
+#define MECHANISM_CODESIGN_EXCITATION_EXCITE_H_
+
+#include <atomic>
+
+#include "excitation/excitation_result.h"
+#include "excitation/trajectory_search.h"
+#include "mechanism_codesign/problem.h"
+
+namespace codesign {
+
+/// The trajectory within all limits after which the numbers of `identify:` are expected to be known best, doc/theory.md (45)-(47), at the
+/// parameters' start values.
+/// @param problem whose study has blocks `excite` and `identify`. @param observer told of each evaluation; false ends the search.
+/// @param cancel the search ends soon after it is set, from any thread, with the best trajectory so far; null: never
+/// @throws InputError as motion_limits() and ExcitedMotion
+ExcitationResult excite(const Problem& problem, const ExcitationObserver& observer, const std::atomic<bool>* cancel);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_EXCITATION_EXCITE_H_

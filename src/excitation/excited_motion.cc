@@ -1,0 +1,196 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "excitation/excited_motion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "engine/side_by_side.h"
+#include "identification/driven_motion.h"
+#include "math/to_index.h"
+#include "text/cancel.h"
+
+namespace codesign {
+namespace {
+
+constexpr Eigen::Index kSamplesInARow = 8;  // fixed, so that results do not depend on the number of threads
+constexpr double kDifference = 1e-5;        // relative step of central differences; their error is about its square
+
+Status at_time_sample(Eigen::Index sample, Status status) {
+  status.cause = "sample " + std::to_string(sample) + " of the trajectory: " + status.cause;
+  return status;
+}
+
+Status cancelled() { return {StatusCode::kCancelled, 0.0, "cancelled"}; }
+
+/// make_driven_system() speaks of recordings; here the study is what has to change.
+DrivenSystem driven_by(const CompiledSystem& system, const std::vector<MeasuredJoint>& joints) {
+  try {
+    return make_driven_system(system, joints);
+  } catch (const InputError& error) {
+    InputFault fault = error.fault();
+    if (fault.element == "identify") fault.element = "excite.joints";
+    if (fault.allowed.rfind("recordings", 0) == 0) {
+      fault.message = "its motion is not determined: it is not among excite.joints, and does not follow from them";
+      fault.allowed = "as many independent joints under excite.joints as there are degrees of freedom";
+    }
+    throw InputError(fault);
+  }
+}
+
+}  // namespace
+
+/// What one thread works with.
+struct ExcitedMotion::PathWorker {
+  explicit PathWorker(const DrivenSystem& driven) : motion(driven), tangents(*driven.system) {}
+
+  void set_design(const std::vector<double>& parameters) {
+    motion.set_design(parameters);
+    tangents.for_each([&](auto* group) { group->set_design(parameters); });
+  }
+  void forget() {
+    motion.forget();
+    tangents.for_each([](auto* group) { group->forget(); });
+  }
+  Status differentiate(const State<double>& at, Eigen::Index first_row, RowJacobian* rows) {
+    if (Status status = motion.linearize(at); !status.ok()) return status;
+    tangents.for_each([&](auto* group) { group->differentiate(motion, at, first_row, rows); });
+    return {};
+  }
+
+  DrivenMotion motion;
+  LaneGroups<EffortTangent> tangents;
+  State<double> state;
+  Eigen::MatrixXd effort, position, velocity;  // of the two sides of a difference
+  RowJacobian jacobian;
+};
+
+ExcitedMotion::ExcitedMotion(const CompiledSystem& system, std::vector<MeasuredJoint> joints, const std::vector<MeasuredJoint>& followers,
+                             std::vector<double> parameters, int threads)
+    : system_(system), joints_(std::move(joints)), driven_(driven_by(system, joints_)), parameters_(std::move(parameters)) {
+  const System& mechanism = *driven_.system;
+  for (const MeasuredJoint& follower : followers)
+    for (std::size_t joint = 0; joint < mechanism.robot().joints.size(); ++joint) {
+      if (mechanism.robot().joints[joint].name != follower.name) continue;
+      const CouplingTerm term = drive_of(mechanism.robot(), mechanism.topology(), static_cast<int>(joint)).terms.front();
+      followers_.push_back({term.pair, term.element});
+    }
+  workers_.resize(to_index(std::max(threads, 1)));
+}
+
+ExcitedMotion::~ExcitedMotion() = default;
+
+Eigen::Index ExcitedMotion::parameters() const { return static_cast<Eigen::Index>(driven_.system->study().tuned.size()); }
+
+Status ExcitedMotion::begin(const Eigen::VectorXd& positions) {
+  if (Status status = assemble_driven(system_, joints_, driven_, parameters_, positions, &rest_); !status.ok()) return status;
+  const Eigen::VectorXd still = Eigen::VectorXd::Zero(positions.size());
+  for (std::unique_ptr<PathWorker>& worker : workers_) {
+    worker = std::make_unique<PathWorker>(driven_);
+    worker->set_design(parameters_);
+    State<double> state = rest_;
+    if (Status status = worker->motion.follow({positions, still, still}, &state); !status.ok()) return status;
+    worker->motion.settle();
+    if (worker == workers_.back()) rest_ = state;
+  }
+  return {};
+}
+
+/// Shares blocks of samples among the workers: work(sample, worker) returns a Status.
+template <class Work>
+Status ExcitedMotion::in_blocks(Eigen::Index samples, const Work& work) {
+  const Eigen::Index blocks = (samples + kSamplesInARow - 1) / kSamplesInARow;
+  std::vector<Status> statuses(static_cast<std::size_t>(samples));
+  std::atomic<Eigen::Index> next{0};
+  side_by_side(workers_.size(), static_cast<int>(workers_.size()), [&](std::size_t k) {
+    for (Eigen::Index block = next++; block < blocks && !is_set(cancel_); block = next++) {
+      workers_[k]->forget();
+      const Eigen::Index end = std::min(samples, (block + 1) * kSamplesInARow);
+      for (Eigen::Index sample = block * kSamplesInARow; sample < end; ++sample)
+        statuses[static_cast<std::size_t>(sample)] = work(sample, workers_[k].get());
+    }
+  });
+  if (is_set(cancel_)) return cancelled();
+  for (std::size_t sample = 0; sample < statuses.size(); ++sample)
+    if (!statuses[sample].ok()) return at_time_sample(static_cast<Eigen::Index>(sample), statuses[sample]);
+  return {};
+}
+
+void ExcitedMotion::read(PathWorker* worker, const State<double>& state, Eigen::Index column, Eigen::MatrixXd* effort,
+                         Eigen::MatrixXd* position, Eigen::MatrixXd* velocity) const {
+  for (Eigen::Index k = 0; k < joints(); ++k) (*effort)(k, column) = worker->motion.effort(state, static_cast<int>(k));
+  if (followers_.empty()) return;
+  Formulas<double>& formulas = worker->motion.equations().formulas();
+  formulas.load(state);
+  for (std::size_t k = 0; k < followers_.size(); ++k) {
+    const CoordinateMotion<double>& at = formulas.coordinate(followers_[k].pair, followers_[k].element);
+    (*position)(static_cast<Eigen::Index>(k), column) = at.position;
+    (*velocity)(static_cast<Eigen::Index>(k), column) = at.rate;
+  }
+}
+
+Status ExcitedMotion::respond(const DrivePath& path, bool with_jacobian, PathResponse* response) {
+  const Eigen::Index samples = path.samples();
+  response->effort.resize(joints(), samples);
+  response->follower_position.resize(followers(), samples);
+  response->follower_velocity.resize(followers(), samples);
+  response->jacobian.resize(with_jacobian ? samples * joints() : 0, parameters());
+  states_.resize(static_cast<std::size_t>(samples));
+  PathWorker& first = *workers_.front();
+  first.forget();
+  State<double> state = rest_;
+  for (Eigen::Index sample = 0; sample < samples; ++sample) {
+    if (is_set(cancel_)) return cancelled();
+    const Eigen::VectorXd q = path.position.col(sample), v = path.velocity.col(sample), a = path.acceleration.col(sample);
+    if (Status status = first.motion.follow({q, v, a}, &state); !status.ok()) return at_time_sample(sample, status);
+    read(&first, state, sample, &response->effort, &response->follower_position, &response->follower_velocity);
+    states_[static_cast<std::size_t>(sample)] = state;
+  }
+  if (!with_jacobian) return {};
+  return in_blocks(samples, [&](Eigen::Index sample, PathWorker* worker) {
+    return worker->differentiate(states_[static_cast<std::size_t>(sample)], sample * joints(), &response->jacobian);
+  });
+}
+
+Status ExcitedMotion::differentiate_sample(const DrivePath& path, Eigen::Index sample, PathWorker* worker, Slopes* slopes) const {
+  const Eigen::Index n = joints();
+  const bool with_jacobian = slopes->jacobian.rows() > 0;
+  worker->effort.resize(n, 2);
+  worker->position.resize(followers(), 2);
+  worker->velocity.resize(followers(), 2);
+  worker->jacobian.resize(2 * n, parameters());
+  std::array<Eigen::VectorXd, 3> given = {path.position.col(sample), path.velocity.col(sample), path.acceleration.col(sample)};
+  for (Eigen::Index direction = 0; direction < 3 * n; ++direction) {
+    double& moved = given[static_cast<std::size_t>(direction / n)][direction % n];
+    const double here = moved, step = kDifference * std::max(1.0, std::abs(here));
+    for (Eigen::Index side = 0; side < 2; ++side) {
+      moved = side == 0 ? here - step : here + step;
+      worker->state = states_[static_cast<std::size_t>(sample)];
+      if (Status status = worker->motion.solve({given[0], given[1], given[2]}, &worker->state); !status.ok()) return status;
+      read(worker, worker->state, side, &worker->effort, &worker->position, &worker->velocity);
+      if (!with_jacobian) continue;
+      if (Status status = worker->differentiate(worker->state, side * n, &worker->jacobian); !status.ok()) return status;
+    }
+    moved = here;
+    const double factor = 0.5 / step;
+    const Eigen::Index column = sample * 3 * n + direction;
+    slopes->effort.col(column) = factor * (worker->effort.col(1) - worker->effort.col(0));
+    slopes->follower_position.col(column) = factor * (worker->position.col(1) - worker->position.col(0));
+    slopes->follower_velocity.col(column) = factor * (worker->velocity.col(1) - worker->velocity.col(0));
+    if (with_jacobian) slopes->jacobian.middleRows(column * n, n) = factor * (worker->jacobian.bottomRows(n) - worker->jacobian.topRows(n));
+  }
+  return {};
+}
+
+Status ExcitedMotion::differentiate(const DrivePath& path, const PathResponse& response, Slopes* slopes) {
+  const Eigen::Index columns = path.samples() * 3 * joints();
+  slopes->effort.resize(joints(), columns);
+  slopes->follower_position.resize(followers(), columns);
+  slopes->follower_velocity.resize(followers(), columns);
+  slopes->jacobian.resize(response.jacobian.rows() > 0 ? columns * joints() : 0, parameters());
+  return in_blocks(path.samples(),
+                   [&](Eigen::Index sample, PathWorker* worker) { return differentiate_sample(path, sample, worker, slopes); });
+}
+
+}  // namespace codesign

@@ -1,0 +1,47 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_EXCITATION_MOTION_LIMITS_H_
+#define MECHANISM_CODESIGN_EXCITATION_MOTION_LIMITS_H_
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "identification/driven_system.h"
+#include "mechanism_codesign/problem.h"
+
+namespace codesign {
+
+/// A number that has to stay between two limits.
+struct LimitedSignal {
+  enum class Kind { kPosition, kVelocity, kAcceleration, kEffort };
+  Kind kind = Kind::kPosition;
+  bool is_follower = false;
+  Eigen::Index joint = 0;           ///< among the excited joints, or among the followers
+  double lower = 0.0, upper = 0.0;  ///< lower < upper
+  std::string name;                 ///< `elbow_joint/velocity`
+
+  double middle() const { return 0.5 * (lower + upper); }
+  double half() const { return 0.5 * (upper - lower); }
+  /// -1 at the lower limit, 1 at the upper one.
+  double relative(double value) const { return (value - middle()) / half(); }
+};
+
+/// Which joints are moved, and what their motion has to keep.
+struct MotionLimits {
+  std::vector<MeasuredJoint> joints, followers;
+  Eigen::VectorXd noise;               ///< of the efforts of `joints` [N m or N]
+  std::vector<LimitedSignal> signals;  ///< of `joints`, in their order, then of `followers`
+
+  /// The limits of a kind of an excited joint; null: none.
+  const LimitedSignal* find(Eigen::Index joint, LimitedSignal::Kind kind) const;
+};
+
+/// The limits of `<limit>` and those of the study's `excite:`, of which the narrower ones count. Followers are the joints of the tree with
+/// a limit that are not excited.
+/// @param problem whose study has a block `excite`.
+/// @throws InputError for ranges that exclude each other, excited joints without a largest velocity, and limits of joints that move no mass
+MotionLimits motion_limits(const Problem& problem);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_EXCITATION_MOTION_LIMITS_H_

@@ -1,0 +1,44 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_BASIS_H_
+#define MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_BASIS_H_
+
+#include <Eigen/Core>
+
+#include "description/excitation.h"
+
+namespace codesign {
+
+/// The shapes f_k(t) of which a trajectory is made, q(t) = q_rest + sum c_k f_k(t), doc/theory.md (45). They repeat after a period, and at
+/// its beginning value, velocity and acceleration of each are zero, so that every sum of them begins and ends at rest.
+class TrajectoryBasis {
+ public:
+  /// @param kind, period, harmonics or knots as the study's reader admits them
+  explicit TrajectoryBasis(const ExcitationDescription& description);
+
+  Eigen::Index size() const { return size_; }
+  double period() const { return period_; }
+  /// Shortest time in which a shape goes up and down: the period of the highest harmonic, or four intervals between knots [s].
+  double shortest_wave() const;
+
+  /// Values, rates [1/s] and accelerations [1/s^2] of all shapes.
+  struct Shapes {
+    Eigen::VectorXd value, rate, acceleration;
+  };
+  Shapes at(double time) const;
+
+  /// Coefficients of a plain motion, which swings there and back: the k-th of several that differ.
+  Eigen::VectorXd plain(int k) const;
+
+ private:
+  void add_fourier(double time, Shapes* shapes) const;
+  void add_spline(double time, Shapes* shapes) const;
+
+  const TrajectoryKind kind_;
+  const double period_;
+  const int waves_;  ///< harmonics, or knots in a period
+  Eigen::Index size_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_BASIS_H_

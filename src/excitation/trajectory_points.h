@@ -1,0 +1,29 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_POINTS_H_
+#define MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_POINTS_H_
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace codesign {
+
+/// The motion of several joints at given times, and the efforts that it is expected to need; in the joints' units, joints x times.
+struct TrajectoryPoints {
+  std::vector<std::string> joints;
+  std::vector<double> times;  ///< ascending from 0 [s]
+  Eigen::MatrixXd position, velocity, acceleration, effort;
+};
+
+/// Callback that writes points as one trajectory_msgs/JointTrajectory into a bag. The caller provides it, since this library does not
+/// depend on ROS. @throws OutputError if the bag cannot be written. An existing file is replaced.
+using TrajectoryBagWriter = std::function<void(const std::string& path, const TrajectoryPoints& points)>;
+
+/// The writer that a program is linked with: ros/linked_bag_reader.cc where ROS was found, else cli/linked_bag_reader.cc, which gives an
+/// empty one. Not in this library.
+TrajectoryBagWriter linked_trajectory_writer();
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_POINTS_H_

@@ -1,0 +1,74 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_SPACE_H_
+#define MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_SPACE_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "excitation/excited_motion.h"
+#include "excitation/motion_limits.h"
+#include "excitation/trajectory_basis.h"
+
+namespace codesign {
+
+/// All shapes at given times, times x shapes.
+struct SampledShapes {
+  SampledShapes(const TrajectoryBasis& basis, const std::vector<double>& times);
+
+  Eigen::MatrixXd value, rate, acceleration;
+};
+
+/// The trajectories of all excited joints as points x of a search: of each joint where it rests, then the coefficients of the shapes, all
+/// of magnitude one. A rest of -1 and 1 is a limit of the position; with a coefficient of 1 and none else, the shape reaches a limit of
+/// position, velocity or acceleration.
+class TrajectorySpace {
+ public:
+  /// @param start positions of the joints at the study's start, for those without limits [rad or m].
+  TrajectorySpace(const ExcitationDescription& description, const MotionLimits& limits, const Eigen::VectorXd& start);
+
+  const TrajectoryBasis& basis() const { return basis_; }
+  Eigen::Index joints() const { return rest_middle_.size(); }
+  Eigen::Index size() const { return joints() * stride(); }
+  /// Bounds of a search.
+  Eigen::VectorXd upper() const;
+  Eigen::VectorXd lower() const { return -upper(); }
+  /// Where the joints rest [rad or m].
+  Eigen::VectorXd rest(const Eigen::VectorXd& x) const;
+  /// The coefficients of the shapes in the joints' units, shapes x joints.
+  Eigen::MatrixXd coefficients(const Eigen::VectorXd& x) const;
+
+  DrivePath path(const Eigen::VectorXd& x, const SampledShapes& at) const;
+  /// Derivatives by x of a number whose derivatives by the motion are known.
+  /// @param by_motion 3 joints x samples: by positions, velocities and accelerations
+  Eigen::VectorXd pull_back(const SampledShapes& at, const Eigen::MatrixXd& by_motion) const;
+
+  /// The plain trajectory: each joint swings there and back around the middle of its range, in a rhythm of its own, as far as its limits of
+  /// position, velocity and acceleration permit.
+  Eigen::VectorXd plain() const;
+  /// The same with the joints at rest at `positions`, as far as these are within their limits.
+  Eigen::VectorXd plain_around(const Eigen::VectorXd& positions) const;
+  /// A trajectory with rest and coefficients in proportion to `numbers` in (0, 1), as unit_points() gives them, within the limits of
+  /// position, velocity and acceleration.
+  Eigen::VectorXd mixed(const Eigen::VectorXd& numbers) const;
+  /// x with all excursions from rest times a factor.
+  Eigen::VectorXd shrunk(Eigen::VectorXd x, double factor) const;
+
+ private:
+  Eigen::Index stride() const { return 1 + basis_.size(); }
+  /// By which the shapes with coefficients c reach a limit of velocity or acceleration.
+  double factor_by_rates(Eigen::Index joint, const Eigen::VectorXd& c) const;
+  void fit_joint(Eigen::Index joint, Eigen::VectorXd* x) const;
+
+  const MotionLimits& limits_;
+  const TrajectoryBasis basis_;
+  const SampledShapes fine_;
+  Eigen::VectorXd rest_middle_, rest_half_;
+  Eigen::MatrixXd scale_;  ///< of a coefficient of one, shapes x joints
+};
+
+/// `count` equally spaced times in [0, period).
+std::vector<double> times_in_period(double period, Eigen::Index count);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_SPACE_H_

@@ -1,0 +1,27 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOBS_EXCITATION_RECORDS_H_
+#define MECHANISM_CODESIGN_JOBS_EXCITATION_RECORDS_H_
+
+#include <string>
+#include <vector>
+
+#include "excitation/excitation_result.h"
+#include "jobs/json.h"
+#include "mechanism_codesign/problem.h"
+
+namespace codesign {
+
+/// excitation.json, doc/study.md: `predicted` (by name: nominal value, deviation and half the interval before and after), `volume_factor`,
+/// `undetermined`, `limits`, `trajectory`, `starts`, and counts. Infinite numbers are null.
+Json excitation_json(const Problem& problem, const ExcitationResult& result);
+
+/// What people read first, one sentence per line: what no trajectory tells, and by how much the intervals shrink.
+std::vector<std::string> excitation_sentences(const ExcitationResult& result);
+
+/// Columns and rows of trajectory.csv: time [s], then per joint JOINT/position, /velocity, /acceleration and /effort, the expected one.
+std::vector<std::string> trajectory_columns(const TrajectoryPoints& points);
+std::vector<std::vector<std::string>> trajectory_rows(const TrajectoryPoints& points);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOBS_EXCITATION_RECORDS_H_

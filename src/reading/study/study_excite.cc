@@ -1,0 +1,118 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/study/study_excite.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "reading/study/study_fields.h"
+#include "reading/study/study_values.h"
+
+namespace codesign {
+namespace {
+
+constexpr int kMostHarmonics = 50, kLeastKnots = 5, kMostKnots = 500, kMostPeriods = 1000, kMostStarts = 1000, kMostEvaluations = 1000000;
+constexpr double kMostSamples = 1e6;
+
+double read_above_zero(const YamlValue& value) {
+  const double number = value.number();
+  if (!(number > 0.0)) value.fail("not above zero", "more than 0");
+  return number;
+}
+
+void read_magnitude(const YamlValue& parent, const std::string& key, std::optional<double>* magnitude) {
+  if (const auto value = parent.find(key)) *magnitude = read_above_zero(*value);
+}
+
+MotionLimitDescription read_limits(const std::string& name, const YamlValue& value, const RobotDescription& robot) {
+  MotionLimitDescription limits;
+  limits.joint = scalar_joint(name, robot, value).name;
+  limits.element = value.path();
+  limits.where = value.where();
+  if (const auto position = value.find("position")) {
+    const std::vector<YamlValue> ends = position->items();
+    if (ends.size() != 2) position->fail("a range of positions has two ends, found " + std::to_string(ends.size()), "[lower, upper]");
+    limits.position = {ends[0].number(), ends[1].number()};
+    if (!((*limits.position)[0] < (*limits.position)[1])) position->fail("the range is empty", "lower below upper");
+  }
+  read_magnitude(value, "velocity", &limits.velocity);
+  read_magnitude(value, "acceleration", &limits.acceleration);
+  read_magnitude(value, "effort", &limits.effort);
+  return limits;
+}
+
+/// @param noise of all joints; 0: each joint has its own.
+ExcitedJoint read_joint(const std::string& name, const YamlValue& value, const RobotDescription& robot, double noise) {
+  value.require_keys({}, {"position", "velocity", "acceleration", "effort", "noise"});
+  ExcitedJoint joint;
+  joint.limits = read_limits(name, value, robot);
+  joint.noise = noise;
+  if (const auto own = value.find("noise")) joint.noise = read_above_zero(*own);
+  if (joint.noise == 0.0)
+    value.fail("how noisy the efforts are is not known", "noise: standard deviation of one sample [N m or N], here or as excite.noise");
+  return joint;
+}
+
+void read_joints(const YamlValue& excite, const RobotDescription& robot, ExcitationDescription* description) {
+  const auto noise = excite.find("noise");
+  const double of_all = noise ? read_above_zero(*noise) : 0.0;
+  const YamlValue joints = excite.at("joints");
+  for (const auto& [name, value] : joints.entries()) description->joints.push_back(read_joint(name, value, robot, of_all));
+  if (description->joints.empty()) joints.fail("no joint to move", "the joints that determine the motion");
+}
+
+void read_followers(const YamlValue& limits, const RobotDescription& robot, ExcitationDescription* description) {
+  for (const auto& [name, value] : limits.entries()) {
+    value.require_keys({}, {"position", "velocity"});
+    const std::string joint = name;
+    if (std::any_of(description->joints.begin(), description->joints.end(),
+                    [&](const ExcitedJoint& excited) { return excited.limits.joint == joint; }))
+      value.fail("the joint is one of excite.joints", "its limits there, and here those of joints that follow");
+    description->followers.push_back(read_limits(name, value, robot));
+  }
+}
+
+void read_shape(const YamlValue& excite, ExcitationDescription* description) {
+  read_choice(excite, "trajectory", kTrajectoryNames, &description->trajectory);
+  if (const auto period = excite.find("period")) description->period = read_above_zero(*period);
+  read_whole(excite, "harmonics", 2, kMostHarmonics, &description->harmonics);
+  read_whole(excite, "knots", kLeastKnots, kMostKnots, &description->knots);
+  const bool is_spline = description->trajectory == TrajectoryKind::kSpline;
+  if (const auto harmonics = excite.find("harmonics"); harmonics && is_spline)
+    harmonics->fail("a spline has no harmonics", "knots, or trajectory: fourier");
+  if (const auto knots = excite.find("knots"); knots && !is_spline)
+    knots->fail("a Fourier series has no knots", "harmonics, or trajectory: spline");
+}
+
+void read_recording_plan(const YamlValue& excite, ExcitationDescription* description) {
+  read_whole(excite, "periods", 1, kMostPeriods, &description->periods);
+  if (const auto rate = excite.find("sample_rate")) description->sample_rate = read_above_zero(*rate);
+  const double samples = description->period * description->sample_rate;
+  const int waves = description->trajectory == TrajectoryKind::kSpline ? description->knots : description->harmonics;
+  const YamlValue at = excite.find("sample_rate").value_or(excite);
+  if (samples < 4.0 * waves)
+    at.fail("the samples do not show the trajectory", "at least " + std::to_string(4 * waves) + " samples in a period");
+  if (samples * description->periods > kMostSamples) at.fail("more than a million samples", "a lower rate, or a shorter motion");
+}
+
+}  // namespace
+
+ExcitationDescription read_excitation(const YamlValue& excite, const RobotDescription& robot) {
+  excite.require_keys({"joints"}, {"limits", "noise", "trajectory", "period", "harmonics", "knots", "periods", "sample_rate", "starts",
+                                   "seed", "search", "max_evaluations"});
+  ExcitationDescription description;
+  description.where = excite.where();
+  read_joints(excite, robot, &description);
+  if (const auto limits = excite.find("limits")) read_followers(*limits, robot, &description);
+  read_shape(excite, &description);
+  read_recording_plan(excite, &description);
+  read_whole(excite, "starts", 1, kMostStarts, &description.starts);
+  int seed = static_cast<int>(description.seed);
+  read_whole(excite, "seed", 0, 1000000000, &seed);
+  description.seed = static_cast<std::uint32_t>(seed);
+  read_choice(excite, "search", kTrajectorySearchNames, &description.search);
+  read_whole(excite, "max_evaluations", 1, kMostEvaluations, &description.max_evaluations);
+  return description;
+}
+
+}  // namespace codesign
