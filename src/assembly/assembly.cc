@@ -282,6 +282,7 @@ Status Assembly::solve_motion(const std::vector<double>& parameters, Equations<d
 
 Status Assembly::solve(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
   if (Status status = solve_motion(parameters, equations, state); !status.ok()) return status;
+  if (system_.begins_controllers()) equations->formulas().begin_controllers(state);
   if (Status status = solve_rates(equations, state); !status.ok()) return status;
   return check_rest(*state);
 }
@@ -343,6 +344,7 @@ void Assembly::extend(const std::vector<T>& parameters, const State<double>& sta
   place_extended();
   correct(velocities_, Phi_rate, &rate);
   place_extended();
+  if (system_.begins_controllers()) equations->formulas().begin_controllers(state);
   extend_rates(start.z, equations, state);
 }
 

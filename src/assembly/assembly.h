@@ -32,7 +32,8 @@ class Assembly {
  public:
   explicit Assembly(const CompiledSystem& system);
 
-  /// Finds positions, velocities, accelerations and multipliers and writes them to `state`, with t = 0 and the extra states zero.
+  /// Finds positions, velocities, accelerations and multipliers and writes them to `state`, with t = 0 and the extra states zero, but for
+  /// controllers that begin otherwise (Formulas::begin_controllers()).
   /// @param parameters all named parameters (Study::parameters order).
   /// @param equations must hold the design at `parameters`.
   Status solve(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);

@@ -106,6 +106,7 @@ OptimizationRequest apply_request(const Problem& problem, const mechanism_codesi
 
 Eigen::VectorXd design_of(const Problem& problem, const mechanism_codesign::EvaluateRequest& request) {
   require_objective(problem);
+  require_differentiable(problem.study());
   const std::vector<std::string> tuned = problem.tuned_names();
   check_length("check", request.check);
   check_size(problem, request.parameters, request.values, "values");
