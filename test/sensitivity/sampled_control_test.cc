@@ -105,7 +105,7 @@ TEST_P(ControlGradientTest, OfTheAdjointIsTheSameWhereThereIsOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Controls, ControlGradientTest, ::testing::ValuesIn(control_cases()),
-                         [](const ::testing::TestParamInfo<ControlCase>& info) { return info.param.name; });
+                         [](const ::testing::TestParamInfo<ControlCase>& test) { return test.param.name; });
 
 TEST(SampledPeaks, MeetTheComplexStep) {
   // The effort jumps at each sample, so that its peak lies right behind one.

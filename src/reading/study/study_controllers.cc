@@ -128,8 +128,8 @@ void refuse_idle(const Study& study) {
                          [&](const FeedbackTerm& term) { return reads(term.signal, controller.name); });
     });
     if (!is_read)
-      throw InputError({controller.where, "controllers." + controller.name,
-                        "the controller drives no joint, and no later controller reads its output", controller.name,
+      throw InputError({controller.where, "controllers." + controller.name + ".output",
+                        "required key is missing: no later controller reads the output of this one either", controller.name,
                         "output: a joint; or a later controller whose input has the term " + controller.name + "/output"});
   }
 }
