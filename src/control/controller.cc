@@ -104,7 +104,7 @@ class Resolver {
     const ControlRealization& realization = study_.controllers[k].realization;
     ControllerStates& places = controllers_[k].states;
     const bool sampled = realization.is_sampled(), pid = controllers_[k].kind == ControllerKind::kPid;
-    if (sampled) refuse_rates(k);
+    if (sampled || realization.derivative_filter) refuse_rates(k);
     if (realization.derivative_filter) places.filter = (*states)++;
     if (sampled && pid && !study_.controllers[k].d.is_zero()) places.last = (*states)++;
     if (sampled) places.held = (*states)++;
@@ -113,7 +113,8 @@ class Resolver {
     if (realization.time_constant) places.lag = (*states)++;
   }
 
-  /// A sampled controller's output determines accelerations and forces at the very instant at which it would read them.
+  /// A sampled controller's output determines accelerations and forces at the very instant at which it would read them; so does a filter
+  /// that has to begin with its input.
   void refuse_rates(std::size_t k) const {
     const auto is_rate = [](const SignalReference& term) {
       switch (term.kind) {
@@ -136,7 +137,8 @@ class Resolver {
     };
     const auto check = [&](const Signal& signal, const SignalDescription& description) {
       if (std::any_of(signal.begin(), signal.end(), is_rate))
-        throw InputError({study_.controllers[k].where, element(k), "a sampled controller cannot read accelerations, forces and powers",
+        throw InputError({study_.controllers[k].where, element(k),
+                          "a controller with sample_time or derivative_filter cannot read accelerations, forces and powers",
                           description.text, "positions, velocities, orientations, energies and controllers"});
     };
     check(controllers_[k].input, study_.controllers[k].input);
