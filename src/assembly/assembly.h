@@ -133,6 +133,7 @@ class Assembly {
   Dependents positions_, velocities_;
   Linearization<double> derivatives_;
   IterationMatrix matrix_;
+  VectorX<double> residual_;  ///< workspace of solve_rates()
   LoopMiss worst_miss_;
   const std::atomic<bool>* cancel_ = nullptr;
 };

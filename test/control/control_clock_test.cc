@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-Study study(const std::vector<std::pair<double, double>>& controllers) {
+Study sampled_study(const std::vector<std::pair<double, double>>& controllers) {
   Study all;
   for (const auto& [period, delay] : controllers) {
     all.controllers.emplace_back();
@@ -31,14 +31,14 @@ std::string spell(const std::vector<ControlEvent>& events) {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 TEST(ControlClock, WithoutSampledControllersHasNoEvents) {
-  ControlClock clock(study({{0.0, 0.0}}));
+  ControlClock clock(sampled_study({{0.0, 0.0}}));
   EXPECT_TRUE(clock.is_empty());
   EXPECT_EQ(clock.next(3.0), 3.0);
   EXPECT_TRUE(clock.due(3.0).empty());
 }
 
 TEST(ControlClock, CountsInMultiplesOfThePeriod) {
-  ControlClock clock(study({{0.1, 0.0}}));
+  ControlClock clock(sampled_study({{0.1, 0.0}}));
   EXPECT_TRUE(clock.due(0.0).empty()) << "the sample at t = 0 belongs to the start";
   for (int k = 1; k <= 1000; ++k) {
     EXPECT_EQ(clock.next(kNever), 0.1 * k);
@@ -49,7 +49,7 @@ TEST(ControlClock, CountsInMultiplesOfThePeriod) {
 }
 
 TEST(ControlClock, DelaysOutputsAndAppliesThemBeforeSamples) {
-  ControlClock clock(study({{0.0, 0.0}, {0.1, 0.25}, {0.05, 0.05}}));
+  ControlClock clock(sampled_study({{0.0, 0.0}, {0.1, 0.25}, {0.05, 0.05}}));
   EXPECT_EQ(clock.next(0.01), 0.01);
   EXPECT_EQ(spell(clock.due(0.05)), "a2:0 s2:1") << "a delay of one period: the output of the sample before";
   EXPECT_EQ(spell(clock.due(0.1)), "a2:1 s1:1 s2:2");
@@ -61,12 +61,12 @@ TEST(ControlClock, DelaysOutputsAndAppliesThemBeforeSamples) {
 }
 
 TEST(ControlClock, QueuesAsManyOutputsAsWait) {
-  EXPECT_EQ(study({{0.1, 0.0}}).controllers[0].realization.queued(), 0);
-  EXPECT_EQ(study({{0.1, 0.03}}).controllers[0].realization.queued(), 1);
-  EXPECT_EQ(study({{0.1, 0.1}}).controllers[0].realization.queued(), 1);
-  EXPECT_EQ(study({{0.1, 0.3}}).controllers[0].realization.queued(), 3) << "0.3/0.1 is above 3 by rounding";
-  EXPECT_EQ(study({{0.1, 0.31}}).controllers[0].realization.queued(), 4);
-  EXPECT_EQ(study({{0.0, 0.0}}).controllers[0].realization.queued(), 0);
+  EXPECT_EQ(sampled_study({{0.1, 0.0}}).controllers[0].realization.queued(), 0);
+  EXPECT_EQ(sampled_study({{0.1, 0.03}}).controllers[0].realization.queued(), 1);
+  EXPECT_EQ(sampled_study({{0.1, 0.1}}).controllers[0].realization.queued(), 1);
+  EXPECT_EQ(sampled_study({{0.1, 0.3}}).controllers[0].realization.queued(), 3) << "0.3/0.1 is above 3 by rounding";
+  EXPECT_EQ(sampled_study({{0.1, 0.31}}).controllers[0].realization.queued(), 4);
+  EXPECT_EQ(sampled_study({{0.0, 0.0}}).controllers[0].realization.queued(), 0);
 }
 
 }  // namespace

@@ -56,13 +56,13 @@ TEST(SampledPid, FiltersTheRateByTheBackwardDifference) {
 
 TEST(SampledPid, IsDifferentiableByGainsAndBounds) {
   using C = std::complex<double>;
-  constexpr double kStep = 1e-30;
+  constexpr double kTiny = 1e-30;
   // With anti-windup and a clamp that is reached the integral is bound / i, so that it and its term follow the bound.
-  const C bound(0.2, kStep);
+  const C bound(0.2, kTiny);
   const SampledPidNumbers<C> numbers{{C(2.0), C(4.0), C(0.0)}, 0.1, C(0.0), &bound, true};
   SampledPidMemory<C> memory;
-  EXPECT_EQ(sample_pid(numbers, C(1.0), true, &memory).imag(), kStep);
-  EXPECT_EQ(memory.integral.imag(), 0.25 * kStep);
+  EXPECT_EQ(sample_pid(numbers, C(1.0), true, &memory).imag(), kTiny);
+  EXPECT_EQ(memory.integral.imag(), 0.25 * kTiny);
 }
 
 }  // namespace

@@ -11,11 +11,11 @@
 namespace codesign {
 namespace {
 
-constexpr const char* kSine = "{type: sine, amplitude: 0.7, period: 1.3, phase: 0.4}";
+constexpr const char* kSwing = "{type: sine, amplitude: 0.7, period: 1.3, phase: 0.4}";
 
 /// The derivatives of a double pendulum with one controller and of its signals. @param recorded as of expect_exact_derivatives(); that of
 /// an anti-windup depends on the sign of the integral, and both are tried.
-void expect_exact(const std::string& controller, const std::string& terms, bool recorded = true) {
+void expect_exact_rates(const std::string& controller, const std::string& terms, bool recorded = true) {
   SCOPED_TRACE(controller);
   const bool both = controller.find("antiwindup") != std::string::npos;
   for (const double outward : {1.0, -1.0}) {
@@ -32,35 +32,38 @@ void expect_exact(const std::string& controller, const std::string& terms, bool 
 }
 
 std::string pid(const std::string& keys, const std::string& input = "shoulder/position") {
-  return "type: pid, input: " + input + ", setpoint: " + kSine + ", " + keys;
+  return "type: pid, input: " + input + ", setpoint: " + kSwing + ", " + keys;
 }
 
 TEST(ControllerStates, HaveExactDerivatives) {
   const std::string terms = "{signal: a/output + shoulder/effort}";
-  expect_exact(pid("gains: {p: 3.0, d: 0.5}, derivative_filter: 0.02"), terms);
-  expect_exact(pid("gains: {p: 3.0, i: 2.0}, i_clamp: 0.3"), terms);
+  expect_exact_rates(pid("gains: {p: 3.0, d: 0.5}, derivative_filter: 0.02"), terms);
+  expect_exact_rates(pid("gains: {p: 3.0, i: 2.0}, i_clamp: 0.3"), terms);
   for (const char* sign : {"", "-"})
-    expect_exact(pid("gains: {p: 3.0, i: " + std::string(sign) + "2.0}, i_clamp: 0.3, antiwindup: true"), terms);
+    expect_exact_rates(pid("gains: {p: 3.0, i: " + std::string(sign) + "2.0}, i_clamp: 0.3, antiwindup: true"), terms);
   for (const char* limit : {"40.0", "0.01"})
-    expect_exact(pid("gains: {p: 3.0, d: 0.5}, output_limit: " + std::string(limit) + ", time_constant: 0.01"), terms,
-                 limit == std::string("40.0"));
-  expect_exact(pid("gains: {p: 3.0, i: 2.0, d: 0.5}, sample_time: 0.01, delay: 0.025, time_constant: 0.01, derivative_filter: 0.1"), terms);
-  expect_exact("type: state_feedback, feedback: [{signal: elbow/position, gain: 2.0}], output_limit: 40.0, time_constant: 0.3", terms);
+    expect_exact_rates(pid("gains: {p: 3.0, d: 0.5}, output_limit: " + std::string(limit) + ", time_constant: 0.01"), terms,
+                       limit == std::string("40.0"));
+  expect_exact_rates(pid("gains: {p: 3.0, i: 2.0, d: 0.5}, sample_time: 0.01, delay: 0.025, time_constant: 0.01, derivative_filter: 0.1"),
+                     terms);
+  expect_exact_rates("type: state_feedback, feedback: [{signal: elbow/position, gain: 2.0}], output_limit: 40.0, time_constant: 0.3",
+                     terms);
 }
 
 TEST(EffortRate, HasExactDerivatives) {
   const std::string terms = "{signal: shoulder/effort_rate}";
-  expect_exact(pid("gains: {p: 3.0, i: 2.0}"), terms);
-  expect_exact(pid("gains: {p: 3.0, i: 2.0, d: 0.5}"), terms);
-  expect_exact(pid("gains: {p: 3.0, d: 0.5}, derivative_filter: 0.02", "shoulder/velocity"), terms);
+  expect_exact_rates(pid("gains: {p: 3.0, i: 2.0}"), terms);
+  expect_exact_rates(pid("gains: {p: 3.0, i: 2.0, d: 0.5}"), terms);
+  expect_exact_rates(pid("gains: {p: 3.0, d: 0.5}, derivative_filter: 0.02", "shoulder/velocity"), terms);
   for (const char* limit : {"40.0", "0.01"})
-    expect_exact(pid("gains: {p: 3.0, i: 2.0}, i_clamp: 0.3, output_limit: " + std::string(limit)), terms, limit == std::string("40.0"));
-  expect_exact(pid("gains: {p: 3.0, i: 2.0}, i_clamp: 0.3, antiwindup: true"), terms);
-  expect_exact(pid("gains: {p: 3.0, d: 0.5}, time_constant: 0.02"), terms);
-  expect_exact("type: state_feedback, feedforward: " + std::string(kSine) +
-                   ", feedback: [{signal: elbow/position, gain: 2.0, reference: " + kSine + "}]",
-               terms);
-  expect_exact(pid("gains: {p: 3.0, d: 0.5}, sample_time: 0.01, time_constant: 0.02"), terms);
+    expect_exact_rates(pid("gains: {p: 3.0, i: 2.0}, i_clamp: 0.3, output_limit: " + std::string(limit)), terms,
+                       limit == std::string("40.0"));
+  expect_exact_rates(pid("gains: {p: 3.0, i: 2.0}, i_clamp: 0.3, antiwindup: true"), terms);
+  expect_exact_rates(pid("gains: {p: 3.0, d: 0.5}, time_constant: 0.02"), terms);
+  expect_exact_rates("type: state_feedback, feedforward: " + std::string(kSwing) +
+                         ", feedback: [{signal: elbow/position, gain: 2.0, reference: " + kSwing + "}]",
+                     terms);
+  expect_exact_rates(pid("gains: {p: 3.0, d: 0.5}, sample_time: 0.01, time_constant: 0.02"), terms);
 }
 
 TEST(EffortRate, IsTheSlopeOfTheEffort) {

@@ -74,7 +74,7 @@ TEST_P(ControlGradientTest, MeetsTheComplexStep) {
     const GradientCheck check = check_gradient(system, start_of(system->study()), CheckMethod::kComplexStep);
     ASSERT_TRUE(check.status.ok()) << check.status.cause;
     EXPECT_LT(check.largest_relative_difference, 1e-10);
-    EXPECT_GT(check.evaluation.gradient.cwiseAbs().minCoeff() + check.evaluation.gradient.cwiseAbs().maxCoeff(), 1e-4);
+    EXPECT_GT(check.evaluation.gradient.cwiseAbs().maxCoeff(), 1e-4);
   }
 }
 

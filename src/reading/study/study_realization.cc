@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMostQueued = 100;
 
-std::optional<Quantity> read_positive(const YamlValue& controller, const std::string& key, const ParameterTable& table) {
+std::optional<Quantity> read_positive_quantity(const YamlValue& controller, const std::string& key, const ParameterTable& table) {
   const auto value = controller.find(key);
   if (!value) return std::nullopt;
   const Quantity quantity = read_quantity(*value, table);
@@ -19,7 +19,7 @@ std::optional<Quantity> read_positive(const YamlValue& controller, const std::st
 }
 
 /// A number: instants and steps that changed with a parameter would be kinks of the objective.
-double read_fixed(const YamlValue& controller, const std::string& key, bool may_be_zero) {
+double read_instant(const YamlValue& controller, const std::string& key, bool may_be_zero) {
   const auto value = controller.find(key);
   if (!value) return 0.0;
   if (value->text().compare(0, 2, "${") == 0) value->fail("this must not depend on parameters", "a number");
@@ -30,7 +30,7 @@ double read_fixed(const YamlValue& controller, const std::string& key, bool may_
 }
 
 /// A key that means nothing without another one.
-void require_with(const YamlValue& controller, const std::string& key, bool has_other, const std::string& other) {
+void require_partner(const YamlValue& controller, const std::string& key, bool has_other, const std::string& other) {
   if (const auto value = controller.find(key); value && !has_other) value->fail("this key needs " + other, "with " + other);
 }
 
@@ -44,20 +44,20 @@ std::vector<std::string> with_realization_keys(ControllerKind kind, std::vector<
 
 void read_realization(const YamlValue& value, const ParameterTable& table, ControllerDescription* controller) {
   ControlRealization& realization = controller->realization;
-  realization.i_clamp = read_positive(value, "i_clamp", table);
-  realization.derivative_filter = read_positive(value, "derivative_filter", table);
-  realization.output_limit = read_positive(value, "output_limit", table);
-  realization.time_constant = read_positive(value, "time_constant", table);
+  realization.i_clamp = read_positive_quantity(value, "i_clamp", table);
+  realization.derivative_filter = read_positive_quantity(value, "derivative_filter", table);
+  realization.output_limit = read_positive_quantity(value, "output_limit", table);
+  realization.time_constant = read_positive_quantity(value, "time_constant", table);
   if (const auto antiwindup = value.find("antiwindup")) realization.antiwindup = antiwindup->boolean();
-  realization.sample_time = read_fixed(value, "sample_time", false);
-  realization.delay = read_fixed(value, "delay", true);
-  realization.quantization = read_fixed(value, "quantization", true);
-  require_with(value, "i_clamp", !controller->i.is_zero(), "a gain i");
-  require_with(value, "antiwindup", realization.i_clamp.has_value(), "i_clamp");
-  require_with(value, "derivative_filter", !controller->d.is_zero(), "a gain d");
-  require_with(value, "delay", realization.is_sampled(), "sample_time");
-  require_with(value, "quantization", realization.is_sampled(), "sample_time");
-  require_with(value, "time_constant", !controller->output.empty(), "output, the joint that the controller drives");
+  realization.sample_time = read_instant(value, "sample_time", false);
+  realization.delay = read_instant(value, "delay", true);
+  realization.quantization = read_instant(value, "quantization", true);
+  require_partner(value, "i_clamp", !controller->i.is_zero(), "a gain i");
+  require_partner(value, "antiwindup", realization.i_clamp.has_value(), "i_clamp");
+  require_partner(value, "derivative_filter", !controller->d.is_zero(), "a gain d");
+  require_partner(value, "delay", realization.is_sampled(), "sample_time");
+  require_partner(value, "quantization", realization.is_sampled(), "sample_time");
+  require_partner(value, "time_constant", !controller->output.empty(), "output, the joint that the controller drives");
   if (realization.queued() > kMostQueued)
     value.at("delay").fail("too many outputs wait at a time: " + std::to_string(realization.queued()),
                            "at most " + std::to_string(kMostQueued) + " times sample_time");
