@@ -289,28 +289,27 @@ Status Assembly::solve_motion(const std::vector<double>& parameters, Equations<d
 
 Status Assembly::solve(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
   if (Status status = solve_motion(parameters, equations, state); !status.ok()) return status;
+  if (system_.begins_controllers()) equations->formulas().begin_controllers(state);
   if (Status status = solve_rates(equations, state); !status.ok()) return status;
   return check_rest(*state);
 }
 
 Status Assembly::solve_rates(Equations<double>* equations, State<double>* state) {
   const char* const place = state->t > 0.0 ? "" : " at the start";
-  VectorX<double> G, step;
   double g = 0.0, previous = std::numeric_limits<double>::infinity();
   // With redundant rows, rounding errors divided by the compliance remain in the reactions that are not unique.
   const double converged = system_.compliance() == 0.0 ? 1e-11 : 1e-7;
   for (int iteration = 0; iteration < 100; ++iteration) {
     if (cancelled()) return {StatusCode::kCancelled, state->t, "cancelled"};
-    equations->residual(*state, &G, &g);
-    const double error = G.cwiseAbs().maxCoeff();
+    equations->residual(*state, &residual_, &g);
+    const double error = residual_.cwiseAbs().maxCoeff();
     if (!std::isfinite(error)) return {StatusCode::kNonFinite, state->t, std::string("the equations of motion are not finite") + place};
     equations->linearize(*state, &derivatives_);
     if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0))
       return {StatusCode::kSingularMatrix, state->t, "the augmented matrix of the equations of motion is singular"};
-    step = G;
-    matrix_.lu().solve(step);
-    const double size = step.cwiseAbs().maxCoeff() / (1.0 + state->z.cwiseAbs().maxCoeff());
-    state->z -= step;
+    matrix_.lu().solve(residual_);
+    const double size = residual_.cwiseAbs().maxCoeff() / (1.0 + state->z.cwiseAbs().maxCoeff());
+    state->z -= residual_;
     if (size < 1e-15 || (size < converged && size >= 0.5 * previous)) return {};
     previous = size;
   }
@@ -351,6 +350,7 @@ void Assembly::extend(const std::vector<T>& parameters, const State<double>& sta
   place_extended();
   correct(velocities_, Phi_rate, &rate);
   place_extended();
+  if (system_.begins_controllers()) equations->formulas().begin_controllers(state);
   extend_rates(start.z, equations, state);
 }
 

@@ -36,7 +36,7 @@ class Assembly {
   void begin_at(double time, const VectorX<double>& theta);
 
   /// Finds positions, velocities, accelerations and multipliers and writes them to `state`, with t = 0, or as begin_at() says, and the
-  /// extra states as set_extra_states() says.
+  /// extra states as set_extra_states() says, but for controllers that begin otherwise (Formulas::begin_controllers()).
   /// @param parameters all named parameters (Study::parameters order).
   /// @param equations must hold the design at `parameters`.
   Status solve(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
@@ -138,6 +138,7 @@ class Assembly {
   Dependents positions_, velocities_;
   Linearization<double> derivatives_;
   IterationMatrix matrix_;
+  VectorX<double> residual_;  ///< workspace of solve_rates()
   LoopMiss worst_miss_;
   const std::atomic<bool>* cancel_ = nullptr;
 };

@@ -2,6 +2,7 @@
 #include "control/controller.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace codesign {
 namespace {
@@ -22,6 +23,8 @@ class Resolver {
     for (std::size_t k = controllers_.size(); k-- > 0;) provide_rate(k);
     for (std::size_t k = 0; k < controllers_.size(); ++k)
       if (needs_integral(static_cast<int>(k), observed)) controllers_[k].state = (*states)++;
+    for (std::size_t k = 0; k < controllers_.size(); ++k) place_states(k, states);
+    for (std::size_t k = 0; k < controllers_.size(); ++k) provide_output_rate(k);
     for (std::size_t k = 0; k < controllers_.size(); ++k) grow_tree(k);
     return std::move(controllers_);
   }
@@ -41,7 +44,8 @@ class Resolver {
 
   /// Whether a term contains the output of the k-th controller or of a later one. A reaction does if one of them drives its joint.
   bool reads_effort(const SignalReference& term, std::size_t k) const {
-    if (term.kind == SignalKind::kJointEffort || term.kind == SignalKind::kActuatorPower) return true;
+    if (term.kind == SignalKind::kJointEffort || term.kind == SignalKind::kJointEffortRate || term.kind == SignalKind::kActuatorPower)
+      return true;
     if (term.kind != SignalKind::kReactionForce && term.kind != SignalKind::kReactionTorque) return false;
     const auto drives = [&](const ControllerDescription& controller) {
       for (std::size_t j = 0; j < robot_.joints.size(); ++j)
@@ -57,6 +61,7 @@ class Resolver {
     controller.kind = description.kind;
     if (has_error(description.kind)) controller.input = readable(description.input, k, ".input");
     for (const FeedbackTerm& term : description.feedback) controller.feedback.push_back(readable(term.signal, k, ".feedback"));
+    if (description.output.empty()) return;
     const auto joint = std::find_if(robot_.joints.begin(), robot_.joints.end(),
                                     [&description](const JointDescription& j) { return j.name == description.output; });
     if (joint == robot_.joints.end()) return;
@@ -69,10 +74,104 @@ class Resolver {
   void provide_rate(std::size_t k) {
     const ControllerDescription& description = study_.controllers[k];
     if (!has_error(description.kind)) return;
-    bool wanted = !description.d.is_zero();
+    // A sampled PID and a filtered one need the error alone.
+    const ControlRealization& realization = description.realization;
+    const bool by_error = description.kind == ControllerKind::kPid && (realization.is_sampled() || realization.derivative_filter);
+    bool wanted = !description.d.is_zero() && !by_error;
     for (const Controller& other : controllers_)
       wanted = wanted || reads(other.input_rate, SignalKind::kControllerErrorRate, static_cast<int>(k));
-    if (wanted) controllers_[k].input_rate = differentiate(controllers_[k].input, description.input, element(k) + ".input");
+    if (!wanted) return;
+    refuse_kinked_integral(k);
+    controllers_[k].input_rate = differentiate(controllers_[k].input, description.input, element(k) + ".input");
+  }
+
+  /// The rate of an integral is the error only if nothing clamps or samples it.
+  bool is_plain_integral(const SignalReference& term) const {
+    if (term.kind != SignalKind::kControllerIntegral) return true;
+    const ControlRealization& realization = study_.controllers[static_cast<std::size_t>(term.controller)].realization;
+    return !realization.antiwindup && !realization.is_sampled();
+  }
+
+  void refuse_kinked_integral(std::size_t k) const {
+    for (const SignalReference& term : controllers_[k].input)
+      if (!is_plain_integral(term))
+        throw InputError({study_.controllers[k].where, element(k) + ".input",
+                          "the time derivative of the integral of a sampled or clamped controller is not available",
+                          study_.controllers[k].input.text, "sums of joint or link positions and velocities; or a derivative_filter"});
+  }
+
+  void place_states(std::size_t k, int* states) {
+    const ControlRealization& realization = study_.controllers[k].realization;
+    ControllerStates& places = controllers_[k].states;
+    const bool sampled = realization.is_sampled(), pid = controllers_[k].kind == ControllerKind::kPid;
+    if (sampled || realization.derivative_filter) refuse_rates(k);
+    if (realization.derivative_filter) places.filter = (*states)++;
+    if (sampled && pid && !study_.controllers[k].d.is_zero()) places.last = (*states)++;
+    if (sampled) places.held = (*states)++;
+    if (realization.queued() > 0) places.queue = *states;
+    *states += realization.queued();
+    if (realization.time_constant) places.lag = (*states)++;
+  }
+
+  /// A sampled controller's output determines accelerations and forces at the very instant at which it would read them; so does a filter
+  /// that has to begin with its input.
+  void refuse_rates(std::size_t k) const {
+    const auto is_rate = [](const SignalReference& term) {
+      switch (term.kind) {
+        case SignalKind::kJointPosition:
+        case SignalKind::kJointVelocity:
+        case SignalKind::kLinkPosition:
+        case SignalKind::kLinkVelocity:
+        case SignalKind::kLinkAngularVelocity:
+        case SignalKind::kLinkOrientation:
+        case SignalKind::kKineticEnergy:
+        case SignalKind::kPotentialEnergy:
+        case SignalKind::kTotalEnergy:
+        case SignalKind::kControllerError:
+        case SignalKind::kControllerIntegral:
+        case SignalKind::kControllerOutput:
+          return false;
+        default:
+          return true;
+      }
+    };
+    const auto check = [&](const Signal& signal, const SignalDescription& description) {
+      if (std::any_of(signal.begin(), signal.end(), is_rate))
+        throw InputError({study_.controllers[k].where, element(k),
+                          "a controller with sample_time or derivative_filter cannot read accelerations, forces and powers",
+                          description.text, "positions, velocities, orientations, energies and controllers"});
+    };
+    check(controllers_[k].input, study_.controllers[k].input);
+    for (std::size_t term = 0; term < controllers_[k].feedback.size(); ++term)
+      check(controllers_[k].feedback[term], study_.controllers[k].feedback[term].signal);
+  }
+
+  /// The signals for the rate of a continuous output, (54); controllers behind a lag need none.
+  void provide_output_rate(std::size_t k) {
+    const ControllerDescription& description = study_.controllers[k];
+    Controller& controller = controllers_[k];
+    controller.has_output_rate = description.realization.time_constant.has_value();
+    if (controller.has_output_rate || description.realization.is_sampled()) return;
+    std::vector<Signal> rates;
+    const auto add = [&rates](const Signal& signal) {
+      std::optional<Signal> rate = differentiate(signal);
+      if (rate) rates.push_back(std::move(*rate));
+      return rate.has_value();
+    };
+    const auto is_free = [](const Signal& signal) {
+      return std::all_of(signal.begin(), signal.end(), [](const SignalReference& term) { return term.controller < 0; });
+    };
+    if (controller.kind == ControllerKind::kPid) {
+      const bool twice = !description.d.is_zero() && !description.realization.derivative_filter;
+      if (!is_free(controller.input) || !add(controller.input) || (twice && !add(Signal(rates.front())))) return;
+    } else if (controller.kind == ControllerKind::kStateFeedback) {
+      for (const Signal& signal : controller.feedback)
+        if (!is_free(signal) || !add(signal)) return;
+    } else {
+      return;
+    }
+    controller.output_rate = std::move(rates);
+    controller.has_output_rate = true;
   }
 
   bool needs_integral(int k, const std::vector<Signal>& observed) const {

@@ -9,6 +9,15 @@
 
 namespace codesign {
 
+/// Indices among the extra states of what a robot's controller remembers, theory (50)-(53), or -1.
+struct ControllerStates {
+  int filter = -1;  ///< the filtered error; of a sampled controller the filtered rate of the error
+  int last = -1;    ///< sampled: the error at the last sample
+  int held = -1;    ///< sampled: the output in effect
+  int queue = -1;   ///< sampled: the first of the outputs that wait, as many as ControlRealization::queued()
+  int lag = -1;     ///< the effort behind the drive's lag
+};
+
 /// A controller with its names resolved to indices; ControllerKind lists the laws.
 struct Controller {
   ControllerKind kind = ControllerKind::kPid;
@@ -16,7 +25,11 @@ struct Controller {
   std::vector<Signal> feedback;  ///< kStateFeedback: one signal per term
   int pair = -1, element = -1;   ///< the coordinate it drives: index in Topology::pairs and in the pair's chain
   int state = -1;                ///< index of its integral among the extra states, or -1
-  DrivenTree tree;               ///< kPdGravity and kComputedTorque only
+  ControllerStates states;       ///< the others
+  /// The rates of the signals that its output's rate needs, theory (54): of `input` and then of that rate, or of `feedback`.
+  std::vector<Signal> output_rate;
+  bool has_output_rate = false;
+  DrivenTree tree;  ///< kPdGravity and kComputedTorque only
 };
 
 /// Resolves all controllers of a study, in its order.

@@ -17,19 +17,14 @@ std::optional<int> find_named(const Items& items, const std::string& name) {
 }
 
 const std::map<std::string, SignalKind>& joint_kinds() {
-  static const std::map<std::string, SignalKind> kinds{{"position", SignalKind::kJointPosition},
-                                                       {"velocity", SignalKind::kJointVelocity},
-                                                       {"acceleration", SignalKind::kJointAcceleration},
-                                                       {"effort", SignalKind::kJointEffort},
-                                                       {"friction", SignalKind::kJointFriction},
-                                                       {"normal_force", SignalKind::kJointNormalForce},
-                                                       {"sliding_velocity", SignalKind::kJointSlidingVelocity},
-                                                       {"friction_power", SignalKind::kFrictionPower},
-                                                       {"damping_power", SignalKind::kDampingPower},
-                                                       {"actuator_power", SignalKind::kActuatorPower},
-                                                       {"load_power", SignalKind::kLoadPower},
-                                                       {"reaction_force", SignalKind::kReactionForce},
-                                                       {"reaction_torque", SignalKind::kReactionTorque}};
+  static const std::map<std::string, SignalKind> kinds{
+      {"position", SignalKind::kJointPosition},         {"velocity", SignalKind::kJointVelocity},
+      {"acceleration", SignalKind::kJointAcceleration}, {"effort", SignalKind::kJointEffort},
+      {"effort_rate", SignalKind::kJointEffortRate},    {"friction", SignalKind::kJointFriction},
+      {"normal_force", SignalKind::kJointNormalForce},  {"sliding_velocity", SignalKind::kJointSlidingVelocity},
+      {"friction_power", SignalKind::kFrictionPower},   {"damping_power", SignalKind::kDampingPower},
+      {"actuator_power", SignalKind::kActuatorPower},   {"load_power", SignalKind::kLoadPower},
+      {"reaction_force", SignalKind::kReactionForce},   {"reaction_torque", SignalKind::kReactionTorque}};
   return kinds;
 }
 
@@ -147,16 +142,22 @@ Signal resolve_signal(const SignalDescription& signal, const RobotDescription& r
   return resolved;
 }
 
-Signal differentiate(const Signal& resolved, const SignalDescription& signal, const std::string& element) {
+std::optional<Signal> differentiate(const Signal& resolved) {
   Signal derivative = resolved;
   for (SignalReference& reference : derivative) {
     const auto kind = derivative_kind(reference.kind);
-    if (!kind)
-      throw InputError({signal.where, element, "the time derivative of this signal is not available", signal.text,
-                        "sums of joint or link positions and velocities"});
+    if (!kind) return std::nullopt;
     reference.kind = *kind;
   }
   return derivative;
+}
+
+Signal differentiate(const Signal& resolved, const SignalDescription& signal, const std::string& element) {
+  std::optional<Signal> derivative = differentiate(resolved);
+  if (!derivative)
+    throw InputError({signal.where, element, "the time derivative of this signal is not available", signal.text,
+                      "sums of joint or link positions and velocities"});
+  return std::move(*derivative);
 }
 
 }  // namespace codesign

@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_CONTROL_SIGNAL_H_
 #define MECHANISM_CODESIGN_CONTROL_SIGNAL_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ enum class SignalKind {
   kJointVelocity,
   kJointAcceleration,
   kJointEffort,
+  kJointEffortRate,  ///< theory (54)
   kJointFriction,
   kJointNormalForce,
   kJointSlidingVelocity,
@@ -59,7 +61,10 @@ using Signal = std::vector<SignalReference>;
 Signal resolve_signal(const SignalDescription& signal, const RobotDescription& robot, const Topology& topology,
                       const std::vector<ControllerDescription>& controllers);
 
-/// The time derivative of a resolved signal. @param signal, element for messages.
+/// The time derivative of a resolved signal; nothing if that of a term is not available.
+std::optional<Signal> differentiate(const Signal& resolved);
+
+/// The same. @param signal, element for messages.
 /// @throws InputError for a quantity whose derivative is not available.
 Signal differentiate(const Signal& resolved, const SignalDescription& signal, const std::string& element);
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "description/basis.h"
+#include "description/control_realization.h"
 #include "description/ensemble.h"
 #include "description/excitation.h"
 #include "description/identification.h"
@@ -64,11 +65,12 @@ struct ControllerDescription {
   ControllerKind kind = ControllerKind::kPid;
   SignalDescription input;             ///< only if has_error(kind)
   ReferenceDescription setpoint;       ///< only if has_error(kind)
-  std::string output;                  ///< the joint it drives, by a torque [N m] or a force [N]
+  std::string output;                  ///< the joint it drives, by a torque [N m] or a force [N]; empty: only other controllers read it
   Quantity p, i, d;                    ///< gains; only if has_error(kind), i of kPid only
   ReferenceDescription feedforward;    ///< kStateFeedback
   std::vector<FeedbackTerm> feedback;  ///< kStateFeedback
   BasisDescription basis;              ///< kBasis
+  ControlRealization realization;      ///< how a robot runs it
   SourceLocation where;
 };
 

@@ -33,7 +33,23 @@ Eigen::VectorXd start_of(const Study& study) {
   return rho;
 }
 
+const ControllerDescription* find_rounded(const Study& study) {
+  for (const ControllerDescription& controller : study.controllers)
+    if (controller.realization.quantization > 0.0) return &controller;
+  for (const RunDescription& run : study.ensemble.runs)
+    if (const ControllerDescription* controller = run.study ? find_rounded(*run.study) : nullptr) return controller;
+  return nullptr;
+}
+
+void require_differentiable(const Study& study) {
+  if (const ControllerDescription* rounded = find_rounded(study))
+    throw InputError({rounded->where, "controllers." + rounded->name + ".quantization",
+                      "a measurement that is rounded has no derivative: it can be simulated, but neither differentiated nor optimized",
+                      to_decimal(rounded->realization.quantization), "no quantization, or 0"});
+}
+
 void require_tuned(const Study& study) {
+  require_differentiable(study);
   if (study.tuned.empty())
     throw InputError({{study.file, 1}, "parameters", "the study tunes no parameter", "", "at least one parameter to tune"});
 }

@@ -24,6 +24,12 @@ Eigen::VectorXd start_of(const Study& study);
 /// Checks that the study has something to tune. @throws InputError if not.
 void require_tuned(const Study& study);
 
+/// The first controller of a study or of one of its runs that rounds its input, theory (51); nullptr if there is none.
+const ControllerDescription* find_rounded(const Study& study);
+
+/// Checks that nothing is rounded, so that there are derivatives. @throws InputError if something is. Part of require_tuned().
+void require_differentiable(const Study& study);
+
 /// `[lower, upper]`, the bounds of a parameter as messages show them.
 std::string range_of(const Parameter& parameter);
 

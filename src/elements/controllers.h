@@ -2,16 +2,18 @@
 #ifndef MECHANISM_CODESIGN_ELEMENTS_CONTROLLERS_H_
 #define MECHANISM_CODESIGN_ELEMENTS_CONTROLLERS_H_
 
+#include "control/clamp.h"
 #include "control/pid.h"
 #include "elements/gradient_rows.h"
 #include "elements/state_view.h"
 #include "elements/workspace.h"
+#include "forces/saturation.h"
 #include "math/span.h"
 
 namespace codesign {
 
-// The control laws, theory (C1)-(C8). Each function returns a value and, if `gradient` is not null, appends its gradient by positions,
-// velocities, rates (multipliers and accelerations included) and time; the part by time comes from moving setpoints and inputs.
+// The control laws, theory (C1)-(C8) and (50). Each function returns a value and, if `gradient` is not null, appends its gradient by
+// positions, velocities, rates (multipliers and accelerations included) and time; the part by time comes from moving setpoints and inputs.
 
 // Defined in elements/signals.h. Declared here because controllers read signals and signals read controllers.
 template <class T>
@@ -37,6 +39,37 @@ T controller_error_rate(const StateView<T>& view, int controller, const T& facto
   return factor * setpoint.rate + signal_value(view, view.system.controllers()[c].input_rate, T(-factor), gradient);
 }
 
+/// How a robot runs a controller.
+template <class T>
+const ControlRealization& realization_of(const StateView<T>& view, int controller) {
+  return view.system.study().controllers[static_cast<std::size_t>(controller)].realization;
+}
+
+/// The rate of the filtered error, (e - x) / tau of (50). Appends its gradient.
+template <class T>
+T filtered_error_rate(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
+  const int x = view.system.controllers()[static_cast<std::size_t>(controller)].states.filter;
+  const T per_tau = T(1.0) / view.design.controllers[static_cast<std::size_t>(controller)].derivative_filter;
+  const auto before = mark(gradient);
+  const T error = controller_error(view, controller, gradient);
+  if (gradient) {
+    gradient->scale_from(before, per_tau);
+    gradient->position.push_back({view.layout.position_column(x), T(-per_tau)});
+  }
+  return per_tau * (error - view.state->s[x]);
+}
+
+/// k_i s of a continuous controller, saturated by i_clamp where that bounds the term alone, (50). Appends its gradient.
+template <class T>
+T clamped_integral_term(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
+  const auto c = static_cast<std::size_t>(controller);
+  const ControllerConstants<T>& k = view.design.controllers[c];
+  const int s = view.system.controllers()[c].state;
+  const SaturatedEffort<T> term = saturate(T(k.pid.i * view.state->s[s]), k.i_clamp);
+  if (gradient) gradient->position.push_back({view.layout.position_column(s), T(term.slope * k.pid.i)});
+  return term.value;
+}
+
 /// u = k_p e + k_i s + k_d e' of (C3), also the feedback part of (C5) and (C6). Appends its gradient.
 template <class T>
 T pid_output(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
@@ -45,17 +78,23 @@ T pid_output(const StateView<T>& view, int controller, OptionalGradient<T> gradi
   auto before = mark(gradient);
   const T error = controller_error(view, controller, gradient);
   if (gradient) gradient->scale_from(before, law.p);
-  T integral(0.0), error_rate(0.0);
-  if (resolved.state >= 0) {
+  T integral(0.0), error_rate(0.0), clamped(0.0);
+  const ControlRealization& realization = realization_of(view, controller);
+  const bool clamps_term = realization.i_clamp && !realization.antiwindup && resolved.state >= 0;
+  if (clamps_term) {
+    clamped = clamped_integral_term(view, controller, gradient);
+  } else if (resolved.state >= 0) {
     integral = view.state->s[resolved.state];
     if (gradient) gradient->position.push_back({view.layout.position_column(resolved.state), law.i});
   }
-  if (!resolved.input_rate.empty()) {
+  const bool filtered = resolved.states.filter >= 0;
+  if (filtered || !resolved.input_rate.empty()) {
     before = mark(gradient);
-    error_rate = controller_error_rate(view, controller, T(1.0), gradient);
+    error_rate = filtered ? filtered_error_rate(view, controller, gradient) : controller_error_rate(view, controller, T(1.0), gradient);
     if (gradient) gradient->scale_from(before, law.d);
   }
-  return law.output(error, integral, error_rate);
+  const T output = law.output(error, integral, error_rate);
+  return clamps_term ? T(output + clamped) : output;
 }
 
 /// The load tau_k of (C4) [N or N m] along the coordinate that the controller drives. Appends its gradient by positions and velocities, and
@@ -131,10 +170,9 @@ T shaped_input(const StateView<T>& view, int controller, OptionalGradient<T> gra
   return input.value;
 }
 
-/// The output u of a controller [N or N m], positive along the coordinate that it drives, before the actuator's limit (13c). Appends its
-/// gradient.
+/// What a continuous control law says [unit of the output], before any limit. Appends its gradient.
 template <class T>
-T controller_output(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
+T law_output(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
   switch (view.system.controllers()[static_cast<std::size_t>(controller)].kind) {
     case ControllerKind::kPid:
       return pid_output(view, controller, gradient);
@@ -153,25 +191,30 @@ T controller_output(const StateView<T>& view, int controller, OptionalGradient<T
   return shaped_input(view, controller, gradient);
 }
 
-/// Sets the row of a controller's integral state to sigma - e; nothing for controllers without one.
+/// The output u of a controller [N or N m], positive along the coordinate that it drives, before the actuator's limit (13c): of a sampled
+/// controller the output that is held, else what the law says within output_limit, (50). Appends its gradient.
 template <class T>
-void controller_residual(const StateView<T>& view, std::size_t c, VectorX<T>* G) {
-  const int s = view.system.controllers()[c].state;
-  if (s < 0) return;
-  const int row = view.layout.state_column(s);
-  (*G)[row] = view.state->z[row] - controller_error(view, static_cast<int>(c), nullptr);
+T controller_output(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
+  const int held = view.system.controllers()[static_cast<std::size_t>(controller)].states.held;
+  if (held >= 0) {
+    if (gradient) gradient->position.push_back({view.layout.position_column(held), T(1.0)});
+    return view.state->s[held];
+  }
+  const auto before = mark(gradient);
+  const T output = law_output(view, controller, gradient);
+  if (!realization_of(view, controller).output_limit) return output;
+  const SaturatedEffort<T> limited = saturate(output, view.design.controllers[static_cast<std::size_t>(controller)].output_limit);
+  if (gradient) gradient->scale_from(before, limited.slope);
+  return limited.value;
 }
 
-/// Adds the derivatives of controller_residual().
-template <class T, class Sink>
-void assemble_controller(const StateView<T>& view, Workspace<T>* workspace, std::size_t c, Sink* sink) {
-  const int s = view.system.controllers()[c].state;
-  if (s < 0) return;
-  const int row = view.layout.state_column(s);
-  sink->rate(row, row, T(1.0));
-  workspace->gradient.clear();
-  controller_error(view, static_cast<int>(c), &workspace->gradient);
-  add_row(row, T(-1.0), workspace->gradient, sink);
+/// What the drive makes of the output: the effort behind its lag, (53), else the output itself. Appends its gradient.
+template <class T>
+T drive_effort(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
+  const int lag = view.system.controllers()[static_cast<std::size_t>(controller)].states.lag;
+  if (lag < 0) return controller_output(view, controller, gradient);
+  if (gradient) gradient->position.push_back({view.layout.position_column(lag), T(1.0)});
+  return view.state->s[lag];
 }
 
 }  // namespace codesign

@@ -57,7 +57,7 @@ template <class T>
 T applied_effort(const StateView<T>& view, const JointLoad& load, OptionalGradient<T> gradient) {
   const auto before = mark(gradient);
   T demand(0.0);
-  for (int controller : load.controllers) demand += controller_output(view, controller, gradient);
+  for (int controller : load.controllers) demand += drive_effort(view, controller, gradient);
   if (!load.saturated) return demand;
   const T& limit = view.design.constants.pairs[static_cast<std::size_t>(load.pair)].dynamics[static_cast<std::size_t>(load.element)].effort;
   const SaturatedEffort<T> applied = saturate(demand, limit);

@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_ELEMENTS_SIGNALS_H_
 
 #include "elements/controllers.h"
+#include "elements/effort_rate.h"
 #include "elements/energy.h"
 #include "elements/gradient_rows.h"
 #include "elements/power.h"
@@ -82,15 +83,16 @@ T orientation_term(const StateView<T>& view, const SignalReference& term, const 
   return factor * value;
 }
 
-/// The applied effort of a joint, positive along its coordinate, or its friction on the child, -L of theory (13).
+/// The applied effort of a joint or its rate, positive along its coordinate, or its friction on the child, -L of theory (13).
 template <class T>
 T load_term(const StateView<T>& view, const SignalReference& term, const T& factor, OptionalGradient<T> gradient) {
   T sum(0.0);
   for (const JointLoad& load : view.system.loads()) {
     if (load.pair != term.pair || load.element != term.element) continue;
     const auto before = mark(gradient);
-    if (term.kind == SignalKind::kJointEffort) {
-      sum += factor * applied_effort(view, load, gradient);
+    if (term.kind == SignalKind::kJointEffort || term.kind == SignalKind::kJointEffortRate) {
+      const bool is_rate = term.kind == SignalKind::kJointEffortRate;
+      sum += factor * (is_rate ? applied_effort_rate(view, load, gradient) : applied_effort(view, load, gradient));
       if (gradient) gradient->scale_from(before, factor);
       continue;
     }
@@ -200,6 +202,7 @@ T term_value(const StateView<T>& view, const SignalReference& term, const T& fac
       return factor * value;
     }
     case SignalKind::kJointEffort:
+    case SignalKind::kJointEffortRate:
     case SignalKind::kJointFriction:
       return load_term(view, term, factor, gradient);
     case SignalKind::kJointNormalForce: {

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "control/control_clock.h"
 #include "elements/contact_friction.h"
 #include "elements/friction_state.h"
 #include "elements/power_kind.h"
@@ -51,6 +52,12 @@ class Formulas {
   /// Phi and Phi_q v of one pair's rows, for bodies that move as given; the ground is a body at rest.
   /// @param errors, rates one value per row of the pair.
   void pair_errors(int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, Out<T> errors, Out<T> rates) const;
+
+  /// Sets the states of controllers to those at t = 0, theory (50), (51): filters at rest, first samples taken.
+  void begin_controllers(State<T>* state);
+  /// Carries the states of sampled controllers over the events of an instant, theory (51). The rates state->z do not change; solve for
+  /// them afterwards.
+  void jump(const std::vector<ControlEvent>& events, State<T>* state);
 
   /// Sets State::turns to the joint positions of the state. To be called after each step, so that positions count whole turns.
   void track_turns(State<T>* state);

@@ -3,9 +3,11 @@
 #define MECHANISM_CODESIGN_EQUATIONS_FORMULAS_LOOP_H_
 
 #include "elements/body.h"
+#include "elements/controller_states.h"
 #include "elements/coupling.h"
 #include "elements/objective.h"
 #include "elements/pair.h"
+#include "elements/sampled_control.h"
 #include "elements/sharing_derivatives.h"
 #include "equations/formulas.h"
 
@@ -69,6 +71,18 @@ void Formulas<T>::assemble(Sink* sink) {
   for (std::size_t c = 0; c < system.controllers().size(); ++c) assemble_controller(view, &workspace_, c, sink);
   if (system.sharing().drops()) assemble_sharing(view, &workspace_, sink);
   assemble_objective(view, &workspace_, sink);
+}
+
+template <class T>
+void Formulas<T>::begin_controllers(State<T>* state) {
+  load(*state);
+  for (std::size_t c = 0; c < view_.system.controllers().size(); ++c) begin_controller(view_, static_cast<int>(c), &state->s);
+}
+
+template <class T>
+void Formulas<T>::jump(const std::vector<ControlEvent>& events, State<T>* state) {
+  load(*state);
+  for (const ControlEvent& event : events) jump_controller(view_, event, &state->s);
 }
 
 template <class T>

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "control/control_clock.h"
 #include "integration/break_times.h"
 #include "integration/idas_equations.h"
 #include "integration/idas_status.h"
@@ -15,7 +16,6 @@
 #include "integration/run_watch.h"
 #include "integration/singularity_watch.h"
 #include "integration/standstill.h"
-#include "text/decimal.h"
 
 namespace codesign {
 namespace {
@@ -35,6 +35,7 @@ class IdasIntegrator::Implementation {
         options_(system.study().solver),
         restart_drift_(restart_drift(options_.relative_tolerance)),
         breaks_(system.study()),
+        clock_(system.study()),
         owner_(owner),
         assembly_(system),
         watch_(system),
@@ -91,6 +92,9 @@ class IdasIntegrator::Implementation {
   void start_sensitivities(const std::vector<double>& parameters);
   void restart_solver();
   Status project();
+  Status jump();
+  template <class Change>
+  Status begin_anew(const Change& change);
   void warn_of_restart();
   /// The part of the multipliers, the last in y.
   Span<double> multipliers_of(const VectorHandle& y) const {
@@ -106,6 +110,7 @@ class IdasIntegrator::Implementation {
   const SolverOptions& options_;
   const double restart_drift_;
   const BreakTimes breaks_;
+  ControlClock clock_;
   Integrator* owner_;
   Assembly assembly_;
   MotionWatch watch_;
@@ -119,7 +124,7 @@ class IdasIntegrator::Implementation {
   std::unique_ptr<VectorArray> y_rho_, y_dot_rho_, psi_rho_, dense_rho_;
   IdaHandle ida_;
   IdasSensitivities* carried_ = nullptr;
-  State<double> initial_, state_;
+  State<double> initial_, state_, before_jump_;
   std::vector<State<double>> directions_;
   std::vector<double> scales_;
   VectorX<double> drift_, drift_rate_, position_correction_, velocity_correction_;
@@ -165,6 +170,7 @@ void IdasIntegrator::Implementation::set_tolerances() {
 
 Status IdasIntegrator::Implementation::start(const std::vector<double>& parameters) {
   statistics_ = {};
+  clock_.start();
   before_restart_ = {};
   largest_drift_ = drift_size_ = 0.0;
   message_.clear();
@@ -224,36 +230,47 @@ void IdasIntegrator::Implementation::restart_solver() {
   require(IDASetSensParams(ida, nullptr, scales_.data(), nullptr), "IDASetSensParams");
 }
 
+/// Restarts at state_, which has changed. @param change () -> changes directions_ alike; false if a matrix is singular.
+template <class Change>
+Status IdasIntegrator::Implementation::begin_anew(const Change& change) {
+  equations_.pack(state_, span_of(y_.get()), span_of(y_dot_.get()));
+  if (with_sensitivities()) {
+    for (int k = 0; k < carried_->count(); ++k) sensitivity(k, &directions_[static_cast<std::size_t>(k)]);
+    if (!change()) return {StatusCode::kSingularMatrix, state_.t, "the augmented matrix of the equations of motion is singular"};
+    for (int k = 0; k < carried_->count(); ++k)
+      equations_.pack(directions_[static_cast<std::size_t>(k)], y_rho_->span(k), y_dot_rho_->span(k));
+  }
+  before_restart_ = statistics_;
+  restart_solver();
+  return {};
+}
+
+// A multistep method interpolates the points before, so that it has to begin anew where the efforts jump.
+Status IdasIntegrator::Implementation::jump() {
+  const std::vector<ControlEvent>& events = clock_.due(state_.t);
+  if (events.empty()) return {};
+  before_jump_ = state_;
+  equations().formulas().jump(events, &state_);
+  if (Status status = assembly_.solve_rates(&equations(), &state_); !status.ok()) return status;
+  return begin_anew([&] { return carried_->jump(events, before_jump_, state_, &equations(), &directions_); });
+}
+
 // Projects state and sensitivities and restarts, since a multistep method interpolates the points before. Near a singular position this
 // keeps the mechanism on its branch: the smaller the smallest singular value of Phi_q, the farther a given drift displaces the mechanism.
 Status IdasIntegrator::Implementation::project() {
   if (!projection_.apply(&equations(), &state_))
     return {StatusCode::kSingularMatrix, state_.t, "the augmented matrix of the equations of motion is singular"};
   if (Status status = assembly_.solve_rates(&equations(), &state_); !status.ok()) return status;
-  equations_.pack(state_, span_of(y_.get()), span_of(y_dot_.get()));
-  if (with_sensitivities()) {
-    warn_of_restart();
-    for (int k = 0; k < carried_->count(); ++k) sensitivity(k, &directions_[static_cast<std::size_t>(k)]);
-    if (!carried_->project(state_, &equations(), &directions_))
-      return {StatusCode::kSingularMatrix, state_.t, "the augmented matrix of the equations of motion is singular"};
-    for (int k = 0; k < carried_->count(); ++k)
-      equations_.pack(directions_[static_cast<std::size_t>(k)], y_rho_->span(k), y_dot_rho_->span(k));
-  }
-  before_restart_ = statistics_;
-  restart_solver();
+  if (with_sensitivities()) warn_of_restart();
+  const auto project = [this] { return carried_->project(state_, &equations(), &directions_); };
+  if (Status status = begin_anew(project); !status.ok()) return status;
   drift_size_ = 0.0;
   return {};
 }
 
 /// A projection corrects the state, but the sensitivities keep the error of the steps that had drifted off the constraints.
 void IdasIntegrator::Implementation::warn_of_restart() {
-  if (!restart_warnings_.empty()) return;
-  restart_warnings_.push_back(
-      {"sensitivities_restarted",
-       "at t = " + to_decimal(state_.t) + " s the steps of idas had drifted off the constraints by " + to_decimal(drift_size_) +
-           " tolerances, as happens near a singular position: idas was restarted there, and the gradient may be wrong in its first digits; "
-           "compare it with solver.integrator: rosenbrock",
-       {}});
+  if (restart_warnings_.empty()) restart_warnings_.push_back(sensitivities_restarted(state_.t, drift_size_));
 }
 
 Status IdasIntegrator::Implementation::advance(double limit) {
@@ -268,9 +285,11 @@ Status IdasIntegrator::Implementation::take_step(double limit) {
   // At the beginning of the next step, since dense output within the last one needs its history.
   if (drift_size_ > restart_drift_)
     if (Status status = project(); !status.ok()) return status;
+  if (!clock_.is_empty())
+    if (Status status = jump(); !status.ok()) return status;
   void* ida = ida_.get();
   double time = state_.t;
-  const double stop = breaks_.next(state_.t, limit);
+  const double stop = clock_.next(breaks_.next(state_.t, limit));
   require(IDASetStopTime(ida, stop), "IDASetStopTime");
   const int flag = IDASolve(ida, stop, &time, y_.get(), y_dot_.get(), IDA_ONE_STEP);
   count_steps();

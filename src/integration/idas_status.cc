@@ -3,6 +3,8 @@
 
 #include <idas/idas.h>
 
+#include "text/decimal.h"
+
 namespace codesign {
 namespace {
 
@@ -49,6 +51,14 @@ Status idas_status(int flag, double time, bool singular, const std::string& mess
   if (flag >= 0) return {};
   const StatusCode code = code_of(flag, singular);
   return {code, time, sentence_of(code) + (message.empty() ? std::string() : " (IDAS: " + message + ")")};
+}
+
+Warning sensitivities_restarted(double time, double drift) {
+  return {"sensitivities_restarted",
+          "at t = " + to_decimal(time) + " s the steps of idas had drifted off the constraints by " + to_decimal(drift) +
+              " tolerances, as happens near a singular position: idas was restarted there, and the gradient may be wrong in its first "
+              "digits; compare it with solver.integrator: rosenbrock",
+          {}};
 }
 
 }  // namespace codesign

@@ -16,6 +16,10 @@ Status assemble_start(const CompiledSystem& system, const std::vector<double>& p
   equations->set_design(parameters);
   if (std::string fault = find_impossible(system.robot(), system.topology(), equations->constants()); !fault.empty())
     return {StatusCode::kInvalidDesign, 0.0, fault};
+  const std::vector<ControllerDescription>& controllers = system.study().controllers;
+  for (std::size_t c = 0; c < controllers.size(); ++c)
+    if (std::string fault = find_impossible(controllers[c], equations->formulas().view().design.controllers[c]); !fault.empty())
+      return {StatusCode::kInvalidDesign, 0.0, fault};
   return assembly->solve(parameters, equations, initial);
 }
 

@@ -13,6 +13,7 @@ RosenbrockIntegrator::RosenbrockIntegrator(const CompiledSystem& system)
     : system_(system),
       options_(system.study().solver),
       breaks_(system.study()),
+      clock_(system.study()),
       step_(system, rosenbrock_tableau(options_.method)),
       assembly_(system),
       controller_(step_.tableau().order),
@@ -39,6 +40,8 @@ void RosenbrockIntegrator::settle_pivots() {
 
 Status RosenbrockIntegrator::begin(const std::vector<double>& parameters) {
   statistics_ = {};
+  clock_.start();
+  jump_events_.clear();
   controller_ = StepController(step_.tableau().order);
   if (Status status = assemble_start(system_, parameters, &assembly_, &step_.equations(), &initial_); !status.ok()) return status;
   step_.start(initial_);
@@ -82,7 +85,24 @@ void RosenbrockIntegrator::interpolate_rates(double time, State<double>* rates) 
   step_.interpolate_rates((time - step_.previous().t) / step_.step_size(), rates);
 }
 
+// At the beginning of the next step, since the dense output of the last one ends with the state before the jump. Accelerations and
+// multipliers jump with the efforts, and a Rosenbrock method needs them consistent.
+Status RosenbrockIntegrator::jump() {
+  jump_events_.clear();
+  if (clock_.is_empty()) return {};
+  jump_events_ = clock_.due(step_.state().t);
+  if (jump_events_.empty()) return {};
+  before_jump_ = step_.state();
+  State<double>& behind = behind_jump_ = before_jump_;
+  step_.equations().formulas().jump(jump_events_, &behind);
+  if (Status status = assembly_.solve_rates(&step_.equations(), &behind); !status.ok()) return status;
+  step_.restart(behind);
+  work_.start(behind, run_watch_.motion());
+  return {};
+}
+
 Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_accept) {
+  if (Status status = jump(); !status.ok()) return status;
   const double t = step_.state().t;
   const double smallest = 16.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), 1e-3 * system_.study().duration);
   bool singular = false;
@@ -97,7 +117,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     double h = proposal_;
     if (options_.maximum_step > 0.0) h = std::min(h, options_.maximum_step);
     // Stretches the step by up to a tenth or halves the remaining time, so that no tiny step is left before the limit.
-    const double rest = breaks_.next(t, limit) - t;
+    const double rest = clock_.next(breaks_.next(t, limit)) - t;
     const bool last = h >= rest / 1.1;
     if (last) h = rest;
     if (!last && h > 0.5 * rest) h = 0.5 * rest;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "control/control_clock.h"
 #include "integration/break_times.h"
 #include "integration/integrator.h"
 #include "integration/motion_watch.h"
@@ -38,6 +39,13 @@ class RosenbrockIntegrator final : public Integrator {
 
   Status advance(double limit, const BeforeAccept& before_accept);
 
+  /// Carries the states of sampled controllers over the events at the end of the last step, theory (51). advance() does so by itself; to be
+  /// called before it by those who need jump_events() and before_jump().
+  Status jump();
+  /// The events of the last jump(), none if there was nothing to do, and the state before them.
+  const std::vector<ControlEvent>& jump_events() const { return jump_events_; }
+  const State<double>& before_jump() const { return before_jump_; }
+
   const RosenbrockStep<double>& step() const { return step_; }
   RosenbrockStep<double>& step() { return step_; }
   const State<double>& initial_state() const { return initial_; }
@@ -50,6 +58,9 @@ class RosenbrockIntegrator final : public Integrator {
   const CompiledSystem& system_;
   const SolverOptions& options_;
   const BreakTimes breaks_;
+  ControlClock clock_;
+  std::vector<ControlEvent> jump_events_;
+  State<double> before_jump_, behind_jump_;
   RosenbrockStep<double> step_;
   Assembly assembly_;
   State<double> initial_;

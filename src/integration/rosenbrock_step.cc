@@ -34,6 +34,12 @@ void RosenbrockStep<T>::start(const State<T>& state) {
   equations_.linearize(state_, &derivatives_);
 }
 
+template <class T>
+void RosenbrockStep<T>::restart(const State<T>& state) {
+  state_ = state;
+  equations_.linearize(state_, &derivatives_);
+}
+
 // A matrix that is singular here is told by the step that needs it.
 template <class T>
 void RosenbrockStep<T>::choose_pivots(double h) {

@@ -31,6 +31,9 @@ class RosenbrockStep {
   /// Starts a solution at a consistent state; psi() is zero. equations() must hold the design.
   void start(const State<T>& state);
 
+  /// Continues a solution at another state of the same time, such as that behind a jump; psi() stays.
+  void restart(const State<T>& state);
+
   /// Begins again with the pivots of settle_pivots(), or chooses pivots anew without it, so that no bit of later steps depends on the runs
   /// before. For the beginning of a run, after start(). @param h size of the first step [s].
   void choose_pivots(double h);

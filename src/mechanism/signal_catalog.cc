@@ -45,7 +45,7 @@ const Names& mechanism_quantities() {
 void add_joint(const JointDescription& joint, Offer* offer) {
   offer->exists = true;
   if (has_one_coordinate(joint.type))
-    offer->scalars = {"position", "velocity", "acceleration", "effort", "actuator_power", "damping_power", "load_power"};
+    offer->scalars = {"position", "velocity", "acceleration", "effort", "effort_rate", "actuator_power", "damping_power", "load_power"};
   if (has_friction(joint))
     for (const char* quantity : {"friction", "normal_force", "sliding_velocity", "friction_power"}) offer->scalars.emplace_back(quantity);
   offer->welded = joint.type == JointType::kFixed && !joint.is_loop;

@@ -129,6 +129,7 @@ Problem apply_request(const Problem& problem, const mechanism_codesign::Identify
 
 Eigen::VectorXd design_of(const Problem& problem, const mechanism_codesign::EvaluateRequest& request) {
   require_objective(problem);
+  require_differentiable(problem.study());
   const std::vector<std::string> tuned = problem.tuned_names();
   check_length("check", request.check);
   check_size(problem, request.parameters, request.values, "values");

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
 #include "math/cpu_timer.h"
 #include "sensitivity/gradient_engine.h"
@@ -30,6 +31,11 @@ class Evaluator::Implementation {
     if (!engine) engine = make_gradient_engine(*system_, cancel, derivatives);
     if (!engine) {
       evaluation.status = {StatusCode::kCancelled, 0.0, "cancelled"};
+      return evaluation;
+    }
+    if (const ControllerDescription* rounded = derivatives == Derivatives::kNone ? nullptr : find_rounded(system_->study())) {
+      evaluation.status = {StatusCode::kNonFiniteGradient, 0.0,
+                           "there is no gradient: controllers." + rounded->name + ".quantization rounds a measurement"};
       return evaluation;
     }
     const CpuTimer timer;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/control_clock.h"
 #include "equations/compiled_system.h"
 #include "integration/rosenbrock_integrator.h"
 #include "math/ridders.h"
@@ -37,30 +38,39 @@ struct Replayed {
   VectorX<Complex> watched;
 };
 
+State<double> real_part(const State<Complex>& state) {
+  return {state.t, state.q.real(), state.v.real(), state.s.real(), state.z.real(), state.turns};
+}
+
 /// The numbers of watched signals whose times lie in the last step (at the start: at t = 0), at the same times.
 void replay_watched(const CompiledSystem& system, const Eigen::VectorXd& times, RosenbrockIntegrator* integrator,
                     RosenbrockStep<Complex>* step, VectorX<Complex>* watched) {
   const double from = step->previous().t, to = step->state().t, h = step->step_size();
   const WatchLayout layout(system.study());
   State<Complex> state;
-  State<double> real;
   Complex psi;
-  real.resize(system.layout());
   for (std::size_t k = 0; k < layout.entries().size(); ++k)
     for (int place = layout.entries()[k].first; place < layout.entries()[k].first + layout.entries()[k].size(); ++place) {
       const double time = times[place];
       if (h > 0.0 ? !(time > from && time <= to) : time > 0.0) continue;
       step->interpolate(h > 0.0 ? (time - from) / h : 1.0, &state, &psi);
-      state.t = real.t = time;
-      real.q = state.q.real();
-      real.v = state.v.real();
-      real.s = state.s.real();
-      real.z = state.z.real();
-      real.turns = state.turns;
+      state.t = time;
+      State<double> real = real_part(state);
       if (!integrator->assembly().solve_rates(&integrator->equations(), &real).ok()) continue;
       integrator->assembly().extend_rates(real.z, &step->equations(), &state);
       (*watched)[place] = step->equations().formulas().watched(k, state, nullptr);
     }
+}
+
+/// Carries a complex run over the events of sampled controllers.
+void replay_jump(const std::vector<ControlEvent>& events, RosenbrockIntegrator* integrator, RosenbrockStep<Complex>* step) {
+  if (events.empty()) return;
+  State<Complex> state = step->state();
+  step->equations().formulas().jump(events, &state);
+  State<double> real = real_part(state);
+  if (!integrator->assembly().solve_rates(&integrator->equations(), &real).ok()) return;
+  integrator->assembly().extend_rates(real.z, &step->equations(), &state);
+  step->restart(state);
 }
 
 /// The run with steps of the same sizes in complex arithmetic.
@@ -77,8 +87,10 @@ Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parame
   integrator->assembly().extend(parameters, integrator->initial_state(), &step.equations(), &state);
   step.start(state);
   if (result.watched.size() > 0) replay_watched(system, extremes.times, integrator, &step, &result.watched);
+  ControlClock clock(system.study());
   for (double h : steps) {
     if (is_set(cancel)) break;
+    replay_jump(clock.due(step.state().t), integrator, &step);
     step.attempt(h);
     step.accept();
     step.track_turns();

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensitivity/gradient_engine.h"
 
+#include "control/control_clock.h"
 #include "equations/compiled_system.h"
 #include "sensitivity/adjoint_gradient.h"
 #include "sensitivity/gradient_cost.h"
@@ -17,6 +18,8 @@ std::optional<LanePlan> backward_plan(const CompiledSystem& system, const std::a
   if (options.integrator != IntegratorKind::kRosenbrock || options.gradient == GradientMethod::kDirect) return std::nullopt;
   // The adjoint has no derivatives of the extreme values of watched signals.
   if (!system.watched().empty()) return std::nullopt;
+  // Nor does it go back over the jumps of sampled controllers.
+  if (!ControlClock(system.study()).is_empty()) return std::nullopt;
   if (options.gradient == GradientMethod::kAdjoint) return plan_lanes(system, cancel);
   // solver.sensitivity_tolerance tests the errors of direct sensitivities, which the adjoint does not compute.
   if (options.sensitivity_tolerance > 0.0) return std::nullopt;

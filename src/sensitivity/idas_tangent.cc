@@ -26,6 +26,17 @@ void IdasTangent::Group<N>::load(const State<double>& at, const std::vector<Stat
   }
 }
 
+template <int N>
+void IdasTangent::Group<N>::take(int k, State<double>* direction) const {
+  const auto copy = [k](const VectorX<Scalar>& from, VectorX<double>* to) {
+    for (Eigen::Index i = 0; i < from.size(); ++i) (*to)[i] = from[i].v[k];
+  };
+  copy(state.q, &direction->q);
+  copy(state.v, &direction->v);
+  copy(state.s, &direction->s);
+  copy(state.z, &direction->z);
+}
+
 IdasTangent::IdasTangent(const CompiledSystem& system)
     : system_(system),
       groups_(system),
@@ -41,16 +52,7 @@ void IdasTangent::start(const std::vector<double>& parameters, const State<doubl
     const auto lanes = group->range.seed(system_, parameters);
     group->equations.set_design(lanes);
     integrator->assembly().extend(lanes, initial, &group->equations, &group->state);
-    for (int k = 0; k < group->range.count; ++k) {
-      State<double>& to = (*sensitivities)[static_cast<std::size_t>(group->range.first + k)];
-      const auto take = [k](const auto& from, VectorX<double>* direction) {
-        for (Eigen::Index i = 0; i < from.size(); ++i) (*direction)[i] = from[i].v[k];
-      };
-      take(group->state.q, &to.q);
-      take(group->state.v, &to.v);
-      take(group->state.s, &to.s);
-      take(group->state.z, &to.z);
-    }
+    for (int k = 0; k < group->range.count; ++k) group->take(k, &(*sensitivities)[static_cast<std::size_t>(group->range.first + k)]);
   });
   for (std::size_t k = 0; k < scales->size(); ++k) {
     const double value = std::abs(parameters[static_cast<std::size_t>(system_.study().tuned[k])]);
@@ -122,6 +124,18 @@ void IdasTangent::correct(const State<double>& state, VectorX<double> State<doub
       (*directions)[static_cast<std::size_t>(group->range.first + k)].*part += dG_.head(layout.n);
     }
   });
+}
+
+bool IdasTangent::jump(const std::vector<ControlEvent>& events, const State<double>& before, const State<double>& behind,
+                       Equations<double>* equations, std::vector<State<double>>* directions) {
+  groups_.for_each([&](auto* group) {
+    group->load(before, directions);
+    group->equations.formulas().jump(events, &group->state);
+    for (int k = 0; k < group->range.count; ++k) group->take(k, &(*directions)[static_cast<std::size_t>(group->range.first + k)]);
+  });
+  if (!factor(behind, equations)) return false;
+  solve_rates(directions);
+  return true;
 }
 
 bool IdasTangent::project(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions) {

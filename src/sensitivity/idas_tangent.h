@@ -23,6 +23,8 @@ class IdasTangent final : public IdasSensitivities {
              std::vector<State<double>>* sensitivities, std::vector<double>* scales) override;
   void linearize(const State<double>& state, double kappa, Equations<double>* equations) override;
   void derivative(int k, const State<double>& direction, VectorX<double>* result) override;
+  bool jump(const std::vector<ControlEvent>& events, const State<double>& before, const State<double>& behind, Equations<double>* equations,
+            std::vector<State<double>>* directions) override;
   bool project(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions) override;
 
   /// Sets `gradient` (p entries) to the total derivative of the terminal terms w by rho at a consistent state; NaN if G_z is
@@ -44,6 +46,8 @@ class IdasTangent final : public IdasSensitivities {
     /// Sets the lanes of `state`: the values from `at`, the first-order parts from the `directions` of this group's parameters, or zero for
     /// nullptr.
     void load(const State<double>& at, const std::vector<State<double>>* directions);
+    /// Copies the k-th lane of `state` to a direction.
+    void take(int k, State<double>* direction) const;
 
     LaneRange<N> range;
     Equations<Scalar> equations;

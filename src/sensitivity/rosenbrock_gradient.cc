@@ -95,7 +95,18 @@ void RosenbrockGradient::carry(int first, const std::vector<double>& parameters)
   });
 }
 
+Status RosenbrockGradient::jump() {
+  Status status = integrator_.jump();
+  if (!status.ok() || integrator_.jump_events().empty()) return status;
+  groups_->for_each([this](auto* group) {
+    group->step.jump(integrator_.jump_events(), integrator_.before_jump(), integrator_.state(), integrator_.assembly());
+  });
+  return status;
+}
+
 Status RosenbrockGradient::advance(double limit) {
+  if (with_gradient_)
+    if (Status status = jump(); !status.ok()) return status;
   Status status = with_gradient_ ? integrator_.advance(limit, stages_) : integrator_.advance(limit);
   if (status.ok() && with_gradient_) groups_->for_each([this](auto* group) { group->step.accept(integrator_.step()); });
   if (status.ok() && with_root_) residuals_.look();

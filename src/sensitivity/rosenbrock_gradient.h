@@ -50,6 +50,8 @@ class RosenbrockGradient final : public GradientEngine {
   Status start_watches();
   /// Starts the tangents of the parameters from `first` on.
   void carry(int first, const std::vector<double>& parameters);
+  /// Carries state and sensitivities over the events of sampled controllers, theory (51).
+  Status jump();
   void collect(Eigen::VectorXd* gradient);
   void differentiate(std::size_t watched, const State<double>& state, bool reads_rates, Eigen::VectorXd* gradient);
   void differentiate_residuals(ObjectivePart part, const State<double>& state, Eigen::MatrixXd* rows);

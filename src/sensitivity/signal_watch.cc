@@ -22,7 +22,8 @@ bool jumps(double before, double after) { return std::abs(after - before) > 1e-8
 
 }  // namespace
 
-SignalWatch::SignalWatch(const CompiledSystem& system) : system_(system), layout_(system.study()), curves_(system.watched().size()) {
+SignalWatch::SignalWatch(const CompiledSystem& system)
+    : system_(system), layout_(system.study()), clock_(system.study()), curves_(system.watched().size()) {
   state_.resize(system.layout());
   rates_.resize(system.layout());
 }
@@ -32,6 +33,8 @@ Status SignalWatch::start(Integrator* integrator, Differentiate differentiate) {
   differentiate_ = std::move(differentiate);
   status_ = {};
   time_ = integrator->state().t;
+  clock_.start();
+  begins_at_jump_ = ends_at_jump_ = false;
   const auto parameters = static_cast<Eigen::Index>(differentiate_ ? system_.study().tuned.size() : 0);
   extremes_.values.setConstant(layout_.size(), std::numeric_limits<double>::quiet_NaN());
   extremes_.times.setZero(layout_.size());
@@ -49,6 +52,8 @@ Status SignalWatch::start(Integrator* integrator, Differentiate differentiate) {
 
 Status SignalWatch::look() {
   const double from = time_, to = integrator_->state().t;
+  begins_at_jump_ = ends_at_jump_;
+  ends_at_jump_ = !clock_.due(to).empty();
   for (std::size_t k = 0; k < curves_.size() && status_.ok(); ++k) follow(k, from, to);
   time_ = to;
   return status_;
@@ -114,7 +119,7 @@ void SignalWatch::follow(std::size_t k, double from, double to) {
   if (!status_.ok()) return;
   Sample last = sample(k, inside(begin));
   // Where one step ends and the next begins, the slope may jump.
-  if (last.slope * curve.end_slope < 0.0) offer(k, last.time);
+  if (last.slope * curve.end_slope < 0.0 || begins_at_jump_) offer(k, last.time);
   for (double point : points_) {
     if (!status_.ok()) return;
     const Sample next = sample(k, inside(point));
@@ -123,6 +128,8 @@ void SignalWatch::follow(std::size_t k, double from, double to) {
     // Functions of time are those behind a break time from that time on, which rounding may have put behind the end of the step.
     const double behind = is_break ? std::min(std::max(point, *break_time), system_.study().duration) : point;
     if (is_break) look_for_jump(k, next, behind, curve.next < instants.size() && instants[curve.next] <= point + slack);
+    // A step ends with the state before the jump of sampled controllers, which the next one begins with.
+    if (ends_at_jump_ && point == end && end == to) offer(k, next.time);
     reach(point, behind);
     if (is_break) break_time.reset();
     last = next;

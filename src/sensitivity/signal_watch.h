@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "control/control_clock.h"
 #include "integration/integrator.h"
 #include "integration/watch_layout.h"
 #include "mechanism_codesign/gradient.h"
@@ -58,6 +59,8 @@ class SignalWatch {
 
   const CompiledSystem& system_;
   const WatchLayout layout_;
+  ControlClock clock_;
+  bool begins_at_jump_ = false, ends_at_jump_ = false;  ///< whether sampled controllers act where the last step begins and ends
   Integrator* integrator_ = nullptr;
   Differentiate differentiate_;
   std::vector<Curve> curves_;

@@ -42,19 +42,33 @@ void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assemb
   State<Lanes<N>> start;
   start.resize(layout_);
   assembly.extend(parameters, initial, &equations_.equations(), &start);
-  const auto take = [this](const VectorX<Lanes<N>>& lanes, int first) {
-    for (Eigen::Index k = 0; k < lanes.size(); ++k) y_.col(first + k) = lanes[k].directions();
-  };
   y_.setZero();
-  take(start.q, at_.x());
-  take(start.s, at_.s());
-  take(start.v, at_.v());
-  take(start.z, at_.z());
-  equations_.linearize(initial, y_);
+  take_up(initial, start);
   largest_x_.setZero();
   largest_v_.setZero();
   measure();
   if (keeps_previous_) previous_y_ = y_;
+}
+
+template <int N>
+void TangentStep<N>::take_up(const State<double>& at, const State<Lanes<N>>& lanes) {
+  const auto take = [this](const VectorX<Lanes<N>>& of, int first) {
+    for (Eigen::Index k = 0; k < of.size(); ++k) y_.col(first + k) = of[k].directions();
+  };
+  take(lanes.q, at_.x());
+  take(lanes.s, at_.s());
+  take(lanes.v, at_.v());
+  take(lanes.z, at_.z());
+  equations_.linearize(at, y_);
+}
+
+template <int N>
+void TangentStep<N>::jump(const std::vector<ControlEvent>& events, const State<double>& before, const State<double>& behind,
+                          const Assembly& assembly) {
+  point_ = equations_.lanes(before, y_);
+  equations_.equations().formulas().jump(events, &point_);
+  assembly.extend_rates(behind.z, &equations_.equations(), &point_);
+  take_up(behind, point_);
 }
 
 template <int N>

@@ -36,6 +36,10 @@ class TangentStep {
   /// Accepts the last attempt: computes the tangent of its end and projection. To be called after RosenbrockStep::accept().
   void accept(const RosenbrockStep<double>& step);
 
+  /// Carries the sensitivities over a jump of the step's integrator: the derivative of (q, v, g(q, v, s)) and of the rates that belong to
+  /// it. @param assembly that solved for the rates of `behind`. @param behind the state behind the jump, where the step begins anew.
+  void jump(const std::vector<ControlEvent>& events, const State<double>& before, const State<double>& behind, const Assembly& assembly);
+
   /// Derivatives of the objective: psi() of its integral so far, terminal() of its terminal terms at `state`, the end of the last step.
   Eigen::Matrix<double, N, 1> psi() const { return y_.col(at_.psi()); }
   Eigen::Matrix<double, N, 1> terminal(const State<double>& state);
@@ -55,6 +59,8 @@ class TangentStep {
   const Directions<N>& directions() const { return y_; }
 
  private:
+  /// Takes the directions of `lanes`, whose values are those of `at`, and begins the next step there.
+  void take_up(const State<double>& at, const State<Lanes<N>>& lanes);
   using Vector = typename Lanes<N>::Vector;
   /// to = from + sum of factors[j] u'_j, for the components of u' from the `first` on.
   void combine(In<double> from, In<double> factors, int first, Out<double> to) const;

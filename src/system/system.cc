@@ -79,6 +79,11 @@ void System::check_signals() const {
   for (std::size_t k = 0; k < watched_.size(); ++k) check_readable(watched_[k], study_.watched[k].signal);
 }
 
+bool System::begins_controllers() const {
+  return std::any_of(controllers_.begin(), controllers_.end(),
+                     [](const Controller& controller) { return controller.states.filter >= 0 || controller.states.held >= 0; });
+}
+
 void System::collect_loads() {
   for (std::size_t p = 0; p < topology_.pairs.size(); ++p) {
     const Pair& pair = topology_.pairs[p];
@@ -206,11 +211,24 @@ void System::check_couplings() const {
                           "in a ball joint of three hinges, hinges at right angles to each other"});
 }
 
+void System::check_effort_rate(const SignalReference& term, const SignalDescription& description) const {
+  for (std::size_t c = 0; c < controllers_.size(); ++c) {
+    if (controllers_[c].pair != term.pair || controllers_[c].element != term.element || controllers_[c].has_output_rate) continue;
+    const ControllerDescription& controller = study_.controllers[c];
+    const bool sampled = controller.realization.is_sampled();
+    throw InputError({description.where, "signal",
+                      "the effort of the joint has no rate: the output of the controller \"" + controller.name + "\" " +
+                          (sampled ? "jumps at its samples" : "contains a signal whose rate is not available"),
+                      description.text, "give the controller a time_constant" + std::string(sampled ? "" : " or a derivative_filter")});
+  }
+}
+
 void System::check_readable(const Signal& signal, const SignalDescription& description) const {
   for (const SignalReference& term : signal) {
     if (term.kind == SignalKind::kControllerIntegral && controllers_[static_cast<std::size_t>(term.controller)].state < 0)
       throw InputError({description.where, "signal", "the controller has no i gain, so that its error is not integrated", description.text,
                         "an i gain, or the signal in the objective or in a later controller"});
+    if (term.kind == SignalKind::kJointEffortRate) check_effort_rate(term, description);
     const bool coordinate = term.kind == SignalKind::kJointPosition || term.kind == SignalKind::kJointVelocity ||
                             term.kind == SignalKind::kJointAcceleration || term.kind == SignalKind::kJointSlidingVelocity;
     if (!coordinate || has_coordinate_[static_cast<std::size_t>(term.pair)][static_cast<std::size_t>(term.element)]) continue;

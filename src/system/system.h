@@ -71,6 +71,8 @@ class System {
   const std::vector<Controller>& controllers() const { return controllers_; }
   /// Row of Phi of the k-th drive.
   int drive_row(int k) const { return layout_.coupling_row(layout_.couplings - drives_ + k); }
+  /// Whether a controller has states that do not begin at zero, theory (50), (51).
+  bool begins_controllers() const;
   /// One entry per joint coordinate on which anything acts.
   const std::vector<JointLoad>& loads() const { return loads_; }
   const std::vector<LinkLoad>& link_loads() const { return link_loads_; }
@@ -105,6 +107,7 @@ class System {
   void lay_out();
   void resolve_controllers();
   void check_signals() const;
+  void check_effort_rate(const SignalReference& term, const SignalDescription& description) const;
   void collect_loads();
   void collect_link_loads();
   void collect_rotors();

@@ -31,5 +31,26 @@ TEST(ControllerConstants, EveryNumberOfALawIsEvaluatedAtTheDesign) {
   EXPECT_EQ(controller_constants(study.controllers.at(2), parameters).shape.coefficients(), (std::vector<double>{1.0, 5.3}));
 }
 
+TEST(ControllerConstants, ImpossibleNumbersOfADesignAreNamed) {
+  const Study study =
+      read_text(kLeastStudy +
+                "parameters: {k: {initial: 2.0}}\ncontrollers:\n  speed: {type: pid, input: crank_joint/velocity, setpoint: 0, "
+                "output: crank_joint, gains: {p: 1, i: 1, d: 1}, i_clamp: \"${k}\", output_limit: \"${2*k}\", derivative_filter: "
+                "\"${k}\", time_constant: \"${k/2}\"}\n");
+  std::vector<double> parameters;
+  for (const Parameter& parameter : study.parameters) parameters.push_back(parameter.value);
+  const ControllerDescription& description = study.controllers.at(0);
+  ControllerConstants<double> constants = controller_constants(description, parameters);
+  EXPECT_EQ(constants.i_clamp, 2.0);
+  EXPECT_EQ(constants.output_limit, 4.0);
+  EXPECT_EQ(constants.derivative_filter, 2.0);
+  EXPECT_EQ(constants.time_constant, 1.0);
+  EXPECT_EQ(find_impossible(description, constants), "");
+  constants.time_constant = -1.0;
+  EXPECT_EQ(find_impossible(description, constants), "controllers.speed.time_constant is -1, it must be positive");
+  constants.i_clamp = 0.0;
+  EXPECT_NE(find_impossible(description, constants).find("i_clamp is 0"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace codesign

@@ -46,6 +46,59 @@ TEST(Controller, ALaterControllerMakesAnEarlierOneIntegrate) {
   EXPECT_EQ(by_feedback.states, 1);
 }
 
+TEST(Controller, WhatARobotsControllerRemembersAreStates) {
+  const std::string pid = "  a: {type: pid, input: shoulder/position, setpoint: 0.0, output: shoulder, gains: {p: 1.0, i: 1.0, d: 1.0}, ";
+  const Resolved filtered(pid + "derivative_filter: 0.1, time_constant: 0.1}\n");
+  EXPECT_EQ(filtered.states, 3);
+  EXPECT_EQ(filtered.controllers.at(0).state, 0);
+  EXPECT_EQ(filtered.controllers.at(0).states.filter, 1);
+  EXPECT_EQ(filtered.controllers.at(0).states.lag, 2);
+  EXPECT_TRUE(filtered.controllers.at(0).input_rate.empty()) << "the filter needs the error alone";
+  const Resolved sampled(pid + "sample_time: 0.1, delay: 0.25}\n" +
+                         "  b: {type: basis, output: elbow, coefficients: [0.0, 1.0], sample_time: 0.1}\n");
+  EXPECT_EQ(sampled.states, 7) << "integral, last error, output, three that wait; output of b";
+  EXPECT_EQ(sampled.controllers.at(0).states.filter, -1);
+  EXPECT_EQ(sampled.controllers.at(0).states.queue, 3);
+  EXPECT_EQ(sampled.controllers.at(1).states.held, 6);
+  EXPECT_EQ(sampled.controllers.at(1).states.queue, -1);
+}
+
+TEST(Controller, SampledOnesReadWhatTheyDoNotDetermine) {
+  const auto law = [](const std::string& input, const std::string& keys) {
+    return "  a: {type: pid, input: " + input + ", setpoint: 0.0, output: shoulder, gains: {p: 1.0, d: 1.0}, " + keys + "}\n";
+  };
+  for (const char* keys : {"sample_time: 0.1", "derivative_filter: 0.1"}) {
+    EXPECT_THROW(Resolved(law("shoulder/acceleration", keys)), InputError);
+    EXPECT_THROW(Resolved(law("elbow/position + elbow/reaction_force/x", keys)), InputError);
+    EXPECT_NO_THROW(Resolved(law("shoulder/velocity - mechanism/total_energy", keys)));
+  }
+  EXPECT_THROW(
+      Resolved("  a: {type: state_feedback, output: elbow, feedback: [{signal: elbow/acceleration, gain: 1.0}], sample_time: 0.1}\n"),
+      InputError);
+  // The integral of a clamped controller has no rate that could be differentiated.
+  const std::string inner =
+      "  i: {type: pid, input: elbow/position, setpoint: 0.0, output: elbow, gains: {i: 1.0}, i_clamp: 1.0, antiwindup: ";
+  const std::string outer = "  o: {type: pid, input: i/integral, setpoint: 0.0, output: shoulder, gains: {d: 1.0}}\n";
+  EXPECT_THROW(Resolved(inner + "true}\n" + outer), InputError);
+  EXPECT_NO_THROW(Resolved(inner + "false}\n" + outer));
+}
+
+TEST(Controller, TheRateOfAnOutputNeedsRatesOfItsSignals) {
+  const auto has_rate = [](const std::string& law) {
+    return Resolved("  a: {output: shoulder, " + law + "}\n").controllers.at(0).has_output_rate;
+  };
+  const std::string velocity = "type: pid, setpoint: 0.0, input: shoulder/velocity, ";
+  EXPECT_TRUE(has_rate(velocity + "gains: {p: 1.0, i: 1.0}"));
+  EXPECT_FALSE(has_rate(velocity + "gains: {p: 1.0, d: 1.0}")) << "no rate of an acceleration";
+  EXPECT_TRUE(has_rate(velocity + "gains: {p: 1.0, d: 1.0}, derivative_filter: 0.1"));
+  EXPECT_TRUE(has_rate(velocity + "gains: {p: 1.0, d: 1.0}, time_constant: 0.1"));
+  EXPECT_FALSE(has_rate(velocity + "gains: {p: 1.0}, sample_time: 0.1"));
+  EXPECT_TRUE(has_rate(velocity + "gains: {p: 1.0}, sample_time: 0.1, time_constant: 0.1"));
+  EXPECT_TRUE(has_rate("type: state_feedback, feedback: [{signal: elbow/velocity, gain: 1.0}]"));
+  EXPECT_FALSE(has_rate("type: state_feedback, feedback: [{signal: elbow/acceleration, gain: 1.0}]"));
+  EXPECT_FALSE(has_rate("type: pd_gravity, setpoint: 0.0, gains: {p: 1.0}"));
+}
+
 TEST(Controller, FeedbackReadsEarlierControllersOnly) {
   EXPECT_THROW(Resolved("  a: {type: state_feedback, output: elbow, feedback: [{signal: elbow/effort, gain: 1.0}]}\n"), InputError);
   EXPECT_NO_THROW(

@@ -6,6 +6,7 @@
 
 #include "mechanism/signal_catalog.h"
 #include "reading/study/study_basis.h"
+#include "reading/study/study_realization.h"
 #include "reading/study/study_references.h"
 #include "reading/study/study_values.h"
 
@@ -52,7 +53,7 @@ SignalDescription own_position(const ControllerDescription& controller) {
 }
 
 void read_pid(const YamlValue& value, const Context& context, ControllerDescription* controller) {
-  value.require_keys({"type", "input", "setpoint", "output", "gains"}, {});
+  value.require_keys({"type", "input", "setpoint", "gains"}, with_realization_keys(controller->kind, {"output"}));
   controller->input = read_signal(value.at("input"), context);
   controller->setpoint = read_reference(value.at("setpoint"), context.table, context.loader);
   read_gains(value.at("gains"), {"p", "i", "d"}, context.table, controller);
@@ -60,14 +61,14 @@ void read_pid(const YamlValue& value, const Context& context, ControllerDescript
 
 /// Gravity compensation and computed torque; their input is the position of the joint that they drive.
 void read_model_based(const YamlValue& value, const Context& context, ControllerDescription* controller) {
-  value.require_keys({"type", "setpoint", "output", "gains"}, {});
+  value.require_keys({"type", "setpoint", "output", "gains"}, with_realization_keys(controller->kind, {}));
   controller->input = own_position(*controller);
   controller->setpoint = read_reference(value.at("setpoint"), context.table, context.loader);
   read_gains(value.at("gains"), {"p", "d"}, context.table, controller);
 }
 
 void read_state_feedback(const YamlValue& value, const Context& context, ControllerDescription* controller) {
-  value.require_keys({"type", "output"}, {"feedback", "feedforward"});
+  value.require_keys({"type"}, with_realization_keys(controller->kind, {"output", "feedback", "feedforward"}));
   if (const auto feedforward = value.find("feedforward"))
     controller->feedforward = read_reference(*feedforward, context.table, context.loader);
   const auto feedback = value.find("feedback");
@@ -85,7 +86,7 @@ void read_state_feedback(const YamlValue& value, const Context& context, Control
 }
 
 void read_basis_controller(const YamlValue& value, const Context& context, ControllerDescription* controller) {
-  value.require_keys({"type", "output", "coefficients"}, {"shape", "duration"});
+  value.require_keys({"type", "output", "coefficients"}, with_realization_keys(controller->kind, {"shape", "duration"}));
   controller->basis = read_basis(controller->name, value, context.table, context.study.duration);
 }
 
@@ -107,10 +108,30 @@ ControllerDescription read_controller(const std::string& name, const YamlValue& 
   controller.where = value.where();
   const Law& law = laws.at(value.at("type").choice("controller type", types));
   controller.kind = law.kind;
-  const YamlValue output = value.at("output");
-  controller.output = scalar_joint(output.text(), context.robot, output).name;
+  if (const auto output = value.find("output")) controller.output = scalar_joint(output->text(), context.robot, *output).name;
   law.read(value, context, &controller);
+  read_realization(value, context.table, &controller);
   return controller;
+}
+
+/// A controller without a joint acts through later ones that read its output.
+void refuse_idle(const Study& study) {
+  const auto reads = [](const SignalDescription& signal, const std::string& name) {
+    return std::any_of(signal.terms.begin(), signal.terms.end(),
+                       [&name](const SignalTerm& term) { return term.object == name && term.quantity == "output"; });
+  };
+  for (const ControllerDescription& controller : study.controllers) {
+    if (!controller.output.empty()) continue;
+    const bool is_read = std::any_of(study.controllers.begin(), study.controllers.end(), [&](const ControllerDescription& other) {
+      return reads(other.input, controller.name) ||
+             std::any_of(other.feedback.begin(), other.feedback.end(),
+                         [&](const FeedbackTerm& term) { return reads(term.signal, controller.name); });
+    });
+    if (!is_read)
+      throw InputError({controller.where, "controllers." + controller.name + ".output",
+                        "required key is missing: no later controller reads the output of this one either", controller.name,
+                        "output: a joint; or a later controller whose input has the term " + controller.name + "/output"});
+  }
 }
 
 }  // namespace
@@ -121,6 +142,7 @@ void read_controllers(const YamlValue& study_value, const RobotDescription& robo
   if (!controllers) return;
   for (const auto& [name, value] : controllers->entries())
     study->controllers.push_back(read_controller(name, value, Context{robot, table, loader, *study}));
+  refuse_idle(*study);
 }
 
 }  // namespace codesign

@@ -13,6 +13,7 @@
 #include "reading/study/study_objective.h"
 #include "reading/study/study_options.h"
 #include "reading/study/study_parameters.h"
+#include "reading/study/study_realization.h"
 #include "reading/study/study_watched.h"
 #include "reading/yaml/yaml_reader.h"
 
@@ -61,6 +62,7 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   if (const auto solver = root.find("solver")) study.solver = read_solver_options(*solver);
   if (const auto optimizer = root.find("optimizer")) study.optimizer = read_optimizer_options(*optimizer);
   refuse_adjoint_of_watched(root, study);
+  refuse_adjoint_of_sampled(root, study);
   return study;
 }
 

@@ -1,0 +1,50 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_CONTROL_CONTROL_CLOCK_H_
+#define MECHANISM_CODESIGN_CONTROL_CONTROL_CLOCK_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "description/study.h"
+
+namespace codesign {
+
+/// What a sampled controller does at an instant: it reads its input and computes an output, or an output comes into effect.
+struct ControlEvent {
+  enum class Kind { kSample, kApply };
+  Kind kind = Kind::kSample;
+  int controller = 0;       ///< index in Study::controllers
+  std::int64_t sample = 0;  ///< number of the sample, from 0
+};
+
+/// The instants of the sampled controllers of a study, theory (51): samples at k T, outputs in effect at k T + delay, k = 0, 1, ... Times
+/// are multiples of T, not sums, so that no error accumulates. The samples at t = 0 belong to the assembled start.
+class ControlClock {
+ public:
+  explicit ControlClock(const Study& study);
+
+  bool is_empty() const { return controllers_.empty(); }
+  /// Begins at t = 0, behind the samples there.
+  void start();
+  /// The time of the next event [s] if it is before `limit`, else `limit`.
+  double next(double limit) const;
+  /// The events up to time t [s], which are taken out: at one instant the outputs that come into effect first, then the samples in the
+  /// order of the controllers. Valid until the next call.
+  const std::vector<ControlEvent>& due(double t);
+
+ private:
+  struct Sampled {
+    int controller;
+    double period, delay;        ///< [s]
+    std::int64_t sample, apply;  ///< numbers of the next ones
+    double next() const;
+    bool is_reached(double time, double t) const { return time <= t + 1e-9 * period; }
+  };
+
+  std::vector<Sampled> controllers_;
+  std::vector<ControlEvent> events_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_CONTROL_CONTROL_CLOCK_H_

@@ -1,0 +1,11 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "description/control_realization.h"
+
+#include <cmath>
+
+namespace codesign {
+
+// A delay that is a multiple of the sample time but for rounding needs no slot more than the multiple says.
+int ControlRealization::queued() const { return is_sampled() ? static_cast<int>(std::ceil(delay / sample_time - 1e-9)) : 0; }
+
+}  // namespace codesign

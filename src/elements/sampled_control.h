@@ -1,0 +1,75 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ELEMENTS_SAMPLED_CONTROL_H_
+#define MECHANISM_CODESIGN_ELEMENTS_SAMPLED_CONTROL_H_
+
+#include "control/control_clock.h"
+#include "control/sampled_pid.h"
+#include "elements/controllers.h"
+
+namespace codesign {
+
+// The jumps of a sampled controller's states, theory (51), (52). Each function reads a loaded view and writes to `s`, the extra states of
+// the state that is loaded, so that what follows at the same instant reads what came before.
+
+/// The measured input's error: setpoint minus the input, which is rounded to a multiple of the quantization if there is one.
+template <class T>
+T measured_error(const StateView<T>& view, int controller) {
+  const T error = controller_error(view, controller, nullptr);
+  const double quantum = realization_of(view, controller).quantization;
+  if (!(quantum > 0.0)) return error;
+  const T setpoint = view.design.controllers[static_cast<std::size_t>(controller)].setpoint.at(view.state->t).value;
+  return setpoint - T(quantum * std::round(value_of(T(setpoint - error)) / quantum));
+}
+
+/// The output of a PID at a sample, before its limit; updates its memory.
+template <class T>
+T sampled_pid_output(const StateView<T>& view, int controller, bool is_first, VectorX<T>* s) {
+  const auto c = static_cast<std::size_t>(controller);
+  const Controller& resolved = view.system.controllers()[c];
+  const ControllerConstants<T>& k = view.design.controllers[c];
+  const ControlRealization& realization = realization_of(view, controller);
+  const auto read = [s](int state) { return state < 0 ? T(0.0) : T((*s)[state]); };
+  const auto write = [s](int state, const T& value) {
+    if (state >= 0) (*s)[state] = value;
+  };
+  SampledPidMemory<T> memory{read(resolved.state), read(resolved.states.last), read(resolved.states.filter)};
+  const SampledPidNumbers<T> numbers{k.pid, realization.sample_time, k.derivative_filter, realization.i_clamp ? &k.i_clamp : nullptr,
+                                     realization.antiwindup};
+  const T output = sample_pid(numbers, measured_error(view, controller), is_first, &memory);
+  write(resolved.state, memory.integral);
+  write(resolved.states.last, memory.last_error);
+  write(resolved.states.filter, memory.error_rate);
+  return output;
+}
+
+/// One event of a sampled controller.
+template <class T>
+void jump_controller(const StateView<T>& view, const ControlEvent& event, VectorX<T>* s) {
+  const auto c = static_cast<std::size_t>(event.controller);
+  const Controller& resolved = view.system.controllers()[c];
+  const ControlRealization& realization = realization_of(view, event.controller);
+  const int queued = realization.queued();
+  const int slot = queued == 0 ? resolved.states.held : resolved.states.queue + static_cast<int>(event.sample % queued);
+  if (event.kind == ControlEvent::Kind::kApply) {
+    (*s)[resolved.states.held] = T((*s)[slot]);
+    return;
+  }
+  const T output = resolved.kind == ControllerKind::kPid ? sampled_pid_output(view, event.controller, event.sample == 0, s)
+                                                         : law_output(view, event.controller, OptionalGradient<T>(nullptr));
+  (*s)[slot] = realization.output_limit ? clamp(output, view.design.controllers[c].output_limit) : output;
+}
+
+/// The start of a controller at t = 0: its filter is at rest, and a sampled one takes its first sample.
+template <class T>
+void begin_controller(const StateView<T>& view, int controller, VectorX<T>* s) {
+  const ControlRealization& realization = realization_of(view, controller);
+  const int filter = view.system.controllers()[static_cast<std::size_t>(controller)].states.filter;
+  if (realization.is_sampled())
+    jump_controller(view, {ControlEvent::Kind::kSample, controller, 0}, s);
+  else if (filter >= 0)
+    (*s)[filter] = controller_error(view, controller, OptionalGradient<T>(nullptr));
+}
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ELEMENTS_SAMPLED_CONTROL_H_

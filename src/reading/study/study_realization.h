@@ -1,0 +1,25 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_REALIZATION_H_
+#define MECHANISM_CODESIGN_READING_STUDY_STUDY_REALIZATION_H_
+
+#include <string>
+#include <vector>
+
+#include "description/study.h"
+#include "reading/parameter_table.h"
+#include "reading/yaml/yaml_reader.h"
+
+namespace codesign {
+
+/// The optional keys of a controller of this kind that say how a robot runs it, after its `own` optional keys.
+std::vector<std::string> with_realization_keys(ControllerKind kind, std::vector<std::string> own);
+
+/// Reads them into ControllerDescription::realization; the gains must have been read. @throws InputError
+void read_realization(const YamlValue& value, const ParameterTable& table, ControllerDescription* controller);
+
+/// Checks that a study with sampled controllers does not ask for the adjoint, which has none of their jumps. @throws InputError if it does.
+void refuse_adjoint_of_sampled(const YamlValue& study_value, const Study& study);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_REALIZATION_H_

@@ -1,0 +1,51 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "control/clamp.h"
+
+#include <gtest/gtest.h>
+
+#include <complex>
+
+namespace codesign {
+namespace {
+
+using C = std::complex<double>;
+constexpr double kStep = 1e-30;
+
+TEST(Clamp, CutsBeyondItsBoundsAlone) {
+  EXPECT_EQ(clamp(0.5, 2.0), 0.5);
+  EXPECT_EQ(clamp(3.0, 2.0), 2.0);
+  EXPECT_EQ(clamp(-3.0, 2.0), -2.0);
+  EXPECT_EQ(clamp(0.0, 0.0), 0.0);
+}
+
+TEST(Clamp, HasTheDerivativeOfTheInsideOnTheBound) {
+  const C x(2.0, kStep), bound(2.0, 3.0 * kStep);
+  EXPECT_EQ(clamp(x, bound).imag(), kStep);
+  EXPECT_EQ(clamp(C(-2.0, kStep), bound).imag(), kStep);
+  EXPECT_EQ(clamp(C(2.1, kStep), bound).imag(), 3.0 * kStep);
+  EXPECT_EQ(clamp(C(-2.1, kStep), bound).imag(), -3.0 * kStep);
+}
+
+TEST(ClampedIntegral, StopsAtTheBoundAndLeavesItAtOnce) {
+  // i = 4, bound 2: the bound is s = 0.5.
+  EXPECT_EQ(clamped_integral_rate(3.0, 0.5, 4.0, 2.0).value, 0.0);
+  EXPECT_EQ(clamped_integral_rate(-3.0, 0.5, 4.0, 2.0).value, -3.0);
+  EXPECT_EQ(clamped_integral_rate(-3.0, -0.5, 4.0, 2.0).value, 0.0);
+  EXPECT_EQ(clamped_integral_rate(3.0, -0.5, 4.0, 2.0).value, 3.0);
+  EXPECT_EQ(clamped_integral_rate(3.0, 0.25, 4.0, 2.0).value, 3.0 * (1.0 - 1.0 / 256.0));
+  EXPECT_EQ(clamped_integral_rate(3.0, 0.5, -4.0, 2.0).value, 0.0) << "the sign of the gain does not matter";
+  EXPECT_EQ(clamped_integral_rate(0.0, 0.5, 4.0, 2.0).by_error, 1.0);
+  EXPECT_EQ(clamped_integral_rate(3.0, 7.0, 0.0, 2.0).value, 3.0) << "without a gain nothing is bounded";
+}
+
+TEST(ClampedIntegral, HasExactDerivatives) {
+  for (const double e : {0.7, -0.7})
+    for (const double s : {0.3, -0.4, 0.5}) {
+      const auto rate = clamped_integral_rate(e, s, 4.0, 2.0);
+      EXPECT_NEAR(rate.by_error, clamped_integral_rate(C(e, kStep), C(s), C(4.0), C(2.0)).value.imag() / kStep, 1e-14);
+      EXPECT_NEAR(rate.by_integral, clamped_integral_rate(C(e), C(s, kStep), C(4.0), C(2.0)).value.imag() / kStep, 1e-13);
+    }
+}
+
+}  // namespace
+}  // namespace codesign
