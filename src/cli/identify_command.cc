@@ -3,13 +3,13 @@
 #include <sstream>
 
 #include "cli/commands.h"
-#include "cli/csv_writer.h"
 #include "cli/inputs.h"
 #include "cli/output_file.h"
 #include "cli/recordings_table.h"
 #include "cli/report.h"
 #include "cli/table.h"
 #include "identification/identify.h"
+#include "jobs/csv_writer.h"
 #include "jobs/identification_records.h"
 #include "jobs/whole_file.h"
 #include "reading/urdf/urdf_reader.h"

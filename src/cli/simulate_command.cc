@@ -4,11 +4,11 @@
 
 #include "assembly/signal_warnings.h"
 #include "cli/commands.h"
-#include "cli/csv_writer.h"
 #include "cli/inputs.h"
 #include "cli/output_file.h"
 #include "cli/report.h"
 #include "cli/table.h"
+#include "jobs/csv_writer.h"
 #include "jobs/run_recorder.h"
 #include "text/number_text.h"
 

@@ -11,6 +11,7 @@
 
 #include "description/basis.h"
 #include "description/ensemble.h"
+#include "description/hardware.h"
 #include "description/identification.h"
 #include "description/quantity.h"
 #include "description/reference.h"
@@ -129,7 +130,8 @@ struct Study {
   OptimizerOptions optimizer;
   EnsembleDescription ensemble;
   std::optional<IdentificationDescription> identification;
-  std::string file;  ///< the file it was read from, for messages
+  std::vector<HardwareGains> hardware;  ///< in the order written
+  std::string file;                     ///< the file it was read from, for messages
 };
 
 /// Whether the objective has a term: an integral, a terminal one or a peak.

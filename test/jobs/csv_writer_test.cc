@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "cli/csv_writer.h"
+#include "jobs/csv_writer.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <sstream>
 
-namespace codesign::cli {
+namespace codesign {
 namespace {
 
 TEST(CsvWriter, WritesHeaderAndRows) {
@@ -32,4 +32,4 @@ TEST(CsvWriter, KeepsEmptyCells) {
 }
 
 }  // namespace
-}  // namespace codesign::cli
+}  // namespace codesign

@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CLI_CSV_WRITER_H_
-#define MECHANISM_CODESIGN_CLI_CSV_WRITER_H_
+#ifndef MECHANISM_CODESIGN_JOBS_CSV_WRITER_H_
+#define MECHANISM_CODESIGN_JOBS_CSV_WRITER_H_
 
 #include <ostream>
 #include <string>
 #include <vector>
 
-namespace codesign::cli {
+namespace codesign {
 
 /// Comma-separated values (RFC 4180 quoting, Unix line ends). Numbers read back as the same doubles.
 class CsvWriter {
@@ -23,6 +23,6 @@ class CsvWriter {
   std::string where_;
 };
 
-}  // namespace codesign::cli
+}  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_CLI_CSV_WRITER_H_
+#endif  // MECHANISM_CODESIGN_JOBS_CSV_WRITER_H_

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "cli/csv_writer.h"
+#include "jobs/csv_writer.h"
 
 #include <cerrno>
 #include <utility>
@@ -7,7 +7,7 @@
 #include "jobs/output_error.h"
 #include "text/decimal.h"
 
-namespace codesign::cli {
+namespace codesign {
 namespace {
 
 std::string quoted(const std::string& cell) {
@@ -37,4 +37,4 @@ void CsvWriter::write(const std::vector<double>& values) {
   write(cells);
 }
 
-}  // namespace codesign::cli
+}  // namespace codesign
