@@ -99,7 +99,7 @@ std::vector<std::string> convergence_row(const mechanism_codesign::OptimizationP
   Trial trial;
   trial.evaluation = static_cast<int>(progress.evaluation);
   trial.iteration = static_cast<int>(progress.iteration);
-  trial.status.code = progress.code == name_of(StatusCode::kOk) ? StatusCode::kOk : StatusCode::kAssemblyFailed;
+  trial.status.code = progress.code == name_of(StatusCode::kSuccess) ? StatusCode::kSuccess : StatusCode::kAssemblyFailed;
   trial.objective = progress.objective;
   trial.best_objective = progress.best_objective;
   trial.gradient_norm = progress.gradient_norm;
