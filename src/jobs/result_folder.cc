@@ -30,8 +30,9 @@ void write_file(const std::string& path, const Text& text, std::vector<Failure>*
 }  // namespace
 
 const std::vector<std::string>& ResultFolder::file_names() {
-  static const std::vector<std::string> kNames = {"result.json", "details.json", "tuned.urdf", "initial.urdf", "job_study.yaml",
-                                                  "gains.yaml",  "initial.csv",  "tuned.csv",  "starts.csv",   "scenarios.csv"};
+  static const std::vector<std::string> kNames = {"result.json",  "details.json",   "tuned.urdf",   "initial.urdf",
+                                                  "initial.json", "job_study.yaml", "gains.yaml",   "initial.csv",
+                                                  "tuned.csv",    "starts.csv",     "scenarios.csv"};
   return kNames;
 }
 
@@ -47,6 +48,7 @@ std::vector<Failure> ResultFolder::write_design(const Json& object, const Optimi
   write("result.json", [&] { return to_text(object); });
   write("tuned.urdf", [&] { return urdf_at(tuned); });
   write("initial.urdf", [&] { return urdf_at(initial); });
+  write("initial.json", [&] { return to_text({{"parameters", parameters_json(problem_, initial)}}); });
   write("job_study.yaml", [this] { return problem_.study_text().text; });
   if (!problem_.study().hardware.empty()) write("gains.yaml", [&] { return gains_yaml(problem_, tuned); });
   if (!result.starts.empty())
