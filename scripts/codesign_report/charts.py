@@ -3,9 +3,7 @@
 import collections
 import math
 
-from markupsafe import Markup, escape
-
-from .numbers import log_ticks, short, ticks
+from .numbers import Markup, escape, log_ticks, short, ticks
 
 WIDTH, HEIGHT = 420, 210
 LEFT, RIGHT, TOP, BOTTOM = 58, 10, 10, 34

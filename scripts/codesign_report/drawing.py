@@ -2,11 +2,9 @@
 """The mechanism as a picture: solids as outlines, links as sticks, at the start and faintly later."""
 import math
 
-from markupsafe import escape
-
 from . import geometry
 from .charts import svg
-from .numbers import nice_step, short
+from .numbers import escape, nice_step, short
 
 WIDTH, HEIGHT, MARGIN = 420, 300, 16
 
@@ -86,10 +84,10 @@ class Scene:
             depth = sum(geometry.dot(self.towards, p) for p in points) / len(points)
             corners = " ".join(f"{x},{y}" for x, y in hull([self.place(p) for p in points]))
             yield depth, f'<polygon class="{kind} solid" points="{corners}"/>'
-        ends = robot.joints_on.get(name, [])
-        if name == robot.root:
+        # Where a link has solids, they show how it reaches from joint to joint.
+        if name == robot.root or robot.solids.get(name):
             return
-        for end in ends:
+        for end in robot.joints_on.get(name, []):
             a, b = self.place(placed(pose, (0.0, 0.0, 0.0))), self.place(placed(pose, end))
             if math.dist(a, b) > 1.0:
                 yield geometry.dot(self.towards, placed(pose, end)), f'<path class="{kind} stick" d="M{a[0]} {a[1]}L{b[0]} {b[1]}"/>'

@@ -2,7 +2,9 @@
 """Numbers as the page shows them: rounded for the eye, whole for machines."""
 import math
 
-from markupsafe import Markup, escape
+from jinja2.utils import markupsafe
+
+Markup, escape = markupsafe.Markup, markupsafe.escape  # of jinja2, without a dependency more
 
 MINUS = "\u2212"
 

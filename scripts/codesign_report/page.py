@@ -5,10 +5,10 @@ import os
 import shlex
 
 import jinja2
-from markupsafe import Markup
 
 from . import asked, drawing, geometry, numbers, results, signals, words
 from .job import read_text
+from .numbers import Markup
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 MOST_BYTES = 2_000_000
