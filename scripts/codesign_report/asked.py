@@ -65,7 +65,10 @@ def controllers(study):
     return rows
 
 
-def settings(study):
-    """(key, value) of the blocks that say how it is solved."""
-    return [(key, text_of(study[key])) for key in ("gravity", "initial_state", "loads", "limits", "runs", "uncertain", "robust", "multistart", "identify",
-                                                   "optimizer", "solver", "engine") if key in study]
+OVER = ("runs", "uncertain", "robust", "multistart", "identify")
+SOLVED = ("gravity", "initial_state", "loads", "limits", "optimizer", "solver", "engine")
+
+
+def settings(study, keys):
+    """(key, value) of those blocks of the study that it has."""
+    return [(key, text_of(study[key])) for key in keys if key in study]

@@ -112,7 +112,7 @@ class Scene:
         return svg(f'<g class="mechanism">{"".join(body)}</g>', title, WIDTH, self.height)
 
     def scale_bar(self):
-        length = nice_step(90.0 / self.scale, 1)
+        length = nice_step(60.0 / self.scale, 1)
         x, y = 14, self.height - 10
         text = f"{short(1000 * length, 4)} mm" if length < 1.0 else f"{short(length, 4)} m"
         return (f'<path class="frame" d="M{x} {y - 4}V{y}H{x + length * self.scale:.1f}V{y - 4}"/>'

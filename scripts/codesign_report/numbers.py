@@ -32,14 +32,14 @@ def number(value, digits=6):
 
 
 def nice_step(span, count):
-    """The largest of 1, 2, 5 times a power of ten that divides `span` into at least `count` parts, roughly."""
+    """The smallest of 1, 2, 5 times a power of ten that divides `span` into at most `count` parts."""
     raw = span / max(count, 1)
     power = 10.0 ** math.floor(math.log10(raw))
-    return next(factor * power for factor in (10, 5, 2, 1) if factor * power <= raw * 1.0000001)
+    return next(factor * power for factor in (1, 2, 5, 10) if factor * power >= raw * 0.9999999)
 
 
-def ticks(low, high, count=4):
-    """Round numbers from `low` to `high`."""
+def ticks(low, high, count=6):
+    """Round numbers from `low` to `high`, at most one more than `count`."""
     if not high > low:
         return [low]
     step = nice_step(high - low, count)

@@ -64,7 +64,7 @@ def context(job, scale):
         "job": job, "result": job.result, "details": job.details, "embedded": embedded(job),
         "verdict": words.termination(job.result.get("termination", "")),
         "terms": asked.objective_terms(job.study), "bounds": asked.bounds(job.study), "controllers": asked.controllers(job.study),
-        "settings": asked.settings(job.study),
+        "over": asked.settings(job.study, asked.OVER), "settings": asked.settings(job.study, asked.SOLVED),
         "mechanism": mechanism(job), "convergence": results.convergence(job), "failed_trials": len(results.failed_trials(job)),
         "friction_rows": friction_rows, "friction_chart": friction_chart, "energies": results.energies(job),
         "signal_rows": signals.signal_rows(job), "signal_groups": signals.signal_groups(job, scale),
