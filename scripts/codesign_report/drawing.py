@@ -93,7 +93,8 @@ class Scene:
                 yield geometry.dot(self.towards, placed(pose, end)), f'<path class="{kind} stick" d="M{a[0]} {a[1]}L{b[0]} {b[1]}"/>'
 
     def joints(self, robot, poses, index):
-        places = {self.place(placed(poses["links"][name][index], p)) for name, ends in robot.joints_on.items() if name in poses["links"] for p in ends}
+        links = poses["links"]
+        places = {self.place(placed(links[name][index], p)) for name, ends in robot.joints_on.items() if name in links for p in ends}
         return "".join(f'<circle class="pin" cx="{x}" cy="{y}" r="2.6"/>' for x, y in sorted(places))
 
     def picture(self, side, title):

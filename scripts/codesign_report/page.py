@@ -26,7 +26,8 @@ def mechanism(job):
         return []
     scene = drawing.Scene([side[1:] for side in sides])
     titles = {"initial": "Before", "tuned": "After"}
-    return [(titles[side], scene.picture(k, f"The mechanism {titles[side].lower()}, at the start; faint: later")) for k, (side, _, _) in enumerate(sides)]
+    return [(titles[side], scene.picture(k, f"The mechanism {titles[side].lower()}, at the start; faint: later"))
+            for k, (side, _, _) in enumerate(sides)]
 
 
 def embedded(job):
@@ -44,12 +45,13 @@ def commands(job):
     rows = []
     if files.get("model") and not job.bag:
         overlays = "".join(f" --overlay {shlex.quote(path)}" for path in files.get("overlays", []))
-        rows.append(("the same job from its files",
-                     f'codesign optimize {shlex.quote(files["model"])} {shlex.quote(files["study"])}{overlays} --result {shlex.quote(job.path("initial.json"))} --output again'))
+        inputs = f'{shlex.quote(files["model"])} {shlex.quote(files["study"])}{overlays} --result {shlex.quote(job.path("initial.json"))}'
+        rows.append(("the same job from its files", f"codesign optimize {inputs} --output again"))
     rows += [("the same job from this folder alone", f"{here} && codesign optimize initial.urdf job_study.yaml --result initial.json --output again"),
              ("the objective of the result, to the last digit", f"{here} && codesign gradient tuned.urdf job_study.yaml --result result.json --json"),
              ("the tuned run as a table", f"{here} && codesign simulate tuned.urdf job_study.yaml --result result.json --csv run.csv"),
-             ("the tuned mechanism in rviz", f"{here} && roslaunch mechanism_codesign simulate.launch model:=tuned.urdf study:=job_study.yaml result:=result.json")]
+             ("the tuned mechanism in rviz",
+              f"{here} && roslaunch mechanism_codesign simulate.launch model:=tuned.urdf study:=job_study.yaml result:=result.json")]
     if job.bag:
         rows.append(("both runs side by side", f"roslaunch mechanism_codesign replay.launch bag:={shlex.quote(job.bag)}"))
     if job.gains:

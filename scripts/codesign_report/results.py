@@ -23,8 +23,8 @@ def convergence(job):
         if name in table and lower is not None and upper is not None:
             series.append(Series(name, f"hue{k % 8}", trials, [(v - lower) / (upper - lower) for v in table[name]]))
     if series and len(series) <= 24:
-        charts.append(("Parameters between their bounds", line_chart("Parameters at each trial point, 0 at the lower and 1 at the upper bound", series,
-                                                                     "trial point", "0 lower, 1 upper bound"), [(s.label, s.kind) for s in series]))
+        chart = line_chart("Parameters at each trial point, 0 at the lower and 1 at the upper bound", series, "trial point", "0 lower, 1 upper bound")
+        charts.append(("Parameters between their bounds", chart, [(s.label, s.kind) for s in series]))
     return charts
 
 
@@ -72,7 +72,8 @@ def samples(job):
     sides = (("before", "initial", "initial_objective"), ("after", "tuned", "objective"))
     fractions = [(k + 0.5) / len(table) for k in range(len(table))]
     series = [Series(words, kind, sorted(table[column]), fractions, "line") for words, kind, column in sides]
-    charts = [("Share of runs and samples below", line_chart("Share of runs and samples whose objective is below a value", series, "objective", "share"))]
+    title = "Share of runs and samples whose objective is below a value"
+    charts = [("Share of runs and samples below", line_chart(title, series, "objective", "share"))]
     known = {"run", "sample", "weight", "initial_objective", "objective", "initial_failed", "failed", "friction_law"}
     for name in table.names:
         values = table[name]

@@ -143,7 +143,8 @@ class Report(unittest.TestCase):
         self.assertNotIn("url(", text)
         for tag, attributes in page.tags:
             if tag == "svg":
-                self.assertTrue(attributes.get("aria-hidden") == "true" or attributes.get("role") == "img" and attributes.get("aria-label"), attributes)
+                is_described = attributes.get("role") == "img" and attributes.get("aria-label")
+                self.assertTrue(attributes.get("aria-hidden") == "true" or is_described, attributes)
             if tag == "th":
                 self.assertIn(attributes.get("scope"), ("row", "col"))
         return text, page
@@ -179,7 +180,8 @@ class Report(unittest.TestCase):
     def test_the_commands_of_the_page_repeat_the_job(self):
         _, page = self.page_of("job")
         command = next(line for line in page.text.splitlines() if "gradient tuned.urdf" in line)
-        done = subprocess.run(["bash", "-c", command.replace("codesign gradient", f"{PROGRAM} gradient")], capture_output=True, text=True, check=False)
+        command = command.replace("codesign gradient", f"{PROGRAM} gradient")
+        done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=True)
         with open(self.path("job", "result.json"), encoding="utf-8") as file:
             objective = json.load(file)["objective"]
         self.assertLessEqual(abs(json.loads(done.stdout)["objective"] - objective), 1e-12 * objective)
