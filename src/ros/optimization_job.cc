@@ -173,12 +173,14 @@ class Job {
     if (const int worst = worst_scenario(result_); worst >= 0)
       record_->worst = run_both(problem_, result_, make_scenarios(problem_)[static_cast<std::size_t>(worst)], options_.rate, &patience);
     outcome_->tuned_urdf = record_->nominal.tuned.urdf;
-    write_folder(cancel);
     outcome_->result.warnings = warning_messages(problem_.warnings(), warnings());
     record_->result = outcome_->result;
     record_->result.bag = files_.bag();
     write_bag(files_.bag(), *record_);
     outcome_->result.bag = files_.bag();
+    // After the bag, so that it does not take the last room on a disk from it.
+    write_folder(cancel);
+    outcome_->result.warnings = warning_messages(problem_.warnings(), warnings());
     best_.remove();
     has_ended_ = !is_interrupted();
   }
