@@ -1,6 +1,9 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""Completion and the manual page know what the program knows. Usage: command_line_test.py CODESIGN"""
+"""Completion and the manual page know what the program knows, and a shell finds all three.
+
+Usage: command_line_test.py CODESIGN [SETUP.BASH]
+"""
 import os
 import re
 import shutil
@@ -48,6 +51,18 @@ class CommandLine(unittest.TestCase):
         self.assertIn("urdf/governor.urdf", complete("check", "urdf/gov"))
         self.assertEqual(complete("check", "CMakeLi"), [])
         self.assertEqual(complete("optimize", "a", "b", "--output", "scri"), ["scripts"])
+
+    def test_a_shell_that_sources_the_setup_finds_it(self):
+        if len(sys.argv) < 3:
+            self.skipTest("there is no setup file without ROS")
+        script = f'PS1=x; . "{sys.argv[2]}"; . "{sys.argv[2]}"; command -v codesign; complete -p codesign; echo "$PATH"'
+        done = subprocess.run(["bash", "--norc", "-c", script], capture_output=True, text=True, check=True)
+        program, completion, path = done.stdout.splitlines()
+        self.assertEqual(os.path.realpath(program), os.path.realpath(sys.argv[1]))
+        self.assertIn("_codesign", completion)
+        self.assertEqual(path.split(":").count(os.path.dirname(program)), 1, "sourcing twice adds nothing")
+        silent = subprocess.run(["bash", "--norc", "-c", f'. "{sys.argv[2]}"; complete -p codesign'], capture_output=True, text=True, check=False)
+        self.assertNotEqual(silent.returncode, 0, "a script needs no completion")
 
     def test_the_manual_is_troff(self):
         text = text_of("man", "codesign.1.in").replace("@codesign_version@", "1.0")
