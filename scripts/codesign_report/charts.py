@@ -7,6 +7,7 @@ from .numbers import Markup, escape, log_ticks, short, ticks
 
 WIDTH, HEIGHT = 420, 210
 LEFT, RIGHT, TOP, BOTTOM = 58, 10, 10, 34
+ROUNDING = 1e-9  # what stays below is drawn as a flat line, in whatever SI unit
 
 # kind: initial, tuned or another class of the style; style: line, dots or steps.
 Series = collections.namedtuple("Series", "label kind xs ys style", defaults=("line",))
@@ -46,6 +47,8 @@ class Axis:
                 self.ticks = ticks(10 ** self.low, 10 ** self.high)
             return
         size = max(abs(low), abs(high))
+        if size < ROUNDING:
+            low, high = -ROUNDING, ROUNDING
         if high - low <= 1e-12 * size:  # a constant up to rounding is drawn as one
             low, high = low - (0.5 * size or 0.5), high + (0.5 * size or 0.5)
         pad = margin * (high - low)
