@@ -159,12 +159,12 @@ def matrix_chart(title, names, rows):
 
 
 def interval_chart(title, low, high, value, start):
-    """One confidence interval in a row of a table: a bar from low to high, a dot at the value, a tick at the start."""
-    values = finite([low, high, value, start])
-    x = Axis(values, 6, 154, margin=0.05)
+    """One confidence interval in a row of a table: a bar from low to high, a dot at the value, and a tick at the start if that is near."""
+    values = finite([low, high, value])
+    x = Axis(values, 6, 154, margin=0.6)
     body = '<path class="grid" d="M6 10H154"/>'
     if low is not None and high is not None:
         body += f'<path class="interval" d="M{x.place(low):.1f} 10H{x.place(high):.1f}"/>'
-    if start is not None:
+    if start is not None and x.low <= start <= x.high:
         body += f'<path class="initial line" d="M{x.place(start):.1f} 4V16"/>'
     return svg(body + f'<circle class="tuned dot" cx="{x.place(value):.1f}" cy="10" r="3.5"/>', title, 160, 20)

@@ -1,9 +1,11 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """Reads what a job has left: the folder of `codesign optimize` or `codesign identify`, or that beside a bag of the optimization node."""
 import csv
+import html
 import json
 import math
 import os
+import re
 
 import yaml
 
@@ -102,9 +104,14 @@ class Job:
         table = Table(self.path(name))
         return table if len(table) else None
 
+    def robot_name(self):
+        """The name in the identified model, of a folder without details."""
+        found = re.search(r'<robot[^>]*\sname="([^"]*)"', read_text(self.path("identified.urdf"))) if self.has("identified.urdf") else None
+        return html.unescape(found.group(1)) if found else ""
+
     @property
     def name(self):
-        return self.details.get("model") or os.path.basename(os.path.normpath(os.path.abspath(self.folder)))
+        return self.details.get("model") or self.robot_name() or os.path.basename(os.path.normpath(os.path.abspath(self.folder)))
 
 
 def find_job(path):

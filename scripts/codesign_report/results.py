@@ -118,8 +118,9 @@ def residuals(job):
         for joint in joints[:24]:
             time, recorded, computed = ([table[column][k] for k in rows] for column in ("time", joint + "/recorded", joint + "/computed"))
             difference = [a - b for a, b in zip(recorded, computed)]
-            title = f"{joint}, {kind} {recording:.0f}"
-            charts.append((title, line_chart(f"Recorded and computed effort of {title}, and their difference", [
-                Series("recorded", "initial", time, recorded), Series("computed", "tuned", time, computed),
-                Series("difference", "hue2", time, difference)], "time [s]", "effort", most=most)))
+            title = f"{joint}, {'fitted' if kind == 'data' else kind} recording {recording:.0f}"
+            charts.append((title, line_chart(f"Recorded and computed effort of {title}", [
+                Series("recorded", "initial", time, recorded), Series("computed", "tuned", time, computed)], "time [s]", "effort", most=most)))
+            charts.append((title + ": what is left", line_chart(f"Recorded minus computed effort of {title}", [
+                Series("difference", "hue2", time, difference)], "time [s]", "difference", most=most)))
     return charts

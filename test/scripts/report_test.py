@@ -215,7 +215,7 @@ class Report(unittest.TestCase):
         self.assertIn("&lt;b&gt;", text)
         self.assertNotIn("<b>", text.split("result-json")[0])
         self.assertIn("the data do not tell it", page.text)
-        self.assertIn("hinge, holdout 1", page.text)
+        self.assertIn("hinge, holdout recording 1", page.text)
         self.assertIn("0.0625", [value for value, _ in page.data])
 
     def test_a_large_job_stays_small(self):
