@@ -58,7 +58,7 @@ void add_limits(const RobotDescription& robot, const std::vector<double>& parame
 std::vector<std::string> further_signals(const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
   std::vector<std::string> texts;
   for (const ControllerDescription& controller : controllers) {
-    texts.push_back(controller.output + "/effort");
+    if (!controller.output.empty()) texts.push_back(controller.output + "/effort");
     if (has_error(controller.kind)) texts.push_back(controller.name + "/error");
   }
   for (const JointDescription& joint : robot.joints)
@@ -84,7 +84,8 @@ std::string unit_of(const SignalDescription& signal, const RobotDescription& rob
   const SignalTerm& term = signal.terms.front();
   if (const char* unit = fixed_unit(term.quantity)) return unit;
   if (const ControllerDescription* controller = find_named(controllers, term.object)) {
-    if (term.quantity == "output") return joint_unit("effort", *find_named(robot.joints, controller->output));
+    const JointDescription* driven = find_named(robot.joints, controller->output);
+    if (term.quantity == "output") return driven == nullptr ? "" : joint_unit("effort", *driven);
     const std::string unit = unit_of(controller->input, robot, controllers);
     return term.quantity == "integral" ? unit + " s" : unit;
   }
