@@ -84,13 +84,16 @@ class Scene:
             depth = sum(geometry.dot(self.towards, p) for p in points) / len(points)
             corners = " ".join(f"{x},{y}" for x, y in hull([self.place(p) for p in points]))
             yield depth, f'<polygon class="{kind} solid" points="{corners}"/>'
-        # Where a link has solids, they show how it reaches from joint to joint.
-        if name == robot.root or robot.solids.get(name):
+        if name == robot.root:
             return
-        for end in robot.joints_on.get(name, []):
-            a, b = self.place(placed(pose, (0.0, 0.0, 0.0))), self.place(placed(pose, end))
+        centres = [tuple(sum(x) / len(solid.points) for x in zip(*solid.points)) for solid in robot.solids.get(name, [])]
+        origin = placed(pose, (0.0, 0.0, 0.0))
+        for end in centres or robot.joints_on.get(name, []):
+            a, b = self.place(origin), self.place(placed(pose, end))
             if math.dist(a, b) > 1.0:
-                yield geometry.dot(self.towards, placed(pose, end)), f'<path class="{kind} stick" d="M{a[0]} {a[1]}L{b[0]} {b[1]}"/>'
+                depth = 0.5 * (geometry.dot(self.towards, origin) + geometry.dot(self.towards, placed(pose, end)))
+                # Behind the solids around it.
+                yield depth - 8.0 / self.scale, f'<path class="{kind} stick" d="M{a[0]} {a[1]}L{b[0]} {b[1]}"/>'
 
     def joints(self, robot, poses, index):
         links = poses["links"]
