@@ -33,6 +33,7 @@ std::string joint_unit(const std::string& quantity, const JointDescription& join
   if (quantity == "position") return turns ? "rad" : "m";
   if (quantity == "velocity" || quantity == "sliding_velocity") return turns ? "rad/s" : "m/s";
   if (quantity == "acceleration") return turns ? "rad/s²" : "m/s²";
+  if (ends_with(quantity, "_rate")) return turns ? "N m/s" : "N/s";
   return turns ? "N m" : "N";  // effort, friction
 }
 
