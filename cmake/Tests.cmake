@@ -115,6 +115,12 @@ add_test(NAME layering_self_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_D
 add_test(NAME update_tables COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/benchmark/update_tables_test.py)
 add_test(NAME corpus_table COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/corpus_table_test.py $<TARGET_FILE:codesign>)
 add_test(NAME identify_cases COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/identify_cases_test.py $<TARGET_FILE:codesign>)
+add_test(NAME report COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/report_test.py $<TARGET_FILE:codesign>)
+set(codesign_setup)
+if(TARGET codesign_ros)
+  set(codesign_setup ${CATKIN_DEVEL_PREFIX}/setup.bash)
+endif()
+add_test(NAME command_line COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/command_line_test.py $<TARGET_FILE:codesign> ${codesign_setup})
 add_test(NAME compare_algorithms COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/compare_algorithms_test.py $<TARGET_FILE:codesign>)
 add_test(NAME identify_then_tune COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/identify_then_tune_test.py $<TARGET_FILE:codesign>)
 

@@ -71,6 +71,7 @@ const std::map<std::string, Option>& options() {
   static const std::map<std::string, Option> kOptions = {
       {"--overlay", {Value::kRequired, {}, [](const std::string& text, Arguments* to) { to->overlays.push_back(text); }}},
       {"--set", {Value::kRequired, {}, add_setting}},
+      {"--result", {Value::kRequired, {}, [](const std::string& text, Arguments* to) { to->result = text; }}},
       {"--json", {Value::kNone, {}, [](const std::string&, Arguments* to) { to->json = true; }}},
       {"--signals", {Value::kRequired, {"simulate"}, add_signals}},
       {"--csv", {Value::kRequired, {"simulate"}, [](const std::string& text, Arguments* to) { to->csv = text; }}},
@@ -132,7 +133,7 @@ bool asks_for_help(const Names& words) {
 }  // namespace
 
 Arguments parse_arguments(const std::vector<std::string>& words) {
-  const Names commands = {"check", "urdf", "simulate", "gradient", "optimize", "identify", "excite", "help"};
+  const Names commands = {"check", "urdf", "simulate", "gradient", "optimize", "identify", "excite", "report", "help"};
   Arguments arguments;
   if (words.empty()) throw UsageError("no command given");
   arguments.command = asks_for_help(words) ? "help" : words[0];

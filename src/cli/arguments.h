@@ -23,7 +23,8 @@ struct Arguments {
   std::string model;
   std::string study;                  ///< path; empty: none given
   std::vector<std::string> overlays;  ///< paths, in order
-  ParameterSettings settings;         ///< --set NAME=VALUE, in order
+  std::string result;                 ///< path of a result.json whose design is taken; empty: none
+  ParameterSettings settings;         ///< --set NAME=VALUE, in order; they replace what `result` says
   bool json = false;
   std::vector<std::string> signals;  ///< simulate
   std::string csv;                   ///< simulate; empty: standard output

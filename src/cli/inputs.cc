@@ -3,6 +3,7 @@
 
 #include "description/tuned_parameters.h"
 #include "jobs/inputs.h"
+#include "jobs/saved_result.h"
 #include "mechanism/signal_catalog.h"
 
 namespace codesign::cli {
@@ -12,7 +13,8 @@ Problem load(const Arguments& arguments, const Console* console) {
   inputs.urdf = read_source(arguments.model);
   for (const std::string& path : arguments.overlays) inputs.overlays.push_back(read_source(path));
   if (!arguments.study.empty()) inputs.study = read_source(arguments.study);
-  inputs.settings = arguments.settings;
+  if (!arguments.result.empty()) inputs.settings = read_result(read_source(arguments.result));
+  inputs.settings.insert(inputs.settings.end(), arguments.settings.begin(), arguments.settings.end());
   Problem problem = codesign::load(inputs);
   if (console != nullptr && console->loaded != nullptr) console->loaded();
   return problem;

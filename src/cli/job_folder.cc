@@ -5,22 +5,29 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <sstream>
 
-#include "cli/inputs.h"
 #include "cli/output_file.h"
-#include "jobs/ensemble_records.h"
-#include "jobs/run_recorder.h"
+#include "jobs/result_folder.h"
 #include "jobs/whole_file.h"
-#include "reading/urdf/urdf_reader.h"
-#include "text/decimal.h"
 
 namespace codesign::cli {
 namespace {
 
-constexpr int kSamples = 101;
 constexpr const char* kJournal = "journal.jsonl";
 constexpr const char* kPreviousJournal = "previous_journal.jsonl";
+
+/// A result must not replace what it comes from. @throws InputError
+void require_other_files(const std::string& folder, const Problem& problem) {
+  std::vector<std::string> inputs = {problem.urdf().name, problem.study_text().name};
+  for (const SourceText& overlay : problem.overlays()) inputs.push_back(overlay.name);
+  for (const std::string& name : ResultFolder::file_names())
+    for (const std::string& input : inputs) {
+      std::error_code error;
+      if (std::filesystem::equivalent(std::filesystem::path(folder) / name, input, error))
+        throw InputError(
+            {{input, 0}, "--output", "the result " + name + " would replace this file, which is read", folder, "another folder"});
+    }
+}
 
 }  // namespace
 
@@ -30,15 +37,14 @@ JobFolder::JobFolder(const std::string& path, const Problem& problem, bool resum
     require_journal(in_folder(kJournal));
   else
     make_folder(path, "--output");
+  require_other_files(path, problem);
   lock_ = LockFile::take(in_folder(".codesign_optimize.lock"));
   if (!lock_)
     throw InputError({{path, 0}, "--output", "another optimization is writing into this folder", path, "a folder of its own for each"});
   open_journal(resume);
   make_room(resume);
   open_output(in_folder("convergence.csv"), "--output", &convergence_file_);
-  std::vector<std::string> names = {"evaluation", "iteration", "status", "objective", "best_objective", "gradient_norm"};
-  for (const std::string& name : problem.tuned_names()) names.push_back(name);
-  try_to([&] { convergence_.emplace(convergence_file_, names, in_folder("convergence.csv")); });
+  try_to([&] { convergence_.emplace(convergence_file_, convergence_columns(problem.tuned_names()), in_folder("convergence.csv")); });
 }
 
 std::string JobFolder::in_folder(const std::string& name) const { return (std::filesystem::path(path_) / name).string(); }
@@ -52,7 +58,7 @@ void JobFolder::open_journal(bool resume) {
 }
 
 void JobFolder::make_room(bool resume) {
-  for (const char* name : {"result.json", "tuned.urdf", "initial.csv", "tuned.csv", "starts.csv", "scenarios.csv"}) {
+  for (const std::string& name : ResultFolder::file_names()) {
     unlink(in_folder(name).c_str());
     unlink((in_folder(name) + kPartSuffix).c_str());
   }
@@ -76,48 +82,21 @@ void JobFolder::try_to(const std::function<void()>& write) {
 void JobFolder::add(const Trial& trial) {
   best_.note(trial);
   if (!convergence_) return;
-  // A failed point has no objective; its cell is left empty, which CSV readers take as missing.
-  const auto known = [&trial](double value) { return trial.status.ok() ? to_decimal(value) : std::string(); };
-  std::vector<std::string> cells = {std::to_string(trial.evaluation), std::to_string(trial.iteration),  name_of(trial.status.code),
-                                    known(trial.objective),           to_decimal(trial.best_objective), known(trial.gradient_norm)};
-  for (const double value : trial.rho) cells.push_back(to_decimal(value));
   const std::size_t before = failures_.size();
-  try_to([&] { convergence_->write(cells); });
+  try_to([&] { convergence_->write(convergence_row(trial)); });
   if (failures_.size() > before) convergence_.reset();
 }
 
-void JobFolder::write_run(const std::string& name, const std::vector<double>& parameters, const std::atomic<bool>* cancel) {
-  const std::vector<SignalDescription> signals = select_signals({}, problem_);
-  std::ostringstream text;
-  CsvWriter csv(text, column_names(signals));
-  const auto sink = [&csv](const std::vector<double>& row) { csv.write(row); };
-  const Status status = record_run(problem_, parameters, signals, kSamples, sink, cancel).status;
-  if (!status.ok()) failures_.push_back({name_of(status.code), in_folder(name) + " ends early: " + describe(status)});
-  write_whole_file(in_folder(name), text.str());
-}
-
-void JobFolder::write_table(const std::string& name, const std::vector<std::string>& columns,
-                            const std::vector<std::vector<std::string>>& rows) {
-  try_to([&] {
-    std::ostringstream text;
-    CsvWriter csv(text, columns, in_folder(name));
-    for (const std::vector<std::string>& row : rows) csv.write(row);
-    write_whole_file(in_folder(name), text.str());
-  });
-}
+void JobFolder::add_failures(const std::vector<Failure>& failures) { failures_.insert(failures_.end(), failures.begin(), failures.end()); }
 
 std::vector<Failure> JobFolder::finish(const Json& object, const OptimizationResult& result, const std::atomic<bool>& cancel) {
   const std::atomic<bool>* const watched = cancel ? nullptr : &cancel;
-  const std::vector<double> tuned = problem_.parameters(result.rho);
   if (!journal_->failure().empty()) failures_.push_back({"output_failed", journal_->failure()});
   const std::size_t before = failures_.size();
-  try_to([&] { write_whole_file(in_folder("result.json"), to_text(object)); });
-  try_to([&] { write_whole_file(in_folder("tuned.urdf"), write_tuned_urdf(problem_.urdf(), problem_.overlays(), tuned)); });
-  if (!result.starts.empty()) write_table("starts.csv", start_columns(problem_), start_rows(result));
-  if (!result.scenarios.empty()) write_table("scenarios.csv", scenario_columns(result), scenario_rows(result));
+  const ResultFolder folder(path_, problem_);
+  add_failures(folder.write_design(object, result));
   if (failures_.size() == before) best_.remove();
-  try_to([&] { write_run("initial.csv", problem_.parameters(), watched); });
-  try_to([&] { write_run("tuned.csv", tuned, watched); });
+  add_failures(folder.write_runs(result, watched));
   return failures_;
 }
 

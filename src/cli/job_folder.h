@@ -22,7 +22,7 @@
 namespace codesign::cli {
 
 /// The output folder of `codesign optimize`. convergence.csv, best.urdf and best.json are written while the optimization runs; finish()
-/// writes result.json, tuned.urdf, initial.csv and tuned.csv, each as a whole. A lock admits one optimization at a time. Results of an
+/// writes those of ResultFolder, each as a whole. A lock admits one optimization at a time. Results of an
 /// earlier optimization are removed; its journal is kept as previous_journal.jsonl, and the best point of one that was killed as
 /// killed_best.urdf and killed_best.json.
 class JobFolder {
@@ -51,8 +51,7 @@ class JobFolder {
   std::string in_folder(const std::string& name) const;
   void open_journal(bool resume);
   void make_room(bool resume);
-  void write_run(const std::string& name, const std::vector<double>& parameters, const std::atomic<bool>* cancel);
-  void write_table(const std::string& name, const std::vector<std::string>& columns, const std::vector<std::vector<std::string>>& rows);
+  void add_failures(const std::vector<Failure>& failures);
   void try_to(const std::function<void()>& write);
 
   std::string path_;

@@ -10,6 +10,7 @@
 #include "cli/table.h"
 #include "engine/dispatcher.h"
 #include "jobs/ensemble_records.h"
+#include "jobs/optimization_records.h"
 #include "jobs/watched_records.h"
 #include "optimization/search_hooks.h"
 #include "text/number_text.h"
@@ -25,23 +26,6 @@ void print_trial(const Trial& trial, std::ostream& err) {
   else
     err << "failed, " << describe(trial.status);
   err << ", best " << readable(trial.best_objective) << std::endl;
-}
-
-/// Whether the best point was evaluated with its gradient; false if the search was cancelled before the first trial or the start failed.
-bool is_evaluated(const Problem& problem, const OptimizationResult& result) {
-  return result.gradient.size() == static_cast<Eigen::Index>(problem.study().tuned.size());
-}
-
-/// Whether the objective at the best point is known; while screening it is without its gradient.
-bool has_objective(const Problem& problem, const OptimizationResult& result) {
-  return is_evaluated(problem, result) || result.screened > result.unusable;
-}
-
-/// Whether there is a design to report. A cancelled optimization has one, which may be its start.
-bool has_design(const Problem& problem, const OptimizationResult& result) {
-  const auto size = static_cast<Eigen::Index>(problem.study().tuned.size());
-  const bool is_complete = result.rho.size() == size && result.initial_rho.size() == size;
-  return is_complete && (is_evaluated(problem, result) || result.status.is_interrupted());
 }
 
 void print_design(const Problem& problem, const OptimizationResult& result, std::ostream& out) {
@@ -70,50 +54,6 @@ void print_result(const Problem& problem, const OptimizationResult& result, std:
   out << result.termination << " after " << result.iterations << " iterations, " << result.evaluations << " evaluations ("
       << result.failed_evaluations << " failed), " << result.statistics.steps << " steps, " << readable(result.statistics.cpu_seconds)
       << " s of processor time\n";
-}
-
-/// The margins of the constraints, by the text of the constraint.
-Json margins_json(const Problem& problem, const OptimizationResult& result) {
-  std::vector<std::string> constraints;
-  for (const ParameterConstraint& constraint : problem.study().constraints) constraints.push_back(constraint.text);
-  return by_name(constraints, result.margins);
-}
-
-/// The constraints among parameters, one object each; empty without any.
-Json constraints_json(const Problem& problem, const OptimizationResult& result) {
-  Json list = Json::array();
-  for (const ParameterConstraint& constraint : problem.study().constraints) {
-    const double margin = result.margins[static_cast<Eigen::Index>(list.size())];
-    list.push_back({{"element", constraint.element},
-                    {"constraint", constraint.text},
-                    {"margin", margin},
-                    {"violation", margin < 0.0 ? -margin : 0.0}});
-  }
-  return list;
-}
-
-Json result_json(const Problem& problem, const OptimizationResult& result) {
-  const std::vector<std::string> names = problem.tuned_names();
-  Json object;
-  if (has_objective(problem, result)) object["objective"] = result.objective;
-  if (is_evaluated(problem, result)) object["initial_objective"] = result.initial_objective;
-  if (has_design(problem, result)) {
-    object["parameters"] = parameters_json(problem, problem.parameters(result.rho));
-    object["initial_parameters"] = parameters_json(problem, problem.parameters(result.initial_rho));
-    object["gradient"] = by_name(names, result.gradient);
-    object["initial_gradient"] = by_name(names, result.initial_gradient);
-    object["margins"] = margins_json(problem, result);
-    if (result.margins.size() > 0) object["constraints"] = constraints_json(problem, result);
-  }
-  object["iterations"] = result.iterations;
-  object["evaluations"] = result.evaluations;
-  object["failed_evaluations"] = result.failed_evaluations;
-  object["termination"] = result.termination;
-  add_statistics(result.statistics, &object);
-  add_watched(result, &object);
-  add_ensemble(problem, result, &object);
-  if (has_design(problem, result)) add_counts(problem, problem.parameters(result.rho), &object);
-  return object;
 }
 
 void tell(const std::vector<std::string>& sentences, const Console& console) {
@@ -154,7 +94,7 @@ int optimize(const Arguments& arguments, const Console& console) {
   const OptimizationResult result = run_search(problem, problem.optimizer_options(), hooks, &console.cancel);
   const bool designed = has_design(problem, result);
   if (!arguments.json && designed) print_result(problem, result, console.out);
-  Json object = result_json(problem, result);
+  Json object = optimization_json(problem, result);
   add_warnings(arguments, problem, result.warnings, &object, console);
   if (!result.status.ok()) object["error"] = to_json(result.status);
   if (result.status.code == StatusCode::kWorkerLost && folder)

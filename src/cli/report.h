@@ -8,6 +8,7 @@
 #include "cli/arguments.h"
 #include "cli/console.h"
 #include "cli/json_output.h"
+#include "jobs/failure.h"
 #include "jobs/sentences.h"
 #include "mechanism_codesign/status.h"
 
@@ -16,12 +17,6 @@ namespace codesign::cli {
 /// Writes each warning as a line to the error stream and all of them to `warnings` of `object`; also sets its `setup_seconds`.
 /// @param of_run warnings of the run, in addition to those of the input files.
 void add_warnings(const Arguments& arguments, const Problem& problem, const Warnings& of_run, Json* object, const Console& console);
-
-/// A failure outside the main computation, such as a file that could not be written or a recorded run that ended early.
-struct Failure {
-  std::string code;  ///< snake case, for `error.code`
-  std::string message;
-};
 
 /// Ends a command: prints `object` if --json was given, with an `error` if something failed, and writes each failure to the error stream.
 /// The code of the error is that of `status`, or if that is ok, of the first of `failures`. @returns the exit code.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cli/commands.h"
+#include "cli/hand_over.h"
 #include "cli/json_output.h"
 #include "cli/usage.h"
 #include "jobs/output_error.h"
@@ -38,6 +39,8 @@ int report(bool json, const Json& error, const Console& console, int code) {
 int run_command(const std::vector<std::string>& words, const Console& console) {
   const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
   try {
+    // Its page is made by a script, which reads its own command line.
+    if (!words.empty() && words[0] == "report") return hand_over("report", {words.begin() + 1, words.end()});
     return dispatch(parse_arguments(words), console);
   } catch (const UsageError& error) {
     console.err << usage() << '\n';

@@ -36,9 +36,12 @@ void summarize(const RunSummary& run, double duration, double setup_seconds, std
 
 /// Adds the objective. It needs a run of its own with the quadrature, so it is computed only for output that shows it. If that run is
 /// cancelled, `status` becomes kCancelled.
-void add_objective(const Problem& problem, const Console& console, Status* status, Json* object) {
+/// @param as_searched computes it as a search does, so that the objective of a result comes out again: where sensitivities take part in the
+/// error test, its steps are others.
+void add_objective(const Problem& problem, bool as_searched, const Console& console, Status* status, Json* object) {
   if (!status->ok() || !has_objective(problem.study())) return;
-  const Evaluation evaluation = Evaluator(problem.system()).evaluate(problem.start(), false, &console.cancel);
+  const bool with_gradient = as_searched && !problem.study().tuned.empty();
+  const Evaluation evaluation = Evaluator(problem.system()).evaluate(problem.start(), with_gradient, &console.cancel);
   if (evaluation.status.ok()) (*object)["objective"] = evaluation.objective;
   if (evaluation.status.code == StatusCode::kCancelled) *status = evaluation.status;
 }
@@ -74,7 +77,7 @@ int simulate(const Arguments& arguments, const Console& console) {
   if (run.status.ok()) summarize(run, problem.study().duration, problem.setup_seconds(), console.err);
   Json object;
   if (arguments.json) {
-    add_objective(problem, console, &run.status, &object);
+    add_objective(problem, !arguments.result.empty(), console, &run.status, &object);
     add_run(problem, run, counts, series_json(names, rows), &object);
   }
   Warnings warnings = run.warnings;

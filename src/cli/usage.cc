@@ -18,19 +18,22 @@ commands
   gradient MODEL STUDY     the objective and its gradient by direct sensitivities
     --verify[=METHOD]      compare with complex_step (the default) or ridders (always with idas)
   optimize MODEL STUDY     tune the study's parameters; Ctrl-C ends with the best point so far
-    --output DIR           write tuned.urdf, result.json, convergence.csv, initial.csv, tuned.csv;
-                           journal.jsonl, and best.urdf and best.json while it runs
+    --output DIR           write result.json, tuned.urdf, gains.yaml, tables of both runs and of the
+                           search (doc/results.md); journal.jsonl, best.urdf, best.json while it runs
     --resume DIR           go on with the optimization of DIR/journal.jsonl, killed or cancelled
   identify MODEL STUDY     fit parameters to recordings, and tell how well they are known
     --output DIR           write identification.json, identified_overlay.urdf, identified.urdf and
                            residuals.csv
   excite MODEL STUDY       a motion within all limits, after whose recording identify knows most
     --output DIR           write trajectory.csv, plain.csv, excitation.json; with ROS trajectory.bag
+  report DIR|BAG           a page with all that an optimization or identification has found
+    -o FILE                the page; by default report.html
   help                     this text
   --version                the version of this program, as "codesign 0.1.0"
 
 options of every command
   --overlay FILE           annotations to merge into the model; may be repeated
+  --result FILE            take the design of a result.json
   --set PARAMETER=VALUE    replace a parameter's value, or the start of a tuned one; may be repeated
   --json                   one JSON object on standard output, with this program's version
 

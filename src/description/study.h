@@ -13,6 +13,7 @@
 #include "description/control_realization.h"
 #include "description/ensemble.h"
 #include "description/excitation.h"
+#include "description/hardware.h"
 #include "description/identification.h"
 #include "description/quantity.h"
 #include "description/reference.h"
@@ -136,7 +137,8 @@ struct Study {
   EnsembleDescription ensemble;
   std::optional<IdentificationDescription> identification;
   std::optional<ExcitationDescription> excitation;
-  std::string file;  ///< the file it was read from, for messages
+  std::vector<HardwareGains> hardware;  ///< in the order written
+  std::string file;                     ///< the file it was read from, for messages
 };
 
 /// Whether the objective has a term: an integral, a terminal one or a peak.

@@ -49,7 +49,7 @@ bool exists(const std::string& path) {
 }
 
 bool has_files(const std::string& stem) {
-  return exists(stem + ".bag") || exists(stem + ".bag.active") || exists(stem + kBest[0]) || exists(stem + kBest[1]) ||
+  return exists(stem) || exists(stem + ".bag") || exists(stem + ".bag.active") || exists(stem + kBest[0]) || exists(stem + kBest[1]) ||
          exists(stem + kJournal) || exists(stem + ".identification.json");
 }
 

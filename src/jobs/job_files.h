@@ -35,6 +35,8 @@ class JobFiles {
   const std::string& stem() const { return stem_; }
   /// A file that does not exist yet: `<stem>.bag`, or, of a job that had one when it was resumed, `<stem>.resumed.bag`, ...
   const std::string& bag() const { return bag_; }
+  /// The folder of files beside the bag, which the job makes: its path without `.bag`.
+  std::string folder() const { return bag_.substr(0, bag_.size() - 4); }
   std::string journal() const { return stem_ + ".journal.jsonl"; }
 
  private:

@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "jobs/saved_result.h"
 #include "mechanism_codesign/error.h"
 #include "ros/parameters.h"
 
@@ -44,12 +45,15 @@ void read_study_source(const ros::NodeHandle& private_node, Inputs* inputs) {
     refuse_parameter(private_node, "study", "neither a path nor a tree", value, "a path, or the study as a tree of parameters");
 }
 
+/// The design of `~result`, then what `~set` says.
 ParameterSettings read_settings(const ros::NodeHandle& private_node) {
+  ParameterSettings settings;
+  const std::string result = read_path(private_node, "result", "");
+  if (!result.empty()) settings = read_result(read_source(result));
   XmlRpcValue value;
-  if (!find_parameter(private_node, "set", &value)) return {};
+  if (!find_parameter(private_node, "set", &value)) return settings;
   if (value.getType() != XmlRpcValue::TypeStruct)
     refuse_parameter(private_node, "set", "not a dictionary", value, "{parameter: number, ...}");
-  ParameterSettings settings;
   for (auto& [name, number] : value) {
     settings.emplace_back(name, 0.0);
     if (!is_number(number, &settings.back().second))
@@ -61,7 +65,7 @@ ParameterSettings read_settings(const ros::NodeHandle& private_node) {
 }  // namespace
 
 const std::vector<std::string>& input_parameters() {
-  static const std::vector<std::string> kNames = {"model", "overlays", "study", "set"};
+  static const std::vector<std::string> kNames = {"model", "overlays", "study", "result", "set"};
   return kNames;
 }
 

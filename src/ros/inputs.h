@@ -15,7 +15,8 @@ namespace codesign {
 /// - `~model`: path of the URDF; without it the text in `robot_description`;
 /// - `~overlays`: a path or a list of paths;
 /// - `~study`: a path, or the study itself as a tree of parameters (`<rosparam ns="study" file=...>`);
-/// - `~set`: parameter values that replace those of model and study, by name.
+/// - `~result`: path of a result.json, whose design replaces the values of model and study;
+/// - `~set`: parameter values that replace those of model, study and result, by name.
 /// @throws InputError for a missing or ill-typed parameter or a file that cannot be read.
 Inputs read_inputs(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <utility>
 
@@ -12,7 +13,11 @@
 #include "jobs/ensemble_records.h"
 #include "jobs/job_files.h"
 #include "jobs/journal.h"
+#include "jobs/json_records.h"
+#include "jobs/optimization_records.h"
 #include "jobs/output_error.h"
+#include "jobs/result_folder.h"
+#include "jobs/whole_file.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/optimization.h"
 #include "optimization/search_hooks.h"
@@ -64,6 +69,21 @@ BagRuns run_both(const Problem& problem, const OptimizationResult& result, const
   };
   BagSide tuned = side(result.rho);
   return {side(result.initial_rho), std::move(tuned)};
+}
+
+/// The row of convergence.csv for a trial point that was told to others; those are kept in bounded memory.
+std::vector<std::string> convergence_row(const mechanism_codesign::OptimizationProgress& progress) {
+  Trial trial;
+  trial.evaluation = static_cast<int>(progress.evaluation);
+  trial.iteration = static_cast<int>(progress.iteration);
+  trial.status.code = progress.code == name_of(StatusCode::kSuccess) ? StatusCode::kSuccess : StatusCode::kAssemblyFailed;
+  trial.objective = progress.objective;
+  trial.best_objective = progress.best_objective;
+  trial.gradient_norm = progress.gradient_norm;
+  trial.rho = Eigen::Map<const Eigen::VectorXd>(progress.values.data(), static_cast<Eigen::Index>(progress.values.size()));
+  std::vector<std::string> row = codesign::convergence_row(trial);
+  row[2] = progress.code;
+  return row;
 }
 
 JobFiles files_of(const std::string& resume, const std::string& directory, const std::string& robot) {
@@ -135,11 +155,40 @@ class Job {
     record_->result.bag = files_.bag();
     write_bag(files_.bag(), *record_);
     outcome_->result.bag = files_.bag();
+    // After the bag, so that it does not take the last room on a disk from it.
+    write_folder(cancel);
+    outcome_->result.warnings = warning_messages(problem_.warnings(), warnings());
     best_.remove();
     has_ended_ = !is_interrupted();
   }
 
  private:
+  /// The folder beside the bag. Of a job that was cancelled, and is waited for, it has no runs.
+  void write_folder(const std::atomic<bool>& cancel) {
+    const ResultFolder folder(files_.folder(), problem_);
+    Json object = optimization_json(problem_, result_);
+    Warnings all = problem_.warnings();
+    append(warnings(), &all);
+    object["setup_seconds"] = problem_.setup_seconds();
+    object["warnings"] = to_json(all);
+    if (!result_.status.ok()) object["error"] = to_json(result_.status);
+    try {
+      std::filesystem::create_directory(files_.folder());
+      folder_failures_ = folder.write_design(object, result_);
+      write_whole_file(folder.in_folder("convergence.csv"), convergence_text(folder.in_folder("convergence.csv")));
+    } catch (const std::exception& error) {
+      folder_failures_.push_back({"output_failed", error.what()});
+    }
+    if (is_interrupted() || !folder_failures_.empty()) return;
+    folder_failures_ = folder.write_runs(result_, &cancel);
+  }
+
+  std::string convergence_text(const std::string& where) const {
+    std::vector<std::vector<std::string>> rows;
+    for (const mechanism_codesign::OptimizationProgress& progress : record_->progress) rows.push_back(convergence_row(progress));
+    return csv_text(convergence_columns(problem_.tuned_names()), rows, where);
+  }
+
   /// Whether the job did not end by itself, so that it may go on.
   bool is_interrupted() const { return result_.status.is_interrupted(); }
 
@@ -167,6 +216,7 @@ class Job {
                           "if the job had to be resumed: " +
                               failure,
                           {}});
+    for (const Failure& failed : folder_failures_) warnings.push_back({"folder_incomplete", failed.message, {}});
     add_early_ends("", record_->nominal, &warnings);
     if (record_->worst) add_early_ends("worst ", *record_->worst, &warnings);
     return warnings;
@@ -189,6 +239,7 @@ class Job {
   BestRecord best_;
   std::shared_ptr<Journal> journal_;  ///< null if the disk does not take it
   std::string journal_failure_;
+  std::vector<Failure> folder_failures_;
   bool has_ended_ = false;  ///< by itself, with all files written
   JobRecord* record_;
   OptimizationOutcome* outcome_;

@@ -13,6 +13,7 @@ parameters
   ~model PATH              annotated URDF; without it the text in robot_description
   ~study PATH              study file, or the study itself as a tree
   ~overlays [PATH, ...]    annotations to merge into the model
+  ~result PATH             a result.json, whose design is taken
   ~set {NAME: VALUE}       parameter values that replace those of model and study
   ~output_directory PATH   where bags go; by default $ROS_HOME/mechanism_codesign or ~/.ros/mechanism_codesign
   ~rate NUMBER             samples per second of the runs in the bag, by default 50

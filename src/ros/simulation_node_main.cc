@@ -12,6 +12,7 @@ parameters
   ~model PATH              annotated URDF; without it the text in robot_description
   ~study PATH              study file, or the study itself as a tree
   ~overlays [PATH, ...]    annotations to merge into the model
+  ~result PATH             a result.json, whose design is taken
   ~set {NAME: VALUE}       parameter values that replace those of model and study
   ~rate NUMBER             frames per second of the run, by default 50
   ~mode MODE               real_time (the default) or as_fast_as_possible, with /clock

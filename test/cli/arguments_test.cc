@@ -41,6 +41,11 @@ TEST(Arguments, OptionsStandAnywhereAndTakeEitherSpelling) {
   EXPECT_EQ(arguments.study, "a.yaml");
 }
 
+TEST(Arguments, EveryCommandTakesAResult) {
+  for (const char* command : {"check", "urdf", "simulate", "gradient", "optimize", "identify"})
+    EXPECT_EQ(parse_arguments({command, "m", "s", "--result", "r.json"}).result, "r.json") << command;
+}
+
 TEST(Arguments, ResumeNamesTheFolder) {
   EXPECT_TRUE(parse_arguments({"optimize", "m", "s", "--resume", "out"}).resume);
   EXPECT_EQ(parse_arguments({"optimize", "m", "s", "--resume=out"}).output, "out");

@@ -27,6 +27,19 @@ TEST(Inputs, ReadsModelStudyOverlaysAndSettings) {
   EXPECT_EQ(load_tunable(arguments).study().tuned.size(), 5U);
 }
 
+TEST(Inputs, ASettingCountsMoreThanAResult) {
+  const ScratchFolder folder;
+  std::ofstream(folder.path("result.json")) << R"({"parameters": {"crank_length": 0.07, "Kp": 3.0}})";
+  Arguments arguments = slider_crank();
+  arguments.result = folder.path("result.json");
+  EXPECT_EQ(load(arguments).start()[0], 0.07);
+  EXPECT_EQ(load(arguments).start()[4], 3.0);
+  arguments.settings = {{"Kp", 2.0}};
+  EXPECT_EQ(load(arguments).start()[4], 2.0);
+  std::ofstream(folder.path("result.json")) << R"({"parameters": {"crank_length": 7.0}})";
+  EXPECT_THROW(load(arguments), InputError) << "outside its bounds";
+}
+
 TEST(Inputs, ALoneModelHasNothingToTune) {
   Arguments arguments = slider_crank();
   arguments.study.clear();

@@ -61,7 +61,7 @@ TEST_F(JobProcess, InterruptedBeforeTheFirstEvaluationItLeavesTheStart) {
   EXPECT_EQ(object["termination"], "cancelled");
   EXPECT_FALSE(object.contains("objective"));
   EXPECT_EQ(object["parameters"], object["initial_parameters"]);
-  EXPECT_EQ(lines_of(read_text_file(job("tuned.csv"))).size(), 102U);
+  EXPECT_EQ(lines_of(read_text_file(job("tuned.csv"))).size(), 502U);
   EXPECT_EQ(lines_of(read_text_file(job("convergence.csv"))).size(), 1U);
 }
 

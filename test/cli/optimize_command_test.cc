@@ -22,9 +22,37 @@ TEST(OptimizeCommand, WritesItsFolder) {
   EXPECT_EQ(convergence.at(0),
             "evaluation,iteration,status,objective,best_objective,gradient_norm,crank_length,rod_length,slider_length,slider_width,Kp");
   EXPECT_EQ(convergence.size(), 1U + object["evaluations"].get<std::size_t>());
-  for (const char* name : {"job/initial.csv", "job/tuned.csv"}) EXPECT_EQ(lines_of(read_text_file(folder.path(name))).size(), 102U) << name;
+  for (const char* name : {"job/initial.csv", "job/tuned.csv"}) EXPECT_EQ(lines_of(read_text_file(folder.path(name))).size(), 502U) << name;
   Json tuned = json_of(run_words({"check", folder.path("job/tuned.urdf"), "--json"}));
   EXPECT_NEAR(tuned["parameters"]["crank_length"].get<double>(), object["parameters"]["crank_length"].get<double>(), 1e-15);
+}
+
+TEST(OptimizeCommand, TheFilesAloneReproduceTheObjective) {
+  const ScratchFolder folder;
+  ASSERT_EQ(run_words({"optimize", kModel, short_study(folder), "--set", "rod_length=0.31", "--output", folder.path("job")}).code, kDone);
+  const auto in_job = [&folder](const char* name) { return folder.path(std::string("job/") + name); };
+  const Json result = Json::parse(read_text_file(in_job("result.json")));
+  const auto objective = [&](const char* command, const char* model, const char* design) {
+    const Outcome outcome = run_words({command, in_job(model), in_job("job_study.yaml"), "--result", in_job(design), "--json"});
+    EXPECT_EQ(outcome.code, kDone) << outcome.err;
+    return json_of(outcome)["objective"].get<double>();
+  };
+  const double tuned = result["objective"].get<double>(), initial = result["initial_objective"].get<double>();
+  for (const char* command : {"simulate", "gradient"}) {
+    EXPECT_NEAR(objective(command, "tuned.urdf", "result.json"), tuned, 1e-12 * tuned) << command;
+    EXPECT_NEAR(objective(command, "initial.urdf", "result.json"), tuned, 1e-12 * tuned) << command;
+    EXPECT_NEAR(objective(command, "initial.urdf", "initial.json"), initial, 1e-12 * initial) << command;
+  }
+}
+
+TEST(OptimizeCommand, RefusesToReplaceWhatItReads) {
+  const ScratchFolder folder;
+  const std::string model = folder.edited("initial.urdf", read_text_file(kModel), "crank_length", "crank_length");
+  const std::string before = read_text_file(model);
+  const Outcome outcome = run_words({"optimize", model, short_study(folder), "--output", folder.path(".")});
+  EXPECT_EQ(outcome.code, kBadInput);
+  EXPECT_NE(outcome.err.find("initial.urdf would replace this file"), std::string::npos) << outcome.err;
+  EXPECT_EQ(read_text_file(model), before);
 }
 
 TEST(OptimizeCommand, ListsConstraintsWithTheirMargins) {
@@ -88,7 +116,7 @@ TEST(OptimizeCommand, ACancelledOptimizationKeepsItsBestPoint) {
   EXPECT_EQ(Json::parse(read_text_file(folder.path("job/result.json"))), object);
   EXPECT_EQ(object["evaluations"], 3);
   EXPECT_LE(object["objective"].get<double>(), object["initial_objective"].get<double>());
-  EXPECT_EQ(lines_of(read_text_file(folder.path("job/tuned.csv"))).size(), 102U);
+  EXPECT_EQ(lines_of(read_text_file(folder.path("job/tuned.csv"))).size(), 502U);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 """The files that jobs leave: after Ctrl-C, cancel, kill -9, a full disk and absurd requests, and by two nodes in the same second."""
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -79,7 +80,8 @@ class JobsTest(NodesTestCase):
             self.assertEqual(list(result.initial), list(reply.initial))
             self.assertEqual(result.bag, reply.bag)
             self.assertEqual(frames, 101)
-        self.assertEqual(sorted(os.listdir(self.folder)), sorted(os.path.basename(bag) for bag in bags), "nothing else is left")
+        folders = [bag[:-len(".bag")] for bag in bags]
+        self.assertEqual(sorted(os.listdir(self.folder)), sorted(map(os.path.basename, bags + folders)), "nothing else is left")
 
     def test_an_interrupted_node_leaves_the_bag_of_a_job_of_the_service(self):
         for kind in (signal.SIGINT, signal.SIGTERM):
@@ -92,7 +94,10 @@ class JobsTest(NodesTestCase):
             self.assertEqual(result.code, "cancelled")
             self.assertEqual(frames, 401)
             journal = bag.replace(".bag", ".journal.jsonl")
-            self.assertEqual(sorted(os.listdir(self.folder)), sorted(map(os.path.basename, (bag, journal))), "it can be gone on with")
+            folder = bag[:-len(".bag")]
+            self.assertEqual(sorted(os.listdir(self.folder)), sorted(map(os.path.basename, (bag, journal, folder))), "it can be gone on with")
+            self.assertTrue(os.path.exists(os.path.join(folder, "result.json")))
+            shutil.rmtree(folder)
             os.remove(bag)
             os.remove(journal)
 

@@ -9,11 +9,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <set>
 
 #include "ensemble/ensemble_fixture.h"
+#include "jobs/saved_result.h"
+#include "mechanism_codesign/gradient.h"
 #include "reading/urdf/urdf_reader.h"
 #include "ros/job.h"
 #include "ros/pendulum.h"
@@ -127,7 +130,32 @@ TEST_F(OptimizationJob, TheBestPointIsOnDiskUntilTheBagIs) {
                       }).result;
   EXPECT_EQ(seen.size(), result.evaluations);
   const auto entries = std::filesystem::directory_iterator(directory_.path());
-  EXPECT_EQ(std::distance(begin(entries), end(entries)), 1) << "the bag alone";
+  EXPECT_EQ(std::distance(begin(entries), end(entries)), 2) << "the bag and its folder alone";
+}
+
+TEST_F(OptimizationJob, TheFolderBesideTheBagReproducesTheObjective) {
+  const auto result = run().result;
+  ASSERT_TRUE(result.success) << result.message;
+  const std::filesystem::path folder = std::filesystem::path(result.bag).replace_extension();
+  const auto source = [&folder](const char* name) { return read_source((folder / name).string()); };
+  const Problem again = load_problem(source("tuned.urdf"), {}, source("job_study.yaml"), read_result(source("result.json")));
+  EXPECT_EQ(again.start(), Eigen::Map<const Eigen::VectorXd>(result.tuned.data(), 2));
+  const Evaluation evaluation = Evaluator(again).evaluate(again.start(), true);
+  EXPECT_NEAR(evaluation.objective, result.objective, 1e-12 * result.objective);
+  const std::string convergence = source("convergence.csv").text;
+  EXPECT_EQ(static_cast<unsigned>(std::count(convergence.begin(), convergence.end(), '\n')), result.evaluations + 1);
+  for (const char* name : {"details.json", "initial.csv", "tuned.csv"}) EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+}
+
+TEST_F(OptimizationJob, AFolderThatCannotBeWrittenIsAWarning) {
+  // In the way of the folder's convergence.csv, once its name is known.
+  const auto result = run(OptimizeGoal(), [&](const mechanism_codesign::OptimizationProgress& progress) {
+                        std::filesystem::create_directories(directory_.path() / progress.job / "convergence.csv");
+                      }).result;
+  EXPECT_TRUE(result.success) << result.message;
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_EQ(result.warnings.back().code, "folder_incomplete");
+  EXPECT_TRUE(std::filesystem::exists(result.bag));
 }
 
 TEST_F(OptimizationJob, ManyInOneSecondLeaveABagEach) {

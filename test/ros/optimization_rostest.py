@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """An empty request runs the loaded study; the bag it leaves can be read and replayed."""
+import json
+import os
 import shutil
 import subprocess
 import threading
@@ -93,6 +95,37 @@ class OptimizationTest(unittest.TestCase):
             signals = [message for _, message, _ in bag.read_messages(topics=["tuned/signals"])]
             self.assertEqual(signals[-1].name, ["crank_joint/velocity", "crank_speed/output"])
             self.assertEqual(signals[-1].value[0], velocity[-1])
+
+    def test_the_folder_beside_the_bag(self):
+        folder = self.result.bag[:-len(".bag")]
+        names = set(os.listdir(folder))
+        self.assertLessEqual({"result.json", "details.json", "tuned.urdf", "initial.urdf", "job_study.yaml", "initial.csv", "tuned.csv",
+                              "convergence.csv"}, names)
+        with open(os.path.join(folder, "result.json")) as file:
+            result = json.load(file)
+        self.assertEqual(result["objective"], self.result.objective)
+        self.assertEqual([result["parameters"][name] for name in self.result.parameters], list(self.result.tuned))
+        self.assertEqual(len(result["warnings"]), len(self.result.warnings))
+        # The files alone give the objective again, and a page.
+        reply = self.codesign("simulate", "tuned.urdf", "job_study.yaml", "--result", "result.json", "--json", cwd=folder)
+        self.assertAlmostEqual(json.loads(reply)["objective"], self.result.objective, delta=1e-12 * self.result.objective)
+        page = os.path.join(folder, "page.html")
+        self.codesign("report", self.result.bag, "-o", page)
+        with open(page, encoding="utf-8") as file:
+            self.assertIn(repr(self.result.objective), file.read())
+
+    def codesign(self, *arguments, cwd=None):
+        reply = subprocess.run(["rosrun", "mechanism_codesign", "codesign", *arguments], capture_output=True, text=True, check=False, cwd=cwd)
+        self.assertEqual(reply.returncode, 0, reply.stderr)
+        return reply.stdout
+
+    def test_the_example_client(self):
+        for way in ([], ["--action"]):
+            command = ["rosrun", "mechanism_codesign", "example_client", *way, "--evaluations", "2", "Kp=2.5"]
+            reply = subprocess.run(command, capture_output=True, text=True, check=False)
+            self.assertEqual(reply.returncode, 0, reply.stdout + reply.stderr)
+            self.assertIn("  Kp 2.5 -> ", reply.stdout)
+            self.assertEqual("trial 2" in reply.stdout, bool(way), reply.stdout)
 
     def test_replay(self):
         launch = subprocess.Popen(["roslaunch", "mechanism_codesign", "replay.launch", f"bag:={self.result.bag}", "rviz:=false"])

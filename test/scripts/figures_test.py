@@ -37,22 +37,23 @@ def message_class(name):
 
 
 def write_bag(path, progress):
-    friction, controllers, trial = (message_class(n) for n in ("JointFriction", "ControllerStates", "OptimizationProgress"))
+    friction, controllers, signals, trial = (message_class(n) for n in ("JointFriction", "ControllerStates", "Signals", "OptimizationProgress"))
     with rosbag.Bag(path, "w") as bag:
         for k in range(5):
             stamp = rospy.Time.from_sec(1.0 + 0.1 * k)
             for side, scale in (("initial", 2.0), ("tuned", 1.0)):
                 messages = {
-                    "joint_states": JointState(name=["slide", "turn"], velocity=[scale * k, -k]),
+                    "joint_states": JointState(name=["slide", "turn"], position=[0.5 * k, 0.0], velocity=[scale * k, -k]),
                     "joint_friction": friction(name=["slide"], friction=[-scale], normal_force=[3.0], sliding_velocity=[k]),
-                    "controller_states": controllers(name=["servo"], error=[scale * (4 - k)], output=[k]),
+                    "controller_states": controllers(name=["servo", "push"], error=[scale * (4 - k), 0.0], output=[k, 1.0]),
+                    "signals": signals(name=["cart/position/x", "servo/error"], value=[k, scale * (4 - k)]),
                 }
                 for topic, message in messages.items():
                     message.header.stamp = stamp
                     bag.write(f"{side}/{topic}", message, stamp)
         for code, objective in progress:
             bag.write("optimization_progress", trial(evaluation=len(code), code=code, objective=objective, best_objective=objective,
-                                                     gradient_norm=1.0), stamp)
+                                                     gradient_norm=1.0, parameters=["Kp", "mass"], values=[objective, 2.0]), stamp)
 
 
 class CaseFigures(unittest.TestCase):
@@ -74,9 +75,22 @@ class CaseFigures(unittest.TestCase):
     def test_pictures_are_drawn_without_a_screen(self):
         write_bag(self.bag, [("success", 4.0), ("assembly_failed", 0.0), ("success", 1.0)])
         self.script.main([self.bag, "--output", self.folder.name, "--name", "job", "--velocity", "turn"])
-        for name in ("job_runs.png", "job_convergence.png"):
+        for name in ("job_runs.png", "job_convergence.png", "job_parameters.png"):
             with open(os.path.join(self.folder.name, name), "rb") as file:
                 self.assertEqual(file.read(8), b"\x89PNG\r\n\x1a\n")
+
+    def test_what_is_flat_or_shown_already_gets_no_panel(self):
+        write_bag(self.bag, [("success", 1.0)])
+        with rosbag.Bag(self.bag) as bag:
+            runs = {side: self.script.read_run(bag, side) for side in ("initial", "tuned")}
+        panels = {quantity: names for quantity, _, names in self.script.choose_panels(runs, [], [])}
+        self.assertEqual(panels["error"], ["servo"])
+        self.assertEqual(panels["output"], ["push", "servo"])
+        self.assertEqual(panels["position"], ["slide"])
+        self.assertEqual(panels["signal"], ["cart/position/x"])
+        self.assertNotIn("velocity", panels)
+        panels = {quantity: names for quantity, _, names in self.script.choose_panels(runs, ["turn"], ["slide"])}
+        self.assertEqual((panels["position"], panels["velocity"]), (["turn"], ["slide"]))
 
     def test_other_bags_and_joints_are_refused(self):
         write_bag(self.bag, [])

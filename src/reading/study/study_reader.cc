@@ -7,6 +7,7 @@
 #include "reading/study/study_controllers.h"
 #include "reading/study/study_ensemble.h"
 #include "reading/study/study_excite.h"
+#include "reading/study/study_hardware.h"
 #include "reading/study/study_identify.h"
 #include "reading/study/study_initial_state.h"
 #include "reading/study/study_loads.h"
@@ -53,6 +54,7 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   const ParameterTable table(study.parameters);
   read_initial_state(root, robot, table, &study);
   read_controllers(root, robot, table, loader, &study);
+  read_hardware(root, table, &study);
   read_loads(root, robot, table, &study);
   read_objective(root, robot, table, loader, &study);
   read_watched(root, robot, table, loader, &study);
@@ -72,7 +74,7 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot, const Tr
   const YamlValue root = YamlValue::parse(yaml);
   root.require_keys({}, {"duration",  "gravity", "initial_state", "controllers", "loads",    "parameters", "objective",
                          "path",      "final",   "constraints",   "limits",      "solver",   "optimizer",  "runs",
-                         "uncertain", "robust",  "multistart",    "engine",      "identify", "excite"});
+                         "uncertain", "robust",  "multistart",    "engine",      "identify", "excite",     "hardware"});
   const auto read_run = [&](const YamlValue& study_value) { return read_single_run(study_value, yaml.name, robot, loader); };
   Study study = read_run(root);
   study.ensemble = read_ensemble(root, robot, read_run, files, study);

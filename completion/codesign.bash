@@ -1,0 +1,53 @@
+# shellcheck shell=bash
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+# Completion of `codesign` in bash; `. devel/setup.bash` loads it.
+
+# The values of an option: names of files, a few words, or nothing.
+_codesign_value() {
+  case $1 in
+    --overlay) mapfile -t COMPREPLY < <(compgen -f -X '!*.@(urdf|xml)' -- "$2"; compgen -d -- "$2") ;;
+    --result) mapfile -t COMPREPLY < <(compgen -f -X '!*.json' -- "$2"; compgen -d -- "$2") ;;
+    --csv | -o) mapfile -t COMPREPLY < <(compgen -f -- "$2") ;;
+    --output | --resume) mapfile -t COMPREPLY < <(compgen -d -- "$2") ;;
+    --verify) mapfile -t COMPREPLY < <(compgen -W "complex_step ridders" -- "$2") ;;
+    *) COMPREPLY=() ;;
+  esac
+}
+
+_codesign() {
+  local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]-} options
+  shopt -q extglob || return 0
+  if [ "$COMP_CWORD" -eq 1 ]; then
+    mapfile -t COMPREPLY < <(compgen -W "check urdf simulate gradient optimize identify report help --help --version" -- "$word")
+    return
+  fi
+  # readline splits --verify=ridders in three.
+  if [ "$previous" = "=" ]; then
+    _codesign_value "${COMP_WORDS[COMP_CWORD - 2]}" "$word"
+    return
+  fi
+  case $previous in
+    --overlay | --result | --csv | --output | --resume | --set | --signals | --samples | -o)
+      _codesign_value "$previous" "$word"
+      return
+      ;;
+  esac
+  options="--overlay --result --set --json --help"
+  case $command in
+    simulate) options+=" --signals --csv --samples" ;;
+    gradient) options+=" --verify" ;;
+    optimize) options+=" --output --resume" ;;
+    identify) options+=" --output" ;;
+    report) options="-o --output --help" ;;
+  esac
+  if [[ $word == -* ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
+  elif [ "$command" = report ]; then
+    mapfile -t COMPREPLY < <(compgen -f -X '!*.bag' -- "$word"; compgen -d -- "$word")
+  else
+    mapfile -t COMPREPLY < <(compgen -f -X '!*.@(urdf|xml|yaml|yml)' -- "$word"; compgen -d -- "$word")
+  fi
+}
+
+shopt -s extglob
+complete -o filenames -F _codesign codesign

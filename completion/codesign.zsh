@@ -1,0 +1,29 @@
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+# Completion of `codesign` in zsh; `. devel/setup.zsh` loads it if compinit has run.
+
+_codesign() {
+  local -a shared options
+  shared=('*--overlay[annotations to merge into the model]:overlay:_files -g "*.(urdf|xml)"'
+          '--result[take the design of a result.json]:result:_files -g "*.json"'
+          '*--set[replace the value of a parameter]:PARAMETER=VALUE:'
+          '--json[one JSON object on standard output]' '--help[the options]')
+  if (( CURRENT == 2 )); then
+    _values 'command' 'check[equations and redundant constraints]' 'urdf[the URDF that is simulated]' 'simulate[one run as CSV]' \
+      'gradient[objective and gradient]' 'optimize[tune the parameters of the study]' 'identify[fit parameters to recordings]' \
+      'report[a page of what a job has found]' 'help[the options]' '--help' '--version'
+    return
+  fi
+  case ${words[2]} in
+    simulate) options=('--signals[the signals to print]:signals:' '--csv[the file to write]:file:_files' '--samples[number of instants]:number:') ;;
+    gradient) options=('--verify=-[compare with a reference]::method:(complex_step ridders)') ;;
+    optimize) options=('--output[folder of the results]:folder:_files -/' '--resume[go on with the job of a folder]:folder:_files -/') ;;
+    identify) options=('--output[folder of the results]:folder:_files -/') ;;
+    report)
+      _arguments '1:command:' '2:job:_files -g "*.bag(-.) *(-/)"' '(-o --output)'{-o,--output}'[the page]:file:_files' '--help[the options]'
+      return
+      ;;
+  esac
+  _arguments '1:command:' '2:model:_files -g "*.(urdf|xml)"' '3:study:_files -g "*.(yaml|yml)"' $shared $options
+}
+
+if (( $+functions[compdef] )); then compdef _codesign codesign; fi

@@ -1,0 +1,74 @@
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""What the study asks for, as rows of words and the study's own texts."""
+import collections
+
+import yaml
+
+Term = collections.namedtuple("Term", "kind signal reference weight")
+
+
+def text_of(value):
+    """A value of the study in one line, as YAML writes it."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float)):
+        return repr(value)
+    return yaml.safe_dump(value, default_flow_style=True, width=10 ** 6, sort_keys=False).strip()
+
+
+def maps(value):
+    return [item for item in value if isinstance(item, dict)] if isinstance(value, list) else []
+
+
+def objective_terms(study):
+    """The terms of the objective: when they count, signal, reference, weight."""
+    objective = study.get("objective")
+    objective = objective if isinstance(objective, dict) else {}
+    kinds = (("integral", "integral over the run of weight \u00b7 (signal \u2212 reference)\u00b2"),
+             ("terminal", "at the end, weight \u00b7 (signal \u2212 reference)\u00b2"),
+             ("peak", "weight \u00b7 largest |signal \u2212 reference|"))
+    return [Term(words, text_of(item.get("signal", "")), text_of(item.get("reference", 0)), text_of(item.get("weight", 1)))
+            for kind, words in kinds for item in maps(objective.get(kind))]
+
+
+def bounds_text(item):
+    if "between" in item:
+        return "between " + text_of(item["between"])
+    parts = [words + " " + text_of(item[key]) for key, words in (("at_least", "at least"), ("at_most", "at most")) if key in item]
+    return " and ".join(parts)
+
+
+def bounds(study):
+    """(what, bounds) of everything that is constrained."""
+    rows = [(text_of(item.get("signal", "")) + (" at the end" if key == "final" else ""), bounds_text(item))
+            for key in ("path", "final") for item in maps(study.get(key))]
+    for item in study.get("constraints") or []:
+        if isinstance(item, dict):
+            what = "peak of " + text_of(item["peak"]) if "peak" in item else text_of(item.get("expression", ""))
+            rows.append((what, bounds_text(item)))
+        else:
+            rows.append((text_of(item), ""))
+    return rows
+
+
+def controllers(study):
+    """(name, type, what it drives, gains) of each controller."""
+    found = study.get("controllers")
+    rows = []
+    for name, item in (found.items() if isinstance(found, dict) else []):
+        if isinstance(item, dict):
+            rest = {key: item[key] for key in ("setpoint", "input", "gains", "feedback") if key in item}
+            rows.append((str(name), text_of(item.get("type", "")), text_of(item.get("output", "")),
+                         "; ".join(f"{key} {text_of(value)}" for key, value in rest.items())))
+    return rows
+
+
+OVER = ("runs", "uncertain", "robust", "multistart", "identify")
+SOLVED = ("gravity", "initial_state", "loads", "limits", "optimizer", "solver", "engine")
+
+
+def settings(study, keys):
+    """(key, value) of those blocks of the study that it has."""
+    return [(key, text_of(study[key])) for key in keys if key in study]

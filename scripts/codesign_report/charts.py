@@ -1,0 +1,170 @@
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""Charts as SVG. Colors and strokes are classes, which the page's style gives a light and a dark look."""
+import collections
+import math
+
+from .numbers import Markup, escape, log_ticks, short, ticks
+
+WIDTH, HEIGHT = 420, 210
+LEFT, RIGHT, TOP, BOTTOM = 58, 10, 10, 34
+ROUNDING = 1e-9  # what stays below is drawn as a flat line, in whatever SI unit
+
+# kind: initial, tuned or another class of the style; style: line, dots or steps.
+Series = collections.namedtuple("Series", "label kind xs ys style", defaults=("line",))
+
+
+def finite(values):
+    return [v for v in values if isinstance(v, (int, float)) and math.isfinite(v)]
+
+
+def thin(xs, ys, most):
+    """At most about `most` points of a curve; of each stretch the smallest and the largest value are kept."""
+    points = [(x, y) for x, y in zip(xs, ys) if isinstance(y, (int, float)) and math.isfinite(y) and math.isfinite(x)]
+    if len(points) <= most:
+        return points
+    stretch = math.ceil(2 * len(points) / most)
+    kept = []
+    for first in range(0, len(points), stretch):
+        part = points[first:first + stretch]
+        ends = {min(range(len(part)), key=lambda k: part[k][1]), max(range(len(part)), key=lambda k: part[k][1])}
+        kept += [part[k] for k in sorted(ends)]
+    return [points[0]] + kept[1:-1] + [points[-1]]
+
+
+class Axis:
+    """Maps values to the picture. `log`: powers of ten; values that are not positive have no place."""
+
+    def __init__(self, values, start, end, log=False, margin=0.06):
+        values = [v for v in finite(values) if not log or v > 0.0]
+        low, high = (min(values), max(values)) if values else (0.0, 1.0)
+        self.log, self.start, self.end = log, start, end
+        if log:
+            low, high = math.log10(low), math.log10(high)
+            pad = max(0.1, margin * (high - low))
+            self.low, self.high = low - pad, high + pad
+            self.ticks = [t for t in log_ticks(10 ** self.low, 10 ** self.high) if self.low <= math.log10(t) <= self.high]
+            if len(self.ticks) < 2:
+                self.ticks = ticks(10 ** self.low, 10 ** self.high)
+            return
+        size = max(abs(low), abs(high))
+        if size < ROUNDING:
+            low, high = -ROUNDING, ROUNDING
+        if high - low <= 1e-12 * size:  # a constant up to rounding is drawn as one
+            low, high = low - (0.5 * size or 0.5), high + (0.5 * size or 0.5)
+        pad = margin * (high - low)
+        self.low, self.high = low - pad, high + pad
+        self.ticks = ticks(self.low, self.high)
+
+    def place(self, value):
+        if self.log:
+            value = math.log10(value) if value > 0.0 else self.low
+        return self.start + (value - self.low) / (self.high - self.low) * (self.end - self.start)
+
+
+def path_of(points, x, y, steps=False):
+    text, last = [], None
+    for px, py in points:
+        here = f"{x.place(px):.1f} {y.place(py):.1f}"
+        if last is not None and steps:
+            text.append(f"L{here.split()[0]} {last.split()[1]}")
+        text.append(("M" if last is None else "L") + here)
+        last = here
+    return "".join(text)
+
+
+def grid(x, y, x_label, y_label):
+    """Lines, ticks and the names of both axes."""
+    right, bottom = WIDTH - RIGHT, HEIGHT - BOTTOM
+    parts = []
+    for value in y.ticks:
+        at = y.place(value)
+        parts.append(f'<path class="grid" d="M{LEFT} {at:.1f}H{right}"/><text class="tick" x="{LEFT - 5}" y="{at + 4:.1f}" text-anchor="end">'
+                     f"{short(value, 4)}</text>")
+    for value in x.ticks:
+        at = x.place(value)
+        parts.append(f'<path class="grid" d="M{at:.1f} {TOP}V{bottom}"/><text class="tick" x="{at:.1f}" y="{bottom + 14}" text-anchor="middle">'
+                     f"{short(value, 4)}</text>")
+    parts.append(f'<path class="frame" d="M{LEFT} {TOP}V{bottom}H{right}"/>')
+    parts.append(f'<text class="axis" x="{right}" y="{HEIGHT - 4}" text-anchor="end">{escape(x_label)}</text>')
+    parts.append(f'<text class="axis" x="12" y="{(TOP + bottom) / 2:.0f}" text-anchor="middle" '
+                 f'transform="rotate(-90 12 {(TOP + bottom) / 2:.0f})">{escape(y_label)}</text>')
+    return "".join(parts)
+
+
+def svg(body, title, width=WIDTH, height=HEIGHT):
+    return Markup(f'<svg viewBox="0 0 {width} {height}" role="img" aria-label="{escape(title)}"><title>{escape(title)}</title>{body}</svg>')
+
+
+def line_chart(title, series, x_label, y_label, limits=(), log=False, most=240):
+    """@param limits values of horizontal lines. They are drawn if they lie near the curves, and never squeeze these."""
+    values = [v for s in series for v in finite(s.ys)]
+    span = max(values) - min(values) if values else 1.0
+    near = [v for v in limits if values and min(values) - 0.6 * span <= v <= max(values) + 0.6 * span]
+    x = Axis([v for s in series for v in s.xs], LEFT, WIDTH - RIGHT, margin=0.0 if all(s.style == "line" for s in series) else 0.03)
+    y = Axis(values + near, HEIGHT - BOTTOM, TOP, log and any(v > 0.0 for v in values))
+    body = [grid(x, y, x_label, y_label)]
+    for value in near:
+        body.append(f'<path class="limit" d="M{LEFT} {y.place(value):.1f}H{WIDTH - RIGHT}"/>')
+    for s in series:
+        points = [(px, py) for px, py in thin(s.xs, s.ys, most) if not y.log or py > 0.0]
+        if s.style == "dots":
+            body += [f'<circle class="{s.kind} dot" cx="{x.place(px):.1f}" cy="{y.place(py):.1f}" r="3"/>' for px, py in points]
+        elif points:
+            body.append(f'<path class="{s.kind} line" d="{path_of(points, x, y, s.style == "steps")}"/>')
+    return svg("".join(body), title)
+
+
+def bar_chart(title, names, pairs, unit):
+    """Horizontal bars, two per name: before and after. @param pairs (initial, tuned) for each name; None: no bar."""
+    row, left, top = 38, 12, 6
+    height = top + row * len(names) + 30
+    x = Axis([0.0] + [v for pair in pairs for v in pair if v is not None], left, WIDTH - 14)
+    body = []
+    for value in x.ticks:
+        at = x.place(value)
+        body.append(f'<path class="grid" d="M{at:.1f} {top}V{height - 30}"/><text class="tick" x="{at:.1f}" y="{height - 17}" text-anchor="middle">'
+                    f"{short(value, 4)}</text>")
+    zero = x.place(0.0)
+    for k, (name, pair) in enumerate(zip(names, pairs)):
+        y = top + row * k
+        body.append(f'<text class="tick" x="{left}" y="{y + 11}">{escape(name)}</text>')
+        for value, kind, offset in zip(pair, ("initial", "tuned"), (15, 25)):
+            if value is None:
+                continue
+            at = x.place(value)
+            body.append(f'<rect class="{kind} bar" x="{min(at, zero):.1f}" y="{y + offset}" width="{max(abs(at - zero), 0.5):.1f}" height="8"/>')
+    body.append(f'<path class="frame" d="M{zero:.1f} {top}V{height - 30}"/>')
+    body.append(f'<text class="axis" x="{WIDTH - 14}" y="{height - 3}" text-anchor="end">{escape(unit)}</text>')
+    return svg("".join(body), title, WIDTH, height)
+
+
+def matrix_chart(title, names, rows):
+    """Correlations from -1 to 1 as shades; None: not known. Names are numbers where they are many, as in the table beside it."""
+    count = len(names)
+    cell = max(8, min(34, (WIDTH - 120) // max(count, 1)))
+    left, top = 112, 6
+    width, height = max(WIDTH, left + cell * count + 10), top + cell * count + 26
+    body = []
+    for i, (name, row) in enumerate(zip(names, rows)):
+        label = name if len(name) <= 17 else name[:16] + "\u2026"
+        body.append(f'<text class="tick" x="{left - 5}" y="{top + cell * (i + 0.5) + 4:.0f}" text-anchor="end">{escape(label)}</text>')
+        body.append(f'<text class="tick" x="{left + cell * (i + 0.5):.0f}" y="{top + cell * count + 14}" text-anchor="middle">{i + 1}</text>')
+        for j, value in enumerate(row):
+            kind = "unknown" if value is None else "plus" if value >= 0.0 else "minus"
+            shade = 0.15 if value is None else min(1.0, abs(value))
+            text = "not known" if value is None else short(value, 3)
+            body.append(f'<rect class="cell {kind}" fill-opacity="{shade:.2f}" x="{left + cell * j}" y="{top + cell * i}" width="{cell - 1}" '
+                        f'height="{cell - 1}"><title>{escape(name)}, {escape(names[j])}: {text}</title></rect>')
+    return svg("".join(body), title, width, height)
+
+
+def interval_chart(title, low, high, value, start):
+    """One confidence interval in a row of a table: a bar from low to high, a dot at the value, and a tick at the start if that is near."""
+    values = finite([low, high, value])
+    x = Axis(values, 6, 154, margin=0.6)
+    body = '<path class="grid" d="M6 10H154"/>'
+    if low is not None and high is not None:
+        body += f'<path class="interval" d="M{x.place(low):.1f} 10H{x.place(high):.1f}"/>'
+    if start is not None and x.low <= start <= x.high:
+        body += f'<path class="initial line" d="M{x.place(start):.1f} 4V16"/>'
+    return svg(body + f'<circle class="tuned dot" cx="{x.place(value):.1f}" cy="10" r="3.5"/>', title, 160, 20)

@@ -1,0 +1,112 @@
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""Rotations and the solids of a URDF, as far as a picture needs them. Vectors are tuples, rotations are rows."""
+import math
+import xml.etree.ElementTree as ElementTree
+
+IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def unit(a):
+    length = math.sqrt(dot(a, a))
+    return tuple(x / length for x in a)
+
+
+def apply(rotation, position, point):
+    return tuple(dot(row, point) + p for row, p in zip(rotation, position))
+
+
+def product(a, b):
+    columns = tuple(zip(*b))
+    return tuple(tuple(dot(row, column) for column in columns) for row in a)
+
+
+def from_quaternion(w, x, y, z):
+    return ((1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+            (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+            (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)))
+
+
+def from_rpy(roll, pitch, yaw):
+    """URDF's fixed-axis angles."""
+    cr, sr, cp, sp, cy, sy = (f(a) for a in (roll, pitch, yaw) for f in (math.cos, math.sin))
+    return ((cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
+            (sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr),
+            (-sp, cp * sr, cp * cr))
+
+
+def numbers(text, default):
+    try:
+        values = tuple(float(part) for part in text.split())
+    except (AttributeError, ValueError):
+        return default
+    return values if len(values) == len(default) else default
+
+
+class Solid:
+    """A visual in its link's frame: its points, of which a picture shows the outline."""
+
+    def __init__(self, kind, points):
+        self.kind, self.points = kind, points
+
+
+def outline_points(kind, size):
+    """Points whose convex hull is the solid, or nearly."""
+    if kind == "box":
+        return [tuple(s * 0.5 * c for s, c in zip(size, corner)) for corner in
+                ((x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1))]
+    turn = [2.0 * math.pi * k / 24 for k in range(24)]
+    if kind == "cylinder":
+        radius, length = size
+        return [(radius * math.cos(a), radius * math.sin(a), z) for z in (-0.5 * length, 0.5 * length) for a in turn]
+    radius = size[0]
+    return [(radius * math.cos(a) * math.cos(b), radius * math.sin(a) * math.cos(b), radius * math.sin(b))
+            for a in turn for b in (-1.2, -0.8, -0.4, 0.0, 0.4, 0.8, 1.2)] + [(0.0, 0.0, radius), (0.0, 0.0, -radius)]
+
+
+def read_solid(visual):
+    geometry = visual.find("geometry")
+    shape = geometry[0] if geometry is not None and len(geometry) else None
+    if shape is None or shape.tag not in ("box", "cylinder", "sphere"):
+        return None
+    size = {"box": lambda: numbers(shape.get("size"), (0.0, 0.0, 0.0)),
+            "cylinder": lambda: numbers(f'{shape.get("radius")} {shape.get("length")}', (0.0, 0.0)),
+            "sphere": lambda: numbers(shape.get("radius"), (0.0,))}[shape.tag]()
+    origin = visual.find("origin")
+    get = (lambda key: None) if origin is None else origin.get
+    rotation, position = from_rpy(*numbers(get("rpy"), (0.0, 0.0, 0.0))), numbers(get("xyz"), (0.0, 0.0, 0.0))
+    return Solid(shape.tag, [apply(rotation, position, point) for point in outline_points(shape.tag, size)])
+
+
+class Robot:
+    """Links with their solids, and the lines between the joints that a link has."""
+
+    def __init__(self, urdf):
+        root = ElementTree.fromstring(urdf)
+        self.solids = {link.get("name"): [s for s in map(read_solid, link.findall("visual")) if s] for link in root.findall("link")}
+        self.links = [link.get("name") for link in root.findall("link")]
+        # Where joints and loops sit on each link, in its frame.
+        self.joints_on = {name: [] for name in self.links}
+        children = set()
+        for joint in root.findall("joint"):
+            parent, child = (joint.find(tag).get("link") for tag in ("parent", "child"))
+            children.add(child)
+            self.add_point(parent, joint.find("origin"))
+            self.joints_on.setdefault(child, []).append((0.0, 0.0, 0.0))
+        for loop in root.findall("loop"):
+            for tag in ("predecessor", "successor"):
+                end = loop.find(tag)
+                if end is not None:
+                    self.add_point(end.get("link"), end.find("origin"))
+        self.root = next((name for name in self.links if name not in children), None)
+
+    def add_point(self, link, origin):
+        xyz = numbers(origin.get("xyz"), (0.0, 0.0, 0.0)) if origin is not None else (0.0, 0.0, 0.0)
+        self.joints_on.setdefault(link, []).append(xyz)

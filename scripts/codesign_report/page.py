@@ -1,0 +1,95 @@
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""Puts the page together."""
+import json
+import os
+import shlex
+
+import jinja2
+
+from . import asked, drawing, geometry, numbers, results, signals, words
+from .job import read_text
+from .numbers import Markup
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+MOST_BYTES = 2_000_000
+MOST_EMBEDDED = 300_000
+
+
+def mechanism(job):
+    """Pictures of the mechanism before and after; empty if the poses or the models are missing."""
+    sides = []
+    for side in ("initial", "tuned"):
+        poses = job.details.get(side, {}).get("poses")
+        if poses and poses["times"] and job.has(side + ".urdf"):
+            sides.append((side, geometry.Robot(read_text(job.path(side + ".urdf"))), poses))
+    if not sides:
+        return []
+    scene = drawing.Scene([side[1:] for side in sides])
+    titles = {"initial": "Before", "tuned": "After"}
+    return [(titles[side], scene.picture(k, f"The mechanism {titles[side].lower()}, at the start; faint: later"))
+            for k, (side, _, _) in enumerate(sides)]
+
+
+def embedded(job):
+    """The result as JSON that no parser of HTML ends early; empty if it is long."""
+    text = json.dumps(job.result)
+    return Markup(text.replace("<", "\\u003c")) if len(text) < MOST_EMBEDDED else ""
+
+
+def commands(job):
+    """[(what, command)] that repeat the job or go on from it."""
+    files = job.details.get("files", {})
+    here = "cd " + shlex.quote(job.folder)
+    if job.kind == "identification":
+        return [("see the identified numbers in motion", f"{here} && codesign simulate identified.urdf STUDY --result identification.json")]
+    rows = []
+    if files.get("model") and not job.bag:
+        overlays = "".join(f" --overlay {shlex.quote(path)}" for path in files.get("overlays", []))
+        inputs = f'{shlex.quote(files["model"])} {shlex.quote(files["study"])}{overlays} --result {shlex.quote(job.path("initial.json"))}'
+        rows.append(("the same job from its files", f"codesign optimize {inputs} --output again"))
+    rows += [("the same job from this folder alone", f"{here} && codesign optimize initial.urdf job_study.yaml --result initial.json --output again"),
+             ("the objective of the result, to the last digit", f"{here} && codesign gradient tuned.urdf job_study.yaml --result result.json --json"),
+             ("the tuned run as a table", f"{here} && codesign simulate tuned.urdf job_study.yaml --result result.json --csv run.csv"),
+             ("the tuned mechanism in rviz",
+              f"{here} && roslaunch mechanism_codesign simulate.launch model:=tuned.urdf study:=job_study.yaml result:=result.json")]
+    if job.bag:
+        rows.append(("both runs side by side", f"roslaunch mechanism_codesign replay.launch bag:={shlex.quote(job.bag)}"))
+    if job.gains:
+        rows.append(("the gains to a robot's parameter server", f"{here} && rosparam load gains.yaml"))
+    return rows
+
+
+def context(job, scale):
+    """Everything that the template shows."""
+    friction_rows, friction_chart = results.friction(job)
+    return {
+        "job": job, "result": job.result, "details": job.details, "embedded": embedded(job),
+        "verdict": words.termination(job.result.get("termination", "")),
+        "terms": asked.objective_terms(job.study), "bounds": asked.bounds(job.study), "controllers": asked.controllers(job.study),
+        "over": asked.settings(job.study, asked.OVER), "settings": asked.settings(job.study, asked.SOLVED),
+        "mechanism": mechanism(job), "convergence": results.convergence(job), "failed_trials": len(results.failed_trials(job)),
+        "friction_rows": friction_rows, "friction_chart": friction_chart, "energies": results.energies(job),
+        "signal_rows": signals.signal_rows(job), "signal_groups": signals.signal_groups(job, scale),
+        "waterfall": results.waterfall(job), "samples": results.samples(job),
+        "identified": results.identified(job), "correlations": results.correlations(job), "residuals": results.residuals(job),
+        "commands": commands(job),
+    }
+
+
+def environment():
+    env = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True,
+                             undefined=jinja2.ChainableUndefined)
+    env.filters["num"] = lambda value, digits=6: "" if isinstance(value, jinja2.Undefined) else numbers.number(value, digits)
+    env.filters["on_bound"] = words.on_bound
+    env.globals["style"] = Markup(read_text(os.path.join(HERE, "style.css")))
+    return env
+
+
+def render(job):
+    """The page as text. Curves get coarser until it is at most two megabytes."""
+    template = environment().get_template("page.html.j2")
+    for scale in (1.0, 0.5, 0.2, 0.0):
+        text = template.render(context(job, scale))
+        if len(text.encode()) <= MOST_BYTES:
+            break
+    return text

@@ -1,0 +1,28 @@
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""What the codes of a result mean, in words."""
+
+TERMINATIONS = {
+    "success": "The search converged: no step improves the objective any more.",
+    "objective_value_reached": "The search reached the value of the objective that was asked for.",
+    "objective_tolerance_reached": "The search converged: the last steps changed the objective by less than its tolerance.",
+    "parameter_tolerance_reached": "The search converged: the last steps changed the parameters by less than their tolerance.",
+    "max_evaluations_reached": "The search used all its evaluations before it converged; the best point so far is shown. "
+                               "A larger optimizer.max_evaluations, or going on from this result, may improve it.",
+    "max_time_reached": "The search used all its time before it converged; the best point so far is shown.",
+    "cancelled": "The search was cancelled; the best point so far is shown.",
+    "roundoff_limited": "The search ended where rounding hides further progress; the point is usually as good as it gets.",
+    "algorithm_failed": "The algorithm gave up; the best point so far is shown. Another algorithm or another start may help.",
+    "infeasible": "No point that meets all constraints was found; the one shown violates them least.",
+    "start_failed": "The start could not be simulated, so that there was nothing to improve.",
+    "worker_lost": "A process that computed for the search was lost; the best point so far is shown, and --resume goes on.",
+}
+
+
+def termination(code):
+    """A sentence for a termination; that of an unknown one is its name."""
+    return TERMINATIONS.get(code, "The search ended: " + code.replace("_", " ") + ".")
+
+
+def on_bound(row):
+    """A word for a parameter on its bound."""
+    return {"lower": "on lower bound", "upper": "on upper bound"}.get(row.get("bound"), "")

@@ -1,0 +1,20 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_CLI_HAND_OVER_H_
+#define MECHANISM_CODESIGN_CLI_HAND_OVER_H_
+
+#include <string>
+#include <vector>
+
+namespace codesign::cli {
+
+/// The path of a script of this package, found from the folder of a program: in an installation `share/mechanism_codesign/scripts` beside
+/// it, in a build the folder that `share/mechanism_codesign/scripts.path` names. Empty if there is none.
+std::string find_script(const std::string& name, const std::string& program_folder);
+
+/// Runs a script of this package with `words` and waits for it. It finds this program by the variable CODESIGN of its environment.
+/// @returns its exit code, or kFailed if a signal ended it. @throws std::runtime_error if it cannot be started.
+int hand_over(const std::string& script, const std::vector<std::string>& words);
+
+}  // namespace codesign::cli
+
+#endif  // MECHANISM_CODESIGN_CLI_HAND_OVER_H_

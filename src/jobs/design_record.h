@@ -1,0 +1,29 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOBS_DESIGN_RECORD_H_
+#define MECHANISM_CODESIGN_JOBS_DESIGN_RECORD_H_
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "jobs/json.h"
+#include "mechanism_codesign/status.h"
+
+namespace codesign {
+
+/// What is kept of the run of one design: a table for people and plotting, and its summary for the report.
+struct DesignRecord {
+  Status status;
+  std::string csv;  ///< `time` and shown_signals(), at 501 equally spaced instants
+  /// `signals` (name, unit, smallest, largest, their times, limits), `energy` and `friction_energy` [J], `limits_exceeded`, `poses`.
+  Json summary;
+};
+
+/// Runs the nominal study at `parameters`. Peaks are those of 1001 samples; energies are integrals of powers by Simpson's rule over them,
+/// negative where energy leaves the mechanism.
+/// @param parameters all named parameters. @param cancel once set, the run ends soon with kCancelled; nullptr: no cancellation.
+DesignRecord record_design(const Problem& problem, const std::vector<double>& parameters, const std::atomic<bool>* cancel = nullptr);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOBS_DESIGN_RECORD_H_

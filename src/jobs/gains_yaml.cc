@@ -1,0 +1,78 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/gains_yaml.h"
+
+#include <algorithm>
+
+#include "jobs/json.h"
+#include "text/decimal.h"
+
+namespace codesign {
+namespace {
+
+/// With a decimal point: rosparam takes `1e-06` for a text.
+std::string yaml_number(double value) {
+  std::string text = to_decimal(value);
+  if (text.find('.') != std::string::npos) return text;
+  text.insert(std::min(text.find('e'), text.size()), ".0");
+  return text;
+}
+
+const ControllerDescription& controller_of(const HardwareGains& gains, const Study& study) {
+  const auto is_it = [&gains](const ControllerDescription& controller) { return controller.name == gains.controller; };
+  return *std::find_if(study.controllers.begin(), study.controllers.end(), is_it);
+}
+
+/// What control_toolbox::Pid reads, in its order.
+Json pid_parameters(const HardwareGains& gains, const ControllerDescription& controller, const std::vector<double>& parameters) {
+  return {{"p", controller.p.at(parameters)},
+          {"i", controller.i.at(parameters)},
+          {"d", controller.d.at(parameters)},
+          {"i_clamp", gains.i_clamp ? gains.i_clamp->at(parameters) : 0.0},
+          {"antiwindup", gains.antiwindup}};
+}
+
+/// The object at a namespace, whose parts are made where they are missing.
+Json& at_namespace(const std::string& name_space, Json* root) {
+  Json* place = root;
+  for (std::size_t first = 0; first <= name_space.size();) {
+    const std::size_t slash = std::min(name_space.find('/', first), name_space.size());
+    place = &(*place)[name_space.substr(first, slash - first)];
+    first = slash + 1;
+  }
+  return *place;
+}
+
+void write_block(const Json& object, std::size_t depth, std::string* text) {
+  for (const auto& [key, value] : object.items()) {
+    text->append(2 * depth, ' ');
+    *text += key + ":";
+    if (value.is_object()) {
+      *text += "\n";
+      write_block(value, depth + 1, text);
+    } else {
+      *text += " " + (value.is_boolean() ? (value.get<bool>() ? "true" : "false") : yaml_number(value.get<double>())) + "\n";
+    }
+  }
+}
+
+}  // namespace
+
+std::string gains_yaml(const Problem& problem, const std::vector<double>& parameters) {
+  const Study& study = problem.study();
+  if (study.hardware.empty()) return "";
+  std::string text =
+      "# Gains for the robot, as control_toolbox::Pid reads them: rosparam load gains.yaml\n"
+      "# Effort = p e + i (integral of e, at most i_clamp as effort) + d de/dt, e = setpoint - measured, SI units.\n";
+  Json root = Json::object();
+  for (const HardwareGains& gains : study.hardware) {
+    const ControllerDescription& controller = controller_of(gains, study);
+    text += "# " + gains.name_space + ": " + controller.name + " of the study, which drives " + controller.output;
+    if (controller.kind == ControllerKind::kPdGravity) text += "; in the study it also carries the weight, which is not among these gains";
+    text += "\n";
+    at_namespace(gains.name_space, &root) = pid_parameters(gains, controller, parameters);
+  }
+  write_block(root, 0, &text);
+  return text;
+}
+
+}  // namespace codesign

@@ -1,0 +1,20 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOBS_GAINS_YAML_H_
+#define MECHANISM_CODESIGN_JOBS_GAINS_YAML_H_
+
+#include <string>
+#include <vector>
+
+#include "problem/load_problem.h"
+
+namespace codesign {
+
+/// The gains of the controllers that `hardware:` names, as ROS parameters for `rosparam load`: p, i, d, i_clamp and antiwindup, what
+/// control_toolbox::Pid reads, below the namespace of each. Effort = p e + i int e dt + d de/dt with e = setpoint - measured, in the study
+/// and on the robot, in SI units. Numbers read back as the same doubles. Empty without `hardware:`.
+/// @param parameters all named parameters.
+std::string gains_yaml(const Problem& problem, const std::vector<double>& parameters);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOBS_GAINS_YAML_H_

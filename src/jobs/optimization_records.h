@@ -1,0 +1,24 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOBS_OPTIMIZATION_RECORDS_H_
+#define MECHANISM_CODESIGN_JOBS_OPTIMIZATION_RECORDS_H_
+
+#include "jobs/json.h"
+#include "mechanism_codesign/optimization.h"
+
+namespace codesign {
+
+/// Whether the best point was evaluated with its gradient; false if the search was cancelled before the first trial or the start failed.
+bool is_evaluated(const Problem& problem, const OptimizationResult& result);
+
+/// Whether the objective at the best point is known; while screening it is without its gradient.
+bool has_objective(const Problem& problem, const OptimizationResult& result);
+
+/// Whether there is a design to report. A cancelled optimization has one, which may be its start.
+bool has_design(const Problem& problem, const OptimizationResult& result);
+
+/// What `codesign optimize --json` prints and result.json holds, but for `setup_seconds`, `warnings` and `error`; doc/results.md.
+Json optimization_json(const Problem& problem, const OptimizationResult& result);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOBS_OPTIMIZATION_RECORDS_H_

@@ -1,0 +1,78 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/parameter_records.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ensemble/ensemble.h"
+#include "jobs/optimization_records.h"
+#include "jobs/sentences.h"
+#include "text/number_text.h"
+
+namespace codesign {
+namespace {
+
+/// The check belongs to writing files, so it must not make a job noticeably longer [s].
+constexpr double kLongestCheck = 3.0;
+
+Json bound_json(double bound) { return std::isfinite(bound) ? Json(bound) : Json(nullptr); }
+
+/// The bound on which a tuned value lies, within rounding.
+const char* bound_of(const Parameter& parameter, double value) {
+  const auto is_on = [value](double bound) {
+    return std::isfinite(bound) && std::abs(value - bound) <= 1e-9 * std::max(1.0, std::abs(bound));
+  };
+  return is_on(parameter.lower) ? "lower" : is_on(parameter.upper) ? "upper" : "";
+}
+
+/// The time that the reference takes [s]: a complex run costs about four real ones, Ridders' extrapolation about twenty.
+double expected_seconds(const Problem& problem, const OptimizationResult& result) {
+  const double evaluations = std::max(1, result.evaluations);
+  const double runs = problem.study().solver.integrator == IntegratorKind::kIdas ? 20.0 : 4.0;
+  return runs * static_cast<double>(result.rho.size()) * result.statistics.cpu_seconds / evaluations;
+}
+
+Json skipped(const std::string& why) { return {{"skipped", why}}; }
+
+}  // namespace
+
+Json parameter_table(const Problem& problem, const OptimizationResult& result) {
+  const Study& study = problem.study();
+  const std::vector<double> initial = problem.parameters(result.initial_rho), tuned = problem.parameters(result.rho);
+  Json table = Json::array();
+  for (std::size_t i = 0; i < study.parameters.size(); ++i) {
+    const Parameter& parameter = study.parameters[i];
+    const bool is_tuned = std::count(study.tuned.begin(), study.tuned.end(), static_cast<int>(i)) > 0;
+    table.push_back({{"name", parameter.name},
+                     {"unit", parameter.unit},
+                     {"tuned", is_tuned},
+                     {"lower", bound_json(parameter.lower)},
+                     {"upper", bound_json(parameter.upper)},
+                     {"initial", initial[i]},
+                     {"value", tuned[i]},
+                     {"bound", is_tuned ? bound_of(parameter, tuned[i]) : ""}});
+  }
+  return table;
+}
+
+Json gradient_check_json(const Problem& problem, const OptimizationResult& result, const std::atomic<bool>* cancel) {
+  if (!is_evaluated(problem, result) || result.status.is_interrupted()) return skipped("the search was interrupted");
+  if (const double seconds = expected_seconds(problem, result); seconds > kLongestCheck)
+    return skipped("it would take about " + readable(seconds, 2) + " s; codesign gradient --verify does it");
+  const bool by_differences = problem.study().solver.integrator == IntegratorKind::kIdas;
+  const CheckMethod method = by_differences ? CheckMethod::kRidders : CheckMethod::kComplexStep;
+  GradientCheck check;
+  try {
+    check = check_gradient(Ensemble(problem), result.rho, method, cancel);
+  } catch (const InputError& error) {
+    return skipped(error.what());  // a gradient that cannot be checked, such as one of an engine without its processes
+  }
+  if (!check.status.ok()) return skipped(describe(check.status));
+  const std::vector<std::string> names = problem.tuned_names();
+  return {{"method", by_differences ? "ridders" : "complex_step"},
+          {"gradient", by_name(names, check.evaluation.gradient)},
+          {"reference", by_name(names, check.reference)},
+          {"largest_relative_difference", check.largest_relative_difference}};
+}
+
+}  // namespace codesign

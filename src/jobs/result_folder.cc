@@ -1,0 +1,110 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/result_folder.h"
+
+#include <filesystem>
+#include <sstream>
+
+#include "jobs/csv_writer.h"
+#include "jobs/design_record.h"
+#include "jobs/ensemble_records.h"
+#include "jobs/gains_yaml.h"
+#include "jobs/parameter_records.h"
+#include "jobs/sentences.h"
+#include "jobs/whole_file.h"
+#include "reading/urdf/urdf_reader.h"
+#include "text/decimal.h"
+
+namespace codesign {
+namespace {
+
+using Text = std::function<std::string()>;
+
+void write_file(const std::string& path, const Text& text, std::vector<Failure>* failures) {
+  try {
+    write_whole_file(path, text());
+  } catch (const std::exception& error) {
+    failures->push_back({"output_failed", error.what()});
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& ResultFolder::file_names() {
+  static const std::vector<std::string> kNames = {"result.json",  "details.json",   "tuned.urdf",   "initial.urdf",
+                                                  "initial.json", "job_study.yaml", "gains.yaml",   "initial.csv",
+                                                  "tuned.csv",    "starts.csv",     "scenarios.csv"};
+  return kNames;
+}
+
+std::string ResultFolder::in_folder(const std::string& name) const { return (std::filesystem::path(path_) / name).string(); }
+
+std::vector<Failure> ResultFolder::write_design(const Json& object, const OptimizationResult& result) const {
+  std::vector<Failure> failures;
+  const auto write = [&](const char* name, const Text& text) { write_file(in_folder(name), text, &failures); };
+  const std::vector<double> initial = problem_.parameters(result.initial_rho), tuned = problem_.parameters(result.rho);
+  const auto urdf_at = [this](const std::vector<double>& parameters) {
+    return write_tuned_urdf(problem_.urdf(), problem_.overlays(), parameters);
+  };
+  write("result.json", [&] { return to_text(object); });
+  write("tuned.urdf", [&] { return urdf_at(tuned); });
+  write("initial.urdf", [&] { return urdf_at(initial); });
+  write("initial.json", [&] { return to_text({{"parameters", parameters_json(problem_, initial)}}); });
+  write("job_study.yaml", [this] { return problem_.study_text().text; });
+  if (!problem_.study().hardware.empty()) write("gains.yaml", [&] { return gains_yaml(problem_, tuned); });
+  if (!result.starts.empty())
+    write("starts.csv", [&] { return csv_text(start_columns(problem_), start_rows(result), in_folder("starts.csv")); });
+  if (!result.scenarios.empty())
+    write("scenarios.csv", [&] { return csv_text(scenario_columns(result), scenario_rows(result), in_folder("scenarios.csv")); });
+  return failures;
+}
+
+std::vector<Failure> ResultFolder::write_runs(const OptimizationResult& result, const std::atomic<bool>* cancel) const {
+  std::vector<Failure> failures;
+  Json details;
+  details["model"] = problem_.robot().name;
+  details["files"] = {{"model", problem_.urdf().name}, {"study", problem_.study_text().name}, {"overlays", Json::array()}};
+  for (const SourceText& overlay : problem_.overlays()) details["files"]["overlays"].push_back(overlay.name);
+  details["duration"] = problem_.study().duration;
+  details["parameters"] = parameter_table(problem_, result);
+  const auto record = [&](const char* side, const Eigen::VectorXd& rho) {
+    const std::string name = std::string(side) + ".csv";
+    try {
+      DesignRecord run = record_design(problem_, problem_.parameters(rho), cancel);
+      if (!run.status.ok()) failures.push_back({name_of(run.status.code), in_folder(name) + " ends early: " + describe(run.status)});
+      details[side] = std::move(run.summary);
+      write_whole_file(in_folder(name), run.csv);
+    } catch (const std::exception& error) {
+      failures.push_back({"output_failed", error.what()});
+    }
+  };
+  // The tuned one first: it counts if time runs out.
+  record("tuned", result.rho);
+  record("initial", result.initial_rho);
+  details["gradient_check"] = gradient_check_json(problem_, result, cancel);
+  write_file(
+      in_folder("details.json"), [&] { return to_text(details); }, &failures);
+  return failures;
+}
+
+std::string csv_text(const std::vector<std::string>& columns, const std::vector<std::vector<std::string>>& rows, const std::string& where) {
+  std::ostringstream text;
+  CsvWriter csv(text, columns, where);
+  for (const std::vector<std::string>& row : rows) csv.write(row);
+  return text.str();
+}
+
+std::vector<std::string> convergence_columns(const std::vector<std::string>& tuned_names) {
+  std::vector<std::string> columns = {"evaluation", "iteration", "status", "objective", "best_objective", "gradient_norm"};
+  columns.insert(columns.end(), tuned_names.begin(), tuned_names.end());
+  return columns;
+}
+
+std::vector<std::string> convergence_row(const Trial& trial) {
+  const auto known = [&trial](double value) { return trial.status.ok() ? to_decimal(value) : std::string(); };
+  std::vector<std::string> cells = {std::to_string(trial.evaluation), std::to_string(trial.iteration),  name_of(trial.status.code),
+                                    known(trial.objective),           to_decimal(trial.best_objective), known(trial.gradient_norm)};
+  for (const double value : trial.rho) cells.push_back(to_decimal(value));
+  return cells;
+}
+
+}  // namespace codesign

@@ -1,0 +1,52 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOBS_RESULT_FOLDER_H_
+#define MECHANISM_CODESIGN_JOBS_RESULT_FOLDER_H_
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "jobs/failure.h"
+#include "jobs/json.h"
+#include "mechanism_codesign/optimization.h"
+
+namespace codesign {
+
+/// The files that a finished optimization leaves for people, robots and `codesign report`; doc/results.md lists them. They stand for
+/// themselves: with tuned.urdf (or initial.urdf), job_study.yaml and result.json the program computes the objective again, bit for bit.
+/// Each file is written as a whole, and one that cannot be written does not affect the others.
+class ResultFolder {
+ public:
+  /// @param path an existing folder. @param problem must outlive this.
+  ResultFolder(std::string path, const Problem& problem) : path_(std::move(path)), problem_(problem) {}
+
+  /// The names of all files that any write_...() may write.
+  static const std::vector<std::string>& file_names();
+
+  /// Writes result.json, tuned.urdf, initial.urdf, initial.json, job_study.yaml, gains.yaml if the study has `hardware:`, starts.csv and
+  /// scenarios.csv if there are any. @param object for result.json. @returns one failure for each file that is missing.
+  std::vector<Failure> write_design(const Json& object, const OptimizationResult& result) const;
+
+  /// Runs both designs and checks the gradient if that takes seconds; writes initial.csv, tuned.csv and details.json.
+  /// @param cancel ends the runs early. @returns one failure for each file that is missing, or incomplete because its run failed.
+  std::vector<Failure> write_runs(const OptimizationResult& result, const std::atomic<bool>* cancel) const;
+
+  std::string in_folder(const std::string& name) const;
+
+ private:
+  std::string path_;
+  const Problem& problem_;
+};
+
+/// A CSV table as text. @param where its file, for messages.
+std::string csv_text(const std::vector<std::string>& columns, const std::vector<std::vector<std::string>>& rows, const std::string& where);
+
+/// Columns and a row of convergence.csv: evaluation, iteration, status, objective, best_objective, gradient_norm, then the tuned
+/// parameters. A failed point has no objective; its cells are empty, which readers of CSV take as missing.
+std::vector<std::string> convergence_columns(const std::vector<std::string>& tuned_names);
+std::vector<std::string> convergence_row(const Trial& trial);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOBS_RESULT_FOLDER_H_

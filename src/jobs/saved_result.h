@@ -1,0 +1,15 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOBS_SAVED_RESULT_H_
+#define MECHANISM_CODESIGN_JOBS_SAVED_RESULT_H_
+
+#include "mechanism_codesign/problem.h"
+
+namespace codesign {
+
+/// The design in a result.json, best.json or identification.json: every entry of its `parameters`, to the last bit.
+/// @throws InputError naming the file, and line or entry, if it is not JSON or has no object `parameters` of numbers.
+ParameterSettings read_result(const SourceText& json);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOBS_SAVED_RESULT_H_

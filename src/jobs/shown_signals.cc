@@ -1,0 +1,115 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/shown_signals.h"
+
+#include <algorithm>
+
+#include "mechanism/signal_catalog.h"
+
+namespace codesign {
+namespace {
+
+template <class Item>
+const Item* find_named(const std::vector<Item>& items, const std::string& name) {
+  const auto found = std::find_if(items.begin(), items.end(), [&name](const Item& item) { return item.name == name; });
+  return found == items.end() ? nullptr : &*found;
+}
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/// Of quantities whose unit is the same on every object; null: it depends on the object.
+const char* fixed_unit(const std::string& quantity) {
+  if (ends_with(quantity, "_energy")) return "J";
+  if (ends_with(quantity, "_power")) return "W";
+  if (quantity == "normal_force" || quantity == "reaction_force") return "N";
+  if (quantity == "reaction_torque") return "N m";
+  if (quantity == "angular_velocity") return "rad/s";
+  return nullptr;
+}
+
+std::string joint_unit(const std::string& quantity, const JointDescription& joint) {
+  const bool turns = is_turn(joint.type) || joint.type == JointType::kSpherical || joint.type == JointType::kUniversal;
+  if (quantity == "position") return turns ? "rad" : "m";
+  if (quantity == "velocity" || quantity == "sliding_velocity") return turns ? "rad/s" : "m/s";
+  if (quantity == "acceleration") return turns ? "rad/s²" : "m/s²";
+  if (ends_with(quantity, "_rate")) return turns ? "N m/s" : "N/s";
+  return turns ? "N m" : "N";  // effort, friction
+}
+
+std::string link_unit(const std::string& quantity) { return quantity == "position" ? "m" : quantity == "velocity" ? "m/s" : ""; }
+
+/// Adds what the limits of a joint say about one of its signals.
+void add_limits(const RobotDescription& robot, const std::vector<double>& parameters, ShownSignal* shown) {
+  if (shown->signal.terms.size() != 1 || shown->signal.terms[0].factor < 0.0) return;
+  const SignalTerm& term = shown->signal.terms[0];
+  const JointDescription* joint = find_named(robot.joints, term.object);
+  if (joint == nullptr || !joint->limit) return;
+  const LimitDescription& limit = *joint->limit;
+  const auto set = [&](const Quantity& lower, double factor, const Quantity& upper) {
+    shown->lower = factor * lower.at(parameters);
+    shown->upper = upper.at(parameters);
+  };
+  if (term.quantity == "position" && has_stops(*joint)) set(limit.lower, 1.0, limit.upper);
+  if (term.quantity == "velocity" && limit.bounds_velocity()) set(limit.velocity, -1.0, limit.velocity);
+  if (term.quantity == "effort" && limit.bounds_effort()) set(limit.effort, -1.0, limit.effort);
+}
+
+/// Candidates beyond default_signals(); some of them do not exist in every mechanism.
+std::vector<std::string> further_signals(const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
+  std::vector<std::string> texts;
+  for (const ControllerDescription& controller : controllers) {
+    if (!controller.output.empty()) texts.push_back(controller.output + "/effort");
+    if (has_error(controller.kind)) texts.push_back(controller.name + "/error");
+  }
+  for (const JointDescription& joint : robot.joints)
+    if (has_friction(joint) && has_one_coordinate(joint.type)) texts.push_back(joint.name + "/friction_power");
+  for (const char* quantity : {"friction_power", "damping_power", "actuator_power", "load_power"})
+    texts.push_back(std::string("mechanism/") + quantity);
+  return texts;
+}
+
+/// Whether a signal exists and is not ambiguous, such as a power of a joint with the name `mechanism`.
+bool exists(const SignalDescription& signal, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
+  try {
+    check_signal(signal, robot, controllers, "");
+  } catch (const InputError&) {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string unit_of(const SignalDescription& signal, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
+  const SignalTerm& term = signal.terms.front();
+  if (const char* unit = fixed_unit(term.quantity)) return unit;
+  if (const ControllerDescription* controller = find_named(controllers, term.object)) {
+    const JointDescription* driven = find_named(robot.joints, controller->output);
+    if (term.quantity == "output") return driven == nullptr ? "" : joint_unit("effort", *driven);
+    const std::string unit = unit_of(controller->input, robot, controllers);
+    return term.quantity == "integral" ? unit + " s" : unit;
+  }
+  // A joint and a link may share a name; only a link's position and velocity have components.
+  const JointDescription* joint = find_named(robot.joints, term.object);
+  return joint != nullptr && term.component.empty() ? joint_unit(term.quantity, *joint) : link_unit(term.quantity);
+}
+
+std::vector<ShownSignal> shown_signals(const Problem& problem, const std::vector<double>& parameters) {
+  const RobotDescription& robot = problem.robot();
+  const std::vector<ControllerDescription>& controllers = problem.study().controllers;
+  std::vector<ShownSignal> shown;
+  const auto add = [&](const SignalDescription& signal) {
+    const auto is_same = [&signal](const ShownSignal& other) { return other.signal.text == signal.text; };
+    if (std::any_of(shown.begin(), shown.end(), is_same) || !exists(signal, robot, controllers)) return;
+    shown.push_back({signal, unit_of(signal, robot, controllers), {}, {}});
+    add_limits(robot, parameters, &shown.back());
+  };
+  std::vector<std::string> texts = default_signals(robot, controllers);
+  for (const std::string& text : further_signals(robot, controllers)) texts.push_back(text);
+  for (const std::string& text : texts) add(parse_signal(text, {}, ""));
+  for (const SignalDescription& signal : signals_of(problem.study())) add(signal);
+  return shown;
+}
+
+}  // namespace codesign

@@ -1,0 +1,29 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOBS_SHOWN_SIGNALS_H_
+#define MECHANISM_CODESIGN_JOBS_SHOWN_SIGNALS_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "problem/load_problem.h"
+
+namespace codesign {
+
+/// A signal of the files that a job leaves: what its axis says, and the limits of the URDF that bound it.
+struct ShownSignal {
+  SignalDescription signal;
+  std::string unit;                    ///< SI; empty: none
+  std::optional<double> lower, upper;  ///< limits of the URDF at one design, whether the study enforces them or not
+};
+
+/// The signals of initial.csv and tuned.csv: default_signals(), then the efforts that controllers apply, their errors, the powers of
+/// friction by joint, those of the whole mechanism, and whatever else the study reads, each once. @param parameters all named parameters.
+std::vector<ShownSignal> shown_signals(const Problem& problem, const std::vector<double>& parameters);
+
+/// The unit of a signal, by its first term.
+std::string unit_of(const SignalDescription& signal, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOBS_SHOWN_SIGNALS_H_

@@ -1,0 +1,91 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/study/study_hardware.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "reading/study/study_values.h"
+#include "text/nearest_name.h"
+
+namespace codesign {
+namespace {
+
+/// @throws InputError, located at `at`, if no controller has this name.
+const ControllerDescription& find_controller(const std::string& name, const YamlValue& at, const Study& study) {
+  std::vector<std::string> names;
+  std::string all;
+  for (const ControllerDescription& controller : study.controllers) {
+    if (controller.name == name) return controller;
+    names.push_back(controller.name);
+    all += (all.empty() ? "" : ", ") + controller.name;
+  }
+  at.fail("no controller of the study has this name" + did_you_mean(nearest_name(name, names)), all.empty() ? "no controller" : all);
+}
+
+/// The law on the robot is control_toolbox's; others have gains of another kind.
+void require_pid_gains(const ControllerDescription& controller, const YamlValue& at) {
+  if (controller.kind != ControllerKind::kPid && controller.kind != ControllerKind::kPdGravity)
+    at.fail("this controller has no p, i and d that act on an effort", "controllers of type pid or pd_gravity");
+}
+
+/// A name of ROS, in each part between slashes.
+bool is_part(const std::string& part) {
+  const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  return !part.empty() && std::isalpha(static_cast<unsigned char>(part[0])) != 0 && std::all_of(part.begin(), part.end(), is_plain);
+}
+
+std::string read_namespace(const YamlValue& value) {
+  std::string text = value.text();
+  if (text.front() == '/') text.erase(0, 1);
+  if (!text.empty() && text.back() == '/') text.pop_back();
+  for (std::size_t first = 0; first <= text.size();) {
+    const std::size_t slash = std::min(text.find('/', first), text.size());
+    if (!is_part(text.substr(first, slash - first)))
+      value.fail("not a namespace of ROS parameters", "parts of letters, digits and _, joined by /, such as arm_controller/gains/elbow");
+    first = slash + 1;
+  }
+  return text;
+}
+
+/// Neither may lie within the other: `p` of one would be a namespace of the other, or the same parameter.
+bool overlap(const std::string& a, const std::string& b) { return (a + "/").rfind(b + "/", 0) == 0 || (b + "/").rfind(a + "/", 0) == 0; }
+
+/// control_toolbox takes an absent i_clamp for zero, which would switch the integral off.
+void require_clamp(const ControllerDescription& controller, const HardwareGains& gains, const YamlValue& value) {
+  if (!controller.i.is_zero() && !gains.i_clamp)
+    value.fail("the controller has an i gain, and control_toolbox limits the integral's effort to zero unless i_clamp says more",
+               "i_clamp: the largest effort of the integral term [N m or N]");
+}
+
+HardwareGains read_gains_of(const std::string& name, const YamlValue& value, const ParameterTable& table, const Study& study) {
+  value.require_keys({"namespace"}, {"i_clamp", "antiwindup"});
+  const ControllerDescription& controller = find_controller(name, value, study);
+  require_pid_gains(controller, value);
+  HardwareGains gains;
+  gains.controller = name;
+  gains.where = value.where();
+  gains.name_space = read_namespace(value.at("namespace"));
+  if (const auto clamp = value.find("i_clamp")) {
+    gains.i_clamp = read_quantity(*clamp, table);
+    if (gains.i_clamp->nominal() < 0.0) clamp->fail("the clamp must not be negative", "0 or more");
+  }
+  if (const auto antiwindup = value.find("antiwindup")) gains.antiwindup = antiwindup->boolean();
+  require_clamp(controller, gains, value);
+  return gains;
+}
+
+}  // namespace
+
+void read_hardware(const YamlValue& root, const ParameterTable& table, Study* study) {
+  const auto hardware = root.find("hardware");
+  if (!hardware) return;
+  for (const auto& [name, value] : hardware->entries()) {
+    HardwareGains gains = read_gains_of(name, value, table, *study);
+    for (const HardwareGains& other : study->hardware)
+      if (overlap(other.name_space, gains.name_space))
+        value.at("namespace").fail("the gains of \"" + other.controller + "\" are there, too", "a namespace of its own");
+    study->hardware.push_back(std::move(gains));
+  }
+}
+
+}  // namespace codesign

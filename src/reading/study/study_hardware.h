@@ -1,0 +1,18 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_HARDWARE_H_
+#define MECHANISM_CODESIGN_READING_STUDY_STUDY_HARDWARE_H_
+
+#include "description/study.h"
+#include "reading/parameter_table.h"
+#include "reading/yaml/yaml_reader.h"
+
+namespace codesign {
+
+/// Reads `hardware:`, doc/study.md: for controllers of the study, the namespaces of their gains on the robot. The controllers must have
+/// been read. @throws InputError for an unknown controller, one without gains that control_toolbox has, a bad namespace or one that is
+/// named twice, an `i` gain without `i_clamp`.
+void read_hardware(const YamlValue& root, const ParameterTable& table, Study* study);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_HARDWARE_H_

@@ -1,0 +1,74 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/result_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "jobs/optimization_records.h"
+#include "jobs/saved_result.h"
+#include "jobs/tuned_pendulum.h"
+#include "temporary_directory.h"
+
+namespace codesign {
+namespace {
+
+class TakenAway : public testing::Test {
+ protected:
+  std::string path(const char* name) const { return (directory_.path() / name).string(); }
+
+  TemporaryDirectory directory_;
+  Problem problem_ = pendulum_on_hardware();
+  OptimizationResult result_ = optimize(problem_);
+  ResultFolder folder_{directory_.path().string(), problem_};
+};
+
+/// What a colleague has who is handed the folder.
+TEST_F(TakenAway, TheFilesAloneReproduceBothObjectives) {
+  EXPECT_TRUE(folder_.write_design(optimization_json(problem_, result_), result_).empty());
+  for (const auto& [model, design, objective] :
+       {std::tuple{"tuned.urdf", "result.json", result_.objective}, std::tuple{"initial.urdf", "result.json", result_.objective},
+        std::tuple{"initial.urdf", "initial.json", result_.initial_objective}}) {
+    const Problem again =
+        load_problem(read_source(path(model)), {}, read_source(path("job_study.yaml")), read_result(read_source(path(design))));
+    const Evaluation evaluation = Evaluator(again).evaluate(again.start(), true);
+    ASSERT_TRUE(evaluation.status.ok());
+    EXPECT_NEAR(evaluation.objective, objective, 1e-12 * objective) << model << " with " << design;
+  }
+  EXPECT_NE(result_.objective, result_.initial_objective);
+}
+
+TEST_F(TakenAway, EveryFileIsThere) {
+  EXPECT_TRUE(folder_.write_design(optimization_json(problem_, result_), result_).empty());
+  EXPECT_TRUE(folder_.write_runs(result_, nullptr).empty());
+  for (const std::string& name : ResultFolder::file_names()) {
+    const bool is_of_ensembles = name == "starts.csv" || name == "scenarios.csv";
+    EXPECT_EQ(std::filesystem::exists(path(name.c_str())), !is_of_ensembles) << name;
+  }
+  const Json details = Json::parse(std::ifstream(path("details.json")));
+  EXPECT_EQ(details["model"], "pendulum");
+  EXPECT_EQ(details["files"]["study"], "pendulum.yaml");
+  for (const char* side : {"initial", "tuned"}) EXPECT_EQ(details[side]["status"]["code"], "success") << side;
+  EXPECT_LT(details["gradient_check"]["largest_relative_difference"].get<double>(), 1e-8);
+}
+
+TEST_F(TakenAway, AFolderThatIsGoneIsTold) {
+  std::filesystem::remove_all(directory_.path());
+  const std::vector<Failure> failures = folder_.write_design(optimization_json(problem_, result_), result_);
+  ASSERT_EQ(failures.size(), 6U) << "one for each file";
+  EXPECT_EQ(failures[0].code, "output_failed");
+  EXPECT_NE(failures[0].message.find("result.json"), std::string::npos) << failures[0].message;
+}
+
+TEST(Convergence, AFailedTrialLeavesItsNumbersEmpty) {
+  Trial trial;
+  trial.evaluation = 2;
+  trial.status.code = StatusCode::kAssemblyFailed;
+  trial.best_objective = 0.25;
+  trial.rho = Eigen::Vector2d(1.0, 0.5);
+  EXPECT_EQ(convergence_row(trial), (std::vector<std::string>{"2", "0", "assembly_failed", "", "0.25", "", "1", "0.5"}));
+  EXPECT_EQ(convergence_columns({"a", "b"}).size(), convergence_row(trial).size());
+}
+
+}  // namespace
+}  // namespace codesign

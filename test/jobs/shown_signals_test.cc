@@ -1,0 +1,55 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/shown_signals.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "jobs/tuned_pendulum.h"
+
+namespace codesign {
+namespace {
+
+const ShownSignal* find_shown(const std::vector<ShownSignal>& shown, const std::string& name) {
+  const auto found = std::find_if(shown.begin(), shown.end(), [&](const ShownSignal& signal) { return signal.signal.text == name; });
+  return found == shown.end() ? nullptr : &*found;
+}
+
+TEST(ShownSignals, HaveUnitsAndLimits) {
+  const Problem problem = pendulum_on_hardware();
+  const std::vector<ShownSignal> shown = shown_signals(problem, problem.parameters());
+  const std::pair<const char*, const char*> units[] = {{"hinge/position", "rad"},     {"hinge/velocity", "rad/s"},
+                                                       {"hinge/effort", "N m"},       {"hinge/friction", "N m"},
+                                                       {"hinge/normal_force", "N"},   {"hold/error", "rad"},
+                                                       {"hold/output", "N m"},        {"hinge/friction_power", "W"},
+                                                       {"mechanism/load_power", "W"}, {"hinge/sliding_velocity", "rad/s"}};
+  for (const auto& [name, unit] : units) {
+    const ShownSignal* signal = find_shown(shown, name);
+    ASSERT_NE(signal, nullptr) << name;
+    EXPECT_EQ(signal->unit, unit) << name;
+  }
+  EXPECT_EQ(find_shown(shown, "hinge/effort")->lower, -3.0);
+  EXPECT_EQ(find_shown(shown, "hinge/effort")->upper, 3.0);
+  EXPECT_EQ(find_shown(shown, "hinge/velocity")->upper, 2.0);
+  EXPECT_FALSE(find_shown(shown, "hinge/position")->upper) << "a continuous joint has no stops";
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    EXPECT_EQ(find_shown(shown, shown[i].signal.text), &shown[i]) << "twice: " << shown[i].signal.text;
+}
+
+TEST(ShownSignals, UnitsOfLinksAndDifferences) {
+  const Problem problem = pendulum();
+  const auto unit = [&problem](const char* text) {
+    return unit_of(parse_signal(text, {}, ""), problem.robot(), problem.study().controllers);
+  };
+  EXPECT_EQ(unit("bob/position/x - ground/position/x"), "m");
+  EXPECT_EQ(unit("bob/velocity/z"), "m/s");
+  EXPECT_EQ(unit("bob/angular_velocity/z"), "rad/s");
+  EXPECT_EQ(unit("bob/orientation/w"), "");
+  EXPECT_EQ(unit("hinge/acceleration"), "rad/s²");
+  EXPECT_EQ(unit("hinge/reaction_torque/y"), "N m");
+  EXPECT_EQ(unit("mechanism/total_energy"), "J");
+  EXPECT_EQ(unit("hold/integral"), "rad s");
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,296 @@
+#!/usr/bin/python3
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""The page of `codesign report`, of jobs that the program runs here and of files made here. Usage: report_test.py CODESIGN"""
+import csv
+import html.parser
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.dont_write_bytecode = True
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "scripts"))
+from codesign_report import charts, drawing, geometry, numbers, words  # noqa: E402
+
+PENDULUM = """<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
+<codesign:parameter name="length" value="0.5" lower="0.3" upper="0.8" unit="m"/>
+<codesign:parameter name="grip" value="0.2" lower="0" upper="1" unit="N m"/>
+<link name="ground"/>
+<link name="bob"><inertial><origin xyz="0 0 -0.5" codesign:xyz="0 0 ${-length}"/><mass value="1"/>
+<inertia ixx="0.002" ixy="0" ixz="0" iyy="0.002" iyz="0" izz="0.002"/></inertial>
+<visual><origin xyz="0 0 -0.5" codesign:xyz="0 0 ${-length}"/><geometry><sphere radius="0.05"/></geometry></visual></link>
+<joint name="hinge" type="continuous"><parent link="ground"/><child link="bob"/><axis xyz="0 1 0"/>
+<limit effort="0.5" velocity="0.5"/><dynamics friction="0.2" codesign:friction="${grip}"/></joint></robot>"""
+STUDY = """duration: 0.5
+initial_state: {hinge: {position: 0.5}}
+controllers: {hold: {type: pid, input: hinge/position, setpoint: 0.0, output: hinge, gains: {p: "${Kp}"}}}
+parameters: {length: {tune: true}, Kp: {initial: 1.0, lower: 0.0, upper: 5.0}}
+objective: {integral: [{signal: hinge/velocity, reference: -1.0}]}
+hardware: {hold: {namespace: hinge_controller/pid}}
+optimizer: {algorithm: slsqp, max_evaluations: 60}
+"""
+ENSEMBLE = """uncertain: {grip: {uniform: [0.1, 0.3]}}
+robust: {measure: worst, samples: 8, validate: 4}
+multistart: {starts: 3, screen: 6}
+"""
+PROGRAM = os.path.abspath(sys.argv[1]) if len(sys.argv) > 1 else "codesign"
+VOID = {"meta", "link", "br", "hr", "img", "input"}
+
+
+class Page(html.parser.HTMLParser):
+    """Checks that elements are closed in order, and collects what tests look at."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.faults, self.data, self.ids, self.links, self.tags, self.text = [], [], [], [], [], [], ""
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attrs):
+        attributes = dict(attrs)
+        self.tags.append((tag, attributes))
+        if "id" in attributes:
+            self.ids.append(attributes["id"])
+        self.links += [attributes[key] for key in ("href", "src", "data", "action") if key in attributes]
+        if tag == "data":
+            self.data.append([attributes["value"], ""])
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        self.tags.append((tag, dict(attrs)))
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.faults.append((tag, self.getpos()))
+
+    def handle_data(self, data):
+        if "script" in self.open or "style" in self.open:
+            return
+        self.text += data
+        if self.open and self.open[-1] == "data":
+            self.data[-1][1] += data
+
+
+def values_in(value):
+    if isinstance(value, dict):
+        value = list(value.values())
+    if isinstance(value, list):
+        return [v for item in value for v in values_in(item)]
+    return [float(value)] if isinstance(value, (int, float)) and not isinstance(value, bool) else []
+
+
+def numbers_in(folder):
+    """All numbers of the JSON files and tables of a folder."""
+    found = set()
+    for name in os.listdir(folder):
+        path = os.path.join(folder, name)
+        if name.endswith(".json"):
+            with open(path, encoding="utf-8") as file:
+                found |= set(values_in(json.load(file)))
+        elif name.endswith(".csv"):
+            with open(path, newline="", encoding="utf-8") as file:
+                found |= {float(cell) for row in csv.reader(file) for cell in row if re.fullmatch(r"[-+.0-9e]+", cell)}
+    return found
+
+
+def run(*arguments, **options):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False, **options)
+
+
+class Report(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        for name, text in (("arm.urdf", PENDULUM), ("arm.yaml", STUDY), ("many.yaml", STUDY + ENSEMBLE)):
+            with open(cls.path(name), "w", encoding="utf-8") as file:
+                file.write(text)
+        for study, job in (("arm.yaml", "job"), ("many.yaml", "many")):
+            done = run("optimize", cls.path("arm.urdf"), cls.path(study), "--output", cls.path(job))
+            if done.returncode != 0:
+                raise RuntimeError(done.stderr)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    @classmethod
+    def path(cls, *names):
+        return os.path.join(cls.scratch.name, *names)
+
+    def page_of(self, job):
+        """The page, made by the program as a user makes it, and checked for what holds for all pages."""
+        start = time.monotonic()
+        done = run("report", self.path(job), "-o", self.path("page.html"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertLess(time.monotonic() - start, 5.0)
+        self.assertEqual(done.stdout + done.stderr, "")
+        with open(self.path("page.html"), encoding="utf-8") as file:
+            text = file.read()
+        self.assertLess(len(text.encode()), 2_000_000)
+        page = Page(text)
+        self.assertEqual(page.faults, [])
+        self.assertEqual(page.open, [])
+        self.assertEqual(len(page.ids), len(set(page.ids)))
+        self.assertEqual([link for link in page.links if not (link.startswith("#") and link[1:] in page.ids)], [], "a page needs no network")
+        self.assertNotIn("@import", text)
+        self.assertNotIn("url(", text)
+        for tag, attributes in page.tags:
+            if tag == "svg":
+                is_described = attributes.get("role") == "img" and attributes.get("aria-label")
+                self.assertTrue(attributes.get("aria-hidden") == "true" or is_described, attributes)
+            if tag == "th":
+                self.assertIn(attributes.get("scope"), ("row", "col"))
+        return text, page
+
+    def check_numbers(self, job, page):
+        known = numbers_in(self.path(job))
+        self.assertGreater(len(page.data), 40)
+        for value, shown in page.data:
+            self.assertIn(float(value), known, f"{value} is in no file of the job")
+            rounded = float(shown.replace(numbers.MINUS, "-"))
+            self.assertLessEqual(abs(rounded - float(value)), 0.006 * abs(float(value)), f"{value} is shown as {shown}")
+
+    def test_every_number_is_one_of_the_job(self):
+        for job in ("job", "many"):
+            _, page = self.page_of(job)
+            self.check_numbers(job, page)
+
+    def test_what_a_reader_looks_for(self):
+        text, page = self.page_of("job")
+        with open(self.path("job", "result.json"), encoding="utf-8") as file:
+            result = json.load(file)
+        for value in (result["objective"], result["initial_objective"], *result["parameters"].values(), *result["gradient"].values()):
+            self.assertIn(repr(value), [value for value, _ in page.data])
+        self.assertIn(words.termination(result["termination"]), page.text)
+        self.assertIn("hinge_controller", page.text)
+        self.assertIn("on lower bound", page.text)
+        self.assertIn("exceeds its velocity limit", page.text)
+        for section in ("asked", "result", "mechanism", "convergence", "friction", "signals", "peaks", "trust", "repeat"):
+            self.assertIn(section, page.ids)
+        embedded = re.search(r'<script type="application/json" id="result-json">(.*?)</script>', text, re.DOTALL).group(1)
+        self.assertEqual(json.loads(embedded), result)
+
+    def test_the_commands_of_the_page_repeat_the_job(self):
+        _, page = self.page_of("job")
+        command = next(line for line in page.text.splitlines() if "gradient tuned.urdf" in line)
+        command = command.replace("codesign gradient", f"{PROGRAM} gradient")
+        done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=True)
+        with open(self.path("job", "result.json"), encoding="utf-8") as file:
+            objective = json.load(file)["objective"]
+        self.assertLessEqual(abs(json.loads(done.stdout)["objective"] - objective), 1e-12 * objective)
+
+    def test_starts_and_samples(self):
+        _, page = self.page_of("many")
+        self.assertIn("starts", page.ids)
+        self.assertIn("samples", page.ids)
+        self.assertIn("Objective over grip", page.text)
+        self.assertIn("fresh samples", page.text)
+        self.assertIn("{samples: 8", page.text.replace("measure: worst, ", ""))
+
+    def test_an_identification(self):
+        folder = self.path("fit")
+        os.makedirs(folder)
+        fit = {"version": "1", "termination": "success", "evaluations": 5, "failed_evaluations": 0, "iterations": 4, "cpu_seconds": 0.5,
+               "identified": {"mu": {"value": 0.125, "start": 0.25, "unit": "", "determined": True, "on_bound": False, "deviation": 0.03125,
+                                     "interval": [0.0625, 0.1875]},
+                              "<b>": {"value": 2.5, "start": 2.25, "unit": "kg", "determined": False, "on_bound": False, "deviation": None,
+                                      "interval": [None, None]}},
+               "undetermined": ["mass & inertia appear only as a sum"], "level": 0.95, "noise": "correlated", "names": ["mu", "<b>"],
+               "correlation": [[1.0, None], [None, None]], "warnings": [],
+               "data": {"samples": 3, "joints": {"hinge": {"recorded_rms": 3.5, "start_rms": 1.5, "rms": 0.75, "worst": 1.25,
+                                                           "whiteness": {"probability": 0.5}}}}}
+        with open(os.path.join(folder, "identification.json"), "w", encoding="utf-8") as file:
+            json.dump(fit, file)
+        with open(os.path.join(folder, "residuals.csv"), "w", encoding="utf-8") as file:
+            file.write("set,recording,time,hinge/recorded,hinge/computed\ndata,1,0,1,1.5\ndata,1,0.1,2,1.75\nholdout,1,0,3,2.5\n")
+        text, page = self.page_of("fit")
+        self.assertIn("mass & inertia appear only as a sum", page.text)
+        self.assertIn("&lt;b&gt;", text)
+        self.assertNotIn("<b>", text.split("result-json")[0])
+        self.assertIn("the data do not tell it", page.text)
+        self.assertIn("hinge, holdout recording 1", page.text)
+        self.assertIn("0.0625", [value for value, _ in page.data])
+
+    def test_a_large_job_stays_small(self):
+        folder = self.path("large")
+        os.makedirs(folder)
+        signals = [f"joint_{k}/velocity" for k in range(600)]
+        with open(os.path.join(folder, "result.json"), "w", encoding="utf-8") as file:
+            json.dump({"objective": 1.0, "gradient": {}, "termination": "success", "evaluations": 1}, file)
+        for side in ("initial", "tuned"):
+            with open(os.path.join(folder, side + ".csv"), "w", encoding="utf-8") as file:
+                file.write(",".join(["time", *signals]) + "\n")
+                for row in range(501):
+                    file.write(",".join(f"{math.sin(0.1 * row * (k + 1)):.17g}" if k else str(row) for k in range(601)) + "\n")
+        self.page_of("large")
+
+    def test_what_is_refused(self):
+        os.makedirs(self.path("empty"))
+        with open(self.path("alone.bag"), "w", encoding="utf-8") as file:
+            file.write("")
+        os.makedirs(self.path("broken"))
+        with open(self.path("broken", "result.json"), "w", encoding="utf-8") as file:
+            file.write("{")
+        for job, sentence in (("lost", "neither a folder nor a bag"), ("empty", "no result.json"), ("alone.bag", "is not beside the bag"),
+                              ("broken", "not JSON")):
+            done = run("report", self.path(job))
+            self.assertEqual(done.returncode, 2, job)
+            self.assertIn(sentence, done.stderr)
+        done = run("report", self.path("job"), "-o", self.path("no", "such", "folder.html"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("cannot be written", done.stderr)
+        self.assertEqual(run("report").returncode, 2)
+        self.assertIn("DIR|BAG", run("report", "--help").stdout)
+
+    def test_every_termination_has_words(self):
+        sources = ("optimization/algorithm.cc", "optimization/least_squares_search.cc", "identification/residual_fit.cc")
+        found = set()
+        for source in sources:
+            with open(os.path.join(ROOT, "src", source), encoding="utf-8") as file:
+                found |= set(re.findall(r'return "([a-z_]+)";', file.read()))
+        self.assertIn("objective_tolerance_reached", found)
+        self.assertEqual(found - set(words.TERMINATIONS), set())
+        self.assertIn("moon phase", words.termination("moon_phase"))
+
+
+class Parts(unittest.TestCase):
+    def test_numbers(self):
+        self.assertEqual(numbers.short(-0.223582684817), "\u22120.223583")
+        self.assertEqual(numbers.short(1.25e-8), "1.25e\u22128")
+        self.assertEqual(numbers.short(None), "\u2013")
+        self.assertIn('value="0.1"', numbers.number(0.1))
+        self.assertEqual(numbers.ticks(0.0, 2.0), [0.0, 0.5, 1.0, 1.5, 2.0])
+        self.assertLessEqual(len(numbers.ticks(-1.57e-5, 0.0)), 7)
+
+    def test_a_thinned_curve_keeps_its_peaks(self):
+        ys = [0.0] * 5000
+        ys[1234], ys[4001] = 7.0, -3.0
+        points = charts.thin(list(range(5000)), ys, 200)
+        self.assertLessEqual(len(points), 210)
+        self.assertIn((1234, 7.0), points)
+        self.assertIn((4001, -3.0), points)
+        self.assertEqual([points[0][0], points[-1][0]], [0, 4999])
+
+    def test_rotations(self):
+        quarter = geometry.from_rpy(0.0, 0.0, math.pi / 2)
+        self.assertEqual([round(x, 12) for x in geometry.apply(quarter, (1.0, 0.0, 0.0), (1.0, 0.0, 0.0))], [1.0, 1.0, 0.0])
+        same = geometry.from_quaternion(math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))
+        self.assertLess(max(abs(a - b) for r, s in zip(quarter, same) for a, b in zip(r, s)), 1e-12)
+
+    def test_a_plane_mechanism_is_seen_from_its_side(self):
+        right, up, towards = drawing.view_of([(x, 0.0, z) for x in (0.0, 1.0) for z in (0.0, 2.0)])
+        self.assertEqual([tuple(map(abs, v)) for v in (right, up, towards)], [(1, 0, 0), (0, 0, 1), (0, 1, 0)])
+
+    def test_the_outline_of_a_square(self):
+        self.assertEqual(len(drawing.hull([(0, 0), (1, 0), (1, 1), (0, 1), (0.5, 0.5)])), 4)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
