@@ -17,7 +17,7 @@ namespace codesign {
 namespace {
 
 constexpr int kArm = 6;
-constexpr double kSeconds = 3.0, kRate = 100.0, kNoise = 1e-3;
+constexpr double kSeconds = 3.0, kRate = 100.0, kNoise = 1e-3, kNoisyRate = 10.0;  // noise of positions, and that of velocities over it
 const std::vector<int> kFitted = {1, 4, 8, 16};
 
 std::string hinge_name(int k) { return "hinge_" + std::to_string(k); }
@@ -32,7 +32,7 @@ std::string servos() {
   return controllers;
 }
 
-/// Positions, velocities and efforts of all hinges, with noise on the positions.
+/// Positions, velocities and efforts of all hinges, with noise on the first two.
 JointRecording record_arm(const GeneratedCase& arm) {
   GeneratedCase driven = arm;
   driven.study.text += servos();
@@ -51,7 +51,7 @@ JointRecording record_arm(const GeneratedCase& arm) {
     recording.times.push_back(frame.time);
     for (std::size_t k = 0; k < recording.joints.size(); ++k) {
       recording.joints[k].position.push_back(frame.signals[3 * k] + normal(random));
-      recording.joints[k].velocity.push_back(frame.signals[3 * k + 1]);
+      recording.joints[k].velocity.push_back(frame.signals[3 * k + 1] + kNoisyRate * normal(random));
       recording.joints[k].effort.push_back(frame.signals[3 * k + 2]);
     }
     return true;
