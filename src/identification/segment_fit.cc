@@ -14,7 +14,7 @@ namespace codesign {
 namespace {
 
 constexpr int kMostRuns = 12;
-constexpr double kSettled = 1e-6;    // of the value: a start that promises to lower it by less is near enough to the best one
+constexpr double kSettled = 1e-8;    // of the value: a start that promises to lower it by less is the best one
 constexpr double kResolved = 1e-14;  // of the sum of squares of what was recorded: what a simulation does not resolve
 
 /// Columns scaled to length one, so that the rank does not depend on units.
