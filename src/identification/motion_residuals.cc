@@ -131,8 +131,8 @@ void MotionResiduals::count_by(const Eigen::VectorXd& spreads, const LossOptions
 std::vector<Eigen::VectorXd> MotionResiduals::guesses(std::size_t place, const Eigen::VectorXd& x) const {
   std::vector<Eigen::VectorXd> guesses;
   if (reference_.x.size() > 0) {
-    guesses.push_back(reference_.starts[place] - reference_.slopes[place] * (x - reference_.x));
-    if (x != reference_.x) guesses.push_back(reference_.starts[place]);
+    guesses.push_back(reference_.starts[place] - reference_.corrections[place] - reference_.slopes[place] * (x - reference_.x));
+    guesses.push_back(reference_.starts[place]);
   }
   guesses.push_back(segments_[places_[place].recording][places_[place].segment].start);
   return guesses;
@@ -161,9 +161,10 @@ std::vector<SegmentSolution> MotionResiduals::solve(const Eigen::VectorXd& x) {
 void MotionResiduals::remember(const Eigen::VectorXd& x, double value, const std::vector<SegmentSolution>& solutions) {
   if (!is_counted_anew_ && !(value < reference_.value)) return;
   is_counted_anew_ = false;
-  reference_ = {x, value, {}, {}};
+  reference_ = {x, value, {}, {}, {}};
   for (const SegmentSolution& solution : solutions) {
     reference_.starts.push_back(solution.start);
+    reference_.corrections.push_back(solution.correction);
     reference_.slopes.push_back(solution.slope);
   }
 }

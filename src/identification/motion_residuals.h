@@ -50,11 +50,11 @@ class MotionResiduals final : public RecordingResiduals {
     std::size_t recording, segment;
     Eigen::Index row;  ///< of its first sample
   };
-  /// The best starts so far, and how they follow x.
+  /// The starts at the best x so far, and how they follow x.
   struct Reference {
     Eigen::VectorXd x;
     double value = 0.0;
-    std::vector<Eigen::VectorXd> starts;
+    std::vector<Eigen::VectorXd> starts, corrections;  ///< SegmentSolution::correction
     std::vector<Eigen::MatrixXd> slopes;
   };
   std::vector<Eigen::VectorXd> guesses(std::size_t place, const Eigen::VectorXd& x) const;

@@ -110,6 +110,7 @@ class StartCost final : public LeastSquaresModel {
     best_.value = weighted.value;
     best_.residuals = residuals_;
     best_.slope = columns.solve(weighted.jacobian.leftCols(problem_.x.size()));
+    best_.correction = columns.solve(weighted.residuals.reshaped());
     best_.jacobian = by_all_.leftCols(problem_.x.size()) - by_all_.rightCols(problem_.of.starts) * best_.slope;
   }
 

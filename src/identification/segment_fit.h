@@ -33,11 +33,12 @@ struct SegmentProblem {
 struct SegmentSolution {
   Status status;
   Eigen::VectorXd start;
-  double value = 0.0;         ///< sum of rho(r / s)
-  Eigen::MatrixXd residuals;  ///< computed minus recorded, times x outputs
-  Eigen::MatrixXd jacobian;   ///< of these residuals by x, with the start that follows x: (times outputs) x variables, output 0 first
-  Eigen::MatrixXd slope;      ///< of minus the best start by x
-  int runs = 0;               ///< simulations with sensitivities
+  double value = 0.0;          ///< sum of rho(r / s)
+  Eigen::MatrixXd residuals;   ///< computed minus recorded, times x outputs
+  Eigen::MatrixXd jacobian;    ///< of these residuals by x, with the start that follows x: (times outputs) x variables, output 0 first
+  Eigen::MatrixXd slope;       ///< of minus the best start by x
+  Eigen::VectorXd correction;  ///< what is still to be taken off the start, to first order
+  int runs = 0;                ///< simulations with sensitivities
 };
 
 /// Finds the start with which a segment fits best, by Levenberg-Marquardt, and eliminates it; doc/theory.md (42).

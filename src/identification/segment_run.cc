@@ -28,12 +28,9 @@ Status SegmentRun::start(const std::vector<double>& parameters, const SegmentBeg
   if (Status status = integrator_.start(parameters); !status.ok()) return status;
   groups_.for_each(
       [&](auto* group) { group->step.start(group->range.seed(system_, parameters), integrator_.assembly(), integrator_.initial_state()); });
-  reads_rates_.clear();
-  for (std::size_t k = 0; k < system_.watched().size(); ++k) {
-    sparse_.clear();
-    integrator_.equations().formulas().watched(k, integrator_.state(), &sparse_);
-    reads_rates_.push_back(!sparse_.rate.empty());
-  }
+  sparse_.clear();
+  for (std::size_t k = 0; k < system_.watched().size(); ++k) integrator_.equations().formulas().watched(k, integrator_.state(), &sparse_);
+  reads_rates_ = !sparse_.rate.empty();
   return {};
 }
 
@@ -60,16 +57,16 @@ Status SegmentRun::run(const std::vector<double>& parameters, const SegmentBegin
 Status SegmentRun::sample(double time, Eigen::Index row) {
   double psi = 0.0;
   integrator_.interpolate(time, &state_, &psi);
-  for (std::size_t k = 0; k < reads_rates_.size(); ++k) {
-    if (reads_rates_[k])
-      if (Status status = integrator_.assembly().solve_rates(&integrator_.equations(), &state_); !status.ok()) return status;
-    const auto output = static_cast<Eigen::Index>(k);
-    values_(row, output) = integrator_.equations().formulas().watched(k, state_, nullptr);
-    groups_.for_each([&](auto* group) {
-      const auto all = group->step.watched(k, integrator_.step(), state_, reads_rates_[k], integrator_.assembly());
-      slopes_.row(output * values_.rows() + row).segment(group->range.first, group->range.count) = all.head(group->range.count).transpose();
-    });
-  }
+  if (reads_rates_)
+    if (Status status = integrator_.assembly().solve_rates(&integrator_.equations(), &state_); !status.ok()) return status;
+  for (Eigen::Index output = 0; output < values_.cols(); ++output)
+    values_(row, output) = integrator_.equations().formulas().watched(static_cast<std::size_t>(output), state_, nullptr);
+  groups_.for_each([&](auto* group) {
+    group->step.all_watched(integrator_.step(), state_, reads_rates_, integrator_.assembly(), &group->outputs);
+    for (Eigen::Index output = 0; output < values_.cols(); ++output)
+      slopes_.row(output * values_.rows() + row).segment(group->range.first, group->range.count) =
+          group->outputs.col(output).head(group->range.count).transpose();
+  });
   if (values_.row(row).allFinite()) return {};
   return {StatusCode::kNonFinite, time, "the simulated motion is not finite"};
 }

@@ -43,6 +43,7 @@ class SegmentRun {
     Group(const CompiledSystem& system, LaneRange<N> lanes, const RosenbrockTableau& tableau) : range(lanes), step(system, tableau) {}
     LaneRange<N> range;
     TangentStep<N> step;
+    Directions<N> outputs;  ///< derivatives at a sample, one column per output
   };
 
   Status start(const std::vector<double>& parameters, const SegmentBegin& begin);
@@ -52,7 +53,7 @@ class SegmentRun {
   RosenbrockIntegrator integrator_;
   LaneGroups<Group> groups_;
   RosenbrockIntegrator::BeforeAccept stages_;
-  std::vector<bool> reads_rates_;  ///< per output: whether it depends on accelerations or reactions
+  bool reads_rates_ = false;  ///< whether an output depends on accelerations or reactions
   State<double> state_;
   SparseGradient<double> sparse_;
   Eigen::MatrixXd values_, slopes_;

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "elements/objective.h"
 #include "sensitivity/residual_rows.h"
 #include "sparse/row_product.h"
 
@@ -228,10 +229,26 @@ void TangentStep<N>::interpolate(const RosenbrockStep<double>& step, double time
 template <int N>
 Eigen::Matrix<double, N, 1> TangentStep<N>::watched(std::size_t k, const RosenbrockStep<double>& step, const State<double>& state,
                                                     bool reads_rates, const Assembly& assembly) {
+  go_to(step, state, reads_rates, assembly);
+  return equations_.equations().formulas().watched(k, point_, nullptr).directions();
+}
+
+template <int N>
+void TangentStep<N>::go_to(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates, const Assembly& assembly) {
   interpolate(step, state.t);
   point_ = equations_.lanes(state, stage_y_);
   if (reads_rates) assembly.extend_rates(state.z, &equations_.equations(), &point_);
-  return equations_.equations().formulas().watched(k, point_, nullptr).directions();
+}
+
+template <int N>
+void TangentStep<N>::all_watched(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates, const Assembly& assembly,
+                                 Directions<N>* signals) {
+  go_to(step, state, reads_rates, assembly);
+  Formulas<Lanes<N>>& formulas = equations_.equations().formulas();
+  formulas.load(point_);
+  signals->resize(static_cast<Eigen::Index>(system_.watched().size()));
+  for (std::size_t k = 0; k < system_.watched().size(); ++k)
+    signals->col(static_cast<Eigen::Index>(k)) = watched_value<Lanes<N>>(formulas.view(), k, nullptr).directions();
 }
 
 template <int N>

@@ -49,6 +49,10 @@ class TangentStep {
   Eigen::Matrix<double, N, 1> watched(std::size_t k, const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates,
                                       const Assembly& assembly);
 
+  /// The same of all watched signals, one column per signal.
+  void all_watched(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates, const Assembly& assembly,
+                   Directions<N>* signals);
+
   /// Derivatives of the residuals of the integrand's terms, theory (22a), at such a point, accelerations and multipliers of the dense
   /// output included: one column per term. Only with keep_previous().
   void integral_residuals(const RosenbrockStep<double>& step, const State<double>& state, Directions<N>* residuals);
@@ -72,6 +76,8 @@ class TangentStep {
   void measure();
   /// Sets stage_y_ to the derivatives at `time` within the last step.
   void interpolate(const RosenbrockStep<double>& step, double time);
+  /// Sets point_ to the state of the dense output with its derivatives.
+  void go_to(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates, const Assembly& assembly);
   void differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state, VectorX<Lanes<N>>* errors, Directions<N>* residuals);
   void project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu, Out<double> target);
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "identification/motion_rig.h"
@@ -17,7 +18,7 @@ namespace {
 constexpr const char* kEqualSteps =
     "solver: {relative_tolerance: 0.99, absolute_tolerance: 0.99, initial_step: 0.0025, maximum_step: 0.0025}\n";
 
-JointRecording wavy(const std::string& joint, bool with_effort) {
+JointRecording wavy(const std::string& joint, double effort) {
   JointRecording recording;
   JointSamples samples{joint, {}, {}, {}};
   for (int k = 0; k <= 100; ++k) {
@@ -25,7 +26,7 @@ JointRecording wavy(const std::string& joint, bool with_effort) {
     recording.times.push_back(t);
     samples.position.push_back(0.4 + 0.3 * std::sin(4.0 * t));
     samples.velocity.push_back(1.2 * std::cos(4.0 * t));
-    if (with_effort) samples.effort.push_back(0.1 + 0.5 * std::sin(9.0 * t) + 0.2 * std::cos(31.0 * t));
+    samples.effort.push_back(effort * (0.1 + 0.5 * std::sin(9.0 * t) + 0.2 * std::cos(31.0 * t)));
   }
   recording.joints = {samples};
   return recording;
@@ -33,10 +34,10 @@ JointRecording wavy(const std::string& joint, bool with_effort) {
 
 /// A segment of a mechanism, and the derivatives of what is simulated of it.
 struct Prepared {
-  Prepared(const Problem& problem, const std::string& joint, bool with_effort)
-      : recording(wavy(joint, with_effort)),
+  Prepared(const Problem& problem, const std::string& joint, double effort)
+      : recording(wavy(joint, effort)),
         variables(problem.study()),
-        joints{{joint, with_effort, 1.0, {}}},
+        joints{{joint, true, 1.0, {}}},
         outputs(motion_outputs(*problem.system(), joints, {recording})),
         of(make_segment_system(*problem.system(), variables, joints, {joint}, outputs, recording)) {
     Warnings warnings;
@@ -75,11 +76,11 @@ void expect_exact_slopes(const Prepared& p) {
           return run.values()(row, output);
         };
         const double slope = slopes(output * rows + row, static_cast<Eigen::Index>(k));
-        const RiddersDerivative expected = ridders_derivative(value, p.at[index], 1e-3 * (1.0 + std::abs(p.at[index])));
+        const RiddersDerivative expected = ridders_derivative(value, p.at[index], 1e-3 * std::max(0.05, std::abs(p.at[index])));
         EXPECT_NEAR(slope, expected.value, 1e-9 * (1.0 + std::abs(expected.value)) + 3.0 * expected.error)
             << p.of.system->study().parameters[index].name << ", " << p.outputs[static_cast<std::size_t>(output)].name() << ", sample "
             << row;
-        EXPECT_LT(expected.error, 1e-7 * (1.0 + std::abs(expected.value)));
+        EXPECT_LT(expected.error, 1e-8 * (1.0 + std::abs(expected.value)));
       }
   }
   EXPECT_GT(slopes.cwiseAbs().colwise().maxCoeff().minCoeff(), 1e-6) << "a number without effect tests nothing";
@@ -90,16 +91,17 @@ TEST(SegmentRun, DerivativesUnderARecordedEffortAreExact) {
                                          "  segment: 0.4\n  joints: {hinge: {effort_scale: {initial: 2.0}, delay: {initial: 0.003}, "
                                          "offset: {initial: 0.1}}}\n",
                                          "inertia: {}, viscous: {}, dry: {}");
-  const Prepared p(problem, "hinge", true);
+  Prepared p(problem, "hinge", 1.0);
   ASSERT_EQ(p.of.columns.size(), 6U);
   ASSERT_EQ(p.of.starts, 2);
   ASSERT_EQ(p.outputs.size(), 2U) << "position and velocity; the effort drives";
+  p.at[4] += 0.0007;  // no stage of a step stands at a sample then, where the second derivative of the effort jumps
   expect_exact_slopes(p);
 }
 
 TEST(SegmentRun, DerivativesWithAControllerInTheLoopAreExactIntegralIncluded) {
   const Problem problem = motion_problem(kEqualSteps + motion_servo(), "  segment: 0.4\n", "inertia: {}, viscous: {}");
-  const Prepared p(problem, "hinge", true);
+  const Prepared p(problem, "hinge", 1.0);
   ASSERT_EQ(p.of.starts, 3);
   ASSERT_EQ(p.outputs.size(), 3U) << "position, velocity and the controller's effort";
   expect_exact_slopes(p);
@@ -110,12 +112,12 @@ TEST(SegmentRun, DerivativesOfALoopWithFrictionAreExact) {
       read_source(source_dir() + "/urdf/slider_crank.urdf"), {},
       {"study.yaml", std::string(kEqualSteps) + "initial_state: {crank_joint: {position: 0.0}}\nidentify:\n  data: [{csv: data.csv}]\n"
                                                 "  residual: motion\n  segment: 0.4\nparameters: {crank_length: {}, rod_length: {}}\n"});
-  expect_exact_slopes(Prepared(problem, "crank_joint", true));
+  expect_exact_slopes(Prepared(problem, "crank_joint", 0.02));
 }
 
 TEST(SegmentRun, NoBitDependsOnEarlierRuns) {
   const Problem problem = motion_problem(motion_servo(), "  segment: 0.4\n", "inertia: {}, viscous: {}");
-  const Prepared p(problem, "hinge", true);
+  const Prepared p(problem, "hinge", 1.0);
   SegmentRun fresh(p.of, p.segment.begin), used(p.of, p.segment.begin);
   std::vector<double> other = p.at;
   other[0] *= 3.0;
