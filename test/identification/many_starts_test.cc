@@ -13,7 +13,7 @@
 namespace codesign {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
 /// x1 sin(x0 t) - 2 sin(5 t): one valley of the frequency per oscillation, and only one of them is right.
 class Oscillation final : public ResidualSource {
@@ -36,18 +36,18 @@ class Oscillation final : public ResidualSource {
   }
 
   int evaluations = 0, cancel_after = 1000000;
-  double fails_above = kInfinity;
+  double fails_above = kNoBound;
 
  private:
   std::vector<std::string> outputs_{"sensor"};
   SeriesLengths lengths_{200};
 };
 
-FitProblem from(double frequency) {
+FitProblem oscillation_from(double frequency) {
   FitProblem problem;
   problem.start = Eigen::Vector2d(frequency, 1.0);
-  problem.lower = Eigen::Vector2d(1.0, -kInfinity);
-  problem.upper = Eigen::Vector2d(9.0, kInfinity);
+  problem.lower = Eigen::Vector2d(1.0, -kNoBound);
+  problem.upper = Eigen::Vector2d(9.0, kNoBound);
   problem.relative_tolerance = 1e-12;
   return problem;
 }
@@ -62,13 +62,13 @@ MultistartOptions starts(int count, int screened) {
 TEST(ManyStarts, FindTheBestOfSeveralValleys) {
   Oscillation alone, together;
   FitSearches none, searches;
-  const ResidualFit stuck = fit_from_starts(from(2.0), {}, &alone, {}, &none);
+  const ResidualFit stuck = fit_from_starts(oscillation_from(2.0), {}, &alone, {}, &none);
   ASSERT_TRUE(stuck.status.ok());
   EXPECT_GT(mean_spread(stuck.residuals, {}), 0.5) << "one start ends in a valley beside the right one";
   EXPECT_TRUE(none.starts.empty());
   int told = 0;
   const auto observer = [&told](const FitTrial& trial) { return trial.evaluation == ++told; };
-  const ResidualFit fit = fit_from_starts(from(2.0), starts(6, 24), &together, observer, &searches);
+  const ResidualFit fit = fit_from_starts(oscillation_from(2.0), starts(6, 24), &together, observer, &searches);
   ASSERT_TRUE(fit.status.ok()) << fit.status.cause << " evaluations are numbered through";
   EXPECT_NEAR(fit.x[0], 5.0, 1e-6);
   EXPECT_NEAR(fit.x[1], 2.0, 1e-6);
@@ -82,7 +82,7 @@ TEST(ManyStarts, FindTheBestOfSeveralValleys) {
   for (const Optimum& optimum : searches.optima) found += optimum.found;
   EXPECT_EQ(found, 6);
   Eigen::MatrixXd at_start;
-  together.evaluate(from(2.0).start, &at_start, nullptr);
+  together.evaluate(oscillation_from(2.0).start, &at_start, nullptr);
   EXPECT_EQ(fit.start_residuals, at_start) << "the start is that of the study";
 }
 
@@ -90,7 +90,7 @@ TEST(ManyStarts, PassOverPointsThatFail) {
   Oscillation source;
   source.fails_above = 6.0;
   FitSearches searches;
-  const ResidualFit fit = fit_from_starts(from(2.0), starts(4, 32), &source, {}, &searches);
+  const ResidualFit fit = fit_from_starts(oscillation_from(2.0), starts(4, 32), &source, {}, &searches);
   ASSERT_TRUE(fit.status.ok());
   EXPECT_NEAR(fit.x[0], 5.0, 1e-6);
   EXPECT_GT(searches.unusable, 4);
@@ -100,25 +100,25 @@ TEST(ManyStarts, PassOverPointsThatFail) {
 TEST(ManyStarts, KeepTheBestSoFarWhenCancelled) {
   Oscillation counting;
   FitSearches searches;
-  fit_from_starts(from(2.0), starts(4, 16), &counting, {}, &searches);
+  fit_from_starts(oscillation_from(2.0), starts(4, 16), &counting, {}, &searches);
   Oscillation source;
   source.cancel_after = counting.evaluations / 2;
   FitSearches some;
-  const ResidualFit fit = fit_from_starts(from(2.0), starts(4, 16), &source, {}, &some);
+  const ResidualFit fit = fit_from_starts(oscillation_from(2.0), starts(4, 16), &source, {}, &some);
   EXPECT_EQ(fit.status.code, StatusCode::kCancelled);
   EXPECT_EQ(fit.termination, "cancelled");
   EXPECT_GT(fit.residuals.size(), 0);
   EXPECT_LT(some.starts.size(), 4U);
   Oscillation early;
   early.cancel_after = 3;
-  EXPECT_EQ(fit_from_starts(from(2.0), starts(4, 16), &early, {}, &some).status.code, StatusCode::kCancelled);
+  EXPECT_EQ(fit_from_starts(oscillation_from(2.0), starts(4, 16), &early, {}, &some).status.code, StatusCode::kCancelled);
 }
 
 TEST(ManyStarts, WithoutAnyUsablePointTheStartIsTheCause) {
   Oscillation source;
   source.fails_above = 0.0;
   FitSearches searches;
-  const ResidualFit fit = fit_from_starts(from(2.0), starts(2, 8), &source, {}, &searches);
+  const ResidualFit fit = fit_from_starts(oscillation_from(2.0), starts(2, 8), &source, {}, &searches);
   EXPECT_EQ(fit.status.code, StatusCode::kInvalidDesign);
   EXPECT_EQ(fit.termination, "start_failed");
   EXPECT_EQ(fit.residuals.size(), 0);

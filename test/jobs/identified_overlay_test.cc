@@ -35,7 +35,7 @@ std::string study_with(const std::string& joints) {
          "optimizer: {algorithm: levenberg_marquardt, relative_tolerance: 1.0e-8}\n";
 }
 
-JointRecording swing() {
+JointRecording arm_recording() {
   JointRecording recording;
   recording.file = "data.csv";
   recording.element = "identify.data[0]";
@@ -55,22 +55,22 @@ JointRecording swing() {
   return recording;
 }
 
-struct Fit {
+struct FittedArm {
   Problem problem;
   IdentificationResult result;
 };
 
-Fit fit(const std::vector<SourceText>& overlays, const std::string& joints) {
-  Fit fit{load_problem(kModel, overlays, {"study.yaml", study_with(joints)}), {}};
+FittedArm fit_arm(const std::vector<SourceText>& overlays, const std::string& joints) {
+  FittedArm fit{load_problem(kModel, overlays, {"study.yaml", study_with(joints)}), {}};
   StudyRecordings recordings;
-  recordings.data = {swing()};
+  recordings.data = {arm_recording()};
   fit.result = identify(fit.problem, recordings, {}, nullptr);
   EXPECT_TRUE(fit.result.status.ok()) << fit.result.status.cause;
   return fit;
 }
 
 TEST(IdentifiedOverlay, MakesTheIdentifiedModel) {
-  const Fit found = fit({kBrakes}, "{effort_scale: 3.0, offset: {}}");
+  const FittedArm found = fit_arm({kBrakes}, "{effort_scale: 3.0, offset: {}}");
   const SourceText overlay{"identified_overlay.urdf", identified_overlay(found.problem, found.result)};
   const std::string whole = write_tuned_urdf(kModel, {kBrakes}, found.result.parameters);
   EXPECT_EQ(write_tuned_urdf(kModel, {kBrakes, overlay}, found.result.parameters), whole);
@@ -86,21 +86,21 @@ TEST(IdentifiedOverlay, MakesTheIdentifiedModel) {
 
 /// The files alone, model, overlays and the numbers of sensors from the JSON, begin where the fit ended.
 TEST(IdentifiedOverlay, ReproducesTheResidualsOfTheFit) {
-  const Fit found = fit({kBrakes}, "{effort_scale: 3.0, offset: {}, delay: {initial: 0.0, upper: 0.02}}");
+  const FittedArm found = fit_arm({kBrakes}, "{effort_scale: 3.0, offset: {}, delay: {initial: 0.0, upper: 0.02}}");
   const double rms = found.result.data[0].rms;
   EXPECT_GT(rms, 1e-3);
   EXPECT_LT(rms, 0.5 * found.result.data[0].start);
   const SourceText overlay{"identified_overlay.urdf", identified_overlay(found.problem, found.result)};
   const Json json = Json::parse(identification_json(found.problem, found.result).dump());
   const std::string offset = json["identified"]["hinge/offset"]["value"].dump(), delay = json["identified"]["hinge/delay"]["value"].dump();
-  const Fit again =
-      fit({kBrakes, overlay}, "{effort_scale: 3.0, offset: {initial: " + offset + "}, delay: {initial: " + delay + ", upper: 0.02}}");
+  const FittedArm again =
+      fit_arm({kBrakes, overlay}, "{effort_scale: 3.0, offset: {initial: " + offset + "}, delay: {initial: " + delay + ", upper: 0.02}}");
   EXPECT_NEAR(again.result.data[0].start, rms, 1e-12 * rms);
   EXPECT_NE(overlay.text.find("hinge: {offset: " + offset + "}"), std::string::npos) << overlay.text;
 }
 
 TEST(IdentifiedOverlay, TellsHowWellTheNumbersAreKnown) {
-  Fit found = fit({kBrakes}, "{effort_scale: 3.0, offset: {}}");
+  FittedArm found = fit_arm({kBrakes}, "{effort_scale: 3.0, offset: {}}");
   IdentifiedNumber& first = found.result.numbers[0];
   ASSERT_EQ(first.name, "bar_d3");
   first.low = -1.25;

@@ -110,13 +110,20 @@ Eigen::MatrixXd read_covariance(const IdentifiedFile& file) {
   return result;
 }
 
+int index_of(const std::string& name, const Study& study, const YamlValue& from) {
+  for (int index : study.tuned)
+    if (study.parameters[static_cast<std::size_t>(index)].name == name)
+      from.fail("the study tunes " + name + ", so its value is the search's", "except: [" + name + "]");
+  return untuned_parameter(name, study, from);
+}
+
 UncertainQuantity read_number(const IdentifiedFile& file, std::size_t number, const Study& study) {
   const std::string name = file.names[number].text();
   UncertainQuantity quantity;
   quantity.name = name;
   quantity.where = file.from.where();
   quantity.is_identified = true;
-  quantity.parameter = untuned_parameter(name, study, file.from);
+  quantity.parameter = index_of(name, study, file.from);
   const Parameter& parameter = study.parameters[static_cast<std::size_t>(quantity.parameter)];
   Distribution& distribution = quantity.distribution;
   distribution.kind = DistributionKind::kNormal;

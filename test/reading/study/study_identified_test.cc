@@ -142,7 +142,14 @@ TEST(StudyIdentified, WhatIsTunedOrSetIsNotUncertain) {
   const std::string tuned = with(kHead, "mass: {initial: 1, tune: false}", "mass: {initial: 1}");
   const FileLoader files = [](const FileAddress&) { return SourceText{"i.json", found()}; };
   const auto read = [&](const std::string& study) { read_study({"study.yaml", study}, study_robot(), {}, files); };
-  EXPECT_THROW(read(tuned + "uncertain: " + kExcept + "\n"), InputError);
+  try {
+    read(tuned + "uncertain: " + kExcept + "\n");
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.fault().element, "uncertain.from");
+    EXPECT_NE(error.fault().message.find("the study tunes mass"), std::string::npos);
+    EXPECT_EQ(error.fault().allowed, "except: [mass]");
+  }
   EXPECT_NO_THROW(read(tuned + "uncertain: {from: {file: i.json, except: [crank_length, mass]}}\n"));
   EXPECT_THROW(read(kHead + "runs: {a: {set: {mu: 0.1}}}\nuncertain: " + kExcept + "\n"), InputError);
 }
