@@ -51,7 +51,7 @@ std::map<std::string, double> coverage(const std::string& noise, int runs) {
   for (int run = 0; run < runs; ++run) {
     StudyRecordings recordings;
     recordings.data = {clean};
-    std::mt19937 random(static_cast<unsigned>(run) + 1);
+    std::mt19937 random(static_cast<unsigned>(run) + 1000);
     std::normal_distribution<double> normal;
     constexpr double kCorrelation = 0.9, kDeviation = 0.2;
     double error = kDeviation * normal(random);
