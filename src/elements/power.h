@@ -26,6 +26,7 @@ T load_of_kind(const StateView<T>& view, PowerKind kind, const JointLoad& load, 
   switch (kind) {
     case PowerKind::kFriction:
       part.reaction_friction = load.reaction_friction;
+      part.directional = load.directional;
       part.constant_friction = load.constant_friction;
       return joint_load(view, part, motion, gradient);
     case PowerKind::kDamping: {

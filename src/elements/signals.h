@@ -99,6 +99,7 @@ T load_term(const StateView<T>& view, const SignalReference& term, const T& fact
     friction.pair = load.pair;
     friction.element = load.element;
     friction.reaction_friction = load.reaction_friction;
+    friction.directional = load.directional;
     friction.constant_friction = load.constant_friction;
     const CoordinateMotion<T>& motion =
         view.coordinate(term.pair, term.element, gradient ? CoordinateDetail::kGradient : CoordinateDetail::kRate);
