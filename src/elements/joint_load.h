@@ -81,6 +81,17 @@ T joint_load(const StateView<T>& view, const JointLoad& load, const CoordinateMo
   return value;
 }
 
+/// A load's friction without all else that acts there. A copy of `load` would copy its lists, too, which allocates.
+inline JointLoad friction_part(const JointLoad& load) {
+  JointLoad part;
+  part.pair = load.pair;
+  part.element = load.element;
+  part.reaction_friction = load.reaction_friction;
+  part.directional = load.directional;
+  part.constant_friction = load.constant_friction;
+  return part;
+}
+
 /// Adds J^T L to the rows of motion.
 template <class T>
 void load_residual(const StateView<T>& view, const JointLoad& load, VectorX<T>* G) {

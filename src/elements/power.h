@@ -19,16 +19,13 @@ namespace codesign {
 template <class T>
 T load_of_kind(const StateView<T>& view, PowerKind kind, const JointLoad& load, const CoordinateMotion<T>& motion,
                OptionalGradient<T> gradient) {
-  // A copy of `load` would copy its lists too, which allocates.
-  JointLoad part;
-  part.pair = load.pair;
-  part.element = load.element;
   switch (kind) {
     case PowerKind::kFriction:
-      part.reaction_friction = load.reaction_friction;
-      part.constant_friction = load.constant_friction;
-      return joint_load(view, part, motion, gradient);
+      return joint_load(view, friction_part(load), motion, gradient);
     case PowerKind::kDamping: {
+      JointLoad part;
+      part.pair = load.pair;
+      part.element = load.element;
       part.passive = load.passive;
       T value = joint_load(view, part, motion, gradient);
       return load.stop ? T(value + stop_dissipation(view, load, motion, gradient)) : value;

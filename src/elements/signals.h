@@ -96,15 +96,9 @@ T load_term(const StateView<T>& view, const SignalReference& term, const T& fact
       if (gradient) gradient->scale_from(before, factor);
       continue;
     }
-    // A copy of `load` would copy its lists too, which allocates.
-    JointLoad friction;
-    friction.pair = load.pair;
-    friction.element = load.element;
-    friction.reaction_friction = load.reaction_friction;
-    friction.constant_friction = load.constant_friction;
     const CoordinateMotion<T>& motion =
         view.coordinate(term.pair, term.element, gradient ? CoordinateDetail::kGradient : CoordinateDetail::kRate);
-    sum -= factor * joint_load(view, friction, motion, gradient);
+    sum -= factor * joint_load(view, friction_part(load), motion, gradient);
     if (gradient) gradient->scale_from(before, T(-factor));
   }
   return sum;

@@ -216,6 +216,13 @@ Status EffortResiduals::place(const Eigen::VectorXd& x) {
   return status;
 }
 
+void EffortResiduals::clear_starts_without_effect(Eigen::MatrixXd* jacobian) const {
+  constexpr double kRounding = 1e-10;  // of the recorded efforts, by a change of the start of 1 rad or 1 m
+  for (const std::vector<int>& recording : start_columns_)
+    for (int column : recording)
+      if (column >= 0 && jacobian->col(column).norm() <= kRounding * recorded_.norm()) jacobian->col(column).setZero();
+}
+
 Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) {
   if (Status placed = place(x); !placed.ok()) return placed;
   Status status = model_->evaluate(variables_.parameters(x), &model_efforts_, jacobian ? &model_jacobian_ : nullptr);
@@ -235,6 +242,7 @@ Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* resi
     }
     row += lengths_[r];
   }
+  if (jacobian) clear_starts_without_effect(jacobian);
   return {};
 }
 

@@ -59,6 +59,8 @@ class EffortResiduals final : public RecordingResiduals {
   double time(std::size_t recording, Eigen::Index sample) const;
   /// The residual of an output in the first column of `columns`, its derivatives in the others; one row per sample of the model.
   void fill(std::size_t recording, std::size_t output, const Eigen::VectorXd& x, bool with_slopes, Eigen::MatrixXd* columns) const;
+  /// Sets columns of starts to zero that hold rounding alone, so that they do not look independent of all others.
+  void clear_starts_without_effect(Eigen::MatrixXd* jacobian) const;
   /// Filters the columns and keeps the rows to fit.
   Eigen::MatrixXd fitted(std::size_t recording, Eigen::MatrixXd* columns) const;
   void record();

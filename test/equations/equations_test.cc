@@ -6,8 +6,8 @@
 namespace codesign {
 namespace {
 
-/// Every kind of load, signal and pair that has derivatives: friction in a slide, a hinge and a cylindrical loop, damping, a PID with all
-/// gains.
+/// Every kind of load, signal and pair that has derivatives: friction in a slide, a hinge (by direction) and a cylindrical loop, damping, a
+/// PID with all gains.
 const char* const kMechanism = R"(
 <robot name="all" xmlns:codesign="urn:test"><link name="ground"/>
   <link name="cart"><inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial></link>
@@ -19,7 +19,8 @@ const char* const kMechanism = R"(
     <dynamics damping="0.4" friction="0.2"/>
     <codesign:friction mu_static="0.4" mu_dynamic="0.3" transition_velocity="0.5" joint_length="0.1" joint_width="0.05"/></joint>
   <joint name="hinge" type="continuous"><parent link="cart"/><child link="arm"/><origin xyz="0.1 0 0" rpy="0.2 0 0"/><axis xyz="0 1 0"/>
-    <codesign:friction mu_static="0.3" mu_dynamic="0.2" transition_velocity="0.5" joint_length="0.05" pin_radius="0.1" viscous="0.01"/></joint>
+    <codesign:friction mu_static="0.3" mu_dynamic="0.2" transition_velocity="0.5" joint_length="0.05" pin_radius="0.1" viscous="0.01"
+      mu_static_backward="0.2" mu_dynamic_backward="0.1" viscous_backward="0.04"/></joint>
   <joint name="yaw" type="continuous"><parent link="arm"/><child link="fork"/><origin xyz="0 0 -0.4"/><axis xyz="0 0 1"/></joint>
   <joint name="roll" type="continuous"><parent link="fork"/><child link="tip"/><axis xyz="1 0 0"/></joint>
   <loop name="guide" type="codesign:cylindrical"><predecessor link="ground"><origin xyz="0 0 -0.4"/></predecessor>

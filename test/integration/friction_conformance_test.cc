@@ -33,6 +33,8 @@ std::string annotated(std::string content, const std::string& annotation) { retu
 std::vector<FrictionCase> cases() {
   const std::string pin = friction("joint_length='0.1' pin_radius='0.03'"), slide = friction("joint_length='0.1' joint_width='0.06'"),
                     ball = friction("pin_radius='0.04'"), ring = friction("pin_radius='0.05'"), flat = friction("");
+  const std::string by_direction =
+      friction("joint_length='0.1' pin_radius='0.03' mu_static_backward='0.06' mu_dynamic_backward='0.05' viscous_backward='0.03'");
   const auto in_tree = [](const std::string& type, const std::string& annotation) {
     return tree("joint", type, "base", "tip", "1 0 0.5", joint_cases::kOrigin + annotation);
   };
@@ -43,6 +45,8 @@ std::vector<FrictionCase> cases() {
           {"continuous", in_tree("continuous", pin)},
           {"prismatic", in_tree("prismatic", slide)},
           {"cylindrical", annotated(chain({{'R', "1 0 0.5"}, {'P', "1 0 0.5"}}), pin)},
+          {"revolute_by_direction", in_tree("revolute", by_direction)},
+          {"cylindrical_loop_by_direction", as_loop("codesign:cylindrical", by_direction)},
           {"spherical", annotated(chain({{'R', "1 0 0"}, {'R', "0 1 0"}, {'R', "0 0 1"}}), ball)},
           {"planar", in_tree("planar", ring)},
           {"table", annotated(chain({{'P', "1 0 0.5"}, {'P', "0.4 1 0"}}), flat)},

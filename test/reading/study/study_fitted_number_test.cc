@@ -10,7 +10,7 @@ namespace {
 
 FittedNumber fitted_number(const std::string& text, double lower, double standard) {
   FittedNumber number(standard);
-  read_fitted(read_yaml({"study.yaml", "x: " + text + "\n"}).at("x"), lower, &number);
+  read_fitted(YamlValue::parse({"study.yaml", "x: " + text + "\n"}).at("x"), lower, &number);
   return number;
 }
 
