@@ -43,6 +43,8 @@ class ShowWriter {
     for (const ComparedRecording& recording : show.motion.recordings) runs.push_back(&recording.model);
     layout_ = lay_out(runs);
     efforts_ = effort_style(show.motion, layout_.size);
+    // A joint's friction is a part of its effort: arrows of both can be compared.
+    if (!show.motion.joints.empty()) layout_.style = efforts_;
   }
 
   void write() {

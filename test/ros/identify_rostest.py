@@ -152,7 +152,7 @@ class IdentifyTest(NodesTestCase):
                 self.assertGreater(topics[topic].message_count, 100, topic)
             (_, request, _), = bag.read_messages(topics=["request"])
             (_, kept, _), = bag.read_messages(topics=["result"])
-            self.assertEqual((request.version, kept.bag, kept.numbers), (result.version, result.bag, result.numbers))
+            self.assertEqual((request.version, kept.bag, str(kept.numbers)), (result.version, result.bag, str(result.numbers)))
             recordings = [message.recording for _, message, _ in bag.read_messages(topics=["residuals"])]
             self.assertEqual(sorted(set(recordings)), ["identify.data[0]", "identify.holdout[0]"])
 
