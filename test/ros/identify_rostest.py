@@ -211,7 +211,7 @@ class IdentifyTest(NodesTestCase):
                   ("NaN", dict(change=changed(position=with_nan)), ("message 322", "t = 1.605 s", "nan")),
                   ("gap", dict(change=lambda k, message: None if 500 <= k < 600 else message), ("message 500", "gap")),
                   ("clock", dict(change=changed(header=jumping)), ("message 401", "t = ")),
-                  ("short", dict(count=10), ("20", "identify.data[0]")),
+                  ("short", dict(count=10), ("identify.data[0]: 10 samples to 6 s", "at least 20")),
                   ("efforts", dict(change=changed(effort=[])), ("effort",)))
         for name, how, words in faults:
             with self.subTest(name):
@@ -230,6 +230,7 @@ class IdentifyTest(NodesTestCase):
             print(f"killed: {result.message}", flush=True)
             self.assertEqual(result.code, "bad_input")
             self.assertIn("excite.bag", result.message)
+            self.assertIn("rosbag reindex", result.message)
         for goal, word in ((IdentifyGoal(parameters=["inertai"]), "inertia"), (IdentifyGoal(parameters=["inertia"], start=[7.0]), "inertia"),
                            (IdentifyGoal(relative_tolerance=-1.0), "relative_tolerance")):
             write_bag(self.bag)
