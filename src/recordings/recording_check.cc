@@ -39,12 +39,16 @@ void require_ascending(const JointRecording& recording) {
   }
 }
 
+/// ` from 7 s to 37 s`, without the ends that nobody chose.
+std::string range_text(double from, double to) {
+  return (std::isfinite(from) ? " from " + readable(from) + " s" : "") + (std::isfinite(to) ? " to " + readable(to) + " s" : "");
+}
+
 [[noreturn]] void refuse_length(const JointRecording& recording, std::size_t count, double from, double to) {
   const auto [first, last] = std::minmax_element(recording.times.begin(), recording.times.end());
   const std::string reach = recording.times.empty() ? "the recording is empty"
                                                     : "the recording reaches from " + readable(*first) + " s to " + readable(*last) + " s";
-  throw InputError({recording.where, recording.element,
-                    std::to_string(count) + " samples from " + readable(from) + " s to " + readable(to) + " s; " + reach, "",
+  throw InputError({recording.where, recording.element, std::to_string(count) + " samples" + range_text(from, to) + "; " + reach, "",
                     "at least " + std::to_string(kLeastSamples) + " samples"});
 }
 

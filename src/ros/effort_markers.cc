@@ -41,9 +41,11 @@ visualization_msgs::MarkerArray effort_markers(const ComparedMotion& motion, con
   for (const ComparedJoint& joint : motion.joints) {
     const LinkSample& link = model.links[joint.link];
     const Eigen::Vector3d axis = link.orientation * joint.axis;
+    // Beside the axis, on which friction is drawn.
+    const Eigen::Vector3d from = link.position + 4.0 * style.shaft_diameter * axis.unitOrthogonal();
     const double scale = joint.is_torque ? style.metres_per_newton_metre : style.metres_per_newton;
     const auto add = [&](const std::string& side, double effort, double thickness, const std_msgs::ColorRGBA& colored) {
-      message.markers.push_back(arrow_marker(link.position, scale * effort * axis, thickness * style.shaft_diameter));
+      message.markers.push_back(arrow_marker(from, scale * effort * axis, thickness * style.shaft_diameter));
       visualization_msgs::Marker& marker = message.markers.back();
       marker.header.stamp = context.stamp;
       marker.header.frame_id = context.root_frame;

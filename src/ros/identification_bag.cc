@@ -15,6 +15,8 @@ namespace {
 
 /// Between the recordings [s].
 constexpr double kPause = 0.5;
+/// Messages with residuals in a bag; residuals.csv has all.
+constexpr Eigen::Index kMostResiduals = 10000;
 
 /// Rows of a series that belong to one recording.
 struct SeriesPart {
@@ -43,6 +45,8 @@ class ShowWriter {
     for (const ComparedRecording& recording : show.motion.recordings) runs.push_back(&recording.model);
     layout_ = lay_out(runs);
     efforts_ = effort_style(show.motion, layout_.size);
+    // A joint's friction is a part of its effort: arrows of both can be compared.
+    if (!show.motion.joints.empty()) layout_.style = efforts_;
   }
 
   void write() {
@@ -115,7 +119,8 @@ class ShowWriter {
 
   void write_residuals(const SeriesPart& part, const std::string& recording, double begin) {
     const FittedSeries& series = *part.series;
-    for (Eigen::Index row = part.begin; row < part.end; ++row) {
+    const Eigen::Index rows = show_.data.recorded.rows() + show_.holdout.recorded.rows();
+    for (Eigen::Index row = part.begin; row < part.end; row += 1 + rows / kMostResiduals) {
       const double clock = series.times[static_cast<std::size_t>(row)];
       const double time = begin + clock - series.times[static_cast<std::size_t>(part.begin)];
       mechanism_codesign::Residuals message;

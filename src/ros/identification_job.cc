@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/identification_job.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "identification/fit_variables.h"
@@ -51,7 +52,7 @@ class IdentificationJob {
     if (result_.numbers.empty()) return;
     feedback_.begin("recording");
     Patience patience(cancel);
-    ComparedMotion motion = compare_motion(problem_, recordings_, result_, options_.rate, [&patience] { return patience(); });
+    ComparedMotion motion = compare_motion(problem_, recordings_, result_, shown_rate(cancel), [&patience] { return patience(); });
     for (const ComparedRecording& recording : motion.recordings)
       if (!recording.status.ok())
         warnings_.push_back({"run_ends_early", recording.element + " ends early in the bag: " + describe(recording.status), {}});
@@ -64,6 +65,15 @@ class IdentificationJob {
   }
 
  private:
+  /// Of a job that was cancelled few instants are shown, so that all recordings are in the time that is left.
+  double shown_rate(bool is_cancelled) const {
+    constexpr double kCancelledInstants = 1000.0;
+    double seconds = 0.0;
+    for (const std::vector<JointRecording>* list : {&recordings_.data, &recordings_.holdout})
+      for (const JointRecording& recording : *list) seconds += recording.times.back() - recording.times.front();
+    return is_cancelled ? std::min(options_.rate, kCancelledInstants / seconds) : options_.rate;
+  }
+
   void set_warnings() { outcome_->result.warnings = warning_messages(problem_.warnings(), warnings_); }
 
   Json report() const {

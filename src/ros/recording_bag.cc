@@ -240,8 +240,8 @@ JointRecording read(const RecordingDescription& description, const std::string& 
     throw refuse(error.what(), "a bag that was closed; `rosbag reindex` repairs one of a recorder that was killed");
   } catch (const rosbag::BagException& error) {
     const bool is_recorded = access(path.c_str(), F_OK) != 0 && access((path + ".active").c_str(), F_OK) == 0;
-    throw refuse(error.what(),
-                 is_recorded ? "a bag that is complete; " + path + ".active is there: its recorder still runs, or was killed" : "");
+    throw refuse(error.what(), is_recorded ? "a bag that is complete; " + path + ".active is there: its recorder still runs, or was killed"
+                                           : "a whole bag; `rosbag reindex` repairs what there is of one that was cut");
   } catch (const ros::Exception& error) {
     throw refuse(error.what(), "");
   }

@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-Eigen::VectorXd one(double value) { return Eigen::VectorXd::Constant(1, value); }
+Eigen::VectorXd column_of(double value) { return Eigen::VectorXd::Constant(1, value); }
 
 double largest_difference(const Frame& a, const Frame& b) {
   double largest = 0.0;
@@ -46,9 +46,9 @@ TEST(DrivenReplay, ShowsWhatWasSimulated) {
     simulation.sample(0.005 * k, &simulated);
     const JointSample& crank = simulated.joints[0];
     if (k == 0) {
-      ASSERT_TRUE(replay.begin(one(crank.position)).ok());
+      ASSERT_TRUE(replay.begin(column_of(crank.position)).ok());
     }
-    const Eigen::VectorXd measured[] = {one(crank.position), one(crank.velocity), one(crank.acceleration)};
+    const Eigen::VectorXd measured[] = {column_of(crank.position), column_of(crank.velocity), column_of(crank.acceleration)};
     const Status status = replay.show(measured, &shown);
     ASSERT_TRUE(status.ok()) << status.cause;
     ASSERT_EQ(shown.frictions.size(), simulated.frictions.size());
@@ -60,7 +60,7 @@ TEST(DrivenReplay, ShowsWhatWasSimulated) {
 TEST(DrivenReplay, APositionThatCannotBeAssembledIsAStatus) {
   const Problem problem = shipped_problem("slider_crank", {});
   DrivenReplay replay(*problem.system(), {{"slider_joint", true, 1.0, {}}}, Eigen::MatrixXd::Zero(1, 1), problem.parameters());
-  EXPECT_EQ(replay.begin(one(100.0)).code, StatusCode::kAssemblyFailed) << "the rod does not reach";
+  EXPECT_EQ(replay.begin(column_of(100.0)).code, StatusCode::kAssemblyFailed) << "the rod does not reach";
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ TEST(IdentificationFiles, TextsOfOneResult) {
   const std::vector<IdentificationFile> files = identification_files(problem, result, json);
   ASSERT_EQ(files.size(), 4U);
   EXPECT_EQ(files[0].name, "identification.json");
-  EXPECT_EQ(Json::parse(files[0].text()), json);
+  EXPECT_EQ(files[0].text(), to_text(json));
   EXPECT_EQ(files[1].name, "identified_overlay.urdf");
   EXPECT_EQ(files[2].name, "identified.urdf");
   EXPECT_EQ(read_urdf({"identified", files[2].text()}).parameters[1].value, result.numbers[1].value);

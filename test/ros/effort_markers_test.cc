@@ -36,8 +36,10 @@ TEST(EffortMarkers, BothEffortsAlongTheJointsAxis) {
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_EQ(markers[k].header.frame_id, "identified/ground");
     ASSERT_EQ(markers[k].points.size(), 2U);
-    EXPECT_NEAR(markers[k].points[0].x, 1.0, 1e-12);
-    EXPECT_NEAR(markers[k].points[1].x, 1.0, 1e-12) << "the cart's x axis is the world's y axis";
+    EXPECT_NEAR(markers[k].points[1].x, markers[k].points[0].x, 1e-12) << "the cart's x axis is the world's y axis";
+    const Eigen::Vector3d beside(markers[k].points[0].x - 1.0, markers[k].points[0].y, markers[k].points[0].z);
+    EXPECT_NEAR(beside.norm(), 4.0 * style.shaft_diameter, 1e-12);
+    EXPECT_NEAR(beside.y(), 0.0, 1e-12);
     EXPECT_NEAR(markers[k].points[1].y - markers[k].points[0].y, along[k], 1e-12);
   }
   EXPECT_GT(markers[1].scale.x, markers[0].scale.x);

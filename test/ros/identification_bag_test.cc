@@ -117,6 +117,18 @@ TEST_F(IdentificationBag, OfANodeItHoldsRequestAndResult) {
   EXPECT_EQ(counts()["identification_progress"], 2);
 }
 
+TEST_F(IdentificationBag, ManyResidualsAreThinned) {
+  IdentificationShow show = sample_show();
+  show.data.lengths = {25000};
+  show.data.times.clear();
+  for (int row = 0; row < 25000; ++row) show.data.times.push_back(1e-4 * row);
+  show.data.recorded = show.data.computed = Eigen::MatrixXd::Zero(25000, 1);
+  path_ = (directory_.path() / "c.bag").string();
+  write_identification_bag(path_, show, nullptr);
+  bag_.open(path_, rosbag::bagmode::Read);
+  EXPECT_EQ(counts()["residuals"], 8334 + 1);
+}
+
 TEST_F(IdentificationBag, WithoutFramesItHoldsTheResidualsAllTheSame) {
   IdentificationShow show = sample_show();
   for (ComparedRecording& recording : show.motion.recordings) {
