@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "math/to_index.h"
+#include "text/decimal.h"
 
 namespace codesign {
 namespace {
@@ -119,6 +120,15 @@ void refuse_idas(const Study& study) {
                       "idas", "rosenbrock, or residuals in effort"});
 }
 
+/// Outputs that wait and samples between which a segment begins are not recorded; a run would have to begin with them.
+void refuse_sampled(const Study& study) {
+  for (const ControllerDescription& controller : study.controllers)
+    if (controller.realization.is_sampled())
+      throw InputError({controller.where, "controllers." + controller.name + ".sample_time",
+                        "residuals in motion are simulated with continuous controllers only", to_decimal(controller.realization.sample_time),
+                        "no sample_time, or residuals in effort"});
+}
+
 }  // namespace
 
 std::vector<double> SegmentSystem::parameters(const FitVariables& variables, const Eigen::VectorXd& x, const Eigen::VectorXd& start) const {
@@ -148,6 +158,7 @@ SegmentSystem make_segment_system(const CompiledSystem& of, const FitVariables& 
                                   const std::vector<std::string>& independent, const std::vector<MotionOutput>& outputs,
                                   const JointRecording& recording) {
   refuse_idas(of.study());
+  refuse_sampled(of.study());
   SegmentSystem result;
   result.outputs = outputs;
   // Functions of time of the study's controllers run on the clock of the recording; without them small times are more exact.

@@ -141,6 +141,14 @@ TEST(MotionResiduals, RefusesShortSegmentsAndIdas) {
   }
 }
 
+TEST(MotionResiduals, RefusesSampledControllers) {
+  std::string servo = motion_servo();
+  const std::string pid = "type: pid, ";
+  ASSERT_NE(servo.find(pid), std::string::npos) << servo;
+  servo.replace(servo.find(pid), pid.size(), pid + "sample_time: 0.01, ");
+  EXPECT_THROW(MotionCase(motion_problem(servo, "  segment: 1.0\n", "inertia: {}"), {record_pendulum(MotionRig())}), InputError);
+}
+
 TEST(MotionResiduals, RefusesRecordingsWithoutPositions) {
   JointRecording recording = record_pendulum(MotionRig());
   recording.joints.front().position.clear();
