@@ -68,12 +68,12 @@ TEST(ManyStarts, FindTheBestOfSeveralValleys) {
   EXPECT_TRUE(none.starts.empty());
   int told = 0;
   const auto observer = [&told](const FitTrial& trial) { return trial.evaluation == ++told; };
-  const ResidualFit fit = fit_from_starts(oscillation_from(2.0), starts(6, 24), &together, observer, &searches);
+  const ResidualFit fit = fit_from_starts(oscillation_from(2.0), starts(6, 64), &together, observer, &searches);
   ASSERT_TRUE(fit.status.ok()) << fit.status.cause << " evaluations are numbered through";
   EXPECT_NEAR(fit.x[0], 5.0, 1e-6);
   EXPECT_NEAR(fit.x[1], 2.0, 1e-6);
   EXPECT_EQ(searches.starts.size(), 6U);
-  EXPECT_EQ(searches.screened, 24);
+  EXPECT_EQ(searches.screened, 64);
   EXPECT_EQ(searches.unusable, 0);
   ASSERT_GE(searches.optima.size(), 2U);
   EXPECT_LT(searches.optima[0].objective, 1e-6);
