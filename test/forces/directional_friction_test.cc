@@ -8,10 +8,8 @@
 namespace codesign {
 namespace {
 
-using C = std::complex<double>;
-
 template <class T>
-FrictionNumbers<T> numbers() {
+FrictionNumbers<T> directional_numbers() {
   FrictionNumbers<T> c;
   c.mu_static = T(0.4);
   c.mu_dynamic = T(0.3);
@@ -32,7 +30,7 @@ TEST(DirectionalFriction, TheShareChangesOverAtRest) {
 }
 
 TEST(DirectionalFriction, FarFromRestEachDirectionHasItsOwnNumbers) {
-  const FrictionNumbers<double> c = numbers<double>();
+  const FrictionNumbers<double> c = directional_numbers<double>();
   for (double v : {0.1, 0.5, 3.0}) {
     EXPECT_EQ(directional_brown_mcphee(v, c).value, brown_mcphee(v, 0.4, 0.3, 0.01).value);
     EXPECT_EQ(directional_brown_mcphee(-v, c).value, brown_mcphee(-v, 0.25, 0.1, 0.01).value);
@@ -42,7 +40,7 @@ TEST(DirectionalFriction, FarFromRestEachDirectionHasItsOwnNumbers) {
 }
 
 TEST(DirectionalFriction, ByHandWithinTheTransition) {
-  const FrictionNumbers<double> c = numbers<double>();
+  const FrictionNumbers<double> c = directional_numbers<double>();
   const double w = 0.5 * (1.0 + std::tanh(4.0)), th = std::tanh(4.0);
   EXPECT_NEAR(directional_brown_mcphee(0.01, c).value, w * (0.3 * th + 0.1) + (1.0 - w) * (0.1 * th + 0.15), 1e-15);
   EXPECT_EQ(directional_brown_mcphee(0.0, c).value, 0.0);
@@ -53,7 +51,7 @@ TEST(DirectionalFriction, ByHandWithinTheTransition) {
 }
 
 TEST(DirectionalFriction, EqualNumbersAreTheLawWithoutDirection) {
-  FrictionNumbers<double> c = numbers<double>();
+  FrictionNumbers<double> c = directional_numbers<double>();
   c.mu_static_backward = c.mu_static;
   c.mu_dynamic_backward = c.mu_dynamic;
   c.viscous_backward = c.viscous;
@@ -65,8 +63,9 @@ TEST(DirectionalFriction, EqualNumbersAreTheLawWithoutDirection) {
 }
 
 TEST(DirectionalFriction, SlopesAreDerivatives) {
-  const FrictionNumbers<double> c = numbers<double>();
-  const FrictionNumbers<C> complex = numbers<C>();
+  using C = std::complex<double>;
+  const FrictionNumbers<double> c = directional_numbers<double>();
+  const FrictionNumbers<C> complex = directional_numbers<C>();
   for (double v : {-0.3, -0.01, -1e-4, 0.0, 2e-3, 0.0099, 0.0101, 0.05}) {
     EXPECT_NEAR(directional_brown_mcphee(v, c).slope, directional_brown_mcphee(C(v, 1e-30), complex).value.imag() / 1e-30, 1e-11) << v;
     EXPECT_NEAR(directional_viscous(v, 0.3, c).slope, directional_viscous(C(v, 1e-30), C(0.3), complex).value.imag() / 1e-30, 1e-12) << v;
@@ -74,7 +73,7 @@ TEST(DirectionalFriction, SlopesAreDerivatives) {
 }
 
 TEST(DirectionalFriction, NeverDrivesTheMotion) {
-  const FrictionNumbers<double> c = numbers<double>();
+  const FrictionNumbers<double> c = directional_numbers<double>();
   for (double v = -0.05; v <= 0.05; v += 1e-4) {
     EXPECT_GE(directional_brown_mcphee(v, c).value * v, 0.0) << v;
     EXPECT_GE(directional_viscous(v, 1.0, c).value * v, 0.0) << v;

@@ -89,7 +89,7 @@ void read_table(const YamlValue& value, const RobotDescription& robot, Recording
   if (const auto columns = value.find("columns")) read_columns(*columns, robot, recording);
 }
 
-void read_starts(const YamlValue& starts, const RobotDescription& robot, RecordingDescription* recording) {
+void read_start_positions(const YamlValue& starts, const RobotDescription& robot, RecordingDescription* recording) {
   for (const auto& [name, value] : starts.entries()) {
     StartPosition start;
     start.joint = scalar_joint(name, robot, value).name;
@@ -114,7 +114,7 @@ RecordingDescription read_recording(const YamlValue& value, const RobotDescripti
   if (to) recording.to = to->number();
   if (!(recording.from < recording.to)) (to ? *to : *from).fail("the part to use ends before it begins", "from < to");
   read_choice(value, "gaps", kGapRuleNames, &recording.gaps);
-  if (const auto starts = value.find("start")) read_starts(*starts, robot, &recording);
+  if (const auto starts = value.find("start")) read_start_positions(*starts, robot, &recording);
   return recording;
 }
 
