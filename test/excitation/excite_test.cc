@@ -134,9 +134,9 @@ TEST(Excite, ACancelKeepsTheBestTrajectory) {
 }
 
 TEST(Excite, TheSameSeedGivesTheSameBits) {
-  const Problem one = pendulum("starts: 2, max_evaluations: 20", "parameters: {inertia: {}, viscous: {}}\nengine: {kind: serial}");
+  const Problem one = pendulum("starts: 2, max_evaluations: 20", "parameters: {inertia: {}, viscous: {}}\nengine: {type: serial}");
   const Problem four =
-      pendulum("starts: 2, max_evaluations: 20", "parameters: {inertia: {}, viscous: {}}\nengine: {kind: threads, workers: 4}");
+      pendulum("starts: 2, max_evaluations: 20", "parameters: {inertia: {}, viscous: {}}\nengine: {type: threads, workers: 4}");
   EXPECT_EQ(excite(one, {}, nullptr).coefficients, excite(four, {}, nullptr).coefficients);
 }
 
