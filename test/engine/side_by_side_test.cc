@@ -47,5 +47,11 @@ TEST(SideBySide, AnExceptionEndsTheWork) {
   }
 }
 
+TEST(WorkerThreads, AreWhatTheEngineSays) {
+  EXPECT_EQ(worker_threads({EngineKind::kSerial, 3, {}}), 1);
+  EXPECT_EQ(worker_threads({EngineKind::kThreads, 3, {}}), 3);
+  EXPECT_GE(worker_threads({EngineKind::kThreads, 0, {}}), 1);
+}
+
 }  // namespace
 }  // namespace codesign

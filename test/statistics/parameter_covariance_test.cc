@@ -141,5 +141,20 @@ TEST(Coverage, OfTheBootstrapIsNearlyTheKernels) {
   for (const int covered : count_covered(NoiseModel::kBootstrap, 0.8, 1000)) EXPECT_GE(covered, 170);
 }
 
+TEST(ParameterCovariance, ThePredictionIsThatOfResidualsOfVarianceOne) {
+  const LinearFit fit;
+  const double variance = fit.residuals.squaredNorm() / 97.0;
+  const ParameterCovariance white = parameter_covariance(fit.residuals, fit.X, {100}, options_of(NoiseModel::kWhite, 0, 0.9));
+  const ParameterCovariance predicted = predicted_covariance(fit.X / std::sqrt(variance), 100, 0.9);
+  EXPECT_TRUE(predicted.covariance.isApprox(white.covariance, 1e-12));
+  EXPECT_TRUE(predicted.above.isApprox(white.above, 1e-12));
+  const ParameterCovariance by_factor = predicted_covariance(upper_factor(fit.X / std::sqrt(variance)), 100, 0.9);
+  EXPECT_TRUE(by_factor.above.isApprox(white.above, 1e-12));
+  Eigen::MatrixXd dependent = fit.X;
+  dependent.col(2) = 3.0 * dependent.col(0);
+  EXPECT_TRUE(std::isinf(predicted_covariance(dependent, 100, 0.9).above[2]));
+  EXPECT_TRUE(std::isfinite(predicted_covariance(dependent, 100, 0.9).above[1]));
+}
+
 }  // namespace
 }  // namespace codesign

@@ -11,8 +11,8 @@
 namespace codesign {
 namespace {
 
-constexpr int kMostHarmonics = 50, kLeastKnots = 5, kMostKnots = 500, kMostPeriods = 1000, kMostStarts = 1000, kMostEvaluations = 1000000;
-constexpr double kMostSamples = 1e6;
+constexpr int kMostHarmonics = 50, kLeastKnots = 5, kMostKnots = 500, kMostPeriods = 1000, kMostSearches = 1000, kMostEvaluations = 1000000;
+constexpr double kMostPoints = 1e6;
 
 double read_above_zero(const YamlValue& value) {
   const double number = value.number();
@@ -92,7 +92,7 @@ void read_recording_plan(const YamlValue& excite, ExcitationDescription* descrip
   const YamlValue at = excite.find("sample_rate").value_or(excite);
   if (samples < 4.0 * waves)
     at.fail("the samples do not show the trajectory", "at least " + std::to_string(4 * waves) + " samples in a period");
-  if (samples * description->periods > kMostSamples) at.fail("more than a million samples", "a lower rate, or a shorter motion");
+  if (samples * description->periods > kMostPoints) at.fail("more than a million samples", "a lower rate, or a shorter motion");
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ ExcitationDescription read_excitation(const YamlValue& excite, const RobotDescri
   if (const auto limits = excite.find("limits")) read_followers(*limits, robot, &description);
   read_shape(excite, &description);
   read_recording_plan(excite, &description);
-  read_whole(excite, "starts", 1, kMostStarts, &description.starts);
+  read_whole(excite, "starts", 1, kMostSearches, &description.starts);
   int seed = static_cast<int>(description.seed);
   read_whole(excite, "seed", 0, 1000000000, &seed);
   description.seed = static_cast<std::uint32_t>(seed);
