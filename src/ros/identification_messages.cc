@@ -51,6 +51,7 @@ std::vector<mechanism_codesign::OutputFit> to_messages(const std::vector<OutputF
 mechanism_codesign::IdentifyResult identification_message(const Problem& problem, const IdentificationResult& result) {
   mechanism_codesign::IdentifyResult message;
   set_status(result.status, &message);
+  message.message = result.status.cause;  // a fit has no time of its own
   const IntervalOptions& intervals = problem.study().identification->intervals;
   message.level = intervals.level;
   message.noise = kNoiseNames[static_cast<std::size_t>(intervals.noise)];

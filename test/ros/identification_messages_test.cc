@@ -29,6 +29,7 @@ TEST(IdentificationMessage, SaysWhatIsNotKnown) {
   const auto message = identification_message(swinging_problem(), result);
   EXPECT_FALSE(message.success);
   EXPECT_EQ(message.code, "not_identifiable");
+  EXPECT_EQ(message.message, "the data do not tell all numbers");
   EXPECT_TRUE(std::isnan(message.numbers[0].deviation) && std::isnan(message.numbers[0].low) && std::isnan(message.numbers[0].high));
   EXPECT_FALSE(message.numbers[1].determined);
   EXPECT_TRUE(std::isinf(message.numbers[1].deviation));
