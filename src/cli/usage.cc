@@ -18,8 +18,8 @@ commands
   gradient MODEL STUDY     the objective and its gradient by direct sensitivities
     --verify[=METHOD]      compare with complex_step (the default) or ridders (always with idas)
   optimize MODEL STUDY     tune the study's parameters; Ctrl-C ends with the best point so far
-    --output DIR           write result.json, tuned.urdf, gains.yaml, tables of both runs and of the
-                           search (doc/results.md); journal.jsonl, best.urdf, best.json while it runs
+    --output DIR           write result.json, tuned.urdf, gains.yaml, tables of both runs and of
+                           the search (doc/results.md); best.urdf and best.json while it runs
     --resume DIR           go on with the optimization of DIR/journal.jsonl, killed or cancelled
   identify MODEL STUDY     fit parameters to recordings, and tell how well they are known
     --output DIR           write identification.json, identified_overlay.urdf, identified.urdf and

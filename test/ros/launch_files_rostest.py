@@ -13,6 +13,7 @@ import rospy
 import rostest
 import yaml
 from mechanism_codesign.srv import OptimizeRequest
+from std_msgs.msg import String
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from node_process import SHARE, Launch, NodesTestCase, state_of, values_of, wait_until  # noqa: E402
@@ -232,6 +233,17 @@ class LaunchFilesTest(NodesTestCase):
         self.assertEqual(values_of(state)["output directory"], f"{self.folder}/bags")
         self.assertEqual(rospy.get_param("/optimization/model"), f"{self.folder}/my.urdf")
         self.assertEqual(rospy.get_param("/optimization/set", {}), {})
+
+    def test_a_result_is_taken_back(self):
+        with open(f"{self.folder}/result.json", "w", encoding="utf-8") as file:
+            json.dump({"parameters": {"crank_length": 0.0725, "Kp": 2.0}}, file)
+        launch = self.launch("simulate.launch", "rviz:=false", "result:=result.json", "set:={Kp: 3.0}", "loop:=true", cwd=self.folder)
+        state_of("simulation", "slider_crank")
+        self.assertIn('name="crank_length" value="0.0725"', rospy.get_param("/robot_description"))
+        self.assertEqual(rospy.get_param("/simulation/result"), f"{self.folder}/result.json")
+        description = rospy.wait_for_message("robot_description", String, 30.0).data
+        self.assertIn('name="crank_length" value="0.0725"', description)
+        self.end(launch)
 
     def test_a_launch_file_names_the_known_cases_on_a_typo(self):
         for file in ("simulate.launch", "optimize.launch"):
