@@ -71,7 +71,7 @@ void echo(MpiTransport* transport, const Evaluation& evaluation) {
 class MessageBench {
  public:
   MessageBench(Dispatcher* dispatcher, const Problem& problem)
-      : dispatcher_(*dispatcher), task_{problem.system(), problem.parameters(), true}, problem_(dispatcher->add(make_portable(problem))) {}
+      : dispatcher_(*dispatcher), task_{problem.system(), problem.parameters(), Derivatives::kGradient}, problem_(dispatcher->add(make_portable(problem))) {}
 
   void run(std::size_t count) {
     const std::vector<EvaluationTask> tasks(count, task_);
@@ -104,7 +104,7 @@ void measure_messages(MpiTransport* transport, const Problem& problem, const Eva
   std::nth_element(alone.begin(), alone.begin() + kAlone / 2, alone.end());
   if (!dispatcher.finish()) throw std::runtime_error("a rank did not end");
   std::printf("%.9g %.9g %.9g %zu %zu %zu\n", (all - caller) / kTasks, caller / kTasks, alone[kAlone / 2],
-              write_task(1, 1, 0, true, problem.parameters()).size(), write_result(1, evaluation).size(),
+              write_task(1, 1, 0, Derivatives::kGradient, problem.parameters()).size(), write_result(1, evaluation).size(),
               write_problem(1, make_portable(problem)).size());
 }
 

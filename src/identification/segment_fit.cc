@@ -3,6 +3,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -13,8 +14,9 @@
 namespace codesign {
 namespace {
 
-constexpr int kMostRuns = 12;
+constexpr int kMostRuns = 8;
 constexpr double kSettled = 1e-8;    // of the value: a start that promises to lower it by less is the best one
+constexpr double kPatience = 10.0;   // that fraction grows by this with each run: promises that are not kept are the noise of step sizes
 constexpr double kResolved = 1e-14;  // of the sum of squares of what was recorded: what a simulation does not resolve
 
 /// Columns scaled to length one, so that the rank does not depend on units.
@@ -64,7 +66,8 @@ class StartCost final : public LeastSquaresModel {
     point->root = triangular_root(by_start);
     const StartColumns columns(by_start);
     if (!is_begun_ || weighted.value < best_.value) keep(start, weighted, columns);
-    const bool is_settled = columns.promise(weighted.residuals.reshaped()) <= std::max(kSettled * weighted.value, resolved_);
+    const double settled = kSettled * std::pow(kPatience, best_.runs - 1) * weighted.value;
+    const bool is_settled = columns.promise(weighted.residuals.reshaped()) <= std::max(settled, resolved_);
     return is_settled ? Outcome::kStop : Outcome::kUsable;
   }
   bool is_begun() const { return is_begun_; }
