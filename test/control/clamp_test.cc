@@ -8,7 +8,7 @@
 namespace codesign {
 namespace {
 
-using C = std::complex<double>;
+using Complex = std::complex<double>;
 constexpr double kStep = 1e-30;
 
 TEST(Clamp, CutsBeyondItsBoundsAlone) {
@@ -19,11 +19,11 @@ TEST(Clamp, CutsBeyondItsBoundsAlone) {
 }
 
 TEST(Clamp, HasTheDerivativeOfTheInsideOnTheBound) {
-  const C x(2.0, kStep), bound(2.0, 3.0 * kStep);
+  const Complex x(2.0, kStep), bound(2.0, 3.0 * kStep);
   EXPECT_EQ(clamp(x, bound).imag(), kStep);
-  EXPECT_EQ(clamp(C(-2.0, kStep), bound).imag(), kStep);
-  EXPECT_EQ(clamp(C(2.1, kStep), bound).imag(), 3.0 * kStep);
-  EXPECT_EQ(clamp(C(-2.1, kStep), bound).imag(), -3.0 * kStep);
+  EXPECT_EQ(clamp(Complex(-2.0, kStep), bound).imag(), kStep);
+  EXPECT_EQ(clamp(Complex(2.1, kStep), bound).imag(), 3.0 * kStep);
+  EXPECT_EQ(clamp(Complex(-2.1, kStep), bound).imag(), -3.0 * kStep);
 }
 
 TEST(ClampedIntegral, StopsAtTheBoundAndLeavesItAtOnce) {
@@ -42,8 +42,10 @@ TEST(ClampedIntegral, HasExactDerivatives) {
   for (const double e : {0.7, -0.7})
     for (const double s : {0.3, -0.4, 0.5}) {
       const auto rate = clamped_integral_rate(e, s, 4.0, 2.0);
-      EXPECT_NEAR(rate.by_error, clamped_integral_rate(C(e, kStep), C(s), C(4.0), C(2.0)).value.imag() / kStep, 1e-14);
-      EXPECT_NEAR(rate.by_integral, clamped_integral_rate(C(e), C(s, kStep), C(4.0), C(2.0)).value.imag() / kStep, 1e-13);
+      EXPECT_NEAR(rate.by_error, clamped_integral_rate(Complex(e, kStep), Complex(s), Complex(4.0), Complex(2.0)).value.imag() / kStep,
+                  1e-14);
+      EXPECT_NEAR(rate.by_integral, clamped_integral_rate(Complex(e), Complex(s, kStep), Complex(4.0), Complex(2.0)).value.imag() / kStep,
+                  1e-13);
     }
 }
 
