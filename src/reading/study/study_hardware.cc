@@ -57,6 +57,23 @@ void require_clamp(const ControllerDescription& controller, const HardwareGains&
                "i_clamp: the largest effort of the integral term [N m or N]");
 }
 
+/// The clamp is the controller's own where it has one: the robot gets what was simulated.
+void read_clamp(const ControllerDescription& controller, const YamlValue& value, const ParameterTable& table, HardwareGains* gains) {
+  if (controller.realization.i_clamp) {
+    for (const char* key : {"i_clamp", "antiwindup"})
+      if (const auto given = value.find(key))
+        given->fail("the controller of the study has i_clamp already, which the robot gets", "no such key here");
+    gains->i_clamp = controller.realization.i_clamp;
+    gains->antiwindup = controller.realization.antiwindup;
+    return;
+  }
+  if (const auto clamp = value.find("i_clamp")) {
+    gains->i_clamp = read_quantity(*clamp, table);
+    if (gains->i_clamp->nominal() < 0.0) clamp->fail("the clamp must not be negative", "0 or more");
+  }
+  if (const auto antiwindup = value.find("antiwindup")) gains->antiwindup = antiwindup->boolean();
+}
+
 HardwareGains read_gains_of(const std::string& name, const YamlValue& value, const ParameterTable& table, const Study& study) {
   value.require_keys({"namespace"}, {"i_clamp", "antiwindup"});
   const ControllerDescription& controller = find_controller(name, value, study);
@@ -65,11 +82,7 @@ HardwareGains read_gains_of(const std::string& name, const YamlValue& value, con
   gains.controller = name;
   gains.where = value.where();
   gains.name_space = read_namespace(value.at("namespace"));
-  if (const auto clamp = value.find("i_clamp")) {
-    gains.i_clamp = read_quantity(*clamp, table);
-    if (gains.i_clamp->nominal() < 0.0) clamp->fail("the clamp must not be negative", "0 or more");
-  }
-  if (const auto antiwindup = value.find("antiwindup")) gains.antiwindup = antiwindup->boolean();
+  read_clamp(controller, value, table, &gains);
   require_clamp(controller, gains, value);
   return gains;
 }

@@ -46,6 +46,16 @@ TEST(StudyHardware, RefusesWhatNoRobotCouldRead) {
   expect_fault(text_of("{speed: {namespace: a, antiwindup: 2}}"), "hardware.speed.antiwindup", "", 7);
 }
 
+TEST(StudyHardware, TakesTheClampOfTheController) {
+  std::string text = text_of("{speed: {namespace: a}}", "{p: 1, i: 2}, i_clamp: 4, antiwindup: true");
+  const HardwareGains gains = read_text(text).hardware.at(0);
+  ASSERT_TRUE(gains.i_clamp);
+  EXPECT_EQ(gains.i_clamp->nominal(), 4.0);
+  EXPECT_TRUE(gains.antiwindup);
+  expect_fault(text_of("{speed: {namespace: a, i_clamp: 3}}", "{p: 1, i: 2}, i_clamp: 4"), "hardware.speed.i_clamp", "has i_clamp already",
+               7);
+}
+
 TEST(StudyHardware, TwoControllersHaveTwoPlaces) {
   const std::string two = "  slow: {type: pid, input: slider_joint/position, setpoint: 0, output: slider_joint, gains: {p: 1}}\n";
   const auto with = [&two](const std::string& hardware) {
