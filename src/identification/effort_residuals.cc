@@ -217,10 +217,10 @@ Status EffortResiduals::place(const Eigen::VectorXd& x) {
 }
 
 void EffortResiduals::clear_starts_without_effect(Eigen::MatrixXd* jacobian) const {
-  constexpr double kRounding = 1e-10;  // of the recorded efforts, by a change of the start of 1 rad or 1 m
+  constexpr double kLeastEffect = 1e-10;  // of the recorded efforts, by a change of the start of 1 rad or 1 m
   for (const std::vector<int>& recording : start_columns_)
     for (int column : recording)
-      if (column >= 0 && jacobian->col(column).norm() <= kRounding * recorded_.norm()) jacobian->col(column).setZero();
+      if (column >= 0 && jacobian->col(column).norm() <= kLeastEffect * recorded_.norm()) jacobian->col(column).setZero();
 }
 
 Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) {

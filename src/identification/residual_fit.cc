@@ -33,10 +33,10 @@ double median_magnitude(const Eigen::VectorXd& column) {
 /// Sets columns that are rounding to zero: those of variables whose change by their magnitude, or by 1 if that is more, changes the
 /// residuals by less than 1e-12 of what the most influential one does.
 void drop_rounding(const Eigen::VectorXd& x, Eigen::MatrixXd* jacobian) {
-  constexpr double kRounding = 1e-12;
+  constexpr double kLeastEffect = 1e-12;
   const Eigen::VectorXd effects = jacobian->colwise().norm().transpose().cwiseProduct(x.cwiseAbs().cwiseMax(1.0));
   if (effects.size() == 0) return;
-  const double least = kRounding * effects.maxCoeff();
+  const double least = kLeastEffect * effects.maxCoeff();
   for (Eigen::Index k = 0; k < effects.size(); ++k)
     if (effects[k] <= least) jacobian->col(k).setZero();
 }
