@@ -4,12 +4,12 @@
 #include <sstream>
 
 #include "cli/commands.h"
-#include "cli/csv_writer.h"
 #include "cli/inputs.h"
 #include "cli/output_file.h"
 #include "cli/report.h"
 #include "cli/table.h"
 #include "excitation/excite.h"
+#include "jobs/csv_writer.h"
 #include "jobs/excitation_records.h"
 #include "jobs/whole_file.h"
 #include "text/number_text.h"
