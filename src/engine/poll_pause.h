@@ -33,7 +33,7 @@ struct RankTimes {
   Duration orphaned = std::chrono::seconds(30);    ///< silence of rank 0, after which a worker ends
   Duration goodbye = std::chrono::seconds(2);      ///< for the answers of all workers to the end of the job
   /// For the answers of all workers to a cancel: mpirun ends a job within a second after one of its ranks was killed.
-  Duration answer = std::chrono::milliseconds(600);
+  Duration answer = std::chrono::milliseconds(300);
 };
 
 }  // namespace codesign
