@@ -16,6 +16,10 @@ struct Faulty : IdasSensitivities {
   void start(const std::vector<double>&, const State<double>&, Integrator*, std::vector<State<double>>*, std::vector<double>*) override {}
   void linearize(const State<double>&, double, Equations<double>*) override { throw std::runtime_error("no derivatives today"); }
   void derivative(int, const State<double>&, VectorX<double>*) override {}
+  bool jump(const std::vector<ControlEvent>&, const State<double>&, const State<double>&, Equations<double>*,
+            std::vector<State<double>>*) override {
+    return false;
+  }
   bool project(const State<double>&, Equations<double>*, std::vector<State<double>>*) override { return false; }
 };
 
