@@ -100,8 +100,10 @@ class IdentificationJob {
 
   void write_texts(const Json& object) {
     mechanism_codesign::IdentifyResult& result = outcome_->result;
-    const std::pair<const char*, std::string*> told[] = {
-        {"identification.json", &result.report}, {"identified.urdf", &result.urdf}, {"residuals.csv", &result.residuals}};
+    const std::pair<const char*, std::string*> told[] = {{"identification.json", &result.report},
+                                                         {"identified_overlay.urdf", &result.overlay},
+                                                         {"identified.urdf", &result.urdf},
+                                                         {"residuals.csv", &result.residuals}};
     for (const IdentificationFile& file : identification_files(problem_, result_, object)) {
       const std::string path = files_.stem() + "." + file.name;
       const std::string written = try_to([&] { write_whole_file(path, file.text()); }, path);

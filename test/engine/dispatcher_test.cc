@@ -84,15 +84,14 @@ TEST(Dispatcher, ARankThatGivesSignsOfLifeIsWaitedFor) {
 
 TEST(Dispatcher, AfterACancelARankThatDoesNotAnswerCountsAsLost) {
   const Problem problem = block("");
-  const std::atomic<bool> cancel{true};
   for (const bool answers : {false, true}) {
-    PlayedJob job(
-        own_hello(),
-        [answers](MessageKind kind, std::uint64_t number) {
-          return answers && kind == MessageKind::kPing ? std::optional<std::string>(write_numbered(MessageKind::kPong, number))
-                                                       : std::nullopt;
-        },
-        answers ? patient_times() : RankTimes{});
+    std::atomic<bool> cancel{false};
+    // The task that the other rank is given keeps the batch from being over before that rank is asked.
+    const auto part = [answers, &cancel](MessageKind kind, std::uint64_t number) {
+      if (kind == MessageKind::kTask) cancel = true;
+      return answers && kind == MessageKind::kPing ? std::optional<std::string>(write_numbered(MessageKind::kPong, number)) : std::nullopt;
+    };
+    PlayedJob job(own_hello(), part, answers ? patient_times() : RankTimes{});
     job.wait_for_hello();
     const auto [status, succeeded] = outcome_of(MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 3), &cancel));
     EXPECT_EQ(status.code, answers ? StatusCode::kCancelled : StatusCode::kWorkerLost) << status.cause;

@@ -17,7 +17,7 @@ constexpr double kPeriod = 0.01;
 std::shared_ptr<const CompiledSystem> cart(const std::string& gains, const std::string& keys, const std::string& integrator,
                                            double duration) {
   const std::string urdf = robot(
-      "<link name='ground'/><link name='cart'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' "
+      "<link name='cart'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' "
       "iyz='0'/></inertial></link>"
       "<joint name='slide' type='prismatic'><parent link='ground'/><child link='cart'/><axis xyz='1 0 0'/><limit effort='1' "
       "velocity='1'/></joint>");

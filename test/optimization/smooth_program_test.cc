@@ -65,11 +65,10 @@ TEST(SmoothProgram, BoundsAreKeptInEveryRun) {
 }
 
 TEST(SmoothProgram, TellsInWhichRunASignalWasExtreme) {
-  // The set-point of the second run is farther away, so the controller pushes harder there and pulls harder in the first one.
+  // The set-point of the second run is farther away, so the controller pushes harder there.
   const OptimizationResult result = tune_with(kTwoRuns + "path: [{signal: hold/output, between: [\"${-Kp}\", 600]}]\n");
   ASSERT_EQ(result.watched.size(), 1U);
   EXPECT_EQ(result.watched[0].largest_scenario, 1);
-  EXPECT_EQ(result.watched[0].smallest_scenario, 0);
   EXPECT_DOUBLE_EQ(result.watched[0].lower, -result.rho[0]);
 }
 

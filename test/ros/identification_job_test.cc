@@ -41,12 +41,12 @@ class IdentificationJobTest : public testing::Test {
   }
   void expect_files(const IdentificationOutcome& outcome) {
     const auto& result = outcome.result;
-    for (const std::string& path : {result.report, result.urdf, result.residuals, result.bag}) {
+    for (const std::string& path : {result.report, result.urdf, result.overlay, result.residuals, result.bag}) {
       EXPECT_TRUE(std::filesystem::is_regular_file(path)) << path;
       EXPECT_EQ(path.rfind(out() + "/" + result.job + ".", 0), 0U) << path;
     }
     std::ptrdiff_t count = std::distance(std::filesystem::directory_iterator(out()), {});
-    EXPECT_EQ(count, 4) << "nothing else is left";
+    EXPECT_EQ(count, 5) << "nothing else is left";
   }
 
   TemporaryDirectory folder_;

@@ -91,11 +91,13 @@ TEST(RequireEveryParameter, TheShippedStudiesTuneTheSameAsATree) {
   for (const auto& entry : std::filesystem::directory_iterator(source_dir() + "/config")) {
     const SourceText study = read_source(entry.path().string());
     const SourceText urdf = read_source(source_dir() + "/urdf/" + entry.path().stem().string() + ".urdf");
-    const Inputs tree = as_tree(urdf.text, study.text);
+    Inputs tree = as_tree(urdf.text, study.text);
+    const std::string overlay = source_dir() + "/urdf/overlays/" + entry.path().stem().string() + ".urdf";
+    if (std::filesystem::exists(overlay)) tree.overlays.push_back(read_source(overlay));
     const Problem problem = load(tree);
     EXPECT_NO_THROW(require_every_parameter(tree, problem.robot())) << entry.path();
     // XML-RPC sorts by name.
-    std::vector<std::string> from_file = load_problem(urdf, {}, study).tuned_names(), from_tree = problem.tuned_names();
+    std::vector<std::string> from_file = load_problem(urdf, tree.overlays, study).tuned_names(), from_tree = problem.tuned_names();
     std::sort(from_file.begin(), from_file.end());
     std::sort(from_tree.begin(), from_tree.end());
     EXPECT_EQ(from_tree, from_file) << entry.path();
