@@ -67,9 +67,10 @@ TEST(EffortRate, HasExactDerivatives) {
 }
 
 TEST(EffortRate, IsTheSlopeOfTheEffort) {
-  // The effort p (r - x) + d (r' - x') + i s: the fixture's accelerations are given, so that the slope along (v, a, sigma, 1) is exact.
+  // The effort d (r' - x') + i s: the fixture's accelerations are given, so that the slope along (v, a, sigma, 1) is exact. Its positions
+  // and velocities do not meet the constraints, so that the slope of an angle along v is not the joint's velocity: p has a test of its own.
   EquationsFixture fixture(double_pendulum(), "duration: 1.0\nlimits: {effort: true}\ncontrollers: {a: {output: shoulder, " +
-                                                  pid("gains: {p: 3.0, i: 2.0, d: 0.5}, i_clamp: 0.6, output_limit: 20.0") +
+                                                  pid("gains: {p: 0.0, i: 2.0, d: 0.5}, i_clamp: 0.6, output_limit: 20.0") +
                                                   "}}\nobjective: {integral: [{signal: shoulder/effort}]}\n");
   State<double> state = fixture.state;
   state.t = 0.37;
@@ -88,6 +89,23 @@ TEST(EffortRate, IsTheSlopeOfTheEffort) {
   for (const auto& e : gradient.velocity) slope += e.value * state.z[e.column];
   EXPECT_GT(std::abs(slope), 0.1);
   EXPECT_NEAR(formulas.signal(resolve("shoulder/effort_rate"), state), slope, 1e-12 * std::abs(slope));
+}
+
+TEST(EffortRate, OfAProportionalGainIsThatOfTheError) {
+  EquationsFixture fixture(double_pendulum(), "duration: 1.0\ncontrollers: {a: {output: shoulder, " + pid("gains: {p: 3.0}") +
+                                                  "}}\nobjective: {integral: [{signal: shoulder/effort}]}\n");
+  State<double> state = fixture.state;
+  state.t = 0.37;
+  Formulas<double>& formulas = fixture.real.formulas();
+  const auto value = [&](const char* text, SparseGradient<double>* gradient) {
+    const Signal signal = resolve_signal(parse_signal(text, {}, "signal"), fixture.system.robot(), fixture.system.topology(),
+                                         fixture.system.study().controllers);
+    return formulas.signal(signal, state, gradient);
+  };
+  SparseGradient<double> of_effort;
+  value("shoulder/effort", &of_effort);
+  const double expected = of_effort.time - 3.0 * value("shoulder/velocity", nullptr);
+  EXPECT_NEAR(value("shoulder/effort_rate", nullptr), expected, 1e-12 * std::abs(expected));
 }
 
 }  // namespace
