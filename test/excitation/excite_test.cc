@@ -90,14 +90,6 @@ TEST(Excite, AnArmByBothKindsOfTrajectories) {
   }
 }
 
-TEST(Excite, ASearchThatEndsBeyondTheLimitsIsNotLost) {
-  const ExcitationResult result = excite(arm("starts: 1, max_evaluations: 6, harmonics: 4"), {}, nullptr);
-  ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_LT(result.starts[0].criterion, result.starts[0].initial_criterion - 1.0);
-  EXPECT_GT(result.volume_factor(), 1.5);
-  expect_limits_kept(result);
-}
-
 TEST(Excite, AClosedLoopKeepsTheLimitsOfJointsThatFollow) {
   const Problem problem = slider_crank("  harmonics: 4\n  starts: 2\n  max_evaluations: 80\n");
   const ExcitationResult result = excite(problem, {}, nullptr);
