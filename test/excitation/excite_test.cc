@@ -91,7 +91,7 @@ TEST(Excite, AnArmByBothKindsOfTrajectories) {
 }
 
 TEST(Excite, ASearchThatEndsBeyondTheLimitsIsNotLost) {
-  const ExcitationResult result = excite(arm("starts: 1, max_evaluations: 6, harmonics: 4"), {}, nullptr);
+  const ExcitationResult result = excite(arm("starts: 1, max_evaluations: 24, harmonics: 4"), {}, nullptr);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   EXPECT_LE(result.starts[0].criterion, result.starts[0].initial_criterion);
   EXPECT_GT(result.volume_factor(), 1.5);
