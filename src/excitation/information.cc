@@ -11,8 +11,6 @@
 namespace codesign {
 namespace {
 
-constexpr double kRounding = 1e-12;  // of the efforts
-
 /// The effort as the sensor would show it, at equal steps.
 RecordedEffort shown_by(const EffortSensor& sensor, const Eigen::VectorXd& effort, double step) {
   std::vector<double> times, values;
@@ -21,14 +19,6 @@ RecordedEffort shown_by(const EffortSensor& sensor, const Eigen::VectorXd& effor
     values.push_back((effort[k] + sensor.offset) / sensor.scale);
   }
   return {std::move(times), std::move(values)};
-}
-
-/// Makes zero what is left of a slope by rounding, such as that of a mass on the axis: the whole number does not change the efforts by
-/// more.
-void drop_rounding(const Eigen::VectorXd& start, const Eigen::VectorXd& efforts, Eigen::MatrixXd* J) {
-  const double negligible = kRounding * efforts.norm();
-  for (Eigen::Index k = 0; k < start.size(); ++k)
-    if (std::abs(start[k]) * J->col(k).norm() < negligible) J->col(k).setZero();
 }
 
 /// Adds to `by_effort` what follows from the derivatives `by_slope` by the slopes of a RecordedEffort at equal steps.
@@ -74,7 +64,7 @@ Eigen::MatrixXd Information::jacobian(const PathResponse& response, double step)
     J.middleRows(joint * samples, samples) /= noise_[joint];
     efforts.segment(joint * samples, samples) = response.effort.row(joint).transpose() / noise_[joint];
   }
-  drop_rounding(variables_.start().head(variables_.tuned()), efforts, &J);
+  clear_rounding(variables_.start(), &J, efforts.norm());
   return J;
 }
 

@@ -10,6 +10,7 @@
 #include "identification/loss.h"
 #include "math/triangular_root.h"
 #include "optimization/levenberg_marquardt.h"
+#include "statistics/identifiability.h"
 
 namespace codesign {
 namespace {
@@ -30,40 +31,11 @@ double median_magnitude(const Eigen::VectorXd& column) {
   return *middle;
 }
 
-/// Sets columns that are rounding to zero: those of variables whose change by their magnitude, or by 1 if that is more, changes the
-/// residuals by less than 1e-12 of what the most influential one does.
-void drop_rounding(const Eigen::VectorXd& x, Eigen::MatrixXd* jacobian) {
-  constexpr double kLeastEffect = 1e-12;
-  const Eigen::VectorXd effects = jacobian->colwise().norm().transpose().cwiseProduct(x.cwiseAbs().cwiseMax(1.0));
-  if (effects.size() == 0) return;
-  const double least = kLeastEffect * effects.maxCoeff();
-  for (Eigen::Index k = 0; k < effects.size(); ++k)
-    if (effects[k] <= least) jacobian->col(k).setZero();
-}
-
 /// The spreads of residuals, none below a fraction of those at the start.
 Eigen::VectorXd spreads_above(const Eigen::MatrixXd& residuals, const LossOptions& loss, const Eigen::VectorXd& at_start) {
   Eigen::VectorXd spreads = spreads_of(residuals, loss);
   for (Eigen::Index k = 0; k < spreads.size(); ++k) spreads[k] = std::max(spreads[k], kLeastSpread * at_start[k]);
   return spreads.unaryExpr([](double spread) { return spread > 0.0 ? spread : 1.0; });
-}
-
-const char* termination_of(LevenbergMarquardtEnd end) {
-  switch (end) {
-    case LevenbergMarquardtEnd::kOptimum:
-      return "success";
-    case LevenbergMarquardtEnd::kValueTolerance:
-      return "objective_tolerance_reached";
-    case LevenbergMarquardtEnd::kVariableTolerance:
-      return "parameter_tolerance_reached";
-    case LevenbergMarquardtEnd::kMaxEvaluations:
-      return "max_evaluations_reached";
-    case LevenbergMarquardtEnd::kStartFailed:
-      return "start_failed";
-    case LevenbergMarquardtEnd::kStopped:
-      return "cancelled";
-  }
-  return "";
 }
 
 /// The cost with fixed spreads. Keeps residuals and Jacobian of the best point, and the counts.
@@ -84,7 +56,7 @@ class WeightedCost final : public LeastSquaresModel {
       if (!is_begun_) fit_.status = status;
       return tell(trial) ? Outcome::kFailed : stop({StatusCode::kCancelled, 0.0, "cancelled"});
     }
-    drop_rounding(x, &jacobian_);
+    clear_rounding(x, &jacobian_);
     const WeightedResiduals weighted = weigh(residuals_, &jacobian_, spreads_, loss_);
     point->value = weighted.value;
     point->gradient = 2.0 * (weighted.jacobian.transpose() * weighted.residuals.reshaped());
@@ -132,7 +104,7 @@ void search(const FitProblem& problem, ResidualSource* source, const FitObserver
   options.largest_first_step = std::numeric_limits<double>::infinity();
   Eigen::VectorXd x = fit->x;
   LeastSquaresPoint best;
-  fit->termination = termination_of(minimize_squares(options, problem.lower, problem.upper, &cost, &x, &best));
+  fit->termination = name_of(minimize_squares(options, problem.lower, problem.upper, &cost, &x, &best));
 }
 
 }  // namespace

@@ -13,24 +13,6 @@
 namespace codesign {
 namespace {
 
-const char* name_of_end(LevenbergMarquardtEnd end) {
-  switch (end) {
-    case LevenbergMarquardtEnd::kOptimum:
-      return "success";
-    case LevenbergMarquardtEnd::kValueTolerance:
-      return "objective_tolerance_reached";
-    case LevenbergMarquardtEnd::kVariableTolerance:
-      return "parameter_tolerance_reached";
-    case LevenbergMarquardtEnd::kMaxEvaluations:
-      return "max_evaluations_reached";
-    case LevenbergMarquardtEnd::kStartFailed:
-      return "start_failed";
-    case LevenbergMarquardtEnd::kStopped:
-      return "cancelled";
-  }
-  return "";
-}
-
 /// The objective of an ensemble by the scaled variables of (24).
 class EnsembleSquares final : public LeastSquaresModel {
  public:
@@ -73,7 +55,7 @@ OptimizationResult search_squares(const Study& study, const OptimizerOptions& op
   LevenbergMarquardtOptions search;
   search.max_evaluations = options.max_evaluations;
   search.relative_tolerance = options.relative_tolerance;
-  trials.result().termination = name_of_end(minimize_squares(search, lower, upper, &squares, &x, &best));
+  trials.result().termination = name_of(minimize_squares(search, lower, upper, &squares, &x, &best));
   trials.conclude("");
   return std::move(trials.result());
 }

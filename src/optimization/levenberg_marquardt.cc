@@ -112,6 +112,24 @@ class SquaresSearch {
 
 }  // namespace
 
+const char* name_of(LevenbergMarquardtEnd end) {
+  switch (end) {
+    case LevenbergMarquardtEnd::kOptimum:
+      return "success";
+    case LevenbergMarquardtEnd::kValueTolerance:
+      return "objective_tolerance_reached";
+    case LevenbergMarquardtEnd::kVariableTolerance:
+      return "parameter_tolerance_reached";
+    case LevenbergMarquardtEnd::kMaxEvaluations:
+      return "max_evaluations_reached";
+    case LevenbergMarquardtEnd::kStartFailed:
+      return "start_failed";
+    case LevenbergMarquardtEnd::kStopped:
+      return "cancelled";
+  }
+  return "";
+}
+
 LevenbergMarquardtEnd minimize_squares(const LevenbergMarquardtOptions& options, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
                                        LeastSquaresModel* model, Eigen::VectorXd* x, LeastSquaresPoint* best) {
   return SquaresSearch(options, lower, upper, model, x, best).run();

@@ -41,6 +41,9 @@ enum class LevenbergMarquardtEnd {
   kStopped
 };
 
+/// The end as OptimizationResult::termination: `objective_tolerance_reached`, ...
+const char* name_of(LevenbergMarquardtEnd end);
+
 /// Minimizes a sum of squares within bounds by the method of Levenberg and Marquardt as a trust region with Moré's scaling; doc/theory.md
 /// (24g). Each step is the minimum of the model
 ///   psi + psi_x^T p + p^T R^T R p    over    lower <= x + p <= upper,    |D p| <= Delta,

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "statistics/identifiability.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "math/dense.h"
@@ -40,6 +41,15 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 }  // namespace
+
+void clear_rounding(const Eigen::VectorXd& x, Eigen::MatrixXd* jacobian, double magnitude) {
+  constexpr double kLeastEffect = 1e-12;
+  const Eigen::VectorXd effects = jacobian->colwise().norm().transpose().cwiseProduct(x.cwiseAbs().cwiseMax(1.0));
+  if (effects.size() == 0) return;
+  const double least = kLeastEffect * std::max(magnitude, effects.maxCoeff());
+  for (Eigen::Index k = 0; k < effects.size(); ++k)
+    if (effects[k] <= least) jacobian->col(k).setZero();
+}
 
 Identifiability find_identifiable(const Eigen::MatrixXd& R, double threshold) {
   const Eigen::Index p = R.cols();

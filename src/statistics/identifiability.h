@@ -21,6 +21,13 @@ struct Identifiability {
   std::vector<bool> is_determined;
 };
 
+/// Sets columns of a Jacobian that are rounding to zero: those of variables whose change by their magnitude, or by 1 if that is more,
+/// changes the residuals by less than 1e-12 of what the most influential one does. Scaled to length one, as below, they would count as
+/// known.
+/// @param x the variables at the Jacobian, one per column. @param magnitude of what is compared, if it is known: counts as an influence,
+/// too.
+void clear_rounding(const Eigen::VectorXd& x, Eigen::MatrixXd* jacobian, double magnitude = 0.0);
+
 /// Columns depend on each other below this ratio of pivots. Derivatives are exact to about 1e-13, so that what depends by construction is
 /// far below, and what depends by a poor excitation alone far above.
 constexpr double kRankThreshold = 1e-9;

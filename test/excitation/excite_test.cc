@@ -36,20 +36,7 @@ double worst_on_fine_scan(const Problem& problem, const ExcitationResult& result
   path.position.colwise() += result.rest;
   ExcitedMotion motion(*problem.system(), limits.joints, limits.followers, problem.parameters(), 1);
   EXPECT_TRUE(motion.begin(result.rest).ok());
-  PathResponse response;
-  EXPECT_TRUE(motion.respond(path, false, &response).ok());
-  double worst = 0.0;
-  for (const LimitedSignal& signal : limits.signals) {
-    using Kind = LimitedSignal::Kind;
-    const Eigen::MatrixXd& rows = signal.is_follower
-                                      ? (signal.kind == Kind::kPosition ? response.follower_position : response.follower_velocity)
-                                  : signal.kind == Kind::kPosition ? path.position
-                                  : signal.kind == Kind::kVelocity ? path.velocity
-                                  : signal.kind == Kind::kEffort   ? response.effort
-                                                                   : path.acceleration;
-    for (Eigen::Index k = 0; k < rows.cols(); ++k) worst = std::max(worst, std::abs(signal.relative(rows(signal.joint, k))));
-  }
-  return worst;
+  return worst_along(limits, path, &motion);
 }
 
 TEST(Excite, APendulumIsKnownBetterWithinItsLimits) {

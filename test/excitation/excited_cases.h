@@ -97,6 +97,24 @@ inline Problem slider_crank(const std::string& excite) {
                            excite + "parameters: {crank_length: {}, rod_length: {}}\n"});
 }
 
+/// The largest |z| of all limited signals along a path.
+inline double worst_along(const MotionLimits& limits, const DrivePath& path, ExcitedMotion* motion) {
+  PathResponse response;
+  EXPECT_TRUE(motion->respond(path, false, &response).ok());
+  double worst = 0.0;
+  for (const LimitedSignal& signal : limits.signals) {
+    using Kind = LimitedSignal::Kind;
+    const Eigen::MatrixXd& rows = signal.is_follower
+                                      ? (signal.kind == Kind::kPosition ? response.follower_position : response.follower_velocity)
+                                  : signal.kind == Kind::kPosition ? path.position
+                                  : signal.kind == Kind::kVelocity ? path.velocity
+                                  : signal.kind == Kind::kEffort   ? response.effort
+                                                                   : path.acceleration;
+    for (Eigen::Index k = 0; k < rows.cols(); ++k) worst = std::max(worst, std::abs(signal.relative(rows(signal.joint, k))));
+  }
+  return worst;
+}
+
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_TEST_EXCITATION_EXCITED_CASES_H_

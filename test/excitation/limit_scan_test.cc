@@ -23,20 +23,7 @@ class LimitScanOf : public testing::Test {
   /// The largest |z| at many equal steps.
   double worst_of(int count) {
     const DrivePath path = space_->path(x_, SampledShapes(space_->basis(), times_in_period(space_->basis().period(), count)));
-    PathResponse response;
-    EXPECT_TRUE(motion_->respond(path, false, &response).ok());
-    double worst = 0.0;
-    for (const LimitedSignal& signal : limits_.signals) {
-      using Kind = LimitedSignal::Kind;
-      const Eigen::MatrixXd& rows = signal.is_follower
-                                        ? (signal.kind == Kind::kPosition ? response.follower_position : response.follower_velocity)
-                                    : signal.kind == Kind::kPosition ? path.position
-                                    : signal.kind == Kind::kVelocity ? path.velocity
-                                    : signal.kind == Kind::kEffort   ? response.effort
-                                                                     : path.acceleration;
-      for (Eigen::Index k = 0; k < rows.cols(); ++k) worst = std::max(worst, std::abs(signal.relative(rows(signal.joint, k))));
-    }
-    return worst;
+    return worst_along(limits_, path, motion_.get());
   }
 
   MotionLimits limits_;

@@ -157,5 +157,11 @@ TEST(LevenbergMarquardt, AVariableWithoutInfluenceStaysWhereItIs) {
   EXPECT_LE(std::abs(answer.best.gradient[0]), 1e-4);
 }
 
+TEST(LevenbergMarquardt, EndsHaveTheNamesOfResults) {
+  EXPECT_STREQ(name_of(LevenbergMarquardtEnd::kOptimum), "success");
+  EXPECT_STREQ(name_of(LevenbergMarquardtEnd::kMaxEvaluations), "max_evaluations_reached");
+  EXPECT_STREQ(name_of(LevenbergMarquardtEnd::kStopped), "cancelled");
+}
+
 }  // namespace
 }  // namespace codesign

@@ -107,5 +107,25 @@ TEST(Identifiability, ALargerThresholdFindsWhatIsHardlyTold) {
   EXPECT_EQ(find_identifiable(upper_factor(J), 1e-3).rank, 1);
 }
 
+TEST(ClearRounding, LeavesWhatHasAnEffect) {
+  Eigen::MatrixXd J(2, 4);
+  J << 3.0, 1e-14, 1e-10, 1e-14,  //
+      4.0, 1e-14, 1e-10, 1e-14;
+  Eigen::MatrixXd cleared = J;
+  clear_rounding(Eigen::Vector4d(0.0, 0.0, 0.0, 1e6), &cleared);
+  EXPECT_EQ(cleared.col(0), J.col(0)) << "a number may begin at zero";
+  EXPECT_TRUE(cleared.col(1).isZero(0.0));
+  EXPECT_EQ(cleared.col(2), J.col(2)) << "small, but not rounding";
+  EXPECT_EQ(cleared.col(3), J.col(3)) << "a number of this magnitude has an effect";
+}
+
+TEST(ClearRounding, AColumnAloneIsComparedWithWhatIsMeasured) {
+  Eigen::MatrixXd J = Eigen::MatrixXd::Constant(2, 1, 1e-14), alone = J;
+  clear_rounding(Eigen::VectorXd::Ones(1), &alone);
+  EXPECT_EQ(alone, J);
+  clear_rounding(Eigen::VectorXd::Ones(1), &alone, 10.0);
+  EXPECT_TRUE(alone.isZero(0.0));
+}
+
 }  // namespace
 }  // namespace codesign
