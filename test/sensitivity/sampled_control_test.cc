@@ -80,16 +80,13 @@ TEST_P(ControlGradientTest, MeetsTheComplexStep) {
 }
 
 TEST_P(ControlGradientTest, IsThatOfTheOtherIntegrator) {
-  // idas begins anew at each sample, so that the run is short; a continuous one is long enough to reach its clamps.
-  const double duration = GetParam().controllers.find("sample_time") != std::string::npos ? 0.06 : 0.4;
-  const std::string tolerances = "relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10";
-  const auto own = compile_case(GetParam(), "{gradient: direct, method: rodas5p, " + tolerances + "}", "", duration);
-  const auto other = compile_case(GetParam(), "{integrator: idas, " + tolerances + "}", "", duration);
+  const auto own = compile_case(GetParam(), "{gradient: direct, method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}");
+  const auto other = compile_case(GetParam(), "{integrator: idas, relative_tolerance: 1.0e-7, absolute_tolerance: 1.0e-8}");
   const Eigen::VectorXd rho = start_of(own->study());
   const Evaluation a = Evaluator(own).evaluate(rho, true), b = Evaluator(other).evaluate(rho, true);
   ASSERT_TRUE(a.status.ok()) << a.status.cause;
   ASSERT_TRUE(b.status.ok()) << b.status.cause;
-  EXPECT_NEAR(a.objective, b.objective, 1e-7 * a.objective);
+  EXPECT_NEAR(a.objective, b.objective, 1e-6 * a.objective);
   EXPECT_LT((a.gradient - b.gradient).cwiseAbs().maxCoeff(), 1e-5 * a.gradient.cwiseAbs().maxCoeff()) << a.gradient << "\n" << b.gradient;
 }
 
