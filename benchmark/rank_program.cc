@@ -71,7 +71,9 @@ void echo(MpiTransport* transport, const Evaluation& evaluation) {
 class MessageBench {
  public:
   MessageBench(Dispatcher* dispatcher, const Problem& problem)
-      : dispatcher_(*dispatcher), task_{problem.system(), problem.parameters(), Derivatives::kGradient}, problem_(dispatcher->add(make_portable(problem))) {}
+      : dispatcher_(*dispatcher),
+        task_{problem.system(), problem.parameters(), Derivatives::kGradient},
+        problem_(dispatcher->add(make_portable(problem))) {}
 
   void run(std::size_t count) {
     const std::vector<EvaluationTask> tasks(count, task_);

@@ -46,7 +46,7 @@ std::pair<double, double> measure_journal(const Problem& problem) {
   constexpr int kLines = 5000;
   const std::filesystem::path path = std::filesystem::temp_directory_path() / ("journal_" + std::to_string(getpid()));
   const Evaluation evaluation = Evaluator(problem).evaluate(problem.start(), true);
-  const EvaluationTask task{problem.system(), problem.parameters(), true};
+  const EvaluationTask task{problem.system(), problem.parameters(), Derivatives::kGradient};
   double seconds = 0.0, bytes = 0.0;
   {
     Journal journal(path.string(), problem, problem.optimizer_options(), Journal::Mode::kNew);
@@ -74,7 +74,7 @@ double measure_conversion(const Convert& convert) {
 /// Rows that compare the bytes of messages with the lines of the journal.
 void add_formats(const Problem& problem, Table* table) {
   const Evaluation evaluation = Evaluator(problem).evaluate(problem.start(), true);
-  const EvaluationRecord record{0, problem.parameters(), true, evaluation};
+  const EvaluationRecord record{0, problem.parameters(), Derivatives::kGradient, evaluation};
   const double message = measure_conversion([&evaluation] {
     const std::string bytes = write_result(1, evaluation);
     ByteReader reader(bytes);

@@ -18,7 +18,7 @@ _codesign() {
   local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]-} options
   shopt -q extglob || return 0
   if [ "$COMP_CWORD" -eq 1 ]; then
-    mapfile -t COMPREPLY < <(compgen -W "check urdf simulate gradient optimize identify report help --help --version" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "check urdf simulate gradient optimize identify excite report help --help --version" -- "$word")
     return
   fi
   # readline splits --verify=ridders in three.
@@ -37,7 +37,7 @@ _codesign() {
     simulate) options+=" --signals --csv --samples" ;;
     gradient) options+=" --verify" ;;
     optimize) options+=" --output --resume" ;;
-    identify) options+=" --output" ;;
+    identify | excite) options+=" --output" ;;
     report) options="-o --output --help" ;;
   esac
   if [[ $word == -* ]]; then

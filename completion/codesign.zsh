@@ -9,7 +9,7 @@ _codesign() {
           '--json[one JSON object on standard output]' '--help[the options]')
   if (( CURRENT == 2 )); then
     _values 'command' 'check[equations and redundant constraints]' 'urdf[the URDF that is simulated]' 'simulate[one run as CSV]' \
-      'gradient[objective and gradient]' 'optimize[tune the parameters of the study]' 'identify[fit parameters to recordings]' \
+      'gradient[objective and gradient]' 'optimize[tune the parameters of the study]' 'identify[fit parameters to recordings]' 'excite[find the motion to record]' \
       'report[a page of what a job has found]' 'help[the options]' '--help' '--version'
     return
   fi
@@ -17,7 +17,7 @@ _codesign() {
     simulate) options=('--signals[the signals to print]:signals:' '--csv[the file to write]:file:_files' '--samples[number of instants]:number:') ;;
     gradient) options=('--verify=-[compare with a reference]::method:(complex_step ridders)') ;;
     optimize) options=('--output[folder of the results]:folder:_files -/' '--resume[go on with the job of a folder]:folder:_files -/') ;;
-    identify) options=('--output[folder of the results]:folder:_files -/') ;;
+    identify|excite) options=('--output[folder of the results]:folder:_files -/') ;;
     report)
       _arguments '1:command:' '2:job:_files -g "*.bag(-.) *(-/)"' '(-o --output)'{-o,--output}'[the page]:file:_files' '--help[the options]'
       return

@@ -17,6 +17,8 @@
 namespace codesign::cli {
 namespace {
 
+constexpr int kIntervalDigits = 4;  // of a predicted interval
+
 void print_excitation_trial(const ExcitationTrial& trial, std::ostream& err) {
   err << "start " << trial.start << ", evaluation " << trial.evaluation << ": ";
   if (trial.status.ok())
@@ -29,7 +31,7 @@ void print_predictions(const ExcitationResult& result, double level, std::ostrea
   Table table;
   table.add({"number", "nominal", readable(100.0 * level) + " % +-, plain", "+-, found", "note"});
   for (const PredictedNumber& number : result.numbers)
-    table.add({number.name, readable(number.nominal), readable(number.half_before), readable(number.half),
+    table.add({number.name, readable(number.nominal), readable(number.half_before, kIntervalDigits), readable(number.half, kIntervalDigits),
                number.is_determined ? "" : "not identifiable"});
   table.print(out);
 }

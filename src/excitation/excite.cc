@@ -271,7 +271,7 @@ void Excitation::conclude() {
 }
 
 ExcitationResult Excitation::run() {
-  const CpuTimer timer;
+  const CpuTimer timer(CpuTimer::Of::kProcess);
   motion_.obey(cancel_);
   result_.termination = "start_failed";
   numbers_ = unit_points(SamplerKind::kSobol, std::max(kTold, kDrawsPerStart * description_.starts), static_cast<int>(space_.size()),

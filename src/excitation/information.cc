@@ -11,6 +11,8 @@
 namespace codesign {
 namespace {
 
+constexpr double kRounding = 1e-12;  // of the efforts
+
 /// The effort as the sensor would show it, at equal steps.
 RecordedEffort shown_by(const EffortSensor& sensor, const Eigen::VectorXd& effort, double step) {
   std::vector<double> times, values;
@@ -19,6 +21,14 @@ RecordedEffort shown_by(const EffortSensor& sensor, const Eigen::VectorXd& effor
     values.push_back((effort[k] + sensor.offset) / sensor.scale);
   }
   return {std::move(times), std::move(values)};
+}
+
+/// Makes zero what is left of a slope by rounding, such as that of a mass on the axis: the whole number does not change the efforts by
+/// more.
+void drop_rounding(const Eigen::VectorXd& start, const Eigen::VectorXd& efforts, Eigen::MatrixXd* J) {
+  const double negligible = kRounding * efforts.norm();
+  for (Eigen::Index k = 0; k < start.size(); ++k)
+    if (std::abs(start[k]) * J->col(k).norm() < negligible) J->col(k).setZero();
 }
 
 /// Adds to `by_effort` what follows from the derivatives `by_slope` by the slopes of a RecordedEffort at equal steps.
@@ -47,6 +57,7 @@ Information::Information(const FitVariables& variables, std::vector<std::string>
 Eigen::MatrixXd Information::jacobian(const PathResponse& response, double step) const {
   const Eigen::Index samples = response.effort.cols(), n = response.effort.rows();
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n * samples, variables_.size());
+  Eigen::VectorXd efforts(n * samples);
   for (Eigen::Index joint = 0; joint < n; ++joint) {
     const std::string& name = joints_[static_cast<std::size_t>(joint)];
     const EffortSensor sensor = variables_.sensor(name, variables_.start());
@@ -61,7 +72,9 @@ Eigen::MatrixXd Information::jacobian(const PathResponse& response, double step)
       if (at.offset >= 0) row[at.offset] = residual.by_effort;
     }
     J.middleRows(joint * samples, samples) /= noise_[joint];
+    efforts.segment(joint * samples, samples) = response.effort.row(joint).transpose() / noise_[joint];
   }
+  drop_rounding(variables_.start().head(variables_.tuned()), efforts, &J);
   return J;
 }
 
@@ -88,6 +101,8 @@ Information::ByResponse Information::by_response(const Eigen::MatrixXd& by_jacob
 
 double information_criterion(const Eigen::MatrixXd& J, const std::vector<int>& columns, Eigen::MatrixXd* by_jacobian) {
   const auto count = static_cast<Eigen::Index>(columns.size());
+  if (by_jacobian != nullptr) by_jacobian->setZero(J.rows(), J.cols());
+  if (count == 0) return 0.0;
   Eigen::MatrixXd A(J.rows(), count);
   Eigen::VectorXd lengths(count);
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -96,12 +111,11 @@ double information_criterion(const Eigen::MatrixXd& J, const std::vector<int>& c
     A.col(k) = J.col(columns[static_cast<std::size_t>(k)]) / lengths[k];
   }
   const Eigen::MatrixXd R = upper_factor(A);
-  if (count == 0 || R.diagonal().minCoeff() < kRankThreshold) return std::numeric_limits<double>::infinity();
+  if (R.diagonal().minCoeff() < kRankThreshold) return std::numeric_limits<double>::infinity();
   if (by_jacobian != nullptr) {
     Eigen::MatrixXd by_A = A;  // A (A^T A)^-1
     R.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(by_A);
     R.transpose().triangularView<Eigen::Lower>().solveInPlace<Eigen::OnTheRight>(by_A);
-    by_jacobian->setZero(J.rows(), J.cols());
     for (Eigen::Index k = 0; k < count; ++k) by_jacobian->col(columns[static_cast<std::size_t>(k)]) = -2.0 * by_A.col(k) / lengths[k];
   }
   return -2.0 * (R.diagonal().array().log().sum() + lengths.array().log().sum());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace codesign {
 namespace {
@@ -76,19 +77,21 @@ Status LimitScan::evaluate(const Eigen::VectorXd& x, const std::vector<double>& 
   return {};
 }
 
-// The middles of both intervals beside each peak of |z| that might, beyond its neighbours' bend, exceed the worst so far.
-std::vector<double> LimitScan::finer_times(const std::vector<ScanPoint>& points, double worst) const {
+// The middles of both intervals beside each peak that might, beyond its neighbours' bend, exceed the highest or lowest value of its signal.
+std::vector<double> LimitScan::finer_times(const std::vector<ScanPoint>& points) const {
   std::vector<double> times;
   for (std::size_t s = 0; s < limits_.signals.size(); ++s)
-    for (std::size_t k = 1; k + 1 < points.size(); ++k) {
-      const double sign = relative(points[k], s) < 0.0 ? -1.0 : 1.0;
-      const double before = sign * relative(points[k - 1], s), here = sign * relative(points[k], s),
-                   after = sign * relative(points[k + 1], s);
-      if (here < before || here < after) continue;
-      const double bend = 2.0 * here - before - after;
-      if (bend < kMissed || here + bend < worst) continue;
-      times.push_back(0.5 * (points[k - 1].time + points[k].time));
-      times.push_back(0.5 * (points[k].time + points[k + 1].time));
+    for (const double side : {-1.0, 1.0}) {
+      double farthest = -std::numeric_limits<double>::infinity();
+      for (const ScanPoint& point : points) farthest = std::max(farthest, side * relative(point, s));
+      for (std::size_t k = 1; k + 1 < points.size(); ++k) {
+        const double before = side * relative(points[k - 1], s), here = side * relative(points[k], s),
+                     after = side * relative(points[k + 1], s);
+        const double bend = 2.0 * here - before - after;
+        if (here < before || here < after || bend < kMissed || here + bend < farthest) continue;
+        times.push_back(0.5 * (points[k - 1].time + points[k].time));
+        times.push_back(0.5 * (points[k].time + points[k + 1].time));
+      }
     }
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
@@ -104,7 +107,7 @@ LimitScan::Extremes LimitScan::scan(const Eigen::VectorXd& x) {
     if (!extremes.status.ok()) return extremes;
     for (const ScanPoint& point : points)
       for (std::size_t s = 0; s < limits_.signals.size(); ++s) extremes.worst = std::max(extremes.worst, std::abs(relative(point, s)));
-    times = finer_times(points, extremes.worst);
+    times = finer_times(points);
   }
   extremes.signals.resize(limits_.signals.size());
   for (std::size_t s = 0; s < limits_.signals.size(); ++s) {
@@ -125,7 +128,7 @@ bool LimitScan::fit(Eigen::VectorXd* x, Extremes* extremes) {
     if (extremes->status.is_interrupted()) return false;
     if (extremes->status.ok() && extremes->worst <= 1.0) return true;
     // Gravity and the rest are no part of the excursion, so that the excess alone may not do; then twice as much is taken.
-    const double factor = extremes->status.ok() ? std::max(0.5, 1.0 - haste * (extremes->worst - kKept)) : 0.8;
+    const double factor = extremes->status.ok() ? std::max(0.5, 1.0 / (1.0 + haste * (extremes->worst - kKept))) : 0.8;
     haste = std::min(2.0 * haste, 64.0);
     total *= factor;
     *x = space_.shrunk(*x, factor);

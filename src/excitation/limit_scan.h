@@ -42,7 +42,7 @@ class LimitScan {
   };
   std::vector<double> first_times(const Eigen::VectorXd& x) const;
   Status evaluate(const Eigen::VectorXd& x, const std::vector<double>& times, std::vector<ScanPoint>* points);
-  std::vector<double> finer_times(const std::vector<ScanPoint>& points, double worst) const;
+  std::vector<double> finer_times(const std::vector<ScanPoint>& points) const;
   double relative(const ScanPoint& point, std::size_t signal) const;
 
   const TrajectorySpace& space_;

@@ -15,6 +15,9 @@ namespace {
 constexpr double kSharpness[] = {60.0, 600.0};  // of the envelopes, one search after the other
 constexpr double kTolerance = 1e-5;             // of the criterion, which is a logarithm: a change by this is 5 millionths of the volume
 constexpr double kRowTolerance = 1e-7;
+constexpr double kInside = 0.999, kFarBeyond = 3.0;  // of the limits
+constexpr int kMostShrinks = 3;
+constexpr int kMostCalls = 3;  // of NLopt for one point: SLSQP asks for the value, then for the gradient, and counts in a way of its own
 
 nlopt::algorithm method_of(TrajectorySearchMethod method) {
   switch (method) {
@@ -38,7 +41,8 @@ class TrajectorySearch {
     result_.x = x;
     result_.criterion = result_.initial_criterion = std::numeric_limits<double>::infinity();
     for (const double sharpness : kSharpness) {
-      const int left = description_.max_evaluations - result_.evaluations;
+      most_ = sharpness == kSharpness[0] ? (2 * description_.max_evaluations + 2) / 3 : description_.max_evaluations;
+      const int left = most_ - result_.evaluations;
       if (interrupted_ || left <= 0) break;
       program_.set_sharpness(sharpness);
       last_x_.resize(0);
@@ -57,7 +61,7 @@ class TrajectorySearch {
     optimizer.add_inequality_mconstraint(&TrajectorySearch::limits_callback, this,
                                          std::vector<double>(static_cast<std::size_t>(program_.rows()), kRowTolerance));
     optimizer.set_ftol_abs(kTolerance);
-    optimizer.set_maxeval(evaluations);
+    optimizer.set_maxeval(kMostCalls * evaluations);
     std::vector<double> x(result_.x.begin(), result_.x.end());
     double value = 0.0;
     try {
@@ -108,27 +112,45 @@ class TrajectorySearch {
     const Eigen::Map<const Eigen::VectorXd> x(at, size);
     if (interrupted_) throw nlopt::forced_stop();
     if (last_x_.size() == x.size() && last_x_ == x && (last_has_gradient_ || !with_gradient)) return;
-    // SLSQP counts its evaluations in a way of its own.
-    if (result_.evaluations >= description_.max_evaluations) throw nlopt::forced_stop();
+    // A gradient that is asked for after its value is no other evaluation.
+    const bool is_new = last_x_.size() != x.size() || last_x_ != x;
+    if (is_new && result_.evaluations >= most_) throw nlopt::forced_stop();
     last_x_ = x;
     last_has_gradient_ = with_gradient;
     last_ = program_.evaluate(x, with_gradient);
-    ++result_.evaluations;
-    note();
+    if (is_new) ++result_.evaluations;
+    if (is_new || last_.status.is_interrupted()) note();
   }
 
   void note() {
     if (last_.status.ok()) {
       worst_ = std::isfinite(worst_) ? std::max(worst_, last_.criterion) : last_.criterion;
       if (result_.evaluations == 1) result_.initial_criterion = last_.criterion;
-      if (last_.worst <= 1.0 && last_.criterion < result_.criterion) {
-        result_.criterion = last_.criterion;
-        result_.x = last_x_;
-      }
+      keep(last_x_, last_);
+      keep_within_limits();
     }
     const ExcitationTrial trial{start_, result_.evaluations, last_.status, last_.criterion, last_.worst};
     interrupted_ = last_.status.is_interrupted() || (observer_ && !observer_(trial));
     if (interrupted_) throw nlopt::forced_stop();
+  }
+
+  void keep(const Eigen::VectorXd& x, const ExcitationProgram::Value& value) {
+    if (value.worst > 1.0 || value.criterion >= result_.criterion) return;
+    result_.criterion = value.criterion;
+    result_.x = x;
+  }
+
+  // With many joints a search stays beyond its limits for long. What smaller excursions leave of its points is often better than the start.
+  void keep_within_limits() {
+    ExcitationProgram::Value value;
+    value.worst = last_.worst;
+    Eigen::VectorXd x = last_x_;
+    for (int k = 0; k < kMostShrinks && value.worst > 1.0 && value.worst < kFarBeyond; ++k) {
+      x = program_.space().shrunk(x, kInside / value.worst);
+      value = program_.evaluate(x, false);
+      if (!value.status.ok()) return;
+      keep(x, value);
+    }
   }
 
   const ExcitationDescription& description_;
@@ -138,6 +160,7 @@ class TrajectorySearch {
   TrajectorySearchResult result_;
   ExcitationProgram::Value last_;
   Eigen::VectorXd last_x_;
+  int most_ = 0;  // evaluations until the end of this search
   bool last_has_gradient_ = false, interrupted_ = false;
   double worst_ = -std::numeric_limits<double>::infinity();
 };

@@ -125,8 +125,8 @@ void refuse_sampled(const Study& study) {
   for (const ControllerDescription& controller : study.controllers)
     if (controller.realization.is_sampled())
       throw InputError({controller.where, "controllers." + controller.name + ".sample_time",
-                        "residuals in motion are simulated with continuous controllers only", to_decimal(controller.realization.sample_time),
-                        "no sample_time, or residuals in effort"});
+                        "residuals in motion are simulated with continuous controllers only",
+                        to_decimal(controller.realization.sample_time), "no sample_time, or residuals in effort"});
 }
 
 }  // namespace

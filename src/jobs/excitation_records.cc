@@ -11,6 +11,8 @@
 namespace codesign {
 namespace {
 
+constexpr int kFactorDigits = 3;  // of a predicted factor
+
 Json predicted_json(const PredictedNumber& number) {
   return {{"nominal", number.nominal},
           {"unit", number.unit},
@@ -84,9 +86,9 @@ std::vector<std::string> excitation_sentences(const ExcitationResult& result) {
   else if (!std::isfinite(result.criterion_before))
     sentences.push_back("the plain trajectory does not tell all numbers that can be told; the one found does");
   else
-    sentences.push_back("predicted volume of the intervals: " + readable(result.volume_factor()) +
-                        " times smaller than with the plain trajectory, each interval on average " + readable(factor_of_one(result)) +
-                        " times");
+    sentences.push_back("predicted volume of the intervals: " + readable(result.volume_factor(), kFactorDigits) +
+                        " times smaller than with the plain trajectory, each interval on average " +
+                        readable(factor_of_one(result), kFactorDigits) + " times");
   return sentences;
 }
 

@@ -13,8 +13,8 @@ namespace codesign {
 /// @param size of the mechanism [m].
 MarkerStyle effort_style(const ComparedMotion& motion, double size);
 
-/// Two arrows for each compared joint, beside its child's origin, along its axis: the effort that the model needs (green), and around it the
-/// one that was recorded (grey, thick and transparent). Where the model explains the recording, the grey arrow ends where the green one
+/// Two arrows for each compared joint, beside its child's origin, along its axis: the effort that the model needs (green), and around it
+/// the one that was recorded (grey, thick and transparent). Where the model explains the recording, the grey arrow ends where the green one
 /// does.
 /// @param context.root_frame the frame of the root link of the identified model.
 visualization_msgs::MarkerArray effort_markers(const ComparedMotion& motion, const Frame& measured, const Frame& model,

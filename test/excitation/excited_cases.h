@@ -14,16 +14,18 @@
 
 namespace codesign {
 
-/// A bar that swings about a horizontal axis, with viscous and Coulomb friction; its centre is 0.5 m from the axis. With the axis turned
-/// upright, gravity does not act on it.
-inline std::string pendulum_urdf(const std::string& axis = "0 1 0") {
+/// A bar that swings about a horizontal axis, with viscous and Coulomb friction; its centre is 0.5 m from the axis. With an upright axis,
+/// gravity does not act on it.
+inline std::string pendulum_urdf(const std::string& axis = "0 1 0", const std::string& other_centre = "") {
+  const std::string centre = !other_centre.empty() ? other_centre : axis == "0 0 1" ? "0.5 0 0" : "0 0 -0.5";
   return R"(<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
   <codesign:parameter name="mass" value="2" lower="0.1" upper="10"/>
   <codesign:parameter name="inertia" value="0.1" lower="0.001" upper="5"/>
   <codesign:parameter name="viscous" value="0.3" lower="0" upper="10"/>
   <codesign:parameter name="coulomb" value="0.5" lower="0" upper="10"/>
   <link name="base"/>
-  <link name="bar"><inertial><origin xyz="0 0 -0.5"/><mass value="2" codesign:value="${mass}"/>
+  <link name="bar"><inertial><origin xyz=")" +
+         centre + R"("/><mass value="2" codesign:value="${mass}"/>
     <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0" codesign:ixx="${inertia}" codesign:iyy="${inertia}" codesign:izz="${inertia}"/>
   </inertial></link>
   <joint name="hinge" type="revolute"><parent link="base"/><child link="bar"/><axis xyz=")" +

@@ -44,7 +44,7 @@ TEST(ExcitationRecords, Json) {
   EXPECT_NEAR(object["volume_factor"].get<double>(), std::exp(2.0), 1e-12);
   EXPECT_NEAR(object["mean_factor"].get<double>(), std::exp(1.0), 1e-12);
   EXPECT_EQ(object["predicted"]["mass"]["after"]["half_interval"], 0.2);
-  EXPECT_NE(to_text(object).find("\"deviation\":null"), std::string::npos) << to_text(object);
+  EXPECT_NE(to_text(object).find("\"deviation\": null"), std::string::npos) << to_text(object);
   EXPECT_EQ(object["limits"]["hinge/velocity"]["lowest"], -3.5);
   EXPECT_EQ(object["trajectory"]["kind"], "fourier");
   EXPECT_EQ(object["trajectory"]["joints"]["hinge"]["coefficients"].size(), 3U);
@@ -66,7 +66,7 @@ TEST(ExcitationRecords, Sentences) {
   const std::vector<std::string> sentences = excitation_sentences(result);
   ASSERT_EQ(sentences.size(), 2U);
   EXPECT_NE(sentences[0].find("not identifiable by any trajectory: mass and inertia"), std::string::npos);
-  EXPECT_NE(sentences[1].find("7.39 times smaller"), std::string::npos) << sentences[1];
+  EXPECT_NE(sentences[1].find("7.39 times smaller than"), std::string::npos) << sentences[1];
   result.criterion_before = std::numeric_limits<double>::infinity();
   EXPECT_NE(excitation_sentences(result)[1].find("does not tell"), std::string::npos);
 }

@@ -53,11 +53,10 @@ std::vector<ControlCase> control_cases() {
       {"cascade_of_two_rates", cascade + ", sample_time: 0.02" + inner + ", sample_time: 0.004, delay: 0.001}\n"}};
 }
 
-std::shared_ptr<const CompiledSystem> compile_case(const ControlCase& c, const std::string& solver, const std::string& more = "",
-                                                   double duration = 0.4) {
+std::shared_ptr<const CompiledSystem> compile_case(const ControlCase& c, const std::string& solver, const std::string& more = "") {
   return compile(double_pendulum(pin_friction()),
-                 "duration: " + std::to_string(duration) +
-                     "\ninitial_state: {shoulder: {position: \"${start}\"}, elbow: {velocity: 1.0}}\ncontrollers:\n" + c.controllers +
+                 "duration: 0.4\ninitial_state: {shoulder: {position: \"${start}\"}, elbow: {velocity: 1.0}}\ncontrollers:\n" +
+                     c.controllers +
                      "parameters: {Kp: {initial: 40.0}, Ki: {initial: 60.0}, Kd: {initial: 1.5}, aim: {initial: 0.3}, tau: {initial: "
                      "0.04}, start: {initial: 1.0}}\n"
                      "objective: {integral: [{signal: servo/output, weight: 0.01}, {signal: " +

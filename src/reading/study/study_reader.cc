@@ -21,6 +21,12 @@
 namespace codesign {
 namespace {
 
+void require_purpose_of_excite(const YamlValue& root) {
+  const auto excite = root.find("excite");
+  if (excite && !root.find("identify"))
+    excite->fail("the study identifies nothing, so that no motion is better than another", "a block identify; without data it may be {}");
+}
+
 /// A study that only identifies has no run of its own that could have a duration.
 double read_duration(const YamlValue& root) {
   const auto identify = root.find("identify");
@@ -75,6 +81,7 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot, const Tr
   root.require_keys({}, {"duration",  "gravity", "initial_state", "controllers", "loads",    "parameters", "objective",
                          "path",      "final",   "constraints",   "limits",      "solver",   "optimizer",  "runs",
                          "uncertain", "robust",  "multistart",    "engine",      "identify", "excite",     "hardware"});
+  require_purpose_of_excite(root);
   const auto read_run = [&](const YamlValue& study_value) { return read_single_run(study_value, yaml.name, robot, loader); };
   Study study = read_run(root);
   study.ensemble = read_ensemble(root, robot, read_run, files, study);
@@ -82,11 +89,7 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot, const Tr
     const bool is_planned = root.find("excite").has_value();
     study.identification = read_identification(*identify, robot, study, is_planned);
   }
-  if (const auto excite = root.find("excite")) {
-    if (!study.identification)
-      excite->fail("the study identifies nothing, so that no motion is better than another", "a block identify; without data it may be {}");
-    study.excitation = read_excitation(*excite, robot);
-  }
+  if (const auto excite = root.find("excite")) study.excitation = read_excitation(*excite, robot);
   return study;
 }
 

@@ -83,6 +83,7 @@ TEST(StudyExcite, RefusesWhatCannotBeMeant) {
 
 TEST(StudyExcite, NeedsSomethingToIdentify) {
   expect_fault("duration: 1.0\nparameters: {rod_length: {}}\nexcite: {" + kOneJoint + "}\n", "excite", "identifies nothing", 3);
+  expect_fault("parameters: {rod_length: {}}\nexcite: {" + kOneJoint + "}\n", "excite", "identifies nothing", 2);
 }
 
 TEST(StudyExcite, DataAreNotThereYet) {
