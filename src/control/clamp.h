@@ -2,6 +2,8 @@
 #ifndef MECHANISM_CODESIGN_CONTROL_CLAMP_H_
 #define MECHANISM_CODESIGN_CONTROL_CLAMP_H_
 
+#include <cmath>
+
 #include "math/scalar.h"
 
 namespace codesign {
@@ -23,15 +25,25 @@ struct IntegralRate {
   T by_integral{0.0};  ///< d value / d s [1/s]
 };
 
-/// Anti-windup of a continuous integral, theory (50): s' = e (1 - x^8) with x = i s / bound where e drives s away from zero, else s' = e.
-/// The integral term i s stays within -bound to bound and leaves the bound at once when e changes its sign. Where e = 0 the derivatives are
-/// those of the second case.
+/// Anti-windup of a continuous integral, theory (50): with y = |i| s / bound and d = bound / (100 s |i|),
+///   s' = e - y^8 (e + sgn(y) (e^2 + d^2)^(1/2)) / 2,
+/// which is e on the way back and e (1 - y^8) on the way out, but for errors as small as d. The integral term i s stays within -bound to
+/// bound and leaves the bound at once when e changes its sign. Smooth: a kink at e = 0 would be a jump in the sensitivities' rates.
 /// @param bound positive [unit of the output].
 template <class T>
 IntegralRate<T> clamped_integral_rate(const T& e, const T& s, const T& i, const T& bound) {
-  if (!is_less(T(0.0), T(e * s), true)) return {e, T(1.0), T(0.0)};
-  const T by_s = i / bound, x = by_s * s, x2 = x * x, x4 = x2 * x2, left = T(1.0) - x4 * x4;
-  return {e * left, left, T(-8.0) * e * x4 * x2 * x * by_s};
+  using std::sqrt;
+  constexpr double kRate = 0.01;   // [1/s]: d would take 100 s from zero to the bound
+  constexpr double kTiny = 1e-30;  // keeps the root at y = 0 differentiable
+  const T gain = is_less(i, T(0.0), false) ? T(-i) : i;
+  if (!is_less(T(0.0), gain, true)) return {e, T(1.0), T(0.0)};
+  const T by_s = gain / bound, y = by_s * s, d = T(kRate) / by_s;
+  const T y2 = y * y, y4 = y2 * y2, y6 = y4 * y2, y8 = y4 * y4;
+  const T size = sqrt(y2 + T(kTiny)), outward = sqrt(e * e + d * d);
+  // y^7 |y| and its derivative.
+  const T odd = y6 * y * size, odd_y = T(7.0) * y6 * size + y8 / size;
+  return {e - T(0.5) * (y8 * e + odd * outward), T(1.0) - T(0.5) * (y8 + odd * e / outward),
+          T(-0.5) * by_s * (T(8.0) * y6 * y * e + odd_y * outward)};
 }
 
 }  // namespace codesign

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "assembly/assembly.h"
 #include "control/signal.h"
 #include "equations/compiled.h"
 #include "equations/equations_fixture.h"
@@ -13,21 +14,15 @@ namespace {
 
 constexpr const char* kSwing = "{type: sine, amplitude: 0.7, period: 1.3, phase: 0.4}";
 
-/// The derivatives of a double pendulum with one controller and of its signals. @param recorded as of expect_exact_derivatives(); that of
-/// an anti-windup depends on the sign of the integral, and both are tried.
+/// The derivatives of a double pendulum with one controller and of its signals. @param recorded as of expect_exact_derivatives().
 void expect_exact_rates(const std::string& controller, const std::string& terms, bool recorded = true) {
   SCOPED_TRACE(controller);
-  const bool both = controller.find("antiwindup") != std::string::npos;
-  for (const double outward : {1.0, -1.0}) {
+  for (const double sign : {1.0, -1.0}) {
     EquationsFixture fixture(double_pendulum(), "duration: 1.0\ngravity: [1.0, -2.0, -9.0]\ncontrollers:\n  a: {output: shoulder, " +
                                                     controller + "}\nobjective: {integral: [" + terms + "]}\n");
     fixture.state.t = 0.37;
-    for (Eigen::Index k = 0; k < fixture.state.s.size(); ++k) fixture.state.s[k] = 0.1 + 0.05 * static_cast<double>(k);
-    if (!both) return fixture.expect_exact_derivatives(1e-11, recorded);
-    const Signal error = resolve_signal(parse_signal("a/error", {}, "signal"), fixture.system.robot(), fixture.system.topology(),
-                                        fixture.system.study().controllers);
-    fixture.state.s[0] = std::copysign(0.1, outward * fixture.real.formulas().signal(error, fixture.state));
-    fixture.expect_exact_derivatives(1e-11, outward > 0.0);
+    for (Eigen::Index k = 0; k < fixture.state.s.size(); ++k) fixture.state.s[k] = sign * (0.1 + 0.05 * static_cast<double>(k));
+    fixture.expect_exact_derivatives(1e-11, recorded);
   }
 }
 
@@ -67,45 +62,36 @@ TEST(EffortRate, HasExactDerivatives) {
 }
 
 TEST(EffortRate, IsTheSlopeOfTheEffort) {
-  // The effort d (r' - x') + i s: the fixture's accelerations are given, so that the slope along (v, a, sigma, 1) is exact. Its positions
-  // and velocities do not meet the constraints, so that the slope of an angle along v is not the joint's velocity: p has a test of its own.
-  EquationsFixture fixture(double_pendulum(), "duration: 1.0\nlimits: {effort: true}\ncontrollers: {a: {output: shoulder, " +
-                                                  pid("gains: {p: 0.0, i: 2.0, d: 0.5}, i_clamp: 0.6, output_limit: 20.0") +
-                                                  "}}\nobjective: {integral: [{signal: shoulder/effort}]}\n");
-  State<double> state = fixture.state;
-  state.t = 0.37;
+  // At a state that satisfies the constraints, along which (q, v, s)' = (v, a, sigma).
+  const RobotDescription robot = read_urdf({"test.urdf", double_pendulum()});
+  const std::string text =
+      "duration: 1.0\ninitial_state: {shoulder: {position: 0.5, velocity: 0.7}, elbow: {velocity: -1.1}}\ncontrollers: {a: {output: "
+      "shoulder, " +
+      pid("gains: {p: 3.0, i: 2.0, d: 0.5}, i_clamp: 0.6, output_limit: 3.0") + "}}\nobjective: {integral: [{signal: shoulder/effort}]}\n";
+  const CompiledSystem system(robot, read_study({"test.yaml", text}, robot));
+  Equations<double> equations(system);
+  Assembly assembly(system);
+  State<double> state;
+  state.resize(system.layout());
+  equations.set_design(system.parameters());
+  ASSERT_TRUE(assembly.solve(system.parameters(), &equations, &state).ok());
   state.s[0] = 0.2;
-  Formulas<double>& formulas = fixture.real.formulas();
-  const auto resolve = [&](const char* text) {
-    return resolve_signal(parse_signal(text, {}, "signal"), fixture.system.robot(), fixture.system.topology(),
-                          fixture.system.study().controllers);
+  ASSERT_TRUE(assembly.solve_rates(&equations, &state).ok());
+  Formulas<double>& formulas = equations.formulas();
+  const auto resolve = [&](const char* signal) {
+    return resolve_signal(parse_signal(signal, {}, "signal"), system.robot(), system.topology(), system.study().controllers);
   };
+  // The effort reads no accelerations, whose rates would be missing.
   SparseGradient<double> gradient;
   formulas.signal(resolve("shoulder/effort"), state, &gradient);
-  const double error = formulas.signal(resolve("a/error"), state);
+  ASSERT_TRUE(gradient.rate.empty());
   double slope = gradient.time;
-  const Layout& layout = fixture.system.layout();
-  for (const auto& e : gradient.position) slope += e.value * (e.column < layout.n ? state.v[e.column] : error);
+  const Layout& layout = system.layout();
+  for (const auto& e : gradient.position)
+    slope += e.value * (e.column < layout.n ? state.v[e.column] : state.z[layout.state_column(e.column - layout.n)]);
   for (const auto& e : gradient.velocity) slope += e.value * state.z[e.column];
   EXPECT_GT(std::abs(slope), 0.1);
-  EXPECT_NEAR(formulas.signal(resolve("shoulder/effort_rate"), state), slope, 1e-12 * std::abs(slope));
-}
-
-TEST(EffortRate, OfAProportionalGainIsThatOfTheError) {
-  EquationsFixture fixture(double_pendulum(), "duration: 1.0\ncontrollers: {a: {output: shoulder, " + pid("gains: {p: 3.0}") +
-                                                  "}}\nobjective: {integral: [{signal: shoulder/effort}]}\n");
-  State<double> state = fixture.state;
-  state.t = 0.37;
-  Formulas<double>& formulas = fixture.real.formulas();
-  const auto value = [&](const char* text, SparseGradient<double>* gradient) {
-    const Signal signal = resolve_signal(parse_signal(text, {}, "signal"), fixture.system.robot(), fixture.system.topology(),
-                                         fixture.system.study().controllers);
-    return formulas.signal(signal, state, gradient);
-  };
-  SparseGradient<double> of_effort;
-  value("shoulder/effort", &of_effort);
-  const double expected = of_effort.time - 3.0 * value("shoulder/velocity", nullptr);
-  EXPECT_NEAR(value("shoulder/effort_rate", nullptr), expected, 1e-12 * std::abs(expected));
+  EXPECT_NEAR(formulas.signal(resolve("shoulder/effort_rate"), state), slope, 1e-11 * std::abs(slope));
 }
 
 }  // namespace
