@@ -97,6 +97,10 @@ Reference<T>::Reference(const ReferenceDescription& description, const std::vect
       phase_ = description.sampled.delay.at(parameters);
       offset_ = description.sampled.offset.at(parameters);
       break;
+    case ReferenceDescription::Kind::kLive:
+      live_ = description.live.function;
+      planned_ = std::make_shared<const Reference<T>>(*description.live.planned, parameters);
+      break;
   }
 }
 
@@ -140,6 +144,27 @@ ReferenceMotion<T> Reference<T>::sampled_at(double t) const {
 }
 
 template <class T>
+ReferenceMotion<T> Reference<T>::along(const Piece& piece, double t) {
+  ReferenceMotion<T> motion;
+  const T x(t - piece.start);
+  for (std::size_t k = piece.c.size(); k-- > 0;) {
+    motion.jerk = motion.jerk * x + T(3.0) * motion.acceleration;
+    motion.acceleration = motion.acceleration * x + T(2.0) * motion.rate;
+    motion.rate = motion.rate * x + motion.value;
+    motion.value = motion.value * x + piece.c[k];
+  }
+  return motion;
+}
+
+template <class T>
+ReferenceMotion<T> Reference<T>::live_at(double t) const {
+  if (!live_->commanded) return planned_->at(t);
+  Piece piece{live_->start, {}};
+  for (std::size_t k = 0; k < piece.c.size(); ++k) piece.c[k] = T(live_->c[k]);
+  return along(piece, t);
+}
+
+template <class T>
 ReferenceMotion<T> Reference<T>::at(double t) const {
   using std::cos;
   using std::sin;
@@ -149,6 +174,7 @@ ReferenceMotion<T> Reference<T>::at(double t) const {
     return motion;
   }
   if (kind_ == ReferenceDescription::Kind::kSampled) return sampled_at(t);
+  if (kind_ == ReferenceDescription::Kind::kLive) return live_at(t);
   if (kind_ == ReferenceDescription::Kind::kSine) {
     const T angle = angular_frequency_ * T(t) + phase_, s = amplitude_ * sin(angle), c = amplitude_ * cos(angle);
     const T square = angular_frequency_ * angular_frequency_;
@@ -160,14 +186,7 @@ ReferenceMotion<T> Reference<T>::at(double t) const {
     motion.value = piece.c[0];
     return motion;
   }
-  const T x(t - piece.start);
-  for (std::size_t k = piece.c.size(); k-- > 0;) {
-    motion.jerk = motion.jerk * x + T(3.0) * motion.acceleration;
-    motion.acceleration = motion.acceleration * x + T(2.0) * motion.rate;
-    motion.rate = motion.rate * x + motion.value;
-    motion.value = motion.value * x + piece.c[k];
-  }
-  return motion;
+  return along(piece, t);
 }
 
 Reference<Traced>::Reference(const ReferenceDescription& description, const std::vector<Traced>& parameters) {
