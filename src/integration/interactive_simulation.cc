@@ -27,8 +27,14 @@ Status InteractiveSimulation::start(const std::vector<double>& parameters) {
   if (parameters != parameters_) {
     parameters_ = parameters;
     simulation_ = std::make_unique<Simulation>(system_, parameters_, signals_);
+    simulation_->obey(cancel_);
   }
   return simulation_->start();
+}
+
+void InteractiveSimulation::obey(const std::atomic<bool>* cancel) {
+  cancel_ = cancel;
+  simulation_->obey(cancel);
 }
 
 double InteractiveSimulation::next_piece() const {
@@ -99,7 +105,10 @@ Status InteractiveSimulation::change(double time, const std::vector<double>& par
 
 ReferenceMotion<double> InteractiveSimulation::setpoint(std::size_t controller, double time) const {
   const std::size_t index = inputs_.joints.size() + inputs_.indices[controller];
-  return Reference<double>(system_->study().controllers[index].setpoint, parameters_).at(time);
+  ReferenceDescription description = system_->study().controllers[index].setpoint;
+  for (const LiveFunction& piece : courses_[controller])
+    if (piece.start <= time) description.live.function = std::make_shared<const LiveFunction>(piece);
+  return Reference<double>(description, parameters_).at(time);
 }
 
 }  // namespace codesign

@@ -43,12 +43,13 @@ class InteractiveSimulation {
   Status change(double time, const std::vector<double>& parameters);
 
   double effort(std::size_t joint) const { return inputs_.efforts[joint]->c[0]; }
-  /// The set-point of a controller and its rates at `time`, before new commands.
+  /// The set-point of a controller and its rates at `time` [s], now or later, if no other course is set.
   ReferenceMotion<double> setpoint(std::size_t controller, double time) const;
   /// Whether a set-point is commanded, not the study's.
   bool is_commanded(std::size_t controller) const { return inputs_.setpoints[controller]->commanded; }
 
-  void obey(const std::atomic<bool>* cancel) { simulation_->obey(cancel); }
+  /// As Simulation::obey(), for later runs too.
+  void obey(const std::atomic<bool>* cancel);
   const Statistics& statistics() const { return simulation_->statistics(); }
   const Warnings& warnings() const { return simulation_->warnings(); }
 
@@ -63,7 +64,8 @@ class InteractiveSimulation {
   std::unique_ptr<Simulation> simulation_;
   FrameNames names_;
   std::vector<Course> courses_;  ///< per set-point: the pieces that are yet to begin
-  double now_ = 0.0;             ///< [s] of the last advance()
+  const std::atomic<bool>* cancel_ = nullptr;
+  double now_ = 0.0;  ///< [s] of the last advance()
   bool was_commanded_ = false, has_news_ = false;
 };
 
