@@ -35,6 +35,7 @@ std::shared_ptr<LiveFunction> make_live(ReferenceDescription* reference) {
   return function;
 }
 
+// Inverse dynamics need the joint which they drive: without it a controller shows its feedback part alone.
 void disconnect(const std::vector<std::string>& names, Study* study) {
   std::vector<std::string> known;
   for (const ControllerDescription& controller : study->controllers) known.push_back(controller.name);
@@ -42,10 +43,7 @@ void disconnect(const std::vector<std::string>& names, Study* study) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end()) throw unknown_name({"disconnect", 0}, name, "controller", name, known);
     ControllerDescription& controller = study->controllers[static_cast<std::size_t>(found - known.begin())];
-    if (controller.kind == ControllerKind::kPdGravity || controller.kind == ControllerKind::kComputedTorque)
-      throw InputError({controller.where, "controllers." + name,
-                        "a controller with the inverse dynamics of its joint cannot be disconnected", name,
-                        "controllers of the types pid, state_feedback and basis"});
+    if (has_error(controller.kind)) controller.kind = ControllerKind::kPid;
     controller.output.clear();
   }
 }

@@ -15,7 +15,7 @@ namespace codesign {
 /// What of a mechanism is commanded.
 struct CommandOptions {
   std::optional<std::vector<std::string>> joints;  ///< joints that take efforts; nullopt: drivable_joints()
-  std::vector<std::string> disconnected;           ///< controllers whose output is not applied
+  std::vector<std::string> disconnected;           ///< controllers whose output is not applied; of inverse dynamics it is the feedback part
   std::optional<double> duration;                  ///< [s] of the run, in place of the study's
 };
 
@@ -32,8 +32,7 @@ struct CommandInputs {
   std::vector<std::shared_ptr<LiveFunction>> efforts;  ///< one per entry of `joints` [N m or N]
   std::vector<std::shared_ptr<LiveFunction>> setpoints;
 
-  /// @throws InputError for an unknown joint or controller, a joint named twice or without a coordinate of its own, and the disconnection
-  /// of a controller that needs the joint which it drives.
+  /// @throws InputError for an unknown joint or controller, and for a joint named twice or without a coordinate of its own.
   CommandInputs(const CompiledSystem& of, const CommandOptions& options);
 };
 

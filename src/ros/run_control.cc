@@ -15,7 +15,7 @@ std_srvs::TriggerResponse trigger_reply(bool success, const std::string& message
 
 }  // namespace
 
-RunControl::RunControl(ros::NodeHandle node, Bell* bell) : bell_(bell) {
+void RunControl::advertise(ros::NodeHandle node) {
   serve(&node, "pause", &RunControl::pause);
   serve(&node, "resume", &RunControl::resume);
   serve(&node, "step", &RunControl::step);

@@ -20,8 +20,11 @@ namespace codesign {
 /// a thread apart from those of topics. Thread-safe.
 class RunControl {
  public:
-  /// @param node whose callback queue serves the services. @param bell rung for each request
-  RunControl(ros::NodeHandle node, Bell* bell);
+  /// @param bell rung for each request
+  explicit RunControl(Bell* bell) : bell_(bell) {}
+
+  /// Offers the services below `node`, whose callback queue serves them.
+  void advertise(ros::NodeHandle node);
 
   /// @param paused whether runs stand still after their first frame. @param step_frames frames of a ~step
   void configure(bool paused, std::int64_t step_frames);

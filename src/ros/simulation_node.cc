@@ -49,7 +49,8 @@ CommandOptions command_options(const SimulationOptions& options) {
 }  // namespace
 
 SimulationNode::SimulationNode()
-    : service_node_(with_queue(ros::NodeHandle("~"), &waiting_services_)), state_("simulation"), control_(service_node_, &bell_) {
+    : service_node_(with_queue(ros::NodeHandle("~"), &waiting_services_)), state_("simulation"), control_(&bell_) {
+  control_.advertise(service_node_);
   spinner_ = std::make_unique<ros::AsyncSpinner>(kServiceThreads, &waiting_services_);
   spinner_->start();
   try {

@@ -80,7 +80,7 @@ TEST(CommandInputs, ADisconnectedControllerDrivesNothingAndTakesNoSetPoint) {
   const auto heavy =
       arm("  hold: {type: pd_gravity, input: shoulder/position, setpoint: 0.0, output: shoulder, gains: {p: 2.0, d: 1.0}}\n");
   options.disconnected = {"hold"};
-  EXPECT_NE(message_of([&] { CommandInputs(*heavy, options); }).find("cannot be disconnected"), std::string::npos);
+  EXPECT_NO_THROW(CompiledSystem(heavy->robot(), CommandInputs(*heavy, options).study));
 }
 
 TEST(CommandInputs, ALongerRunMayTakeAsManyStepsPerSecond) {
