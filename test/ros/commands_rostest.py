@@ -26,7 +26,7 @@ def point(time, positions, velocities=()):
 class CommandsTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.robot = Robot()
+        cls.robot = Robot(paused=True)
         cls.effort = cls.robot.publisher(NAME + "/command/effort", JointState)
         cls.efforts = cls.robot.publisher(NAME + "/command/efforts", Float64MultiArray)
         cls.trajectory = cls.robot.publisher(NAME + "/command/trajectory", JointTrajectory)
@@ -49,7 +49,9 @@ class CommandsTest(unittest.TestCase):
         behind = self.robot.joints.last()
         elbow = behind.name.index("elbow")
         self.assertAlmostEqual(behind.effort[elbow] - before.effort[elbow], 2.5, delta=1e-9)
-        self.assertEqual(behind.position, before.position)
+        # The run goes on from its dense output, projected onto the constraints.
+        for moved, still in zip(behind.position, before.position):
+            self.assertAlmostEqual(moved, still, delta=1e-9)
         held = self.robot.step()
         self.assertGreater(held.position[elbow], before.position[elbow])
 

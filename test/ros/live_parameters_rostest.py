@@ -17,7 +17,7 @@ from std_msgs.msg import String
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from node_process import TIMEOUT, state_of, values_of, wait_until  # noqa: E402
-from robot_node import Latest, Robot  # noqa: E402
+from robot_node import Latest, Robot, settled  # noqa: E402
 
 NAME = "/robot/simulation"
 
@@ -25,7 +25,7 @@ NAME = "/robot/simulation"
 class LiveParametersTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.robot = Robot()
+        cls.robot = Robot(paused=True)
         cls.loops = Latest("/robot/loop_errors", LoopErrors)
         cls.descriptions = Latest("/robot/robot_description", String)
         cls.updates = []
@@ -37,6 +37,7 @@ class LiveParametersTest(unittest.TestCase):
     def setUp(self):
         names = ("crank_length", "rod_length", "slider_length", "slider_width", "Kp")
         self.client.update_configuration({name: self.initial[name] for name in names})
+        settled(self.robot.joints.messages)
 
     def test_every_parameter_has_its_bounds(self):
         described = {each["name"]: each for each in self.client.get_parameter_descriptions(TIMEOUT)}
@@ -50,9 +51,9 @@ class LiveParametersTest(unittest.TestCase):
         before, output = self.robot.joints.last(), self.robot.controllers.last()
         answer = self.client.update_configuration({"Kp": 4.0})
         self.assertEqual(answer["Kp"], 4.0)
-        wait_until(lambda: self.robot.controllers.last().output[0] != output.output[0], "the new gain is not shown")
+        wait_until(lambda: self.robot.controllers.last() is not output, "the new gain is not shown")
         behind = self.robot.controllers.last()
-        self.assertAlmostEqual(behind.output[0], 4.0 * behind.error[0], delta=1e-9)
+        self.assertAlmostEqual(behind.output[0], 4.0 * output.output[0], delta=1e-9)
         self.assertEqual(behind.input, output.input)
         self.assertEqual(self.robot.joints.last().position, before.position)
         wait_until(lambda: self.updates and self.updates[-1]["Kp"] == 4.0, "parameter_updates")

@@ -18,9 +18,9 @@ sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from node_process import NodesTestCase, state_of, wait_until  # noqa: E402
 
 TARGET = {"shoulder": 0.8, "elbow": 0.5}
-P = {"shoulder": 120.0, "elbow": 60.0}
-D = {"shoulder": 25.0, "elbow": 10.0}
-INTEGRAL = 150.0
+P = {"shoulder": 80.0, "elbow": 30.0}
+D = {"shoulder": 8.0, "elbow": 2.0}
+INTEGRAL = 200.0
 
 
 class Controller:
@@ -63,7 +63,7 @@ class OutsideLoopTest(NodesTestCase):
     def test_a_law_at_a_hundred_hertz_reaches_the_set_point_and_all_is_in_the_bag(self):
         path = os.path.join(self.folder, "loop.bag")
         controller = Controller("outside")
-        self.start_arm("outside", duration=3.0, bag=path)
+        self.start_arm("outside", duration=4.0, bag=path)
 
         def is_over():
             controller.insist()
@@ -78,11 +78,11 @@ class OutsideLoopTest(NodesTestCase):
             commands = {round(100.0 * (time.to_sec() - 1.0)): message for _, message, time in bag.read_messages("commands")}
             for topic in ("joint_friction", "controller_states", "tf", "robot_description"):
                 self.assertGreater(bag.get_message_count(topic), 0, topic)
-        self.assertEqual(len(states), 301)
+        self.assertEqual(len(states), 401)
         # One command for each frame but the last, from its very instant on, as this process computed it.
-        self.assertEqual(sorted(commands), list(range(300)))
+        self.assertEqual(sorted(commands), list(range(400)))
         self.assertEqual(commands[0].joints, ["shoulder", "elbow"])
-        for number in (0, 1, 50, 150, 299):
+        for number in (0, 1, 50, 150, 399):
             for mine, recorded, applied in zip(controller.laws[number], commands[number].efforts, states[number + 1].effort):
                 self.assertAlmostEqual(mine, recorded, delta=1e-12)
                 self.assertAlmostEqual(mine, applied, delta=1e-9)

@@ -28,13 +28,17 @@ def settled(messages):
 
 
 class Robot:
-    """The commands and answers of one node. `robot`: its namespace, `node`: its name."""
+    """The commands and answers of one node. `robot`: its namespace, `node`: its name, `paused`: whether it was started so, with one frame long gone."""
 
-    def __init__(self, robot="/robot", node="simulation"):
+    def __init__(self, robot="/robot", node="simulation", paused=False):
         self.robot, self.node = robot, f"{robot}/{node}"
         self.joints = Latest(f"{robot}/joint_states", JointState)
         self.controllers = Latest(f"{robot}/controller_states", ControllerStates)
         self.commands = Latest(f"{robot}/commands", Commands)
+        wait_until(lambda: all(each.subscriber.get_num_connections() > 0 for each in (self.joints, self.controllers)), "the node publishes nothing")
+        if paused:
+            response = self.call("step")
+            assert response.success, response.message
         wait_until(lambda: self.joints.messages and self.controllers.messages and self.commands.messages, "the node publishes no frames")
 
     def publisher(self, topic, kind):
