@@ -3,7 +3,7 @@
 
 set(message_dependencies actionlib_msgs std_msgs)
 set(ros_dependencies
-  actionlib diagnostic_updater geometry_msgs rosbag roscpp rosgraph_msgs sensor_msgs tf2_msgs tf2_ros trajectory_msgs visualization_msgs xmlrpcpp ${message_dependencies})
+  actionlib diagnostic_updater dynamic_reconfigure geometry_msgs rosbag roscpp rosgraph_msgs sensor_msgs tf2_msgs tf2_ros trajectory_msgs visualization_msgs xmlrpcpp ${message_dependencies})
 find_package(catkin REQUIRED COMPONENTS message_generation ${ros_dependencies})
 # What reading a bag takes: much less than roscpp.
 set(bag_libraries)
@@ -59,7 +59,7 @@ target_link_libraries(codesign_ros PUBLIC codesign_core codesign_bags ${catkin_L
 codesign_warnings(codesign_ros)
 # Two units, for two processors.
 set(ros_jobs ${ros_sources})
-list(FILTER ros_jobs INCLUDE REGEX "(job|bag|record|request|progress)")
+list(FILTER ros_jobs INCLUDE REGEX "(job|bag|record|request|progress|apply|gain)")
 list(REMOVE_ITEM ros_sources ${ros_jobs})
 codesign_unite(codesign_ros ros_jobs ${ros_jobs})
 codesign_unite(codesign_ros ros_nodes ${ros_sources})
