@@ -59,7 +59,7 @@ target_link_libraries(codesign_ros PUBLIC codesign_core codesign_bags ${catkin_L
 codesign_warnings(codesign_ros)
 # Two units, for two processors.
 set(ros_jobs ${ros_sources})
-list(FILTER ros_jobs INCLUDE REGEX "(job|bag|record|request|progress|apply|gain)")
+list(FILTER ros_jobs INCLUDE REGEX "(job|bag|record|request|progress|apply|gain)[^/]*$")
 list(REMOVE_ITEM ros_sources ${ros_jobs})
 codesign_unite(codesign_ros ros_jobs ${ros_jobs})
 codesign_unite(codesign_ros ros_nodes ${ros_sources})

@@ -11,11 +11,19 @@
 #include "jobs/result_folder.h"
 #include "jobs/tuned_pendulum.h"
 #include "jobs/whole_file.h"
+#include "reading/urdf/urdf_reader.h"
 #include "temporary_directory.h"
 #include "text/decimal.h"
 
 namespace codesign {
 namespace {
+
+/// The pendulum with bounds that no other number equals, since its optimum lies on them: length 0.7654 and Kp 0.4321.
+Problem pendulum_with_odd_bounds() {
+  const Problem problem = pendulum_on_hardware();
+  return load_problem({"pendulum.urdf", replaced(problem.urdf().text, "upper=\"0.8\"", "upper=\"0.7654\"")}, {},
+                      {"pendulum.yaml", replaced(problem.study_text().text, "lower: 0.0", "lower: 0.4321")});
+}
 
 /// The folder of an optimization of the pendulum, in which a test may change files.
 class FinishedPendulum : public testing::Test {
@@ -57,11 +65,12 @@ class FinishedPendulum : public testing::Test {
 
   TemporaryDirectory directory_;
   const bool made_ = make(directory_.path() / "job");
-  Problem problem_ = pendulum_on_hardware();
+  Problem problem_ = pendulum_with_odd_bounds();
   OptimizationResult result_;
 };
 
 TEST_F(FinishedPendulum, IsTakenWithItsDesign) {
+  ASSERT_EQ(tuned(0) + " " + tuned(1), "0.7654 0.4321") << "the tests below look for these";
   for (const std::string& given : {path(), (directory_.path() / "job.bag").string()}) {
     const FinishedJob job = read_finished_job(given);
     EXPECT_EQ(job.parameters, problem_.parameters(result_.rho));
@@ -77,7 +86,7 @@ TEST_F(FinishedPendulum, AValueChangedInOneFileIsRefused) {
 }
 
 TEST_F(FinishedPendulum, AModelChangedAfterItIsRefused) {
-  change("tuned.urdf", "value=\"" + tuned(0) + "\"", "value=\"0.5\"");
+  write_whole_file(path("tuned.urdf"), write_tuned_urdf(problem_.urdf(), {}, problem_.parameters()));
   EXPECT_NE(refusal().find("length is " + tuned(0) + ", but 0.5 in"), std::string::npos) << refusal();
 }
 
@@ -93,7 +102,9 @@ TEST_F(FinishedPendulum, AValueChangedInEveryFileIsRefusedByTheSimulation) {
 
 TEST_F(FinishedPendulum, AParameterThatWasNotTunedKeepsItsValue) {
   change("result.json", "\"mass\": 1.0", "\"mass\": 1.5");
-  change("tuned.urdf", "name=\"mass\" value=\"1\"", "name=\"mass\" value=\"1.5\"");
+  std::vector<double> heavy = problem_.parameters(result_.rho);
+  heavy[1] = 1.5;
+  write_whole_file(path("tuned.urdf"), write_tuned_urdf(problem_.urdf(), {}, heavy));
   EXPECT_NE(refusal().find("mass is 1.5, but 1 in"), std::string::npos) << refusal();
 }
 
