@@ -42,6 +42,16 @@ class Simulation {
   /// After a status that is not ok the run cannot be continued.
   Status advance(double time);
 
+  /// As advance(), but the last step ends at `time`.
+  Status advance_to(double time);
+
+  /// Goes on from `time` [s], which must lie within the last step (or be 0 after start()), with other parameter values. Positions and
+  /// velocities stay; if dimensions change, the independent coordinates stay and the loops are closed from there. Accelerations and
+  /// reactions follow the new values, and the energy balance begins anew. What was integrated behind `time` is discarded.
+  /// @param parameters values of all named parameters. @returns kInvalidDesign, kAssemblyFailed or another status if the mechanism cannot
+  /// have these values there; the run then goes on with those before.
+  Status go_on(double time, const std::vector<double>& parameters);
+
   /// Fills `frame` with everything at `time` [s], which must lie within the last step (or be 0 after start()), by the dense output of the
   /// step.
   void sample(double time, Frame* frame);

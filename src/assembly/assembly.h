@@ -8,6 +8,7 @@
 
 #include "assembly/loop_jacobian.h"
 #include "assembly/singular_start.h"
+#include "assembly/tree_coordinates.h"
 #include "assembly/tree_kinematics.h"
 #include "equations/equations.h"
 #include "equations/iteration_matrix.h"
@@ -48,6 +49,11 @@ class Assembly {
   Status solve_positions(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
   /// Finds velocities at the positions that the last solve_positions() found, which `state` must hold.
   Status solve_velocities(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
+
+  /// Finds positions and velocities near those of a run, whose design has changed, in place of the study's start: coordinates whose
+  /// positions the study gives keep theirs and their rates if the loops allow it, others follow. Extra states and accelerations in `state`
+  /// stay. @param from tree coordinates of the run. @param state the run's, overwritten unless this fails.
+  Status solve_from(const TreeCoordinates& from, const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
 
   /// Exact initial sensitivities, doc/theory.md (20): carries the first-order parts of `parameters` (complex step or lanes) through the
   /// last solution of solve(). `state` receives that solution with its derivatives.
@@ -97,6 +103,7 @@ class Assembly {
 
   Status solve_positions(const std::vector<double>& parameters, Equations<double>* equations);
   Status solve_velocities(const std::vector<double>& parameters, Equations<double>* equations);
+  Status close_from(const TreeCoordinates& from, const std::vector<double>& parameters, Equations<double>* equations);
   Rest close(const std::vector<double>& parameters, Equations<double>* equations, double rank_tolerance);
   Rest newton(const std::vector<double>& parameters, Equations<double>* equations, const std::vector<int>& free, double rank_tolerance);
   void refine(const std::vector<double>& parameters, Equations<double>* equations);

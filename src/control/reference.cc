@@ -6,14 +6,10 @@
 #include <limits>
 
 #include "codegen/number_types.h"
+#include "control/waypoint_piece.h"
 
 namespace codesign {
 namespace {
-
-template <class T>
-struct Knot {
-  T position{0.0}, velocity{0.0}, acceleration{0.0};
-};
 
 template <class T>
 std::vector<T> evaluate(const std::vector<Quantity>& quantities, const std::vector<T>& parameters) {
@@ -47,30 +43,6 @@ void choose_accelerations(const std::vector<double>& times, std::vector<Knot<T>>
   for (std::size_t k = 0; k < knots->size(); ++k) (*knots)[k].acceleration = chosen[k];
 }
 
-/// Coefficients c_k of the polynomial sum c_k tau^k from one way-point to the next; theory (C2).
-template <class T>
-std::array<T, 6> polynomial(Interpolation interpolation, const Knot<T>& from, const Knot<T>& to, double duration) {
-  const T h(duration), zero(0.0), rise = to.position - from.position;
-  if (interpolation == Interpolation::kLinear) return {from.position, rise / h, zero, zero, zero, zero};
-  if (interpolation == Interpolation::kCubic)
-    return {from.position,
-            from.velocity,
-            (T(3.0) * rise / h - T(2.0) * from.velocity - to.velocity) / h,
-            (from.velocity + to.velocity - T(2.0) * rise / h) / (h * h),
-            zero,
-            zero};
-  // D, V, A of theory (C2): the error of the Taylor polynomial at the start, taken at the end, in position, velocity and acceleration.
-  const T half = T(0.5) * from.acceleration;
-  const T D = rise - h * (from.velocity + h * half), V = h * (to.velocity - from.velocity - h * from.acceleration),
-          A = T(0.5) * h * h * (to.acceleration - from.acceleration), h3 = h * h * h;
-  return {from.position,
-          from.velocity,
-          half,
-          (T(10.0) * D - T(4.0) * V + A) / h3,
-          (T(7.0) * V - T(15.0) * D - T(2.0) * A) / (h3 * h),
-          (T(6.0) * D - T(3.0) * V + A) / (h3 * h * h)};
-}
-
 }  // namespace
 
 template <class T>
@@ -97,6 +69,10 @@ Reference<T>::Reference(const ReferenceDescription& description, const std::vect
       phase_ = description.sampled.delay.at(parameters);
       offset_ = description.sampled.offset.at(parameters);
       break;
+    case ReferenceDescription::Kind::kLive:
+      live_ = description.live.function;
+      planned_ = std::make_shared<const Reference<T>>(*description.live.planned, parameters);
+      break;
   }
 }
 
@@ -121,7 +97,7 @@ void Reference<T>::set_waypoints(const WaypointsDescription& description, const 
   take(description.accelerations, &Knot<T>::acceleration);
   pieces_.push_back(hold(-std::numeric_limits<double>::infinity(), knots.front().position));
   for (std::size_t k = 0; k + 1 < knots.size(); ++k)
-    pieces_.push_back({times[k], polynomial(description.interpolation, knots[k], knots[k + 1], times[k + 1] - times[k])});
+    pieces_.push_back({times[k], waypoint_polynomial(description.interpolation, knots[k], knots[k + 1], times[k + 1] - times[k])});
   pieces_.push_back(hold(times.back(), knots.back().position));
 }
 
@@ -140,6 +116,27 @@ ReferenceMotion<T> Reference<T>::sampled_at(double t) const {
 }
 
 template <class T>
+ReferenceMotion<T> Reference<T>::along(const Piece& piece, double t) {
+  ReferenceMotion<T> motion;
+  const T x(t - piece.start);
+  for (std::size_t k = piece.c.size(); k-- > 0;) {
+    motion.jerk = motion.jerk * x + T(3.0) * motion.acceleration;
+    motion.acceleration = motion.acceleration * x + T(2.0) * motion.rate;
+    motion.rate = motion.rate * x + motion.value;
+    motion.value = motion.value * x + piece.c[k];
+  }
+  return motion;
+}
+
+template <class T>
+ReferenceMotion<T> Reference<T>::live_at(double t) const {
+  if (!live_->commanded) return planned_->at(t);
+  Piece piece{live_->start, {}};
+  for (std::size_t k = 0; k < piece.c.size(); ++k) piece.c[k] = T(live_->c[k]);
+  return along(piece, t);
+}
+
+template <class T>
 ReferenceMotion<T> Reference<T>::at(double t) const {
   using std::cos;
   using std::sin;
@@ -149,6 +146,7 @@ ReferenceMotion<T> Reference<T>::at(double t) const {
     return motion;
   }
   if (kind_ == ReferenceDescription::Kind::kSampled) return sampled_at(t);
+  if (kind_ == ReferenceDescription::Kind::kLive) return live_at(t);
   if (kind_ == ReferenceDescription::Kind::kSine) {
     const T angle = angular_frequency_ * T(t) + phase_, s = amplitude_ * sin(angle), c = amplitude_ * cos(angle);
     const T square = angular_frequency_ * angular_frequency_;
@@ -160,14 +158,7 @@ ReferenceMotion<T> Reference<T>::at(double t) const {
     motion.value = piece.c[0];
     return motion;
   }
-  const T x(t - piece.start);
-  for (std::size_t k = piece.c.size(); k-- > 0;) {
-    motion.jerk = motion.jerk * x + T(3.0) * motion.acceleration;
-    motion.acceleration = motion.acceleration * x + T(2.0) * motion.rate;
-    motion.rate = motion.rate * x + motion.value;
-    motion.value = motion.value * x + piece.c[k];
-  }
-  return motion;
+  return along(piece, t);
 }
 
 Reference<Traced>::Reference(const ReferenceDescription& description, const std::vector<Traced>& parameters) {

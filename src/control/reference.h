@@ -18,7 +18,8 @@ struct ReferenceMotion {
   T value{0.0}, rate{0.0}, acceleration{0.0}, jerk{0.0};
 };
 
-/// A prescribed function of time for one design; doc/theory.md (C1), (C2). T: double, std::complex<double>, Lanes<N>, Traced.
+/// A prescribed function of time for one design; doc/theory.md (C1), (C2), or one that is commanded, which is read at each call. T: double,
+/// std::complex<double>, Lanes<N>, Traced.
 template <class T>
 class Reference {
  public:
@@ -34,14 +35,18 @@ class Reference {
     double start;
     std::array<T, 6> c;
   };
+  static ReferenceMotion<T> along(const Piece& piece, double t);
   ReferenceMotion<T> sampled_at(double t) const;
+  ReferenceMotion<T> live_at(double t) const;
   void set_waypoints(const WaypointsDescription& description, const std::vector<T>& parameters);
   static Piece hold(double start, const T& value);
 
   ReferenceDescription::Kind kind_ = ReferenceDescription::Kind::kConstant;
   T offset_{0.0}, amplitude_{0.0}, angular_frequency_{0.0}, phase_{0.0};
   std::shared_ptr<const SampledFunction> samples_;  ///< scaled by amplitude_, early by phase_, minus offset_
-  std::vector<Piece> pieces_;                       ///< by ascending start; the first begins at minus infinity, the last never ends
+  std::shared_ptr<const LiveFunction> live_;
+  std::shared_ptr<const Reference<T>> planned_;  ///< until live_ is commanded
+  std::vector<Piece> pieces_;                    ///< by ascending start; the first begins at minus infinity, the last never ends
 };
 
 /// For recorded equations: a constant, or inputs that are supplied for each instant (Recording::timed()).

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "description/live_function.h"
 #include "description/quantity.h"
 #include "math/sampled_function.h"
 #include "mechanism_codesign/error.h"
@@ -39,10 +40,18 @@ struct SampledDescription {
   Quantity scale{1.0}, delay, offset;              ///< delay [s]
 };
 
+struct ReferenceDescription;
+
+/// A function that is commanded while a run goes on, and until then the one that was planned; both not null.
+struct LiveDescription {
+  std::shared_ptr<const LiveFunction> function;
+  std::shared_ptr<const ReferenceDescription> planned;
+};
+
 /// A prescribed function of time: the setpoint of a controller or the reference of an objective's term. Of the alternatives the one
 /// that `kind` names is used.
 struct ReferenceDescription {
-  enum class Kind { kConstant, kSine, kWaypoints, kSampled };
+  enum class Kind { kConstant, kSine, kWaypoints, kSampled, kLive };
 
   ReferenceDescription(Quantity value = 0.0)
       : constant(std::move(value)) {}                      // NOLINT(google-explicit-constructor): a number is a constant reference
@@ -53,6 +62,7 @@ struct ReferenceDescription {
   SineDescription sine;
   WaypointsDescription waypoints;
   SampledDescription sampled;  ///< of recorded efforts; studies do not name it
+  LiveDescription live;        ///< of commands (CommandInputs); studies do not name it
 };
 
 /// The address of a joint's trajectory in a trajectory_msgs/JointTrajectory message of a bag.

@@ -23,6 +23,7 @@ BreakTimes::BreakTimes(const Study& study) : apart_(1e-12 * study.duration) {
 void BreakTimes::add(const ReferenceDescription& reference) {
   if (reference.kind == ReferenceDescription::Kind::kSampled)
     for (double time : reference.sampled.samples->times()) times_.push_back(time - reference.sampled.delay.nominal());
+  if (reference.kind == ReferenceDescription::Kind::kLive) add(*reference.live.planned);
   if (reference.kind == ReferenceDescription::Kind::kWaypoints)
     times_.insert(times_.end(), reference.waypoints.times.begin(), reference.waypoints.times.end());
 }

@@ -1,15 +1,15 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "integration/idas_integrator.h"
 
-#include <idas/idas_ls.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "control/control_clock.h"
 #include "integration/break_times.h"
+#include "integration/continuation.h"
+#include "integration/idas_counts.h"
 #include "integration/idas_equations.h"
+#include "integration/idas_setup.h"
 #include "integration/idas_status.h"
 #include "integration/motion_watch.h"
 #include "integration/projection.h"
@@ -19,8 +19,6 @@
 
 namespace codesign {
 namespace {
-
-constexpr double kAnyMultiplier = 1e10;  // absolute tolerance that excludes multipliers from convergence tests
 
 /// The drift d of (17a) beyond which the run is projected and restarted. It grows as the tolerance shrinks, because next to a singular
 /// position the drift in units of the tolerance is large even right after a projection.
@@ -45,6 +43,7 @@ class IdasIntegrator::Implementation {
         newton_(system, context_.get()),
         equations_(system, &newton_),
         projection_(system),
+        continuation_(system),
         y_(make_vector(equations_.size(), context_.get())),
         y_dot_(make_vector(equations_.size(), context_.get())),
         dense_(make_vector(equations_.size(), context_.get())),
@@ -54,7 +53,7 @@ class IdasIntegrator::Implementation {
     if (!ida_) throw std::bad_alloc();
     state_.resize(system.layout());
     equations_.set_motion(&run_watch_.motion());
-    set_up();
+    set_up_idas({ida_.get(), context_.get(), &message_}, system, &equations_, &newton_, {y_.get(), y_dot_.get(), psi_.get()});
   }
 
   void carry(IdasSensitivities* sensitivities) {
@@ -65,6 +64,7 @@ class IdasIntegrator::Implementation {
   Status start(const std::vector<double>& parameters);
   Status advance(double limit);
   Status take_step(double limit);
+  Status go_on(double time, const std::vector<double>& parameters);
   void interpolate(double time, State<double>* state, double* psi);
   void interpolate_rates(double time, State<double>* rates);
   void interpolate_sensitivities(double time, std::vector<State<double>>* directions);
@@ -87,8 +87,6 @@ class IdasIntegrator::Implementation {
   }
 
  private:
-  void set_up();
-  void set_tolerances();
   void start_sensitivities(const std::vector<double>& parameters);
   void restart_solver();
   Status project();
@@ -96,11 +94,6 @@ class IdasIntegrator::Implementation {
   template <class Change>
   Status begin_anew(const Change& change);
   void warn_of_restart();
-  /// The part of the multipliers, the last in y.
-  Span<double> multipliers_of(const VectorHandle& y) const {
-    const int m = system_.layout().m;
-    return span_of(y.get()).subspan(equations_.size() - m, m);
-  }
   bool with_sensitivities() const { return carried_ && carried_->count() > 0; }
   void take_over(double time);
   Status check_run();
@@ -120,6 +113,7 @@ class IdasIntegrator::Implementation {
   IdasNewton newton_;
   IdasEquations equations_;
   Projection projection_;
+  Continuation continuation_;
   VectorHandle y_, y_dot_, dense_, dense_dot_, psi_;
   std::unique_ptr<VectorArray> y_rho_, y_dot_rho_, psi_rho_, dense_rho_;
   IdaHandle ida_;
@@ -132,46 +126,16 @@ class IdasIntegrator::Implementation {
   double largest_drift_ = 0.0, drift_size_ = 0.0;
   Statistics before_restart_;
   bool watch_singularities_ = false;
+  bool has_stepped_ = false;  ///< since the last start() or go_on()
   Warnings restart_warnings_;
   std::string message_;
   Statistics statistics_;
 };
 
-void IdasIntegrator::Implementation::set_up() {
-  void* ida = ida_.get();
-  const VectorHandle differential = make_vector(equations_.size(), context_.get());
-  N_VConst(1.0, differential.get());
-  const Span<double> multipliers = multipliers_of(differential);
-  std::fill(multipliers.begin(), multipliers.end(), 0.0);
-  require(keep_last_message(ida, context_.get(), &message_), "keep_last_message");
-  require(IDAInit(ida, IdasEquations::residual, 0.0, y_.get(), y_dot_.get()), "IDAInit");
-  require(IDASetUserData(ida, &equations_), "IDASetUserData");
-  set_tolerances();
-  require(IDASetId(ida, differential.get()), "IDASetId");
-  require(IDASetSuppressAlg(ida, SUNTRUE), "IDASetSuppressAlg");
-  require(IDASetInitStep(ida, options_.initial_step), "IDASetInitStep");
-  // A shorter step would be lost in rounding when added to the time.
-  require(IDASetMinStep(ida, std::numeric_limits<double>::epsilon() * system_.study().duration), "IDASetMinStep");
-  require(IDASetMaxStep(ida, options_.maximum_step), "IDASetMaxStep");
-  require(IDASetLinearSolver(ida, newton_.solver(), newton_.matrix()), "IDASetLinearSolver");
-  require(IDASetJacFn(ida, IdasEquations::jacobian), "IDASetJacFn");
-  require(IDAQuadInit(ida, IdasEquations::integrand, psi_.get()), "IDAQuadInit");
-}
-
-// With redundant constraints, multipliers that are not unique vary by rounding divided by the compliance: Newton's convergence test must
-// not include them.
-void IdasIntegrator::Implementation::set_tolerances() {
-  const VectorHandle absolute = make_vector(equations_.size(), context_.get());
-  N_VConst(options_.absolute_tolerance, absolute.get());
-  const Span<double> multipliers = multipliers_of(absolute);
-  if (system_.compliance() > 0.0) std::fill(multipliers.begin(), multipliers.end(), kAnyMultiplier);
-  require(IDASVtolerances(ida_.get(), options_.relative_tolerance, absolute.get()), "IDASVtolerances");
-}
-
 Status IdasIntegrator::Implementation::start(const std::vector<double>& parameters) {
-  statistics_ = {};
+  statistics_ = before_restart_ = {};
+  has_stepped_ = false;
   clock_.start();
-  before_restart_ = {};
   largest_drift_ = drift_size_ = 0.0;
   message_.clear();
   restart_warnings_.clear();
@@ -255,6 +219,23 @@ Status IdasIntegrator::Implementation::jump() {
   return begin_anew([&] { return carried_->jump(events, before_jump_, state_, &equations(), &directions_); });
 }
 
+Status IdasIntegrator::Implementation::go_on(double time, const std::vector<double>& parameters) {
+  const bool between = time < state_.t;
+  State<double> behind;
+  double reached = 0.0;
+  interpolate(std::min(time, state_.t), &behind, &reached);
+  if (!between) behind = state_;
+  if (Status status = continuation_.cross(parameters, between, &assembly_, &equations(), &behind); !status.ok()) return status;
+  state_ = behind;
+  span_of(psi_.get())[0] = reached;
+  equations_.start();
+  equations_.count_turns_from(state_);
+  run_watch_.go_on(equations().constants(), state_);
+  drift_size_ = 0.0;
+  has_stepped_ = false;
+  return begin_anew([] { return true; });
+}
+
 // Projects state and sensitivities and restarts, since a multistep method interpolates the points before. Near a singular position this
 // keeps the mechanism on its branch: the smaller the smallest singular value of Phi_q, the farther a given drift displaces the mechanism.
 Status IdasIntegrator::Implementation::project() {
@@ -301,6 +282,7 @@ Status IdasIntegrator::Implementation::take_step(double limit) {
 
 void IdasIntegrator::Implementation::take_over(double time) {
   equations_.unpack(time, span_of(y_.get()), span_of(y_dot_.get()), &state_);
+  has_stepped_ = true;
   double reached = time;
   require(IDAGetQuad(ida_.get(), &reached, psi_.get()), "IDAGetQuad");
   if (with_sensitivities()) {
@@ -326,17 +308,9 @@ Status IdasIntegrator::Implementation::check_run() {
 }
 
 void IdasIntegrator::Implementation::count_steps() {
-  long steps = 0, test_failures = 0, solve_failures = 0, sensitivity_failures = 0, sensitivity_solve_failures = 0;
-  IDAGetNumSteps(ida_.get(), &steps);
-  IDAGetNumErrTestFails(ida_.get(), &test_failures);
-  IDAGetNumStepSolveFails(ida_.get(), &solve_failures);
-  if (with_sensitivities()) {
-    IDAGetSensNumErrTestFails(ida_.get(), &sensitivity_failures);
-    IDAGetNumStepSensSolveFails(ida_.get(), &sensitivity_solve_failures);
-  }
-  statistics_.steps = before_restart_.steps + steps;
-  statistics_.rejected_steps =
-      before_restart_.rejected_steps + test_failures + solve_failures + sensitivity_failures + sensitivity_solve_failures;
+  const IdasCounts counts = count_idas(ida_.get(), with_sensitivities());
+  statistics_.steps = before_restart_.steps + counts.steps;
+  statistics_.rejected_steps = before_restart_.rejected_steps + counts.rejected;
 }
 
 void IdasIntegrator::Implementation::interpolate_rates(double time, State<double>* rates) {
@@ -359,7 +333,7 @@ void IdasIntegrator::Implementation::interpolate_sensitivities(double time, std:
 void IdasIntegrator::Implementation::interpolate(double time, State<double>* state, double* psi) {
   *psi = this->psi();
   *state = state_;
-  if (statistics_.steps == 0) return;
+  if (!has_stepped_) return;
   require(IDAGetDky(ida_.get(), time, 0, dense_.get()), "IDAGetDky");
   require(IDAGetDky(ida_.get(), time, 1, dense_dot_.get()), "IDAGetDky");
   equations_.unpack(time, span_of(dense_.get()), span_of(dense_dot_.get()), state);
@@ -381,6 +355,7 @@ Status IdasIntegrator::advance(double limit) {
   if (cancelled()) return {StatusCode::kCancelled, state().t, "cancelled"};
   return implementation_->advance(limit);
 }
+Status IdasIntegrator::go_on(double time, const std::vector<double>& parameters) { return implementation_->go_on(time, parameters); }
 const State<double>& IdasIntegrator::state() const { return implementation_->state(); }
 double IdasIntegrator::psi() const { return implementation_->psi(); }
 void IdasIntegrator::interpolate(double time, State<double>* state, double* psi) { implementation_->interpolate(time, state, psi); }

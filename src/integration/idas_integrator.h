@@ -54,6 +54,7 @@ class IdasIntegrator final : public Integrator {
 
   Status start(const std::vector<double>& parameters) override;
   Status advance(double limit) override;
+  Status go_on(double time, const std::vector<double>& parameters) override;
   const State<double>& state() const override;
   double psi() const override;
   void interpolate(double time, State<double>* state, double* psi) override;

@@ -20,7 +20,8 @@ RosenbrockIntegrator::RosenbrockIntegrator(const CompiledSystem& system)
       watch_(system),
       run_watch_(system),
       work_(system, step_.tableau()),
-      singularity_(system) {}
+      singularity_(system),
+      continuation_(system) {}
 
 // Every run begins with the pivots that are chosen at the study's own start, so that its last bits depend on its design alone, and pivots
 // need not be chosen for each run. See doc/decisions/0049-journal.md.
@@ -97,6 +98,20 @@ Status RosenbrockIntegrator::jump() {
   step_.equations().formulas().jump(jump_events_, &behind);
   if (Status status = assembly_.solve_rates(&step_.equations(), &behind); !status.ok()) return status;
   step_.restart(behind);
+  work_.start(behind, run_watch_.motion());
+  return {};
+}
+
+Status RosenbrockIntegrator::go_on(double time, const std::vector<double>& parameters) {
+  const bool between = time < step_.state().t, changes = parameters != step_.equations().parameters();
+  State<double>& behind = behind_jump_;
+  double reached = 0.0;
+  interpolate(std::min(time, step_.state().t), &behind, &reached);
+  if (!between) behind = step_.state();
+  if (Status status = continuation_.cross(parameters, between, &assembly_, &step_.equations(), &behind); !status.ok()) return status;
+  step_.start(behind, reached);
+  if (changes) step_.choose_pivots(proposal_);
+  run_watch_.go_on(step_.equations().constants(), behind);
   work_.start(behind, run_watch_.motion());
   return {};
 }

@@ -7,6 +7,7 @@
 
 #include "control/control_clock.h"
 #include "integration/break_times.h"
+#include "integration/continuation.h"
 #include "integration/integrator.h"
 #include "integration/motion_watch.h"
 #include "integration/rosenbrock_step.h"
@@ -23,6 +24,7 @@ class RosenbrockIntegrator final : public Integrator {
 
   Status start(const std::vector<double>& parameters) override;
   Status advance(double limit) override { return advance(limit, {}); }
+  Status go_on(double time, const std::vector<double>& parameters) override;
   const State<double>& state() const override { return step_.state(); }
   double psi() const override { return step_.psi(); }
   void interpolate(double time, State<double>* state, double* psi) override;
@@ -69,6 +71,7 @@ class RosenbrockIntegrator final : public Integrator {
   RunWatch run_watch_;
   StepWork work_;
   SingularityWatch singularity_;
+  Continuation continuation_;
   bool watch_singularities_ = false;
   bool has_settled_ = false;  ///< whether settle_pivots() was called
   double proposal_ = 0.0;

@@ -26,10 +26,10 @@ RosenbrockStep<T>::RosenbrockStep(const CompiledSystem& system, const Rosenbrock
 }
 
 template <class T>
-void RosenbrockStep<T>::start(const State<T>& state) {
+void RosenbrockStep<T>::start(const State<T>& state, const T& psi) {
   state_ = state;
   previous_ = state;
-  psi_ = previous_psi_ = T(0.0);
+  psi_ = previous_psi_ = psi;
   h_ = 0.0;
   equations_.linearize(state_, &derivatives_);
 }

@@ -28,8 +28,8 @@ class RosenbrockStep {
   const Equations<T>& equations() const { return equations_; }
   const RosenbrockTableau& tableau() const { return tableau_; }
 
-  /// Starts a solution at a consistent state; psi() is zero. equations() must hold the design.
-  void start(const State<T>& state);
+  /// Starts a solution at a consistent state. equations() must hold the design. @param psi integral of g before it
+  void start(const State<T>& state, const T& psi = T(0.0));
 
   /// Continues a solution at another state of the same time, such as that behind a jump; psi() stays.
   void restart(const State<T>& state);

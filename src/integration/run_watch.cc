@@ -70,10 +70,15 @@ void RunWatch::start(const Constants<double>& constants, const State<double>& in
   const BodyEnergy energy = motion_.energy(initial.q, initial.v);
   start_potential_ = energy.potential;
   start_energy_ = energy.total();
-  work_ = turnover_ = worst_error_ = 0.0;
+  work_ = turnover_ = worst_error_ = imbalance_ = 0.0;
   worst_drift_time_ = worst_error_time_ = initial.t;
   unbalanced_steps_ = 0;
   scale_ = std::max(energy.kinetic, smallest_scale(constants, initial));
+}
+
+void RunWatch::go_on(const Constants<double>& constants, const State<double>& state) {
+  motion_.set_design(constants);
+  start_energy_ = motion_.energy(state.q, state.v).total() - work_ - imbalance_;
 }
 
 double RunWatch::drift(const State<double>& state, const VectorX<double>& position_correction,
@@ -99,7 +104,8 @@ Status RunWatch::check(const State<double>& state, double drift, double work, St
   work_ += work;
   turnover_ += std::abs(work);
   scale_ = std::max(scale_, energy.kinetic + std::abs(energy.potential - start_potential_) + turnover_);
-  const double error = std::abs(energy.total() - start_energy_ - work_);
+  imbalance_ = energy.total() - start_energy_ - work_;
+  const double error = std::abs(imbalance_);
   if (error > worst_error_) {
     worst_error_ = error;
     worst_error_time_ = state.t;

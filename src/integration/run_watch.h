@@ -25,6 +25,8 @@ class RunWatch {
 
   /// @param constants of the design. @param initial its initial state.
   void start(const Constants<double>& constants, const State<double>& initial);
+  /// Goes on behind an instant at which design or inputs jump: the energy that the jump adds or takes counts as no error.
+  void go_on(const Constants<double>& constants, const State<double>& state);
   const BodyMotion& motion() const { return motion_; }
 
   /// The drift d of (17a) [-]: the largest projection correction of a coordinate or velocity over its error tolerance.
@@ -46,6 +48,7 @@ class RunWatch {
   const RunLimit drift_limit_, energy_limit_;
   BodyMotion motion_;
   double start_potential_ = 0.0, start_energy_ = 0.0;                     ///< [J]
+  double imbalance_ = 0.0;                                                ///< energy that no work explains, at the last step [J]
   double work_ = 0.0, turnover_ = 0.0, scale_ = 0.0, worst_error_ = 0.0;  ///< [J]
   double worst_drift_time_ = 0.0, worst_error_time_ = 0.0;                ///< [s]
   int unbalanced_steps_ = 0;  ///< consecutive steps with an energy error beyond the limit of failure

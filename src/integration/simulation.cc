@@ -49,9 +49,25 @@ class Simulation::Implementation {
       const double now = integrator_->state().t;
       status = integrator_->advance(now < duration && time <= duration ? duration : std::max(time, now) + duration);
     }
-    const double cpu = statistics_.cpu_seconds + timer.seconds();
-    statistics_ = integrator_->statistics();
-    statistics_.cpu_seconds = cpu;
+    keep_statistics(timer);
+    return status;
+  }
+
+  Status advance_to(double time) {
+    const CpuTimer timer;
+    // Rounding may leave a step's end a last bit before its limit.
+    const double apart = 1e-12 * std::max(time, 1e-3 * system_->study().duration);
+    Status status;
+    while (status.ok() && time - integrator_->state().t > apart) status = integrator_->advance(time);
+    keep_statistics(timer);
+    return status;
+  }
+
+  Status go_on(double time, const std::vector<double>& parameters) {
+    const CpuTimer timer;
+    const Status status = integrator_->go_on(time, parameters);
+    if (status.ok()) parameters_ = parameters;
+    keep_statistics(timer);
     return status;
   }
 
@@ -69,6 +85,12 @@ class Simulation::Implementation {
   const Warnings& warnings() const { return warnings_ = integrator_->warnings(); }
 
  private:
+  void keep_statistics(const CpuTimer& timer) {
+    const double cpu = statistics_.cpu_seconds + timer.seconds();
+    statistics_ = integrator_->statistics();
+    statistics_.cpu_seconds = cpu;
+  }
+
   std::shared_ptr<const CompiledSystem> system_;
   std::vector<double> parameters_;
   Observer observer_;
@@ -91,6 +113,8 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 Status Simulation::start() { return implementation_->start(); }
 Status Simulation::advance(double time) { return implementation_->advance(time); }
+Status Simulation::advance_to(double time) { return implementation_->advance_to(time); }
+Status Simulation::go_on(double time, const std::vector<double>& parameters) { return implementation_->go_on(time, parameters); }
 void Simulation::sample(double time, Frame* frame) { implementation_->sample(time, frame); }
 void Simulation::obey(const std::atomic<bool>* cancel) { implementation_->obey(cancel); }
 const FrameNames& Simulation::names() const { return implementation_->names(); }

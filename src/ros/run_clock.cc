@@ -16,6 +16,16 @@ ros::Time RunClock::stamp(double time) const {
   return is_free_running() ? ros::Time(offset_ + time) : start_ + ros::Duration(time / time_scale_);
 }
 
+double RunClock::time_of(const ros::Time& stamp) const {
+  return is_free_running() ? (stamp - ros::Time(offset_)).toSec() : (stamp - start_).toSec() * time_scale_;
+}
+
+void RunClock::go_on_from(double time) {
+  if (is_free_running()) return;
+  start_ = ros::Time::now() - ros::Duration(time / time_scale_);
+  wall_start_ = ros::WallTime::now() - ros::WallDuration(time / time_scale_);
+}
+
 bool RunClock::wait(double time, const std::function<bool()>& stop) const {
   // Sleeps in short slices, so that `stop` is called often.
   const ros::WallDuration slice(0.1);

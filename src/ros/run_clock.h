@@ -31,6 +31,12 @@ class RunClock {
   /// Stamp of `time` [s] in this run.
   ros::Time stamp(double time) const;
 
+  /// The time of this run [s] at a stamp, the inverse of stamp().
+  double time_of(const ros::Time& stamp) const;
+
+  /// Makes `time` [s] due now: after a pause a paced run does not hurry to catch up.
+  void go_on_from(double time);
+
   /// Waits until `time` [s] of the run is due. Returns false as soon as `stop()` is true.
   bool wait(double time, const std::function<bool()>& stop) const;
 

@@ -2,26 +2,19 @@
 #include "ros/simulation_node.h"
 
 #include <rosgraph_msgs/Clock.h>
+#include <std_msgs/Float64.h>
 #include <std_msgs/String.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
-#include <system_error>
 
-#include "jobs/output_error.h"
-#include "jobs/sentences.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/error.h"
-#include "mechanism_codesign/simulation.h"
-#include "mechanism_codesign/version.h"
 #include "reading/urdf/urdf_reader.h"
-#include "ros/advance.h"
 #include "ros/description.h"
 #include "ros/inputs.h"
 #include "ros/parameters.h"
 #include "ros/trajectory_bag.h"
-#include "text/decimal.h"
 #include "text/unknown_name.h"
 
 namespace codesign {
@@ -30,6 +23,8 @@ namespace {
 constexpr std::uint32_t kQueueSize = 100;
 /// In the mode as_fast_as_possible, a subscriber that is slow for a second must not lose frames.
 constexpr std::uint32_t kLongQueueSize = 1000;
+/// For services that wait for the run: one ~step, one change of parameters, and one that interrupts them.
+constexpr std::uint32_t kServiceThreads = 3;
 
 std::vector<std::string> all_parameters() {
   std::vector<std::string> names = simulation_parameters();
@@ -38,13 +33,32 @@ std::vector<std::string> all_parameters() {
   return names;
 }
 
+ros::NodeHandle with_queue(ros::NodeHandle node, ros::CallbackQueue* queue) {
+  node.setCallbackQueue(queue);
+  return node;
+}
+
+CommandOptions command_options(const SimulationOptions& options) {
+  CommandOptions of_run;
+  if (!options.command_joints.empty()) of_run.joints = options.command_joints;
+  of_run.disconnected = options.disconnect;
+  if (options.duration > 0.0) of_run.duration = options.duration;
+  return of_run;
+}
+
 }  // namespace
 
-SimulationNode::SimulationNode() : state_("simulation") {
+SimulationNode::SimulationNode()
+    : service_node_(with_queue(ros::NodeHandle("~"), &waiting_services_)), state_("simulation"), control_(&bell_) {
+  control_.advertise(service_node_);
+  spinner_ = std::make_unique<ros::AsyncSpinner>(kServiceThreads, &waiting_services_);
+  spinner_->start();
   try {
     load();
   } catch (const InputError& error) {
-    state_.set(NodeState::Level::kError, std::string("bad input: ") + error.what());
+    const std::string fault = std::string("bad input: ") + error.what();
+    state_.set(NodeState::Level::kError, fault);
+    control_.end_run(fault);
     return;
   }
   thread_ = std::thread([this] { run(); });
@@ -52,7 +66,11 @@ SimulationNode::SimulationNode() : state_("simulation") {
 
 SimulationNode::~SimulationNode() {
   stopping_ = true;
+  control_.stop();
+  if (live_) live_->stop();
+  bell_.ring();
   if (thread_.joinable()) thread_.join();
+  spinner_->stop();
 }
 
 void SimulationNode::load() {
@@ -62,9 +80,13 @@ void SimulationNode::load() {
   pace_ = Pace(options_.publish_limit);
   const Inputs inputs = read_inputs(node_, private_node_);
   problem_ = codesign::load(inputs, bag_trajectory_loader(study_folder(inputs)));
-  check_duration(private_node_, options_, problem_->study().duration);
+  simulation_ = std::make_unique<InteractiveSimulation>(*problem_->system(), command_options(options_), signals_of(problem_->study()));
+  check_duration(private_node_, options_, simulation_->duration());
+  commanded_.emplace(simulation_.get(), options_.command_timeout);
   state_.show("robot", problem_->robot().name);
+  state_.show("joints of ~command/efforts", list_names(simulation_->inputs().joints));
   state_.warn("files", problem_->warnings());
+  control_.configure(options_.start_paused, static_cast<std::int64_t>(options_.step_frames));
   advertise();
   tell_description();
 }
@@ -79,11 +101,18 @@ void SimulationNode::advertise() {
   publishers_["friction_markers"] = node_.advertise<visualization_msgs::MarkerArray>("friction_markers", size);
   if (clock_.is_free_running()) clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", size);
   description_publisher_ = node_.advertise<std_msgs::String>("robot_description", 1, true);
+  commands_publisher_ = node_.advertise<mechanism_codesign::Commands>("commands", size, true);
+  factor_publisher_ = private_node_.advertise<std_msgs::Float64>("real_time_factor", size);
+  if (options_.float_topics) floats_ = std::make_unique<FloatTopics>(node_, simulation_->names(), size);
+  inbox_ = std::make_unique<CommandInbox>(node_, private_node_, simulation_->inputs(), &state_, &bell_);
+  live_ = std::make_unique<LiveParameters>(service_node_, problem_->all_parameters(), simulation_->parameters(), &state_, &bell_);
 }
 
 void SimulationNode::tell_description() {
   std_msgs::String message;
-  message.data = description_ = write_tuned_urdf(problem_->urdf(), problem_->overlays(), problem_->parameters());
+  message.data = write_tuned_urdf(problem_->urdf(), problem_->overlays(), simulation_->parameters());
+  if (message.data == description_) return;
+  description_ = message.data;
   description_publisher_.publish(message);
   state_.warn("description", check_description(node_, *problem_, description_));
 }
@@ -99,69 +128,6 @@ void SimulationNode::place_root() {
   static_transforms_.sendTransform(transform);
 }
 
-void SimulationNode::run() {
-  try {
-    run_all();
-  } catch (const std::exception& error) {
-    state_.set(NodeState::Level::kError, std::string("internal_error: ") + error.what());
-  }
-}
-
-void SimulationNode::run_all() {
-  double previous_duration = 0.0;
-  wait_for_subscribers();
-  state_.set(NodeState::Level::kOk, "running " + problem_->robot().name);
-  open_bag();
-  do {
-    if (!clock_.has_room_for(previous_duration + problem_->study().duration))
-      return state_.set(NodeState::Level::kWarning, "finished: /clock has reached the end of ROS time");
-    clock_.start_run(previous_duration);
-    if (previous_duration == 0.0) place_root();
-    const Status status = run_once();
-    close_bag();
-    if (stopping()) return;
-    if (!status.ok()) return state_.set(NodeState::Level::kError, std::string(name_of(status.code)) + ": " + reason(status));
-    previous_duration = problem_->study().duration + 1.0 / options_.rate;
-  } while (options_.loop);
-  state_.set(NodeState::Level::kOk, "finished " + problem_->robot().name);
-}
-
-Status SimulationNode::run_once() {
-  Simulation simulation(problem_->system(), problem_->parameters(), signals_of(problem_->study()));
-  Status status = simulation.start();
-  const double duration = problem_->study().duration;
-  const auto instant = [&](std::int64_t k) { return std::min(static_cast<double>(k) / options_.rate, duration); };
-  Frame frame;
-  factor_.start(ros::WallTime::now());
-  for (std::int64_t k = 0; status.ok(); ++k) {
-    const double time = instant(k);
-    if (k > 0) status = advance(&simulation, instant(k - 1), time, [this] { return stopping(); });
-    if (!status.ok()) break;
-    simulation.sample(time, &frame);
-    if (!clock_.wait(time, [this] { return stopping(); })) break;
-    publish(simulation.names(), frame);
-    record(simulation.names(), frame);
-    tell_progress(frame, simulation.statistics());
-    if (time >= duration) break;
-  }
-  state_.show("real-time factor of the run", std::to_string(factor_.mean(frame.time, ros::WallTime::now())));
-  tell_figures(simulation.statistics());
-  state_.warn("run", simulation.warnings());
-  return status;
-}
-
-void SimulationNode::tell_figures(const Statistics& statistics) {
-  state_.show("constraint drift", to_decimal(statistics.constraint_drift));
-  state_.show("energy error", to_decimal(statistics.energy_error));
-}
-
-void SimulationNode::tell_progress(const Frame& frame, const Statistics& statistics) {
-  if (!factor_.note(frame.time, ros::WallTime::now())) return;
-  state_.show("time of the run", std::to_string(frame.time));
-  state_.show("real-time factor", std::to_string(factor_.value()));
-  tell_figures(statistics);
-}
-
 void SimulationNode::wait_for_subscribers() {
   if (options_.wait_for_subscribers.empty()) return;
   const auto is_missing = [this](const std::string& topic) { return publishers_.at(topic).getNumSubscribers() == 0; };
@@ -170,7 +136,8 @@ void SimulationNode::wait_for_subscribers() {
   while (!stopping() && std::any_of(topics.begin(), topics.end(), is_missing)) {
     // Some programs, such as rosbag record, wait for a first message on /clock.
     if (clock_.is_free_running()) publish_clock(0.0);
-    ros::WallDuration(0.05).sleep();
+    serve_idle();
+    bell_.wait(0.05);
   }
 }
 
@@ -193,59 +160,10 @@ void SimulationNode::publish(const FrameNames& names, const Frame& frame) {
   FrameMessages(names, frame, context, options_.style).visit([this](const std::string& topic, const auto& message) {
     publishers_.at(topic).publish(message);
   });
+  if (floats_) floats_->publish(frame);
   const tf2_msgs::TFMessage poses = options_.frame_prefix.empty() ? free_link_transforms(names, frame, context)
                                                                   : link_transforms(names, frame, context.stamp, options_.frame_prefix);
   if (!poses.transforms.empty()) transforms_.sendTransform(poses.transforms);
-}
-
-void SimulationNode::open_bag() {
-  if (options_.bag.empty()) return;
-  try {
-    bag_lock_ = lock_bag();
-    bag_ = std::make_unique<BagWriter>(options_.bag);
-    bag_->write_text("robot_description", description_);
-    bag_->write_text("version", version());
-  } catch (const OutputError& error) {
-    give_up_bag(error);
-  }
-}
-
-// Locks the bag. If a killed node left an unlocked lock file, its unfinished bag is removed.
-std::optional<LockFile> SimulationNode::lock_bag() {
-  const std::string lock = options_.bag + ".job";
-  std::optional<LockFile> abandoned = LockFile::take_abandoned(lock);
-  if (!abandoned) return LockFile::create(lock);
-  std::error_code error;
-  if (std::filesystem::remove(options_.bag + ".active", error)) ROS_WARN_STREAM("a node was killed: removed " << options_.bag << ".active");
-  return abandoned;
-}
-
-void SimulationNode::give_up_bag(const OutputError& error) {
-  bag_.reset();
-  bag_lock_.reset();
-  state_.warn("bag", {{"output_failed", error.what(), {}}});
-}
-
-void SimulationNode::record(const FrameNames& names, const Frame& frame) {
-  if (!bag_) return;
-  try {
-    bag_->write_frame("", options_.frame_prefix + names.links[0], names, frame, options_.style);
-    bag_->write("tf", frame.time, link_transforms(names, frame, BagWriter::stamp(frame.time), options_.frame_prefix));
-  } catch (const OutputError& error) {
-    give_up_bag(error);
-  }
-}
-
-void SimulationNode::close_bag() {
-  if (!bag_) return;
-  try {
-    bag_->finish();
-    state_.show("bag", options_.bag);
-    bag_.reset();
-    bag_lock_.reset();
-  } catch (const OutputError& error) {
-    give_up_bag(error);
-  }
 }
 
 std::shared_ptr<void> make_simulation_node() { return std::make_shared<SimulationNode>(); }

@@ -2,7 +2,9 @@
 #ifndef MECHANISM_CODESIGN_ROS_SIMULATION_NODE_H_
 #define MECHANISM_CODESIGN_ROS_SIMULATION_NODE_H_
 
+#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
+#include <ros/spinner.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
@@ -13,21 +15,26 @@
 #include <string>
 #include <thread>
 
-#include "jobs/lock_file.h"
-#include "jobs/output_error.h"
-#include "mechanism_codesign/simulation.h"
+#include "integration/interactive_simulation.h"
 #include "problem/load_problem.h"
-#include "ros/bag_writer.h"
+#include "ros/bell.h"
+#include "ros/command_inbox.h"
+#include "ros/commanded_run.h"
+#include "ros/float_topics.h"
+#include "ros/live_parameters.h"
 #include "ros/node_state.h"
 #include "ros/pace.h"
+#include "ros/run_bag.h"
 #include "ros/run_clock.h"
+#include "ros/run_control.h"
 #include "ros/simulation_options.h"
 
 namespace codesign {
 
-/// The node `simulation`: runs the loaded study and publishes it. See doc/ros_api.md.
+/// The node `simulation`: runs the loaded study, publishes it, and takes commands as a robot does. See doc/ros_api.md.
 ///
-/// The computation has its own thread. After bad input or a numerical failure the node stays up and reports it on /diagnostics.
+/// The computation has its own thread. Services that wait for it are served by threads of their own, so that commands arrive meanwhile.
+/// After bad input or a numerical failure the node stays up and reports it on /diagnostics.
 class SimulationNode {
  public:
   SimulationNode();
@@ -37,39 +44,55 @@ class SimulationNode {
   void load();
   void advertise();
   void tell_description();
+  void place_root();
+  void wait_for_subscribers();
+  bool is_watched() const;
+
+  // The thread of the run, simulation_run.cc.
   void run();
   void run_all();
   /// Runs the study once, from 0 to its duration. The status is ok unless the run failed or was stopped.
   Status run_once();
-  void place_root();
-  void wait_for_subscribers();
-  bool is_watched() const;
+  Status run_frames();
+  /// Brings commands and parameters into effect at the instant of the last frame, and waits there while the run is paused or a command is
+  /// awaited.
+  Status serve();
+  /// Tries parameters for the next run. Between runs.
+  void serve_idle();
+  void wait_for_restart(const std::string& why);
+  void show_frame(bool record);
+  void tell_commands();
   void publish(const FrameNames& names, const Frame& frame);
   void publish_clock(double time);
-  void open_bag();
-  std::optional<LockFile> lock_bag();
-  void give_up_bag(const OutputError& error);
-  void record(const FrameNames& names, const Frame& frame);
-  void close_bag();
-  void tell_progress(const Frame& frame, const Statistics& statistics);
+  void tell_progress(const Statistics& statistics);
   void tell_figures(const Statistics& statistics);
   bool stopping() const { return stopping_ || !ros::ok(); }
+  bool leaving_run() const { return stopping() || control_.wants_restart(); }
 
-  ros::NodeHandle node_, private_node_{"~"};
+  ros::CallbackQueue waiting_services_;
+  ros::NodeHandle node_, private_node_{"~"}, service_node_{"~"};
   NodeState state_;
+  Bell bell_;
+  RunControl control_;
   SimulationOptions options_;
   std::optional<Problem> problem_;  ///< empty after bad input
-  std::string description_;         ///< URDF of the mechanism that runs
+  std::unique_ptr<InteractiveSimulation> simulation_;
+  std::optional<CommandedRun> commanded_;
+  std::unique_ptr<CommandInbox> inbox_;
+  std::unique_ptr<LiveParameters> live_;
+  std::unique_ptr<FloatTopics> floats_;
+  std::string description_;  ///< URDF of the mechanism that runs
   RunClock clock_{1.0};
   Pace pace_;
   RealTimeFactor factor_;
+  Frame frame_;  ///< the last one
   std::map<std::string, ros::Publisher> publishers_;
-  ros::Publisher clock_publisher_, description_publisher_;
+  ros::Publisher clock_publisher_, description_publisher_, commands_publisher_, factor_publisher_;
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
-  std::optional<LockFile> bag_lock_;
-  std::unique_ptr<BagWriter> bag_;  ///< while it is being written
+  RunBag bag_{options_, &state_};
   std::atomic<bool> stopping_{false};
+  std::unique_ptr<ros::AsyncSpinner> spinner_;
   std::thread thread_;  // last: it uses all of the above
 };
 

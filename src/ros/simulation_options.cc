@@ -2,6 +2,7 @@
 #include "ros/simulation_options.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "ros/parameters.h"
@@ -14,6 +15,7 @@ namespace {
 
 /// [1/s] Stamps have a resolution of nanoseconds.
 constexpr double kHighestRate = 1e9;
+constexpr double kMostStepFrames = 1e9;
 
 using Node = ros::NodeHandle;
 
@@ -50,8 +52,20 @@ void read_mode(const Node& node, const std::string& name, SimulationOptions* opt
     throw unknown_name({node.resolveName(name), 0}, name, "mode", mode, {"real_time", "as_fast_as_possible"});
 }
 
-void read_loop(const Node& node, const std::string& name, SimulationOptions* options) {
-  options->loop = read_flag(node, name, options->loop);
+Read flag(bool SimulationOptions::*field) {
+  return [field](const Node& node, const std::string& name, SimulationOptions* options) {
+    options->*field = read_flag(node, name, options->*field);
+  };
+}
+
+Read texts(std::vector<std::string> SimulationOptions::*field) {
+  return [field](const Node& node, const std::string& name, SimulationOptions* options) { options->*field = read_texts(node, name); };
+}
+
+void read_step_frames(const Node& node, const std::string& name, SimulationOptions* options) {
+  const double frames = read_positive(node, name, options->step_frames, kMostStepFrames);
+  if (frames != std::floor(frames)) refuse_parameter(node, name, "not a whole number", frames, "1, 2, 3, ...");
+  options->step_frames = frames;
 }
 
 void read_world_frame(const Node& node, const std::string& name, SimulationOptions* options) {
@@ -79,7 +93,15 @@ const std::vector<Entry>& entries() {
                                               {"time_scale", positive(&SimulationOptions::time_scale)},
                                               {"mode", read_mode},
                                               {"publish_limit", positive(&SimulationOptions::publish_limit)},
-                                              {"loop", read_loop},
+                                              {"loop", flag(&SimulationOptions::loop)},
+                                              {"command_joints", texts(&SimulationOptions::command_joints)},
+                                              {"disconnect", texts(&SimulationOptions::disconnect)},
+                                              {"command_timeout", positive(&SimulationOptions::command_timeout)},
+                                              {"duration", positive(&SimulationOptions::duration)},
+                                              {"lock_step", flag(&SimulationOptions::lock_step)},
+                                              {"start_paused", flag(&SimulationOptions::start_paused)},
+                                              {"step_frames", read_step_frames},
+                                              {"float_topics", flag(&SimulationOptions::float_topics)},
                                               {"world_frame", read_world_frame},
                                               {"frame_prefix", read_frame_prefix},
                                               {"force_scale", positive(&MarkerStyle::metres_per_newton)},

@@ -21,6 +21,14 @@ struct SimulationOptions {
   std::string frame_prefix;                       ///< before the name of each link's TF frame; if not empty, the node publishes all frames
   std::vector<std::string> wait_for_subscribers;  ///< topics that must have a subscriber before the run begins
   std::string bag;                                ///< path of a bag of the first run; empty: none
+  std::vector<std::string> command_joints;        ///< joints that take efforts, in order; empty: all that can be driven
+  std::vector<std::string> disconnect;            ///< controllers whose output is not applied
+  double command_timeout = 0.0;                   ///< [s] of the run after which commanded efforts end; 0: never
+  double duration = 0.0;                          ///< [s] of a run; 0: the study's
+  bool lock_step = false;                         ///< wait for a command after each frame
+  bool start_paused = false;                      ///< pause after the first frame
+  double step_frames = 1.0;                       ///< frames of a ~step, a whole number
+  bool float_topics = false;                      ///< publish each number on a topic of its own, too
   MarkerStyle style;
 };
 

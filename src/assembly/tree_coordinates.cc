@@ -1,0 +1,113 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "assembly/tree_coordinates.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "math/euler_parameters.h"
+
+namespace codesign {
+namespace {
+
+constexpr double kLeastCosine = 1e-6;  // of the second turn of a floating joint, where the first and the third turn about one axis
+
+LinkMotion<double> motion_of(const System& system, const Equations<double>& equations, int link) {
+  const int body = system.topology().link_body[static_cast<std::size_t>(link)];
+  const BodyKinematics<double>& b = equations.formulas().body(body);
+  const LinkConstants<double>& at = equations.constants().links[static_cast<std::size_t>(link)];
+  LinkMotion<double> motion;
+  const Vector3<double> arm = b.A * at.s;
+  motion.X = {b.A * at.R, b.r + arm};
+  if (b.at_rest) return motion;
+  motion.omega = 2.0 * (ground_rate_matrix(b.p) * b.pd);
+  motion.velocity = b.rd + motion.omega.cross(arm);
+  return motion;
+}
+
+/// The child's motion relative to the joint frame, which is fixed in the parent, in the axes of that frame.
+LinkMotion<double> relative_motion(const LinkMotion<double>& parent, const Pose<double>& origin, const LinkMotion<double>& child) {
+  const Pose<double> frame = parent.X * origin;
+  LinkMotion<double> motion;
+  motion.X = frame.inverse() * child.X;
+  motion.omega = frame.R.transpose() * (child.omega - parent.omega);
+  const Vector3<double> at_child = parent.velocity + parent.omega.cross(child.X.t - parent.X.t);
+  motion.velocity = frame.R.transpose() * (child.velocity - at_child);
+  return motion;
+}
+
+void planar_coordinates(const JointDescription& joint, const std::vector<double>& parameters, const LinkMotion<double>& motion, int c,
+                        TreeCoordinates* result) {
+  const PlaneAxes<double> plane = plane_axes(joint, parameters);
+  const Vector3<double> normal = axis_at(joint.axis, parameters);
+  const Vector3<double> turned = motion.X.R * plane.x;
+  result->theta.segment<3>(c) << plane.x.dot(motion.X.t), plane.y.dot(motion.X.t), std::atan2(plane.y.dot(turned), plane.x.dot(turned));
+  result->rate.segment<3>(c) << plane.x.dot(motion.velocity), plane.y.dot(motion.velocity), normal.dot(motion.omega);
+}
+
+// R = R_x(a) R_y(b) R_z(c) R_start, omega = x a' + R_x(a) y b' + R_x(a) R_y(b) z c'.
+bool floating_coordinates(const JointDescription& joint, const std::vector<double>& parameters, const LinkMotion<double>& motion, int c,
+                          TreeCoordinates* result) {
+  const Matrix3<double> R = motion.X.R * rotation_from_rpy<double>(vector_at(joint.start_rotation, parameters)).transpose();
+  const double a = std::atan2(-R(1, 2), R(2, 2)), b = std::asin(std::clamp(R(0, 2), -1.0, 1.0));
+  if (std::cos(b) < kLeastCosine) return false;
+  const Matrix3<double> about_x = Eigen::AngleAxisd(a, Vector3<double>::UnitX()).toRotationMatrix();
+  Matrix3<double> axes;
+  axes << Vector3<double>::UnitX(), about_x.col(1), about_x * (Eigen::AngleAxisd(b, Vector3<double>::UnitY()).toRotationMatrix()).col(2);
+  result->theta.segment<3>(c) = motion.X.t;
+  result->theta.segment<3>(c + 3) << a, b, std::atan2(-R(0, 1), R(0, 0));
+  result->rate.segment<3>(c) = motion.velocity;
+  result->rate.segment<3>(c + 3) = axes.partialPivLu().solve(motion.omega);
+  return true;
+}
+
+bool scalar_coordinate(const System& system, int joint, int pair, int c, Equations<double>* equations, TreeCoordinates* result) {
+  const std::vector<ChainElement>& chain = system.topology().pairs[static_cast<std::size_t>(pair)].chain;
+  for (std::size_t e = 0; e < chain.size(); ++e) {
+    if (chain[e].joint != joint) continue;
+    const auto& coordinates = equations->constants().pairs[static_cast<std::size_t>(pair)].coordinates;
+    if (e >= coordinates.size() || coordinates[e].kind == CoordinateConstants<double>::Kind::kNone) return false;
+    const CoordinateMotion<double>& motion = equations->formulas().coordinate(pair, static_cast<int>(e));
+    result->theta[c] = motion.position;
+    result->rate[c] = motion.rate;
+    return true;
+  }
+  return false;
+}
+
+bool has_mass_at_both_ends(const System& system, const JointDescription& joint) {
+  const std::vector<int>& body = system.topology().link_body;
+  return body[static_cast<std::size_t>(joint.parent)] != Topology::kMassless &&
+         body[static_cast<std::size_t>(joint.child)] != Topology::kMassless;
+}
+
+}  // namespace
+
+std::string tree_coordinates(const System& system, const TreeLayout& tree, const State<double>& state, const VectorX<double>& rest,
+                             Equations<double>* equations, TreeCoordinates* result) {
+  equations->formulas().load(state);
+  result->theta = rest;
+  result->rate = VectorX<double>::Zero(rest.size());
+  for (int k : tree.joint_order) {
+    const JointDescription& joint = system.robot().joints[static_cast<std::size_t>(k)];
+    const int pair = system.topology().joint_pair[static_cast<std::size_t>(k)], c = tree.offset[static_cast<std::size_t>(k)];
+    const int count = coordinates_of(joint.type);
+    if (count == 0 || pair < 0) continue;
+    if (count == 1) {
+      if (!scalar_coordinate(system, k, pair, c, equations, result)) return joint.name;
+      continue;
+    }
+    if (!has_mass_at_both_ends(system, joint)) return joint.name;
+    const LinkMotion<double> motion =
+        relative_motion(motion_of(system, *equations, joint.parent), pose_at(joint.origin, equations->parameters()),
+                        motion_of(system, *equations, joint.child));
+    if (count == 3)
+      planar_coordinates(joint, equations->parameters(), motion, c, result);
+    else if (!floating_coordinates(joint, equations->parameters(), motion, c, result))
+      return joint.name;
+  }
+  return {};
+}
+
+}  // namespace codesign

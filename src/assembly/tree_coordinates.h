@@ -1,0 +1,26 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ASSEMBLY_TREE_COORDINATES_H_
+#define MECHANISM_CODESIGN_ASSEMBLY_TREE_COORDINATES_H_
+
+#include <string>
+
+#include "assembly/tree_kinematics.h"
+#include "equations/equations.h"
+
+namespace codesign {
+
+/// Coordinates and rates of the joints of the tree, TreeLayout::size entries each.
+struct TreeCoordinates {
+  VectorX<double> theta, rate;
+};
+
+/// The tree coordinates of a state, the inverse of body_coordinates(). Turns of a floating joint are those about x, then y, then z.
+/// @param equations must hold the design; they load `state`. @param rest coordinates of joints below which nothing has mass, kept.
+/// @param result sized and filled. @returns the joint whose coordinate cannot be computed (a hinge of a folded chain without a closed form,
+/// a floating joint turned by 90 degrees about y), or an empty text.
+std::string tree_coordinates(const System& system, const TreeLayout& tree, const State<double>& state, const VectorX<double>& rest,
+                             Equations<double>* equations, TreeCoordinates* result);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ASSEMBLY_TREE_COORDINATES_H_

@@ -1,0 +1,36 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_CONTROL_TRAJECTORY_COURSE_H_
+#define MECHANISM_CODESIGN_CONTROL_TRAJECTORY_COURSE_H_
+
+#include <optional>
+#include <vector>
+
+#include "control/waypoint_piece.h"
+#include "description/live_function.h"
+
+namespace codesign {
+
+/// A point of a commanded trajectory.
+struct CoursePoint {
+  double time = 0.0, position = 0.0;  ///< [s] of the run, [rad or m]
+  std::optional<double> velocity, acceleration;
+};
+
+/// The pieces of a commanded function of time, by ascending start: each is in effect until the next one begins, the last for ever.
+using Course = std::vector<LiveFunction>;
+
+/// A course that holds a value from `start` [s] on.
+Course held(double value, double start);
+
+/// The course through points, theory (C2): of fifth degree between points with accelerations, cubic between points with velocities, else
+/// linear. Behind the last point its position holds.
+/// @param points by ascending time, at least one. @param now [s]: what was before it is left out. @param from the motion in effect at
+/// `now`, at which the way to the first point begins if that is yet to come.
+Course trajectory_course(const std::vector<CoursePoint>& points, double now, const Knot<double>& from);
+
+/// The rate of a course, as a course.
+Course rate_of(Course course);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_CONTROL_TRAJECTORY_COURSE_H_

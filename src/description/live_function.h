@@ -1,0 +1,19 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_DESCRIPTION_LIVE_FUNCTION_H_
+#define MECHANISM_CODESIGN_DESCRIPTION_LIVE_FUNCTION_H_
+
+#include <array>
+
+namespace codesign {
+
+/// A function of time that the owner of a run exchanges while the run goes on: sum c_k (t - start)^k in the unit of the signal, once it is
+/// commanded. The run must go on anew (Integrator::go_on()) after each change. Not thread-safe.
+struct LiveFunction {
+  bool commanded = false;  ///< false: the planned function is in effect
+  double start = 0.0;      ///< [s]
+  std::array<double, 6> c{};
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_DESCRIPTION_LIVE_FUNCTION_H_

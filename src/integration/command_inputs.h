@@ -1,0 +1,51 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_INTEGRATION_COMMAND_INPUTS_H_
+#define MECHANISM_CODESIGN_INTEGRATION_COMMAND_INPUTS_H_
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "control/trajectory_course.h"
+#include "equations/compiled_system.h"
+
+namespace codesign {
+
+/// What of a mechanism is commanded.
+struct CommandOptions {
+  std::optional<std::vector<std::string>> joints;  ///< joints that take efforts; nullopt: drivable_joints()
+  std::vector<std::string> disconnected;           ///< controllers whose output is not applied; of inverse dynamics it is the feedback part
+  std::optional<double> duration;                  ///< [s] of the run, in place of the study's
+};
+
+/// Every joint of the tree that moves mass, has a coordinate of its own and follows no other joint, in the order of the description.
+std::vector<std::string> drivable_joints(const CompiledSystem& system);
+
+/// A study extended by inputs that can be commanded while a run goes on, doc/theory.md (55): before the study's controllers one for each
+/// joint that takes efforts, u = f(t), and each set-point a function that a command replaces.
+struct CommandInputs {
+  Study study;
+  std::vector<std::string> joints;                     ///< that take efforts
+  std::vector<std::string> controllers;                ///< that have a set-point and are connected
+  std::vector<std::size_t> indices;                    ///< of these in the original study
+  std::vector<std::shared_ptr<LiveFunction>> efforts;  ///< one per entry of `joints` [N m or N]
+  std::vector<std::shared_ptr<LiveFunction>> setpoints;
+
+  /// @throws InputError for an unknown joint or controller, and for a joint named twice or without a coordinate of its own.
+  CommandInputs(const CompiledSystem& of, const CommandOptions& options);
+};
+
+/// A controller that a trajectory of a joint commands.
+struct TrajectoryFollower {
+  std::size_t controller = 0;  ///< index in CommandInputs::controllers
+  bool by_rate = false;        ///< its input is the velocity of the joint: its set-point is the rate of the trajectory
+};
+
+/// The controller whose input is the position of a joint, else the one whose input is its velocity: of several, one that drives the joint,
+/// or no joint. None if there is no such controller.
+std::optional<TrajectoryFollower> follower_of(const CommandInputs& inputs, const std::string& joint);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_INTEGRATION_COMMAND_INPUTS_H_

@@ -1,0 +1,20 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_INTEGRATION_IDAS_COUNTS_H_
+#define MECHANISM_CODESIGN_INTEGRATION_IDAS_COUNTS_H_
+
+#include <cstdint>
+
+namespace codesign {
+
+/// The work of IDAS since its last restart.
+struct IdasCounts {
+  std::int64_t steps = 0;
+  std::int64_t rejected = 0;  ///< failed error tests and solutions, those of sensitivities included
+};
+
+/// @param ida memory of IDAS. @param with_sensitivities whether it integrates any
+IdasCounts count_idas(void* ida, bool with_sensitivities);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_INTEGRATION_IDAS_COUNTS_H_

@@ -1,0 +1,70 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_COMMAND_INBOX_H_
+#define MECHANISM_CODESIGN_ROS_COMMAND_INBOX_H_
+
+#include <ros/node_handle.h>
+
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "ros/bell.h"
+#include "ros/command_reading.h"
+#include "ros/node_state.h"
+
+namespace codesign {
+
+/// Subscribes to the command topics of the simulation, doc/ros_api.md, and keeps what arrives until the run takes it. Thread-safe.
+class CommandInbox {
+ public:
+  /// @param inputs, state, bell must outlive this. @param bell rung for each message
+  CommandInbox(ros::NodeHandle node, ros::NodeHandle private_node, const CommandInputs& inputs, NodeState* state, Bell* bell);
+
+  /// The commands since the last call, in the order of their arrival.
+  std::vector<Command> take();
+  /// Discards commands and refusals, for a new run.
+  void clear();
+
+  /// A frame is about to be published with this stamp: answers to earlier ones no longer count.
+  void await_answer(const ros::Time& stamp);
+  /// Whether a message has come since: one with a header answers if its stamp is that of the frame, or later, or zero.
+  bool is_answered() const;
+
+  /// Handles a message as if it had arrived: `read` returns the command or throws InputError. @param stamp of its header, or zero
+  template <class Read>
+  void receive(const std::string& topic, const ros::Time& stamp, const Read& read);
+
+ private:
+  void add(Command command, const ros::Time& stamp);
+  void refuse(const std::string& topic, const ros::Time& stamp, const std::string& sentence);
+  void note_answer(const ros::Time& stamp);
+
+  const CommandInputs& inputs_;
+  NodeState* state_;
+  Bell* bell_;
+  mutable std::mutex mutex_;
+  std::vector<Command> commands_;
+  ros::Time awaited_;
+  bool answered_ = false;
+  std::map<std::string, ros::WallTime> told_;  ///< per topic: when its last refusal was told, at most one a second
+  std::size_t refused_ = 0;
+  std::vector<ros::Subscriber> subscribers_;
+};
+
+template <class Read>
+void CommandInbox::receive(const std::string& topic, const ros::Time& stamp, const Read& read) {
+  try {
+    add(read(), stamp);
+  } catch (const InputError& error) {
+    refuse(topic, stamp, error.what());
+  }
+  bell_->ring();
+}
+
+/// `text` with an underscore for each letter that a name of ROS must not have; slashes stay.
+std::string legal_name(const std::string& text);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_COMMAND_INBOX_H_

@@ -1,0 +1,54 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_COMMANDED_RUN_H_
+#define MECHANISM_CODESIGN_ROS_COMMANDED_RUN_H_
+
+#include <mechanism_codesign/Commands.h>
+
+#include <optional>
+#include <vector>
+
+#include "integration/interactive_simulation.h"
+#include "ros/command_reading.h"
+#include "ros/run_clock.h"
+
+namespace codesign {
+
+/// Brings commands into effect in a run, and ends efforts that nobody renews.
+class CommandedRun {
+ public:
+  /// @param run must outlive this. @param timeout [s] of the run after which efforts are zero; 0: never
+  CommandedRun(InteractiveSimulation* run, double timeout) : run_(run), timeout_(timeout) {}
+
+  /// For a new run: nothing is commanded.
+  void clear();
+
+  /// What happened to the commands at an instant.
+  struct Outcome {
+    Status status;         ///< of InteractiveSimulation::apply()
+    bool changed = false;  ///< whether other commands are in effect than before
+  };
+  /// Brings `commands` into effect, the last one of each joint and controller. @param frame the last one; it was sampled at the present
+  /// instant. @param clock gives the time of a trajectory's stamp.
+  Outcome apply(const std::vector<Command>& commands, const Frame& frame, const RunClock& clock);
+  /// Whether efforts were ended since no command came, and none has come since.
+  bool is_timed_out() const { return timed_out_; }
+
+  /// The commands in effect at `time` [s]; the stamp is for the caller to set.
+  mechanism_codesign::Commands message(double time) const;
+
+ private:
+  void take(const EffortCommand& command, double time);
+  void take(const SetpointCommand& command, double time);
+  void take(const TrajectoryCommand& command, const Frame& frame, const RunClock& clock);
+  void follow(const JointCourse& course, double begin, const Frame& frame);
+  bool end_efforts(double time);
+
+  InteractiveSimulation* run_;
+  double timeout_;
+  std::optional<double> last_effort_;  ///< [s] when the last effort was commanded
+  bool timed_out_ = false;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_COMMANDED_RUN_H_

@@ -1,0 +1,47 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_RUN_BAG_H_
+#define MECHANISM_CODESIGN_ROS_RUN_BAG_H_
+
+#include <mechanism_codesign/Commands.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "jobs/lock_file.h"
+#include "jobs/output_error.h"
+#include "ros/bag_writer.h"
+#include "ros/node_state.h"
+#include "ros/simulation_options.h"
+
+namespace codesign {
+
+/// The bag of the first run of the simulation, if one is asked for: every frame, tf of all links, commands, description and version. A
+/// failure to write gives the warning `output_failed` and ends the bag, not the run.
+class RunBag {
+ public:
+  /// @param options, state must outlive this.
+  RunBag(const SimulationOptions& options, NodeState* state) : options_(options), state_(state) {}
+
+  /// Begins the bag; what a killed node left of it is removed. @param description URDF of the mechanism
+  void open(const std::string& description);
+  void record(const FrameNames& names, const Frame& frame);
+  /// @param time [s] of the run from which the commands are in effect
+  void record(const mechanism_codesign::Commands& commands, double time);
+  /// Completes the bag.
+  void close();
+
+ private:
+  std::optional<LockFile> lock() const;
+  template <class Write>
+  void guard(const Write& write);
+
+  const SimulationOptions& options_;
+  NodeState* state_;
+  std::optional<LockFile> lock_;
+  std::unique_ptr<BagWriter> bag_;  ///< while it is being written
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_RUN_BAG_H_

@@ -1,0 +1,75 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_RUN_CONTROL_H_
+#define MECHANISM_CODESIGN_ROS_RUN_CONTROL_H_
+
+#include <ros/node_handle.h>
+#include <std_srvs/Trigger.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "ros/bell.h"
+
+namespace codesign {
+
+/// The services ~pause, ~resume, ~step and ~restart of the simulation, doc/ros_api.md. They wait for the run, so that their callbacks need
+/// a thread apart from those of topics. Thread-safe.
+class RunControl {
+ public:
+  /// @param bell rung for each request
+  explicit RunControl(Bell* bell) : bell_(bell) {}
+
+  /// Offers the services below `node`, whose callback queue serves them.
+  void advertise(ros::NodeHandle node);
+
+  /// @param paused whether runs stand still after their first frame. @param step_frames frames of a ~step
+  void configure(bool paused, std::int64_t step_frames);
+
+  // The thread of the run calls these.
+
+  /// A run begins; answers a waiting ~restart.
+  void begin_run();
+  /// A frame was published, at `time` [s] of the run.
+  void note_frame(double time);
+  /// The run is over; requests but ~restart are refused with this sentence.
+  void end_run(const std::string& why);
+  /// The node ends: nobody waits any more.
+  void stop();
+
+  /// Whether the run stands still after the last frame.
+  bool is_paused() const;
+  /// Whether ~restart waits for a new run.
+  bool wants_restart() const;
+  /// Set while the run is to end early, for Simulation::obey().
+  const std::atomic<bool>* leaving() const { return &leaving_; }
+
+  // The services.
+  std_srvs::TriggerResponse pause();
+  std_srvs::TriggerResponse resume();
+  std_srvs::TriggerResponse step();
+  std_srvs::TriggerResponse restart();
+
+ private:
+  using Service = std_srvs::TriggerResponse (RunControl::*)();
+  void serve(ros::NodeHandle* node, const std::string& name, Service service);
+  std_srvs::TriggerResponse refusal() const;
+
+  Bell* bell_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::atomic<bool> leaving_{false};
+  bool running_ = false, paused_ = false, stopped_ = false, restart_ = false;
+  std::int64_t step_frames_ = 1, steps_left_ = 0;
+  std::uint64_t runs_ = 0;
+  double time_ = 0.0;  ///< [s] of the last frame
+  std::string why_ = "the run has not begun";
+  std::vector<ros::ServiceServer> servers_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_RUN_CONTROL_H_

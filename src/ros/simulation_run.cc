@@ -1,0 +1,165 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// The thread of SimulationNode that runs the study.
+#include <std_msgs/Float64.h>
+
+#include <algorithm>
+
+#include "jobs/sentences.h"
+#include "ros/simulation_node.h"
+#include "text/decimal.h"
+
+namespace codesign {
+namespace {
+
+constexpr double kLook = 0.1;  // [s] between looks at what ends a wait
+
+}  // namespace
+
+void SimulationNode::run() {
+  try {
+    run_all();
+  } catch (const std::exception& error) {
+    const std::string fault = std::string("internal_error: ") + error.what();
+    state_.set(NodeState::Level::kError, fault);
+    control_.stop();
+    live_->stop();
+  }
+}
+
+void SimulationNode::run_all() {
+  double previous_duration = 0.0;
+  wait_for_subscribers();
+  bag_.open(description_);
+  while (!stopping()) {
+    if (!clock_.has_room_for(previous_duration + simulation_->duration()))
+      return wait_for_restart("finished: /clock has reached the end of ROS time");
+    state_.set(NodeState::Level::kOk, "running " + problem_->robot().name);
+    clock_.start_run(previous_duration);
+    if (previous_duration == 0.0) place_root();
+    const Status status = run_once();
+    bag_.close();
+    previous_duration = frame_.time + 1.0 / options_.rate;
+    if (stopping()) return;
+    if (control_.wants_restart() || (status.ok() && options_.loop)) continue;
+    const std::string why = status.ok() ? "finished " + problem_->robot().name : std::string(name_of(status.code)) + ": " + reason(status);
+    state_.set(status.ok() ? NodeState::Level::kOk : NodeState::Level::kError, why);
+    wait_for_restart(why);
+  }
+}
+
+void SimulationNode::wait_for_restart(const std::string& why) {
+  control_.end_run(why);
+  while (!leaving_run()) {
+    serve_idle();
+    bell_.wait(kLook);
+  }
+}
+
+// A start that cannot be assembled is refused, so that ~restart begins with one that can.
+void SimulationNode::serve_idle() {
+  const std::vector<double> before = simulation_->parameters();
+  simulation_->obey(nullptr);
+  const bool changed = live_->serve([&](const std::vector<double>& values) {
+    const Status status = simulation_->start(values);
+    if (!status.ok()) simulation_->start(before);
+    return status;
+  });
+  if (changed) tell_description();
+}
+
+Status SimulationNode::run_once() {
+  frame_.time = 0.0;
+  inbox_->clear();
+  commanded_->clear();
+  state_.warn("command timeout", {});
+  control_.begin_run();
+  const Status status = run_frames();
+  state_.show("real-time factor of the run", std::to_string(factor_.mean(frame_.time, ros::WallTime::now())));
+  tell_figures(simulation_->statistics());
+  state_.warn("run", simulation_->warnings());
+  return status;
+}
+
+Status SimulationNode::run_frames() {
+  simulation_->obey(control_.leaving());
+  Status status = simulation_->start(simulation_->parameters());
+  const double duration = simulation_->duration();
+  const auto instant = [&](std::int64_t k) { return std::min(static_cast<double>(k) / options_.rate, duration); };
+  if (status.ok()) {
+    simulation_->sample(0.0, &frame_);
+    tell_commands();
+  }
+  factor_.start(ros::WallTime::now());
+  for (std::int64_t k = 0; status.ok(); ++k) {
+    const double time = instant(k);
+    if (k > 0) status = simulation_->advance(time);
+    if (!status.ok()) break;
+    simulation_->sample(time, &frame_);
+    if (!clock_.wait(time, [this] { return leaving_run(); })) break;
+    inbox_->await_answer(clock_.stamp(time));
+    show_frame(true);
+    control_.note_frame(time);
+    tell_progress(simulation_->statistics());
+    if (time >= duration) break;
+    status = serve();
+    if (leaving_run()) break;
+  }
+  return status.code == StatusCode::kCancelled ? Status() : status;
+}
+
+Status SimulationNode::serve() {
+  bool has_waited = false;
+  for (;;) {
+    // Asked before commands are taken: what arrives in between is taken in the next round.
+    const bool goes_on = !control_.is_paused() && (!options_.lock_step || inbox_->is_answered());
+    const CommandedRun::Outcome outcome = commanded_->apply(inbox_->take(), frame_, clock_);
+    if (!outcome.status.ok()) return outcome.status;
+    const bool other_values = live_->serve([this](const std::vector<double>& values) { return simulation_->change(frame_.time, values); });
+    if (outcome.changed) tell_commands();
+    if (other_values) tell_description();
+    if (leaving_run()) return {};
+    if (goes_on) break;
+    if (control_.is_paused() && (outcome.changed || other_values)) {
+      simulation_->sample(frame_.time, &frame_);
+      show_frame(false);
+    }
+    has_waited = true;
+    bell_.wait(kLook);
+  }
+  if (has_waited) clock_.go_on_from(frame_.time);
+  return {};
+}
+
+void SimulationNode::show_frame(bool record) {
+  publish(simulation_->names(), frame_);
+  if (record) bag_.record(simulation_->names(), frame_);
+}
+
+void SimulationNode::tell_commands() {
+  mechanism_codesign::Commands commands = commanded_->message(frame_.time);
+  bag_.record(commands, frame_.time);
+  commands.header.stamp = clock_.stamp(frame_.time);
+  commands_publisher_.publish(commands);
+  if (!commanded_->is_timed_out()) return state_.warn("command timeout", {});
+  state_.warn("command timeout", {{"command_timeout",
+                                   "no effort was commanded for " + to_decimal(options_.command_timeout) +
+                                       " s (~command_timeout): all commanded efforts are zero until the next one",
+                                   {}}});
+}
+
+void SimulationNode::tell_figures(const Statistics& statistics) {
+  state_.show("constraint drift", to_decimal(statistics.constraint_drift));
+  state_.show("energy error", to_decimal(statistics.energy_error));
+}
+
+void SimulationNode::tell_progress(const Statistics& statistics) {
+  if (!factor_.note(frame_.time, ros::WallTime::now())) return;
+  std_msgs::Float64 message;
+  message.data = factor_.value();
+  factor_publisher_.publish(message);
+  state_.show("time of the run", std::to_string(frame_.time));
+  state_.show("real-time factor", std::to_string(factor_.value()));
+  tell_figures(statistics);
+}
+
+}  // namespace codesign
