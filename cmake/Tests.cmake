@@ -148,6 +148,7 @@ if(NOT TARGET codesign_ros)
 endif()
 add_test(NAME launch_files COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/ros/launch_files_test.py ${PROJECT_SOURCE_DIR})
 add_test(NAME trajectory_from_bag COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/trajectory_from_bag_test.py)
+add_test(NAME example_controller COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/example_controller_test.py)
 add_test(NAME figures COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/figures_test.py)
 add_test(NAME show_in_rviz COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/show_in_rviz_test.py)
 
