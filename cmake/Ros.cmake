@@ -59,7 +59,7 @@ target_link_libraries(codesign_ros PUBLIC codesign_core codesign_bags ${catkin_L
 codesign_warnings(codesign_ros)
 # Two units, for two processors.
 set(ros_jobs ${ros_sources})
-list(FILTER ros_jobs INCLUDE REGEX "(job|bag|record|request|progress)")
+list(FILTER ros_jobs INCLUDE REGEX "(job|bag|record|request|progress|apply|gain)[^/]*$")
 list(REMOVE_ITEM ros_sources ${ros_jobs})
 codesign_unite(codesign_ros ros_jobs ${ros_jobs})
 codesign_unite(codesign_ros ros_nodes ${ros_sources})
@@ -80,6 +80,6 @@ endforeach()
 
 target_link_libraries(optimization PRIVATE codesign_mpi)
 
-install(PROGRAMS scripts/bag_text scripts/case_figures scripts/example_client scripts/identify_then_tune scripts/launch_input scripts/model_mismatch scripts/play_bag scripts/restore_parameters
+install(PROGRAMS scripts/bag_text scripts/case_figures scripts/example_client scripts/example_controller scripts/identify_then_tune scripts/launch_input scripts/model_mismatch scripts/play_bag scripts/restore_parameters
   scripts/show_in_rviz scripts/trajectory_from_bag DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts)
 install(DIRECTORY launch rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -18,7 +18,7 @@ _codesign() {
   local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]-} options
   shopt -q extglob || return 0
   if [ "$COMP_CWORD" -eq 1 ]; then
-    mapfile -t COMPREPLY < <(compgen -W "check urdf simulate gradient optimize identify excite report help --help --version" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "check urdf simulate gradient optimize identify excite report apply help --help --version" -- "$word")
     return
   fi
   # readline splits --verify=ridders in three.
@@ -27,7 +27,7 @@ _codesign() {
     return
   fi
   case $previous in
-    --overlay | --result | --csv | --output | --resume | --set | --signals | --samples | -o)
+    --overlay | --result | --csv | --output | --resume | --set | --signals | --samples | -o | --server | --ramp | --hold | --limit | --deviation | --joint-states | --max-age)
       _codesign_value "$previous" "$word"
       return
       ;;
@@ -39,10 +39,11 @@ _codesign() {
     optimize) options+=" --output --resume" ;;
     identify | excite) options+=" --output" ;;
     report) options="-o --output --help" ;;
+    apply) options="--dry-run --server --ramp --hold --limit --deviation --joint-states --max-age --unwatched --json --help" ;;
   esac
   if [[ $word == -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
-  elif [ "$command" = report ]; then
+  elif [ "$command" = report ] || [ "$command" = apply ]; then
     mapfile -t COMPREPLY < <(compgen -f -X '!*.bag' -- "$word"; compgen -d -- "$word")
   else
     mapfile -t COMPREPLY < <(compgen -f -X '!*.@(urdf|xml|yaml|yml)' -- "$word"; compgen -d -- "$word")

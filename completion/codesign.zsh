@@ -10,7 +10,7 @@ _codesign() {
   if (( CURRENT == 2 )); then
     _values 'command' 'check[equations and redundant constraints]' 'urdf[the URDF that is simulated]' 'simulate[one run as CSV]' \
       'gradient[objective and gradient]' 'optimize[tune the parameters of the study]' 'identify[fit parameters to recordings]' 'excite[find the motion to record]' \
-      'report[a page of what a job has found]' 'help[the options]' '--help' '--version'
+      'report[a page of what a job has found]' 'apply[send gains to a running robot]' 'help[the options]' '--help' '--version'
     return
   fi
   case ${words[2]} in
@@ -20,6 +20,12 @@ _codesign() {
     identify|excite) options=('--output[folder of the results]:folder:_files -/') ;;
     report)
       _arguments '1:command:' '2:job:_files -g "*.bag(-.) *(-/)"' '(-o --output)'{-o,--output}'[the page]:file:_files' '--help[the options]'
+      return
+      ;;
+    apply)
+      _arguments '1:command:' '2:job:_files -g "*.bag(-.) *(-/)"' '--dry-run[send nothing]' '--server[server of the parameters]:namespace:' \
+        '--ramp[seconds]:seconds:' '--hold[seconds]:seconds:' '*--limit[range of a signal]:SIGNAL=LOW\:HIGH:' '--deviation[of positions]:number:' \
+        '--joint-states[topic]:topic:' '--max-age[seconds]:seconds:' '--unwatched[without joint states]' '--json[one JSON object]' '--help[the options]'
       return
       ;;
   esac

@@ -133,7 +133,7 @@ bool asks_for_help(const Names& words) {
 }  // namespace
 
 Arguments parse_arguments(const std::vector<std::string>& words) {
-  const Names commands = {"check", "urdf", "simulate", "gradient", "optimize", "identify", "excite", "report", "help"};
+  const Names commands = {"check", "urdf", "simulate", "gradient", "optimize", "identify", "excite", "report", "apply", "help"};
   Arguments arguments;
   if (words.empty()) throw UsageError("no command given");
   arguments.command = asks_for_help(words) ? "help" : words[0];

@@ -58,6 +58,23 @@ std::string find_script(const std::string& name, const std::string& program_fold
   return "";
 }
 
+std::string find_program(const std::string& name, const std::string& program_folder) {
+  const fs::path path = fs::path(program_folder) / name;
+  return access(path.c_str(), X_OK) == 0 && fs::is_regular_file(path) ? path.string() : "";
+}
+
+void become(const std::string& program, const std::vector<std::string>& words) {
+  const fs::path self = fs::read_symlink("/proc/self/exe");
+  const std::string path = find_program(program, self.parent_path().string());
+  if (path.empty())
+    throw std::runtime_error("the program " + program + ", which needs ROS, is not beside " + self.string() +
+                             ": build the package where ROS is installed (doc/building.md)");
+  std::vector<std::string> arguments = words;
+  arguments.insert(arguments.begin(), path);
+  execv(path.c_str(), pointers_to(&arguments).data());
+  throw std::runtime_error(path + " cannot be started: " + std::strerror(errno));
+}
+
 int hand_over(const std::string& script, const std::vector<std::string>& words) {
   const fs::path program = fs::read_symlink("/proc/self/exe");
   const std::string path = find_script(script, program.parent_path().string());

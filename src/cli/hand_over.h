@@ -15,6 +15,12 @@ std::string find_script(const std::string& name, const std::string& program_fold
 /// @returns its exit code, or kFailed if a signal ended it. @throws std::runtime_error if it cannot be started.
 int hand_over(const std::string& script, const std::vector<std::string>& words);
 
+/// The path of another program of this package, beside this one; empty if it is not there, as in a build without ROS.
+std::string find_program(const std::string& name, const std::string& program_folder);
+
+/// Becomes another program of this package, run with `words`: signals reach it. @throws std::runtime_error if it cannot be started.
+[[noreturn]] void become(const std::string& program, const std::vector<std::string>& words);
+
 }  // namespace codesign::cli
 
 #endif  // MECHANISM_CODESIGN_CLI_HAND_OVER_H_

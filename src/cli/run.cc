@@ -41,6 +41,8 @@ int run_command(const std::vector<std::string>& words, const Console& console) {
   try {
     // Its page is made by a script, which reads its own command line.
     if (!words.empty() && words[0] == "report") return hand_over("report", {words.begin() + 1, words.end()});
+    // It talks to robots, so it is linked with ROS, which this program is not.
+    if (!words.empty() && words[0] == "apply") become("apply", {words.begin() + 1, words.end()});
     return dispatch(parse_arguments(words), console);
   } catch (const UsageError& error) {
     console.err << usage() << '\n';

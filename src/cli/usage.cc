@@ -28,6 +28,8 @@ commands
     --output DIR           write trajectory.csv, plain.csv, excitation.json; with ROS trajectory.bag
   report DIR|BAG           a page with all that an optimization or identification has found
     -o FILE                the page; by default report.html
+  apply DIR|BAG            send the gains of an optimization to a running robot, along a ramp, and
+                           take them back if it leaves its limits (apply --help; with ROS)
   help                     this text
   --version                the version of this program, as "codesign 0.1.0"
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "jobs/json.h"
+#include "jobs/robot_gains.h"
 #include "text/decimal.h"
 
 namespace codesign {
@@ -17,18 +18,9 @@ std::string yaml_number(double value) {
   return text;
 }
 
-const ControllerDescription& controller_of(const HardwareGains& gains, const Study& study) {
-  const auto is_it = [&gains](const ControllerDescription& controller) { return controller.name == gains.controller; };
-  return *std::find_if(study.controllers.begin(), study.controllers.end(), is_it);
-}
-
 /// What control_toolbox::Pid reads, in its order.
-Json pid_parameters(const HardwareGains& gains, const ControllerDescription& controller, const std::vector<double>& parameters) {
-  return {{"p", controller.p.at(parameters)},
-          {"i", controller.i.at(parameters)},
-          {"d", controller.d.at(parameters)},
-          {"i_clamp", gains.i_clamp ? gains.i_clamp->at(parameters) : 0.0},
-          {"antiwindup", gains.antiwindup}};
+Json pid_parameters(const RobotGains& gains) {
+  return {{"p", gains.p}, {"i", gains.i}, {"d", gains.d}, {"i_clamp", gains.i_clamp}, {"antiwindup", gains.antiwindup}};
 }
 
 /// The object at a namespace, whose parts are made where they are missing.
@@ -58,18 +50,17 @@ void write_block(const Json& object, std::size_t depth, std::string* text) {
 }  // namespace
 
 std::string gains_yaml(const Problem& problem, const std::vector<double>& parameters) {
-  const Study& study = problem.study();
-  if (study.hardware.empty()) return "";
+  const std::vector<RobotGains> all = robot_gains(problem, parameters);
+  if (all.empty()) return "";
   std::string text =
       "# Gains for the robot, as control_toolbox::Pid reads them: rosparam load gains.yaml\n"
       "# Effort = p e + i (integral of e, at most i_clamp as effort) + d de/dt, e = setpoint - measured, SI units.\n";
   Json root = Json::object();
-  for (const HardwareGains& gains : study.hardware) {
-    const ControllerDescription& controller = controller_of(gains, study);
-    text += "# " + gains.name_space + ": " + controller.name + " of the study, which drives " + controller.output;
-    if (controller.kind == ControllerKind::kPdGravity) text += "; in the study it also carries the weight, which is not among these gains";
+  for (const RobotGains& gains : all) {
+    text += "# " + gains.name_space + ": " + gains.controller + " of the study, which drives " + gains.joint;
+    if (gains.loses_weight) text += "; in the study it also carries the weight, which is not among these gains";
     text += "\n";
-    at_namespace(gains.name_space, &root) = pid_parameters(gains, controller, parameters);
+    at_namespace(gains.name_space, &root) = pid_parameters(gains);
   }
   write_block(root, 0, &text);
   return text;

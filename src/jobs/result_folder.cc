@@ -27,6 +27,22 @@ void write_file(const std::string& path, const Text& text, std::vector<Failure>*
   }
 }
 
+/// Where in `folder` a file goes that the study names; empty if the study finds it from anywhere, or outside the folder.
+std::string place_of(const LoadedFile& file, const std::string& folder) {
+  const std::filesystem::path path = std::filesystem::path(file.file).lexically_normal();
+  if (path.is_absolute() || path.empty() || *path.begin() == "..") return "";
+  return (std::filesystem::path(folder) / path).string();
+}
+
+/// So that job_study.yaml finds it there, too. The file that was read stays as it is.
+void write_named_file(const LoadedFile& file, const std::string& folder) {
+  const std::string place = place_of(file, folder);
+  std::error_code unknown;
+  if (place.empty() || std::filesystem::equivalent(place, file.source.name, unknown)) return;
+  std::filesystem::create_directories(std::filesystem::path(place).parent_path());
+  write_whole_file(place, file.source.text);
+}
+
 }  // namespace
 
 const std::vector<std::string>& ResultFolder::file_names() {
@@ -50,6 +66,13 @@ std::vector<Failure> ResultFolder::write_design(const Json& object, const Optimi
   write("initial.urdf", [&] { return urdf_at(initial); });
   write("initial.json", [&] { return to_text({{"parameters", parameters_json(problem_, initial)}}); });
   write("job_study.yaml", [this] { return problem_.study_text().text; });
+  for (const LoadedFile& file : problem_.contents().files) {
+    try {
+      write_named_file(file, path_);
+    } catch (const std::exception& error) {
+      failures.push_back({"output_failed", error.what()});
+    }
+  }
   if (!problem_.study().hardware.empty()) write("gains.yaml", [&] { return gains_yaml(problem_, tuned); });
   if (!result.starts.empty())
     write("starts.csv", [&] { return csv_text(start_columns(problem_), start_rows(result), in_folder("starts.csv")); });

@@ -23,8 +23,8 @@
 namespace codesign {
 namespace {
 
-/// Threads for callbacks: three callbacks may wait for their workers, the others answer `busy`.
-constexpr unsigned kDoorThreads = 5;
+/// Threads for callbacks: four callbacks may wait for their workers, the others answer `busy`.
+constexpr unsigned kDoorThreads = 6;
 
 std::vector<std::string> optimization_parameters() {
   std::vector<std::string> names = input_parameters();
@@ -53,12 +53,14 @@ OptimizationNode::OptimizationNode(Dispatcher* ranks) : state_("optimization"), 
   // Subscribed in the action's namespace, so that a remapping of the action applies to it too.
   cancel_all_ = ros::NodeHandle(doors_, "optimize").subscribe("cancel", 10, &OptimizationNode::on_cancel_all, this);
   identification_ = std::make_unique<IdentificationDoor>(node_, doors_, loaded_, &state_);
+  application_ = std::make_unique<ApplyDoor>(doors_, loaded_.options.output_directory, &state_);
   spinner_.start();
   action_->start();
   identification_->open();
 }
 
 OptimizationNode::~OptimizationNode() {
+  application_->finish();
   identification_->finish();
   optimizer_.finish();
   evaluator_.finish();
@@ -121,6 +123,7 @@ OptimizationNode::Result OptimizationNode::run(const mechanism_codesign::Optimiz
     description.data = outcome.tuned_urdf;
     tuned_.publish(description);
   }
+  application_->note_job(outcome.result.bag);
   state_.warn("last job", warnings_of_job(outcome.result.warnings, loaded_.problem->warnings().size()));
   tell_result(outcome.result);
   return outcome.result;

@@ -14,6 +14,7 @@
 #include <functional>
 #include <string>
 
+#include "ros/apply_door.h"
 #include "ros/identification_door.h"
 #include "ros/job.h"
 #include "ros/node_state.h"
@@ -21,7 +22,7 @@
 
 namespace codesign {
 
-/// The node `optimization`: services `optimize`, `identify` and `evaluate`, actions `optimize` and `identify`. See doc/ros_api.md.
+/// The node `optimization`: services `optimize`, `identify`, `evaluate` and `apply`, actions `optimize` and `identify`. See doc/ros_api.md.
 ///
 /// One worker thread serves the service and the action `optimize`, another one `identify`, a third `evaluate`; a request to a working one
 /// is answered with `busy`. Callbacks only hand the job over and wait for it. They have their own queue with several threads, so that the
@@ -69,6 +70,7 @@ class OptimizationNode {
   ros::NodeHandle doors_;
   std::unique_ptr<ActionServer> action_;
   std::unique_ptr<IdentificationDoor> identification_;
+  std::unique_ptr<ApplyDoor> application_;
   Worker optimizer_, evaluator_;
   ros::AsyncSpinner spinner_;
   ros::ServiceServer optimize_, evaluate_;

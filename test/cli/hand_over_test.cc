@@ -24,5 +24,16 @@ TEST(HandOver, FindsTheScriptsOfABuildAndOfAnInstallation) {
   EXPECT_EQ(find_script("report", folder.path("usr/bin")), fs::canonical(folder.path("usr/share/mechanism_codesign/scripts/report")));
 }
 
+TEST(HandOver, FindsAProgramBesideThisOne) {
+  const ScratchFolder folder;
+  EXPECT_EQ(find_program("apply", folder.path("")), "");
+  std::ofstream(folder.path("apply")) << "#!/bin/sh\n";
+  EXPECT_EQ(find_program("apply", folder.path("")), "") << "not a program";
+  std::filesystem::permissions(folder.path("apply"), std::filesystem::perms::owner_all);
+  EXPECT_NE(find_program("apply", folder.path("")), "");
+  std::filesystem::create_directory(folder.path("folder"));
+  EXPECT_EQ(find_program("folder", folder.path("")), "");
+}
+
 }  // namespace
 }  // namespace codesign::cli

@@ -52,6 +52,29 @@ TEST_F(TakenAway, EveryFileIsThere) {
   EXPECT_LT(details["gradient_check"]["largest_relative_difference"].get<double>(), 1e-8);
 }
 
+/// So that job_study.yaml finds them.
+TEST_F(TakenAway, FilesThatTheStudyNamesGoAlong) {
+  const char* const identification =
+      R"({"names": ["mass"], "covariance": [[1e-4]], "identified": {"mass": {"value": 1.0, "determined": true}}})";
+  const auto written = [&](const std::string& name, const std::string& read_from) {
+    const auto files = [&](const FileAddress&) { return SourceText{read_from, identification}; };
+    const std::string study = kPendulumStudy + "uncertain: {from: " + name + "}\nrobust: {measure: mean, samples: 2}\n";
+    const Problem problem = load_problem({"pendulum.urdf", kPendulumUrdf}, {}, {"pendulum.yaml", study}, {}, {}, files);
+    OptimizationResult result;
+    result.rho = result.initial_rho = problem.start();
+    return ResultFolder(directory_.path().string(), problem).write_design({}, result).size();
+  };
+  EXPECT_EQ(written("rig/i.json", "/elsewhere/rig/i.json"), 0U);
+  EXPECT_EQ(read_source(path("rig/i.json")).text, identification);
+  EXPECT_NO_THROW(load_problem(read_source(path("tuned.urdf")), {}, read_source(path("job_study.yaml"))));
+  // What lies outside the folder stays there, and the file that was read is left alone.
+  EXPECT_EQ(written("../i.json", "/elsewhere/i.json") + written("/far/i.json", "/far/i.json"), 0U);
+  EXPECT_FALSE(std::filesystem::exists(directory_.path().parent_path() / "i.json"));
+  std::ofstream(path("here.json")) << "as it is";
+  EXPECT_EQ(written("here.json", path("here.json")), 0U);
+  EXPECT_EQ(read_source(path("here.json")).text, "as it is");
+}
+
 TEST_F(TakenAway, AFolderThatIsGoneIsTold) {
   std::filesystem::remove_all(directory_.path());
   const std::vector<Failure> failures = folder_.write_design(optimization_json(problem_, result_), result_);

@@ -31,7 +31,7 @@ class Node:
                 rospy.set_param(f"/{name}/{key}", value)
         self.log = tempfile.TemporaryFile("w+")
         remappings = [f"{topic}:=/{name}/{topic}" for topic in
-                      ("optimize", "evaluate", "identify", "optimization_progress", "identification_progress", "identified/robot_description")]
+                      ("optimize", "evaluate", "identify", "apply", "optimization_progress", "identification_progress", "identified/robot_description")]
         path = roslib.packages.find_node("mechanism_codesign", program)[0]
         self.process = subprocess.Popen([*prefix, path, f"__name:={name}", *remappings], stdout=self.log, stderr=subprocess.STDOUT)
 

@@ -51,7 +51,7 @@ def tools_ci(seconds, exits):
     with tempfile.TemporaryDirectory() as folder:
         os.mkdir(os.path.join(folder, "tools"))
         shutil.copy(os.path.join(ROOT, "tools", "ci"), os.path.join(folder, "tools", "ci"))
-        for tool in ("test", "setup", "check", "sanitize"):
+        for tool in ("test", "setup", "check", "sanitize", "tour"):
             with open(os.path.join(folder, "tools", tool), "w") as file:
                 file.write(f'#!/bin/sh\necho "{tool} called: $*"\nexit {exits.get(tool, 0)}\n')
             os.chmod(file.name, 0o755)
@@ -64,8 +64,8 @@ class ToolsCiTest(unittest.TestCase):
     def test_everything_in_order(self):
         status, lines = tools_ci(600, {})
         self.assertEqual(status, 0)
-        self.assertEqual(lines, ["test called: ", "setup called: --headless --checks", "check called: format layering scripts", "check called: tidy",
-                                 "sanitize called: address", "sanitize called: thread"])
+        self.assertEqual(lines, ["test called: ", "setup called: --headless --checks", "check called: format layering scripts", "tour called: --built --quick",
+                                 "check called: tidy",                                 "sanitize called: address", "sanitize called: thread"])
 
     def test_a_failure_ends_it(self):
         self.assertEqual(tools_ci(600, {"test": 8}), (8, ["test called: "]))
@@ -79,7 +79,7 @@ class ToolsCiTest(unittest.TestCase):
         self.assertEqual(lines[0], "test called: ")
         self.assertEqual([line for line in lines if "no time" in line],
                          [f"tools/ci: no time was left for: {words}" for words in
-                          ("tools/check format layering scripts", "tools/check tidy", "tools/sanitize address", "tools/sanitize thread")])
+                          ("tools/check format layering scripts", "tools/tour --built --quick", "tools/check tidy", "tools/sanitize address", "tools/sanitize thread")])
 
 
 if __name__ == "__main__":

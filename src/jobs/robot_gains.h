@@ -1,0 +1,30 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOBS_ROBOT_GAINS_H_
+#define MECHANISM_CODESIGN_JOBS_ROBOT_GAINS_H_
+
+#include <string>
+#include <vector>
+
+#include "problem/load_problem.h"
+
+namespace codesign {
+
+/// The gains of one controller as control_toolbox::Pid takes them. Effort = p e + i int e dt + d de/dt with e = setpoint - measured, in SI
+/// units.
+struct RobotGains {
+  std::string name_space;     ///< where the robot keeps them, without a slash at either end
+  std::string controller;     ///< its name in the study
+  std::string joint;          ///< that it drives
+  bool loses_weight = false;  ///< in the study it also carries the weight, which is not among these gains
+  double p = 0.0, i = 0.0, d = 0.0;
+  double i_clamp = 0.0;     ///< largest effort of the integral term [N m or N]
+  bool antiwindup = false;  ///< whether the integral of the error itself stays within i_clamp / i
+};
+
+/// The gains of the controllers that `hardware:` names, in its order; empty without it.
+/// @param parameters all named parameters.
+std::vector<RobotGains> robot_gains(const Problem& problem, const std::vector<double>& parameters);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOBS_ROBOT_GAINS_H_

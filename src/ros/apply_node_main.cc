@@ -1,0 +1,53 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <ros/init.h>
+#include <ros/master.h>
+
+#include <atomic>
+#include <csignal>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "ros/apply_arguments.h"
+#include "ros/apply_job.h"
+
+namespace {
+
+/// Set by SIGINT and SIGTERM: what was sent is taken back.
+std::atomic<bool> is_cancelled{false};
+
+extern "C" void on_signal(int) { is_cancelled = true; }
+
+constexpr int kSuccess = 0, kFailure = 1, kMistake = 2;
+
+int apply(const codesign::ApplyArguments& arguments) {
+  if (!ros::master::check()) {
+    std::cerr << "codesign apply: no ROS master answers at " << ros::master::getURI() << std::endl;
+    return kFailure;
+  }
+  ros::start();
+  const mechanism_codesign::ApplyResponse response = codesign::apply_gains(arguments.request, arguments.request.result, is_cancelled);
+  std::cout << (arguments.json ? codesign::apply_json(response) : codesign::apply_table(response)) << std::flush;
+  if (!response.success) std::cerr << "codesign apply: " << response.code << ": " << response.message << std::endl;
+  ros::shutdown();
+  return response.success ? kSuccess : response.code == "bad_input" ? kMistake : kFailure;
+}
+
+}  // namespace
+
+/// The program behind `codesign apply`, which hands its words over to it.
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "codesign_apply",
+            ros::init_options::AnonymousName | ros::init_options::NoSigintHandler | ros::init_options::NoRosout);
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  try {
+    const codesign::ApplyArguments arguments = codesign::parse_apply_arguments({argv + 1, argv + argc});
+    if (!arguments.help) return apply(arguments);
+    std::cout << codesign::apply_usage();
+    return kSuccess;
+  } catch (const codesign::ApplyUsageError& error) {
+    std::cerr << codesign::apply_usage() << "\ncodesign apply: " << error.what() << std::endl;
+    return kMistake;
+  }
+}

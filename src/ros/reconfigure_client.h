@@ -1,0 +1,72 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_RECONFIGURE_CLIENT_H_
+#define MECHANISM_CODESIGN_ROS_RECONFIGURE_CLIENT_H_
+
+#include <dynamic_reconfigure/Config.h>
+#include <dynamic_reconfigure/ConfigDescription.h>
+#include <ros/node_handle.h>
+#include <ros/service_client.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "ros/gain_server.h"
+
+namespace codesign {
+
+/// A server of dynamic_reconfigure in another process: the topics `parameter_descriptions` and `parameter_updates` and the service
+/// `set_parameters` below its namespace. Its numbers of type double and its truth values are seen, others are left alone. Requests go out
+/// from a thread of their own, so that a server that does not answer holds up nobody else.
+class ReconfigureClient : public GainServer {
+ public:
+  /// @param node whose callback queue is served by another thread. @param name_space resolved.
+  ReconfigureClient(ros::NodeHandle node, std::string name_space);
+  /// Drops a request that is not answered yet.
+  ~ReconfigureClient() override;
+  ReconfigureClient(const ReconfigureClient&) = delete;
+  ReconfigureClient& operator=(const ReconfigureClient&) = delete;
+
+  /// Waits until the server has told its parameters and its service is there. @return the name of what is missing; empty: nothing.
+  std::string wait(double patience, const std::atomic<bool>& cancel);
+
+  /// What the server has said last. Call it after wait() was successful.
+  GainServerState state() const;
+
+  const std::string& name() const override { return name_; }
+  void send(const GainValues& values, std::function<void(const Answer&)> answer) override;
+
+ private:
+  struct Order {
+    GainValues values;
+    std::function<void(const Answer&)> answer;
+  };
+  void serve();
+  Answer ask(const GainValues& values);
+
+  ros::NodeHandle node_;
+  const std::string name_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<dynamic_reconfigure::ConfigDescription> description_;
+  std::optional<dynamic_reconfigure::Config> now_;
+  std::deque<Order> orders_;
+  ros::ServiceClient service_;
+  bool ending_ = false;
+  ros::Subscriber descriptions_, updates_;
+  std::thread thread_;  // last: it uses all of the above
+};
+
+/// The numbers of type double and the truth values of a message.
+GainValues values_of(const dynamic_reconfigure::Config& config);
+dynamic_reconfigure::Config config_of(const GainValues& values);
+/// @param now of the topic `parameter_updates`.
+GainServerState state_of(const dynamic_reconfigure::ConfigDescription& description, const dynamic_reconfigure::Config& now);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_RECONFIGURE_CLIENT_H_

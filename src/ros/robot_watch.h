@@ -1,0 +1,65 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_ROBOT_WATCH_H_
+#define MECHANISM_CODESIGN_ROS_ROBOT_WATCH_H_
+
+#include <ros/node_handle.h>
+#include <sensor_msgs/JointState.h>
+#include <std_msgs/Float64.h>
+
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ros/gain_ramp.h"
+#include "ros/safe_ranges.h"
+
+namespace codesign {
+
+struct WatchOptions {
+  std::string joint_states = "joint_states";  ///< topic; empty: joint states are not watched
+  double max_age = 0.5;                       ///< of the last message of each watched topic, by its arrival and by its stamp [s]
+  double deviation = 0.0;                     ///< largest change of a position since the first message [rad or m]; 0: not watched
+};
+
+/// Watches a running robot: joint states and topics of numbers must keep coming, and their values must stay in their ranges. Thread-safe.
+class RobotWatch {
+ public:
+  /// Subscribes. @param node whose callback queue is served by another thread.
+  RobotWatch(ros::NodeHandle node, SafeRanges ranges, WatchOptions options);
+
+  /// Waits until each topic has sent a message. @return why the robot must not be touched, as a sentence: a topic is silent, a joint with a
+  /// range is not in the joint states, a value is outside its range; empty: nothing is wrong.
+  std::string begin(double patience);
+
+  /// The first thing that went wrong, with the time at which its message came; none so far: empty.
+  std::optional<RampAlarm> alarm();
+
+ private:
+  using Time = std::chrono::steady_clock::time_point;
+
+  void on_joint_states(const sensor_msgs::JointState& message);
+  void on_number(const std::string& topic, double value);
+  /// Keeps the first alarm. Called with mutex_ locked.
+  void note(const std::string& sentence, Time since);
+  void check(const std::string& signal, double value, Time since);
+  void check_deviation(const std::string& joint, double position, Time since);
+  std::string silent_topic() const;
+  bool is_complete() const;
+
+  const SafeRanges ranges_;
+  const WatchOptions options_;
+  std::mutex mutex_;
+  std::map<std::string, std::optional<Time>> last_;  ///< arrival of the last message, by topic
+  std::map<std::string, double> first_positions_;
+  std::set<std::string> seen_;  ///< signals of joint states
+  std::optional<RampAlarm> alarm_;
+  std::vector<ros::Subscriber> subscribers_;  // last: callbacks use all of the above
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_ROBOT_WATCH_H_

@@ -1,0 +1,45 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_SAFE_RANGES_H_
+#define MECHANISM_CODESIGN_ROS_SAFE_RANGES_H_
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "problem/load_problem.h"
+
+namespace codesign {
+
+/// Ranges in which signals of a robot must stay: `JOINT/position`, `JOINT/velocity`, `JOINT/effort` of joint states, and topics of numbers,
+/// whose names begin with a slash.
+class SafeRanges {
+ public:
+  /// The `<limit>` of every joint: position of joints with stops, velocity and effort where they are not zero.
+  /// @param parameters all named parameters.
+  void add_limits_of(const Problem& problem, const std::vector<double>& parameters);
+
+  /// A range given as `SIGNAL=LOW:HIGH`; one of the two may be empty for none. It replaces the limit of the model.
+  /// @throws InputError naming `element` for any other text.
+  void add(const std::string& text, const std::string& element);
+
+  /// Why a value is not safe, as a sentence; empty if it is, or if there is no range for the signal. A value that is not a number is unsafe
+  /// in a range that was given; in those of the model it counts as not measured.
+  std::string check(const std::string& signal, double value) const;
+
+  /// Signals whose range was given, which the robot must therefore publish: those of joints, and topics.
+  std::vector<std::string> joint_signals() const { return given(false); }
+  std::vector<std::string> topics() const { return given(true); }
+
+ private:
+  struct Range {
+    double lower, upper;
+    bool is_given;
+  };
+  std::vector<std::string> given(bool topics) const;
+
+  std::map<std::string, Range> ranges_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_SAFE_RANGES_H_

@@ -1,0 +1,282 @@
+#!/usr/bin/python3
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""Gains of a finished job go to a running robot, here a mock: with `codesign apply` and by the node's service. Robots that clamp, refuse, die, fall
+silent or leave their limits half way get their values back."""
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import roslib.packages
+import rospy
+import rostest
+from mechanism_codesign.srv import Apply, ApplyRequest, OptimizeRequest
+from std_msgs.msg import Float64
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from mock_robot import START, MockGains, MockJoints  # noqa: E402
+from node_process import TIMEOUT, NodesTestCase, wait_until  # noqa: E402
+
+MODEL = """<robot name="arm">
+  <link name="base"/>
+  <link name="upper"><inertial><origin xyz="0 0 -0.3"/><mass value="2"/><inertia ixx="0.05" ixy="0" ixz="0" iyy="0.05" iyz="0" izz="0.01"/></inertial></link>
+  <link name="fore"><inertial><origin xyz="0 0 -0.2"/><mass value="1"/><inertia ixx="0.02" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.01"/></inertial></link>
+  <joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 1 0"/><limit lower="-2" upper="2" effort="60" velocity="8"/></joint>
+  <joint name="elbow" type="revolute"><parent link="upper"/><child link="fore"/><origin xyz="0 0 -0.6"/><axis xyz="0 1 0"/>
+    <limit lower="-2" upper="2" effort="30" velocity="8"/></joint>
+</robot>
+"""
+STUDY = """duration: 0.4
+initial_state: {shoulder: {position: 0.2}, elbow: {position: 0.1}}
+controllers:
+  shoulder_hold: {type: pid, input: shoulder/position, setpoint: 0.3, output: shoulder, gains: {p: "${Kp1}", i: 2.0, d: "${Kd1}"}}
+  elbow_hold: {type: pid, input: elbow/position, setpoint: 0.2, output: elbow, gains: {p: "${Kp2}", d: 1.5}}
+hardware:
+  shoulder_hold: {namespace: arm_controller/gains/shoulder, i_clamp: 4.0, antiwindup: true}
+  elbow_hold: {namespace: arm_controller/gains/elbow}
+parameters:
+  Kp1: {initial: 40.0, lower: 1.0, upper: 200.0}
+  Kd1: {initial: 4.0, lower: 0.1, upper: 20.0}
+  Kp2: {initial: 20.0, lower: 1.0, upper: 200.0}
+objective:
+  integral: [{signal: shoulder_hold/error}, {signal: elbow_hold/error}]
+optimizer: {algorithm: lbfgs, max_evaluations: 4}
+"""
+QUICK = ("--ramp", "0.3", "--hold", "0.1")
+BEFORE = {name: START[name] for name in ("p", "i", "d")}
+
+
+def program():
+    return roslib.packages.find_node("mechanism_codesign", "codesign")[0]
+
+
+class ApplyTest(NodesTestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.root = tempfile.mkdtemp()
+        cls.job = os.path.join(cls.root, "job")
+        for name, text in (("arm.urdf", MODEL), ("arm.yaml", STUDY)):
+            with open(os.path.join(cls.root, name), "w", encoding="utf-8") as file:
+                file.write(text)
+        done = subprocess.run([program(), "optimize", "arm.urdf", "arm.yaml", "--output", "job", "--json"], capture_output=True, text=True, cwd=cls.root, check=True)
+        cls.tuned = json.loads(done.stdout)["parameters"]
+        cls.joints = MockJoints(["shoulder", "elbow"])
+        cls.shoulder = MockGains("/arm_controller/gains/shoulder")
+        cls.elbow = MockGains("/arm_controller/gains/elbow")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.joints.end()
+        shutil.rmtree(cls.root)
+
+    def setUp(self):
+        super().setUp()
+        self.joints.silent, self.joints.lag = False, 0.0
+        self.joints.message.effort[:] = [0.5, 0.5]
+        for gains in (self.shoulder, self.elbow):
+            gains.takes = lambda values, number: values
+            gains.server.update_configuration(START)
+            gains.requests.clear()
+
+    def start_apply(self, *words, job=None):
+        return subprocess.Popen([program(), "apply", job or self.job, "--json", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def apply(self, *words, job=None):
+        process = self.start_apply(*words, job=job)
+        out, err = process.communicate(timeout=TIMEOUT)
+        return process.returncode, json.loads(out) if out else {}, err
+
+    def copy_of_job(self):
+        copy = os.path.join(self.folder, "job")
+        shutil.copytree(self.job, copy)
+        return copy
+
+    def requests(self):
+        return len(self.shoulder.requests) + len(self.elbow.requests)
+
+    def check_taken_back(self, outcome, code, sentence):
+        returned, answer, _ = outcome
+        self.assertEqual((returned, answer["error"]["code"]), (1, code), answer)
+        self.assertIn(sentence, answer["error"]["message"])
+        for gains in (self.shoulder, self.elbow):
+            self.assertEqual({name: gains.has()[name] for name in BEFORE}, BEFORE)
+        return answer
+
+    def after(self, number, action):
+        """Calls `action` when the elbow gets its request of this number."""
+        def takes(values, count):
+            if count == number:
+                action()
+            return values
+        self.elbow.takes = takes
+
+    def test_the_robot_gets_the_gains_step_by_step(self):
+        returned, answer, err = self.apply(*QUICK)
+        self.assertEqual(returned, 0, err)
+        self.assertEqual({**START, "p": self.tuned["Kp1"], "i": 2.0, "d": self.tuned["Kd1"], "i_clamp_max": 4.0, "i_clamp_min": -4.0, "antiwindup": True},
+                         self.shoulder.has())
+        self.assertEqual({**START, "p": self.tuned["Kp2"], "d": 1.5}, self.elbow.has())
+        steps = [values["p"] for _, values in self.shoulder.requests]
+        self.assertEqual(len(steps), 6)
+        self.assertEqual(steps, sorted(steps))
+        self.assertAlmostEqual(steps[0], 1.0 + (self.tuned["Kp1"] - 1.0) / 6.0, delta=1e-9)
+        changes = {(change["server"], change["name"]): change for change in answer["changes"]}
+        self.assertEqual(changes["/arm_controller/gains/elbow", "p"], {"server": "/arm_controller/gains/elbow", "name": "p", "before": 1.0,
+                                                                       "after": self.tuned["Kp2"], "now": self.tuned["Kp2"]})
+        self.assertIsNone(answer["rollback_seconds"])
+
+    def test_a_dry_run_sends_nothing(self):
+        returned, answer, err = self.apply("--dry-run")
+        self.assertEqual(returned, 0, err)
+        self.assertEqual(self.requests(), 0)
+        self.assertTrue(all(change["now"] == change["before"] for change in answer["changes"]))
+
+    def test_values_that_were_never_simulated(self):
+        job = self.copy_of_job()
+        with open(os.path.join(job, "result.json"), encoding="utf-8") as file:
+            text = file.read()
+        with open(os.path.join(job, "result.json"), "w", encoding="utf-8") as file:
+            file.write(text.replace(f'"Kp2": {self.tuned["Kp2"]!r}', f'"Kp2": {self.tuned["Kp2"] * 1.01!r}'))
+        returned, answer, _ = self.apply(job=job)
+        self.assertEqual((returned, answer["error"]["code"]), (1, "never_simulated"))
+        self.assertEqual(self.requests(), 0)
+
+    def test_values_beyond_the_limits_of_a_server(self):
+        elsewhere = MockGains("/narrow/arm_controller/gains/shoulder", largest=3.0)
+        MockGains("/narrow/arm_controller/gains/elbow")
+        returned, answer, err = self.apply("__ns:=/narrow", "--joint-states", "/joint_states")
+        self.assertEqual((returned, answer["error"]["code"]), (2, "bad_input"), err)
+        self.assertIn("outside the limits of the server", answer["error"]["message"])
+        self.assertEqual(elsewhere.requests, [])
+
+    def test_a_robot_that_clamps(self):
+        def clamp(values, _number):
+            values["p"] = min(values["p"], 10.0)
+            return values
+        self.elbow.takes = clamp
+        self.check_taken_back(self.apply(*QUICK), "aborted", "/arm_controller/gains/elbow has altered the values: p = ")
+
+    def test_a_robot_that_refuses_half_way(self):
+        def refuse(values, number):
+            if number == 3:
+                raise RuntimeError("not now")
+            return values
+        self.elbow.takes = refuse
+        self.check_taken_back(self.apply(*QUICK), "aborted", "/arm_controller/gains/elbow has refused the values or is gone")
+        self.assertEqual(len(self.shoulder.requests), 4)
+
+    def test_a_robot_that_dies_half_way(self):
+        path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "mock_robot.py")
+        MockGains("/mortal/arm_controller/gains/elbow")
+        with subprocess.Popen([sys.executable, path, "/mortal/arm_controller/gains/shoulder", "3"]) as mortal:
+            returned, answer, _ = self.apply(*QUICK, "__ns:=/mortal", "--joint-states", "/joint_states")
+            self.assertEqual(mortal.wait(TIMEOUT), 1)
+        self.assertEqual((returned, answer["error"]["code"]), (1, "rollback_failed"))
+        self.assertIn("not confirmed their values before: /mortal/arm_controller/gains/shoulder", answer["error"]["message"])
+        for change in answer["changes"]:
+            self.assertEqual(change["now"], change["before"] if "elbow" in change["server"] else None)
+
+    def test_an_effort_beyond_its_limit(self):
+        """The way back is one request to each server. It takes less than 0.1 s unless the machine is busy: one of a few times."""
+        delays = []
+        for _ in range(5):
+            self.setUp()
+            moments = []
+            self.after(3, lambda noted=moments: noted.append(self.joints.set_effort("elbow", 31.0)))
+            answer = self.check_taken_back(self.apply(*QUICK), "aborted", "elbow/effort is 31, outside -30 to 30, the limit of the model")
+            delays.append(max(gains.requests[-1][0] for gains in (self.shoulder, self.elbow)) - moments[0])
+            for gains in (self.shoulder, self.elbow):
+                since = [values["p"] for moment, values in gains.requests if moment > moments[0]]
+                self.assertLessEqual(len(since), 2, "at most the step on its way, and the way back")
+                self.assertEqual(since[-1], 1.0)
+            self.assertIsInstance(answer["rollback_seconds"], float)
+        self.assertLess(min(delays), 0.1)
+
+    def test_limits_that_are_given(self):
+        self.after(2, lambda: self.joints.set_effort("shoulder", 5.0))
+        self.check_taken_back(self.apply(*QUICK, "--limit", "shoulder/effort=-4:4"), "aborted", "shoulder/effort is 5, outside -4 to 4")
+
+    def test_a_number_on_a_topic(self):
+        publisher = rospy.Publisher("/drive/temperature", Float64, queue_size=10, latch=True)
+        publisher.publish(20.0)
+        self.after(2, lambda: publisher.publish(95.0))
+        self.check_taken_back(self.apply(*QUICK, "--limit", "/drive/temperature=:80", "--max-age", "60"), "aborted", "/drive/temperature is 95")
+        publisher.unregister()
+
+    def test_joint_states_that_end(self):
+        def fall_silent():
+            self.joints.silent = True
+        self.after(2, fall_silent)
+        self.check_taken_back(self.apply("--ramp", "3"), "aborted", "no message came on joint_states for 0.5 s")
+
+    def test_joint_states_that_are_late(self):
+        self.joints.lag = 2.0
+        outcome = self.apply(*QUICK)
+        self.check_taken_back(outcome, "unsafe", "s old by its stamp")
+        self.assertEqual(self.requests(), 0)
+
+    def test_a_joint_that_moves_away(self):
+        def move():
+            self.joints.message.position[0] = 0.4
+        self.after(2, move)
+        try:
+            self.check_taken_back(self.apply(*QUICK, "--deviation", "0.2"), "aborted", "shoulder/position has changed by")
+        finally:
+            self.joints.message.position[0] = 0.1
+
+    def test_control_c(self):
+        process = self.start_apply("--ramp", "60")
+        wait_until(lambda: self.requests() >= 4, "the ramp does not begin")
+        process.send_signal(signal.SIGINT)
+        out, _ = process.communicate(timeout=TIMEOUT)
+        self.check_taken_back((process.returncode, json.loads(out), ""), "cancelled", "all servers have their values before")
+
+    def test_what_is_not_there(self):
+        returned, answer, _ = self.apply("--server", "/nobody")
+        self.assertEqual((returned, answer["error"]["code"]), (1, "no_server"))
+        returned, answer, _ = self.apply("--joint-states", "/nothing")
+        self.assertEqual((returned, answer["error"]["code"]), (1, "unsafe"))
+        self.assertIn("nothing came on the topic /nothing", answer["error"]["message"])
+        returned, answer, _ = self.apply("--limit", "elbwo/effort=-1:1")
+        self.assertEqual((returned, answer["error"]["code"]), (1, "unsafe"))
+        self.assertIn("have no elbwo/effort", answer["error"]["message"])
+        returned, answer, _ = self.apply(job=self.root)
+        self.assertEqual((returned, answer["error"]["code"]), (2, "bad_input"))
+        self.assertEqual(self.requests(), 0)
+
+    def test_unwatched(self):
+        self.joints.silent = True
+        returned, _, err = self.apply("--unwatched", "--ramp", "0.1", "--hold", "0.1")
+        self.assertEqual(returned, 0, err)
+        returned, answer, _ = self.apply("--unwatched", "--deviation", "0.1")
+        self.assertEqual((returned, answer["error"]["code"]), (2, "bad_input"))
+
+    def test_the_service_of_the_node(self):
+        study = os.path.join(self.root, "arm.yaml")
+        node = self.start("optimization", "tuner", model=os.path.join(self.root, "arm.urdf"), study=study, output_directory=self.folder)
+        rospy.wait_for_service("/tuner/apply", TIMEOUT)
+        apply = rospy.ServiceProxy("/tuner/apply", Apply)
+        self.assertIn("no optimization yet", apply(ApplyRequest()).message)
+        result = node.optimize(OptimizeRequest())
+        self.assertTrue(result.success, result.message)
+        reply = apply(ApplyRequest(dry_run=True))
+        self.assertTrue(reply.success, reply.message)
+        self.assertEqual(self.requests(), 0)
+        reply = apply(ApplyRequest(result=os.path.basename(result.bag), ramp=0.2, hold=0.1))
+        self.assertTrue(reply.success, reply.message)
+        self.assertEqual(self.elbow.has()["p"], result.tuned[result.parameters.index("Kp2")])
+        reply = apply(ApplyRequest(result=self.job))
+        self.assertEqual(reply.code, "bad_input")
+        self.assertIn("not a job of the output directory", reply.message)
+        reply = apply(ApplyRequest(ramp=-1.0))
+        self.assertEqual(reply.code, "bad_input")
+        self.assertIn("ramp: not a time", reply.message)
+
+
+if __name__ == "__main__":
+    rospy.init_node("apply_test", disable_signals=True)
+    rostest.rosrun("mechanism_codesign", "apply", ApplyTest)
