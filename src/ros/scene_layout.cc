@@ -1,7 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/scene_layout.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -12,16 +11,20 @@ namespace {
 class ArrowScale {
  public:
   void include(double load) {
-    if (load == 0.0) return;
+    if (load == 0.0 || !std::isfinite(load)) return;
     ++count_;
     sum_of_squares_ += load * load;
     largest_ = std::max(largest_, load);
   }
 
-  /// Arrow length per unit of load: a third of `size` for the root mean square of the loads, and at most `size` for the largest one.
+  bool is_used() const { return count_ > 0; }
+
+  /// Arrow length per unit of load: a fifth of `size` for the root mean square of the loads, and at most half of it for the largest one.
   double metres_per_unit(double size, double fallback) const {
     if (count_ == 0) return fallback;
-    return std::min(size / (3.0 * std::sqrt(sum_of_squares_ / count_)), size / largest_);
+    const double scale = std::min(size / (5.0 * std::sqrt(sum_of_squares_ / count_)), 0.5 * size / largest_);
+    const double digits = std::pow(10.0, std::floor(std::log10(scale)) - 1.0);
+    return std::floor(scale / digits) * digits;
   }
 
  private:
@@ -29,62 +32,128 @@ class ArrowScale {
   double sum_of_squares_ = 0.0, largest_ = 0.0;
 };
 
-/// The bounding box of all link frames relative to the root link, and the loads to draw.
-struct Extent {
-  Eigen::AlignedBox3d box{Eigen::Vector3d::Zero()};
-  ArrowScale force, torque;
+void include_solids(const LinkSample& link, const std::vector<SolidBox>& boxes, Eigen::AlignedBox3d* box) {
+  for (const SolidBox& solid : boxes)
+    for (const Eigen::Vector3d& corner : corners(Eigen::AlignedBox3d(-solid.half, solid.half)))
+      box->extend(link.position + link.orientation * (solid.pose * corner));
+}
 
-  void include(const std::vector<Frame>& run) {
-    for (const Frame& frame : run) {
-      for (const LinkSample& link : frame.links) box.extend(link.position - frame.links.front().position);
+/// Around the frames of all links and the solids of those that are not the root.
+void include_links(const ShownRun& run, Eigen::AlignedBox3d* box) {
+  for (const Frame& frame : run.frames)
+    for (std::size_t k = 0; k < frame.links.size(); ++k) {
+      if (!frame.links[k].position.allFinite()) continue;
+      box->extend(frame.links[k].position);
+      if (k > 0 && run.solids) include_solids(frame.links[k], (*run.solids)[k], box);
+    }
+}
+
+/// The box with the solids of the root, as far as half a size around it.
+Eigen::AlignedBox3d with_root(const std::vector<ShownRun>& runs, const Eigen::AlignedBox3d& moving) {
+  Eigen::AlignedBox3d root;
+  for (const ShownRun& run : runs)
+    if (!run.frames.empty() && run.solids) include_solids(run.frames.front().links[0], (*run.solids)[0], &root);
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.5 * moving.sizes().maxCoeff());
+  const Eigen::AlignedBox3d near(moving.min() - margin, moving.max() + margin);
+  return root.isEmpty() ? moving : moving.merged(root.intersection(near));
+}
+
+void include_arrows(const ShownRun& run, MarkerStyle style, Eigen::AlignedBox3d* box) {
+  style.solids = run.solids;
+  for (const Frame& frame : run.frames)
+    for (std::size_t k = 0; k < frame.frictions.size(); ++k) {
+      const ArrowEnds ends = friction_arrow(frame.frictions[k], run.names.friction_is_torque[k], frame, style);
+      if (ends.from.allFinite() && ends.to.allFinite()) box->extend(ends.from).extend(ends.to);
+    }
+}
+
+void scale_arrows(const std::vector<ShownRun>& runs, SceneLayout* layout) {
+  ArrowScale force, torque;
+  for (const ShownRun& run : runs)
+    for (const Frame& frame : run.frames)
       for (const FrictionSample& sample : frame.frictions) {
         force.include(sample.force.norm());
         torque.include(sample.torque.norm());
       }
-    }
-  }
-};
+  layout->has_forces = force.is_used();
+  layout->has_torques = torque.is_used();
+  layout->style.shaft_diameter = 0.02 * layout->size;
+  layout->style.metres_per_newton = force.metres_per_unit(layout->size, layout->style.metres_per_newton);
+  layout->style.metres_per_newton_metre = torque.metres_per_unit(layout->size, layout->style.metres_per_newton_metre);
+}
+
+/// The shorter of two ways to stand clear of each other in the picture: to the right, or away from the viewer.
+Eigen::Vector3d apart_in(const SceneView& view, const Eigen::AlignedBox3d& box) {
+  const Eigen::Vector2d half = view.half_picture(box);
+  const Eigen::Vector3d beside = 2.15 * half.x() * view.right();
+  const Eigen::Vector3d before = 2.15 * half.y() / std::sin(view.pitch) * Eigen::Vector3d(std::cos(view.yaw), std::sin(view.yaw), 0.0);
+  const auto distance = [&](const Eigen::Vector3d& apart) {
+    std::vector<Eigen::Vector3d> points;
+    for (const Eigen::Vector3d& corner : corners(box)) points.insert(points.end(), {corner, corner + apart});
+    return place_camera(points, view).distance;
+  };
+  return distance(beside) <= distance(before) ? beside : before;
+}
+
+Eigen::Vector3d above(const Eigen::AlignedBox3d& box, const SceneView& view, double distance) {
+  return box.center() + (view.half_picture(box).y() + distance) * view.up();
+}
+
+void set_point(const Eigen::Vector3d& point, boost::array<double, 3>* numbers) {
+  for (std::size_t k = 0; k < 3; ++k) (*numbers)[k] = point[static_cast<Eigen::Index>(k)];
+}
 
 }  // namespace
 
-SceneLayout lay_out(const std::vector<const std::vector<Frame>*>& runs) {
-  Extent extent;
-  for (const std::vector<Frame>* run : runs) extent.include(*run);
-  const double size = std::max(extent.box.sizes().maxCoeff(), 1e-3);
+SceneLayout lay_out(const std::vector<ShownRun>& runs) {
+  Eigen::AlignedBox3d moving(Eigen::Vector3d::Zero());
+  for (const ShownRun& run : runs) include_links(run, &moving);
   SceneLayout layout;
-  layout.size = size;
-  layout.separation = extent.box.sizes().y() + 0.5 * size;
-  layout.label_height = extent.box.max().z() + 0.15 * size;
-  layout.label_size = 0.1 * size;
-  layout.style.shaft_diameter = 0.025 * size;
-  layout.style.metres_per_newton = extent.force.metres_per_unit(size, layout.style.metres_per_newton);
-  layout.style.metres_per_newton_metre = extent.torque.metres_per_unit(size, layout.style.metres_per_newton_metre);
+  layout.box = with_root(runs, moving);
+  layout.size = std::max(layout.box.sizes().maxCoeff(), 1e-3);
+  layout.floor = layout.box.min().z();
+  layout.view = view_of(layout.box.sizes());
+  layout.style.towards_viewer = layout.view.towards_viewer();
+  scale_arrows(runs, &layout);
+  for (const ShownRun& run : runs) include_arrows(run, layout.style, &layout.box);
+  layout.apart = apart_in(layout.view, layout.box);
+  std::vector<Eigen::Vector3d> points = corners(layout.box);
+  if (runs.size() > 1)
+    for (const Eigen::Vector3d& corner : corners(layout.box)) points.push_back(corner + layout.apart);
+  layout.letter = 0.024 * place_camera(points, layout.view).distance;
+  layout.label = above(layout.box, layout.view, layout.letter);
   return layout;
 }
 
-geometry_msgs::TransformStamped place_in_world(const std::string& frame, double y, const ros::Time& stamp) {
-  geometry_msgs::TransformStamped transform;
-  transform.header.stamp = stamp;
-  transform.header.frame_id = "world";
-  transform.child_frame_id = frame;
-  transform.transform.translation.y = y;
-  transform.transform.rotation.w = 1.0;
-  return transform;
-}
-
-visualization_msgs::Marker label(const std::string& name, const std::string& frame, const std::string& text, const SceneLayout& layout,
-                                 const ros::Time& stamp) {
-  visualization_msgs::Marker marker;
-  marker.header.stamp = stamp;
-  marker.header.frame_id = frame;
-  marker.ns = name;
-  marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
-  marker.text = text;
-  marker.pose.position.z = layout.label_height;
-  marker.pose.orientation.w = 1.0;
-  marker.scale.z = layout.label_size;
-  marker.color.a = 1.0F;
-  return marker;
+Stage stage_of(const SceneLayout& layout, const std::vector<Eigen::Vector3d>& places, int lines) {
+  std::vector<Eigen::Vector3d> points;
+  Eigen::AlignedBox3d box;
+  double height = 0.0;  // of the text, above the middle of the box
+  for (const Eigen::Vector3d& place : places)
+    for (const Eigen::Vector3d& corner : corners(layout.box)) points.push_back(place + corner);
+  for (const Eigen::Vector3d& point : points) box.extend(point);
+  for (const Eigen::Vector3d& point : points) height = std::max(height, (point - box.center()).dot(layout.view.up()));
+  Stage stage;
+  // The names of several mechanisms have a line of their own below it.
+  const double above_all = (places.size() > 1 ? 2.5 : 1.0) + 1.6 * std::max(lines - 1, 0);
+  stage.caption = box.center() + (height + above_all * layout.letter) * layout.view.up();
+  if (lines > 0)
+    for (const double side : {-10.0, 10.0})
+      points.push_back(stage.caption + layout.letter * (layout.view.up() + side * layout.view.right()));
+  for (const Eigen::Vector3d& point : points) box.extend(point);
+  const CameraPlace camera = place_camera(points, layout.view);
+  mechanism_codesign::Scene& scene = stage.scene;
+  set_point(box.min(), &scene.smallest);
+  set_point(box.max(), &scene.largest);
+  scene.floor = layout.floor;
+  scene.grid_cell = round_down(0.15 * layout.size);
+  set_point(camera.focus, &scene.focal_point);
+  scene.distance = camera.distance;
+  scene.yaw = layout.view.yaw;
+  scene.pitch = layout.view.pitch;
+  scene.metres_per_newton = layout.style.metres_per_newton;
+  scene.metres_per_newton_metre = layout.style.metres_per_newton_metre;
+  return stage;
 }
 
 }  // namespace codesign

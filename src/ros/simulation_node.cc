@@ -15,6 +15,7 @@
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/simulation.h"
 #include "mechanism_codesign/version.h"
+#include "reading/urdf/stick_figure.h"
 #include "reading/urdf/urdf_reader.h"
 #include "ros/advance.h"
 #include "ros/description.h"
@@ -79,13 +80,26 @@ void SimulationNode::advertise() {
   publishers_["friction_markers"] = node_.advertise<visualization_msgs::MarkerArray>("friction_markers", size);
   if (clock_.is_free_running()) clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", size);
   description_publisher_ = node_.advertise<std_msgs::String>("robot_description", 1, true);
+  caption_publisher_ = node_.advertise<visualization_msgs::MarkerArray>("caption", size);
+  scene_publisher_ = node_.advertise<mechanism_codesign::Scene>("scene", 1, true);
 }
 
 void SimulationNode::tell_description() {
   std_msgs::String message;
-  message.data = description_ = write_tuned_urdf(problem_->urdf(), problem_->overlays(), problem_->parameters());
+  const std::string urdf = write_tuned_urdf(problem_->urdf(), problem_->overlays(), problem_->parameters());
+  message.data = description_ = with_sticks(urdf);
   description_publisher_.publish(message);
-  state_.warn("description", check_description(node_, *problem_, description_));
+  state_.warn("description", check_description(node_, *problem_, urdf));
+}
+
+MessageContext SimulationNode::context(double time) const {
+  return {clock_.stamp(time), options_.frame_prefix + problem_->robot().links[static_cast<std::size_t>(problem_->robot().root)].name};
+}
+
+void SimulationNode::set_scene() {
+  scene_.emplace(*problem_, description_, options_.style, [this] { return stopping(); });
+  options_.style = scene_->style();
+  scene_publisher_.publish(scene_->message(context(0.0)));
 }
 
 void SimulationNode::place_root() {
@@ -109,6 +123,7 @@ void SimulationNode::run() {
 
 void SimulationNode::run_all() {
   double previous_duration = 0.0;
+  set_scene();
   wait_for_subscribers();
   state_.set(NodeState::Level::kOk, "running " + problem_->robot().name);
   open_bag();
@@ -193,6 +208,7 @@ void SimulationNode::publish(const FrameNames& names, const Frame& frame) {
   FrameMessages(names, frame, context, options_.style).visit([this](const std::string& topic, const auto& message) {
     publishers_.at(topic).publish(message);
   });
+  caption_publisher_.publish(scene_->text(frame, context));
   const tf2_msgs::TFMessage poses = options_.frame_prefix.empty() ? free_link_transforms(names, frame, context)
                                                                   : link_transforms(names, frame, context.stamp, options_.frame_prefix);
   if (!poses.transforms.empty()) transforms_.sendTransform(poses.transforms);
@@ -205,6 +221,7 @@ void SimulationNode::open_bag() {
     bag_ = std::make_unique<BagWriter>(options_.bag);
     bag_->write_text("robot_description", description_);
     bag_->write_text("version", version());
+    bag_->write_latched("scene", 0.0, scene_->message({BagWriter::stamp(0.0), context(0.0).root_frame}));
   } catch (const OutputError& error) {
     give_up_bag(error);
   }
@@ -230,6 +247,7 @@ void SimulationNode::record(const FrameNames& names, const Frame& frame) {
   if (!bag_) return;
   try {
     bag_->write_frame("", options_.frame_prefix + names.links[0], names, frame, options_.style);
+    bag_->write("caption", frame.time, scene_->text(frame, {BagWriter::stamp(frame.time), context(0.0).root_frame}));
     bag_->write("tf", frame.time, link_transforms(names, frame, BagWriter::stamp(frame.time), options_.frame_prefix));
   } catch (const OutputError& error) {
     give_up_bag(error);

@@ -22,6 +22,7 @@
 #include "ros/pace.h"
 #include "ros/run_clock.h"
 #include "ros/simulation_options.h"
+#include "ros/simulation_scene.h"
 
 namespace codesign {
 
@@ -37,6 +38,9 @@ class SimulationNode {
   void load();
   void advertise();
   void tell_description();
+  void set_scene();
+  /// @param time of the run.
+  MessageContext context(double time) const;
   void run();
   void run_all();
   /// Runs the study once, from 0 to its duration. The status is ok unless the run failed or was stopped.
@@ -59,12 +63,13 @@ class SimulationNode {
   NodeState state_;
   SimulationOptions options_;
   std::optional<Problem> problem_;  ///< empty after bad input
-  std::string description_;         ///< URDF of the mechanism that runs
+  std::string description_;         ///< URDF of the mechanism that runs, with sticks
+  std::optional<SimulationScene> scene_;
   RunClock clock_{1.0};
   Pace pace_;
   RealTimeFactor factor_;
   std::map<std::string, ros::Publisher> publishers_;
-  ros::Publisher clock_publisher_, description_publisher_;
+  ros::Publisher clock_publisher_, description_publisher_, caption_publisher_, scene_publisher_;
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   std::optional<LockFile> bag_lock_;

@@ -21,7 +21,7 @@ struct SimulationOptions {
   std::string frame_prefix;                       ///< before the name of each link's TF frame; if not empty, the node publishes all frames
   std::vector<std::string> wait_for_subscribers;  ///< topics that must have a subscriber before the run begins
   std::string bag;                                ///< path of a bag of the first run; empty: none
-  MarkerStyle style;
+  MarkerStyle style{0.0, 0.0, 0.0};               ///< scales that the user has set; 0: they follow from the run
 };
 
 /// The topics of a frame, which are the allowed entries of wait_for_subscribers.

@@ -1,0 +1,87 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "ros/scene_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace codesign {
+namespace {
+
+/// Half of the height of rviz's picture at a distance of one.
+const double kHalfHeight = std::tan(3.14159265358979323846 / 8.0);
+/// Of the picture, what is used.
+constexpr double kFilled = 0.92;
+
+/// A range of numbers.
+struct PictureSide {
+  double low = 0.0, high = 0.0;
+  void include(double value, bool is_first) {
+    low = is_first ? value : std::min(low, value);
+    high = is_first ? value : std::max(high, value);
+  }
+  double middle() const { return 0.5 * (low + high); }
+};
+
+}  // namespace
+
+Eigen::Vector3d SceneView::towards_viewer() const {
+  return {std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch)};
+}
+
+Eigen::Vector3d SceneView::right() const { return {-std::sin(yaw), std::cos(yaw), 0.0}; }
+
+Eigen::Vector2d SceneView::half_picture(const Eigen::AlignedBox3d& box) const {
+  const Eigen::Vector3d half = 0.5 * box.sizes();
+  return {right().cwiseAbs().dot(half), up().cwiseAbs().dot(half)};
+}
+
+SceneView view_of(const Eigen::Vector3d& sizes) {
+  SceneView view;
+  constexpr double kFlat = 0.4;
+  if (sizes.x() < kFlat * sizes.y() && sizes.x() <= sizes.z()) view.yaw = 0.55;
+  if (sizes.z() < kFlat * std::min(sizes.x(), sizes.y())) view.pitch = 0.8;
+  return view;
+}
+
+CameraPlace place_camera(const std::vector<Eigen::Vector3d>& points, const SceneView& view) {
+  const Eigen::Vector3d toward = view.towards_viewer(), right = view.right(), up = view.up();
+  const double half_height = kFilled * kHalfHeight, half_width = kAspect * half_height;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : points) box.extend(point);
+  CameraPlace place{box.center(), 0.0};
+  // What is nearer to the camera takes more room: the middle of the picture moves until both sides are as far from the edge.
+  for (int round = 0; round < 20; ++round) {
+    place.distance = 0.0;
+    for (const Eigen::Vector3d& point : points) {
+      const Eigen::Vector3d from = point - place.focus;
+      const double needed = std::max(std::abs(from.dot(right)) / half_width, std::abs(from.dot(up)) / half_height);
+      place.distance = std::max(place.distance, from.dot(toward) + needed);
+    }
+    place.distance = std::max(place.distance, 1e-3);
+    PictureSide across, high;
+    for (const Eigen::Vector3d& point : points) {
+      const Eigen::Vector3d from = point - place.focus;
+      const double away = std::max(place.distance - from.dot(toward), 1e-9);
+      across.include(from.dot(right) / away, &point == &points.front());
+      high.include(from.dot(up) / away, &point == &points.front());
+    }
+    if (round < 19) place.focus += place.distance * (across.middle() * right + high.middle() * up);
+  }
+  return place;
+}
+
+std::vector<Eigen::Vector3d> corners(const Eigen::AlignedBox3d& box) {
+  std::vector<Eigen::Vector3d> points;
+  if (box.isEmpty()) return points;
+  for (int k = 0; k < 8; ++k) points.emplace_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
+  return points;
+}
+
+double round_down(double length) {
+  const double power = std::pow(10.0, std::floor(std::log10(length)));
+  for (const double digit : {5.0, 2.0})
+    if (digit * power <= length) return digit * power;
+  return power;
+}
+
+}  // namespace codesign
