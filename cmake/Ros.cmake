@@ -3,7 +3,7 @@
 
 set(message_dependencies actionlib_msgs std_msgs)
 set(ros_dependencies
-  actionlib diagnostic_updater geometry_msgs rosbag roscpp rosgraph_msgs sensor_msgs tf2_msgs tf2_ros trajectory_msgs visualization_msgs xmlrpcpp ${message_dependencies})
+  actionlib diagnostic_updater geometry_msgs rosbag roscpp rosgraph_msgs sensor_msgs std_srvs tf2_msgs tf2_ros trajectory_msgs visualization_msgs xmlrpcpp ${message_dependencies})
 find_package(catkin REQUIRED COMPONENTS message_generation ${ros_dependencies})
 # What reading a bag takes: much less than roscpp.
 set(bag_libraries)
