@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/friction_markers.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "ros/way_out.h"
@@ -56,7 +57,7 @@ visualization_msgs::Marker arrow_marker(const Eigen::Vector3d& from, const Eigen
   marker.points = {to_point(from), to_point(from + along)};
   marker.scale.x = shaft_diameter;
   marker.scale.y = 2.5 * shaft_diameter;
-  marker.scale.z = 3.0 * shaft_diameter;
+  marker.scale.z = std::min(3.0 * shaft_diameter, 0.5 * along.norm());
   return marker;
 }
 

@@ -14,8 +14,6 @@
 namespace codesign {
 namespace {
 
-constexpr int kCaptionLines = 1;  // besides the legend
-
 ShownRun shown(const BagSide& side) {
   const std::vector<std::string>& links = side.run.names.links;
   return {side.run.names, side.run.frames, std::make_shared<LinkBoxes>(link_boxes(with_sticks(side.urdf), links))};
@@ -34,20 +32,24 @@ struct BagScene {
     legend = arrow_legend(layout);
   }
 
-  /// @param place prefix of the topics. @param apart from the initial mechanism to the tuned one.
-  void write_places(const std::string& place, const Eigen::Vector3d& apart, BagWriter* writer) const {
-    const ros::Time begin = BagWriter::stamp(0.0);
-    const Eigen::Vector3d initial = -0.5 * apart, tuned = 0.5 * apart;
-    Stage stage = stage_of(layout, {initial, tuned}, kCaptionLines + static_cast<int>(legend.size()));
-    tf2_msgs::TFMessage places;
-    places.transforms = {place_in_world("initial", initial, begin), place_in_world("tuned", tuned, begin),
-                         place_in_world("caption", stage.caption, begin)};
-    writer->write_latched(place + "tf_static", 0.0, places);
-    stage.scene.header.stamp = begin;
-    stage.scene.header.frame_id = "world";
-    writer->write_latched(place + "scene", 0.0, stage.scene);
+  Stage stage(const Eigen::Vector3d& apart) const {
+    return stage_of(layout, {-0.5 * apart, 0.5 * apart}, 1 + static_cast<int>(legend.size()));
   }
 };
+
+/// @param place prefix of the topics. @param apart from the initial mechanism to the tuned one. @returns where they are.
+Stage write_places(const std::string& place, const Eigen::Vector3d& apart, const BagScene& scene, BagWriter* writer) {
+  const ros::Time begin = BagWriter::stamp(0.0);
+  Stage stage = scene.stage(apart);
+  tf2_msgs::TFMessage places;
+  places.transforms = {place_in_world("initial", -0.5 * apart, begin), place_in_world("tuned", 0.5 * apart, begin),
+                       place_in_world("caption", stage.caption, begin)};
+  writer->write_latched(place + "tf_static", 0.0, places);
+  stage.scene.header.stamp = begin;
+  stage.scene.header.frame_id = "world";
+  writer->write_latched(place + "scene", 0.0, stage.scene);
+  return stage;
+}
 
 /// @param place prefix of the topics.
 void write_frame(const std::string& place, const std::string& side, const RecordedRun& run, std::size_t index, const MarkerStyle& style,
@@ -63,24 +65,23 @@ std::string with_objective(const std::string& name, double objective) {
   return std::isfinite(objective) ? name + ", objective " + readable(objective, 4) : name;
 }
 
-void write_labels(const JobRecord& record, const SceneLayout& layout, BagWriter* writer) {
-  const ros::Time begin = BagWriter::stamp(0.0);
-  const std::string initial = with_objective("initial", record.result.initial_objective);
-  const std::string tuned = with_objective("tuned", record.result.objective);
-  visualization_msgs::MarkerArray labels, over;
-  labels.markers = {label("initial", "initial", initial, layout, begin), label("tuned", "tuned", tuned, layout, begin)};
-  writer->write_latched("labels", 0.0, labels);
-  over.markers = {label("tuned", "tuned", tuned + "; ghost: " + initial, layout, begin)};
-  writer->write_latched("overlay/labels", 0.0, over);
+void write_labels(const std::string& place, const std::vector<visualization_msgs::Marker>& markers, BagWriter* writer) {
+  visualization_msgs::MarkerArray labels;
+  labels.markers = markers;
+  writer->write_latched(place + "labels", 0.0, labels);
 }
 
 void write_head(const JobRecord& record, const BagScene& scene, BagWriter* writer) {
   writer->write_text("study", record.study);
   for (const std::string& file : record.study_files) writer->write_text("study_files", file);
   writer->write_latched("request", 0.0, record.request);
-  scene.write_places("", scene.layout.apart, writer);
-  scene.write_places("overlay/", Eigen::Vector3d::Zero(), writer);
-  write_labels(record, scene.layout, writer);
+  const Stage apart = write_places("", scene.layout.apart, scene, writer),
+              over = write_places("overlay/", Eigen::Vector3d::Zero(), scene, writer);
+  const ros::Time begin = BagWriter::stamp(0.0);
+  const std::string initial = with_objective("initial", record.result.initial_objective);
+  const std::string tuned = with_objective("tuned", record.result.objective);
+  write_labels("", {label("initial", "initial", initial, apart, begin), label("tuned", "tuned", tuned, apart, begin)}, writer);
+  write_labels("overlay/", {label("tuned", "tuned", tuned + "; ghost: " + initial, over, begin)}, writer);
 }
 
 void write_progress(const JobRecord& record, double duration, BagWriter* writer) {

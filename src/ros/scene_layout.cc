@@ -19,10 +19,10 @@ class ArrowScale {
 
   bool is_used() const { return count_ > 0; }
 
-  /// Arrow length per unit of load: a fifth of `size` for the root mean square of the loads, and at most half of it for the largest one.
+  /// Arrow length per unit of load: a sixth of `size` for the root mean square of the loads, and at most 0.4 times it for the largest one.
   double metres_per_unit(double size, double fallback) const {
     if (count_ == 0) return fallback;
-    const double scale = std::min(size / (5.0 * std::sqrt(sum_of_squares_ / count_)), 0.5 * size / largest_);
+    const double scale = std::min(size / (6.0 * std::sqrt(sum_of_squares_ / count_)), 0.4 * size / largest_);
     const double digits = std::pow(10.0, std::floor(std::log10(scale)) - 1.0);
     return std::floor(scale / digits) * digits;
   }
@@ -77,26 +77,33 @@ void scale_arrows(const std::vector<ShownRun>& runs, SceneLayout* layout) {
       }
   layout->has_forces = force.is_used();
   layout->has_torques = torque.is_used();
-  layout->style.shaft_diameter = 0.02 * layout->size;
+  layout->style.shaft_diameter = 0.015 * layout->size;
   layout->style.metres_per_newton = force.metres_per_unit(layout->size, layout->style.metres_per_newton);
   layout->style.metres_per_newton_metre = torque.metres_per_unit(layout->size, layout->style.metres_per_newton_metre);
 }
 
-/// The shorter of two ways to stand clear of each other in the picture: to the right, or away from the viewer.
+/// Height of letters over the distance of the viewer: 1/36 of the picture's height.
+constexpr double kLetter = kHalfHeight / 18.0;
+/// From line to line, in letters.
+constexpr double kLine = 1.6;
+
+/// The corners of a mechanism's box, where its root link stands at `place`.
+void add_mechanism(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& place, std::vector<Eigen::Vector3d>* points) {
+  for (const Eigen::Vector3d& corner : corners(box)) points->push_back(place + corner);
+}
+
+/// The way to stand clear of each other, to the right or one before the other, in which the farther one looks larger.
 Eigen::Vector3d apart_in(const SceneView& view, const Eigen::AlignedBox3d& box) {
   const Eigen::Vector2d half = view.half_picture(box);
   const Eigen::Vector3d beside = 2.15 * half.x() * view.right();
-  const Eigen::Vector3d before = 2.15 * half.y() / std::sin(view.pitch) * Eigen::Vector3d(std::cos(view.yaw), std::sin(view.yaw), 0.0);
-  const auto distance = [&](const Eigen::Vector3d& apart) {
+  const Eigen::Vector3d before = 2.5 * half.y() / std::sin(view.pitch) * Eigen::Vector3d(std::cos(view.yaw), std::sin(view.yaw), 0.0);
+  const auto farther = [&](const Eigen::Vector3d& apart) {
     std::vector<Eigen::Vector3d> points;
-    for (const Eigen::Vector3d& corner : corners(box)) points.insert(points.end(), {corner, corner + apart});
-    return place_camera(points, view).distance;
+    for (const double side : {-0.5, 0.5}) add_mechanism(box, side * apart, &points);
+    const CameraPlace camera = place_camera(points, view);
+    return camera.distance + camera.focus.dot(view.towards_viewer()) - (box.center() - 0.5 * apart).dot(view.towards_viewer());
   };
-  return distance(beside) <= distance(before) ? beside : before;
-}
-
-Eigen::Vector3d above(const Eigen::AlignedBox3d& box, const SceneView& view, double distance) {
-  return box.center() + (view.half_picture(box).y() + distance) * view.up();
+  return farther(beside) <= farther(before) ? beside : before;
 }
 
 void set_point(const Eigen::Vector3d& point, boost::array<double, 3>* numbers) {
@@ -117,31 +124,29 @@ SceneLayout lay_out(const std::vector<ShownRun>& runs) {
   scale_arrows(runs, &layout);
   for (const ShownRun& run : runs) include_arrows(run, layout.style, &layout.box);
   layout.apart = apart_in(layout.view, layout.box);
-  std::vector<Eigen::Vector3d> points = corners(layout.box);
-  if (runs.size() > 1)
-    for (const Eigen::Vector3d& corner : corners(layout.box)) points.push_back(corner + layout.apart);
-  layout.letter = 0.024 * place_camera(points, layout.view).distance;
-  layout.label = above(layout.box, layout.view, layout.letter);
+  std::vector<Eigen::Vector3d> points;
+  add_mechanism(layout.box, Eigen::Vector3d::Zero(), &points);
+  if (runs.size() > 1) add_mechanism(layout.box, layout.apart, &points);
+  layout.letter = kLetter * place_camera(points, layout.view, 0.7).distance;
   return layout;
 }
 
 Stage stage_of(const SceneLayout& layout, const std::vector<Eigen::Vector3d>& places, int lines) {
+  const SceneView& view = layout.view;
   std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3d& place : places) add_mechanism(layout.box, place, &points);
   Eigen::AlignedBox3d box;
-  double height = 0.0;  // of the text, above the middle of the box
-  for (const Eigen::Vector3d& place : places)
-    for (const Eigen::Vector3d& corner : corners(layout.box)) points.push_back(place + corner);
   for (const Eigen::Vector3d& point : points) box.extend(point);
-  for (const Eigen::Vector3d& point : points) height = std::max(height, (point - box.center()).dot(layout.view.up()));
+  // One line more for the names.
+  const double top = kFilled - (kLine * (lines + 1) + 0.5) * kLetter / kHalfHeight;
+  const CameraPlace camera = place_camera(points, view, top);
   Stage stage;
-  // The names of several mechanisms have a line of their own below it.
-  const double above_all = (places.size() > 1 ? 2.5 : 1.0) + 1.6 * std::max(lines - 1, 0);
-  stage.caption = box.center() + (height + above_all * layout.letter) * layout.view.up();
-  if (lines > 0)
-    for (const double side : {-10.0, 10.0})
-      points.push_back(stage.caption + layout.letter * (layout.view.up() + side * layout.view.right()));
-  for (const Eigen::Vector3d& point : points) box.extend(point);
-  const CameraPlace camera = place_camera(points, layout.view);
+  stage.letter = kLetter * camera.distance;
+  stage.label = layout.box.center() + (view.half_picture(layout.box).y() + stage.letter) * view.up();
+  // The text is as far away as makes its letters look as large as those of the names.
+  const double away = layout.letter / kLetter;
+  const Eigen::Vector3d eye = camera.focus + camera.distance * view.towards_viewer();
+  stage.caption = eye - away * view.towards_viewer() + ((kFilled * kHalfHeight - 0.5 * kLetter) * away) * view.up();
   mechanism_codesign::Scene& scene = stage.scene;
   set_point(box.min(), &scene.smallest);
   set_point(box.max(), &scene.largest);

@@ -27,21 +27,22 @@ struct SceneLayout {
   double floor = 0.0;       ///< height of the lowest solid [m]
   SceneView view;
   Eigen::Vector3d apart = Eigen::Vector3d::Zero();  ///< from the first mechanism to the second, so that their pictures do not overlap
-  Eigen::Vector3d label = Eigen::Vector3d::Zero();  ///< place of a mechanism's name, above it in the picture
-  double letter = 0.0;                              ///< height of letters [m]
+  double letter = 0.0;                              ///< height of the letters of the text above all [m]
   MarkerStyle style;                                ///< without solids, which differ between designs
   bool has_forces = false, has_torques = false;     ///< whether friction arrows of that kind are drawn
 };
 
-/// The layout of runs of the same mechanism. An arrow of the root-mean-square friction is a fifth as long as the mechanism, the largest
-/// arrow at most half as long, both rounded down to two digits of metres per newton. Solids of the root, such as a floor, count as far as
-/// half a size around the links that move.
+/// The layout of runs of the same mechanism.An arrow of the root-mean-square friction is a sixth as long as the mechanism, the largest
+/// arrow at most 0.4 times as long, both rounded down to two digits of metres per newton. Solids of the root, such as a floor, count as far
+/// as half a size around the links that move.
 SceneLayout lay_out(const std::vector<ShownRun>& runs);
 
 /// Where to look at mechanisms, with room for a text above them.
 struct Stage {
   mechanism_codesign::Scene scene;                    ///< without header
-  Eigen::Vector3d caption = Eigen::Vector3d::Zero();  ///< middle of the text's first line [m]
+  Eigen::Vector3d caption = Eigen::Vector3d::Zero();  ///< middle of the text's first line, at the top of the picture [m]
+  Eigen::Vector3d label = Eigen::Vector3d::Zero();    ///< of a mechanism's name, above it in the picture, from its root link [m]
+  double letter = 0.0;                                ///< height of the letters of names [m]
 };
 
 /// @param places of the root links. @param lines of the text, of which there may be none.

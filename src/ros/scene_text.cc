@@ -66,9 +66,9 @@ geometry_msgs::TransformStamped place_in_world(const std::string& frame, const E
   return transform;
 }
 
-visualization_msgs::Marker label(const std::string& name, const std::string& frame, const std::string& text, const SceneLayout& layout,
+visualization_msgs::Marker label(const std::string& name, const std::string& frame, const std::string& text, const Stage& stage,
                                  const ros::Time& stamp) {
-  visualization_msgs::Marker marker = text_marker(text, layout.label, layout.letter);
+  visualization_msgs::Marker marker = text_marker(text, stage.label, stage.letter);
   marker.header.stamp = stamp;
   marker.header.frame_id = frame;
   marker.ns = name;

@@ -33,7 +33,7 @@ visualization_msgs::MarkerArray caption(const std::vector<CaptionLine>& lines, c
 geometry_msgs::TransformStamped place_in_world(const std::string& frame, const Eigen::Vector3d& place, const ros::Time& stamp);
 
 /// A text above the mechanism in a frame. @param name its namespace.
-visualization_msgs::Marker label(const std::string& name, const std::string& frame, const std::string& text, const SceneLayout& layout,
+visualization_msgs::Marker label(const std::string& name, const std::string& frame, const std::string& text, const Stage& stage,
                                  const ros::Time& stamp);
 
 }  // namespace codesign

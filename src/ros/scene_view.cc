@@ -7,11 +7,6 @@
 namespace codesign {
 namespace {
 
-/// Half of the height of rviz's picture at a distance of one.
-const double kHalfHeight = std::tan(3.14159265358979323846 / 8.0);
-/// Of the picture, what is used.
-constexpr double kFilled = 0.92;
-
 /// A range of numbers.
 struct PictureSide {
   double low = 0.0, high = 0.0;
@@ -43,21 +38,23 @@ SceneView view_of(const Eigen::Vector3d& sizes) {
   return view;
 }
 
-CameraPlace place_camera(const std::vector<Eigen::Vector3d>& points, const SceneView& view) {
+CameraPlace place_camera(const std::vector<Eigen::Vector3d>& points, const SceneView& view, double top) {
   const Eigen::Vector3d toward = view.towards_viewer(), right = view.right(), up = view.up();
-  const double half_height = kFilled * kHalfHeight, half_width = kAspect * half_height;
+  const double half_width = kFilled * kAspect * kHalfHeight, above = top * kHalfHeight, below = kFilled * kHalfHeight;
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& point : points) box.extend(point);
   CameraPlace place{box.center(), 0.0};
-  // What is nearer to the camera takes more room: the middle of the picture moves until both sides are as far from the edge.
-  for (int round = 0; round < 20; ++round) {
-    place.distance = 0.0;
+  constexpr int kRounds = 40;
+  // What is nearer to the camera takes more room: the camera moves until both sides are as far from the edge.
+  for (int round = 0; round <= kRounds; ++round) {
+    place.distance = 1e-3;
     for (const Eigen::Vector3d& point : points) {
       const Eigen::Vector3d from = point - place.focus;
-      const double needed = std::max(std::abs(from.dot(right)) / half_width, std::abs(from.dot(up)) / half_height);
+      const double height = from.dot(up);
+      const double needed = std::max(std::abs(from.dot(right)) / half_width, height > 0.0 ? height / above : -height / below);
       place.distance = std::max(place.distance, from.dot(toward) + needed);
     }
-    place.distance = std::max(place.distance, 1e-3);
+    if (round == kRounds) break;
     PictureSide across, high;
     for (const Eigen::Vector3d& point : points) {
       const Eigen::Vector3d from = point - place.focus;
@@ -65,7 +62,7 @@ CameraPlace place_camera(const std::vector<Eigen::Vector3d>& points, const Scene
       across.include(from.dot(right) / away, &point == &points.front());
       high.include(from.dot(up) / away, &point == &points.front());
     }
-    if (round < 19) place.focus += place.distance * (across.middle() * right + high.middle() * up);
+    place.focus += place.distance * (across.middle() * right + (high.middle() - 0.5 * (above - below)) * up);
   }
   return place;
 }

@@ -30,12 +30,16 @@ struct CameraPlace {
   double distance = 1.0;                            ///< of the camera from there [m]
 };
 
-/// The nearest place from which all points lie within the picture, with 8 % to spare on each side. The picture is `kAspect` times as wide
-/// as high, and 45 degrees high, which is rviz's angle. @param points at least one.
-CameraPlace place_camera(const std::vector<Eigen::Vector3d>& points, const SceneView& view);
+/// The picture at least: the shipped configurations of rviz have one that is a little wider.
+constexpr double kAspect = 1.24;  ///< width over height
+/// Half of its height at a distance of one: rviz's picture is 45 degrees high.
+constexpr double kHalfHeight = 0.41421356237309503;
+/// Where points may lie, of 1 from the middle to the edge.
+constexpr double kFilled = 0.92;
 
-/// Width over height of the picture at least; the shipped configurations of rviz have more.
-constexpr double kAspect = 1.35;
+/// The nearest place from which all points lie within `kFilled` of the picture. @param points at least one.
+/// @param top how far up they may lie, of 1 from the middle to the upper edge; above that is room for a text.
+CameraPlace place_camera(const std::vector<Eigen::Vector3d>& points, const SceneView& view, double top = kFilled);
 
 /// The eight corners of a box, none for an empty one.
 std::vector<Eigen::Vector3d> corners(const Eigen::AlignedBox3d& box);
