@@ -137,8 +137,8 @@ Stage stage_of(const SceneLayout& layout, const std::vector<Eigen::Vector3d>& pl
   for (const Eigen::Vector3d& place : places) add_mechanism(layout.box, place, &points);
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& point : points) box.extend(point);
-  // One line more for the names.
-  const double top = kFilled - (kLine * (lines + 1) + 0.5) * kLetter / kHalfHeight;
+  // Below the text there is room for the names.
+  const double top = kFilled - kLine * (lines + 2) * kLetter / kHalfHeight;
   const CameraPlace camera = place_camera(points, view, top);
   Stage stage;
   stage.letter = kLetter * camera.distance;
