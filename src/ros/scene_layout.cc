@@ -32,38 +32,53 @@ class ArrowScale {
   double sum_of_squares_ = 0.0, largest_ = 0.0;
 };
 
-void include_solids(const LinkSample& link, const std::vector<SolidBox>& boxes, Eigen::AlignedBox3d* box) {
-  for (const SolidBox& solid : boxes)
-    for (const Eigen::Vector3d& corner : corners(Eigen::AlignedBox3d(-solid.half, solid.half)))
-      box->extend(link.position + link.orientation * (solid.pose * corner));
+/// Frames of a run that are looked at: about a hundred, evenly.
+std::vector<const Frame*> some_frames(const ShownRun& run) {
+  std::vector<const Frame*> frames;
+  const std::size_t stride = 1 + run.frames.size() / 100;
+  for (std::size_t k = 0; k < run.frames.size(); k += stride) frames.push_back(&run.frames[k]);
+  return frames;
 }
 
-/// Around the frames of all links and the solids of those that are not the root.
-void include_links(const ShownRun& run, Eigen::AlignedBox3d* box) {
-  for (const Frame& frame : run.frames)
-    for (std::size_t k = 0; k < frame.links.size(); ++k) {
-      if (!frame.links[k].position.allFinite()) continue;
-      box->extend(frame.links[k].position);
-      if (k > 0 && run.solids) include_solids(frame.links[k], (*run.solids)[k], box);
+void add_solids(const LinkSample& link, const std::vector<SolidBox>& boxes, std::vector<Eigen::Vector3d>* points) {
+  for (const SolidBox& solid : boxes)
+    for (const Eigen::Vector3d& corner : corners(Eigen::AlignedBox3d(-solid.half, solid.half)))
+      points->push_back(link.position + link.orientation * (solid.pose * corner));
+}
+
+/// The origins of all links and the corners of the solids of those that are not the root.
+void add_links(const ShownRun& run, std::vector<Eigen::Vector3d>* points) {
+  for (const Frame* frame : some_frames(run))
+    for (std::size_t k = 0; k < frame->links.size(); ++k) {
+      if (!frame->links[k].position.allFinite()) continue;
+      points->push_back(frame->links[k].position);
+      if (k > 0 && run.solids) add_solids(frame->links[k], (*run.solids)[k], points);
     }
 }
 
-/// The box with the solids of the root, as far as half a size around it.
-Eigen::AlignedBox3d with_root(const std::vector<ShownRun>& runs, const Eigen::AlignedBox3d& moving) {
-  Eigen::AlignedBox3d root;
-  for (const ShownRun& run : runs)
-    if (!run.frames.empty() && run.solids) include_solids(run.frames.front().links[0], (*run.solids)[0], &root);
-  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.5 * moving.sizes().maxCoeff());
-  const Eigen::AlignedBox3d near(moving.min() - margin, moving.max() + margin);
-  return root.isEmpty() ? moving : moving.merged(root.intersection(near));
+Eigen::AlignedBox3d box_of(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : points) box.extend(point);
+  return box;
 }
 
-void include_arrows(const ShownRun& run, MarkerStyle style, Eigen::AlignedBox3d* box) {
+/// The corners of the root's solids, moved to the box of half a size around what moves if they lie outside of it.
+void add_root(const std::vector<ShownRun>& runs, std::vector<Eigen::Vector3d>* points) {
+  const Eigen::AlignedBox3d moving = box_of(*points);
+  const Eigen::Array3d margin = Eigen::Array3d::Constant(0.5 * moving.sizes().maxCoeff());
+  std::vector<Eigen::Vector3d> root;
+  for (const ShownRun& run : runs)
+    if (!run.frames.empty() && run.solids) add_solids(run.frames.front().links[0], (*run.solids)[0], &root);
+  for (const Eigen::Vector3d& point : root)
+    points->emplace_back(point.array().max(moving.min().array() - margin).min(moving.max().array() + margin).matrix());
+}
+
+void add_arrows(const ShownRun& run, MarkerStyle style, std::vector<Eigen::Vector3d>* points) {
   style.solids = run.solids;
-  for (const Frame& frame : run.frames)
-    for (std::size_t k = 0; k < frame.frictions.size(); ++k) {
-      const ArrowEnds ends = friction_arrow(frame.frictions[k], run.names.friction_is_torque[k], frame, style);
-      if (ends.from.allFinite() && ends.to.allFinite()) box->extend(ends.from).extend(ends.to);
+  for (const Frame* frame : some_frames(run))
+    for (std::size_t k = 0; k < frame->frictions.size(); ++k) {
+      const ArrowEnds ends = friction_arrow(frame->frictions[k], run.names.friction_is_torque[k], *frame, style);
+      if (ends.from.allFinite() && ends.to.allFinite()) points->insert(points->end(), {ends.from, ends.to});
     }
 }
 
@@ -87,21 +102,22 @@ constexpr double kLetter = kHalfHeight / 18.0;
 /// From line to line, in letters.
 constexpr double kLine = 1.6;
 
-/// The corners of a mechanism's box, where its root link stands at `place`.
-void add_mechanism(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& place, std::vector<Eigen::Vector3d>* points) {
-  for (const Eigen::Vector3d& corner : corners(box)) points->push_back(place + corner);
+/// The points of a mechanism whose root link stands at `place`.
+void add_mechanism(const SceneLayout& layout, const Eigen::Vector3d& place, std::vector<Eigen::Vector3d>* points) {
+  for (const Eigen::Vector3d& point : layout.points) points->push_back(place + point);
 }
 
 /// The way to stand clear of each other, to the right or one before the other, in which the farther one looks larger.
-Eigen::Vector3d apart_in(const SceneView& view, const Eigen::AlignedBox3d& box) {
-  const Eigen::Vector2d half = view.half_picture(box);
-  const Eigen::Vector3d beside = 2.15 * half.x() * view.right();
-  const Eigen::Vector3d before = 2.5 * half.y() / std::sin(view.pitch) * Eigen::Vector3d(std::cos(view.yaw), std::sin(view.yaw), 0.0);
+Eigen::Vector3d apart_in(const SceneLayout& layout) {
+  const SceneView& view = layout.view;
+  const Eigen::Vector2d sides = view.picture(layout.points).sizes();
+  const Eigen::Vector3d beside = 1.08 * sides.x() * view.right();
+  const Eigen::Vector3d before = 1.25 * sides.y() / std::sin(view.pitch) * Eigen::Vector3d(std::cos(view.yaw), std::sin(view.yaw), 0.0);
   const auto farther = [&](const Eigen::Vector3d& apart) {
     std::vector<Eigen::Vector3d> points;
-    for (const double side : {-0.5, 0.5}) add_mechanism(box, side * apart, &points);
+    for (const double side : {-0.5, 0.5}) add_mechanism(layout, side * apart, &points);
     const CameraPlace camera = place_camera(points, view);
-    return camera.distance + camera.focus.dot(view.towards_viewer()) - (box.center() - 0.5 * apart).dot(view.towards_viewer());
+    return camera.distance + (camera.focus + 0.5 * apart).dot(view.towards_viewer());
   };
   return farther(beside) <= farther(before) ? beside : before;
 }
@@ -113,20 +129,20 @@ void set_point(const Eigen::Vector3d& point, boost::array<double, 3>* numbers) {
 }  // namespace
 
 SceneLayout lay_out(const std::vector<ShownRun>& runs) {
-  Eigen::AlignedBox3d moving(Eigen::Vector3d::Zero());
-  for (const ShownRun& run : runs) include_links(run, &moving);
   SceneLayout layout;
-  layout.box = with_root(runs, moving);
-  layout.size = std::max(layout.box.sizes().maxCoeff(), 1e-3);
-  layout.floor = layout.box.min().z();
-  layout.view = view_of(layout.box.sizes());
+  layout.points = {Eigen::Vector3d::Zero()};
+  for (const ShownRun& run : runs) add_links(run, &layout.points);
+  add_root(runs, &layout.points);
+  const Eigen::AlignedBox3d box = box_of(layout.points);
+  layout.size = std::max(box.sizes().maxCoeff(), 1e-3);
+  layout.floor = box.min().z();
+  layout.view = view_of(box.sizes());
   layout.style.towards_viewer = layout.view.towards_viewer();
   scale_arrows(runs, &layout);
-  for (const ShownRun& run : runs) include_arrows(run, layout.style, &layout.box);
-  layout.apart = apart_in(layout.view, layout.box);
-  std::vector<Eigen::Vector3d> points;
-  add_mechanism(layout.box, Eigen::Vector3d::Zero(), &points);
-  if (runs.size() > 1) add_mechanism(layout.box, layout.apart, &points);
+  for (const ShownRun& run : runs) add_arrows(run, layout.style, &layout.points);
+  layout.apart = apart_in(layout);
+  std::vector<Eigen::Vector3d> points = layout.points;
+  if (runs.size() > 1) add_mechanism(layout, layout.apart, &points);
   layout.letter = kLetter * place_camera(points, layout.view, 0.7).distance;
   return layout;
 }
@@ -134,15 +150,17 @@ SceneLayout lay_out(const std::vector<ShownRun>& runs) {
 Stage stage_of(const SceneLayout& layout, const std::vector<Eigen::Vector3d>& places, int lines) {
   const SceneView& view = layout.view;
   std::vector<Eigen::Vector3d> points;
-  for (const Eigen::Vector3d& place : places) add_mechanism(layout.box, place, &points);
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& point : points) box.extend(point);
+  for (const Eigen::Vector3d& place : places) add_mechanism(layout, place, &points);
+  const Eigen::AlignedBox3d box = box_of(points);
   // Below the text there is room for the names.
   const double top = kFilled - kLine * (lines + 2) * kLetter / kHalfHeight;
   const CameraPlace camera = place_camera(points, view, top);
   Stage stage;
   stage.letter = kLetter * camera.distance;
-  stage.label = layout.box.center() + (view.half_picture(layout.box).y() + stage.letter) * view.up();
+  const Eigen::AlignedBox2d picture = view.picture(layout.points);
+  const Eigen::Vector3d middle = box_of(layout.points).center();
+  stage.label = middle + (picture.center().x() - middle.dot(view.right())) * view.right() +
+                (picture.max().y() + stage.letter - middle.dot(view.up())) * view.up();
   // The text is as far away as makes its letters look as large as those of the names.
   const double away = layout.letter / kLetter;
   const Eigen::Vector3d eye = camera.focus + camera.distance * view.towards_viewer();

@@ -22,9 +22,9 @@ struct ShownRun {
 
 /// Placement and scales for showing runs of a mechanism in rviz. Places are in the axes of the root link [m].
 struct SceneLayout {
-  double size = 0.0;        ///< largest side of the box around the links and their solids over the runs [m]
-  Eigen::AlignedBox3d box;  ///< around links, solids and arrows over the runs
-  double floor = 0.0;       ///< height of the lowest solid [m]
+  double size = 0.0;                    ///< largest side of the box around the links and their solids over the runs [m]
+  std::vector<Eigen::Vector3d> points;  ///< of links, solids and arrows over the runs, all of which are to be seen
+  double floor = 0.0;                   ///< height of the lowest solid [m]
   SceneView view;
   Eigen::Vector3d apart = Eigen::Vector3d::Zero();  ///< from the first mechanism to the second, so that their pictures do not overlap
   double letter = 0.0;                              ///< height of the letters of the text above all [m]

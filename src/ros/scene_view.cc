@@ -25,9 +25,10 @@ Eigen::Vector3d SceneView::towards_viewer() const {
 
 Eigen::Vector3d SceneView::right() const { return {-std::sin(yaw), std::cos(yaw), 0.0}; }
 
-Eigen::Vector2d SceneView::half_picture(const Eigen::AlignedBox3d& box) const {
-  const Eigen::Vector3d half = 0.5 * box.sizes();
-  return {right().cwiseAbs().dot(half), up().cwiseAbs().dot(half)};
+Eigen::AlignedBox2d SceneView::picture(const std::vector<Eigen::Vector3d>& points) const {
+  Eigen::AlignedBox2d rectangle;
+  for (const Eigen::Vector3d& point : points) rectangle.extend(Eigen::Vector2d(point.dot(right()), point.dot(up())));
+  return rectangle;
 }
 
 SceneView view_of(const Eigen::Vector3d& sizes) {
@@ -44,7 +45,7 @@ CameraPlace place_camera(const std::vector<Eigen::Vector3d>& points, const Scene
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& point : points) box.extend(point);
   CameraPlace place{box.center(), 0.0};
-  constexpr int kRounds = 40;
+  constexpr int kRounds = 25;
   // What is nearer to the camera takes more room: the camera moves until both sides are as far from the edge.
   for (int round = 0; round <= kRounds; ++round) {
     place.distance = 1e-3;

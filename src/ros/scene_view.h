@@ -16,8 +16,8 @@ struct SceneView {
   Eigen::Vector3d right() const;
   Eigen::Vector3d up() const { return towards_viewer().cross(right()); }
 
-  /// Half of the width and height of a box's picture, seen from far [m].
-  Eigen::Vector2d half_picture(const Eigen::AlignedBox3d& box) const;
+  /// The rectangle around the picture of points, seen from far: to the right and up [m].
+  Eigen::AlignedBox2d picture(const std::vector<Eigen::Vector3d>& points) const;
 };
 
 /// A view on the broad side of a mechanism, a little from above: of one that is flat along x from x, of one that lies flat from high above.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "ros/sample_frame.h"
@@ -40,25 +41,27 @@ TEST(LayOut, AFloorCountsAsFarAsHalfASizeAroundWhatMoves) {
   EXPECT_DOUBLE_EQ(layout.floor, -0.25);
 }
 
-TEST(LayOut, ATypicalArrowIsAFifthOfTheMechanismInTwoDigits) {
+TEST(LayOut, ATypicalArrowIsASixthOfTheMechanismInTwoDigits) {
   // Forces of 4, 3, 4 and 5 N, whose mean square is 16.5; torques of 2 N m throughout.
   const SceneLayout layout = lay_out_both(sample_run(3.0), sample_run(5.0));
-  EXPECT_DOUBLE_EQ(layout.style.metres_per_newton, 0.098) << "0.4 m over 4.06 N";
-  EXPECT_DOUBLE_EQ(layout.style.metres_per_newton_metre, 0.2);
+  EXPECT_DOUBLE_EQ(layout.style.metres_per_newton, 0.082) << "a third of a metre over 4.06 N";
+  EXPECT_DOUBLE_EQ(layout.style.metres_per_newton_metre, 0.16);
   EXPECT_TRUE(layout.has_forces);
   EXPECT_TRUE(layout.has_torques);
 }
 
-TEST(LayOut, TheArrowOfAPeakIsHalfAsLongAsTheMechanism) {
+TEST(LayOut, TheArrowOfAPeakIsFourTenthsOfTheMechanism) {
   std::vector<Frame> peaked = sample_run(1e3);
   peaked.resize(100, sample_frame(0.0));
-  EXPECT_DOUBLE_EQ(lay_out_both(sample_run(3.0), peaked).style.metres_per_newton * 1e3, 1.0);
+  EXPECT_DOUBLE_EQ(lay_out_both(sample_run(3.0), peaked).style.metres_per_newton * 1e3, 0.8);
 }
 
-TEST(LayOut, ArrowsAreInTheBox) {
+TEST(LayOut, ArrowsAreToBeSeen) {
   const SceneLayout layout = lay_out_both(sample_run(3.0), sample_run(-5.0));
-  EXPECT_LE(layout.box.min().y(), 0.2 - 5.0 * layout.style.metres_per_newton + 1e-12);
-  EXPECT_LE(layout.box.min().z(), 0.6 - 2.0 * layout.style.metres_per_newton_metre);
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : layout.points) box.extend(point);
+  EXPECT_LE(box.min().y(), 0.2 - 5.0 * layout.style.metres_per_newton + 1e-12);
+  EXPECT_GE(box.max().x(), 0.1 + 4.0 * layout.style.metres_per_newton - 1e-12);
 }
 
 TEST(LayOut, WithoutFramesItStaysFinite) {
@@ -79,36 +82,56 @@ TEST(LayOut, AFrameThatIsNotFiniteDoesNotCount) {
   EXPECT_DOUBLE_EQ(lay_out_both(sample_run(1.0), broken).size, 2.0);
 }
 
-/// Where a point lies in the picture, seen from far [m].
-Eigen::Vector2d seen(const SceneLayout& layout, const Eigen::Vector3d& point) {
-  return {point.dot(layout.view.right()), point.dot(layout.view.up())};
-}
-
 TEST(LayOut, ThePicturesOfBothMechanismsDoNotOverlap) {
   const SceneLayout layout = lay_out_both(sample_run(3.0), sample_run(5.0));
-  Eigen::AlignedBox2d one, other;
-  for (const Eigen::Vector3d& corner : corners(layout.box)) {
-    one.extend(seen(layout, corner));
-    other.extend(seen(layout, corner + layout.apart));
-  }
-  EXPECT_FALSE(one.intersects(other));
+  std::vector<Eigen::Vector3d> moved;
+  for (const Eigen::Vector3d& point : layout.points) moved.push_back(point + layout.apart);
+  EXPECT_FALSE(layout.view.picture(layout.points).intersects(layout.view.picture(moved)));
   EXPECT_EQ(layout.apart.z(), 0.0) << "both stand on the ground";
 }
 
-TEST(StageOf, HoldsMechanismsArrowsAndTextAboveThem) {
+/// Where rviz draws a point, from the middle of the picture to the right and up; 1 is the upper edge.
+Eigen::Vector2d in_picture(const Eigen::Vector3d& point, const mechanism_codesign::Scene& scene) {
+  const SceneView view{scene.yaw, scene.pitch};
+  const Eigen::Vector3d focus(scene.focal_point[0], scene.focal_point[1], scene.focal_point[2]);
+  const Eigen::Vector3d from = point - focus;
+  const double away = (scene.distance - from.dot(view.towards_viewer())) * kHalfHeight;
+  return {from.dot(view.right()) / away, from.dot(view.up()) / away};
+}
+
+TEST(StageOf, MechanismsArrowsAndNamesAreInThePictureBelowTheText) {
   const SceneLayout layout = lay_out_both(sample_run(3.0), sample_run(5.0));
-  const Stage alone = stage_of(layout, {Eigen::Vector3d::Zero()}, 3), both = stage_of(layout, {-0.5 * layout.apart, 0.5 * layout.apart}, 3);
-  EXPECT_GT(both.scene.distance, alone.scene.distance);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
-    EXPECT_LE(alone.scene.smallest[k], layout.box.min()[i]);
-    EXPECT_GE(alone.scene.largest[k], layout.box.max()[i]);
+  const Eigen::Vector3d half = 0.5 * layout.apart, none = Eigen::Vector3d::Zero();
+  for (const std::vector<Eigen::Vector3d>& places : {std::vector<Eigen::Vector3d>{none}, std::vector<Eigen::Vector3d>{-half, half}}) {
+    const Stage stage = stage_of(layout, places, 3);
+    const double letter = 1.0 / 18.0, text = in_picture(stage.caption, stage.scene).y();
+    EXPECT_LE(text + 0.5 * letter, 0.93);
+    double highest = -1.0, widest = 0.0;
+    for (const Eigen::Vector3d& place : places) {
+      for (const Eigen::Vector3d& point : layout.points) {
+        const Eigen::Vector2d seen = in_picture(place + point, stage.scene);
+        highest = std::max(highest, seen.y());
+        widest = std::max(widest, std::abs(seen.x()));
+        EXPECT_GE(seen.y(), -0.925);
+      }
+      const double name = in_picture(place + stage.label, stage.scene).y();
+      EXPECT_LT(name + 0.5 * letter, text - (2.0 * 1.6 + 0.5) * letter) << "below the third line";
+    }
+    EXPECT_LE(widest, 0.925 * kAspect);
+    EXPECT_LT(highest, text - 3.0 * 1.6 * letter);
+    EXPECT_TRUE(widest > 0.8 * kAspect || highest > 0.3) << "the picture is used";
+    EXPECT_EQ(stage.scene.grid_cell, 0.2);
+    EXPECT_EQ(stage.scene.metres_per_newton, layout.style.metres_per_newton);
   }
-  for (const Eigen::Vector3d& corner : corners(layout.box))
-    EXPECT_LT(seen(layout, corner).y(), seen(layout, alone.caption).y() - 2.0 * 1.6 * layout.letter) << "below the third line";
-  EXPECT_EQ(alone.scene.grid_cell, 0.2);
-  EXPECT_EQ(alone.scene.metres_per_newton, layout.style.metres_per_newton);
-  EXPECT_EQ(alone.scene.yaw, layout.view.yaw);
+}
+
+TEST(StageOf, LettersOfTextAndNamesLookTheSame) {
+  const SceneLayout layout = lay_out_both(sample_run(3.0), sample_run(5.0));
+  const Stage stage = stage_of(layout, {Eigen::Vector3d::Zero()}, 3);
+  const SceneView view{stage.scene.yaw, stage.scene.pitch};
+  const Eigen::Vector3d focus(stage.scene.focal_point[0], stage.scene.focal_point[1], stage.scene.focal_point[2]);
+  const double away = stage.scene.distance - (stage.caption - focus).dot(view.towards_viewer());
+  EXPECT_NEAR(layout.letter / away, stage.letter / stage.scene.distance, 1e-12);
 }
 
 }  // namespace

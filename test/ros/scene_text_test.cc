@@ -36,12 +36,14 @@ TEST(Caption, HasItsLinesOneBelowTheOtherInThePicture) {
 }
 
 TEST(Label, StandsAboveItsMechanism) {
-  SceneLayout layout;
-  layout.label = {0.1, 0.2, 0.7};
-  const visualization_msgs::Marker marker = label("recording", "world", "identify.data[0]", layout, ros::Time(1.0));
+  Stage stage;
+  stage.label = {0.1, 0.2, 0.7};
+  stage.letter = 0.05;
+  const visualization_msgs::Marker marker = label("recording", "world", "identify.data[0]", stage, ros::Time(1.0));
   EXPECT_EQ(marker.header.frame_id, "world");
   EXPECT_EQ(marker.text, "identify.data[0]");
   EXPECT_EQ(marker.pose.position.z, 0.7);
+  EXPECT_EQ(marker.scale.z, 0.05);
 }
 
 TEST(PlaceInWorld, IsATransformFromWorld) {
