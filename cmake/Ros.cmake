@@ -34,8 +34,8 @@ list(FILTER node_mains INCLUDE REGEX "_node_main\\.cc$")
 list(FILTER ros_sources EXCLUDE REGEX "_node_main\\.cc$")
 
 # Reads recordings from bags and writes identifications and trajectories into them, for the nodes and for the program codesign, which links nothing else of ROS.
-set(bag_sources recording_bag linked_bag_reader identification_bag bag_file bag_writer conversions frame_messages friction_markers effort_markers scene_layout
-  joint_trajectory_bag)
+set(bag_sources recording_bag linked_bag_reader identification_bag bag_file bag_writer conversions frame_messages friction_markers effort_markers scene_layout scene_text scene_view
+  way_out joint_trajectory_bag)
 list(TRANSFORM bag_sources REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/ros/\\1.cc")
 list(REMOVE_ITEM ros_sources ${bag_sources})
 add_library(codesign_bags STATIC ${bag_sources})
@@ -81,5 +81,6 @@ endforeach()
 target_link_libraries(optimization PRIVATE codesign_mpi)
 
 install(PROGRAMS scripts/bag_text scripts/case_figures scripts/example_client scripts/example_controller scripts/identify_then_tune scripts/launch_input scripts/model_mismatch scripts/play_bag scripts/restore_parameters
-  scripts/show_in_rviz scripts/trajectory_from_bag DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts)
+  scripts/show_in_rviz scripts/trajectory_from_bag scripts/watch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts)
+install(FILES scripts/watch.html DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts)
 install(DIRECTORY launch rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -34,6 +34,7 @@ _codesign() {
   esac
   options="--overlay --result --set --json --help"
   case $command in
+    urdf) options+=" --sticks" ;;
     simulate) options+=" --signals --csv --samples" ;;
     gradient) options+=" --verify" ;;
     optimize) options+=" --output --resume" ;;

@@ -14,6 +14,7 @@ _codesign() {
     return
   fi
   case ${words[2]} in
+    urdf) options=('--sticks[sticks for links without visual]') ;;
     simulate) options=('--signals[the signals to print]:signals:' '--csv[the file to write]:file:_files' '--samples[number of instants]:number:') ;;
     gradient) options=('--verify=-[compare with a reference]::method:(complex_step ridders)') ;;
     optimize) options=('--output[folder of the results]:folder:_files -/' '--resume[go on with the job of a folder]:folder:_files -/') ;;

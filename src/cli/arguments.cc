@@ -73,6 +73,7 @@ const std::map<std::string, Option>& options() {
       {"--set", {Value::kRequired, {}, add_setting}},
       {"--result", {Value::kRequired, {}, [](const std::string& text, Arguments* to) { to->result = text; }}},
       {"--json", {Value::kNone, {}, [](const std::string&, Arguments* to) { to->json = true; }}},
+      {"--sticks", {Value::kNone, {"urdf"}, [](const std::string&, Arguments* to) { to->sticks = true; }}},
       {"--signals", {Value::kRequired, {"simulate"}, add_signals}},
       {"--csv", {Value::kRequired, {"simulate"}, [](const std::string& text, Arguments* to) { to->csv = text; }}},
       {"--samples", {Value::kRequired, {"simulate"}, set_samples}},

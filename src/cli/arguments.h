@@ -26,6 +26,7 @@ struct Arguments {
   std::string result;                 ///< path of a result.json whose design is taken; empty: none
   ParameterSettings settings;         ///< --set NAME=VALUE, in order; they replace what `result` says
   bool json = false;
+  bool sticks = false;               ///< urdf; with_sticks()
   std::vector<std::string> signals;  ///< simulate
   std::string csv;                   ///< simulate; empty: standard output
   int samples = 101;                 ///< simulate; number of equally spaced instants, at least 2

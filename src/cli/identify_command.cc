@@ -13,22 +13,12 @@
 #include "identification/identify.h"
 #include "jobs/identification_files.h"
 #include "jobs/identification_records.h"
+#include "jobs/trial_lines.h"
 #include "jobs/whole_file.h"
 #include "text/number_text.h"
 
 namespace codesign::cli {
 namespace {
-
-void print_trial(const FitTrial& trial, std::ostream& err) {
-  err << "evaluation " << trial.evaluation << ": ";
-  if (!trial.status.ok()) {
-    err << "failed, " << describe(trial.status) << std::endl;
-    return;
-  }
-  err << "cost " << readable(trial.cost) << ", root mean squares";
-  for (const double rms : trial.rms) err << ' ' << readable(rms);
-  err << std::endl;
-}
 
 void print_numbers(const IdentificationResult& result, double level, std::ostream& out) {
   Table table;
@@ -56,23 +46,6 @@ Problem load_identifiable(const Arguments& arguments) {
   require_identification(problem);
   return problem;
 }
-
-/// Progress as lines: each evaluation of the fit, and the number whose profile begins.
-class FitLines {
- public:
-  explicit FitLines(std::ostream& err) : err_(err) {}
-
-  void tell(const FitTrial& trial) {
-    if (trial.profile == 0) return print_trial(trial, err_);
-    if (trial.profile == profile_) return;
-    profile_ = trial.profile;
-    err_ << "profile " << trial.profile << " of " << trial.profiles << std::endl;
-  }
-
- private:
-  std::ostream& err_;
-  int profile_ = 0;
-};
 
 /// A failure to write one file is reported and does not affect the others.
 template <class Write>
@@ -124,9 +97,10 @@ int identify(const Arguments& arguments, const Console& console) {
   const StudyRecordings recordings = read_recordings(problem, console, &warnings);
   // Until here an interrupt ends the program at once: there is nothing to lose.
   if (console.loaded) console.loaded();
-  FitLines lines(console.err);
+  FitLines lines(problem.optimizer_options().max_evaluations);
   const auto observer = [&](const FitTrial& trial) {
-    lines.tell(trial);
+    const std::string line = lines.line(trial);
+    if (!line.empty()) console.err << line << std::endl;
     return !console.cancel;
   };
   IdentificationResult result = codesign::identify(problem, recordings, observer, &console.cancel);

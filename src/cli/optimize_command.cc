@@ -11,22 +11,13 @@
 #include "engine/dispatcher.h"
 #include "jobs/ensemble_records.h"
 #include "jobs/optimization_records.h"
+#include "jobs/trial_lines.h"
 #include "jobs/watched_records.h"
 #include "optimization/search_hooks.h"
 #include "text/number_text.h"
 
 namespace codesign::cli {
 namespace {
-
-void print_trial(const Trial& trial, std::ostream& err) {
-  if (trial.start > 0) err << "search " << trial.start << ", ";
-  err << "trial " << trial.evaluation << ": ";
-  if (trial.status.ok())
-    err << "objective " << readable(trial.objective) << ", scaled gradient " << readable(trial.gradient_norm);
-  else
-    err << "failed, " << describe(trial.status);
-  err << ", best " << readable(trial.best_objective) << std::endl;
-}
 
 void print_design(const Problem& problem, const OptimizationResult& result, std::ostream& out) {
   const std::vector<std::string> names = problem.tuned_names();
@@ -80,17 +71,20 @@ int optimize(const Arguments& arguments, const Console& console) {
     tell(folder->notes(), console);
   }
   std::mutex printing;  // progress comes from the workers
-  const auto observer = [&](const Trial& trial) {
-    const std::lock_guard<std::mutex> lock(printing);
-    print_trial(trial, console.err);
-    if (folder) folder->add(trial);
-    return !console.cancel;
-  };
   const auto progress = [&](const Progress& so_far) {
     const std::lock_guard<std::mutex> lock(printing);
     console.err << progress_line(so_far) << std::endl;
   };
-  const SearchHooks hooks{observer, progress, folder ? folder->journal() : nullptr, console.ranks};
+  ProgressMeter meter(problem.optimizer_options().max_evaluations, progress);
+  TrialLines lines(problem.study());
+  const auto observer = [&](const Trial& trial) {
+    const Progress now = meter.now();  // before the lock: the meter calls `progress`, which takes it
+    const std::lock_guard<std::mutex> lock(printing);
+    console.err << lines.line(trial, now) << std::endl;
+    if (folder) folder->add(trial);
+    return !console.cancel;
+  };
+  const SearchHooks hooks{observer, nullptr, folder ? folder->journal() : nullptr, console.ranks, &meter};
   const OptimizationResult result = run_search(problem, problem.optimizer_options(), hooks, &console.cancel);
   const bool designed = has_design(problem, result);
   if (!arguments.json && designed) print_result(problem, result, console.out);

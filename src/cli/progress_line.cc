@@ -1,8 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/progress_line.h"
 
-#include <cmath>
-
+#include "jobs/trial_lines.h"
 #include "text/number_text.h"
 
 namespace codesign::cli {
@@ -17,23 +16,12 @@ std::string counted(const Progress& progress) {
   return "searching: " + of + "at most " + all + " evaluations";
 }
 
-/// With two digits, or as a whole number.
-std::string rounded(double value) { return readable(value < 10.0 ? value : std::round(value), value < 10.0 ? 2 : 10); }
-
-std::string duration(double seconds) {
-  if (seconds < 120.0) return rounded(seconds) + " s";
-  if (seconds < 7200.0) return rounded(seconds / 60.0) + " min";
-  return rounded(seconds / 3600.0) + " h";
-}
-
 }  // namespace
 
 std::string progress_line(const Progress& progress) {
   std::string line = counted(progress) + ", " + std::to_string(progress.runs) + " runs";
   if (progress.runs_per_second > 0.0) line += ", " + readable(progress.runs_per_second, 3) + " runs/s";
-  if (progress.seconds_left && *progress.seconds_left > 0.0)
-    line += (progress.is_bound ? ", at most " : ", about ") + duration(*progress.seconds_left) + " left";
-  return line;
+  return line + time_left(progress.seconds_left, progress.is_bound);
 }
 
 }  // namespace codesign::cli

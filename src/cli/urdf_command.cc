@@ -2,13 +2,15 @@
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/report.h"
+#include "reading/urdf/stick_figure.h"
 #include "reading/urdf/urdf_reader.h"
 
 namespace codesign::cli {
 
 int urdf(const Arguments& arguments, const Console& console) {
   const Problem problem = load(arguments);
-  const std::string text = write_tuned_urdf(problem.urdf(), problem.overlays(), problem.parameters());
+  std::string text = write_tuned_urdf(problem.urdf(), problem.overlays(), problem.parameters());
+  if (arguments.sticks) text = with_sticks(text);
   if (!arguments.json) console.out << text;
   Json object;
   object["model"] = problem.robot().name;

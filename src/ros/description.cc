@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/description.h"
 
+#include "reading/urdf/stick_figure.h"
+
 namespace codesign {
 namespace {
 
@@ -20,7 +22,7 @@ bool has_the_values_of_its_model(const Problem& problem) {
 }  // namespace
 
 bool describes(const std::string& text, const Problem& problem, const std::string& effective) {
-  if (trimmed(text) == trimmed(effective)) return true;
+  if (trimmed(text) == trimmed(effective) || trimmed(text) == trimmed(with_sticks(effective))) return true;
   return problem.overlays().empty() && has_the_values_of_its_model(problem) && trimmed(text) == trimmed(problem.urdf().text);
 }
 

@@ -14,8 +14,8 @@ namespace codesign {
 /// `effective`, the URDF that is simulated. No warning if the parameter is not set.
 Warnings check_description(const ros::NodeHandle& node, const Problem& problem, const std::string& effective);
 
-/// Whether the URDF `text` describes the simulated mechanism: it equals `effective`, or it is the model's own file and neither overlays nor
-/// parameter values change the model.
+/// Whether the URDF `text` describes the simulated mechanism: it equals `effective`, with or without sticks for links that have no visual,
+/// or it is the model's own file and neither overlays nor parameter values change the model.
 bool describes(const std::string& text, const Problem& problem, const std::string& effective);
 
 }  // namespace codesign

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ros/way_out.h"
+#include "text/number_text.h"
+
 namespace codesign {
 namespace {
 
@@ -14,6 +17,19 @@ std_msgs::ColorRGBA rgba(float red, float green, float blue, float alpha) {
   result.b = blue;
   result.a = alpha;
   return result;
+}
+
+std_msgs::ColorRGBA model_color() { return rgba(0.1F, 0.65F, 0.25F, 1.0F); }
+std_msgs::ColorRGBA measured_color(float alpha) { return rgba(0.3F, 0.3F, 0.35F, alpha); }
+
+/// How far both arrows move along the axis, so that the solids do not hide that of the model: it begins outside of them, or ends there if
+/// it points away from the viewer. @param length of the model's arrow, along the axis.
+Eigen::Vector3d outside(const Eigen::Vector3d& from, const Eigen::Vector3d& axis, double length, const Frame& frame,
+                        const MarkerStyle& style) {
+  const Eigen::Vector3d way = axis.dot(style.towards_viewer) >= 0.0 ? axis : Eigen::Vector3d(-axis);
+  const double out = way_out(from, way, frame, *style.solids, style.shaft_diameter);
+  const bool points_away = std::isfinite(length) && length * axis.dot(way) < 0.0;
+  return out * way - (points_away ? Eigen::Vector3d(length * axis) : Eigen::Vector3d::Zero());
 }
 
 }  // namespace
@@ -35,6 +51,18 @@ MarkerStyle effort_style(const ComparedMotion& motion, double size) {
   return style;
 }
 
+std::vector<CaptionLine> effort_legend(const MarkerStyle& style, const ComparedMotion& motion) {
+  std::string scales;
+  const auto add = [&](bool is_torque, double scale, const char* unit) {
+    const auto has = [&](const ComparedJoint& joint) { return joint.is_torque == is_torque; };
+    if (std::any_of(motion.joints.begin(), motion.joints.end(), has)) scales += ", " + readable(scale, 2) + unit;
+  };
+  add(false, style.metres_per_newton, " m per N");
+  add(true, style.metres_per_newton_metre, " m per N m");
+  if (scales.empty()) return {};
+  return {{"effort of the model" + scales, model_color()}, {"effort measured", measured_color(1.0F)}};
+}
+
 visualization_msgs::MarkerArray effort_markers(const ComparedMotion& motion, const Frame& measured, const Frame& model,
                                                const MessageContext& context, const MarkerStyle& style) {
   visualization_msgs::MarkerArray message;
@@ -42,8 +70,9 @@ visualization_msgs::MarkerArray effort_markers(const ComparedMotion& motion, con
     const LinkSample& link = model.links[joint.link];
     const Eigen::Vector3d axis = link.orientation * joint.axis;
     // Beside the axis, on which friction is drawn.
-    const Eigen::Vector3d from = link.position + 4.0 * style.shaft_diameter * axis.unitOrthogonal();
+    Eigen::Vector3d from = link.position + 4.0 * style.shaft_diameter * axis.unitOrthogonal();
     const double scale = joint.is_torque ? style.metres_per_newton_metre : style.metres_per_newton;
+    if (style.solids) from += outside(from, axis, scale * model.joints[joint.joint].effort, model, style);
     const auto add = [&](const std::string& side, double effort, double thickness, const std_msgs::ColorRGBA& colored) {
       message.markers.push_back(arrow_marker(from, scale * effort * axis, thickness * style.shaft_diameter));
       visualization_msgs::Marker& marker = message.markers.back();
@@ -52,8 +81,8 @@ visualization_msgs::MarkerArray effort_markers(const ComparedMotion& motion, con
       marker.ns = motion.names.joints[joint.joint] + "/" + side;
       marker.color = colored;
     };
-    add("identified", model.joints[joint.joint].effort, 1.0, rgba(0.1F, 0.65F, 0.25F, 1.0F));
-    add("measured", measured.joints[joint.joint].effort, 2.2, rgba(0.3F, 0.3F, 0.35F, 0.45F));
+    add("identified", model.joints[joint.joint].effort, 1.0, model_color());
+    add("measured", measured.joints[joint.joint].effort, 2.2, measured_color(0.45F));
   }
   return message;
 }

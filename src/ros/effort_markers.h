@@ -4,14 +4,20 @@
 
 #include <visualization_msgs/MarkerArray.h>
 
+#include <vector>
+
 #include "identification/compared_motion.h"
 #include "ros/friction_markers.h"
+#include "ros/scene_text.h"
 
 namespace codesign {
 
 /// Scales of the arrows that show efforts: the largest one of each unit is as long as half the mechanism.
 /// @param size of the mechanism [m].
 MarkerStyle effort_style(const ComparedMotion& motion, double size);
+
+/// What these arrows mean, in their colors; nothing if no effort is compared.
+std::vector<CaptionLine> effort_legend(const MarkerStyle& style, const ComparedMotion& motion);
 
 /// Two arrows for each compared joint, beside its child's origin, along its axis: the effort that the model needs (green), and around it
 /// the one that was recorded (grey, thick and transparent). Where the model explains the recording, the grey arrow ends where the green one

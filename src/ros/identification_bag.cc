@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 
+#include "reading/urdf/stick_figure.h"
 #include "ros/bag_writer.h"
 #include "ros/effort_markers.h"
-#include "ros/scene_layout.h"
+#include "ros/scene_text.h"
 
 namespace codesign {
 namespace {
@@ -40,13 +42,21 @@ std::vector<SeriesPart> parts_of(const IdentificationShow& show) {
 class ShowWriter {
  public:
   ShowWriter(const std::string& path, const IdentificationShow& show, const IdentificationAnswer* answer)
-      : show_(show), answer_(answer), writer_(path) {
-    std::vector<const std::vector<Frame>*> runs;
-    for (const ComparedRecording& recording : show.motion.recordings) runs.push_back(&recording.model);
+      : show_(show), answer_(answer), writer_(path), drawn_(with_sticks(show.urdf)) {
+    const auto solids = std::make_shared<LinkBoxes>(link_boxes(drawn_, show.motion.names.links));
+    std::vector<ShownRun> runs;
+    for (const ComparedRecording& recording : show.motion.recordings) runs.push_back({show.motion.names, recording.model, solids});
     layout_ = lay_out(runs);
     efforts_ = effort_style(show.motion, layout_.size);
+    efforts_.towards_viewer = layout_.view.towards_viewer();
+    efforts_.solids = solids;
     // A joint's friction is a part of its effort: arrows of both can be compared.
     if (!show.motion.joints.empty()) layout_.style = efforts_;
+    layout_.style.solids = solids;
+    legend_ = effort_legend(efforts_, show.motion);
+    const std::vector<CaptionLine> friction = arrow_legend(layout_);
+    legend_.insert(legend_.end(), friction.begin(), friction.end());
+    stage_ = stage_of(layout_, {Eigen::Vector3d::Zero()}, 1 + static_cast<int>(legend_.size()));
   }
 
   void write() {
@@ -70,10 +80,14 @@ class ShowWriter {
     writer_.write_text("identification", show_.json);
     if (answer_) writer_.write_latched("request", 0.0, answer_->request);
     // The measured robot has no other dimensions than those that were identified.
-    for (const char* side : {"measured", "identified"}) writer_.write_text(std::string(side) + "/robot_description", show_.urdf);
+    for (const char* side : {"measured", "identified"}) writer_.write_text(std::string(side) + "/robot_description", drawn_);
     tf2_msgs::TFMessage places;
-    for (const char* side : {"measured", "identified"}) places.transforms.push_back(place_in_world(side, 0.0, BagWriter::stamp(0.0)));
+    for (const char* side : {"measured", "identified"})
+      places.transforms.push_back(place_in_world(side, Eigen::Vector3d::Zero(), BagWriter::stamp(0.0)));
     writer_.write_latched("tf_static", 0.0, places);
+    stage_.scene.header.stamp = BagWriter::stamp(0.0);
+    stage_.scene.header.frame_id = "world";
+    writer_.write_latched("scene", 0.0, stage_.scene);
   }
 
   void write_tail() {
@@ -90,9 +104,9 @@ class ShowWriter {
 
   /// @param begin where the recording begins in the bag [s].
   void write_motion(const ComparedRecording& recording, double begin) {
-    visualization_msgs::MarkerArray labels;
-    labels.markers = {label("recording", "world", recording.element, layout_, BagWriter::stamp(begin))};
-    writer_.write_latched("labels", begin, labels);
+    std::vector<CaptionLine> lines{plain_line(recording.element)};
+    lines.insert(lines.end(), legend_.begin(), legend_.end());
+    writer_.write_latched("labels", begin, caption(lines, layout_, stage_.caption, {BagWriter::stamp(begin), "world"}));
     for (std::size_t k = 0; k < recording.model.size(); ++k) {
       const double time = begin + recording.model[k].time - recording.model.front().time;
       write_measured(recording.measured[k], time);
@@ -141,7 +155,10 @@ class ShowWriter {
   const IdentificationShow& show_;
   const IdentificationAnswer* answer_;
   BagWriter writer_;
+  const std::string drawn_;  ///< the URDF, with sticks
   SceneLayout layout_;
+  Stage stage_;
+  std::vector<CaptionLine> legend_;
   MarkerStyle efforts_;  ///< of the arrows of efforts
   double end_ = 0.0;     ///< of what is written so far
 };

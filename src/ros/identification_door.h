@@ -35,6 +35,8 @@ class IdentificationDoor {
 
   /// Accepts goals from now on.
   void open() { action_.start(); }
+  /// Cancels the running job. @returns whether there is one, which had not been cancelled before.
+  bool cancel() { return worker_.cancel(); }
   /// Cancels the running job, waits for its end, and accepts no further ones.
   void finish() { worker_.finish(); }
 

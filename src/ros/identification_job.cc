@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/identification_job.h"
 
+#include <ros/console.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -11,6 +13,7 @@
 #include "jobs/job_files.h"
 #include "jobs/json_records.h"
 #include "jobs/output_error.h"
+#include "jobs/trial_lines.h"
 #include "jobs/whole_file.h"
 #include "mechanism_codesign/error.h"
 #include "ros/conversions.h"
@@ -36,7 +39,10 @@ class IdentificationJob {
   void fit(const std::string& folder, const std::atomic<bool>& cancel) {
     feedback_.begin("reading");
     recordings_ = load_recordings(*problem_.study().identification, problem_.robot(), folder, cancellable_bag_reader(cancel), &warnings_);
+    FitLines lines(problem_.optimizer_options().max_evaluations);
     const auto observe = [&](const FitTrial& trial) {
+      const std::string line = lines.line(trial);
+      if (!line.empty()) ROS_INFO_STREAM(line);
       feedback_.tell(trial);
       return !cancel;
     };

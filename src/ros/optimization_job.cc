@@ -17,6 +17,7 @@
 #include "jobs/optimization_records.h"
 #include "jobs/output_error.h"
 #include "jobs/result_folder.h"
+#include "jobs/trial_lines.h"
 #include "jobs/whole_file.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/optimization.h"
@@ -117,9 +118,12 @@ class Job {
   void optimize(const FeedbackObserver& observer, const std::atomic<bool>& cancel) {
     JobFeedback feedback(files_.name(), problem_.tuned_names(), observer);
     ProgressMeter meter(optimizer_options_.max_evaluations, [&](const Progress& progress) { feedback.tell(progress); });
+    TrialLines lines(problem_.study());
     const auto observe = [&](const Trial& trial) {
+      const Progress now = meter.now();
       best_.note(trial);
-      feedback.tell(trial, meter.now());
+      ROS_INFO_STREAM(lines.line(trial, now));
+      feedback.tell(trial, now);
       return true;
     };
     result_ = run_search(problem_, optimizer_options_, {observe, nullptr, journal_, options_.ranks, &meter}, &cancel);

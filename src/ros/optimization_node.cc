@@ -19,6 +19,7 @@
 #include "ros/request.h"
 #include "ros/trajectory_bag.h"
 #include "ros/wire.h"
+#include "text/unknown_name.h"
 
 namespace codesign {
 namespace {
@@ -54,6 +55,8 @@ OptimizationNode::OptimizationNode(Dispatcher* ranks) : state_("optimization"), 
   cancel_all_ = ros::NodeHandle(doors_, "optimize").subscribe("cancel", 10, &OptimizationNode::on_cancel_all, this);
   identification_ = std::make_unique<IdentificationDoor>(node_, doors_, loaded_, &state_);
   application_ = std::make_unique<ApplyDoor>(doors_, loaded_.options.output_directory, &state_);
+  ros::NodeHandle private_doors(doors_, ros::this_node::getName());
+  cancel_ = private_doors.advertiseService("cancel", &OptimizationNode::on_cancel_request, this);
   spinner_.start();
   action_->start();
   identification_->open();
@@ -221,6 +224,18 @@ void OptimizationNode::on_cancel_all(const actionlib_msgs::GoalID& goal) {
 void OptimizationNode::on_cancel(const GoalHandle& goal) {
   const unsigned char status = goal.getGoalStatus().status;
   if (status == actionlib_msgs::GoalStatus::RECALLING || status == actionlib_msgs::GoalStatus::PREEMPTING) optimizer_.cancel();
+}
+
+bool OptimizationNode::on_cancel_request(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  std::vector<std::string> cancelled;
+  if (optimizer_.cancel()) cancelled.emplace_back("the optimization");
+  if (identification_->cancel()) cancelled.emplace_back("the identification");
+  response.success = !cancelled.empty();
+  if (cancelled.empty())
+    response.message = "nothing to cancel: no optimization and no identification is running, or it is cancelled already";
+  else
+    response.message = "cancelled " + list_names(cancelled) + "; its answer has the best point so far";
+  return true;
 }
 
 std::shared_ptr<void> make_optimization_node(Dispatcher* ranks) { return std::make_shared<OptimizationNode>(ranks); }

@@ -10,6 +10,7 @@
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
+#include <std_srvs/Trigger.h>
 
 #include <functional>
 #include <string>
@@ -22,7 +23,8 @@
 
 namespace codesign {
 
-/// The node `optimization`: services `optimize`, `identify`, `evaluate` and `apply`, actions `optimize` and `identify`. See doc/ros_api.md.
+/// The node `optimization`: services `optimize`, `identify`, `evaluate`, `apply` and `~cancel`, actions `optimize` and `identify`. See
+/// doc/ros_api.md.
 ///
 /// One worker thread serves the service and the action `optimize`, another one `identify`, a third `evaluate`; a request to a working one
 /// is answered with `busy`. Callbacks only hand the job over and wait for it. They have their own queue with several threads, so that the
@@ -44,6 +46,7 @@ class OptimizationNode {
   void on_goal(GoalHandle goal);
   void on_cancel(const GoalHandle& goal);
   void on_cancel_all(const actionlib_msgs::GoalID& goal);
+  bool on_cancel_request(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   /// Callbacks to the client of a job, called in the worker's thread.
   struct Client {
@@ -73,7 +76,7 @@ class OptimizationNode {
   std::unique_ptr<ApplyDoor> application_;
   Worker optimizer_, evaluator_;
   ros::AsyncSpinner spinner_;
-  ros::ServiceServer optimize_, evaluate_;
+  ros::ServiceServer optimize_, evaluate_, cancel_;
   ros::Subscriber cancel_all_;
 };
 

@@ -19,13 +19,14 @@ void RunBag::guard(const Write& write) {
   }
 }
 
-void RunBag::open(const std::string& description) {
+void RunBag::open(const std::string& description, const std::string& root_frame, const SimulationScene& scene) {
   if (options_.bag.empty()) return;
   guard([&] {
     lock_ = lock();
     bag_ = std::make_unique<BagWriter>(options_.bag);
     bag_->write_text("robot_description", description);
     bag_->write_text("version", version());
+    bag_->write_latched("scene", 0.0, scene.message({BagWriter::stamp(0.0), root_frame}));
   });
 }
 
@@ -39,10 +40,11 @@ std::optional<LockFile> RunBag::lock() const {
   return abandoned;
 }
 
-void RunBag::record(const FrameNames& names, const Frame& frame) {
+void RunBag::record(const FrameNames& names, const Frame& frame, const SimulationScene& scene) {
   if (!bag_) return;
   guard([&] {
     bag_->write_frame("", options_.frame_prefix + names.links[0], names, frame, options_.style);
+    bag_->write("caption", frame.time, scene.text(frame, {BagWriter::stamp(frame.time), options_.frame_prefix + names.links[0]}));
     bag_->write("tf", frame.time, link_transforms(names, frame, BagWriter::stamp(frame.time), options_.frame_prefix));
   });
 }

@@ -13,19 +13,21 @@
 #include "ros/bag_writer.h"
 #include "ros/node_state.h"
 #include "ros/simulation_options.h"
+#include "ros/simulation_scene.h"
 
 namespace codesign {
 
-/// The bag of the first run of the simulation, if one is asked for: every frame, tf of all links, commands, description and version. A
-/// failure to write gives the warning `output_failed` and ends the bag, not the run.
+/// The bag of the first run of the simulation, if one is asked for: every frame, tf of all links, commands, caption, description,
+/// scene and version. A failure to write gives the warning `output_failed` and ends the bag, not the run.
 class RunBag {
  public:
   /// @param options, state must outlive this.
   RunBag(const SimulationOptions& options, NodeState* state) : options_(options), state_(state) {}
 
-  /// Begins the bag; what a killed node left of it is removed. @param description URDF of the mechanism
-  void open(const std::string& description);
-  void record(const FrameNames& names, const Frame& frame);
+  /// Begins the bag; what a killed node left of it is removed. @param description URDF of the mechanism. @param root_frame TF frame of
+  /// the root link
+  void open(const std::string& description, const std::string& root_frame, const SimulationScene& scene);
+  void record(const FrameNames& names, const Frame& frame, const SimulationScene& scene);
   /// @param time [s] of the run from which the commands are in effect
   void record(const mechanism_codesign::Commands& commands, double time);
   /// Completes the bag.

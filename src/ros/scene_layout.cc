@@ -1,7 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/scene_layout.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -12,16 +11,20 @@ namespace {
 class ArrowScale {
  public:
   void include(double load) {
-    if (load == 0.0) return;
+    if (load == 0.0 || !std::isfinite(load)) return;
     ++count_;
     sum_of_squares_ += load * load;
     largest_ = std::max(largest_, load);
   }
 
-  /// Arrow length per unit of load: a third of `size` for the root mean square of the loads, and at most `size` for the largest one.
+  bool is_used() const { return count_ > 0; }
+
+  /// Arrow length per unit of load: a sixth of `size` for the root mean square of the loads, and at most 0.4 times it for the largest one.
   double metres_per_unit(double size, double fallback) const {
     if (count_ == 0) return fallback;
-    return std::min(size / (3.0 * std::sqrt(sum_of_squares_ / count_)), size / largest_);
+    const double scale = std::min(size / (6.0 * std::sqrt(sum_of_squares_ / count_)), 0.4 * size / largest_);
+    const double digits = std::pow(10.0, std::floor(std::log10(scale)) - 1.0);
+    return std::floor(scale / digits) * digits;
   }
 
  private:
@@ -29,62 +32,151 @@ class ArrowScale {
   double sum_of_squares_ = 0.0, largest_ = 0.0;
 };
 
-/// The bounding box of all link frames relative to the root link, and the loads to draw.
-struct Extent {
-  Eigen::AlignedBox3d box{Eigen::Vector3d::Zero()};
-  ArrowScale force, torque;
+/// Frames of a run that are looked at: about a hundred, evenly.
+std::vector<const Frame*> some_frames(const ShownRun& run) {
+  std::vector<const Frame*> frames;
+  const std::size_t stride = 1 + run.frames.size() / 100;
+  for (std::size_t k = 0; k < run.frames.size(); k += stride) frames.push_back(&run.frames[k]);
+  return frames;
+}
 
-  void include(const std::vector<Frame>& run) {
-    for (const Frame& frame : run) {
-      for (const LinkSample& link : frame.links) box.extend(link.position - frame.links.front().position);
+void add_solids(const LinkSample& link, const std::vector<SolidBox>& boxes, std::vector<Eigen::Vector3d>* points) {
+  for (const SolidBox& solid : boxes)
+    for (const Eigen::Vector3d& corner : corners(Eigen::AlignedBox3d(-solid.half, solid.half)))
+      points->push_back(link.position + link.orientation * (solid.pose * corner));
+}
+
+/// The origins of all links and the corners of the solids of those that are not the root.
+void add_links(const ShownRun& run, std::vector<Eigen::Vector3d>* points) {
+  for (const Frame* frame : some_frames(run))
+    for (std::size_t k = 0; k < frame->links.size(); ++k) {
+      if (!frame->links[k].position.allFinite()) continue;
+      points->push_back(frame->links[k].position);
+      if (k > 0 && run.solids) add_solids(frame->links[k], (*run.solids)[k], points);
+    }
+}
+
+Eigen::AlignedBox3d box_of(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : points) box.extend(point);
+  return box;
+}
+
+/// The corners of the root's solids, moved to the box of half a size around what moves if they lie outside of it.
+void add_root(const std::vector<ShownRun>& runs, std::vector<Eigen::Vector3d>* points) {
+  const Eigen::AlignedBox3d moving = box_of(*points);
+  const Eigen::Array3d margin = Eigen::Array3d::Constant(0.5 * moving.sizes().maxCoeff());
+  std::vector<Eigen::Vector3d> root;
+  for (const ShownRun& run : runs)
+    if (!run.frames.empty() && run.solids) add_solids(run.frames.front().links[0], (*run.solids)[0], &root);
+  for (const Eigen::Vector3d& point : root)
+    points->emplace_back(point.array().max(moving.min().array() - margin).min(moving.max().array() + margin).matrix());
+}
+
+void add_arrows(const ShownRun& run, MarkerStyle style, std::vector<Eigen::Vector3d>* points) {
+  style.solids = run.solids;
+  for (const Frame* frame : some_frames(run))
+    for (std::size_t k = 0; k < frame->frictions.size(); ++k) {
+      const ArrowEnds ends = friction_arrow(frame->frictions[k], run.names.friction_is_torque[k], *frame, style);
+      if (ends.from.allFinite() && ends.to.allFinite()) points->insert(points->end(), {ends.from, ends.to});
+    }
+}
+
+void scale_arrows(const std::vector<ShownRun>& runs, SceneLayout* layout) {
+  ArrowScale force, torque;
+  for (const ShownRun& run : runs)
+    for (const Frame& frame : run.frames)
       for (const FrictionSample& sample : frame.frictions) {
         force.include(sample.force.norm());
         torque.include(sample.torque.norm());
       }
-    }
-  }
-};
+  layout->has_forces = force.is_used();
+  layout->has_torques = torque.is_used();
+  layout->style.shaft_diameter = 0.015 * layout->size;
+  layout->style.metres_per_newton = force.metres_per_unit(layout->size, layout->style.metres_per_newton);
+  layout->style.metres_per_newton_metre = torque.metres_per_unit(layout->size, layout->style.metres_per_newton_metre);
+}
+
+/// Height of letters over the distance of the viewer: 1/36 of the picture's height.
+constexpr double kLetter = kHalfHeight / 18.0;
+/// From line to line, in letters.
+constexpr double kLine = 1.6;
+
+/// The points of a mechanism whose root link stands at `place`.
+void add_mechanism(const SceneLayout& layout, const Eigen::Vector3d& place, std::vector<Eigen::Vector3d>* points) {
+  for (const Eigen::Vector3d& point : layout.points) points->push_back(place + point);
+}
+
+/// The way to stand clear of each other, to the right or one before the other, in which the farther one looks larger.
+Eigen::Vector3d apart_in(const SceneLayout& layout) {
+  const SceneView& view = layout.view;
+  const Eigen::Vector2d sides = view.picture(layout.points).sizes();
+  const Eigen::Vector3d beside = 1.08 * sides.x() * view.right();
+  const Eigen::Vector3d before = 1.25 * sides.y() / std::sin(view.pitch) * Eigen::Vector3d(std::cos(view.yaw), std::sin(view.yaw), 0.0);
+  const auto farther = [&](const Eigen::Vector3d& apart) {
+    std::vector<Eigen::Vector3d> points;
+    for (const double side : {-0.5, 0.5}) add_mechanism(layout, side * apart, &points);
+    const CameraPlace camera = place_camera(points, view);
+    return camera.distance + (camera.focus + 0.5 * apart).dot(view.towards_viewer());
+  };
+  return farther(beside) <= farther(before) ? beside : before;
+}
+
+void set_point(const Eigen::Vector3d& point, boost::array<double, 3>* numbers) {
+  for (std::size_t k = 0; k < 3; ++k) (*numbers)[k] = point[static_cast<Eigen::Index>(k)];
+}
 
 }  // namespace
 
-SceneLayout lay_out(const std::vector<const std::vector<Frame>*>& runs) {
-  Extent extent;
-  for (const std::vector<Frame>* run : runs) extent.include(*run);
-  const double size = std::max(extent.box.sizes().maxCoeff(), 1e-3);
+SceneLayout lay_out(const std::vector<ShownRun>& runs) {
   SceneLayout layout;
-  layout.size = size;
-  layout.separation = extent.box.sizes().y() + 0.5 * size;
-  layout.label_height = extent.box.max().z() + 0.15 * size;
-  layout.label_size = 0.1 * size;
-  layout.style.shaft_diameter = 0.025 * size;
-  layout.style.metres_per_newton = extent.force.metres_per_unit(size, layout.style.metres_per_newton);
-  layout.style.metres_per_newton_metre = extent.torque.metres_per_unit(size, layout.style.metres_per_newton_metre);
+  layout.points = {Eigen::Vector3d::Zero()};
+  for (const ShownRun& run : runs) add_links(run, &layout.points);
+  add_root(runs, &layout.points);
+  const Eigen::AlignedBox3d box = box_of(layout.points);
+  layout.size = std::max(box.sizes().maxCoeff(), 1e-3);
+  layout.floor = box.min().z();
+  layout.view = view_of(box.sizes());
+  layout.style.towards_viewer = layout.view.towards_viewer();
+  scale_arrows(runs, &layout);
+  for (const ShownRun& run : runs) add_arrows(run, layout.style, &layout.points);
+  layout.apart = apart_in(layout);
+  std::vector<Eigen::Vector3d> points = layout.points;
+  if (runs.size() > 1) add_mechanism(layout, layout.apart, &points);
+  layout.letter = kLetter * place_camera(points, layout.view, 0.7).distance;
   return layout;
 }
 
-geometry_msgs::TransformStamped place_in_world(const std::string& frame, double y, const ros::Time& stamp) {
-  geometry_msgs::TransformStamped transform;
-  transform.header.stamp = stamp;
-  transform.header.frame_id = "world";
-  transform.child_frame_id = frame;
-  transform.transform.translation.y = y;
-  transform.transform.rotation.w = 1.0;
-  return transform;
-}
-
-visualization_msgs::Marker label(const std::string& name, const std::string& frame, const std::string& text, const SceneLayout& layout,
-                                 const ros::Time& stamp) {
-  visualization_msgs::Marker marker;
-  marker.header.stamp = stamp;
-  marker.header.frame_id = frame;
-  marker.ns = name;
-  marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
-  marker.text = text;
-  marker.pose.position.z = layout.label_height;
-  marker.pose.orientation.w = 1.0;
-  marker.scale.z = layout.label_size;
-  marker.color.a = 1.0F;
-  return marker;
+Stage stage_of(const SceneLayout& layout, const std::vector<Eigen::Vector3d>& places, int lines) {
+  const SceneView& view = layout.view;
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3d& place : places) add_mechanism(layout, place, &points);
+  const Eigen::AlignedBox3d box = box_of(points);
+  // Below the text there is room for the names.
+  const double top = kFilled - kLine * (lines + 2) * kLetter / kHalfHeight;
+  const CameraPlace camera = place_camera(points, view, top);
+  Stage stage;
+  stage.letter = kLetter * camera.distance;
+  const Eigen::AlignedBox2d picture = view.picture(layout.points);
+  const Eigen::Vector3d middle = box_of(layout.points).center();
+  stage.label = middle + (picture.center().x() - middle.dot(view.right())) * view.right() +
+                (picture.max().y() + stage.letter - middle.dot(view.up())) * view.up();
+  // The text is as far away as makes its letters look as large as those of the names.
+  const double away = layout.letter / kLetter;
+  const Eigen::Vector3d eye = camera.focus + camera.distance * view.towards_viewer();
+  stage.caption = eye - away * view.towards_viewer() + ((kFilled * kHalfHeight - 0.5 * kLetter) * away) * view.up();
+  mechanism_codesign::Scene& scene = stage.scene;
+  set_point(box.min(), &scene.smallest);
+  set_point(box.max(), &scene.largest);
+  scene.floor = layout.floor;
+  scene.grid_cell = round_down(0.15 * layout.size);
+  set_point(camera.focus, &scene.focal_point);
+  scene.distance = camera.distance;
+  scene.yaw = layout.view.yaw;
+  scene.pitch = layout.view.pitch;
+  scene.metres_per_newton = layout.style.metres_per_newton;
+  scene.metres_per_newton_metre = layout.style.metres_per_newton_metre;
+  return stage;
 }
 
 }  // namespace codesign

@@ -2,37 +2,51 @@
 #ifndef MECHANISM_CODESIGN_ROS_SCENE_LAYOUT_H_
 #define MECHANISM_CODESIGN_ROS_SCENE_LAYOUT_H_
 
-#include <geometry_msgs/TransformStamped.h>
-#include <ros/time.h>
-#include <visualization_msgs/Marker.h>
+#include <mechanism_codesign/Scene.h>
 
-#include <string>
+#include <memory>
 #include <vector>
 
 #include "mechanism_codesign/frame.h"
 #include "ros/friction_markers.h"
+#include "ros/scene_view.h"
 
 namespace codesign {
 
-/// Placement and scales for showing two runs of a mechanism together in rviz.
-struct SceneLayout {
-  double size = 0.0;          ///< largest extent of a mechanism [m]
-  double separation = 0.0;    ///< distance of the second mechanism from the first one, along -y [m], if they stand side by side
-  double label_height = 0.0;  ///< height of their labels above the root link [m]
-  double label_size = 0.0;    ///< height of the letters [m]
-  MarkerStyle style;
+/// A run to be shown.
+struct ShownRun {
+  const FrameNames& names;
+  const std::vector<Frame>& frames;
+  std::shared_ptr<const LinkBoxes> solids;  ///< of its links, in the order of `names`; null: not known
 };
 
-/// A layout in which two mechanisms do not overlap, an arrow of the root-mean-square friction is a third as long as the mechanism, and
-/// the largest arrow at most as long as the mechanism.
-SceneLayout lay_out(const std::vector<const std::vector<Frame>*>& runs);
+/// Placement and scales for showing runs of a mechanism in rviz. Places are in the axes of the root link [m].
+struct SceneLayout {
+  double size = 0.0;                    ///< largest side of the box around the links and their solids over the runs [m]
+  std::vector<Eigen::Vector3d> points;  ///< of links, solids and arrows over the runs, all of which are to be seen
+  double floor = 0.0;                   ///< height of the lowest solid [m]
+  SceneView view;
+  Eigen::Vector3d apart = Eigen::Vector3d::Zero();  ///< from the first mechanism to the second, so that their pictures do not overlap
+  double letter = 0.0;                              ///< height of the letters of the text above all [m]
+  MarkerStyle style;                                ///< without solids, which differ between designs
+  bool has_forces = false, has_torques = false;     ///< whether friction arrows of that kind are drawn
+};
 
-/// The transform from `world` to a frame at (0, y, 0), for tf_static.
-geometry_msgs::TransformStamped place_in_world(const std::string& frame, double y, const ros::Time& stamp);
+/// The layout of runs of the same mechanism.An arrow of the root-mean-square friction is a sixth as long as the mechanism, the largest
+/// arrow at most 0.4 times as long, both rounded down to two digits of metres per newton. Solids of the root, such as a floor, count as far
+/// as half a size around the links that move.
+SceneLayout lay_out(const std::vector<ShownRun>& runs);
 
-/// A text above the origin of a frame. @param name its namespace.
-visualization_msgs::Marker label(const std::string& name, const std::string& frame, const std::string& text, const SceneLayout& layout,
-                                 const ros::Time& stamp);
+/// Where to look at mechanisms, with room for a text above them.
+struct Stage {
+  mechanism_codesign::Scene scene;                    ///< without header
+  Eigen::Vector3d caption = Eigen::Vector3d::Zero();  ///< middle of the text's first line, at the top of the picture [m]
+  Eigen::Vector3d label = Eigen::Vector3d::Zero();    ///< of a mechanism's name, above it in the picture, from its root link [m]
+  double letter = 0.0;                                ///< height of the letters of names [m]
+};
+
+/// @param places of the root links. @param lines of the text, of which there may be none.
+Stage stage_of(const SceneLayout& layout, const std::vector<Eigen::Vector3d>& places, int lines);
 
 }  // namespace codesign
 

@@ -10,6 +10,7 @@
 
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/error.h"
+#include "reading/urdf/stick_figure.h"
 #include "reading/urdf/urdf_reader.h"
 #include "ros/description.h"
 #include "ros/inputs.h"
@@ -106,15 +107,28 @@ void SimulationNode::advertise() {
   if (options_.float_topics) floats_ = std::make_unique<FloatTopics>(node_, simulation_->names(), size);
   inbox_ = std::make_unique<CommandInbox>(node_, private_node_, simulation_->inputs(), &state_, &bell_);
   live_ = std::make_unique<LiveParameters>(service_node_, problem_->all_parameters(), simulation_->parameters(), &state_, &bell_);
+  caption_publisher_ = node_.advertise<visualization_msgs::MarkerArray>("caption", size);
+  scene_publisher_ = node_.advertise<mechanism_codesign::Scene>("scene", 1, true);
 }
 
 void SimulationNode::tell_description() {
   std_msgs::String message;
-  message.data = write_tuned_urdf(problem_->urdf(), problem_->overlays(), simulation_->parameters());
+  const std::string urdf = write_tuned_urdf(problem_->urdf(), problem_->overlays(), simulation_->parameters());
+  message.data = with_sticks(urdf);
   if (message.data == description_) return;
   description_ = message.data;
   description_publisher_.publish(message);
-  state_.warn("description", check_description(node_, *problem_, description_));
+  state_.warn("description", check_description(node_, *problem_, urdf));
+}
+
+MessageContext SimulationNode::context(double time) const {
+  return {clock_.stamp(time), options_.frame_prefix + problem_->robot().links[static_cast<std::size_t>(problem_->robot().root)].name};
+}
+
+void SimulationNode::set_scene() {
+  scene_.emplace(*problem_, description_, options_.style, [this] { return stopping(); });
+  options_.style = scene_->style();
+  scene_publisher_.publish(scene_->message(context(0.0)));
 }
 
 void SimulationNode::place_root() {
@@ -161,6 +175,7 @@ void SimulationNode::publish(const FrameNames& names, const Frame& frame) {
     publishers_.at(topic).publish(message);
   });
   if (floats_) floats_->publish(frame);
+  caption_publisher_.publish(scene_->text(frame, context));
   const tf2_msgs::TFMessage poses = options_.frame_prefix.empty() ? free_link_transforms(names, frame, context)
                                                                   : link_transforms(names, frame, context.stamp, options_.frame_prefix);
   if (!poses.transforms.empty()) transforms_.sendTransform(poses.transforms);

@@ -28,6 +28,7 @@
 #include "ros/run_clock.h"
 #include "ros/run_control.h"
 #include "ros/simulation_options.h"
+#include "ros/simulation_scene.h"
 
 namespace codesign {
 
@@ -44,6 +45,9 @@ class SimulationNode {
   void load();
   void advertise();
   void tell_description();
+  void set_scene();
+  /// @param time of the run.
+  MessageContext context(double time) const;
   void place_root();
   void wait_for_subscribers();
   bool is_watched() const;
@@ -81,13 +85,14 @@ class SimulationNode {
   std::unique_ptr<CommandInbox> inbox_;
   std::unique_ptr<LiveParameters> live_;
   std::unique_ptr<FloatTopics> floats_;
-  std::string description_;  ///< URDF of the mechanism that runs
+  std::string description_;  ///< URDF of the mechanism that runs, with sticks
+  std::optional<SimulationScene> scene_;
   RunClock clock_{1.0};
   Pace pace_;
   RealTimeFactor factor_;
   Frame frame_;  ///< the last one
   std::map<std::string, ros::Publisher> publishers_;
-  ros::Publisher clock_publisher_, description_publisher_, commands_publisher_, factor_publisher_;
+  ros::Publisher clock_publisher_, description_publisher_, commands_publisher_, factor_publisher_, caption_publisher_, scene_publisher_;
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   RunBag bag_{options_, &state_};

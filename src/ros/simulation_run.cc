@@ -28,8 +28,9 @@ void SimulationNode::run() {
 
 void SimulationNode::run_all() {
   double previous_duration = 0.0;
+  set_scene();
   wait_for_subscribers();
-  bag_.open(description_);
+  bag_.open(description_, context(0.0).root_frame, *scene_);
   while (!stopping()) {
     if (!clock_.has_room_for(previous_duration + simulation_->duration()))
       return wait_for_restart("finished: /clock has reached the end of ROS time");
@@ -132,7 +133,7 @@ Status SimulationNode::serve() {
 
 void SimulationNode::show_frame(bool record) {
   publish(simulation_->names(), frame_);
-  if (record) bag_.record(simulation_->names(), frame_);
+  if (record) bag_.record(simulation_->names(), frame_, *scene_);
 }
 
 void SimulationNode::tell_commands() {

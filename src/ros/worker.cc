@@ -29,6 +29,11 @@ bool Worker::try_start(Job job, std::function<void()> done) {
   return true;
 }
 
+bool Worker::cancel() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return job_ && !cancel_.exchange(true);
+}
+
 bool Worker::busy() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return static_cast<bool>(job_);

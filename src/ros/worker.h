@@ -26,8 +26,8 @@ class Worker {
   /// Must not throw.
   bool try_start(Job job, std::function<void()> done);
 
-  /// Sets the flag of the running job, if any.
-  void cancel() { cancel_ = true; }
+  /// Sets the flag of the running job, if any. @returns whether there is one, which had not been cancelled before.
+  bool cancel();
 
   /// Cancels the running job, waits for its end, and accepts no further jobs.
   void finish();

@@ -36,5 +36,19 @@ TEST(UrdfCommand, AlsoAsJson) {
   EXPECT_EQ(object["urdf"].get<std::string>(), run_words({"urdf", kModel}).out);
 }
 
+TEST(UrdfCommand, DrawsLinksThatHaveNoVisualIfAskedTo) {
+  const ScratchFolder folder;
+  const std::string bare =
+      folder.edited("bare.urdf",
+                    "<robot name=\"bare\"><link name=\"ground\"/><joint name=\"j\" type=\"continuous\"><parent "
+                    "link=\"ground\"/><child link=\"rod\"/><axis xyz=\"0 1 0\"/></joint><link name=\"rod\"><inertial><origin "
+                    "xyz=\"0 0 -0.5\"/><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" "
+                    "iyz=\"0\"/></inertial></link></robot>",
+                    "<robot", "<robot");
+  EXPECT_EQ(run_words({"urdf", bare}).out.find("<visual"), std::string::npos);
+  EXPECT_NE(run_words({"urdf", bare, "--sticks"}).out.find("<cylinder"), std::string::npos);
+  EXPECT_EQ(run_words({"urdf", kModel, "--sticks"}).out, run_words({"urdf", kModel}).out) << "each link has a visual";
+}
+
 }  // namespace
 }  // namespace codesign::cli

@@ -9,9 +9,9 @@ namespace codesign::cli {
 namespace {
 
 TEST(Usage, NamesEveryCommandAndOption) {
-  for (const char* word : {"check MODEL", "urdf MODEL", "simulate MODEL STUDY", "gradient MODEL STUDY", "optimize MODEL STUDY", "--signals",
-                           "--csv", "--samples", "--verify", "--output", "--resume", "report DIR|BAG", "apply DIR|BAG", "--overlay",
-                           "--result", "--set", "--json", "--version"})
+  for (const char* word : {"check MODEL", "urdf MODEL", "--sticks", "simulate MODEL STUDY", "gradient MODEL STUDY", "optimize MODEL STUDY",
+                           "--signals", "--csv", "--samples", "--verify", "--output", "--resume", "report DIR|BAG", "apply DIR|BAG",
+                           "--overlay", "--result", "--set", "--json", "--version"})
     EXPECT_NE(usage().find(word), std::string::npos) << word;
 }
 

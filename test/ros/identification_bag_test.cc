@@ -65,10 +65,17 @@ class IdentificationBag : public testing::Test {
 
 TEST_F(IdentificationBag, HoldsBothSidesAndEverythingAroundThem) {
   write();
-  std::map<std::string, int> expected{
-      {"study", 1},     {"identification", 1}, {"measured/robot_description", 1}, {"identified/robot_description", 1},
-      {"tf_static", 1}, {"labels", 2},         {"measured/joint_states", 4},      {"tf", 8},
-      {"efforts", 4},   {"residuals", 5}};
+  std::map<std::string, int> expected{{"study", 1},
+                                      {"identification", 1},
+                                      {"measured/robot_description", 1},
+                                      {"identified/robot_description", 1},
+                                      {"tf_static", 1},
+                                      {"labels", 2},
+                                      {"measured/joint_states", 4},
+                                      {"tf", 8},
+                                      {"efforts", 4},
+                                      {"residuals", 5},
+                                      {"scene", 1}};
   for (const char* topic : {"joint_states", "joint_friction", "controller_states", "loop_errors", "signals", "friction_markers"})
     expected[std::string("identified/") + topic] = 4;
   EXPECT_EQ(counts(), expected);

@@ -17,6 +17,7 @@ from mechanism_codesign.msg import IdentificationProgress, IdentifyAction, Ident
 from mechanism_codesign.srv import Identify, IdentifyRequest
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
+from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from node_process import TIMEOUT, NodesTestCase, files  # noqa: E402
@@ -155,6 +156,21 @@ class IdentifyTest(NodesTestCase):
             self.assertEqual((request.version, kept.bag, str(kept.numbers)), (result.version, result.bag, str(result.numbers)))
             recordings = [message.recording for _, message, _ in bag.read_messages(topics=["residuals"])]
             self.assertEqual(sorted(set(recordings)), ["identify.data[0]", "identify.holdout[0]"])
+
+    def test_the_service_cancel_ends_an_identification(self):
+        write_bag(self.bag, count=40000, rate=1000.0)
+        self.start_node("ended", "  intervals: {profiles: true}\n")
+        client, begun = self.client("ended"), threading.Event()
+        client.send_goal(IdentifyGoal(parameters=["inertia", "viscous"], start=[4.0, 9.0]),
+                         feedback_cb=lambda feedback: begun.set() if feedback.progress.stage == "fitting" else None)
+        self.assertTrue(begun.wait(TIMEOUT))
+        reply = rospy.ServiceProxy("/ended/cancel", Trigger)()
+        self.assertTrue(reply.success)
+        self.assertIn("cancelled the identification", reply.message)
+        self.assertTrue(client.wait_for_result(rospy.Duration(TIMEOUT)))
+        result = client.get_result()
+        self.assertEqual(result.code, "cancelled")
+        self.assertTrue(os.path.isfile(result.bag))
 
     def test_a_cancel_is_answered_within_a_second_with_the_best_point(self):
         # 40 s at 1 kHz: an evaluation takes long enough to be cancelled in.

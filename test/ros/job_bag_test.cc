@@ -7,9 +7,11 @@
 #include <sensor_msgs/JointState.h>
 #include <std_msgs/String.h>
 
+#include <cmath>
 #include <map>
 
 #include "jobs/output_error.h"
+#include "mechanism_codesign/Scene.h"
 #include "ros/conversions.h"
 #include "ros/sample_frame.h"
 #include "temporary_directory.h"
@@ -19,11 +21,13 @@ namespace {
 
 JobRecord sample_record() {
   JobRecord record;
-  const RecordedRun run{sample_names(), {sample_frame(0.0), sample_frame(0.5), sample_frame(1.0)}, {}};
+  RecordedRun run{sample_names(), {sample_frame(0.0), sample_frame(0.5), sample_frame(1.0)}, {}};
+  run.frames[1].objective = 1.5;
   record.nominal = {{"<robot name='before'/>", run}, {"<robot name='after'/>", run}};
   record.progress.resize(5);
   record.request.max_evaluations = 9;
   record.result.objective = 0.25;
+  record.result.initial_objective = 0.5;
   record.study = "duration: 1.0";
   record.study_files = {"{\"names\": []}", "second"};
   return record;
@@ -55,7 +59,8 @@ TEST_F(JobBag, HoldsBothRunsAndEverythingAroundThem) {
   rosbag::View view(bag_);
   for (const rosbag::MessageInstance& instance : view) ++counts[instance.getTopic()];
   std::map<std::string, int> expected{{"study", 1},     {"study_files", 2}, {"request", 1}, {"result", 1}, {"optimization_progress", 5},
-                                      {"tf_static", 1}, {"labels", 1},      {"tf", 6}};
+                                      {"tf_static", 1}, {"labels", 1},      {"scene", 1},   {"tf", 6},     {"caption", 3}};
+  for (const char* topic : {"tf_static", "labels", "scene"}) expected[std::string("overlay/") + topic] = 1;
   for (const std::string side : {"initial/", "tuned/"}) {
     expected[side + "robot_description"] = 1;
     for (const char* topic : {"joint_states", "joint_friction", "controller_states", "loop_errors", "signals", "friction_markers"})
@@ -85,14 +90,41 @@ TEST_F(JobBag, RecordedTimeStartsAtOneSecondAndAgreesWithTheStamps) {
   EXPECT_EQ(progress.at(1)->header.stamp, ros::Time(1.25));
 }
 
+TEST_F(JobBag, SideBySideTheMechanismsStandApartAndLaidOverEachOtherInOnePlace) {
+  for (const std::string place : {"", "overlay/"}) {
+    const auto transforms = read<tf2_msgs::TFMessage>(place + "tf_static").at(0)->transforms;
+    ASSERT_EQ(transforms.size(), 3U);
+    EXPECT_EQ(transforms[0].child_frame_id, "initial");
+    EXPECT_EQ(transforms[1].child_frame_id, "tuned");
+    EXPECT_EQ(transforms[2].child_frame_id, "caption");
+    const auto &initial = transforms[0].transform.translation, &tuned = transforms[1].transform.translation;
+    EXPECT_EQ(std::hypot(initial.x - tuned.x, initial.y - tuned.y) < 1e-12, place == "overlay/");
+  }
+  const auto apart = read<mechanism_codesign::Scene>("scene").at(0), over = read<mechanism_codesign::Scene>("overlay/scene").at(0);
+  EXPECT_EQ(apart->header.frame_id, "world");
+  EXPECT_GT(apart->distance, over->distance);
+  EXPECT_EQ(read<visualization_msgs::MarkerArray>("labels").at(0)->markers.size(), 2U);
+  const auto label = read<visualization_msgs::MarkerArray>("overlay/labels").at(0)->markers.at(0);
+  EXPECT_EQ(label.text, "tuned, objective 0.25; ghost: initial, objective 0.5");
+}
+
+TEST_F(JobBag, TheTextTellsTimeAndBothObjectivesSoFar) {
+  const auto captions = read<visualization_msgs::MarkerArray>("caption");
+  ASSERT_EQ(captions.at(1)->markers.size(), 3U);
+  EXPECT_EQ(captions.at(1)->markers[0].text, "t = 0.5 s, objective so far: initial 1.5 tuned 1.5");
+  EXPECT_EQ(captions.at(1)->markers[0].header.frame_id, "caption");
+  EXPECT_EQ(captions.at(1)->markers[1].text.substr(0, 14), "friction force");
+}
+
 TEST_F(JobBag, DescriptionsAndPlacesAreLatched) {
   rosbag::View view(bag_);
   for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
     const auto latching = connection->header->find("latching");
     const bool is_latched = latching != connection->header->end() && latching->second == "1";
-    const bool is_run = connection->topic == "tf" || connection->datatype.find("Joint") != std::string::npos ||
-                        connection->topic.find("_states") != std::string::npos || connection->topic.find("_errors") != std::string::npos ||
-                        connection->topic.find("_markers") != std::string::npos || connection->datatype == "mechanism_codesign/Signals";
+    const bool is_run = connection->topic == "tf" || connection->topic == "caption" ||
+                        connection->datatype.find("Joint") != std::string::npos || connection->topic.find("_states") != std::string::npos ||
+                        connection->topic.find("_errors") != std::string::npos || connection->topic.find("_markers") != std::string::npos ||
+                        connection->datatype == "mechanism_codesign/Signals";
     EXPECT_NE(is_latched, is_run) << connection->topic;
   }
 }
@@ -114,7 +146,7 @@ TEST_F(JobBag, TheWorstRunHasTheTopicsOfTheNominalOneBelowItsName) {
     EXPECT_EQ(count, nominal[is_worst ? topic.substr(6) : topic]) << topic;
     if (is_worst) ++below;
   }
-  EXPECT_EQ(below, 2U * 7U + 1U) << "six topics and the description of each design, and tf";
+  EXPECT_EQ(below, 2U * 7U + 2U) << "six topics and the description of each design, tf and caption";
   rosbag::View text(bag, rosbag::TopicQuery("worst/tuned/robot_description"));
   EXPECT_EQ(text.begin()->instantiate<std_msgs::String>()->data, "<robot name='worst'/>");
 }

@@ -131,7 +131,7 @@ class OptimizationTest(unittest.TestCase):
         launch = subprocess.Popen(["roslaunch", "mechanism_codesign", "replay.launch", f"bag:={self.result.bag}", "rviz:=false"])
         try:
             places = rospy.wait_for_message("tf_static", TFMessage, TIMEOUT)
-            self.assertEqual([t.child_frame_id for t in places.transforms], ["initial", "tuned"])
+            self.assertEqual([t.child_frame_id for t in places.transforms], ["initial", "tuned", "caption"])
             missing, complete = {"initial/slider", "tuned/slider", "initial/rod", "tuned/rod"}, threading.Event()
 
             def receive(message):

@@ -39,10 +39,12 @@ Worker::Job until_cancelled(std::promise<void>* begun) {
 
 TEST(Worker, CancelReachesTheRunningJobOnly) {
   Worker worker;
+  EXPECT_FALSE(worker.cancel()) << "there is none";
   std::promise<void> begun, done;
   ASSERT_TRUE(worker.try_start(until_cancelled(&begun), [&] { done.set_value(); }));
   begun.get_future().wait();
-  worker.cancel();
+  EXPECT_TRUE(worker.cancel());
+  EXPECT_FALSE(worker.cancel()) << "it is cancelled already";
   done.get_future().wait();
   std::promise<bool> cancelled;
   ASSERT_TRUE(worker.try_start([&](const std::atomic<bool>& cancel) { cancelled.set_value(cancel); }, [] {}));

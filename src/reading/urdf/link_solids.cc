@@ -1,0 +1,49 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/urdf/link_solids.h"
+
+#include <algorithm>
+
+#include "reading/urdf/plain_numbers.h"
+
+namespace codesign {
+namespace {
+
+using tinyxml2::XMLElement;
+
+/// Half of the sides of the shape's box; zero for what has no size here.
+Eigen::Vector3d half_of(const XMLElement* geometry) {
+  const XMLElement* shape = geometry != nullptr ? geometry->FirstChildElement() : nullptr;
+  if (shape == nullptr) return Eigen::Vector3d::Zero();
+  const std::string kind = shape->Name();
+  const double radius = plain_number(shape, "radius");
+  if (kind == "box") return 0.5 * plain_vector(shape, "size").cwiseAbs();
+  if (kind == "sphere") return Eigen::Vector3d::Constant(radius);
+  if (kind == "cylinder") return {radius, radius, 0.5 * plain_number(shape, "length")};
+  return Eigen::Vector3d::Zero();
+}
+
+std::vector<SolidBox> boxes_of(const XMLElement* link) {
+  std::vector<SolidBox> boxes;
+  for (const XMLElement* visual = link->FirstChildElement("visual"); visual != nullptr; visual = visual->NextSiblingElement("visual")) {
+    const SolidBox box{plain_origin(visual), half_of(visual->FirstChildElement("geometry"))};
+    if (box.half.minCoeff() > 0.0) boxes.push_back(box);
+  }
+  return boxes;
+}
+
+}  // namespace
+
+LinkBoxes link_boxes(const std::string& urdf, const std::vector<std::string>& links) {
+  LinkBoxes boxes(links.size());
+  tinyxml2::XMLDocument document;
+  if (document.Parse(urdf.c_str(), urdf.size()) != tinyxml2::XML_SUCCESS || document.RootElement() == nullptr) return boxes;
+  for (const XMLElement* link = document.RootElement()->FirstChildElement("link"); link != nullptr;
+       link = link->NextSiblingElement("link")) {
+    const char* name = link->Attribute("name");
+    const auto found = std::find(links.begin(), links.end(), name != nullptr ? name : "");
+    if (found != links.end()) boxes[static_cast<std::size_t>(found - links.begin())] = boxes_of(link);
+  }
+  return boxes;
+}
+
+}  // namespace codesign

@@ -1,0 +1,17 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_WAY_OUT_H_
+#define MECHANISM_CODESIGN_ROS_WAY_OUT_H_
+
+#include "mechanism_codesign/frame.h"
+#include "reading/urdf/link_solids.h"
+
+namespace codesign {
+
+/// How far one must go from a point to leave all solids [m]: the smallest s >= 0 such that the next `clearance` metres beyond
+/// `from` + s * `along` lie in no box. Boxes that touch, or are nearer to each other than `clearance`, are left together.
+/// @param along a unit vector, in world axes like `from`. @param boxes in the order of the frame's links.
+double way_out(const Eigen::Vector3d& from, const Eigen::Vector3d& along, const Frame& frame, const LinkBoxes& boxes, double clearance);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_WAY_OUT_H_
