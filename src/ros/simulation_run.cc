@@ -125,9 +125,12 @@ Status SimulationNode::serve() {
       show_frame(false);
     }
     has_waited = true;
+    state_.show("waits for", control_.is_paused() ? "~step or ~resume" : "a command");
     bell_.wait(kLook);
   }
-  if (has_waited) clock_.go_on_from(frame_.time);
+  if (!has_waited) return {};
+  state_.show("waits for", "nothing");
+  clock_.go_on_from(frame_.time);
   return {};
 }
 
