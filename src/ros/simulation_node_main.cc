@@ -6,6 +6,8 @@ namespace {
 const char* const kHelp = R"(usage: rosrun mechanism_codesign simulation _study:=PATH [_PARAMETER:=VALUE ...]
 
 Runs a study and publishes it: joint_states, joint_friction, controller_states, loop_errors, signals, friction_markers.
+Takes commands as a robot: ~command/effort, ~command/efforts, ~command/trajectory, CONTROLLER/command; ~pause, ~resume, ~step, ~restart;
+and parameters by dynamic_reconfigure.
 doc/ros_api.md has more.
 
 parameters
@@ -20,6 +22,14 @@ parameters
   ~loop true               start again when the duration is over
   ~wait_for_subscribers [TOPIC, ...]   topics that must have a subscriber before the run begins
   ~publish_limit NUMBER    frames per second, as fast as possible and while somebody listens, by default 500
+  ~command_joints [JOINT, ...]   joints that take efforts, in order, by default all that can be driven
+  ~command_timeout SECONDS after which efforts end if no new ones come, by default never
+  ~disconnect [CONTROLLER, ...]  controllers of the study that an outside controller replaces
+  ~duration SECONDS        of a run, by default the study's
+  ~lock_step true          wait for a command after each frame
+  ~start_paused true       pause after the first frame
+  ~step_frames NUMBER      frames of a ~step, by default 1
+  ~float_topics true       each number on a topic of its own, too
   ~bag PATH                a bag of the first run, every frame in it
   ~world_frame NAME        a TF frame at the root link
   ~frame_prefix TEXT       before the name of each TF frame

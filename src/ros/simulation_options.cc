@@ -40,6 +40,16 @@ Read positive(double MarkerStyle::*field) {
   };
 }
 
+/// Zero, which launch files use for "not set", leaves the default.
+Read positive_or_none(double SimulationOptions::*field) {
+  return [field](const Node& node, const std::string& name, SimulationOptions* options) {
+    XmlRpc::XmlRpcValue value;
+    double number = 1.0;
+    if (find_parameter(node, name, &value) && is_number(value, &number) && number == 0.0) return;
+    options->*field = read_positive(node, name, options->*field);
+  };
+}
+
 void read_rate(const Node& node, const std::string& name, SimulationOptions* options) {
   options->rate = read_positive(node, name, options->rate, kHighestRate);
 }
@@ -96,8 +106,8 @@ const std::vector<Entry>& entries() {
                                               {"loop", flag(&SimulationOptions::loop)},
                                               {"command_joints", texts(&SimulationOptions::command_joints)},
                                               {"disconnect", texts(&SimulationOptions::disconnect)},
-                                              {"command_timeout", positive(&SimulationOptions::command_timeout)},
-                                              {"duration", positive(&SimulationOptions::duration)},
+                                              {"command_timeout", positive_or_none(&SimulationOptions::command_timeout)},
+                                              {"duration", positive_or_none(&SimulationOptions::duration)},
                                               {"lock_step", flag(&SimulationOptions::lock_step)},
                                               {"start_paused", flag(&SimulationOptions::start_paused)},
                                               {"step_frames", read_step_frames},

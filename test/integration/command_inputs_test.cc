@@ -12,12 +12,14 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-std::string study_of(const std::string& controllers) {
+std::string arm_study(const std::string& controllers) {
   return "duration: 2.0\ninitial_state: {shoulder: {position: 0.1}}\ncontrollers:\n" + controllers +
          "parameters: {}\nobjective: {integral: [{signal: elbow/position}]}\n";
 }
 
-std::shared_ptr<const CompiledSystem> arm(const std::string& controllers) { return compile(double_pendulum(), study_of(controllers)); }
+std::shared_ptr<const CompiledSystem> arm_with(const std::string& controllers) {
+  return compile(double_pendulum(), arm_study(controllers));
+}
 
 const char* const kCascade =
     "  outer: {type: pid, input: shoulder/position, setpoint: 0.5, gains: {p: 3.0}}\n"
@@ -35,7 +37,7 @@ std::string message_of(const Make& make) {
 }
 
 TEST(CommandInputs, EveryDrivableJointTakesEffortsAheadOfTheStudysControllers) {
-  const auto system = arm(kCascade);
+  const auto system = arm_with(kCascade);
   EXPECT_EQ(drivable_joints(*system), (Names{"shoulder", "elbow"}));
   const CommandInputs inputs(*system, {});
   EXPECT_EQ(inputs.joints, (Names{"shoulder", "elbow"}));
@@ -56,7 +58,7 @@ TEST(CommandInputs, AJointThatMovesNoMassOrFollowsAnotherIsNotDriven) {
 }
 
 TEST(CommandInputs, ChosenJointsKeepTheirOrderAndWrongOnesAreRefused) {
-  const auto system = arm(kCascade);
+  const auto system = arm_with(kCascade);
   CommandOptions options;
   options.joints = Names{"elbow", "shoulder"};
   EXPECT_EQ(CommandInputs(*system, options).joints, *options.joints);
@@ -69,7 +71,7 @@ TEST(CommandInputs, ChosenJointsKeepTheirOrderAndWrongOnesAreRefused) {
 }
 
 TEST(CommandInputs, ADisconnectedControllerDrivesNothingAndTakesNoSetPoint) {
-  const auto system = arm(kCascade);
+  const auto system = arm_with(kCascade);
   CommandOptions options;
   options.disconnected = {"speed"};
   const CommandInputs inputs(*system, options);
@@ -78,13 +80,13 @@ TEST(CommandInputs, ADisconnectedControllerDrivesNothingAndTakesNoSetPoint) {
   options.disconnected = {"sped"};
   EXPECT_NE(message_of([&] { CommandInputs(*system, options); }).find("unknown controller"), std::string::npos);
   const auto heavy =
-      arm("  hold: {type: pd_gravity, input: shoulder/position, setpoint: 0.0, output: shoulder, gains: {p: 2.0, d: 1.0}}\n");
+      arm_with("  hold: {type: pd_gravity, input: shoulder/position, setpoint: 0.0, output: shoulder, gains: {p: 2.0, d: 1.0}}\n");
   options.disconnected = {"hold"};
   EXPECT_NO_THROW(CompiledSystem(heavy->robot(), CommandInputs(*heavy, options).study));
 }
 
 TEST(CommandInputs, ALongerRunMayTakeAsManyStepsPerSecond) {
-  const auto system = arm(kCascade);
+  const auto system = arm_with(kCascade);
   CommandOptions options;
   options.duration = 20.0;
   const CommandInputs inputs(*system, options);
@@ -95,14 +97,14 @@ TEST(CommandInputs, ALongerRunMayTakeAsManyStepsPerSecond) {
 }
 
 TEST(CommandInputs, ATrajectoryIsFollowedByPositionBeforeVelocity) {
-  const CommandInputs inputs(*arm(kCascade), {});
+  const CommandInputs inputs(*arm_with(kCascade), {});
   ASSERT_TRUE(follower_of(inputs, "shoulder"));
   EXPECT_EQ(inputs.controllers[follower_of(inputs, "shoulder")->controller], "outer");
   EXPECT_FALSE(follower_of(inputs, "shoulder")->by_rate);
   ASSERT_TRUE(follower_of(inputs, "elbow"));
   EXPECT_TRUE(follower_of(inputs, "elbow")->by_rate);
   // A controller that reads the elbow but drives the shoulder balances; it follows no trajectory of the elbow.
-  const auto balance = arm("  balance: {type: pid, input: elbow/position, setpoint: 0.0, output: shoulder, gains: {p: 2.0}}\n");
+  const auto balance = arm_with("  balance: {type: pid, input: elbow/position, setpoint: 0.0, output: shoulder, gains: {p: 2.0}}\n");
   EXPECT_FALSE(follower_of(CommandInputs(*balance, {}), "elbow"));
 }
 

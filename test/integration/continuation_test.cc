@@ -14,7 +14,7 @@ namespace {
 
 /// Two links of which the right one can become longer, hinged on the ground 1.2 apart; a loop joins their tips. Each parameter is heard of
 /// once.
-std::shared_ptr<const CompiledSystem> triangle(const std::string& solver) {
+std::shared_ptr<const CompiledSystem> growing_triangle(const std::string& solver) {
   const std::string urdf =
       "<robot name='t' xmlns:codesign='urn:t'><codesign:parameter name='length' value='1' lower='0.1' upper='9'/>"
       "<codesign:parameter name='mass' value='1' lower='-1' upper='9'/><link name='ground'/>" +
@@ -37,7 +37,7 @@ std::shared_ptr<const CompiledSystem> triangle(const std::string& solver) {
 class Continued : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    system_ = triangle(std::string("{integrator: ") + GetParam() + ", relative_tolerance: 1.0e-8, absolute_tolerance: 1.0e-9}");
+    system_ = growing_triangle(std::string("{integrator: ") + GetParam() + ", relative_tolerance: 1.0e-8, absolute_tolerance: 1.0e-9}");
     integrator_ = make_integrator(*system_);
     ASSERT_TRUE(integrator_->start({1.0, 1.0}).ok());
     while (integrator_->state().t < 0.2) ASSERT_TRUE(integrator_->advance(0.2).ok());

@@ -10,8 +10,8 @@
 namespace codesign {
 namespace {
 
-const char* const kRosenbrock = "{method: rodas5p, relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}";
-const char* const kIdas = "{integrator: idas, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-11}";
+const char* const kByRosenbrock = "{method: rodas5p, relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}";
+const char* const kByIdas = "{integrator: idas, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-11}";
 constexpr double kInertia = 0.0834 + 0.25;  // of the bar about its hinge [kg m^2]
 
 std::shared_ptr<const CompiledSystem> bar_at(const std::string& start, const std::string& solver, const std::string& more = "") {
@@ -19,7 +19,7 @@ std::shared_ptr<const CompiledSystem> bar_at(const std::string& start, const std
                                  "objective: {integral: [{signal: hinge/position}]}\nsolver: " + solver + "\n");
 }
 
-const char* const kServo =
+const char* const kHeldServo =
     "controllers: {servo: {type: pid, input: hinge/position, setpoint: 0.2, output: hinge, gains: {p: \"${Kp}\", i: 5.0, d: 2.0}}}\n";
 
 JointSample hinge_at(InteractiveSimulation* run, double time) {
@@ -75,8 +75,8 @@ TEST_P(Commanded, AStepInEffortIsTheRunOfTwoStudies) {
 }
 
 TEST_P(Commanded, ASetPointFromTheStartIsThatOfAStudy) {
-  const auto system = bar_at("{position: 0.5}", GetParam(), kServo);
-  std::string other = kServo;
+  const auto system = bar_at("{position: 0.5}", GetParam(), kHeldServo);
+  std::string other = kHeldServo;
   other.replace(other.find("0.2"), 3, "0.7");
   InteractiveSimulation run(*system, {}, {}), study(*bar_at("{position: 0.5}", GetParam(), other), {}, {});
   ASSERT_TRUE(run.start({20.0}).ok());
@@ -89,7 +89,7 @@ TEST_P(Commanded, ASetPointFromTheStartIsThatOfAStudy) {
 }
 
 TEST_P(Commanded, AGainChangesTheMotionFromThenOn) {
-  const auto system = bar_at("{position: 0.5}", GetParam(), kServo);
+  const auto system = bar_at("{position: 0.5}", GetParam(), kHeldServo);
   InteractiveSimulation run(*system, {}, {});
   ASSERT_TRUE(run.start({20.0}).ok());
   const JointSample before = hinge_at(&run, 0.25);
@@ -103,7 +103,7 @@ TEST_P(Commanded, AGainChangesTheMotionFromThenOn) {
   EXPECT_EQ(run.parameters()[0], 50.0) << "the next run begins with the new value";
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, Commanded, testing::Values(kRosenbrock, kIdas));
+INSTANTIATE_TEST_SUITE_P(Integrators, Commanded, testing::Values(kByRosenbrock, kByIdas));
 
 TEST(InteractiveSimulation, WithoutCommandsItTakesTheStepsOfTheStudy) {
   const auto system = servo("{relative_tolerance: 1.0e-6, absolute_tolerance: 1.0e-7}");
@@ -129,7 +129,7 @@ TEST(InteractiveSimulation, WithoutCommandsItTakesTheStepsOfTheStudy) {
 
 // Without friction and damping a held torque does the work torque times angle.
 TEST(InteractiveSimulation, TheWorkOfHeldEffortsIsTheEnergyThatTheMechanismGains) {
-  const auto system = bar_at("{position: 0.3}", kRosenbrock);
+  const auto system = bar_at("{position: 0.3}", kByRosenbrock);
   InteractiveSimulation run(*system, {}, {parse_signal("total_energy", {}, "signal")});
   ASSERT_TRUE(run.start(system->parameters()).ok());
   Frame frame;
@@ -149,7 +149,7 @@ TEST(InteractiveSimulation, TheWorkOfHeldEffortsIsTheEnergyThatTheMechanismGains
 }
 
 TEST(InteractiveSimulation, ACourseBeginsItsPiecesOnTime) {
-  const auto system = bar_at("{position: 0.2}", kRosenbrock, kServo);
+  const auto system = bar_at("{position: 0.2}", kByRosenbrock, kHeldServo);
   InteractiveSimulation run(*system, {}, {});
   ASSERT_TRUE(run.start({20.0}).ok());
   ASSERT_TRUE(run.advance(0.1).ok());
@@ -169,7 +169,7 @@ TEST(InteractiveSimulation, ACourseBeginsItsPiecesOnTime) {
 }
 
 TEST(InteractiveSimulation, ASampledControllerSeesANewSetPointAtItsNextSample) {
-  const auto system = bar_at("{position: 0.0}", kRosenbrock,
+  const auto system = bar_at("{position: 0.0}", kByRosenbrock,
                              "controllers: {servo: {type: pid, input: hinge/position, setpoint: 0.0, output: hinge, gains: {p: 2.0}, "
                              "sample_time: 0.1}}\n");
   InteractiveSimulation run(*system, {}, {});

@@ -42,5 +42,24 @@ TEST(RunClock, PacedWaitsUntilDueAndNoLongerThanAsked) {
   EXPECT_FALSE(clock.wait(1e9, [] { return true; }));
 }
 
+TEST(RunClock, TheTimeOfAStampIsItsInverse) {
+  ros::Time::init();
+  for (double scale : {0.0, 3.0}) {
+    RunClock clock(scale);
+    clock.start_run(0.0);
+    EXPECT_NEAR(clock.time_of(clock.stamp(1.25)), 1.25, 1e-8);
+    EXPECT_NEAR(clock.time_of(clock.stamp(0.0) - ros::Duration(0.5)), scale > 0.0 ? -1.5 : -0.5, 1e-8);
+  }
+}
+
+TEST(RunClock, AfterAPauseAPacedRunDoesNotCatchUp) {
+  ros::Time::init();
+  RunClock clock(1.0);
+  clock.start_run(0.0);
+  clock.go_on_from(1e6);
+  EXPECT_TRUE(clock.wait(1e6, [] { return false; }));
+  EXPECT_NEAR(clock.time_of(ros::Time::now()), 1e6, 60.0);
+}
+
 }  // namespace
 }  // namespace codesign

@@ -1,0 +1,86 @@
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""A simulation node in a namespace of its own, driven by commands as a robot is."""
+import rospy
+from mechanism_codesign.msg import Commands, ControllerStates
+from node_process import TIMEOUT, wait_until
+from sensor_msgs.msg import JointState
+from std_srvs.srv import Trigger
+
+
+class Latest:
+    """The last message of a topic, and all of them."""
+
+    def __init__(self, topic, kind):
+        self.messages = []
+        self.subscriber = rospy.Subscriber(topic, kind, self.messages.append, queue_size=1000, tcp_nodelay=True)
+
+    def last(self):
+        return self.messages[-1]
+
+
+def settled(messages):
+    """The number of messages once no more come."""
+    count = -1
+    while count != len(messages):
+        count = len(messages)
+        rospy.sleep(0.5)
+    return count
+
+
+class Robot:
+    """The commands and answers of one node. `robot`: its namespace, `node`: its name, `paused`: whether it was started so, with one frame long gone."""
+
+    def __init__(self, robot="/robot", node="simulation", paused=False):
+        self.robot, self.node = robot, f"{robot}/{node}"
+        self.joints = Latest(f"{robot}/joint_states", JointState)
+        self.controllers = Latest(f"{robot}/controller_states", ControllerStates)
+        self.commands = Latest(f"{robot}/commands", Commands)
+        wait_until(lambda: all(each.subscriber.get_num_connections() > 0 for each in (self.joints, self.controllers)), "the node publishes nothing")
+        if paused:
+            response = self.call("step")
+            assert response.success, response.message
+        wait_until(lambda: self.joints.messages and self.controllers.messages and self.commands.messages, "the node publishes no frames")
+
+    def publisher(self, topic, kind):
+        """A publisher to which the node has connected."""
+        publisher = rospy.Publisher(topic, kind, queue_size=100, tcp_nodelay=True)
+        wait_until(lambda: publisher.get_num_connections() > 0, f"nobody listens to {topic}")
+        return publisher
+
+    def call(self, service):
+        rospy.wait_for_service(f"{self.node}/{service}", TIMEOUT)
+        return rospy.ServiceProxy(f"{self.node}/{service}", Trigger)()
+
+    def send(self, publisher, message):
+        """Publishes a command to the paused node and returns what is then in effect."""
+        before = len(self.commands.messages)
+        publisher.publish(message)
+        wait_until(lambda: len(self.commands.messages) > before, f"the command has no effect: {message}")
+        return self.commands.last()
+
+    def step(self):
+        """One ~step of one frame, and the joints behind it."""
+        before = self.joints.last().header.stamp
+        response = self.call("step")
+        assert response.success, response.message
+        wait_until(lambda: self.joints.last().header.stamp > before, "a step without a frame")
+        return self.joints.last()
+
+    def restart(self, positions):
+        """~restart, with the messages of the run before forgotten. `positions`: of the joints at the start."""
+        before = len(self.joints.messages)
+        response = self.call("restart")
+        assert response.success, response.message
+
+        def starts():
+            return [k for k, frame in enumerate(self.joints.messages) if k >= before and
+                    all(abs(a - b) < 1e-9 for a, b in zip(frame.position, positions)) and not any(frame.velocity)]
+
+        wait_until(starts, "a new run begins where the study says")
+        del self.joints.messages[:starts()[-1]]
+
+    def step_until(self, time):
+        """Steps until the stamp of a frame, counted from the first one, is `time` [s] or later; a free clock runs with the run."""
+        while (self.joints.last().header.stamp - self.joints.messages[0].header.stamp).to_sec() < time - 1e-6:
+            self.step()
+        return self.joints.last()
