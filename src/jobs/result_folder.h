@@ -25,7 +25,8 @@ class ResultFolder {
   static const std::vector<std::string>& file_names();
 
   /// Writes result.json, tuned.urdf, initial.urdf, initial.json, job_study.yaml with the files that it names by relative paths, gains.yaml
-  /// if the study has `hardware:`, starts.csv and scenarios.csv if there are any. @param object for result.json. @returns one failure for each file that is missing.
+  /// if the study has `hardware:`, starts.csv and scenarios.csv if there are any. @param object for result.json. @returns one failure for
+  /// each file that is missing.
   std::vector<Failure> write_design(const Json& object, const OptimizationResult& result) const;
 
   /// Runs both designs and checks the gradient if that takes seconds; writes initial.csv, tuned.csv and details.json.

@@ -9,13 +9,14 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 
 import roslib.packages
 import rospy
 import rostest
 from mechanism_codesign.srv import Apply, ApplyRequest, OptimizeRequest
-from std_msgs.msg import Float64
+from std_msgs.msg import Empty, Float64
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from mock_robot import START, MockGains, MockJoints  # noqa: E402
@@ -255,6 +256,20 @@ class ApplyTest(NodesTestCase):
         returned, answer, _ = self.apply("--unwatched", "--deviation", "0.1")
         self.assertEqual((returned, answer["error"]["code"]), (2, "bad_input"))
 
+    def check_that_a_message_cancels(self, apply):
+        for gains in (self.shoulder, self.elbow):
+            gains.server.update_configuration(START)
+            gains.requests.clear()
+        replies = []
+        thread = threading.Thread(target=lambda: replies.append(apply(ApplyRequest(ramp=60.0))))
+        thread.start()
+        wait_until(lambda: self.requests() >= 4, "the ramp does not begin")
+        self.assertEqual(apply(ApplyRequest(dry_run=True)).code, "busy")
+        cancel = rospy.Publisher("/tuner/apply/cancel", Empty, queue_size=1)
+        wait_until(lambda: cancel.publish(Empty()) or not thread.is_alive(), "it is not cancelled")
+        self.assertEqual(replies[0].code, "cancelled", replies[0].message)
+        self.assertEqual({name: self.elbow.has()[name] for name in BEFORE}, BEFORE)
+
     def test_the_service_of_the_node(self):
         study = os.path.join(self.root, "arm.yaml")
         node = self.start("optimization", "tuner", model=os.path.join(self.root, "arm.urdf"), study=study, output_directory=self.folder)
@@ -272,6 +287,7 @@ class ApplyTest(NodesTestCase):
         reply = apply(ApplyRequest(result=self.job))
         self.assertEqual(reply.code, "bad_input")
         self.assertIn("not a job of the output directory", reply.message)
+        self.check_that_a_message_cancels(apply)
         reply = apply(ApplyRequest(ramp=-1.0))
         self.assertEqual(reply.code, "bad_input")
         self.assertIn("ramp: not a time", reply.message)
