@@ -13,6 +13,8 @@
 namespace codesign {
 namespace {
 
+constexpr double kSettledShare = 1e-8;  // of the value of a segment: what its best start would gain at most
+
 /// Recorded positions at a few instants, joints x instants.
 Eigen::MatrixXd positions_of_some(const JointRecording& recording, const std::vector<MeasuredJoint>& joints) {
   constexpr Eigen::Index kInstants = 4;
@@ -41,6 +43,12 @@ Eigen::VectorXd variation_of(const Eigen::MatrixXd& recorded) {
     if (!(variation[k] > 0.0)) variation[k] = 1.0;
   }
   return variation;
+}
+
+double value_of(const std::vector<SegmentSolution>& solutions) {
+  double value = 0.0;
+  for (const SegmentSolution& solution : solutions) value += solution.value;
+  return value;
 }
 
 }  // namespace
@@ -112,6 +120,8 @@ Status MotionResiduals::failure_of(std::size_t place, Status status) const {
 Status MotionResiduals::begin(const Eigen::VectorXd& x) {
   for (std::unique_ptr<MotionWorker>& worker : workers_) worker->runs.clear();
   reference_ = {};
+  settled_ = {};
+  is_counted_anew_ = true;
   for (std::size_t r = 0; r < recordings_.size(); ++r) {
     Status status = set_branches(recordings_[r], systems_[r], system_, variables_, x, independent_, cancel_, &segments_[r]);
     if (!status.ok()) {
@@ -128,34 +138,72 @@ void MotionResiduals::count_by(const Eigen::VectorXd& spreads, const LossOptions
   is_counted_anew_ = true;
 }
 
-std::vector<Eigen::VectorXd> MotionResiduals::guesses(std::size_t place, const Eigen::VectorXd& x) const {
-  std::vector<Eigen::VectorXd> guesses;
-  if (reference_.x.size() > 0) {
-    guesses.push_back(reference_.starts[place] - reference_.corrections[place] - reference_.slopes[place] * (x - reference_.x));
-    guesses.push_back(reference_.starts[place]);
+MotionResiduals::Guesses MotionResiduals::guesses(const Eigen::VectorXd& x) const {
+  Guesses guesses(places_.size());
+  for (std::size_t place = 0; place < places_.size(); ++place) {
+    std::vector<Eigen::VectorXd>& starts = guesses[place];
+    const bool is_settled = settled_.x.size() > 0, is_here = is_settled && settled_.x == x;
+    if (is_here) starts.push_back(settled_.starts[place]);
+    if (reference_.x.size() > 0) {
+      starts.push_back(reference_.starts[place] - reference_.corrections[place] - reference_.slopes[place] * (x - reference_.x));
+      starts.push_back(reference_.starts[place]);
+    }
+    if (is_settled && !is_here) starts.push_back(settled_.starts[place]);
+    starts.push_back(segments_[places_[place].recording][places_[place].segment].start);
   }
-  guesses.push_back(segments_[places_[place].recording][places_[place].segment].start);
   return guesses;
 }
 
-std::vector<SegmentSolution> MotionResiduals::solve(const Eigen::VectorXd& x) {
-  std::vector<SegmentSolution> solutions(places_.size());
+Status MotionResiduals::solve(const Eigen::VectorXd& x, const Guesses& guesses, SegmentWork work, std::vector<SegmentSolution>* solutions) {
   std::atomic<std::size_t> next{0};
   side_by_side(workers_.size(), static_cast<int>(workers_.size()), [&](std::size_t worker) {
     std::vector<std::unique_ptr<SegmentRun>>& runs = workers_[worker]->runs;
     runs.resize(recordings_.size());
     for (std::size_t k = next++; k < places_.size() && !is_set(cancel_); k = next++) {
+      if (guesses[k].empty()) continue;
       const Place& place = places_[k];
       std::unique_ptr<SegmentRun>& run = runs[place.recording];
       if (!run) run = std::make_unique<SegmentRun>(systems_[place.recording], segments_[place.recording].front().begin);
       run->obey(cancel_);
       const SegmentProblem problem{
           systems_[place.recording], variables_, efforts_[place.recording], segments_[place.recording][place.segment], x, spreads_, loss_};
-      solutions[k] = fit_segment(problem, guesses(k, x), run.get());
+      (*solutions)[k] = fit_segment(problem, guesses[k], work, run.get());
     }
   });
-  for (const SegmentSolution& solution : solutions) runs_ += solution.runs;
-  return solutions;
+  if (is_set(cancel_)) return {StatusCode::kCancelled, 0.0, "cancelled"};
+  Status failure;
+  for (std::size_t k = 0; k < solutions->size(); ++k) {
+    if (guesses[k].empty()) continue;
+    runs_ += (*solutions)[k].runs;
+    whole_runs_ += (*solutions)[k].whole_runs;
+    if (failure.ok() && !(*solutions)[k].status.ok()) failure = failure_of(k, (*solutions)[k].status);
+  }
+  return failure;
+}
+
+/// A point that is worse than the best one may be so because its starts went too far: they become the best ones. Where that makes the
+/// point better than the best one so far, derivatives are those of the best starts, too.
+Status MotionResiduals::settle(const Eigen::VectorXd& x, std::vector<SegmentSolution>* solutions) {
+  Guesses unsettled(places_.size());
+  for (std::size_t k = 0; k < places_.size(); ++k)
+    if ((*solutions)[k].promise > kSettledShare * (*solutions)[k].value)
+      // From here the value can only fall, and for small steps of x it is that of the best point.
+      unsettled[k] = {reference_.starts[k] - reference_.slopes[k] * (x - reference_.x), reference_.starts[k], (*solutions)[k].start};
+  std::vector<SegmentSolution> settled(places_.size());
+  if (Status status = solve(x, unsettled, SegmentWork::kBestStart, &settled); !status.ok()) return status;
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    SegmentSolution& solution = (*solutions)[k];
+    if (unsettled[k].empty() || !(settled[k].value < solution.value)) {
+      unsettled[k].clear();
+      continue;
+    }
+    unsettled[k] = {settled[k].start};
+    solution.value = settled[k].value;
+    solution.promise = settled[k].promise;
+    solution.residuals = settled[k].residuals;
+  }
+  if (!(value_of(*solutions) < reference_.value)) return {};
+  return solve(x, unsettled, SegmentWork::kElimination, solutions);
 }
 
 void MotionResiduals::remember(const Eigen::VectorXd& x, double value, const std::vector<SegmentSolution>& solutions) {
@@ -170,14 +218,19 @@ void MotionResiduals::remember(const Eigen::VectorXd& x, double value, const std
 }
 
 Status MotionResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) {
-  const std::vector<SegmentSolution> solutions = solve(x);
-  if (is_set(cancel_)) return {StatusCode::kCancelled, 0.0, "cancelled"};
-  double value = 0.0;
-  for (std::size_t k = 0; k < solutions.size(); ++k) {
-    if (!solutions[k].status.ok()) return failure_of(k, solutions[k].status);
-    value += solutions[k].value;
+  std::vector<SegmentSolution> solutions(places_.size());
+  const SegmentWork work = jacobian ? SegmentWork::kElimination : SegmentWork::kBestStart;
+  if (Status status = solve(x, guesses(x), work, &solutions); !status.ok()) return status;
+  if (jacobian) {
+    if (!is_counted_anew_ && !(value_of(solutions) < reference_.value))
+      if (Status status = settle(x, &solutions); !status.ok()) return status;
+    remember(x, value_of(solutions), solutions);
+    owed_ = 0.0;
+    for (const SegmentSolution& solution : solutions) owed_ += solution.promise;
+  } else {
+    settled_ = {x, {}};
+    for (const SegmentSolution& solution : solutions) settled_.starts.push_back(solution.start);
   }
-  remember(x, value, solutions);
   const Eigen::Index outputs = recorded_.cols();
   residuals->resize(rows(), outputs);
   if (jacobian) jacobian->resize(rows() * outputs, x.size());

@@ -25,12 +25,15 @@ class ResidualSource {
   /// output 0 first. @return a failure at this point, kCancelled, or ok
   virtual Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) = 0;
 
-  /// How the fit counts residuals from now on. Only a source that has unknowns of its own, which it fits at each x, needs to know: its
-  /// residuals are then those of the best ones, and its Jacobian is that of these residuals, doc/theory.md (42).
+  /// How the fit counts residuals from now on. Only a source that has unknowns of its own, which it fits, needs to know, doc/theory.md
+  /// (42). Without a Jacobian its residuals are those of its best unknowns at x. With one, its unknowns have taken one step, from the best
+  /// point since the last call of count_by() towards x, and the Jacobian is that of residuals whose unknowns follow x.
   /// @param spreads positive, one per output
   virtual void count_by(const Eigen::VectorXd& spreads, const LossOptions& loss);
   /// How many unknowns of its own it has: they take degrees of freedom from the residuals.
   virtual Eigen::Index own_unknowns() const { return 0; }
+  /// By how much its best unknowns would lower the sum of rho(r / s) at the last point evaluated with a Jacobian, to first order.
+  virtual double own_promise() const { return 0.0; }
 };
 
 inline void ResidualSource::count_by(const Eigen::VectorXd& /*spreads*/, const LossOptions& /*loss*/) {}

@@ -71,7 +71,9 @@ TEST(MotionResiduals, TheJacobianIsThatOfTheBestStarts) {
   const Eigen::VectorXd truth = Eigen::Vector3d(0.2, 0.3, 0.5);
   ASSERT_TRUE(c.residuals.begin(truth).ok());
   Eigen::MatrixXd residuals, jacobian, before, after;
-  ASSERT_TRUE(c.residuals.evaluate(truth, &residuals, &jacobian).ok());
+  ASSERT_TRUE(c.residuals.evaluate(truth, &residuals, nullptr).ok());
+  ASSERT_TRUE(c.residuals.evaluate(truth, &after, &jacobian).ok());
+  EXPECT_EQ(after, residuals) << "a run with further derivatives, from the best starts";
   ASSERT_EQ(jacobian.rows(), residuals.size());
   for (Eigen::Index k = 0; k < 3; ++k) {
     constexpr double kStep = 1e-3;
@@ -84,6 +86,53 @@ TEST(MotionResiduals, TheJacobianIsThatOfTheBestStarts) {
     EXPECT_LT((jacobian.col(k) - difference).norm(), 5e-3 * difference.norm()) << k;
     EXPECT_GT(difference.norm(), 0.0);
   }
+}
+
+TEST(MotionResiduals, APointWithDerivativesTakesOneRunAndSaysWhatItsStartsOwe) {
+  MotionRig rig;
+  rig.noise = 1e-3;
+  MotionCase c(motion_problem("", "  segment: 1.0\n  filter: {cutoff: 20.0}\n", "inertia: {}, viscous: {}, dry: {}"),
+               {record_pendulum(rig)});
+  const Eigen::VectorXd truth = Eigen::Vector3d(0.2, 0.3, 0.5);
+  ASSERT_TRUE(c.residuals.begin(truth).ok());
+  Eigen::MatrixXd best, residuals, jacobian;
+  ASSERT_TRUE(c.residuals.evaluate(truth, &best, nullptr).ok());
+  EXPECT_EQ(c.residuals.whole_runs(), 0.0) << "no derivatives were asked for";
+  // The same from the measured starts, step by step.
+  MotionCase steps(c.problem, {record_pendulum(rig)});
+  steps.residuals.count_by(Eigen::VectorXd::Constant(1, 1e-3), c.problem.study().identification->loss);
+  ASSERT_TRUE(steps.residuals.begin(truth).ok());
+  double owed = 0.0, cost = 0.0;
+  for (int step = 1; step <= 3; ++step) {
+    ASSERT_TRUE(steps.residuals.evaluate(truth, &residuals, &jacobian).ok());
+    EXPECT_EQ(steps.residuals.whole_runs(), step);
+    const double now = residuals.squaredNorm() / 1e-6;
+    if (step > 1) EXPECT_NEAR(cost - now, owed, 0.02 * owed) << "the promise of step " << step << " is kept";
+    owed = steps.residuals.own_promise();
+    cost = now;
+    if (step == 1) EXPECT_GT(owed, 1e-3 * cost);
+  }
+  EXPECT_EQ(steps.residuals.runs(), steps.residuals.whole_runs());
+  EXPECT_LT(owed, 1e-6 * cost);
+  EXPECT_NEAR(residuals.squaredNorm(), best.squaredNorm(), 1e-7 * best.squaredNorm());
+}
+
+TEST(MotionResiduals, APointWhoseStartsWentTooFarGetsItsBestStarts) {
+  // The second point is far from the first one, where the starts were bad, too: what they promise is not kept.
+  MotionRig rig;
+  rig.noise = 1e-3;
+  MotionCase c(motion_problem("", "  segment: 3.0\n  filter: {cutoff: 20.0}\n", "inertia: {}, viscous: {}, dry: {}"),
+               {record_pendulum(rig)}),
+      other(c.problem, {record_pendulum(rig)});
+  const Eigen::VectorXd near = Eigen::Vector3d(0.2, 0.3, 0.5), far = Eigen::Vector3d(0.6, 0.9, 0.1);
+  for (MotionCase* each : {&c, &other}) ASSERT_TRUE(each->residuals.begin(near).ok());
+  Eigen::MatrixXd best, residuals, jacobian;
+  for (int step = 1; step <= 4; ++step) ASSERT_TRUE(c.residuals.evaluate(near, &residuals, &jacobian).ok());
+  ASSERT_TRUE(c.residuals.evaluate(far, &residuals, &jacobian).ok());
+  ASSERT_TRUE(other.residuals.evaluate(far, &best, nullptr).ok());
+  EXPECT_GT(best.norm(), 0.1);
+  EXPECT_NEAR(residuals.norm(), best.norm(), 1e-4 * best.norm());
+  EXPECT_GT(c.residuals.runs(), c.residuals.whole_runs());
 }
 
 TEST(MotionResiduals, ManyThreadsGiveTheSameBits) {
