@@ -107,10 +107,14 @@ TEST(MotionResiduals, APointWithDerivativesTakesOneRunAndSaysWhatItsStartsOwe) {
     ASSERT_TRUE(steps.residuals.evaluate(truth, &residuals, &jacobian).ok());
     EXPECT_EQ(steps.residuals.whole_runs(), step);
     const double now = residuals.squaredNorm() / 1e-6;
-    if (step > 1) EXPECT_NEAR(cost - now, owed, 0.02 * owed) << "the promise of step " << step << " is kept";
+    if (step > 1) {
+      EXPECT_NEAR(cost - now, owed, 0.02 * owed) << "the promise of step " << step << " is kept";
+    }
     owed = steps.residuals.own_promise();
     cost = now;
-    if (step == 1) EXPECT_GT(owed, 1e-3 * cost);
+    if (step == 1) {
+      EXPECT_GT(owed, 1e-3 * cost);
+    }
   }
   EXPECT_EQ(steps.residuals.runs(), steps.residuals.whole_runs());
   EXPECT_LT(owed, 1e-6 * cost);
