@@ -35,6 +35,17 @@ void require_positions(const std::vector<JointRecording>& recordings) {
                           "positions of each joint, or residual: effort, which integrates velocities from a start"});
 }
 
+/// Recordings do not show how far bristles are bent where a segment begins.
+void warn_of_friction_states(const CompiledSystem& system, const IdentificationDescription& options, Warnings* warnings) {
+  if (system.bristles().empty()) return;
+  append({warn("segment_friction_states",
+               {options.where, "identify.segment",
+                "friction with states begins each segment unloaded: a joint that sticks there gives way by the deflection of its bristles, "
+                "and its first slip counts as a change of the start",
+                readable(options.segment), "segments that begin while the joint moves, or longer ones"})},
+         warnings);
+}
+
 /// How much each column varies, a first guess of what its residuals are compared with.
 Eigen::VectorXd variation_of(const Eigen::MatrixXd& recorded) {
   Eigen::VectorXd variation(recorded.cols());
@@ -63,6 +74,7 @@ MotionResiduals::MotionResiduals(const CompiledSystem& system, const FitVariable
                                  Warnings* warnings)
     : system_(system), variables_(variables), recordings_(std::move(recordings)) {
   require_positions(recordings_);
+  warn_of_friction_states(system, options, warnings);
   independent_ = independent_joints(system, joints, positions_of_some(recordings_.front(), joints));
   const std::vector<MotionOutput> outputs = motion_outputs(system, joints, recordings_);
   for (const MotionOutput& output : outputs) names_.push_back(output.name());

@@ -38,6 +38,13 @@ class ResidualSource {
 
 inline void ResidualSource::count_by(const Eigen::VectorXd& /*spreads*/, const LossOptions& /*loss*/) {}
 
+/// How much of the slope of a recorded effort is signal, for a delay that was fitted by it.
+struct DelaySignal {
+  std::string joint;
+  Eigen::Index column = 0;  ///< of the delay in x
+  double share = 1.0;       ///< in (0, 1], doc/theory.md (33a)
+};
+
 /// Residuals of recordings, as an identification needs them.
 class RecordingResiduals : public ResidualSource {
  public:
@@ -50,7 +57,11 @@ class RecordingResiduals : public ResidualSource {
   virtual std::vector<double> times() const = 0;
   /// What was recorded of the outputs; rows() x outputs. Residuals are computed minus recorded.
   virtual const Eigen::MatrixXd& recorded() const = 0;
+  /// One entry per fitted delay whose column of the Jacobian is the slope of a recorded effort. @param x at which residuals can be computed
+  virtual std::vector<DelaySignal> delay_signals(const Eigen::VectorXd& x);
 };
+
+inline std::vector<DelaySignal> RecordingResiduals::delay_signals(const Eigen::VectorXd& /*x*/) { return {}; }
 
 }  // namespace codesign
 

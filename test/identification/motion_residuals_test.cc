@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "identification/effort_residuals.h"
@@ -192,6 +193,23 @@ TEST(MotionResiduals, RefusesShortSegmentsAndIdas) {
   } catch (const InputError& error) {
     EXPECT_EQ(error.fault().element, "solver.integrator") << error.what();
   }
+}
+
+TEST(MotionResiduals, FrictionStatesThatNobodyRecordedAreTold) {
+  const JointRecording recording = record_pendulum(MotionRig());
+  std::string robot = motion_pendulum();
+  const std::string damper = "<dynamics damping=\"0.1\"";
+  ASSERT_NE(robot.find(damper), std::string::npos);
+  robot.insert(robot.find(damper),
+               "<codesign:friction model=\"lugre\" mu_static=\"0.3\" mu_dynamic=\"0.2\" transition_velocity=\"0.02\" joint_length=\"0.1\" "
+               "pin_radius=\"0.05\"/>");
+  const std::string study = "identify: {data: [{csv: data.csv}], residual: motion}\nparameters: {inertia: {}}\n";
+  const Problem bristles = load_problem({"pendulum.urdf", robot}, {}, {"study.yaml", study});
+  const auto told = [](const MotionCase& c) {
+    return std::count_if(c.warnings.begin(), c.warnings.end(), [](const Warning& w) { return w.code == "segment_friction_states"; });
+  };
+  EXPECT_EQ(told(MotionCase(bristles, {recording})), 1);
+  EXPECT_EQ(told(MotionCase(motion_problem("", "  segment: 1.0\n", "inertia: {}"), {recording})), 0);
 }
 
 TEST(MotionResiduals, RefusesSampledControllers) {
