@@ -154,7 +154,7 @@ MotionResiduals::Guesses MotionResiduals::guesses(const Eigen::VectorXd& x) cons
   Guesses guesses(places_.size());
   for (std::size_t place = 0; place < places_.size(); ++place) {
     std::vector<Eigen::VectorXd>& starts = guesses[place];
-    const bool is_settled = settled_.x.size() > 0, is_here = is_settled && settled_.x == x;
+    const bool is_settled = settled_.x.size() > 0, is_here = is_settled && is_counted_anew_ && settled_.x == x;
     if (is_here) starts.push_back(settled_.starts[place]);
     if (reference_.x.size() > 0) {
       starts.push_back(reference_.starts[place] - reference_.corrections[place] - reference_.slopes[place] * (x - reference_.x));
