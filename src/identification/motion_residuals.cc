@@ -13,6 +13,9 @@
 namespace codesign {
 namespace {
 
+constexpr double kSlowStart = 0.1;      // of what was owed before, and of what all owe: a start that owes more still is slow
+constexpr std::size_t kFew = 4;         // slow starts are helped if there is one for so many segments at most
+constexpr double kWorthHelp = 1e-6;     // of the value: what starts owe that is less does not hinder a fit
 constexpr double kSettledShare = 1e-8;  // of the value of a segment: what its best start would gain at most
 
 /// Recorded positions at a few instants, joints x instants.
@@ -193,39 +196,64 @@ Status MotionResiduals::solve(const Eigen::VectorXd& x, const Guesses& guesses, 
   return failure;
 }
 
+/// Looks for better starts of some segments. @param from starts to begin with. @param improved on return those that are better; none for
+/// the other segments. Their solutions have no derivatives by x.
+Status MotionResiduals::improve(const Eigen::VectorXd& x, Guesses from, SegmentWork work, std::vector<SegmentSolution>* solutions,
+                                Guesses* improved) {
+  std::vector<SegmentSolution> found(places_.size());
+  if (Status status = solve(x, from, work, &found); !status.ok()) return status;
+  improved->assign(places_.size(), {});
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    SegmentSolution& solution = (*solutions)[k];
+    if (from[k].empty() || !(found[k].value < solution.value)) continue;
+    (*improved)[k] = {found[k].start};
+    solution.value = found[k].value;
+    solution.promise = found[k].promise;
+    solution.residuals = found[k].residuals;
+  }
+  return {};
+}
+
 /// A point that is worse than the best one may be so because its starts went too far: they become the best ones. Where that makes the
 /// point better than the best one so far, derivatives are those of the best starts, too.
 Status MotionResiduals::settle(const Eigen::VectorXd& x, std::vector<SegmentSolution>* solutions) {
-  Guesses unsettled(places_.size());
+  Guesses unsettled(places_.size()), improved;
   for (std::size_t k = 0; k < places_.size(); ++k)
     if ((*solutions)[k].promise > kSettledShare * (*solutions)[k].value)
       // From here the value can only fall, and for small steps of x it is that of the best point.
       unsettled[k] = {reference_.starts[k] - reference_.slopes[k] * (x - reference_.x), reference_.starts[k], (*solutions)[k].start};
-  std::vector<SegmentSolution> settled(places_.size());
-  if (Status status = solve(x, unsettled, SegmentWork::kBestStart, &settled); !status.ok()) return status;
-  for (std::size_t k = 0; k < places_.size(); ++k) {
-    SegmentSolution& solution = (*solutions)[k];
-    if (unsettled[k].empty() || !(settled[k].value < solution.value)) {
-      unsettled[k].clear();
-      continue;
-    }
-    unsettled[k] = {settled[k].start};
-    solution.value = settled[k].value;
-    solution.promise = settled[k].promise;
-    solution.residuals = settled[k].residuals;
-  }
+  if (Status status = improve(x, std::move(unsettled), SegmentWork::kBestStart, solutions, &improved); !status.ok()) return status;
   if (!(value_of(*solutions) < reference_.value)) return {};
-  return solve(x, unsettled, SegmentWork::kElimination, solutions);
+  return solve(x, improved, SegmentWork::kElimination, solutions);
+}
+
+/// Where the residuals of a few segments are large and curved, their starts come nearer by a constant factor only, and would make all
+/// segments wait. These take a few steps more.
+Status MotionResiduals::help_slow_starts(const Eigen::VectorXd& x, std::vector<SegmentSolution>* solutions) {
+  double owed = 0.0;
+  for (const SegmentSolution& solution : *solutions) owed += solution.promise;
+  Guesses slow(places_.size()), improved;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const SegmentSolution& solution = (*solutions)[k];
+    if (!(solution.promise > kSlowStart * std::max(owed, reference_.promises[k]))) continue;
+    slow[k] = {solution.start - solution.correction, solution.start};
+    ++count;
+  }
+  if (count == 0 || kFew * count > places_.size() || !(owed > kWorthHelp * value_of(*solutions))) return {};
+  if (Status status = improve(x, std::move(slow), SegmentWork::kBetterStart, solutions, &improved); !status.ok()) return status;
+  return solve(x, improved, SegmentWork::kElimination, solutions);
 }
 
 void MotionResiduals::remember(const Eigen::VectorXd& x, double value, const std::vector<SegmentSolution>& solutions) {
   if (!is_counted_anew_ && !(value < reference_.value)) return;
   is_counted_anew_ = false;
-  reference_ = {x, value, {}, {}, {}};
+  reference_ = {x, value, {}, {}, {}, {}};
   for (const SegmentSolution& solution : solutions) {
     reference_.starts.push_back(solution.start);
     reference_.corrections.push_back(solution.correction);
     reference_.slopes.push_back(solution.slope);
+    reference_.promises.push_back(solution.promise);
   }
 }
 
@@ -234,8 +262,10 @@ Status MotionResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* resi
   const SegmentWork work = jacobian ? SegmentWork::kElimination : SegmentWork::kBestStart;
   if (Status status = solve(x, guesses(x), work, &solutions); !status.ok()) return status;
   if (jacobian) {
-    if (!is_counted_anew_ && !(value_of(solutions) < reference_.value))
-      if (Status status = settle(x, &solutions); !status.ok()) return status;
+    if (!is_counted_anew_) {
+      const bool is_better = value_of(solutions) < reference_.value;
+      if (Status status = is_better ? help_slow_starts(x, &solutions) : settle(x, &solutions); !status.ok()) return status;
+    }
     remember(x, value_of(solutions), solutions);
     owed_ = 0.0;
     for (const SegmentSolution& solution : solutions) owed_ += solution.promise;

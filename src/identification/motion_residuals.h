@@ -59,6 +59,7 @@ class MotionResiduals final : public RecordingResiduals {
     double value = 0.0;
     std::vector<Eigen::VectorXd> starts, corrections;  ///< SegmentSolution::correction
     std::vector<Eigen::MatrixXd> slopes;
+    std::vector<double> promises;
   };
   /// The best starts at the last x without a Jacobian.
   struct Settled {
@@ -69,6 +70,8 @@ class MotionResiduals final : public RecordingResiduals {
   Guesses guesses(const Eigen::VectorXd& x) const;
   Status solve(const Eigen::VectorXd& x, const Guesses& guesses, SegmentWork work, std::vector<SegmentSolution>* solutions);
   Status settle(const Eigen::VectorXd& x, std::vector<SegmentSolution>* solutions);
+  Status help_slow_starts(const Eigen::VectorXd& x, std::vector<SegmentSolution>* solutions);
+  Status improve(const Eigen::VectorXd& x, Guesses from, SegmentWork work, std::vector<SegmentSolution>* solutions, Guesses* improved);
   void remember(const Eigen::VectorXd& x, double value, const std::vector<SegmentSolution>& solutions);
   Status failure_of(std::size_t place, Status status) const;
 

@@ -14,7 +14,7 @@
 namespace codesign {
 namespace {
 
-constexpr int kMostRuns = 8;
+constexpr int kMostRuns = 8, kFewRuns = 3;
 constexpr double kSettled = 1e-8;    // of the value: a start that promises to lower it by less is the best one
 constexpr double kPatience = 10.0;   // that fraction grows by this with each run: promises that are not kept are the noise of step sizes
 constexpr double kResolved = 1e-14;  // of the sum of squares of what was recorded: what a simulation does not resolve
@@ -135,7 +135,7 @@ class StartCost final : public LeastSquaresModel {
 
 SegmentSolution fit_segment(const SegmentProblem& problem, const std::vector<Eigen::VectorXd>& guesses, SegmentWork work, SegmentRun* run) {
   LevenbergMarquardtOptions options;
-  options.max_evaluations = kMostRuns;
+  options.max_evaluations = work == SegmentWork::kBetterStart ? kFewRuns : kMostRuns;
   options.relative_tolerance = kSettled;
   options.largest_first_step = std::numeric_limits<double>::infinity();
   const Eigen::VectorXd open = Eigen::VectorXd::Constant(problem.of.starts, std::numeric_limits<double>::infinity());

@@ -32,7 +32,8 @@ struct SegmentProblem {
 /// What is to be found out about a segment.
 enum class SegmentWork {
   kElimination,  ///< at one start, by one run with all derivatives: how residuals and the start follow x
-  kBestStart     ///< the start with which the segment fits best, by runs with the derivatives by the start alone
+  kBetterStart,  ///< a better start, by a few runs with the derivatives by the start alone
+  kBestStart     ///< the start with which the segment fits best, by such runs
 };
 
 /// A segment with its start.

@@ -88,12 +88,12 @@ TEST(IntervalCoverage, IsFarFromPromisedIfTheNoiseIsTakenForWhite) {
 
 /// Fits of a delay of 12 ms to efforts with white noise, at 100 Hz.
 struct DelayFits {
-  DelayFits(const std::string& filter, int runs) {
-    std::string study = swing_study("white");
+  DelayFits(const std::string& filter, double noise, int runs) {
+    std::string study = swing_study("correlated");
     const std::string old = "  filter: {cutoff: 30.0, residual_cutoff: 15.0, decimate: 2}\n  joints: {hinge: {offset: {}}}\n";
     study.replace(study.find(old), old.size(), "  filter: {" + filter + "}\n  joints: {hinge: {delay: {lower: 0, upper: 0.05}}}\n");
     const Problem problem = load_problem({"swing.urdf", kSwing}, {}, {"study.yaml", study});
-    constexpr double kDelay = 0.012, kDeviation = 0.6;
+    constexpr double kDelay = 0.012;
     JointRecording clean = record_run(problem, {}, {"hinge"}, 100.0);
     const RecordedEffort effort(clean.times, clean.joints[0].effort);
     double squares = 0.0;
@@ -103,7 +103,7 @@ struct DelayFits {
       std::mt19937 random(static_cast<unsigned>(run) + 1);
       std::normal_distribution<double> normal;
       for (std::size_t k = 0; k < clean.times.size(); ++k)
-        recordings.data[0].joints[0].effort[k] = effort.at(clean.times[k] - kDelay).value + kDeviation * normal(random);
+        recordings.data[0].joints[0].effort[k] = effort.at(clean.times[k] - kDelay).value + noise * normal(random);
       const IdentificationResult result = identify(problem, recordings, {}, nullptr);
       EXPECT_TRUE(result.status.ok()) << result.status.cause;
       const IdentifiedNumber& delay = result.numbers.back();
@@ -125,7 +125,7 @@ struct DelayFits {
 };
 
 TEST(IntervalCoverage, NoiseIsNotTakenForTheSlopeThatTellsADelay) {
-  const DelayFits fits("cutoff: 0", 40);
+  const DelayFits fits("cutoff: 0", 0.6, 40);
   EXPECT_LT(fits.signal, 0.6);
   EXPECT_EQ(fits.warned, 40);
   EXPECT_GT(fits.stated, 0.7 * fits.error);
@@ -133,7 +133,7 @@ TEST(IntervalCoverage, NoiseIsNotTakenForTheSlopeThatTellsADelay) {
 }
 
 TEST(IntervalCoverage, AFilterOfTheResidualLeavesTheSlopeItsSignal) {
-  const DelayFits fits("cutoff: 0, residual_cutoff: 5.0, decimate: 5", 40);
+  const DelayFits fits("cutoff: 0, residual_cutoff: 5.0, decimate: 5", 0.2, 40);
   EXPECT_GT(fits.signal, 0.8);
   EXPECT_EQ(fits.warned, 0);
   EXPECT_GT(fits.stated, 0.7 * fits.error);

@@ -133,7 +133,7 @@ TEST(SegmentRun, NoBitDependsOnWhatARunCarries) {
   std::string robot = motion_pendulum(), sum = "viscous", declared, tuned = "inertia: {}, viscous: {}, dry: {}";
   for (const char* name : {"v1", "v2", "v3", "v4", "v5", "v6"}) {
     sum += std::string(" + ") + name;
-    declared += std::string("  <codesign:parameter name=\"") + name + "\" value=\"0.01\" lower=\"0\" upper=\"1\"/>\n";
+    declared += std::string("  <codesign:parameter name=\"") + name + "\" value=\"0\" lower=\"0\" upper=\"1\"/>\n";
     tuned += std::string(", ") + name + ": {}";
   }
   robot.replace(robot.find("${viscous}"), 10, "${" + sum + "}");
