@@ -65,7 +65,19 @@ def controllers(study):
     return rows
 
 
-OVER = ("runs", "uncertain", "robust", "multistart", "identify")
+def identification(study):
+    """(key, value) of what an identification was asked for: each recording, how it is fitted, and what is looked for."""
+    block = study.get("identify")
+    rows = []
+    for key, value in (block.items() if isinstance(block, dict) else []):
+        if key in ("data", "holdout") and isinstance(value, list):
+            rows += [(f"{key}[{k}]", text_of(item)) for k, item in enumerate(value)]
+        else:
+            rows.append((str(key), text_of(value)))
+    return rows + settings(study, ("parameters",)) if rows else []
+
+
+OVER = ("runs", "uncertain", "robust", "multistart")
 SOLVED = ("gravity", "initial_state", "loads", "limits", "optimizer", "solver", "engine")
 
 

@@ -41,7 +41,8 @@ def commands(job):
     files = job.details.get("files", {})
     here = "cd " + shlex.quote(job.folder)
     if job.kind == "identification":
-        return [("see the identified numbers in motion", f"{here} && codesign simulate identified.urdf STUDY --result identification.json")]
+        study = "job_study.yaml" if job.study_text else "STUDY"
+        return [("see the identified numbers in motion", f"{here} && codesign simulate identified.urdf {study} --result identification.json")]
     rows = []
     if files.get("model") and not job.bag:
         overlays = "".join(f" --overlay {shlex.quote(path)}" for path in files.get("overlays", []))
@@ -66,6 +67,7 @@ def context(job, scale):
         "job": job, "result": job.result, "details": job.details, "embedded": embedded(job),
         "verdict": words.termination(job.result.get("termination", "")),
         "terms": asked.objective_terms(job.study), "bounds": asked.bounds(job.study), "controllers": asked.controllers(job.study),
+        "fitted": asked.identification(job.study) if job.kind == "identification" else [],
         "over": asked.settings(job.study, asked.OVER), "settings": asked.settings(job.study, asked.SOLVED),
         "mechanism": mechanism(job), "convergence": results.convergence(job), "failed_trials": len(results.failed_trials(job)),
         "friction_rows": friction_rows, "friction_chart": friction_chart, "energies": results.energies(job),

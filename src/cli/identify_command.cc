@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/inputs.h"
+#include "cli/job_folder.h"
 #include "cli/output_file.h"
 #include "cli/recordings_table.h"
 #include "cli/report.h"
@@ -46,6 +47,31 @@ Problem load_identifiable(const Arguments& arguments) {
   require_identification(problem);
   return problem;
 }
+
+/// The folder, in which no file that is read will be replaced. @throws InputError
+void make_room(const std::string& folder, const Problem& problem) {
+  make_folder(folder, "--output");
+  std::vector<std::string> names;
+  for (const IdentificationFile& file : identification_files(problem, {}, {})) names.push_back(file.name);
+  require_other_files(folder, names, problem);
+}
+
+/// Progress as lines: each evaluation of the fit, and the number whose profile begins.
+class FitLines {
+ public:
+  explicit FitLines(std::ostream& err) : err_(err) {}
+
+  void tell(const FitTrial& trial) {
+    if (trial.profile == 0) return print_trial(trial, err_);
+    if (trial.profile == profile_) return;
+    profile_ = trial.profile;
+    err_ << "profile " << trial.profile << " of " << trial.profiles << std::endl;
+  }
+
+ private:
+  std::ostream& err_;
+  int profile_ = 0;
+};
 
 /// A failure to write one file is reported and does not affect the others.
 template <class Write>
@@ -92,7 +118,7 @@ std::vector<Failure> write_folder(const Arguments& arguments, const Problem& pro
 
 int identify(const Arguments& arguments, const Console& console) {
   const Problem problem = load_identifiable(arguments);
-  if (!arguments.output.empty()) make_folder(arguments.output, "--output");
+  if (!arguments.output.empty()) make_room(arguments.output, problem);
   Warnings warnings;
   const StudyRecordings recordings = read_recordings(problem, console, &warnings);
   // Until here an interrupt ends the program at once: there is nothing to lose.

@@ -16,11 +16,12 @@ namespace {
 constexpr const char* kJournal = "journal.jsonl";
 constexpr const char* kPreviousJournal = "previous_journal.jsonl";
 
-/// A result must not replace what it comes from. @throws InputError
-void require_other_files(const std::string& folder, const Problem& problem) {
+}  // namespace
+
+void require_other_files(const std::string& folder, const std::vector<std::string>& names, const Problem& problem) {
   std::vector<std::string> inputs = {problem.urdf().name, problem.study_text().name};
   for (const SourceText& overlay : problem.overlays()) inputs.push_back(overlay.name);
-  for (const std::string& name : ResultFolder::file_names())
+  for (const std::string& name : names)
     for (const std::string& input : inputs) {
       std::error_code error;
       if (std::filesystem::equivalent(std::filesystem::path(folder) / name, input, error))
@@ -29,15 +30,13 @@ void require_other_files(const std::string& folder, const Problem& problem) {
     }
 }
 
-}  // namespace
-
 JobFolder::JobFolder(const std::string& path, const Problem& problem, bool resume)
     : path_(path), problem_(problem), best_(in_folder(""), problem) {
   if (resume)
     require_journal(in_folder(kJournal));
   else
     make_folder(path, "--output");
-  require_other_files(path, problem);
+  require_other_files(path, ResultFolder::file_names(), problem);
   lock_ = LockFile::take(in_folder(".codesign_optimize.lock"));
   if (!lock_)
     throw InputError({{path, 0}, "--output", "another optimization is writing into this folder", path, "a folder of its own for each"});

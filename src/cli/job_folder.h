@@ -21,6 +21,9 @@
 
 namespace codesign::cli {
 
+/// A result must not replace what it comes from. @param names of the files that are written into the folder. @throws InputError
+void require_other_files(const std::string& folder, const std::vector<std::string>& names, const Problem& problem);
+
 /// The output folder of `codesign optimize`. convergence.csv, best.urdf and best.json are written while the optimization runs; finish()
 /// writes those of ResultFolder, each as a whole. A lock admits one optimization at a time. Results of an
 /// earlier optimization are removed; its journal is kept as previous_journal.jsonl, and the best point of one that was killed as

@@ -23,8 +23,8 @@ commands
                            the search (doc/results.md); best.urdf and best.json while it runs
     --resume DIR           go on with the optimization of DIR/journal.jsonl, killed or cancelled
   identify MODEL STUDY     fit parameters to recordings, and tell how well they are known
-    --output DIR           write identification.json, identified_overlay.urdf, identified.urdf and
-                           residuals.csv
+    --output DIR           write identification.json, identified_overlay.urdf, identified.urdf,
+                           residuals.csv and job_study.yaml, the study
   excite MODEL STUDY       a motion within all limits, after whose recording identify knows most
     --output DIR           write trajectory.csv, plain.csv, excitation.json; with ROS trajectory.bag
   report DIR|BAG           a page with all that an optimization or identification has found

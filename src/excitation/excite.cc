@@ -54,7 +54,7 @@ class Excitation {
         observer_(observer),
         cancel_(cancel),
         limits_(motion_limits(problem)),
-        variables_(problem.study()),
+        variables_(problem.study(), &problem.robot()),
         information_(variables_, names_of(limits_.joints), limits_.noise),
         start_(start_positions(problem, limits_.joints)),
         space_(description_, limits_, start_),

@@ -84,6 +84,13 @@ Eigen::VectorXd positions_at(const MeasuredMotion& motion, const std::vector<Mea
   return positions;
 }
 
+/// Positions that were integrated from a start that the fit has moved move with it.
+void shift_to_fitted_starts(const FitVariables& variables, const Eigen::VectorXd& x, MeasuredMotion* motion) {
+  for (JointMotion& joint : motion->joints)
+    if (const int column = variables.start_column(motion->element, joint.joint); column >= 0 && column < x.size())
+      joint.position.array() += x[column] - variables.start()[column];
+}
+
 /// Positions at a few instants, from which the drives are chosen.
 Eigen::MatrixXd some_positions(const MeasuredMotion& motion, const std::vector<MeasuredJoint>& joints) {
   constexpr int kInstants = 4;
@@ -233,6 +240,7 @@ void compare_all(const Problem& problem, const StudyRecordings& recordings, cons
     seconds += static_cast<double>(motions.back().end - motions.back().first) * motions.back().times.step;
   }
   const FitVariables variables(problem.study());
+  for (MeasuredMotion& motion : motions) shift_to_fitted_starts(variables, result.x, &motion);
   MotionComparison comparison(problem, result, joints, motions.front(), stop);
   compared->names = comparison.names();
   compared->joints = compared_joints(problem.robot(), joints, result.parameters, compared->names);

@@ -16,7 +16,8 @@ namespace codesign {
 /// A recording as it was measured and as the identified model has it, at the same instants.
 struct ComparedRecording {
   std::string element;  ///< `identify.data[0]`
-  /// Frame::time by the clock of the recording [s]. Measured joints have the positions, velocities and accelerations of measured_motion(),
+  /// Frame::time by the clock of the recording [s]. Measured joints have the positions, velocities and accelerations of measured_motion()
+  /// (positions that were integrated from a fitted start begin at the identified one),
   /// and as effort what the identified sensor says of the effort on the child, (28c) solved for tau [N m or N]; NaN: not recorded. Joints
   /// that were not measured, and links, stand where the identified dimensions put them. A measured frame has no friction.
   std::vector<Frame> measured;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "recordings/uniform_samples.h"
+
 namespace codesign {
 namespace {
 
@@ -244,6 +246,38 @@ Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* resi
   }
   if (jacobian) clear_starts_without_effect(jacobian);
   return {};
+}
+
+// The slope of the effort that the model computes has nothing in common with the noise of the recorded one.
+std::vector<DelaySignal> EffortResiduals::delay_signals(const Eigen::VectorXd& x) {
+  constexpr double kLeastShare = 0.01;
+  std::vector<DelaySignal> signals;
+  Eigen::MatrixXd residuals;
+  for (std::size_t o = 0; o < outputs_.size(); ++o)
+    if (const int column = variables_.columns(outputs_[o]).delay; column >= 0) signals.push_back({outputs_[o], column, 1.0});
+  if (signals.empty() || !evaluate(x, &residuals, nullptr).ok()) return signals;
+  for (DelaySignal& signal : signals) {
+    const auto o = static_cast<std::size_t>(std::find(outputs_.begin(), outputs_.end(), signal.joint) - outputs_.begin());
+    const EffortSensor sensor = variables_.sensor(signal.joint, x);
+    double both = 0.0, slopes = 0.0;
+    for (std::size_t r = 0; r < recordings_.size(); ++r) {
+      const MeasuredMotion& motion = recordings_[r];
+      const double step = motion.times.step * static_cast<double>(filter_.residual_cutoff > 0.0 ? 1 : motion.every);
+      Eigen::MatrixXd columns(begins_[r + 1] - begins_[r], 2);
+      for (Eigen::Index k = 0; k < columns.rows(); ++k) {
+        const double effort = model_efforts_(drives_[o], begins_[r] + k);
+        const EffortResidual residual = effort_residual(sensor, efforts_[r][o], time(r, k), effort);
+        columns(k, 0) = residual.by_effort * (effort + sensor.offset);
+        columns(k, 1) = -residual.by_delay;
+      }
+      columns.col(0) = derivative(Eigen::VectorXd(columns.col(0)), step);
+      const Eigen::MatrixXd kept = fitted(r, &columns);
+      both += kept.col(0).dot(kept.col(1));
+      slopes += kept.col(1).squaredNorm();
+    }
+    if (slopes > 0.0) signal.share = std::clamp(both / slopes, kLeastShare, 1.0);
+  }
+  return signals;
 }
 
 }  // namespace codesign

@@ -38,6 +38,7 @@ class EffortResiduals final : public RecordingResiduals {
   const SeriesLengths& lengths() const override { return lengths_; }
   Eigen::Index rows() const override { return rows_; }
   /// Fitted efforts as recorded, filtered like the residuals, times the scale at the start [N m or N]; rows() x outputs.
+  std::vector<DelaySignal> delay_signals(const Eigen::VectorXd& x) override;
   const Eigen::MatrixXd& recorded() const override { return recorded_; }
   /// Times of the rows [s], each from the clock of its recording.
   std::vector<double> times() const override;

@@ -11,11 +11,20 @@ void append(double number, Eigen::VectorXd* vector) {
   (*vector)[vector->size() - 1] = number;
 }
 
+/// The unit of a joint's coordinate or effort; empty for an unknown joint.
+std::string unit_of(const RobotDescription* robot, const std::string& joint, const char* turning, const char* sliding) {
+  if (!robot) return "";
+  for (const JointDescription& each : robot->joints)
+    if (each.name == joint) return each.type == JointType::kPrismatic ? sliding : turning;
+  return "";
+}
+
 double at(const Eigen::VectorXd& x, int column, double known) { return column < 0 ? known : x[column]; }
 
 }  // namespace
 
-FitVariables::FitVariables(const Study& study) : study_(study), names_(tuned_names(study)), start_(start_of(study)) {
+FitVariables::FitVariables(const Study& study, const RobotDescription* robot)
+    : study_(study), names_(tuned_names(study)), start_(start_of(study)) {
   for (int k : study.tuned) {
     const Parameter& parameter = study.parameters[static_cast<std::size_t>(k)];
     units_.push_back(parameter.unit);
@@ -26,13 +35,13 @@ FitVariables::FitVariables(const Study& study) : study_(study), names_(tuned_nam
     SensorColumns columns;
     columns.scale = add(joint.joint + "/effort_scale", joint.effort_scale, "");
     columns.delay = add(joint.joint + "/delay", joint.delay, "s");
-    columns.offset = add(joint.joint + "/offset", joint.offset, "");
+    columns.offset = add(joint.joint + "/offset", joint.offset, unit_of(robot, joint.joint, "N m", "N"));
     columns_.push_back(columns);
   }
   for (const RecordingDescription& recording : study.identification->data)
     for (const StartPosition& start : recording.starts) {
       const std::string name = recording.element.substr(recording.element.find('.') + 1) + ".start." + start.joint;
-      start_columns_.push_back({recording.element, start.joint, add(name, start.position, "")});
+      start_columns_.push_back({recording.element, start.joint, add(name, start.position, unit_of(robot, start.joint, "rad", "m"))});
     }
 }
 

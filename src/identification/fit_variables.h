@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "description/robot.h"
 #include "description/study.h"
 #include "identification/effort_sensor.h"
 
@@ -20,8 +21,8 @@ class FitVariables {
     int scale = -1, delay = -1, offset = -1;
   };
 
-  /// @param study with a block `identify`; must outlive this.
-  explicit FitVariables(const Study& study);
+  /// @param study with a block `identify`; must outlive this. @param robot whose joints give starts and offsets their units; null: none
+  explicit FitVariables(const Study& study, const RobotDescription* robot = nullptr);
 
   Eigen::Index size() const { return start_.size(); }
   Eigen::Index tuned() const { return static_cast<Eigen::Index>(study_.tuned.size()); }

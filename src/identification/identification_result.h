@@ -25,6 +25,7 @@ struct IdentifiedNumber {
   double upper = std::numeric_limits<double>::infinity();
   bool is_on_bound = false;      ///< and held there by the data: it then counts as known in the intervals of the others, and has none
   bool is_determined = true;     ///< whether the data tell it
+  double slope_signal = 1.0;     ///< of a delay: DelaySignal::share
   double deviation = 0.0;        ///< standard deviation; infinite if not determined
   double low = 0.0, high = 0.0;  ///< the interval at IntervalOptions::level
   std::optional<ProfileInterval> profile;

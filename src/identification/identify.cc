@@ -81,7 +81,7 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
   const IdentificationDescription& options = *problem.study().identification;
   if (recordings.data.empty())
     throw InputError({options.where, "identify.data", "the study has no recordings to identify from", "", "at least one recording"});
-  const FitVariables variables(problem.study());
+  const FitVariables variables(problem.study(), &problem.robot());
   IdentificationResult result;
   std::vector<JointRecording> all = recordings.data;
   all.insert(all.end(), recordings.holdout.begin(), recordings.holdout.end());
@@ -114,7 +114,7 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
   result.samples = residuals.rows();
   result.data = judge_outputs(residuals, residuals.recorded(), fit.start_residuals, fit.residuals);
   result.data_series = series_of(residuals, fit.residuals);
-  judge_numbers(variables, options, residuals.lengths(), fit, &result);
+  judge_numbers(variables, options, residuals.lengths(), residuals.delay_signals(fit.x), fit, &result);
   if (options.intervals.profiles && !is_set(cancel)) add_profiles(limits, options, fit, &residuals, observer, cancel, &result);
   if (options.intervals.profiles && is_set(cancel) && result.status.ok()) result.status = {StatusCode::kCancelled, 0.0, "cancelled"};
   if (holdout) {

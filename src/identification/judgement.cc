@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kNearBound = 1e-9;     // of the range, or of the magnitude: a number this near to its bound is on it
 constexpr double kHoldoutFactor = 1.5;  // times the residuals of the fitted data: a holdout beyond was not explained
+constexpr double kSlopeSignal = 0.8;    // share of signal in the slope of a recorded effort below which it is told
 constexpr double kWhiteBelow = 0.01;    // probability below which residuals are not taken for white
 
 double rms_of(const Eigen::VectorXd& column) { return std::sqrt(column.squaredNorm() / static_cast<double>(column.size())); }
@@ -33,10 +34,14 @@ std::vector<int> free_columns(const IdentificationResult& result) {
 
 /// The covariance of the free numbers, by the noise model of `intervals`.
 ParameterCovariance covariance_of(const ResidualFit& fit, const LossOptions& loss, const SeriesLengths& lengths,
-                                  const IntervalOptions& intervals, const std::vector<int>& columns) {
+                                  const IntervalOptions& intervals, const std::vector<DelaySignal>& delays,
+                                  const std::vector<int>& columns) {
   const WeightedResiduals weighted = weigh(fit.residuals, &fit.jacobian, fit.spreads, loss);
   Eigen::MatrixXd jacobian(weighted.jacobian.rows(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t k = 0; k < columns.size(); ++k) jacobian.col(static_cast<Eigen::Index>(k)) = weighted.jacobian.col(columns[k]);
+  for (const DelaySignal& delay : delays)
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      if (columns[k] == delay.column) jacobian.col(static_cast<Eigen::Index>(k)) *= delay.share;
   return parameter_covariance(weighted.residuals, jacobian, lengths, intervals, fit.own_unknowns);
 }
 
@@ -81,13 +86,14 @@ std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::
 }
 
 void judge_numbers(const FitVariables& variables, const IdentificationDescription& options, const SeriesLengths& lengths,
-                   const ResidualFit& fit, IdentificationResult* result) {
+                   const std::vector<DelaySignal>& delays, const ResidualFit& fit, IdentificationResult* result) {
   begin_numbers(variables, fit, result);
+  for (const DelaySignal& delay : delays) result->numbers[static_cast<std::size_t>(delay.column)].slope_signal = delay.share;
   release_undetermined(fit, options.loss, result);
   const std::vector<int> columns = free_columns(*result);
   result->covariance.setZero(variables.size(), variables.size());
   if (columns.empty()) return;
-  const ParameterCovariance known = covariance_of(fit, options.loss, lengths, options.intervals, columns);
+  const ParameterCovariance known = covariance_of(fit, options.loss, lengths, options.intervals, delays, columns);
   std::vector<std::string> names;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
@@ -110,7 +116,7 @@ void add_profiles(const FitProblem& problem, const IdentificationDescription& op
   const std::vector<int> columns = free_columns(*result);
   IntervalOptions white = options.intervals;
   white.noise = NoiseModel::kWhite;
-  const ParameterCovariance plain = covariance_of(fit, options.loss, source->lengths(), white, columns);
+  const ParameterCovariance plain = covariance_of(fit, options.loss, source->lengths(), white, {}, columns);
   for (std::size_t k = 0; k < columns.size(); ++k) {
     IdentifiedNumber& number = result->numbers[static_cast<std::size_t>(columns[k])];
     if (!number.is_determined || is_set(cancel)) continue;
@@ -162,6 +168,14 @@ Warnings warnings_of(const IdentificationDescription& options, const Identificat
       warnings.push_back(
           warn("identified_on_bound", {options.where, number.name, "the fit ends on a bound, so that this number has no interval",
                                        readable(number.value), "wider bounds, or other data"}));
+  for (const IdentifiedNumber& number : result.numbers)
+    if (number.slope_signal < kSlopeSignal)
+      warnings.push_back(
+          warn("delay_in_noise", {options.where, number.name,
+                                  "noise makes up for " + readable(100.0 * (1.0 - number.slope_signal), 2) +
+                                      " % of the slope of the recorded effort, by which this delay is found; its interval counts that, but "
+                                      "not that the delay is drawn to where samples are interpolated most smoothly",
+                                  readable(number.value), "a lower identify.filter.residual_cutoff, where the noise begins"}));
   for (const OutputFit& fit : result.data)
     if (options.intervals.noise == NoiseModel::kWhite && fit.whiteness.probability < kWhiteBelow)
       warnings.push_back(

@@ -15,8 +15,9 @@ std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::
                                      const Eigen::MatrixXd& residuals);
 
 /// Sets numbers, covariance, rank, lag and the sentences about what the data do not tell, from a fit that has a best point.
+/// @param delays by whose share of signal the columns of delays count less, doc/theory.md (33a)
 void judge_numbers(const FitVariables& variables, const IdentificationDescription& options, const SeriesLengths& lengths,
-                   const ResidualFit& fit, IdentificationResult* result);
+                   const std::vector<DelaySignal>& delays, const ResidualFit& fit, IdentificationResult* result);
 
 /// Intervals of the profile likelihood of all numbers that the data tell: each is fixed and all others are fitted anew.
 /// @param problem of the fit. @param source the fit's. Ends early once `cancel` is set. @param observer told of each evaluation, with
@@ -24,7 +25,7 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
 void add_profiles(const FitProblem& problem, const IdentificationDescription& options, const ResidualFit& fit, ResidualSource* source,
                   const FitObserver& observer, const std::atomic<bool>* cancel, IdentificationResult* result);
 
-/// Warnings about the result: `holdout_failed` first, `fit_hindered`, `identified_on_bound`, `correlated_residuals`.
+/// Warnings about the result: `holdout_failed` first, `fit_hindered`, `identified_on_bound`, `correlated_residuals`, `delay_in_noise`.
 Warnings warnings_of(const IdentificationDescription& options, const IdentificationResult& result);
 
 }  // namespace codesign

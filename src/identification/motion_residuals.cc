@@ -13,6 +13,11 @@
 namespace codesign {
 namespace {
 
+constexpr double kSlowStart = 0.1;      // of what was owed before, and of what all owe: a start that owes more still is slow
+constexpr std::size_t kFew = 4;         // slow starts are helped if there is one for so many segments at most
+constexpr double kWorthHelp = 1e-6;     // of the value: what starts owe that is less does not hinder a fit
+constexpr double kSettledShare = 1e-8;  // of the value of a segment: what its best start would gain at most
+
 /// Recorded positions at a few instants, joints x instants.
 Eigen::MatrixXd positions_of_some(const JointRecording& recording, const std::vector<MeasuredJoint>& joints) {
   constexpr Eigen::Index kInstants = 4;
@@ -33,6 +38,17 @@ void require_positions(const std::vector<JointRecording>& recordings) {
                           "positions of each joint, or residual: effort, which integrates velocities from a start"});
 }
 
+/// Recordings do not show how far bristles are bent where a segment begins.
+void warn_of_friction_states(const CompiledSystem& system, const IdentificationDescription& options, Warnings* warnings) {
+  if (system.bristles().empty()) return;
+  append({warn("segment_friction_states",
+               {options.where, "identify.segment",
+                "friction with states begins each segment unloaded: a joint that sticks there gives way by the deflection of its bristles, "
+                "and its first slip counts as a change of the start",
+                readable(options.segment), "segments that begin while the joint moves, or longer ones"})},
+         warnings);
+}
+
 /// How much each column varies, a first guess of what its residuals are compared with.
 Eigen::VectorXd variation_of(const Eigen::MatrixXd& recorded) {
   Eigen::VectorXd variation(recorded.cols());
@@ -41,6 +57,12 @@ Eigen::VectorXd variation_of(const Eigen::MatrixXd& recorded) {
     if (!(variation[k] > 0.0)) variation[k] = 1.0;
   }
   return variation;
+}
+
+double value_of(const std::vector<SegmentSolution>& solutions) {
+  double value = 0.0;
+  for (const SegmentSolution& solution : solutions) value += solution.value;
+  return value;
 }
 
 }  // namespace
@@ -55,6 +77,7 @@ MotionResiduals::MotionResiduals(const CompiledSystem& system, const FitVariable
                                  Warnings* warnings)
     : system_(system), variables_(variables), recordings_(std::move(recordings)) {
   require_positions(recordings_);
+  warn_of_friction_states(system, options, warnings);
   independent_ = independent_joints(system, joints, positions_of_some(recordings_.front(), joints));
   const std::vector<MotionOutput> outputs = motion_outputs(system, joints, recordings_);
   for (const MotionOutput& output : outputs) names_.push_back(output.name());
@@ -112,6 +135,8 @@ Status MotionResiduals::failure_of(std::size_t place, Status status) const {
 Status MotionResiduals::begin(const Eigen::VectorXd& x) {
   for (std::unique_ptr<MotionWorker>& worker : workers_) worker->runs.clear();
   reference_ = {};
+  settled_ = {};
+  is_counted_anew_ = true;
   for (std::size_t r = 0; r < recordings_.size(); ++r) {
     Status status = set_branches(recordings_[r], systems_[r], system_, variables_, x, independent_, cancel_, &segments_[r]);
     if (!status.ok()) {
@@ -128,56 +153,126 @@ void MotionResiduals::count_by(const Eigen::VectorXd& spreads, const LossOptions
   is_counted_anew_ = true;
 }
 
-std::vector<Eigen::VectorXd> MotionResiduals::guesses(std::size_t place, const Eigen::VectorXd& x) const {
-  std::vector<Eigen::VectorXd> guesses;
-  if (reference_.x.size() > 0) {
-    guesses.push_back(reference_.starts[place] - reference_.corrections[place] - reference_.slopes[place] * (x - reference_.x));
-    guesses.push_back(reference_.starts[place]);
+MotionResiduals::Guesses MotionResiduals::guesses(const Eigen::VectorXd& x) const {
+  Guesses guesses(places_.size());
+  for (std::size_t place = 0; place < places_.size(); ++place) {
+    std::vector<Eigen::VectorXd>& starts = guesses[place];
+    const bool is_settled = settled_.x.size() > 0, is_here = is_settled && is_counted_anew_ && settled_.x == x;
+    if (is_here) starts.push_back(settled_.starts[place]);
+    if (reference_.x.size() > 0) {
+      starts.push_back(reference_.starts[place] - reference_.corrections[place] - reference_.slopes[place] * (x - reference_.x));
+      starts.push_back(reference_.starts[place]);
+    }
+    if (is_settled && !is_here) starts.push_back(settled_.starts[place]);
+    starts.push_back(segments_[places_[place].recording][places_[place].segment].start);
   }
-  guesses.push_back(segments_[places_[place].recording][places_[place].segment].start);
   return guesses;
 }
 
-std::vector<SegmentSolution> MotionResiduals::solve(const Eigen::VectorXd& x) {
-  std::vector<SegmentSolution> solutions(places_.size());
+Status MotionResiduals::solve(const Eigen::VectorXd& x, const Guesses& guesses, SegmentWork work, std::vector<SegmentSolution>* solutions) {
   std::atomic<std::size_t> next{0};
   side_by_side(workers_.size(), static_cast<int>(workers_.size()), [&](std::size_t worker) {
     std::vector<std::unique_ptr<SegmentRun>>& runs = workers_[worker]->runs;
     runs.resize(recordings_.size());
     for (std::size_t k = next++; k < places_.size() && !is_set(cancel_); k = next++) {
+      if (guesses[k].empty()) continue;
       const Place& place = places_[k];
       std::unique_ptr<SegmentRun>& run = runs[place.recording];
       if (!run) run = std::make_unique<SegmentRun>(systems_[place.recording], segments_[place.recording].front().begin);
       run->obey(cancel_);
       const SegmentProblem problem{
           systems_[place.recording], variables_, efforts_[place.recording], segments_[place.recording][place.segment], x, spreads_, loss_};
-      solutions[k] = fit_segment(problem, guesses(k, x), run.get());
+      (*solutions)[k] = fit_segment(problem, guesses[k], work, run.get());
     }
   });
-  for (const SegmentSolution& solution : solutions) runs_ += solution.runs;
-  return solutions;
+  if (is_set(cancel_)) return {StatusCode::kCancelled, 0.0, "cancelled"};
+  Status failure;
+  for (std::size_t k = 0; k < solutions->size(); ++k) {
+    if (guesses[k].empty()) continue;
+    runs_ += (*solutions)[k].runs;
+    whole_runs_ += (*solutions)[k].whole_runs;
+    if (failure.ok() && !(*solutions)[k].status.ok()) failure = failure_of(k, (*solutions)[k].status);
+  }
+  return failure;
+}
+
+/// Looks for better starts of some segments. @param from starts to begin with. @param improved on return those that are better; none for
+/// the other segments. Their solutions have no derivatives by x.
+Status MotionResiduals::improve(const Eigen::VectorXd& x, Guesses from, SegmentWork work, std::vector<SegmentSolution>* solutions,
+                                Guesses* improved) {
+  std::vector<SegmentSolution> found(places_.size());
+  if (Status status = solve(x, from, work, &found); !status.ok()) return status;
+  improved->assign(places_.size(), {});
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    SegmentSolution& solution = (*solutions)[k];
+    if (from[k].empty() || !(found[k].value < solution.value)) continue;
+    (*improved)[k] = {found[k].start};
+    solution.value = found[k].value;
+    solution.promise = found[k].promise;
+    solution.residuals = found[k].residuals;
+  }
+  return {};
+}
+
+/// A point that is worse than the best one may be so because its starts went too far: they become the best ones. Where that makes the
+/// point better than the best one so far, derivatives are those of the best starts, too.
+Status MotionResiduals::settle(const Eigen::VectorXd& x, std::vector<SegmentSolution>* solutions) {
+  Guesses unsettled(places_.size()), improved;
+  for (std::size_t k = 0; k < places_.size(); ++k)
+    if ((*solutions)[k].promise > kSettledShare * (*solutions)[k].value)
+      // From here the value can only fall, and for small steps of x it is that of the best point.
+      unsettled[k] = {reference_.starts[k] - reference_.slopes[k] * (x - reference_.x), reference_.starts[k], (*solutions)[k].start};
+  if (Status status = improve(x, std::move(unsettled), SegmentWork::kBestStart, solutions, &improved); !status.ok()) return status;
+  if (!(value_of(*solutions) < reference_.value)) return {};
+  return solve(x, improved, SegmentWork::kElimination, solutions);
+}
+
+/// Where the residuals of a few segments are large and curved, their starts come nearer by a constant factor only, and would make all
+/// segments wait. These take a few steps more.
+Status MotionResiduals::help_slow_starts(const Eigen::VectorXd& x, std::vector<SegmentSolution>* solutions) {
+  double owed = 0.0;
+  for (const SegmentSolution& solution : *solutions) owed += solution.promise;
+  Guesses slow(places_.size()), improved;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const SegmentSolution& solution = (*solutions)[k];
+    if (!(solution.promise > kSlowStart * std::max(owed, reference_.promises[k]))) continue;
+    slow[k] = {solution.start - solution.correction, solution.start};
+    ++count;
+  }
+  if (count == 0 || kFew * count > places_.size() || !(owed > kWorthHelp * value_of(*solutions))) return {};
+  if (Status status = improve(x, std::move(slow), SegmentWork::kBetterStart, solutions, &improved); !status.ok()) return status;
+  return solve(x, improved, SegmentWork::kElimination, solutions);
 }
 
 void MotionResiduals::remember(const Eigen::VectorXd& x, double value, const std::vector<SegmentSolution>& solutions) {
   if (!is_counted_anew_ && !(value < reference_.value)) return;
   is_counted_anew_ = false;
-  reference_ = {x, value, {}, {}, {}};
+  reference_ = {x, value, {}, {}, {}, {}};
   for (const SegmentSolution& solution : solutions) {
     reference_.starts.push_back(solution.start);
     reference_.corrections.push_back(solution.correction);
     reference_.slopes.push_back(solution.slope);
+    reference_.promises.push_back(solution.promise);
   }
 }
 
 Status MotionResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) {
-  const std::vector<SegmentSolution> solutions = solve(x);
-  if (is_set(cancel_)) return {StatusCode::kCancelled, 0.0, "cancelled"};
-  double value = 0.0;
-  for (std::size_t k = 0; k < solutions.size(); ++k) {
-    if (!solutions[k].status.ok()) return failure_of(k, solutions[k].status);
-    value += solutions[k].value;
+  std::vector<SegmentSolution> solutions(places_.size());
+  const SegmentWork work = jacobian ? SegmentWork::kElimination : SegmentWork::kBestStart;
+  if (Status status = solve(x, guesses(x), work, &solutions); !status.ok()) return status;
+  if (jacobian) {
+    if (!is_counted_anew_) {
+      const bool is_better = value_of(solutions) < reference_.value;
+      if (Status status = is_better ? help_slow_starts(x, &solutions) : settle(x, &solutions); !status.ok()) return status;
+    }
+    remember(x, value_of(solutions), solutions);
+    owed_ = 0.0;
+    for (const SegmentSolution& solution : solutions) owed_ += solution.promise;
+  } else {
+    settled_ = {x, {}};
+    for (const SegmentSolution& solution : solutions) settled_.starts.push_back(solution.start);
   }
-  remember(x, value, solutions);
   const Eigen::Index outputs = recorded_.cols();
   residuals->resize(rows(), outputs);
   if (jacobian) jacobian->resize(rows() * outputs, x.size());

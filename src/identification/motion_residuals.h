@@ -13,9 +13,9 @@
 namespace codesign {
 
 /// What several recordings of one robot say about x when the motion is simulated in segments: computed minus recorded positions,
-/// velocities, and efforts of controllers, doc/theory.md (40)-(43). Each segment starts where it fits best; the residuals are those of
-/// these starts, and their Jacobian takes into account that starts follow x. Segments are spread over threads, with the same bits for any
-/// number.
+/// velocities, and efforts of controllers, doc/theory.md (40)-(43). Each segment starts freely. Evaluated without a Jacobian, it starts
+/// where it fits best. With one, starts and x are unknowns of one step of Gauss and Newton: starts have taken theirs from the best point
+/// so far, and the Jacobian takes into account that they follow x. Segments are spread over threads, with the same bits for any number.
 class MotionResiduals final : public RecordingResiduals {
  public:
   /// @param system, variables, options must outlive this. @param recordings all with the same joints. @param joints those of the
@@ -36,10 +36,13 @@ class MotionResiduals final : public RecordingResiduals {
   Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) override;
   void count_by(const Eigen::VectorXd& spreads, const LossOptions& loss) override;
   Eigen::Index own_unknowns() const override;
+  double own_promise() const override { return owed_; }
   void obey(const std::atomic<bool>* cancel) override { cancel_ = cancel; }
 
-  /// Simulations of segments with their sensitivities so far, over the number of segments: what evaluations cost.
-  double simulations() const { return static_cast<double>(runs_) / static_cast<double>(places_.size()); }
+  /// Simulations of segments so far, over the number of segments: what evaluations cost.
+  double runs() const { return static_cast<double>(runs_) / static_cast<double>(places_.size()); }
+  /// Those of them with derivatives by x and starts; the others have derivatives by starts alone.
+  double whole_runs() const { return static_cast<double>(whole_runs_) / static_cast<double>(places_.size()); }
   const std::vector<SegmentSystem>& systems() const { return systems_; }
   const std::vector<std::vector<Segment>>& segments() const { return segments_; }
 
@@ -56,9 +59,19 @@ class MotionResiduals final : public RecordingResiduals {
     double value = 0.0;
     std::vector<Eigen::VectorXd> starts, corrections;  ///< SegmentSolution::correction
     std::vector<Eigen::MatrixXd> slopes;
+    std::vector<double> promises;
   };
-  std::vector<Eigen::VectorXd> guesses(std::size_t place, const Eigen::VectorXd& x) const;
-  std::vector<SegmentSolution> solve(const Eigen::VectorXd& x);
+  /// The best starts at the last x without a Jacobian.
+  struct Settled {
+    Eigen::VectorXd x;
+    std::vector<Eigen::VectorXd> starts;
+  };
+  using Guesses = std::vector<std::vector<Eigen::VectorXd>>;  ///< starts of each segment to begin with; none: the segment is left alone
+  Guesses guesses(const Eigen::VectorXd& x) const;
+  Status solve(const Eigen::VectorXd& x, const Guesses& guesses, SegmentWork work, std::vector<SegmentSolution>* solutions);
+  Status settle(const Eigen::VectorXd& x, std::vector<SegmentSolution>* solutions);
+  Status help_slow_starts(const Eigen::VectorXd& x, std::vector<SegmentSolution>* solutions);
+  Status improve(const Eigen::VectorXd& x, Guesses from, SegmentWork work, std::vector<SegmentSolution>* solutions, Guesses* improved);
   void remember(const Eigen::VectorXd& x, double value, const std::vector<SegmentSolution>& solutions);
   Status failure_of(std::size_t place, Status status) const;
 
@@ -77,7 +90,9 @@ class MotionResiduals final : public RecordingResiduals {
   Eigen::MatrixXd recorded_;
   Reference reference_;
   bool is_counted_anew_ = true;  ///< whether reference_.value was counted otherwise
-  std::int64_t runs_ = 0;
+  Settled settled_;
+  double owed_ = 0.0;  ///< own_promise()
+  std::int64_t runs_ = 0, whole_runs_ = 0;
   const std::atomic<bool>* cancel_ = nullptr;
 };
 

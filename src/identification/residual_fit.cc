@@ -61,6 +61,7 @@ class WeightedCost final : public LeastSquaresModel {
     point->value = weighted.value;
     point->gradient = 2.0 * (weighted.jacobian.transpose() * weighted.residuals.reshaped());
     point->root = triangular_root(weighted.jacobian);
+    point->owed = source_.own_promise();
     keep(x, weighted.value);
     trial.cost = weighted.value;
     trial.iteration = fit_.iterations;

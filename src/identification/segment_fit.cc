@@ -14,7 +14,7 @@
 namespace codesign {
 namespace {
 
-constexpr int kMostRuns = 8;
+constexpr int kMostRuns = 8, kFewRuns = 3;
 constexpr double kSettled = 1e-8;    // of the value: a start that promises to lower it by less is the best one
 constexpr double kPatience = 10.0;   // that fraction grows by this with each run: promises that are not kept are the noise of step sizes
 constexpr double kResolved = 1e-14;  // of the sum of squares of what was recorded: what a simulation does not resolve
@@ -42,18 +42,20 @@ class StartColumns {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
 };
 
-/// The cost of a segment as a function of its start. Keeps the best point.
+/// The cost of a segment as a function of its start. Keeps the best point; with derivatives by x, also how it follows x.
 class StartCost final : public LeastSquaresModel {
  public:
-  StartCost(const SegmentProblem& problem, SegmentRun* run, SegmentSolution* best) : problem_(problem), run_(*run), best_(*best) {
+  StartCost(const SegmentProblem& problem, SegmentLanes lanes, SegmentRun* run, SegmentSolution* best)
+      : problem_(problem), lanes_(lanes), run_(*run), best_(*best) {
     const Eigen::MatrixXd& recorded = problem.segment.recorded;
     for (Eigen::Index k = 0; k < recorded.cols(); ++k) resolved_ += kResolved * (recorded.col(k) / problem.spreads[k]).squaredNorm();
   }
 
   Outcome evaluate(const Eigen::VectorXd& start, LeastSquaresPoint* point) override {
     const Segment& segment = problem_.segment;
-    const Status status = run_.run(problem_.of.parameters(problem_.variables, problem_.x, start), segment.begin, segment.times);
+    const Status status = run_.run(problem_.of.parameters(problem_.variables, problem_.x, start), segment.begin, segment.times, lanes_);
     ++best_.runs;
+    if (lanes_ == SegmentLanes::kAll) ++best_.whole_runs;
     if (!status.ok()) {
       if (!is_begun_) best_.status = status;
       return status.code == StatusCode::kCancelled ? stop(status) : Outcome::kFailed;
@@ -65,10 +67,10 @@ class StartCost final : public LeastSquaresModel {
     point->gradient = 2.0 * (by_start.transpose() * weighted.residuals.reshaped());
     point->root = triangular_root(by_start);
     const StartColumns columns(by_start);
-    if (!is_begun_ || weighted.value < best_.value) keep(start, weighted, columns);
+    const double promise = columns.promise(weighted.residuals.reshaped());
+    if (!is_begun_ || weighted.value < best_.value) keep(start, weighted, columns, promise > resolved_ ? promise : 0.0);
     const double settled = kSettled * std::pow(kPatience, best_.runs - 1) * weighted.value;
-    const bool is_settled = columns.promise(weighted.residuals.reshaped()) <= std::max(settled, resolved_);
-    return is_settled ? Outcome::kStop : Outcome::kUsable;
+    return promise <= std::max(settled, resolved_) ? Outcome::kStop : Outcome::kUsable;
   }
   bool is_begun() const { return is_begun_; }
 
@@ -78,12 +80,13 @@ class StartCost final : public LeastSquaresModel {
     return Outcome::kStop;
   }
 
-  /// Residuals of the last run and their derivatives: by x in the first columns, then by the start.
+  /// Residuals of the last run and their derivatives: by x in the first columns, of which it may have none, then by the start.
   void compare() {
     const Eigen::Index rows = run_.values().rows(), lanes = run_.slopes().cols(), sensors = lanes - problem_.of.starts;
     residuals_ = run_.values() - problem_.segment.recorded;
     by_all_.setZero(run_.slopes().rows(), problem_.x.size() + problem_.of.starts);
-    for (Eigen::Index k = 0; k < sensors; ++k) by_all_.col(problem_.of.columns[static_cast<std::size_t>(k)]) = run_.slopes().col(k);
+    for (Eigen::Index k = 0; lanes_ == SegmentLanes::kAll && k < sensors; ++k)
+      by_all_.col(problem_.of.columns[static_cast<std::size_t>(k)]) = run_.slopes().col(k);
     by_all_.rightCols(problem_.of.starts) = run_.slopes().rightCols(problem_.of.starts);
     for (std::size_t k = 0; k < problem_.of.outputs.size(); ++k)
       if (problem_.efforts[k]) sense(k, static_cast<Eigen::Index>(k) * rows);
@@ -106,18 +109,21 @@ class StartCost final : public LeastSquaresModel {
     }
   }
 
-  void keep(const Eigen::VectorXd& start, const WeightedResiduals& weighted, const StartColumns& columns) {
+  void keep(const Eigen::VectorXd& start, const WeightedResiduals& weighted, const StartColumns& columns, double promise) {
     is_begun_ = true;
     best_.status = {};
     best_.start = start;
     best_.value = weighted.value;
+    best_.promise = promise;
     best_.residuals = residuals_;
-    best_.slope = columns.solve(weighted.jacobian.leftCols(problem_.x.size()));
     best_.correction = columns.solve(weighted.residuals.reshaped());
+    if (lanes_ != SegmentLanes::kAll) return;
+    best_.slope = columns.solve(weighted.jacobian.leftCols(problem_.x.size()));
     best_.jacobian = by_all_.leftCols(problem_.x.size()) - by_all_.rightCols(problem_.of.starts) * best_.slope;
   }
 
   const SegmentProblem& problem_;
+  const SegmentLanes lanes_;
   SegmentRun& run_;
   SegmentSolution& best_;
   double resolved_ = 0.0;
@@ -127,18 +133,21 @@ class StartCost final : public LeastSquaresModel {
 
 }  // namespace
 
-SegmentSolution fit_segment(const SegmentProblem& problem, const std::vector<Eigen::VectorXd>& guesses, SegmentRun* run) {
+SegmentSolution fit_segment(const SegmentProblem& problem, const std::vector<Eigen::VectorXd>& guesses, SegmentWork work, SegmentRun* run) {
   LevenbergMarquardtOptions options;
-  options.max_evaluations = kMostRuns;
+  options.max_evaluations = work == SegmentWork::kBetterStart ? kFewRuns : kMostRuns;
   options.relative_tolerance = kSettled;
   options.largest_first_step = std::numeric_limits<double>::infinity();
   const Eigen::VectorXd open = Eigen::VectorXd::Constant(problem.of.starts, std::numeric_limits<double>::infinity());
   SegmentSolution best;
   for (const Eigen::VectorXd& guess : guesses) {
-    StartCost cost(problem, run, &best);
+    StartCost cost(problem, work == SegmentWork::kElimination ? SegmentLanes::kAll : SegmentLanes::kStart, run, &best);
     Eigen::VectorXd start = guess;
     LeastSquaresPoint point;
-    minimize_squares(options, -open, open, &cost, &start, &point);
+    if (work == SegmentWork::kElimination)
+      cost.evaluate(start, &point);
+    else
+      minimize_squares(options, -open, open, &cost, &start, &point);
     if (cost.is_begun() || best.status.code == StatusCode::kCancelled) break;
   }
   return best;

@@ -29,21 +29,30 @@ struct SegmentProblem {
   const LossOptions& loss;
 };
 
-/// A segment with its best start.
+/// What is to be found out about a segment.
+enum class SegmentWork {
+  kElimination,  ///< at one start, by one run with all derivatives: how residuals and the start follow x
+  kBetterStart,  ///< a better start, by a few runs with the derivatives by the start alone
+  kBestStart     ///< the start with which the segment fits best, by such runs
+};
+
+/// A segment with its start.
 struct SegmentSolution {
   Status status;
   Eigen::VectorXd start;
   double value = 0.0;          ///< sum of rho(r / s)
+  double promise = 0.0;        ///< by how much the best start would lower it, to first order; 0 for what a simulation does not resolve
   Eigen::MatrixXd residuals;   ///< computed minus recorded, times x outputs
-  Eigen::MatrixXd jacobian;    ///< of these residuals by x, with the start that follows x: (times outputs) x variables, output 0 first
-  Eigen::MatrixXd slope;       ///< of minus the best start by x
   Eigen::VectorXd correction;  ///< what is still to be taken off the start, to first order
-  int runs = 0;                ///< simulations with sensitivities
+  // Of kElimination alone.
+  Eigen::MatrixXd jacobian;      ///< of these residuals by x, with the start that follows x: (times outputs) x variables, output 0 first
+  Eigen::MatrixXd slope;         ///< of minus the best start by x
+  int runs = 0, whole_runs = 0;  ///< simulations; those of them with all derivatives
 };
 
-/// Finds the start with which a segment fits best, by Levenberg-Marquardt, and eliminates it; doc/theory.md (42).
+/// Eliminates the start of a segment, or finds the best one by Levenberg-Marquardt; doc/theory.md (42).
 /// @param guesses starts to begin with; the first one from which the segment can be simulated counts. At least one.
-SegmentSolution fit_segment(const SegmentProblem& problem, const std::vector<Eigen::VectorXd>& guesses, SegmentRun* run);
+SegmentSolution fit_segment(const SegmentProblem& problem, const std::vector<Eigen::VectorXd>& guesses, SegmentWork work, SegmentRun* run);
 
 }  // namespace codesign
 

@@ -6,13 +6,13 @@
 namespace codesign {
 
 SegmentRun::SegmentRun(const SegmentSystem& of, const SegmentBegin& first)
-    : system_(*of.system), integrator_(system_), groups_(system_, integrator_.step().tableau()) {
+    : system_(*of.system), starts_(of.starts), integrator_(system_), groups_(system_, integrator_.step().tableau()) {
   state_.resize(system_.layout());
   groups_.for_each([](auto* group) { group->step.keep_previous(true); });
   const double tolerance = system_.study().solver.sensitivity_tolerance;
   stages_ = [this, tolerance](const RosenbrockStep<double>& step) {
     double error = 0.0;
-    groups_.for_each([&](auto* group) {
+    for_each_group([&](auto* group) {
       group->step.attempt(step);
       if (tolerance > 0.0) error = std::max(error, group->step.error(tolerance));
     });
@@ -23,10 +23,17 @@ SegmentRun::SegmentRun(const SegmentSystem& of, const SegmentBegin& first)
   static_cast<void>(integrator_.start(system_.parameters()));
 }
 
+void SegmentRun::choose(SegmentLanes lanes) {
+  const int all = static_cast<int>(system_.study().tuned.size());
+  // Where derivatives have a say in the size of steps they are always there.
+  const bool is_whole = lanes == SegmentLanes::kAll || system_.study().solver.sensitivity_tolerance > 0.0;
+  first_lane_ = is_whole ? 0 : lanes == SegmentLanes::kStart ? all - starts_ : all;
+}
+
 Status SegmentRun::start(const std::vector<double>& parameters, const SegmentBegin& begin) {
   integrator_.assembly().begin_at(begin.time, begin.theta);
   if (Status status = integrator_.start(parameters); !status.ok()) return status;
-  groups_.for_each(
+  for_each_group(
       [&](auto* group) { group->step.start(group->range.seed(system_, parameters), integrator_.assembly(), integrator_.initial_state()); });
   sparse_.clear();
   for (std::size_t k = 0; k < system_.watched().size(); ++k) integrator_.equations().formulas().watched(k, integrator_.state(), &sparse_);
@@ -34,7 +41,9 @@ Status SegmentRun::start(const std::vector<double>& parameters, const SegmentBeg
   return {};
 }
 
-Status SegmentRun::run(const std::vector<double>& parameters, const SegmentBegin& begin, const std::vector<double>& times) {
+Status SegmentRun::run(const std::vector<double>& parameters, const SegmentBegin& begin, const std::vector<double>& times,
+                       SegmentLanes lanes) {
+  choose(lanes);
   const auto outputs = static_cast<Eigen::Index>(system_.watched().size()), count = static_cast<Eigen::Index>(times.size());
   values_.resize(count, outputs);
   slopes_.resize(count * outputs, static_cast<Eigen::Index>(system_.study().tuned.size()));
@@ -45,13 +54,18 @@ Status SegmentRun::run(const std::vector<double>& parameters, const SegmentBegin
       const Status status = integrator_.advance(times.back(), stages_);
       if (!status.ok()) return status;
       ++steps_;
-      groups_.for_each([this](auto* group) { group->step.accept(integrator_.step()); });
+      for_each_group([this](auto* group) { group->step.accept(integrator_.step()); });
     }
     if (Status status = sample(time, row); !status.ok()) return status;
   }
-  if (!slopes_.allFinite())
+  if (!are_finite(lanes))
     return {StatusCode::kNonFiniteGradient, times.back(), "the derivatives of the simulated motion are not finite, though the motion is"};
   return {};
+}
+
+bool SegmentRun::are_finite(SegmentLanes lanes) const {
+  if (lanes == SegmentLanes::kAll) return slopes_.allFinite();
+  return lanes == SegmentLanes::kNone || slopes_.rightCols(starts_).allFinite();
 }
 
 Status SegmentRun::sample(double time, Eigen::Index row) {
@@ -61,7 +75,7 @@ Status SegmentRun::sample(double time, Eigen::Index row) {
     if (Status status = integrator_.assembly().solve_rates(&integrator_.equations(), &state_); !status.ok()) return status;
   for (Eigen::Index output = 0; output < values_.cols(); ++output)
     values_(row, output) = integrator_.equations().formulas().watched(static_cast<std::size_t>(output), state_, nullptr);
-  groups_.for_each([&](auto* group) {
+  for_each_group([&](auto* group) {
     group->step.all_watched(integrator_.step(), state_, reads_rates_, integrator_.assembly(), &group->outputs);
     for (Eigen::Index output = 0; output < values_.cols(); ++output)
       slopes_.row(output * values_.rows() + row).segment(group->range.first, group->range.count) =

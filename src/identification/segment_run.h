@@ -19,6 +19,9 @@ struct SegmentBegin {
   VectorX<double> theta;  ///< tree coordinates near its start, from which loops are closed
 };
 
+/// By which of the tuned parameters of a SegmentSystem a run has derivatives.
+enum class SegmentLanes { kNone, kStart, kAll };
+
 /// The simulated outputs of one segment and their exact derivatives by all tuned parameters of a SegmentSystem, start included;
 /// doc/theory.md (41). A workspace: not thread-safe. Results do not depend on earlier runs, to the last bit.
 class SegmentRun {
@@ -27,11 +30,13 @@ class SegmentRun {
   SegmentRun(const SegmentSystem& of, const SegmentBegin& first);
 
   /// Integrates from begin.time to the last of `times`. @param parameters all of the system. @param times [s] of the system, ascending,
-  /// none before begin.time
-  Status run(const std::vector<double>& parameters, const SegmentBegin& begin, const std::vector<double>& times);
+  /// none before begin.time. @param lanes of the derivatives; the values are the same to the last bit with any
+  Status run(const std::vector<double>& parameters, const SegmentBegin& begin, const std::vector<double>& times,
+             SegmentLanes lanes = SegmentLanes::kAll);
   /// times x outputs, of the last run
   const Eigen::MatrixXd& values() const { return values_; }
-  /// (times outputs) x tuned parameters, the rows of output 0 first
+  /// (times outputs) x tuned parameters, the rows of output 0 first; the last columns are those of the start. Columns that the last run
+  /// was not asked for hold nothing.
   const Eigen::MatrixXd& slopes() const { return slopes_; }
   void obey(const std::atomic<bool>* cancel) { integrator_.obey(cancel); }
   /// Steps of all runs so far, rejected ones included.
@@ -46,13 +51,23 @@ class SegmentRun {
     Directions<N> outputs;  ///< derivatives at a sample, one column per output
   };
 
+  template <class Action>
+  void for_each_group(const Action& action) {
+    groups_.for_each([&](auto* group) {
+      if (group->range.first + group->range.count > first_lane_) action(group);
+    });
+  }
+  void choose(SegmentLanes lanes);
   Status start(const std::vector<double>& parameters, const SegmentBegin& begin);
+  bool are_finite(SegmentLanes lanes) const;
   Status sample(double time, Eigen::Index row);
 
   const CompiledSystem& system_;
+  const int starts_;
   RosenbrockIntegrator integrator_;
   LaneGroups<Group> groups_;
   RosenbrockIntegrator::BeforeAccept stages_;
+  int first_lane_ = 0;        ///< groups whose lanes all come before it rest
   bool reads_rates_ = false;  ///< whether an output depends on accelerations or reactions
   State<double> state_;
   SparseGradient<double> sparse_;

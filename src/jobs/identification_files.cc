@@ -30,7 +30,8 @@ std::vector<IdentificationFile> identification_files(const Problem& problem, con
   return {{"identification.json", [&json] { return to_text(json); }},
           {"identified_overlay.urdf", [&problem, &result] { return identified_overlay(problem, result); }},
           {"identified.urdf", [&problem, &result] { return identified_urdf(problem, result); }},
-          {"residuals.csv", [&result] { return residuals_text(result); }}};
+          {"residuals.csv", [&result] { return residuals_text(result); }},
+          {"job_study.yaml", [&problem] { return problem.study_text().text; }}};
 }
 
 IdentificationShow identification_show(const Problem& problem, const IdentificationResult& result, const Json& json,

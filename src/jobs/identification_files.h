@@ -18,8 +18,8 @@ struct IdentificationFile {
 };
 
 /// The text files of an identification that has numbers: identification.json, identified_overlay.urdf,
-/// identified.urdf, residuals.csv; doc/study.md. The texts may
-/// throw. @param json identification_json() with all that the front end adds to it. All three must outlive the texts.
+/// identified.urdf, residuals.csv, and the study as job_study.yaml; doc/study.md. The texts may throw. @param json identification_json()
+/// with all that the front end adds to it. All three must outlive the texts.
 std::vector<IdentificationFile> identification_files(const Problem& problem, const IdentificationResult& result, const Json& json);
 
 /// The contents of the bag of an identification; doc/ros_api.md.

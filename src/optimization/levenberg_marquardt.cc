@@ -58,9 +58,10 @@ class SquaresSearch {
     const BoundedStep step(best_.gradient, best_.root, scale(), down, up);
     if (evaluations_ == 1) choose_radius(step);
     const Eigen::VectorXd p = step.within(radius_);
-    const double promise = step.promise(p);
+    const double promise = step.promise(p) + best_.owed;
     if (!(promise > kEpsilon * best_.value)) return LevenbergMarquardtEnd::kOptimum;
-    if ((p.array().abs() <= kRoundingOfVariables * x_.array().abs()).all()) return LevenbergMarquardtEnd::kVariableTolerance;
+    const bool stays = (p.array().abs() <= kRoundingOfVariables * x_.array().abs()).all();
+    if (stays && best_.owed <= options_.relative_tolerance * best_.value) return LevenbergMarquardtEnd::kVariableTolerance;
     if (evaluations_ >= options_.max_evaluations) return LevenbergMarquardtEnd::kMaxEvaluations;
     Eigen::VectorXd trial = x_ + p;
     for (Eigen::Index k = 0; k < trial.size(); ++k) {
@@ -70,9 +71,15 @@ class SquaresSearch {
     ++evaluations_;
     const Outcome outcome = model_.evaluate(trial, &tried_);
     if (outcome == Outcome::kStop) return LevenbergMarquardtEnd::kStopped;
-    if (outcome == Outcome::kUsable) return judge(step, p, promise, trial);
-    radius_ = kUnusable * step.length(p);
-    return std::nullopt;
+    const double before = best_.value;
+    std::optional<LevenbergMarquardtEnd> end;
+    if (outcome == Outcome::kUsable)
+      end = judge(step, p, promise, trial);
+    else
+      radius_ = kUnusable * step.length(p);
+    // What unknowns of the model's own promise where x stays is not kept.
+    if (stays && !(best_.value < before)) best_.owed = 0.0;
+    return end;
   }
 
   /// Compares what was gained with what was promised.
@@ -83,7 +90,7 @@ class SquaresSearch {
     const bool is_limited = length >= 0.9 * radius_;
     if (ratio < kPoorGain) {
       // The minimum along p of the parabola through both values and the slope.
-      const double slope = step.slope(p), parabola = slope / (2.0 * (slope + gain));
+      const double slope = step.slope(p) - 2.0 * best_.owed, parabola = slope / (2.0 * (slope + gain));
       radius_ = std::min(0.5, std::max(0.1, slope + gain < 0.0 ? parabola : 0.5)) * length;
     } else if (ratio > kGoodGain) {
       radius_ = std::max(radius_, 2.0 * length);

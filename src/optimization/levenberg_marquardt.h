@@ -11,6 +11,9 @@ struct LeastSquaresPoint {
   double value = 0.0;        ///< psi
   Eigen::VectorXd gradient;  ///< psi_x = 2 J^T r
   Eigen::MatrixXd root;      ///< upper triangular R with R^T R = J^T J; see triangular_root(), RowRoot
+  /// Of a model with unknowns of its own, which take a step with each step of x: by how much their step alone would lower psi, to first
+  /// order. It adds to what a step of x promises, doc/theory.md (42).
+  double owed = 0.0;
 };
 
 /// What LevenbergMarquardt minimizes.

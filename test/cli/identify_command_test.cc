@@ -58,7 +58,7 @@ class IdentifyCommand : public testing::Test {
 TEST_F(IdentifyCommand, WritesItsFilesAndTheBag) {
   const Outcome outcome = run_until(1000);
   EXPECT_EQ(outcome.code, kDone) << outcome.err;
-  for (const char* name : {"identification.json", "identified.urdf", "residuals.csv"}) EXPECT_TRUE(has(name)) << name;
+  for (const char* name : {"identification.json", "identified.urdf", "residuals.csv", "job_study.yaml"}) EXPECT_TRUE(has(name)) << name;
   EXPECT_EQ(bag_path_, folder_.path("job/identification.bag"));
   EXPECT_EQ(frames_, 249U);
   const Json json = Json::parse(read_text_file(folder_.path("job/identification.json")));
@@ -84,6 +84,14 @@ TEST_F(IdentifyCommand, ProfilesAreTold) {
   const Outcome outcome = run_until(1000);
   EXPECT_EQ(outcome.code, kDone) << outcome.err;
   EXPECT_NE(outcome.err.find("profile 1 of 2\nprofile 2 of 2\n"), std::string::npos) << outcome.err;
+}
+
+TEST_F(IdentifyCommand, AResultDoesNotReplaceItsStudy) {
+  std::filesystem::create_directory(folder_.path("job"));
+  std::filesystem::rename(folder_.path("study.yaml"), folder_.path("job/job_study.yaml"));
+  const Outcome outcome = run_words({"identify", words().at(1), folder_.path("job/job_study.yaml"), "--output", folder_.path("job")});
+  EXPECT_EQ(outcome.code, kBadInput);
+  EXPECT_NE(outcome.err.find("job_study.yaml would replace this file"), std::string::npos) << outcome.err;
 }
 
 TEST_F(IdentifyCommand, WithoutABagWriterThereIsNoBag) {

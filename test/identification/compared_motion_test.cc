@@ -75,6 +75,26 @@ TEST(CompareMotion, EffortsAreWhatTheIdentifiedSensorSaysOfThem) {
   EXPECT_NEAR(measured.joints[0].effort, rig.torque(measured.time), 1e-4);
 }
 
+TEST(CompareMotion, PositionsBeginAtTheIdentifiedStart) {
+  const SwingingRig rig;
+  const Problem problem = swinging_problem("{csv: data.csv, start: {hinge: {initial: 0.7}}}");
+  StudyRecordings recordings;
+  recordings.data = {rig.record("identify.data[0]")};
+  recordings.data[0].joints[0].position.clear();
+  recordings.data[0].joints[0].start = problem.study().identification->data[0].starts.at(0).position;
+  IdentificationResult result;
+  result.parameters = {0.3, 0.4};
+  result.x = Eigen::Vector3d(0.3, 0.4, 0.0);  // the arm begins at 0, not at 0.7
+  const ComparedMotion motion = compare_motion(problem, recordings, result, kRate);
+  ASSERT_EQ(motion.recordings.size(), 1U);
+  ASSERT_TRUE(motion.recordings[0].status.ok()) << motion.recordings[0].status.cause;
+  for (std::size_t k = 0; k < motion.recordings[0].model.size(); ++k) {
+    const Frame &model = motion.recordings[0].model[k], &measured = motion.recordings[0].measured[k];
+    EXPECT_NEAR(measured.joints[0].position, rig.position(measured.time), 1e-6);
+    EXPECT_NEAR(model.joints[0].position, rig.position(measured.time), 1e-6);
+  }
+}
+
 TEST(CompareMotion, WhichJointsAreCompared) {
   const ComparedMotion motion = Compared(SwingingRig()).motion;
   ASSERT_EQ(motion.joints.size(), 1U);

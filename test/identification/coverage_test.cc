@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "identification/effort_sensor.h"
 #include "identification/identify.h"
 #include "identification/simulated_recording.h"
 
@@ -83,6 +84,60 @@ TEST(IntervalCoverage, HoldsForCorrelatedNoise) {
 
 TEST(IntervalCoverage, IsFarFromPromisedIfTheNoiseIsTakenForWhite) {
   for (const auto& [name, share] : coverage("white", 50)) EXPECT_LT(share, 0.85) << name;
+}
+
+/// Fits of a delay of 12 ms to efforts with white noise, at 100 Hz.
+struct DelayFits {
+  DelayFits(const std::string& filter, double noise, int runs) {
+    std::string study = swing_study("correlated");
+    const std::string old = "  filter: {cutoff: 30.0, residual_cutoff: 15.0, decimate: 2}\n  joints: {hinge: {offset: {}}}\n";
+    study.replace(study.find(old), old.size(), "  filter: {" + filter + "}\n  joints: {hinge: {delay: {lower: 0, upper: 0.05}}}\n");
+    const Problem problem = load_problem({"swing.urdf", kSwing}, {}, {"study.yaml", study});
+    constexpr double kDelay = 0.012;
+    JointRecording clean = record_run(problem, {}, {"hinge"}, 100.0);
+    const RecordedEffort effort(clean.times, clean.joints[0].effort);
+    double squares = 0.0;
+    for (int run = 0; run < runs; ++run) {
+      StudyRecordings recordings;
+      recordings.data = {clean};
+      std::mt19937 random(static_cast<unsigned>(run) + 1);
+      std::normal_distribution<double> normal;
+      for (std::size_t k = 0; k < clean.times.size(); ++k)
+        recordings.data[0].joints[0].effort[k] = effort.at(clean.times[k] - kDelay).value + noise * normal(random);
+      const IdentificationResult result = identify(problem, recordings, {}, nullptr);
+      EXPECT_TRUE(result.status.ok()) << result.status.cause;
+      const IdentifiedNumber& delay = result.numbers.back();
+      EXPECT_EQ(delay.name, "hinge/delay");
+      stated += delay.deviation / runs;
+      signal += delay.slope_signal / runs;
+      squares += (delay.value - kDelay) * (delay.value - kDelay) / runs;
+      for (const Warning& warning : result.warnings) warned += warning.code == "delay_in_noise" ? 1 : 0;
+    }
+    error = std::sqrt(squares);
+    RecordProperty("stated", std::to_string(stated));
+    RecordProperty("error", std::to_string(error));
+    RecordProperty("signal", std::to_string(signal));
+  }
+  static void RecordProperty(const std::string& key, const std::string& value) { testing::Test::RecordProperty(key, value); }
+
+  double stated = 0.0, error = 0.0, signal = 0.0;
+  int warned = 0;
+};
+
+TEST(IntervalCoverage, NoiseIsNotTakenForTheSlopeThatTellsADelay) {
+  const DelayFits fits("cutoff: 0", 0.6, 40);
+  EXPECT_LT(fits.signal, 0.6);
+  EXPECT_EQ(fits.warned, 40);
+  EXPECT_GT(fits.stated, 0.7 * fits.error);
+  EXPECT_LT(fits.stated, 1.6 * fits.error);
+}
+
+TEST(IntervalCoverage, AFilterOfTheResidualLeavesTheSlopeItsSignal) {
+  const DelayFits fits("cutoff: 0, residual_cutoff: 5.0, decimate: 5", 0.2, 40);
+  EXPECT_GT(fits.signal, 0.8);
+  EXPECT_EQ(fits.warned, 0);
+  EXPECT_GT(fits.stated, 0.7 * fits.error);
+  EXPECT_LT(fits.stated, 1.6 * fits.error);
 }
 
 }  // namespace

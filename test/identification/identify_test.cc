@@ -183,6 +183,7 @@ TEST(Identify, ASpeedAloneIsIntegratedFromAStartThatIsFitted) {
   EXPECT_NEAR(result.numbers[0].value, 0.3, 1e-4);
   EXPECT_NEAR(result.numbers[1].value, 0.4, 1e-4);
   EXPECT_EQ(result.numbers[2].name, "data[0].start.hinge");
+  EXPECT_EQ(result.numbers[2].unit, "rad");
   EXPECT_NEAR(result.numbers[2].value, -0.35, 1e-3) << "the recording begins at 0, which the sensor of the test calls -0.35";
   EXPECT_GT(result.numbers[2].deviation, 0.0);
   recordings.data[0].joints[0].start.reset();

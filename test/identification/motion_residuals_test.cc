@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "identification/effort_residuals.h"
@@ -71,7 +72,9 @@ TEST(MotionResiduals, TheJacobianIsThatOfTheBestStarts) {
   const Eigen::VectorXd truth = Eigen::Vector3d(0.2, 0.3, 0.5);
   ASSERT_TRUE(c.residuals.begin(truth).ok());
   Eigen::MatrixXd residuals, jacobian, before, after;
-  ASSERT_TRUE(c.residuals.evaluate(truth, &residuals, &jacobian).ok());
+  ASSERT_TRUE(c.residuals.evaluate(truth, &residuals, nullptr).ok());
+  ASSERT_TRUE(c.residuals.evaluate(truth, &after, &jacobian).ok());
+  EXPECT_EQ(after, residuals) << "a run with further derivatives, from the best starts";
   ASSERT_EQ(jacobian.rows(), residuals.size());
   for (Eigen::Index k = 0; k < 3; ++k) {
     constexpr double kStep = 1e-3;
@@ -84,6 +87,57 @@ TEST(MotionResiduals, TheJacobianIsThatOfTheBestStarts) {
     EXPECT_LT((jacobian.col(k) - difference).norm(), 5e-3 * difference.norm()) << k;
     EXPECT_GT(difference.norm(), 0.0);
   }
+}
+
+TEST(MotionResiduals, APointWithDerivativesTakesOneRunAndSaysWhatItsStartsOwe) {
+  MotionRig rig;
+  rig.noise = 1e-3;
+  MotionCase c(motion_problem("", "  segment: 1.0\n  filter: {cutoff: 20.0}\n", "inertia: {}, viscous: {}, dry: {}"),
+               {record_pendulum(rig)});
+  const Eigen::VectorXd truth = Eigen::Vector3d(0.2, 0.3, 0.5);
+  ASSERT_TRUE(c.residuals.begin(truth).ok());
+  Eigen::MatrixXd best, residuals, jacobian;
+  ASSERT_TRUE(c.residuals.evaluate(truth, &best, nullptr).ok());
+  EXPECT_EQ(c.residuals.whole_runs(), 0.0) << "no derivatives were asked for";
+  // The same from the measured starts, step by step.
+  MotionCase steps(c.problem, {record_pendulum(rig)});
+  steps.residuals.count_by(Eigen::VectorXd::Constant(1, 1e-3), c.problem.study().identification->loss);
+  ASSERT_TRUE(steps.residuals.begin(truth).ok());
+  double owed = 0.0, cost = 0.0;
+  for (int step = 1; step <= 3; ++step) {
+    ASSERT_TRUE(steps.residuals.evaluate(truth, &residuals, &jacobian).ok());
+    EXPECT_EQ(steps.residuals.whole_runs(), step);
+    const double now = residuals.squaredNorm() / 1e-6;
+    if (step > 1) {
+      EXPECT_NEAR(cost - now, owed, 0.02 * owed) << "the promise of step " << step << " is kept";
+    }
+    owed = steps.residuals.own_promise();
+    cost = now;
+    if (step == 1) {
+      EXPECT_GT(owed, 1e-3 * cost);
+    }
+  }
+  EXPECT_EQ(steps.residuals.runs(), steps.residuals.whole_runs());
+  EXPECT_LT(owed, 1e-6 * cost);
+  EXPECT_NEAR(residuals.squaredNorm(), best.squaredNorm(), 1e-7 * best.squaredNorm());
+}
+
+TEST(MotionResiduals, APointWhoseStartsWentTooFarGetsItsBestStarts) {
+  // The second point is far from the first one, where the starts were bad, too: what they promise is not kept.
+  MotionRig rig;
+  rig.noise = 1e-3;
+  MotionCase c(motion_problem("", "  segment: 3.0\n  filter: {cutoff: 20.0}\n", "inertia: {}, viscous: {}, dry: {}"),
+               {record_pendulum(rig)}),
+      other(c.problem, {record_pendulum(rig)});
+  const Eigen::VectorXd near = Eigen::Vector3d(0.2, 0.3, 0.5), far = Eigen::Vector3d(0.6, 0.9, 0.1);
+  for (MotionCase* each : {&c, &other}) ASSERT_TRUE(each->residuals.begin(near).ok());
+  Eigen::MatrixXd best, residuals, jacobian;
+  for (int step = 1; step <= 4; ++step) ASSERT_TRUE(c.residuals.evaluate(near, &residuals, &jacobian).ok());
+  ASSERT_TRUE(c.residuals.evaluate(far, &residuals, &jacobian).ok());
+  ASSERT_TRUE(other.residuals.evaluate(far, &best, nullptr).ok());
+  EXPECT_GT(best.norm(), 0.1);
+  EXPECT_LT(residuals.norm(), 1.1 * best.norm());
+  EXPECT_GT(c.residuals.runs(), c.residuals.whole_runs());
 }
 
 TEST(MotionResiduals, ManyThreadsGiveTheSameBits) {
@@ -139,6 +193,23 @@ TEST(MotionResiduals, RefusesShortSegmentsAndIdas) {
   } catch (const InputError& error) {
     EXPECT_EQ(error.fault().element, "solver.integrator") << error.what();
   }
+}
+
+TEST(MotionResiduals, FrictionStatesThatNobodyRecordedAreTold) {
+  const JointRecording recording = record_pendulum(MotionRig());
+  std::string robot = motion_pendulum();
+  const std::string damper = "<dynamics damping=\"0.1\"";
+  ASSERT_NE(robot.find(damper), std::string::npos);
+  robot.insert(robot.find(damper),
+               "<codesign:friction model=\"lugre\" mu_static=\"0.3\" mu_dynamic=\"0.2\" transition_velocity=\"0.02\" joint_length=\"0.1\" "
+               "pin_radius=\"0.05\"/>");
+  const std::string study = "identify: {data: [{csv: data.csv}], residual: motion}\nparameters: {inertia: {}}\n";
+  const Problem bristles = load_problem({"pendulum.urdf", robot}, {}, {"study.yaml", study});
+  const auto told = [](const MotionCase& c) {
+    return std::count_if(c.warnings.begin(), c.warnings.end(), [](const Warning& w) { return w.code == "segment_friction_states"; });
+  };
+  EXPECT_EQ(told(MotionCase(bristles, {recording})), 1);
+  EXPECT_EQ(told(MotionCase(motion_problem("", "  segment: 1.0\n", "inertia: {}"), {recording})), 0);
 }
 
 TEST(MotionResiduals, RefusesSampledControllers) {

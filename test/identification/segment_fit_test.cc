@@ -28,9 +28,9 @@ struct FittedSegment {
     spreads = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(of.outputs.size()), 0.01);
   }
 
-  SegmentSolution fit(const std::vector<Eigen::VectorXd>& guesses) {
+  SegmentSolution fit(const std::vector<Eigen::VectorXd>& guesses, SegmentWork work = SegmentWork::kBestStart) {
     SegmentRun run(of, segments.front().begin);
-    return fit_segment({of, variables, efforts, segments.at(1), truth, spreads, problem.study().identification->loss}, guesses, &run);
+    return fit_segment({of, variables, efforts, segments.at(1), truth, spreads, problem.study().identification->loss}, guesses, work, &run);
   }
 
   Problem problem;
@@ -56,14 +56,21 @@ TEST(SegmentFit, FindsPositionVelocityAndIntegral) {
   EXPECT_GT(std::abs(solution.start[2]), 1e-3) << "the integral of the first second";
   EXPECT_LT(solution.residuals.cwiseAbs().maxCoeff(), 1e-4);
   EXPECT_LE(solution.runs, 6);
+  EXPECT_EQ(solution.whole_runs, 0);
+  EXPECT_LE(solution.promise, 1e-4 * solution.value);
 }
 
 TEST(SegmentFit, WhatAStartExplainsIsNotInTheJacobian) {
   MotionRig rig;
   rig.noise = 0.01;
   FittedSegment segment(rig);
-  const SegmentSolution solution = segment.fit({segment.segments.at(1).start});
+  const SegmentSolution best = segment.fit({segment.segments.at(1).start});
+  ASSERT_TRUE(best.status.ok());
+  const SegmentSolution solution = segment.fit({best.start}, SegmentWork::kElimination);
   ASSERT_TRUE(solution.status.ok());
+  EXPECT_EQ(solution.residuals, best.residuals);
+  EXPECT_EQ(solution.runs, 1);
+  EXPECT_EQ(solution.whole_runs, 1);
   SegmentRun run(segment.of, segment.segments.front().begin);
   const Segment& at = segment.segments.at(1);
   ASSERT_TRUE(run.run(segment.of.parameters(segment.variables, segment.truth, solution.start), at.begin, at.times).ok());
@@ -75,6 +82,21 @@ TEST(SegmentFit, WhatAStartExplainsIsNotInTheJacobian) {
             1e-8 * weighted.norm() * (weights.asDiagonal() * solution.jacobian).norm());
   // The start is the best one.
   EXPECT_LT((weighted.transpose() * (solution.residuals.reshaped() / 0.01)).norm(), 1e-3 * weighted.norm() * std::sqrt(solution.value));
+}
+
+TEST(SegmentFit, AnEliminationTellsWhatTheBestStartWouldGain) {
+  MotionRig rig;
+  rig.noise = 0.01;
+  FittedSegment segment(rig);
+  const SegmentSolution best = segment.fit({segment.segments.at(1).start});
+  ASSERT_TRUE(best.status.ok());
+  Eigen::VectorXd near = best.start;
+  near[0] += 0.003;
+  const SegmentSolution solution = segment.fit({near}, SegmentWork::kElimination);
+  ASSERT_TRUE(solution.status.ok());
+  EXPECT_GT(solution.promise, 0.0);
+  EXPECT_NEAR(solution.value - best.value, solution.promise, 0.02 * solution.promise);
+  EXPECT_LT((solution.start - solution.correction - best.start).norm(), 0.02 * solution.correction.norm());
 }
 
 TEST(SegmentFit, AGuessThatCannotBeSimulatedGivesWayToTheNext) {

@@ -128,5 +128,31 @@ TEST(SegmentRun, NoBitDependsOnEarlierRuns) {
   EXPECT_EQ(fresh.slopes(), used.slopes());
 }
 
+TEST(SegmentRun, NoBitDependsOnWhatARunCarries) {
+  // Nine parameters and three numbers of the start: two groups of lanes, of which the start needs one.
+  std::string robot = motion_pendulum(), sum = "viscous", declared, tuned = "inertia: {}, viscous: {}, dry: {}";
+  for (const char* name : {"v1", "v2", "v3", "v4", "v5", "v6"}) {
+    sum += std::string(" + ") + name;
+    declared += std::string("  <codesign:parameter name=\"") + name + "\" value=\"0\" lower=\"0\" upper=\"1\"/>\n";
+    tuned += std::string(", ") + name + ": {}";
+  }
+  robot.replace(robot.find("${viscous}"), 10, "${" + sum + "}");
+  robot.insert(robot.find("  <codesign:parameter"), declared);
+  const std::string study =
+      motion_servo() + "identify: {data: [{csv: data.csv}], residual: motion, segment: 0.4}\nparameters: {" + tuned + "}\n";
+  const Problem problem = load_problem({"pendulum.urdf", robot}, {}, {"study.yaml", study});
+  const Prepared p(problem, "hinge", 1.0);
+  ASSERT_EQ(p.of.columns.size(), 9U);
+  SegmentRun whole(p.of, p.segment.begin), part(p.of, p.segment.begin);
+  ASSERT_TRUE(whole.run(p.at, p.segment.begin, p.segment.times).ok());
+  for (const SegmentLanes lanes : {SegmentLanes::kNone, SegmentLanes::kStart, SegmentLanes::kNone, SegmentLanes::kAll}) {
+    ASSERT_TRUE(part.run(p.at, p.segment.begin, p.segment.times, lanes).ok());
+    EXPECT_EQ(part.values(), whole.values());
+    if (lanes == SegmentLanes::kNone) continue;
+    EXPECT_EQ(part.slopes().rightCols(p.of.starts), whole.slopes().rightCols(p.of.starts));
+  }
+  EXPECT_EQ(part.slopes(), whole.slopes());
+}
+
 }  // namespace
 }  // namespace codesign

@@ -19,7 +19,7 @@ TEST(IdentificationFiles, TextsOfOneResult) {
   ASSERT_TRUE(result.status.ok());
   const Json json = identification_json(problem, result);
   const std::vector<IdentificationFile> files = identification_files(problem, result, json);
-  ASSERT_EQ(files.size(), 4U);
+  ASSERT_EQ(files.size(), 5U);
   EXPECT_EQ(files[0].name, "identification.json");
   EXPECT_EQ(files[0].text(), to_text(json));
   EXPECT_EQ(files[1].name, "identified_overlay.urdf");
@@ -27,6 +27,8 @@ TEST(IdentificationFiles, TextsOfOneResult) {
   EXPECT_EQ(read_urdf({"identified", files[2].text()}).parameters[1].value, result.numbers[1].value);
   EXPECT_EQ(files[3].name, "residuals.csv");
   EXPECT_EQ(files[3].text().substr(0, 50).find("set,recording,time,hinge/recorded,hinge/computed\n"), 0U);
+  EXPECT_EQ(files[4].name, "job_study.yaml");
+  EXPECT_EQ(files[4].text(), swinging_study());
 
   const IdentificationShow show = identification_show(problem, result, json, compare_motion(problem, recordings, result, kShownRate));
   EXPECT_EQ(show.study, swinging_study());

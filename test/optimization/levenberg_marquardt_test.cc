@@ -163,5 +163,58 @@ TEST(LevenbergMarquardt, EndsHaveTheNamesOfResults) {
   EXPECT_STREQ(name_of(LevenbergMarquardtEnd::kStopped), "cancelled");
 }
 
+/// Residuals (10 (x - 1), y - 3 x, 0.1): y is an unknown of the model's own and takes a step of Gauss and Newton with each step of x.
+class OwnUnknown final : public LeastSquaresModel {
+ public:
+  Outcome evaluate(const Eigen::VectorXd& x, LeastSquaresPoint* point) override {
+    ++evaluations;
+    const double y = evaluations == 1 ? 5.0 : y_ - correction_ + 3.0 * (x[0] - x_);
+    const double r = 10.0 * (x[0] - 1.0), own = y - 3.0 * x[0] + bend * (y - y_) * (y - y_);
+    point->value = r * r + own * own + 0.01;
+    point->gradient = Eigen::VectorXd::Constant(1, 20.0 * r);
+    point->root = Eigen::MatrixXd::Constant(1, 1, 10.0);
+    point->owed = own * own;
+    if (evaluations == 1 || point->value < best_) {
+      x_ = x[0];
+      y_ = y;
+      correction_ = own;
+      best_ = point->value;
+    }
+    return Outcome::kUsable;
+  }
+  int evaluations = 0;
+  double bend = 0.0;
+  double y() const { return y_; }
+
+ private:
+  double x_ = 0.0, y_ = 5.0, correction_ = 0.0, best_ = 0.0;
+};
+
+TEST(LevenbergMarquardt, UnknownsOfTheModelsOwnArePartOfThePromise) {
+  for (const double start : {0.0, 1.0}) {  // with 1, the first step leaves x where it is
+    OwnUnknown model;
+    Eigen::VectorXd x = Eigen::VectorXd::Constant(1, start);
+    LeastSquaresPoint best;
+    const Eigen::VectorXd open = Eigen::VectorXd::Constant(1, kUnbounded);
+    LevenbergMarquardtOptions options;
+    options.largest_first_step = kUnbounded;
+    EXPECT_EQ(minimize_squares(options, -open, open, &model, &x, &best), LevenbergMarquardtEnd::kOptimum);
+    EXPECT_NEAR(x[0], 1.0, 1e-12);
+    EXPECT_NEAR(model.y(), 3.0, 1e-12);
+    EXPECT_NEAR(best.value, 0.01, 1e-14);
+    EXPECT_LE(model.evaluations, 3);
+  }
+}
+
+TEST(LevenbergMarquardt, PromisesOfOwnUnknownsThatAreNotKeptDoNotKeepItGoing) {
+  OwnUnknown model;
+  model.bend = 10.0;  // each further step of y is worse than none
+  Eigen::VectorXd x = Eigen::VectorXd::Constant(1, 1.0);
+  LeastSquaresPoint best;
+  const Eigen::VectorXd held = Eigen::VectorXd::Constant(1, 1.0);
+  EXPECT_EQ(minimize_squares({}, held, held, &model, &x, &best), LevenbergMarquardtEnd::kOptimum);
+  EXPECT_LE(model.evaluations, 3);
+}
+
 }  // namespace
 }  // namespace codesign

@@ -210,7 +210,16 @@ class Report(unittest.TestCase):
             json.dump(fit, file)
         with open(os.path.join(folder, "residuals.csv"), "w", encoding="utf-8") as file:
             file.write("set,recording,time,hinge/recorded,hinge/computed\ndata,1,0,1,1.5\ndata,1,0.1,2,1.75\nholdout,1,0,3,2.5\n")
+        _, page = self.page_of("fit")
+        self.assertNotIn("asked", page.ids)
+        with open(os.path.join(folder, "job_study.yaml"), "w", encoding="utf-8") as file:
+            file.write("identify:\n  data: [{csv: bench.csv}, {csv: more.csv, to: 4.5}]\n  residual: motion\n  segment: 0.75\n"
+                       "parameters: {mu: {upper: 0.5}}\n")
         text, page = self.page_of("fit")
+        self.assertIn("asked", page.ids)
+        for words in ("data[1]", "{csv: more.csv, to: 4.5}", "residual", "0.75", "{mu: {upper: 0.5}}", "Fit the model to these recordings",
+                      "codesign simulate identified.urdf job_study.yaml"):
+            self.assertIn(words, page.text)
         self.assertIn("mass & inertia appear only as a sum", page.text)
         self.assertIn("&lt;b&gt;", text)
         self.assertNotIn("<b>", text.split("result-json")[0])
