@@ -56,23 +56,6 @@ void make_room(const std::string& folder, const Problem& problem) {
   require_other_files(folder, names, problem);
 }
 
-/// Progress as lines: each evaluation of the fit, and the number whose profile begins.
-class FitLines {
- public:
-  explicit FitLines(std::ostream& err) : err_(err) {}
-
-  void tell(const FitTrial& trial) {
-    if (trial.profile == 0) return print_trial(trial, err_);
-    if (trial.profile == profile_) return;
-    profile_ = trial.profile;
-    err_ << "profile " << trial.profile << " of " << trial.profiles << std::endl;
-  }
-
- private:
-  std::ostream& err_;
-  int profile_ = 0;
-};
-
 /// A failure to write one file is reported and does not affect the others.
 template <class Write>
 void try_to(Write write, std::vector<Failure>* failures) {
