@@ -82,4 +82,4 @@ target_link_libraries(optimization PRIVATE codesign_mpi)
 
 install(PROGRAMS scripts/bag_text scripts/case_figures scripts/example_client scripts/example_controller scripts/identify_then_tune scripts/launch_input scripts/model_mismatch scripts/play_bag scripts/restore_parameters
   scripts/show_in_rviz scripts/trajectory_from_bag DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts)
-install(DIRECTORY launch rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+install(DIRECTORY launch plotjuggler rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -62,10 +62,10 @@ void RunControl::end_run(const std::string& why) {
   changed_.notify_all();
 }
 
-void RunControl::stop() {
+void RunControl::stop(const std::string& why) {
   const std::lock_guard<std::mutex> lock(mutex_);
   leaving_ = stopped_ = true;
-  why_ = "the node ends";
+  why_ = why;
   changed_.notify_all();
 }
 
@@ -79,7 +79,7 @@ bool RunControl::wants_restart() const {
   return restart_;
 }
 
-std_srvs::TriggerResponse RunControl::refusal() const { return trigger_reply(false, why_ + "; ~restart begins anew"); }
+std_srvs::TriggerResponse RunControl::refusal() const { return trigger_reply(false, stopped_ ? why_ : why_ + "; ~restart begins anew"); }
 
 std_srvs::TriggerResponse RunControl::pause() {
   const std::lock_guard<std::mutex> lock(mutex_);

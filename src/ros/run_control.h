@@ -37,8 +37,8 @@ class RunControl {
   void note_frame(double time);
   /// The run is over; requests but ~restart are refused with this sentence.
   void end_run(const std::string& why);
-  /// The node ends: nobody waits any more.
-  void stop();
+  /// No run will follow: nobody waits any more, and each request is refused with this sentence.
+  void stop(const std::string& why = "the node ends");
 
   /// Whether the run stands still after the last frame.
   bool is_paused() const;

@@ -60,6 +60,8 @@ class SimulationNode {
   /// Tries parameters for the next run. Between runs.
   void serve_idle();
   void wait_for_restart(const std::string& why);
+  /// No further run is possible.
+  void end_for_good(const std::string& why);
   void show_frame(bool record);
   void tell_commands();
   void publish(const FrameNames& names, const Frame& frame);

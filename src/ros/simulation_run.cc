@@ -21,9 +21,13 @@ void SimulationNode::run() {
   } catch (const std::exception& error) {
     const std::string fault = std::string("internal_error: ") + error.what();
     state_.set(NodeState::Level::kError, fault);
-    control_.stop();
-    live_->stop();
+    end_for_good(fault);
   }
+}
+
+void SimulationNode::end_for_good(const std::string& why) {
+  control_.stop(why);
+  live_->stop();
 }
 
 void SimulationNode::run_all() {
@@ -31,8 +35,11 @@ void SimulationNode::run_all() {
   wait_for_subscribers();
   bag_.open(description_);
   while (!stopping()) {
-    if (!clock_.has_room_for(previous_duration + simulation_->duration()))
-      return wait_for_restart("finished: /clock has reached the end of ROS time");
+    if (!clock_.has_room_for(previous_duration + simulation_->duration())) {
+      const std::string why = "finished: /clock has reached the end of ROS time";
+      state_.set(NodeState::Level::kWarning, why);
+      return end_for_good(why);
+    }
     state_.set(NodeState::Level::kOk, "running " + problem_->robot().name);
     clock_.start_run(previous_duration);
     if (previous_duration == 0.0) place_root();
@@ -108,6 +115,7 @@ Status SimulationNode::run_frames() {
 }
 
 Status SimulationNode::serve() {
+  const ros::WallTime begun = ros::WallTime::now();
   bool has_waited = false;
   for (;;) {
     // Asked before commands are taken: what arrives in between is taken in the next round.
@@ -124,9 +132,13 @@ Status SimulationNode::serve() {
       show_frame(false);
     }
     has_waited = true;
+    state_.show("waits for", control_.is_paused() ? "~step or ~resume" : "a command");
     bell_.wait(kLook);
   }
-  if (has_waited) clock_.go_on_from(frame_.time);
+  if (!has_waited) return {};
+  state_.show("waits for", "nothing");
+  // After a shorter wait, for the answer of a fast controller, the next frame stays due when it was.
+  if (ros::WallTime::now() - begun > ros::WallDuration(1.0 / options_.rate)) clock_.go_on_from(frame_.time);
   return {};
 }
 

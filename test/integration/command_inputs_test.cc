@@ -79,8 +79,7 @@ TEST(CommandInputs, ADisconnectedControllerDrivesNothingAndTakesNoSetPoint) {
   EXPECT_EQ(inputs.study.controllers.back().output, "");
   options.disconnected = {"sped"};
   EXPECT_NE(message_of([&] { CommandInputs(*system, options); }).find("unknown controller"), std::string::npos);
-  const auto heavy =
-      arm_with("  hold: {type: pd_gravity, input: shoulder/position, setpoint: 0.0, output: shoulder, gains: {p: 2.0, d: 1.0}}\n");
+  const auto heavy = arm_with("  hold: {type: pd_gravity, setpoint: 0.0, output: shoulder, gains: {p: 2.0, d: 1.0}}\n");
   options.disconnected = {"hold"};
   EXPECT_NO_THROW(CompiledSystem(heavy->robot(), CommandInputs(*heavy, options).study));
 }

@@ -17,7 +17,7 @@ sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from node_process import TIMEOUT, wait_until  # noqa: E402
 from robot_node import Latest  # noqa: E402
 
-LAYOUT = os.path.join(rospkg.RosPack().get_path("mechanism_codesign"), "config", "plotjuggler_slider_crank.xml")
+LAYOUT = os.path.join(rospkg.RosPack().get_path("mechanism_codesign"), "plotjuggler", "slider_crank.xml")
 
 
 def published():

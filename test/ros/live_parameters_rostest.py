@@ -4,6 +4,7 @@
 import math
 import os
 import sys
+import tempfile
 import threading
 import unittest
 
@@ -14,9 +15,10 @@ from dynamic_reconfigure.msg import Config, DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure
 from mechanism_codesign.msg import LoopErrors
 from std_msgs.msg import String
+from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from node_process import TIMEOUT, state_of, values_of, wait_until  # noqa: E402
+from node_process import Node, SHARE, TIMEOUT, state_of, values_of, wait_until  # noqa: E402
 from robot_node import Latest, Robot, settled  # noqa: E402
 
 NAME = "/robot/simulation"
@@ -98,6 +100,31 @@ class LiveParametersTest(unittest.TestCase):
             thread.join(TIMEOUT)
         self.assertEqual(len(answers), 8)
         self.robot.step()
+
+    def test_a_dimension_that_closes_no_loop_is_refused_and_the_run_goes_on(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "wide.urdf")
+            with open(f"{SHARE}/urdf/slider_crank.urdf") as model, open(path, "w") as wide:
+                text = model.read()
+                self.assertEqual(text.count('lower="0.06" upper="0.1"'), 1)
+                wide.write(text.replace('lower="0.06" upper="0.1"', 'lower="0.06" upper="0.9"'))
+            node = Node("simulation", "wide", model=path, study=f"{SHARE}/config/slider_crank.yaml", rate=100.0, duration=1000.0,
+                        mode="as_fast_as_possible", start_paused=True)
+            try:
+                client = Client("/wide", timeout=TIMEOUT)
+                step = rospy.ServiceProxy("/wide/step", Trigger)
+                # The crank turns by some 0.1 rad in each; at 1 rad a rod of 0.3 m does not reach the slider from a crank of 0.9 m.
+                for _ in range(10):
+                    self.assertTrue(step().success)
+                self.assertEqual(client.update_configuration({"crank_length": 0.9})["crank_length"], 0.08)
+                told = [value for key, value in values_of(state_of("wide", "warning")).items() if "parameter_refused" in key]
+                self.assertEqual(len(told), 1)
+                self.assertIn("assembly_failed", told[0])
+                self.assertTrue(step().success)
+                self.assertEqual(client.update_configuration({"crank_length": 0.09})["crank_length"], 0.09)
+                self.assertTrue(step().success)
+            finally:
+                node.end()
 
     def test_a_restart_keeps_the_values(self):
         self.client.update_configuration({"Kp": 3.0})

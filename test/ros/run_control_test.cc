@@ -73,11 +73,12 @@ TEST(RunControl, TheEndOfTheRunOrOfTheNodeAnswersWhoWaits) {
   EXPECT_NE(response.message.find("finished"), std::string::npos);
   std::thread node([&] {
     while (!control.wants_restart()) bell.wait(0.01);
-    control.stop();
+    control.stop("the end of time");
   });
   EXPECT_FALSE(control.restart().success);
   node.join();
   EXPECT_TRUE(*control.leaving());
+  EXPECT_EQ(control.pause().message, "the end of time");
 }
 
 }  // namespace
