@@ -62,7 +62,7 @@ TEST_F(TakenAway, FilesThatTheStudyNamesGoAlong) {
     const Problem problem = load_problem({"pendulum.urdf", kPendulumUrdf}, {}, {"pendulum.yaml", study}, {}, {}, files);
     OptimizationResult result;
     result.rho = result.initial_rho = problem.start();
-    return ResultFolder(directory_.path().string(), problem).write_design({}, result).size();
+    return ResultFolder(directory_.path().string(), problem).write_design(Json::object(), result).size();
   };
   EXPECT_EQ(written("rig/i.json", "/elsewhere/rig/i.json"), 0U);
   EXPECT_EQ(read_source(path("rig/i.json")).text, identification);
