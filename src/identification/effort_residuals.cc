@@ -254,12 +254,15 @@ std::vector<DelaySignal> EffortResiduals::delay_signals(const Eigen::VectorXd& x
   std::vector<DelaySignal> signals;
   Eigen::MatrixXd residuals;
   for (std::size_t o = 0; o < outputs_.size(); ++o)
-    if (const int column = variables_.columns(outputs_[o]).delay; column >= 0) signals.push_back({outputs_[o], column, 1.0});
+    if (const int column = variables_.columns(outputs_[o]).delay; column >= 0)
+      signals.push_back({outputs_[o], column, static_cast<Eigen::Index>(o), 1.0, {}});
   if (signals.empty() || !evaluate(x, &residuals, nullptr).ok()) return signals;
   for (DelaySignal& signal : signals) {
     const auto o = static_cast<std::size_t>(std::find(outputs_.begin(), outputs_.end(), signal.joint) - outputs_.begin());
     const EffortSensor sensor = variables_.sensor(signal.joint, x);
     double both = 0.0, slopes = 0.0;
+    Eigen::Index row = 0;
+    signal.slopes.resize(rows_);
     for (std::size_t r = 0; r < recordings_.size(); ++r) {
       const MeasuredMotion& motion = recordings_[r];
       const double step = motion.times.step * static_cast<double>(filter_.residual_cutoff > 0.0 ? 1 : motion.every);
@@ -274,6 +277,8 @@ std::vector<DelaySignal> EffortResiduals::delay_signals(const Eigen::VectorXd& x
       const Eigen::MatrixXd kept = fitted(r, &columns);
       both += kept.col(0).dot(kept.col(1));
       slopes += kept.col(1).squaredNorm();
+      signal.slopes.segment(row, lengths_[r]) = -kept.col(0);
+      row += lengths_[r];
     }
     if (slopes > 0.0) signal.share = std::clamp(both / slopes, kLeastShare, 1.0);
   }

@@ -36,12 +36,12 @@ std::vector<int> free_columns(const IdentificationResult& result) {
 ParameterCovariance covariance_of(const ResidualFit& fit, const LossOptions& loss, const SeriesLengths& lengths,
                                   const IntervalOptions& intervals, const std::vector<DelaySignal>& delays,
                                   const std::vector<int>& columns) {
-  const WeightedResiduals weighted = weigh(fit.residuals, &fit.jacobian, fit.spreads, loss);
+  Eigen::MatrixXd by_x = fit.jacobian;
+  for (const DelaySignal& delay : delays)
+    if (delay.slopes.size() > 0) by_x.col(delay.column).segment(delay.output * fit.residuals.rows(), delay.slopes.size()) = delay.slopes;
+  const WeightedResiduals weighted = weigh(fit.residuals, &by_x, fit.spreads, loss);
   Eigen::MatrixXd jacobian(weighted.jacobian.rows(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t k = 0; k < columns.size(); ++k) jacobian.col(static_cast<Eigen::Index>(k)) = weighted.jacobian.col(columns[k]);
-  for (const DelaySignal& delay : delays)
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      if (columns[k] == delay.column) jacobian.col(static_cast<Eigen::Index>(k)) *= delay.share;
   return parameter_covariance(weighted.residuals, jacobian, lengths, intervals, fit.own_unknowns);
 }
 

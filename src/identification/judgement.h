@@ -15,7 +15,7 @@ std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::
                                      const Eigen::MatrixXd& residuals);
 
 /// Sets numbers, covariance, rank, lag and the sentences about what the data do not tell, from a fit that has a best point.
-/// @param delays by whose share of signal the columns of delays count less, doc/theory.md (33a)
+/// @param delays whose columns count without the noise of recorded efforts, doc/theory.md (33a)
 void judge_numbers(const FitVariables& variables, const IdentificationDescription& options, const SeriesLengths& lengths,
                    const std::vector<DelaySignal>& delays, const ResidualFit& fit, IdentificationResult* result);
 

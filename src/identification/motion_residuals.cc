@@ -197,7 +197,7 @@ Status MotionResiduals::solve(const Eigen::VectorXd& x, const Guesses& guesses, 
 }
 
 /// Looks for better starts of some segments. @param from starts to begin with. @param improved on return those that are better; none for
-/// the other segments. Their solutions have no derivatives by x.
+/// the other segments. The derivatives in their solutions are still those of the starts before.
 Status MotionResiduals::improve(const Eigen::VectorXd& x, Guesses from, SegmentWork work, std::vector<SegmentSolution>* solutions,
                                 Guesses* improved) {
   std::vector<SegmentSolution> found(places_.size());

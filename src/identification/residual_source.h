@@ -42,7 +42,9 @@ inline void ResidualSource::count_by(const Eigen::VectorXd& /*spreads*/, const L
 struct DelaySignal {
   std::string joint;
   Eigen::Index column = 0;  ///< of the delay in x
+  Eigen::Index output = 0;  ///< of the residuals
   double share = 1.0;       ///< in (0, 1], doc/theory.md (33a)
+  Eigen::VectorXd slopes;   ///< the column for the rows of its output without the noise of the recorded effort; empty: not known
 };
 
 /// Residuals of recordings, as an identification needs them.
