@@ -160,7 +160,7 @@ Stage stage_of(const SceneLayout& layout, const std::vector<Eigen::Vector3d>& pl
   const Eigen::AlignedBox2d picture = view.picture(layout.points);
   const Eigen::Vector3d middle = box_of(layout.points).center();
   stage.label = middle + (picture.center().x() - middle.dot(view.right())) * view.right() +
-                (picture.max().y() + stage.letter - middle.dot(view.up())) * view.up();
+                (picture.max().y() + 1.5 * stage.letter - middle.dot(view.up())) * view.up();
   // The text is as far away as makes its letters look as large as those of the names.
   const double away = layout.letter / kLetter;
   const Eigen::Vector3d eye = camera.focus + camera.distance * view.towards_viewer();
