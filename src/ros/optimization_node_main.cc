@@ -6,8 +6,8 @@ namespace {
 
 const char* const kHelp = R"(usage: rosrun mechanism_codesign optimization _study:=PATH [_PARAMETER:=VALUE ...]
 
-Tunes a mechanism, or fits it to recordings, on request: services and actions `optimize` and `identify`, services `evaluate` and `apply`.
-doc/ros_api.md has more.
+Tunes a mechanism, or fits it to recordings, on request: services and actions `optimize` and `identify`, services `evaluate`, `apply` and
+`~cancel`. doc/ros_api.md has more.
 
 parameters
   ~model PATH              annotated URDF; without it the text in robot_description

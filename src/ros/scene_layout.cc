@@ -122,6 +122,21 @@ Eigen::Vector3d apart_in(const SceneLayout& layout) {
   return farther(beside) <= farther(before) ? beside : before;
 }
 
+/// Above each mechanism as the camera sees it, in the middle of its picture, as far away as its middle.
+Eigen::Vector3d place_of_name(const SceneLayout& layout, const std::vector<Eigen::Vector3d>& places, const CameraPlace& camera) {
+  const SceneView& view = layout.view;
+  const Eigen::Vector3d middle = box_of(layout.points).center();
+  const auto away = [&](const Eigen::Vector3d& point) { return camera.distance - (point - camera.focus).dot(view.towards_viewer()); };
+  double height = 0.0;  // above the middle
+  for (const Eigen::Vector3d& place : places) {
+    double highest = -1.0;
+    for (const Eigen::Vector3d& point : layout.points)
+      highest = std::max(highest, (place + point - camera.focus).dot(view.up()) / away(place + point));
+    height = std::max(height, (highest + 1.1 * kLetter) * away(place + middle) - (place + middle - camera.focus).dot(view.up()));
+  }
+  return middle + (view.picture(layout.points).center().x() - middle.dot(view.right())) * view.right() + height * view.up();
+}
+
 void set_point(const Eigen::Vector3d& point, boost::array<double, 3>* numbers) {
   for (std::size_t k = 0; k < 3; ++k) (*numbers)[k] = point[static_cast<Eigen::Index>(k)];
 }
@@ -157,10 +172,7 @@ Stage stage_of(const SceneLayout& layout, const std::vector<Eigen::Vector3d>& pl
   const CameraPlace camera = place_camera(points, view, top);
   Stage stage;
   stage.letter = kLetter * camera.distance;
-  const Eigen::AlignedBox2d picture = view.picture(layout.points);
-  const Eigen::Vector3d middle = box_of(layout.points).center();
-  stage.label = middle + (picture.center().x() - middle.dot(view.right())) * view.right() +
-                (picture.max().y() + stage.letter - middle.dot(view.up())) * view.up();
+  stage.label = place_of_name(layout, places, camera);
   // The text is as far away as makes its letters look as large as those of the names.
   const double away = layout.letter / kLetter;
   const Eigen::Vector3d eye = camera.focus + camera.distance * view.towards_viewer();

@@ -5,7 +5,8 @@ namespace {
 
 const char* const kHelp = R"(usage: rosrun mechanism_codesign simulation _study:=PATH [_PARAMETER:=VALUE ...]
 
-Runs a study and publishes it: joint_states, joint_friction, controller_states, loop_errors, signals, friction_markers.
+Runs a study and publishes it: joint_states, joint_friction, controller_states, loop_errors, signals, friction_markers,
+caption, and scene for the camera of rviz.
 Takes commands as a robot: ~command/effort, ~command/efforts, ~command/trajectory, CONTROLLER/command; ~pause, ~resume, ~step, ~restart;
 and parameters by dynamic_reconfigure.
 doc/ros_api.md has more.
@@ -33,7 +34,7 @@ parameters
   ~bag PATH                a bag of the first run, every frame in it
   ~world_frame NAME        a TF frame at the root link
   ~frame_prefix TEXT       before the name of each TF frame
-  ~force_scale, ~torque_scale, ~arrow_width   how friction is drawn
+  ~force_scale, ~torque_scale, ~arrow_width   how friction is drawn; by default as the run needs
 )";
 
 }  // namespace

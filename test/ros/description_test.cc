@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reading/urdf/stick_figure.h"
 #include "reading/urdf/urdf_reader.h"
 #include "ros/pendulum.h"
 
@@ -16,6 +17,13 @@ TEST(Description, TheModelDescribesItselfAtItsOwnValues) {
   EXPECT_TRUE(describes(kPendulumUrdf, problem, effective(problem)));
   EXPECT_TRUE(describes("\n" + effective(problem) + "\n", problem, effective(problem)));
   EXPECT_FALSE(describes("<robot name='pendulum'/>", problem, effective(problem)));
+}
+
+TEST(Description, SticksForLinksWithoutVisualDoNotMakeItAnotherMechanism) {
+  const Problem problem = pendulum();
+  const std::string drawn = with_sticks(effective(problem));
+  EXPECT_NE(drawn, effective(problem));
+  EXPECT_TRUE(describes(drawn, problem, effective(problem)));
 }
 
 TEST(Description, AValueMakesItAnotherMechanism) {

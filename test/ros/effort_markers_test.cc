@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include "ros/sample_frame.h"
 
@@ -54,6 +56,35 @@ TEST(EffortMarkers, AnEffortThatIsNotKnownHasNoArrow) {
   const auto markers = effort_markers(motion, motion.recordings[0].measured[0], motion.recordings[0].model[0], {}, style).markers;
   EXPECT_EQ(markers[0].action, Marker::ADD);
   EXPECT_EQ(markers[1].action, Marker::DELETE);
+}
+
+TEST(EffortMarkers, BothArrowsStandOutsideOfTheSolidsOnTheViewersSide) {
+  ComparedMotion motion = sample_motion();
+  motion.recordings[0].measured[0].joints[1].effort = 10.0;
+  MarkerStyle style = effort_style(motion, 3.0);
+  LinkBoxes boxes(3);
+  boxes[1].push_back({Eigen::Isometry3d::Identity(), {1.0, 1.0, 1.0}});
+  style.solids = std::make_shared<LinkBoxes>(boxes);
+  const ComparedRecording& recording = motion.recordings[0];
+  const auto ends_at = [&](double y) {
+    style.towards_viewer = {0.0, y, 0.0};
+    const auto markers = effort_markers(motion, recording.measured[0], recording.model[0], {ros::Time(2.0), "ground"}, style).markers;
+    EXPECT_EQ(markers[0].points[0], markers[1].points[0]) << "both begin in the same place";
+    return std::make_pair(markers[0].points[0].y, markers[0].points[1].y);
+  };
+  // The effort of 8 along y is 1.2 m long; the solid ends at y = 1 and y = -1.
+  EXPECT_NEAR(ends_at(1.0).first, 1.0, 1e-12);
+  EXPECT_NEAR(ends_at(1.0).second, 2.2, 1e-12);
+  EXPECT_NEAR(ends_at(-1.0).second, -1.0, 1e-12) << "it points away from the viewer and ends at the solid";
+}
+
+TEST(EffortLegend, TellsScaleAndColors) {
+  const ComparedMotion motion = sample_motion();
+  const auto lines = effort_legend(effort_style(motion, 3.0), motion);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[0].text, "effort of the model, 0.15 m per N m");
+  EXPECT_EQ(lines[1].text, "effort measured");
+  EXPECT_TRUE(effort_legend(MarkerStyle(), ComparedMotion()).empty());
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ TEST(LayOut, ThePicturesOfBothMechanismsDoNotOverlap) {
 }
 
 /// Where rviz draws a point, from the middle of the picture to the right and up; 1 is the upper edge.
-Eigen::Vector2d in_picture(const Eigen::Vector3d& point, const mechanism_codesign::Scene& scene) {
+Eigen::Vector2d drawn_at(const Eigen::Vector3d& point, const mechanism_codesign::Scene& scene) {
   const SceneView view{scene.yaw, scene.pitch};
   const Eigen::Vector3d focus(scene.focal_point[0], scene.focal_point[1], scene.focal_point[2]);
   const Eigen::Vector3d from = point - focus;
@@ -104,17 +104,17 @@ TEST(StageOf, MechanismsArrowsAndNamesAreInThePictureBelowTheText) {
   const Eigen::Vector3d half = 0.5 * layout.apart, none = Eigen::Vector3d::Zero();
   for (const std::vector<Eigen::Vector3d>& places : {std::vector<Eigen::Vector3d>{none}, std::vector<Eigen::Vector3d>{-half, half}}) {
     const Stage stage = stage_of(layout, places, 3);
-    const double letter = 1.0 / 18.0, text = in_picture(stage.caption, stage.scene).y();
+    const double letter = 1.0 / 18.0, text = drawn_at(stage.caption, stage.scene).y();
     EXPECT_LE(text + 0.5 * letter, 0.93);
     double highest = -1.0, widest = 0.0;
     for (const Eigen::Vector3d& place : places) {
       for (const Eigen::Vector3d& point : layout.points) {
-        const Eigen::Vector2d seen = in_picture(place + point, stage.scene);
+        const Eigen::Vector2d seen = drawn_at(place + point, stage.scene);
         highest = std::max(highest, seen.y());
         widest = std::max(widest, std::abs(seen.x()));
         EXPECT_GE(seen.y(), -0.925);
       }
-      const double name = in_picture(place + stage.label, stage.scene).y();
+      const double name = drawn_at(place + stage.label, stage.scene).y();
       EXPECT_LT(name + 0.5 * letter, text - (2.0 * 1.6 + 0.5) * letter) << "below the third line";
     }
     EXPECT_LE(widest, 0.925 * kAspect);
