@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_CONTROL_CONTROL_CLOCK_H_
 #define MECHANISM_CODESIGN_CONTROL_CONTROL_CLOCK_H_
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -38,7 +39,8 @@ class ControlClock {
     double period, delay;        ///< [s]
     std::int64_t sample, apply;  ///< numbers of the next ones
     double next() const;
-    bool is_reached(double time, double t) const { return time <= t + 1e-9 * period; }
+    // Late in a run the rounding of both times exceeds a fraction of a short period, and no step is as short as that rounding.
+    bool is_reached(double time, double t) const { return time <= t + std::max(1e-9 * period, 1e-14 * t); }
   };
 
   std::vector<Sampled> controllers_;

@@ -80,6 +80,8 @@ CommandInputs::CommandInputs(const CompiledSystem& of, const CommandOptions& opt
     study.solver.maximum_steps = static_cast<int>(std::min(kMostSteps, factor * study.solver.maximum_steps));
     study.duration = *options.duration;
   }
+  // Commands make steps that the study did not count: one that ends at the command, and a short one that begins there.
+  study.solver.maximum_steps = static_cast<int>(std::min(kMostSteps, study.solver.maximum_steps + 2.0 * options.rate * study.duration));
   for (std::size_t c = 0; c < study.controllers.size(); ++c) {
     const std::string& name = study.controllers[c].name;
     const auto& without = options.disconnected;

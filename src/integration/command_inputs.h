@@ -17,6 +17,7 @@ struct CommandOptions {
   std::optional<std::vector<std::string>> joints;  ///< joints that take efforts; nullopt: drivable_joints()
   std::vector<std::string> disconnected;           ///< controllers whose output is not applied; of inverse dynamics it is the feedback part
   std::optional<double> duration;                  ///< [s] of the run, in place of the study's
+  double rate = 0.0;                               ///< instants at which commands may take effect, per second: each one ends a step
 };
 
 /// Every joint of the tree that moves mass, has a coordinate of its own and follows no other joint, in the order of the description.

@@ -68,7 +68,7 @@ double RunWatch::smallest_scale(const Constants<double>& constants, const State<
 void RunWatch::start(const Constants<double>& constants, const State<double>& initial) {
   motion_.set_design(constants);
   const BodyEnergy energy = motion_.energy(initial.q, initial.v);
-  start_potential_ = energy.potential;
+  start_potential_ = potential_ = energy.potential;
   start_energy_ = energy.total();
   work_ = turnover_ = worst_error_ = imbalance_ = 0.0;
   worst_drift_time_ = worst_error_time_ = initial.t;
@@ -78,7 +78,11 @@ void RunWatch::start(const Constants<double>& constants, const State<double>& in
 
 void RunWatch::go_on(const Constants<double>& constants, const State<double>& state) {
   motion_.set_design(constants);
-  start_energy_ = motion_.energy(state.q, state.v).total() - work_ - imbalance_;
+  const BodyEnergy energy = motion_.energy(state.q, state.v);
+  start_energy_ = energy.total() - work_ - imbalance_;
+  // What the change itself adds is no turnover.
+  start_potential_ += energy.potential - potential_;
+  potential_ = energy.potential;
 }
 
 double RunWatch::drift(const State<double>& state, const VectorX<double>& position_correction,
@@ -101,6 +105,7 @@ Status RunWatch::check(const State<double>& state, double drift, double work, St
     worst_drift_time_ = state.t;
   }
   const BodyEnergy energy = motion_.energy(state.q, state.v);
+  potential_ = energy.potential;
   work_ += work;
   turnover_ += std::abs(work);
   scale_ = std::max(scale_, energy.kinetic + std::abs(energy.potential - start_potential_) + turnover_);

@@ -48,6 +48,7 @@ class RunWatch {
   const RunLimit drift_limit_, energy_limit_;
   BodyMotion motion_;
   double start_potential_ = 0.0, start_energy_ = 0.0;                     ///< [J]
+  double potential_ = 0.0;                                                ///< at the last step [J]
   double imbalance_ = 0.0;                                                ///< energy that no work explains, at the last step [J]
   double work_ = 0.0, turnover_ = 0.0, scale_ = 0.0, worst_error_ = 0.0;  ///< [J]
   double worst_drift_time_ = 0.0, worst_error_time_ = 0.0;                ///< [s]

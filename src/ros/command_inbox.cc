@@ -8,6 +8,8 @@ namespace {
 
 /// A controller that runs a thousand times a second may be late by a second.
 constexpr std::uint32_t kWaitingCommands = 1000;
+/// Commands that wait for the run at most, so that a controller that goes on sending to a run that has ended fills no memory.
+constexpr std::size_t kMostCommands = 10 * kWaitingCommands;
 
 }  // namespace
 
@@ -65,6 +67,7 @@ void CommandInbox::note_answer(const ros::Time& stamp) { answered_ = answered_ |
 
 void CommandInbox::add(Command command, const ros::Time& stamp) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (commands_.size() == kMostCommands) commands_.erase(commands_.begin(), commands_.begin() + kMostCommands / 2);
   commands_.push_back(std::move(command));
   note_answer(stamp);
 }

@@ -96,9 +96,8 @@ LiveParameters::LiveParameters(ros::NodeHandle node, const std::vector<Parameter
 }
 
 dynamic_reconfigure::Config LiveParameters::set(const dynamic_reconfigure::Config& request) {
+  const std::lock_guard<std::mutex> turn(requests_);
   std::unique_lock<std::mutex> lock(mutex_);
-  // Another request may be waiting: one after the other.
-  answered_.wait(lock, [this] { return !wanted_ || stopped_; });
   WantedParameters wanted = wanted_parameters(parameters_, values_, request);
   if (wanted.values != values_ && !stopped_) {
     wanted_ = wanted.values;

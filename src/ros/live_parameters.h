@@ -50,13 +50,14 @@ class LiveParameters {
   /// The node ends: nobody waits any more.
   void stop();
 
-  /// The service.
+  /// The service. One request after the other, so that each one learns what became of its own values.
   dynamic_reconfigure::Config set(const dynamic_reconfigure::Config& request);
 
  private:
   const std::vector<Parameter> parameters_;
   NodeState* state_;
   Bell* bell_;
+  std::mutex requests_;  ///< held by the request that is being served, before mutex_
   std::mutex mutex_;
   std::condition_variable answered_;
   std::vector<double> values_;

@@ -2,8 +2,17 @@
 #include "ros/run_clock.h"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace codesign {
+namespace {
+
+/// Seconds from one instant of ROS time to another. ros::Duration throws beyond 68 years, and stamps of messages may be anything.
+double seconds_between(const ros::Time& from, const ros::Time& to) {
+  return 1e-9 * static_cast<double>(static_cast<std::int64_t>(to.toNSec()) - static_cast<std::int64_t>(from.toNSec()));
+}
+
+}  // namespace
 
 void RunClock::start_run(double previous_duration) {
   offset_ += previous_duration;
@@ -17,12 +26,14 @@ ros::Time RunClock::stamp(double time) const {
 }
 
 double RunClock::time_of(const ros::Time& stamp) const {
-  return is_free_running() ? (stamp - ros::Time(offset_)).toSec() : (stamp - start_).toSec() * time_scale_;
+  return is_free_running() ? seconds_between(ros::Time(offset_), stamp) : seconds_between(start_, stamp) * time_scale_;
 }
 
 void RunClock::go_on_from(double time) {
   if (is_free_running()) return;
-  start_ = ros::Time::now() - ros::Duration(time / time_scale_);
+  // A ROS clock that was set back, or that nobody publishes, may be less than the time of the run.
+  const ros::Time now = ros::Time::now();
+  start_ = now.toSec() > time / time_scale_ ? now - ros::Duration(time / time_scale_) : ros::Time();
   wall_start_ = ros::WallTime::now() - ros::WallDuration(time / time_scale_);
 }
 

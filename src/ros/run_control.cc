@@ -40,7 +40,7 @@ void RunControl::configure(bool paused, std::int64_t step_frames) {
 // An answer to ~restart says that the new run has its first frame, so that it is given by note_frame().
 void RunControl::begin_run() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  running_ = true;
+  begun_ = running_ = true;
   restart_ = false;
   leaving_ = stopped_;
   steps_left_ = 0;
@@ -118,7 +118,7 @@ std_srvs::TriggerResponse RunControl::step() {
 std_srvs::TriggerResponse RunControl::restart() {
   std::unique_lock<std::mutex> lock(mutex_);
   if (stopped_) return trigger_reply(false, why_);
-  if (runs_ == 0 && !running_) return trigger_reply(false, why_);
+  if (!begun_) return trigger_reply(false, why_);
   leaving_ = restart_ = true;
   const std::uint64_t run = runs_;
   bell_->ring();

@@ -62,7 +62,7 @@ class RunControl {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::atomic<bool> leaving_{false};
-  bool running_ = false, paused_ = false, stopped_ = false, restart_ = false;
+  bool begun_ = false, running_ = false, paused_ = false, stopped_ = false, restart_ = false;
   std::int64_t step_frames_ = 1, steps_left_ = 0;
   std::uint64_t runs_ = 0;
   double time_ = 0.0;  ///< [s] of the last frame

@@ -44,6 +44,7 @@ CommandOptions command_options(const SimulationOptions& options) {
   if (!options.command_joints.empty()) of_run.joints = options.command_joints;
   of_run.disconnected = options.disconnect;
   if (options.duration > 0.0) of_run.duration = options.duration;
+  of_run.rate = options.rate;
   return of_run;
 }
 

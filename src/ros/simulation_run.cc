@@ -21,6 +21,7 @@ void SimulationNode::run() {
   } catch (const std::exception& error) {
     const std::string fault = std::string("internal_error: ") + error.what();
     state_.set(NodeState::Level::kError, fault);
+    bag_.close();
     end_for_good(fault);
   }
 }
@@ -65,6 +66,7 @@ void SimulationNode::wait_for_restart(const std::string& why) {
 
 // A start that cannot be assembled is refused, so that ~restart begins with one that can.
 void SimulationNode::serve_idle() {
+  inbox_->take();  // commands to a run that has ended
   const std::vector<double> before = simulation_->parameters();
   simulation_->obey(nullptr);
   const bool changed = live_->serve([&](const std::vector<double>& values) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -35,6 +36,15 @@ TEST(ControlClock, WithoutSampledControllersHasNoEvents) {
   EXPECT_TRUE(clock.is_empty());
   EXPECT_EQ(clock.next(3.0), 3.0);
   EXPECT_TRUE(clock.due(3.0).empty());
+}
+
+// A step that ends at k / rate may end one unit in the last place before the sample; the way between is no step.
+TEST(ControlClock, LateInARunASampleIsReachedUpToRounding) {
+  ControlClock clock(sampled_study({{1e-4, 0.0}}));
+  for (int k = 1; k < 10240800; ++k) clock.due(1e-4 * k);
+  const double instant = 1e-4 * 10240800, before = std::nextafter(instant, 0.0);
+  EXPECT_GT(instant - before, 1e-9 * 1e-4);
+  EXPECT_EQ(spell(clock.due(before)), "s0:10240800");
 }
 
 TEST(ControlClock, CountsInMultiplesOfThePeriod) {

@@ -91,6 +91,9 @@ TEST(CommandInputs, ALongerRunMayTakeAsManyStepsPerSecond) {
   const CommandInputs inputs(*system, options);
   EXPECT_EQ(inputs.study.duration, 20.0);
   EXPECT_EQ(inputs.study.solver.maximum_steps, 10 * system->study().solver.maximum_steps);
+  options.rate = 100.0;
+  EXPECT_EQ(CommandInputs(*system, options).study.solver.maximum_steps, 10 * system->study().solver.maximum_steps + 4000)
+      << "two more for each command";
   options.duration = 1e9;
   EXPECT_GT(CommandInputs(*system, options).study.solver.maximum_steps, 1000000000);
 }

@@ -52,6 +52,25 @@ TEST(RunClock, TheTimeOfAStampIsItsInverse) {
   }
 }
 
+TEST(RunClock, AnyStampHasATime) {
+  ros::Time::init();
+  for (double scale : {0.0, 1.0}) {
+    RunClock clock(scale);
+    clock.start_run(0.0);
+    EXPECT_GT(clock.time_of(ros::TIME_MAX), 1e9);
+    EXPECT_LT(clock.time_of(ros::Time()), 0.0);
+  }
+}
+
+TEST(RunClock, ARunGoesOnThoughTheClockOfRosStandsAtItsBeginning) {
+  ros::Time::setNow(ros::Time(2.0));
+  RunClock clock(1.0);
+  clock.start_run(0.0);
+  EXPECT_NO_THROW(clock.go_on_from(5.0));
+  EXPECT_TRUE(clock.wait(5.0, [] { return false; }));
+  ros::Time::useSystemTime();
+}
+
 TEST(RunClock, AfterAPauseAPacedRunDoesNotCatchUp) {
   ros::Time::init();
   RunClock clock(1.0);

@@ -18,6 +18,21 @@ TEST(RunControl, WithoutARunRequestsAreRefusedWithTheReason) {
   }
 }
 
+// The first start could not be assembled; parameters that came since may have mended it.
+TEST(RunControl, ARunThatHadNoFrameCanBeBegunAnew) {
+  Bell bell;
+  RunControl control(&bell);
+  control.begin_run();
+  control.end_run("assembly_failed");
+  std::thread run([&] {
+    while (!control.wants_restart()) bell.wait(0.01);
+    control.begin_run();
+    control.note_frame(0.0);
+  });
+  EXPECT_TRUE(control.restart().success);
+  run.join();
+}
+
 TEST(RunControl, StepsOnlyWhilePausedAndAsManyFramesAsAskedFor) {
   Bell bell;
   RunControl control(&bell);
