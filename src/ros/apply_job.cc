@@ -5,7 +5,6 @@
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
 
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
