@@ -5,13 +5,13 @@
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
 
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "jobs/finished_job.h"
+#include "ros/apply_options.h"
 #include "ros/gain_plan.h"
 #include "ros/gain_ramp.h"
 #include "ros/job.h"
@@ -33,30 +33,6 @@ constexpr double kPatience = 5.0;
 struct Refusal {
   std::string code, message;
 };
-
-double checked(double value, const char* name, double fallback) {
-  if (!std::isfinite(value) || value < 0.0)
-    throw InputError({{"request", 0}, name, "not a time or a length", to_decimal(value), "0 for the default, or more"});
-  return value == 0.0 ? fallback : value;
-}
-
-RampOptions ramp_options(const Request& request) {
-  RampOptions options;
-  options.ramp = checked(request.ramp, "ramp", options.ramp);
-  options.hold = checked(request.hold, "hold", options.hold);
-  return options;
-}
-
-WatchOptions watch_options(const Request& request) {
-  WatchOptions options;
-  if (!request.joint_states.empty()) options.joint_states = request.joint_states;
-  options.max_age = checked(request.max_age, "max_age", options.max_age);
-  options.deviation = checked(request.deviation, "deviation", 0.0);
-  if (request.unwatched && (options.deviation > 0.0 || !request.joint_states.empty()))
-    throw InputError({{"request", 0}, "unwatched", "joint states are named and left unwatched", "", "one of both"});
-  if (request.unwatched) options.joint_states.clear();
-  return options;
-}
 
 SafeRanges safe_ranges(const Request& request, const FinishedJob& job) {
   SafeRanges ranges;

@@ -3,20 +3,18 @@
 #include <ros/master.h>
 
 #include <atomic>
-#include <csignal>
 #include <iostream>
 #include <string>
 #include <vector>
 
 #include "ros/apply_arguments.h"
 #include "ros/apply_job.h"
+#include "ros/end_request.h"
 
 namespace {
 
-/// Set by SIGINT and SIGTERM: what was sent is taken back.
+/// Set by a request to end: what was sent is taken back.
 std::atomic<bool> is_cancelled{false};
-
-extern "C" void on_signal(int) { is_cancelled = true; }
 
 constexpr int kSuccess = 0, kFailure = 1, kMistake = 2;
 
@@ -39,8 +37,7 @@ int apply(const codesign::ApplyArguments& arguments) {
 int main(int argc, char** argv) {
   ros::init(argc, argv, "codesign_apply",
             ros::init_options::AnonymousName | ros::init_options::NoSigintHandler | ros::init_options::NoRosout);
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  codesign::on_end_request([] { is_cancelled = true; });
   try {
     const codesign::ApplyArguments arguments = codesign::parse_apply_arguments({argv + 1, argv + argc});
     if (!arguments.help) return apply(arguments);

@@ -155,7 +155,11 @@ void GainRamp::roll_back() {
       send(k, servers_[k].before);
     }
   if (std::none_of(was_sent_.begin(), was_sent_.end(), [](bool sent) { return sent; })) return;
-  answers_->wait(seconds(options_.patience));
+  if (!answers_->wait(seconds(options_.grace))) {
+    for (std::size_t k = 0; k < servers_.size(); ++k)
+      if (was_sent_[k] && !answers_->is_there(k)) servers_[k].server->overtake();
+    answers_->wait(seconds(options_.rollback_patience));
+  }
   outcome_.rollback_seconds = std::chrono::duration<double>(Clock::now() - alarm_->since).count();
   for (std::size_t k = 0; k < servers_.size(); ++k) {
     const GainServer::Answer answer = was_sent_[k] ? answers_->of(k) : GainServer::Answer();

@@ -15,10 +15,12 @@
 namespace codesign {
 
 struct RampOptions {
-  double ramp = 2.0;      ///< from the values before to the new ones [s]
-  double hold = 1.0;      ///< how long the robot is watched with the new values [s]
-  double step = 0.05;     ///< between two steps of the ramp [s]
-  double patience = 1.0;  ///< longest wait for the answers to one step, and to the rollback [s]
+  double ramp = 2.0;                ///< from the values before to the new ones [s]
+  double hold = 1.0;                ///< how long the robot is watched with the new values [s]
+  double step = 0.05;               ///< between two steps of the ramp [s]
+  double patience = 1.0;            ///< longest wait for the answers to one step [s]
+  double grace = 0.1;               ///< how long the rollback waits behind a step without an answer, before that step is given up [s]
+  double rollback_patience = 10.0;  ///< longest wait for the answers to the rollback [s]
 };
 
 /// Why a ramp must not go on.
@@ -47,7 +49,8 @@ struct RampOutcome {
 /// the next one when all have confirmed it.
 ///
 /// An alarm of the guard, a server that does not answer, and one that answers with other values than it was sent end the ramp: each server
-/// that was sent anything gets its values before, once, at once, and without waiting for the other servers.
+/// that was sent anything gets its values before, once, at once, and without waiting for the other servers. A server that is busy with the
+/// step before gets them past that step.
 class GainRamp {
  public:
   /// @return why the ramp must not go on, if so. It is asked every few milliseconds.

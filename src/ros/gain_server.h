@@ -38,6 +38,10 @@ class GainServer {
   /// Asks the server to take `values` and returns at once. Requests are sent one after another.
   /// @param answer called once, maybe in another thread, maybe before send() returns.
   virtual void send(const GainValues& values, std::function<void(const Answer&)> answer) = 0;
+
+  /// Gives up a request that the server has not answered, if another one waits behind it: that one is sent at once, and reaches the server
+  /// after it. The request that is given up is answered as by a server that is gone; whether the server still takes it is unknown.
+  virtual void overtake() = 0;
 };
 
 }  // namespace codesign

@@ -3,31 +3,54 @@
 
 #include <ros/init.h>
 
-#include <csignal>
+#include <atomic>
+#include <chrono>
 #include <iostream>
+#include <thread>
+
+#include "ros/end_request.h"
 
 namespace codesign {
 namespace {
 
-extern "C" void on_termination(int) { ros::requestShutdown(); }
+/// Set by a request to end the node, and while the node has something to do before ROS is shut down.
+std::atomic<bool> must_end{false}, has_last_act{false};
+
+void end_node() {
+  must_end = true;
+  if (!has_last_act) ros::requestShutdown();
+}
+
+/// ROS has to stay up until the last act is done: after the shutdown nothing can be sent any more.
+void serve_callbacks(const RunningNode& node) {
+  if (!node.before_shutdown) return ros::spin();
+  has_last_act = true;
+  std::thread ending([&node] {
+    while (!must_end && ros::ok()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    node.before_shutdown();
+    ros::requestShutdown();
+  });
+  ros::spin();
+  ending.join();
+}
 
 }  // namespace
 
-int run_node(int argc, char** argv, const std::string& name, const std::string& help, const std::function<std::shared_ptr<void>()>& make) {
+int run_node(int argc, char** argv, const std::string& name, const std::string& help, const std::function<RunningNode()>& make) {
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word != "--help" && word != "-h") continue;
     std::cout << help;
     return 0;
   }
-  ros::init(argc, argv, name);
+  ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
   if (argc > 1) {
     std::cerr << name << ": unexpected argument \"" << argv[1] << "\"; parameters are given as _name:=value\n\n" << help;
     return 2;
   }
-  std::signal(SIGTERM, on_termination);
-  const std::shared_ptr<void> node = make();
-  ros::spin();
+  on_end_request(end_node);
+  const RunningNode node = make();
+  serve_callbacks(node);
   return 0;
 }
 

@@ -10,16 +10,23 @@ namespace codesign {
 
 class Dispatcher;
 
-/// Runs a ROS node until it is shut down: initializes ROS, makes the node, and serves callbacks. SIGTERM ends it in the same way as SIGINT,
-/// so that results are kept.
+/// A node, and what it does when it is asked to end.
+struct RunningNode {
+  std::shared_ptr<void> node;
+  /// Called while ROS is still up, in a thread of its own, before the shutdown; empty: nothing.
+  std::function<void()> before_shutdown;
+};
+
+/// Runs a ROS node until it is shut down: initializes ROS, makes the node, and serves callbacks. SIGTERM, SIGHUP and `rosnode kill` end it
+/// in the same way as SIGINT, so that results are kept.
 /// @param make called once ROS is initialized; the node lives until the shutdown.
 /// @return the exit code of the process: 0, also after printing `help` for `--help`; 2 for an unknown argument.
-int run_node(int argc, char** argv, const std::string& name, const std::string& help, const std::function<std::shared_ptr<void>()>& make);
+int run_node(int argc, char** argv, const std::string& name, const std::string& help, const std::function<RunningNode()>& make);
 
 /// The nodes, for run_node(). Their headers, with those of ROS, stay out of the files with main().
-std::shared_ptr<void> make_simulation_node();
+RunningNode make_simulation_node();
 /// @param ranks the processes that evaluate for the node, as in require_engine(); they must outlive it.
-std::shared_ptr<void> make_optimization_node(Dispatcher* ranks);
+RunningNode make_optimization_node(Dispatcher* ranks);
 
 }  // namespace codesign
 

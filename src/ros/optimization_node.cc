@@ -238,6 +238,9 @@ bool OptimizationNode::on_cancel_request(std_srvs::Trigger::Request& /*request*/
   return true;
 }
 
-std::shared_ptr<void> make_optimization_node(Dispatcher* ranks) { return std::make_shared<OptimizationNode>(ranks); }
+RunningNode make_optimization_node(Dispatcher* ranks) {
+  const auto node = std::make_shared<OptimizationNode>(ranks);
+  return {node, [node] { node->take_back(); }};
+}
 
 }  // namespace codesign

@@ -35,6 +35,9 @@ class OptimizationNode {
   explicit OptimizationNode(Dispatcher* ranks);
   ~OptimizationNode();
 
+  /// Ends a running `apply`, whose robot gets its values before, and waits for that. Only possible while ROS is up.
+  void take_back() { application_->finish(); }
+
  private:
   using ActionServer = actionlib::ActionServer<mechanism_codesign::OptimizeAction>;
   using GoalHandle = ActionServer::GoalHandle;

@@ -107,6 +107,13 @@ void ReconfigureClient::send(const GainValues& values, std::function<void(const 
   changed_.notify_all();
 }
 
+/// A server of roscpp drops a request that it has not begun when its connection ends. One that it has begun is carried out before the next
+/// one, because dynamic_reconfigure serves one at a time.
+void ReconfigureClient::overtake() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_asking_ && !orders_.empty()) service_.shutdown();
+}
+
 void ReconfigureClient::serve() {
   std::unique_lock<std::mutex> lock(mutex_);
   for (;;) {
@@ -114,9 +121,11 @@ void ReconfigureClient::serve() {
     if (ending_) return;
     const Order order = std::move(orders_.front());
     orders_.pop_front();
+    is_asking_ = true;
     lock.unlock();
     order.answer(ask(order.values));
     lock.lock();
+    is_asking_ = false;
   }
 }
 

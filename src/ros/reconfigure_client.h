@@ -39,6 +39,7 @@ class ReconfigureClient : public GainServer {
 
   const std::string& name() const override { return name_; }
   void send(const GainValues& values, std::function<void(const Answer&)> answer) override;
+  void overtake() override;
 
  private:
   struct Order {
@@ -56,6 +57,7 @@ class ReconfigureClient : public GainServer {
   std::optional<dynamic_reconfigure::Config> now_;
   std::deque<Order> orders_;
   ros::ServiceClient service_;
+  bool is_asking_ = false;  ///< a request is with the server
   bool ending_ = false;
   ros::Subscriber descriptions_, updates_;
   std::thread thread_;  // last: it uses all of the above

@@ -1,10 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/robot_watch.h"
 
-#include <ros/time.h>
-
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <thread>
 #include <utility>
 
@@ -17,7 +16,15 @@ using SteadyClock = std::chrono::steady_clock;
 
 double seconds_since(SteadyClock::time_point time) { return std::chrono::duration<double>(SteadyClock::now() - time).count(); }
 
+/// A message from so far in the future says nothing of its age [s].
+constexpr double kFarFuture = 3600.0;
+
 }  // namespace
+
+double age_of(const ros::Time& stamp, const ros::Time& now) {
+  const auto difference = static_cast<std::int64_t>(now.toNSec()) - static_cast<std::int64_t>(stamp.toNSec());
+  return 1e-9 * static_cast<double>(difference);
+}
 
 RobotWatch::RobotWatch(ros::NodeHandle node, SafeRanges ranges, WatchOptions options)
     : ranges_(std::move(ranges)), options_(std::move(options)) {
@@ -62,10 +69,13 @@ void RobotWatch::on_joint_states(const sensor_msgs::JointState& message) {
   const Time now = SteadyClock::now();
   const std::lock_guard<std::mutex> lock(mutex_);
   last_[options_.joint_states] = now;
-  const double age = message.header.stamp.isZero() ? 0.0 : (ros::Time::now() - message.header.stamp).toSec();
+  const double age = message.header.stamp.isZero() ? 0.0 : age_of(message.header.stamp, ros::Time::now());
   if (age > options_.max_age)
     note("the message on " + options_.joint_states + " is " + to_decimal(age) + " s old by its stamp, more than " +
              to_decimal(options_.max_age) + " s",
+         now);
+  if (age < -kFarFuture)
+    note("the message on " + options_.joint_states + " is from the future: its stamp is " + to_decimal(-age) + " s ahead of the clock",
          now);
   const std::pair<const char*, const std::vector<double>*> parts[] = {
       {"/position", &message.position}, {"/velocity", &message.velocity}, {"/effort", &message.effort}};

@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_ROS_ROBOT_WATCH_H_
 
 #include <ros/node_handle.h>
+#include <ros/time.h>
 #include <sensor_msgs/JointState.h>
 #include <std_msgs/Float64.h>
 
@@ -21,8 +22,9 @@ namespace codesign {
 
 struct WatchOptions {
   std::string joint_states = "joint_states";  ///< topic; empty: joint states are not watched
-  double max_age = 0.5;                       ///< of the last message of each watched topic, by its arrival and by its stamp [s]
-  double deviation = 0.0;                     ///< largest change of a position since the first message [rad or m]; 0: not watched
+  /// Of the last message of each watched topic, by its arrival and by its stamp [s]. A stamp more than an hour ahead is an alarm, too.
+  double max_age = 0.5;
+  double deviation = 0.0;  ///< largest change of a position since the first message [rad or m]; 0: not watched
 };
 
 /// Watches a running robot: joint states and topics of numbers must keep coming, and their values must stay in their ranges. Thread-safe.
@@ -59,6 +61,9 @@ class RobotWatch {
   std::optional<RampAlarm> alarm_;
   std::vector<ros::Subscriber> subscribers_;  // last: callbacks use all of the above
 };
+
+/// Now minus the stamp [s], for any two times; the difference of ros::Time throws beyond 68 years.
+double age_of(const ros::Time& stamp, const ros::Time& now);
 
 }  // namespace codesign
 

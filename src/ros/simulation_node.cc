@@ -182,6 +182,6 @@ void SimulationNode::publish(const FrameNames& names, const Frame& frame) {
   if (!poses.transforms.empty()) transforms_.sendTransform(poses.transforms);
 }
 
-std::shared_ptr<void> make_simulation_node() { return std::make_shared<SimulationNode>(); }
+RunningNode make_simulation_node() { return {std::make_shared<SimulationNode>(), {}}; }
 
 }  // namespace codesign

@@ -10,9 +10,11 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 
 import roslib.packages
+import rosnode
 import rospy
 import rostest
 from mechanism_codesign.srv import Apply, ApplyRequest, OptimizeRequest
@@ -76,7 +78,7 @@ class ApplyTest(NodesTestCase):
 
     def setUp(self):
         super().setUp()
-        self.joints.silent, self.joints.lag = False, 0.0
+        self.joints.silent, self.joints.lag, self.joints.stamp = False, 0.0, None
         self.joints.message.effort[:] = [0.5, 0.5]
         for gains in (self.shoulder, self.elbow):
             gains.takes = lambda values, number: values
@@ -220,6 +222,22 @@ class ApplyTest(NodesTestCase):
         self.check_taken_back(outcome, "unsafe", "s old by its stamp")
         self.assertEqual(self.requests(), 0)
 
+    def test_stamps_without_sense(self):
+        for stamp, sentence in ((rospy.Time(2**32 - 1, 999999999), "is from the future"), (rospy.Time(1), "s old by its stamp")):
+            self.setUp()
+            self.after(2, lambda wrong=stamp: setattr(self.joints, "stamp", wrong))
+            self.check_taken_back(self.apply("--ramp", "3"), "aborted", sentence)
+
+    def test_a_robot_that_answers_late(self):
+        """It is busy with a step for longer than a step may take. The values before are the last that it takes."""
+        def linger(values, number):
+            if number == 3:
+                time.sleep(3.0)
+            return values
+        self.elbow.takes = linger
+        self.check_taken_back(self.apply("--ramp", "3"), "aborted", "/arm_controller/gains/elbow has not answered within 1 s")
+        self.assertEqual([values["p"] for _, values in self.elbow.requests[3:]], [START["p"]])
+
     def test_a_joint_that_moves_away(self):
         def move():
             self.joints.message.position[0] = 0.4
@@ -229,12 +247,45 @@ class ApplyTest(NodesTestCase):
         finally:
             self.joints.message.position[0] = 0.1
 
-    def test_control_c(self):
-        process = self.start_apply("--ramp", "60")
-        wait_until(lambda: self.requests() >= 4, "the ramp does not begin")
-        process.send_signal(signal.SIGINT)
-        out, _ = process.communicate(timeout=TIMEOUT)
-        self.check_taken_back((process.returncode, json.loads(out), ""), "cancelled", "all servers have their values before")
+    def test_an_end_before_the_end(self):
+        """By control-C and its relatives."""
+        def kill(_process):
+            names = [name for name in rosnode.get_node_names() if name.startswith("/codesign_apply")]
+            self.assertEqual(rosnode.kill_nodes(names), (names, []))
+        ends = [lambda process, kind=kind: process.send_signal(kind) for kind in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)]
+        for end in (*ends, kill):
+            self.setUp()
+            process = self.start_apply("--ramp", "60")
+            wait_until(lambda: self.requests() >= 4, "the ramp does not begin")
+            end(process)
+            out, _ = process.communicate(timeout=TIMEOUT)
+            self.check_taken_back((process.returncode, json.loads(out), ""), "cancelled", "all servers have their values before")
+
+    def test_an_end_of_the_node(self):
+        """A node that is ended during a ramp takes it back first."""
+        def call(apply):
+            try:
+                apply(ApplyRequest(result="job", ramp=60.0))
+            except rospy.ServiceException:
+                pass  # the node may be gone before its answer is
+        ends = {"interrupted": lambda node: node.process.send_signal(signal.SIGINT), "terminated": lambda node: node.process.send_signal(signal.SIGTERM),
+                "killed": lambda node: rosnode.kill_nodes(["/" + node.name])}
+        for name, end in ends.items():
+            self.setUp()
+            self.copy_of_job()
+            files = {key: os.path.join(self.root, file) for key, file in (("model", "arm.urdf"), ("study", "arm.yaml"))}
+            node = self.start("optimization", name, output_directory=self.folder, **files)
+            rospy.wait_for_service(f"/{name}/apply", TIMEOUT)
+            thread = threading.Thread(target=call, args=(rospy.ServiceProxy(f"/{name}/apply", Apply),))
+            thread.start()
+            wait_until(lambda: self.requests() >= 4, "the ramp does not begin")
+            self.assertNotEqual(self.elbow.has()["p"], START["p"])
+            end(node)
+            self.assertEqual(node.process.wait(TIMEOUT), 0, node.output())
+            thread.join(TIMEOUT)
+            for gains in (self.shoulder, self.elbow):
+                self.assertEqual({one: gains.has()[one] for one in BEFORE}, BEFORE, name)
+            shutil.rmtree(self.folder)
 
     def test_what_is_not_there(self):
         returned, answer, _ = self.apply("--server", "/nobody")
@@ -245,6 +296,9 @@ class ApplyTest(NodesTestCase):
         returned, answer, _ = self.apply("--limit", "elbwo/effort=-1:1")
         self.assertEqual((returned, answer["error"]["code"]), (1, "unsafe"))
         self.assertIn("have no elbwo/effort", answer["error"]["message"])
+        returned, answer, _ = self.apply("--ramp", "2e8")
+        self.assertEqual((returned, answer["error"]["code"]), (2, "bad_input"))
+        self.assertIn("up to 100000 s", answer["error"]["message"])
         returned, answer, _ = self.apply(job=self.root)
         self.assertEqual((returned, answer["error"]["code"]), (2, "bad_input"))
         self.assertEqual(self.requests(), 0)
@@ -291,6 +345,9 @@ class ApplyTest(NodesTestCase):
         reply = apply(ApplyRequest(ramp=-1.0))
         self.assertEqual(reply.code, "bad_input")
         self.assertIn("ramp: not a time", reply.message)
+        reply = apply(ApplyRequest(hold=2e8))
+        self.assertEqual(reply.code, "bad_input")
+        self.assertIn("up to 100000 s", reply.message)
 
 
 if __name__ == "__main__":

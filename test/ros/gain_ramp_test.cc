@@ -22,12 +22,14 @@ class MockServer : public GainServer {
     if (has["p"].number > largest) has["p"].number = largest;
     answer(has);
   }
+  void overtake() override { ++overtaken; }
 
   GainValues has = {{"p", {1.0, false}}, {"d", {4.0, false}}, {"antiwindup", {0.0, true}}, {"other", {7.0, false}}};
   std::vector<GainValues> sent;
   std::vector<std::function<void(const Answer&)>> late;
   double largest = 100.0;
   bool is_mute = false, is_gone = false;
+  int overtaken = 0;
 
  private:
   std::string name_;
@@ -37,7 +39,7 @@ class Ramp : public testing::Test {
  protected:
   RampOutcome run() {
     const RampServer a{&left, before, after}, b{&right, before, after};
-    return GainRamp({a, b}, {0.04, 0.01, 0.01, 0.2}, guard).run();
+    return GainRamp({a, b}, {0.04, 0.01, 0.01, 0.2, 0.01, 0.2}, guard).run();
   }
   std::size_t requests() const { return left.sent.size() + right.sent.size(); }
 
@@ -112,6 +114,8 @@ TEST_F(Ramp, AServerThatDoesNotAnswerHoldsUpNobody) {
   EXPECT_EQ(left.sent.back(), before);
   EXPECT_EQ(right.sent, (std::vector<GainValues>{right.sent.front(), before})) << "it gets its values before as soon as it listens again";
   EXPECT_FALSE(outcome.is_known());
+  EXPECT_EQ(right.overtaken, 1) << "the way back does not wait for the answer to the step";
+  EXPECT_EQ(left.overtaken, 0) << "which has answered";
   for (const auto& answer : right.late) answer(before);  // after the ramp is gone
   // An alarm while the answer is waited for: the other one is taken back without waiting for it.
   left = MockServer("/left");

@@ -53,19 +53,19 @@ class MockGains:
 
 
 class MockJoints:
-    """Joint states at 100 Hz, from a thread."""
+    """Joint states at 100 Hz, from a thread. `stamp`: of all messages, instead of the time less `lag`."""
 
     def __init__(self, names, topic="joint_states"):
         self.message = JointState(name=list(names), position=[0.1] * len(names), velocity=[0.0] * len(names), effort=[0.5] * len(names))
         self.publisher = rospy.Publisher(topic, JointState, queue_size=100)
-        self.running, self.silent, self.lag = True, False, 0.0
+        self.running, self.silent, self.lag, self.stamp = True, False, 0.0, None
         self.lock = threading.Lock()
         self.thread = threading.Thread(target=self.run, daemon=True)
         self.thread.start()
 
     def publish(self):
         with self.lock:
-            self.message.header.stamp = rospy.Time.now() - rospy.Duration(self.lag)
+            self.message.header.stamp = self.stamp or rospy.Time.now() - rospy.Duration(self.lag)
             self.publisher.publish(self.message)
 
     def set_effort(self, joint, value):

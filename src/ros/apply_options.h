@@ -1,0 +1,21 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_APPLY_OPTIONS_H_
+#define MECHANISM_CODESIGN_ROS_APPLY_OPTIONS_H_
+
+#include <mechanism_codesign/ApplyRequest.h>
+
+#include "ros/gain_ramp.h"
+#include "ros/robot_watch.h"
+
+namespace codesign {
+
+/// The times of the ramp that a request asks for. Zero: the default. @throws InputError for a time below 0 or above 100000 s.
+RampOptions ramp_options(const mechanism_codesign::ApplyRequest& request);
+
+/// What a request wants to be watched. Zero: the default. @throws InputError for a wrong number, or joint states both named and left
+/// unwatched.
+WatchOptions watch_options(const mechanism_codesign::ApplyRequest& request);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_APPLY_OPTIONS_H_

@@ -1,0 +1,15 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_ROS_END_REQUEST_H_
+#define MECHANISM_CODESIGN_ROS_END_REQUEST_H_
+
+namespace codesign {
+
+/// From now on `act` is called, instead of what roscpp does, when the process is asked to end: by SIGINT, SIGTERM or SIGHUP, by
+/// `rosnode kill`, or by the master because another node has taken the name. SIGHUP stays ignored where it is ignored already, as under
+/// nohup. Call it once, after ros::init() with ros::init_options::NoSigintHandler and before the first node handle or ros::start().
+/// @param act called in a signal handler or in a thread of ROS, at each request; may only do what a signal handler may do.
+void on_end_request(void (*act)());
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_ROS_END_REQUEST_H_
