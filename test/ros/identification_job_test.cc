@@ -46,7 +46,7 @@ class IdentificationJobTest : public testing::Test {
       EXPECT_EQ(path.rfind(out() + "/" + result.job + ".", 0), 0U) << path;
     }
     std::ptrdiff_t count = std::distance(std::filesystem::directory_iterator(out()), {});
-    EXPECT_EQ(count, 5) << "nothing else is left";
+    EXPECT_EQ(count, 6) << "nothing else is left";
   }
 
   TemporaryDirectory folder_;
