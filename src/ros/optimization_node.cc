@@ -14,6 +14,7 @@
 #include "mechanism_codesign/error.h"
 #include "ros/conversions.h"
 #include "ros/inputs.h"
+#include "ros/node_arguments.h"
 #include "ros/parameters.h"
 #include "ros/recorded_run.h"
 #include "ros/request.h"
