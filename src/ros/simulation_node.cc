@@ -14,6 +14,7 @@
 #include "reading/urdf/urdf_reader.h"
 #include "ros/description.h"
 #include "ros/inputs.h"
+#include "ros/node_arguments.h"
 #include "ros/parameters.h"
 #include "ros/trajectory_bag.h"
 #include "text/unknown_name.h"
