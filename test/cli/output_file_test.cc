@@ -2,6 +2,7 @@
 #include "cli/output_file.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <sstream>
@@ -13,7 +14,9 @@
 namespace codesign::cli {
 namespace {
 
-std::string scratch(const std::string& name) { return (std::filesystem::path(testing::TempDir()) / ("output_file_" + name)).string(); }
+std::string scratch(const std::string& name) {
+  return (std::filesystem::path(testing::TempDir()) / ("output_file_" + name + "_" + std::to_string(getpid()))).string();
+}
 
 TEST(OutputFile, WritesWholeFilesIntoNewFolders) {
   const std::string folder = scratch("new");

@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_TEST_CLI_RUN_FIXTURE_H_
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <filesystem>
@@ -49,12 +50,13 @@ inline std::string read_text_file(const std::string& path) {
   return text.str();
 }
 
-/// A temporary folder of the running test, removed at its end.
+/// A temporary folder of the running test, removed at its end. Test programs that run at the same time have different ones.
 class ScratchFolder {
  public:
   ScratchFolder() {
     const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::path(testing::TempDir()) / (std::string(test->test_suite_name()) + "_" + test->name());
+    const std::string name = std::string(test->test_suite_name()) + "_" + test->name() + "_" + std::to_string(getpid());
+    path_ = std::filesystem::path(testing::TempDir()) / name;
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }

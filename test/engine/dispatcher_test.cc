@@ -93,8 +93,11 @@ TEST(Dispatcher, AfterACancelARankThatDoesNotAnswerCountsAsLost) {
     };
     PlayedJob job(own_hello(), part, answers ? patient_times() : RankTimes{});
     job.wait_for_hello();
-    const auto [status, succeeded] = outcome_of(MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 3), &cancel));
-    EXPECT_EQ(status.code, answers ? StatusCode::kCancelled : StatusCode::kWorkerLost) << status.cause;
+    // Rank 0 may be at a task of its own when the cancel comes; that one is cancelled in either case.
+    bool has_lost = false;
+    for (const Evaluation& one : MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 3), &cancel))
+      has_lost = has_lost || one.status.code == StatusCode::kWorkerLost;
+    EXPECT_EQ(has_lost, !answers);
     EXPECT_TRUE(job.ranks()->lost().ok()) << "it may have been busy otherwise";
   }
 }
