@@ -12,17 +12,6 @@ namespace {
 
 constexpr std::array<const char*, 3> kStageNames{"screening", "searching", "validating"};
 
-void set_progress(const Progress& progress, mechanism_codesign::OptimizationProgress* message) {
-  message->stage = kStageNames[static_cast<std::size_t>(progress.stage)];
-  message->done = static_cast<std::uint64_t>(progress.done);
-  message->of = static_cast<std::uint64_t>(progress.of);
-  message->runs = static_cast<std::uint64_t>(progress.runs);
-  message->remembered_runs = static_cast<std::uint64_t>(progress.remembered);
-  message->runs_per_second = progress.runs_per_second;
-  message->seconds_left = progress.seconds_left.value_or(std::numeric_limits<double>::quiet_NaN());
-  message->at_most = progress.is_bound;
-}
-
 }  // namespace
 
 JobFeedback::JobFeedback(std::string job, std::vector<std::string> parameters, FeedbackObserver observer)
@@ -35,7 +24,7 @@ void JobFeedback::tell(const Trial& trial, const Progress& progress) {
   const std::lock_guard<std::mutex> lock(mutex_);
   last_ = optimization_progress(trial, parameters_, ros::Time::now());
   last_.job = job_;
-  set_progress(progress, &last_);
+  set_progress(progress);
   log_.add(last_);
   if (observer_) observer_(last_);
 }
@@ -43,8 +32,20 @@ void JobFeedback::tell(const Trial& trial, const Progress& progress) {
 void JobFeedback::tell(const Progress& progress) {
   const std::lock_guard<std::mutex> lock(mutex_);
   last_.header.stamp = ros::Time::now();
-  set_progress(progress, &last_);
+  set_progress(progress);
   if (observer_) observer_(last_);
+}
+
+void JobFeedback::set_progress(const Progress& progress) {
+  if (progress.runs >= latest_.runs) latest_ = progress;
+  last_.stage = kStageNames[static_cast<std::size_t>(latest_.stage)];
+  last_.done = static_cast<std::uint64_t>(latest_.done);
+  last_.of = static_cast<std::uint64_t>(latest_.of);
+  last_.runs = static_cast<std::uint64_t>(latest_.runs);
+  last_.remembered_runs = static_cast<std::uint64_t>(latest_.remembered);
+  last_.runs_per_second = latest_.runs_per_second;
+  last_.seconds_left = latest_.seconds_left.value_or(std::numeric_limits<double>::quiet_NaN());
+  last_.at_most = latest_.is_bound;
 }
 
 void JobFeedback::finish(Progress progress) {

@@ -20,7 +20,8 @@ class JobFeedback {
   /// @param job its name. @param parameters names of the tuned ones. @param observer may be empty; told by one thread at a time.
   JobFeedback(std::string job, std::vector<std::string> parameters, FeedbackObserver observer);
 
-  /// A trial point. @param progress ProgressMeter::now(), which the caller asks before: the meter calls the function below.
+  /// A trial point. @param progress ProgressMeter::now(), which the caller asks before: the meter calls the function below. Workers that
+  /// finish runs at the same time may call in another order than they were counted; messages never go back to an earlier count of runs.
   void tell(const Trial& trial, const Progress& progress);
   void tell(const Progress& progress);
   /// The last message: nothing is left.
@@ -35,7 +36,10 @@ class JobFeedback {
   const FeedbackObserver observer_;
   std::mutex mutex_;  // guards all that follows
   ProgressLog log_;
+  Progress latest_;  ///< with the largest count of runs
   mechanism_codesign::OptimizationProgress last_;
+
+  void set_progress(const Progress& progress);
 };
 
 }  // namespace codesign

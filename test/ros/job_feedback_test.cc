@@ -75,6 +75,22 @@ TEST_F(JobFeedbackTest, BetweenTrialPointsItRepeatsTheLastOne) {
   EXPECT_FALSE(told_[2].at_most);
 }
 
+TEST_F(JobFeedbackTest, NeverGoesBackToAnEarlierCountOfRuns) {
+  Progress early, late;
+  early.runs = 121;
+  late.runs = 122;
+  late.seconds_left = 3.0;
+  feedback_.tell(late);
+  feedback_.tell(early);
+  feedback_.tell(trial(2), early);
+  ASSERT_EQ(told_.size(), 3U);
+  for (const Message& message : told_) {
+    EXPECT_EQ(message.runs, 122U);
+    EXPECT_EQ(message.seconds_left, 3.0);
+  }
+  EXPECT_EQ(told_[2].evaluation, 2U) << "a trial point is told whatever the order";
+}
+
 TEST_F(JobFeedbackTest, TheBagGetsTrialPointsAlone) {
   for (int k = 1; k <= 3; ++k) {
     feedback_.tell(trial(k), Progress());
