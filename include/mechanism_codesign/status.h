@@ -19,14 +19,15 @@ enum class StatusCode {
   kUnstableMotion,          ///< a body's speed exceeded a bound far above what its loads can explain
   kNonFinite,               ///< a value overflowed or became NaN
   kInvalidDesign,           ///< the parameters give an impossible mass, inertia or dimension
-  kSingularConfiguration,   ///< several motions meet at this position (theory (19a)), or constraints lose rank on the way (theory (17c))
+  kSingularConfiguration,   ///< several motions meet at this position (theory (19a)), or constraints lose rank during the run (theory
+                            ///< (17c))
   kConstraintDrift,         ///< the constraints are violated by more than the tolerances explain
   kEnergyError,             ///< the energy balance is violated by more than the tolerances explain
   kInfeasible,              ///< an optimization ended outside its constraints
   kAlgorithmFailed,         ///< the optimization algorithm gave up
-  kWorkerLost,              ///< a process that evaluates for this one has ended or does not answer
+  kWorkerLost,              ///< a worker process has ended or does not answer
   kNonFiniteGradient,       ///< the objective is finite, its gradient is not
-  kNotIdentifiable,         ///< recordings do not tell all numbers that were to be identified
+  kNotIdentifiable,         ///< the recordings do not determine all numbers to be identified
 };
 
 /// Snake-case name, as sent over ROS and printed in JSON: "assembly_failed".
