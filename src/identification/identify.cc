@@ -45,7 +45,7 @@ FittedSeries series_of(const RecordingResiduals& source, const Eigen::MatrixXd& 
   return {source.lengths(), source.times(), source.recorded(), source.recorded() + residuals};
 }
 
-/// The residuals of recordings that were not fitted, at x.
+/// Computes the residuals of recordings that were not fitted, at x.
 Status judge_holdout(const FitVariables& variables, const ResidualFit& fit, const LossOptions& loss, RecordingResiduals* residuals,
                      IdentificationResult* result) {
   Eigen::MatrixXd at_start, at_end;
@@ -108,7 +108,7 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
   result.last_failure = fit.last_failure;
   if (fit.residuals.size() == 0) return result;
 
-  // What is known of the best point is computed even after a cancel; it takes no evaluation.
+  // The uncertainties at the best point are computed even after a cancel; they need no further evaluation.
   result.x = fit.x;
   result.parameters = variables.parameters(fit.x);
   result.samples = residuals.rows();
