@@ -60,8 +60,8 @@ class RecordingResiduals : public ResidualSource {
   virtual std::vector<double> times() const = 0;
   /// The recorded outputs; rows() x outputs. Residuals are computed minus recorded.
   virtual const Eigen::MatrixXd& recorded() const = 0;
-  /// One entry per fitted delay whose column of the Jacobian is the slope of a recorded effort. @param x a point at which residuals can be
-  /// computed
+  /// Returns one entry per fitted delay whose column of the Jacobian is the slope of a recorded effort. @param x a point at which residuals
+  /// can be computed
   virtual std::vector<DelaySignal> delay_signals(const Eigen::VectorXd& x);
 };
 

@@ -37,7 +37,7 @@ void RunControl::configure(bool paused, std::int64_t step_frames) {
   step_frames_ = step_frames;
 }
 
-// An answer to ~restart says that the new run has its first frame, so that it is given by note_frame().
+// note_frame() answers ~restart, since the answer means that the new run has its first frame.
 void RunControl::begin_run() {
   const std::lock_guard<std::mutex> lock(mutex_);
   begun_ = running_ = true;
