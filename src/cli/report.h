@@ -19,7 +19,7 @@ namespace codesign::cli {
 void add_warnings(const Arguments& arguments, const Problem& problem, const Warnings& of_run, Json* object, const Console& console);
 
 /// Ends a command: prints `object` if --json was given, with an `error` if something failed, and writes each failure to the error stream.
-/// The code of the error is that of `status`, or if that is ok, of the first of `failures`. @returns the exit code.
+/// The code of the error is the code of `status` or, if that is ok, of the first of `failures`. @returns the exit code.
 int finish(const Arguments& arguments, const Status& status, Json object, const Console& console,
            const std::vector<Failure>& failures = {});
 

@@ -70,7 +70,7 @@ std::string describe_worst(const OptimizationResult& result) {
          readable(scenario.objective) + (result.failed.empty() ? "" : "; " + std::to_string(result.failed.size()) + " failed");
 }
 
-/// What the value at risk says, and what fresh samples say of it.
+/// A sentence about the value at risk and its validation on fresh samples.
 std::string describe_risk(const RobustOptions& options, const OptimizationResult& result) {
   std::string text = "with a probability of " + readable(options.level) + " the objective is at most " + readable(*result.value_at_risk) +
                      " on these samples";

@@ -45,7 +45,7 @@ Json trajectory_json(const ExcitationDescription& description, const ExcitationR
   return object;
 }
 
-/// The mean factor of one interval: that of the volume, shared by all numbers.
+/// The mean factor of one interval: the root of the factor of the volume over all numbers.
 double factor_of_one(const ExcitationResult& result) {
   return result.counted == 0 ? 1.0 : std::pow(result.volume_factor(), 1.0 / result.counted);
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kFormat = 1;
 
-/// The keys of the header with what they are called in messages.
+/// A key of the header with its name in messages.
 struct Part {
   const char* key;
   const char* name;
