@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-constexpr double kEqual = 1e-6;  // of the value, or of its standard deviation if that is larger
+constexpr double kEqual = 1e-6;  // relative to the value, or to its standard deviation if that is larger
 
 }  // namespace
 

@@ -39,7 +39,7 @@ void require_ascending(const JointRecording& recording) {
   }
 }
 
-/// ` from 7 s to 37 s`, without the ends that nobody chose.
+/// ` from 7 s to 37 s`, without ends that the study does not choose.
 std::string range_text(double from, double to) {
   return (std::isfinite(from) ? " from " + readable(from) + " s" : "") + (std::isfinite(to) ? " to " + readable(to) + " s" : "");
 }
@@ -52,7 +52,7 @@ std::string range_text(double from, double to) {
                     "at least " + std::to_string(kLeastSamples) + " samples"});
 }
 
-/// The indices where pieces begin, and the end of the last one.
+/// The indices at which pieces begin, and the end of the last piece.
 std::vector<std::size_t> piece_ends(const std::vector<double>& times, double longest) {
   std::vector<std::size_t> ends = {0};
   for (std::size_t k = 1; k < times.size(); ++k)
