@@ -22,7 +22,7 @@ struct Extremes {
   Eigen::MatrixXd gradients;  ///< one column per value; empty if not asked for
 };
 
-/// What an evaluation computes besides the objective. kGaussNewton: the gradient, and Evaluation::jacobian_root.
+/// The derivatives that an evaluation computes besides the objective. kGaussNewton: the gradient, and Evaluation::jacobian_root.
 enum class Derivatives { kNone, kGradient, kGaussNewton };
 inline Derivatives gradient_if(bool with_gradient) { return with_gradient ? Derivatives::kGradient : Derivatives::kNone; }
 

@@ -51,7 +51,7 @@ class StraightLine {
   /// @param most_bytes null is returned if an upper estimate of the code's size exceeds this.
   static std::unique_ptr<StraightLine> compile(const std::vector<Sum>& sums, int width, const RowLayouts& layouts, std::size_t most_bytes);
 
-  /// @param arrays the address of each array; null for arrays that no sum uses. The code writes to those that contain targets.
+  /// @param arrays the address of each array; null for arrays that no sum uses. The code writes to arrays that contain targets.
   virtual void run(const Arrays& arrays) const = 0;
 };
 

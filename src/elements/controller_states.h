@@ -6,8 +6,8 @@
 
 namespace codesign {
 
-// The rows sigma - s' of the states of controllers, theory (50)-(53). What a sampled controller remembers changes at its samples only, so
-// its rows are sigma = 0.
+// The rows sigma - s' of the states of controllers, theory (50)-(53). The states of a sampled controller change only at its samples, so
+// that its rows are sigma = 0.
 
 /// s' of the integral of a controller. Appends its gradient.
 template <class T>

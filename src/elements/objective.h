@@ -36,7 +36,7 @@ T watched_value(const StateView<T>& view, std::size_t k, OptionalGradient<T> gra
   return signal_error(view, view.system.watched()[k], view.design.watched[k], gradient);
 }
 
-/// Adds the gradient of the integrand g to the row below those of G, Layout::columns().
+/// Adds the gradient of the integrand g to the row below the rows of G, Layout::columns().
 template <class T, class Sink>
 void assemble_objective(const StateView<T>& view, Workspace<T>* workspace, Sink* sink) {
   workspace->gradient.clear();

@@ -175,7 +175,7 @@ T contact_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, Option
   return value;
 }
 
-/// The part of a reaction signal that comes from multipliers: constraint rows and couplings. It is what redundant rows leave undetermined.
+/// The part of a reaction signal that comes from multipliers: constraint rows and couplings. Redundant rows leave this part undetermined.
 template <class T>
 T multiplier_reaction(const StateView<T>& view, const SignalReference& term) {
   const ReactionAxis<T> axis = reaction_axis(view, term);

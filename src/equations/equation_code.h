@@ -74,7 +74,7 @@ class EquationCode {
   const std::vector<Recording::Guard>& design_guards() const { return design_guards_; }
 
  private:
-  /// The results of one function and the decisions that were made on the way to them.
+  /// The results of one function, and the decisions that they depend on.
   struct Recorded {
     std::vector<ValueTask::Output> outputs;
     std::vector<Recording::Guard> guards;
@@ -95,7 +95,7 @@ class EquationCode {
   std::vector<Recording::Guard> design_guards_;
 
   mutable std::once_flag differentiated_;
-  mutable NumberedRecording derivatives_;  ///< the nodes of values_, then those that derivatives need
+  mutable NumberedRecording derivatives_;  ///< the nodes of values_, then the nodes that derivatives need
   struct Known {
     std::atomic<bool> tried{false};  ///< compiled, or failed to compile
     std::unique_ptr<CompiledFunction> code;

@@ -34,7 +34,7 @@ class Formulas {
 
   /// Evaluates all constants at `parameters` (all named parameters, order of Study::parameters). Allocates.
   void set_design(const std::vector<T>& parameters);
-  /// What the elements read.
+  /// The data that the elements read.
   const StateView<T>& view() const { return view_; }
 
   /// The residual G (Layout::columns() rows) and the objective's integrand g, theory (21), at a state.
@@ -72,7 +72,7 @@ class Formulas {
   /// The value of a signal at a state, in SI units.
   T signal(const Signal& signal, const State<T>& state, SparseGradient<T>* gradient = nullptr);
 
-  /// Makes a state the one that the functions below read. @param state must stay alive and unchanged while they are called.
+  /// Loads the state that the functions below read. @param state must stay alive and unchanged while they are called.
   void load(const State<T>& state);
   /// The motion of a body; -1 is the ground.
   const BodyKinematics<T>& body(int index) const { return view_.body(index); }

@@ -12,7 +12,7 @@
 
 namespace codesign {
 
-/// What of a mechanism is commanded.
+/// The commanded joints and controllers of a mechanism.
 struct CommandOptions {
   std::optional<std::vector<std::string>> joints;  ///< joints that take efforts; nullopt: drivable_joints()
   std::vector<std::string> disconnected;           ///< controllers whose output is not applied; of inverse dynamics it is the feedback part
@@ -43,8 +43,8 @@ struct TrajectoryFollower {
   bool by_rate = false;        ///< its input is the velocity of the joint: its set-point is the rate of the trajectory
 };
 
-/// The controller whose input is the position of a joint, else the one whose input is its velocity: of several, one that drives the joint,
-/// or no joint. None if there is no such controller.
+/// The controller whose input is the position of a joint, else the controller whose input is its velocity: of several, one that drives the
+/// joint, or no joint. None if there is no such controller.
 std::optional<TrajectoryFollower> follower_of(const CommandInputs& inputs, const std::string& joint);
 
 }  // namespace codesign

@@ -19,8 +19,8 @@ class IdasSensitivities {
   virtual int count() const = 0;
   /// Begins the integration of a design. @param initial its assembled start.
   /// @param sensitivities receives the initial sensitivities (q, v, s, z)_rho, one per parameter; sized by the caller.
-  /// @param scales receives the size of each parameter, never zero: the absolute tolerance of its sensitivities is that of the state
-  /// divided by it.
+  /// @param scales receives the size of each parameter, never zero: the absolute tolerance of its sensitivities is the absolute tolerance
+  /// of the state divided by this size.
   virtual void start(const std::vector<double>& parameters, const State<double>& initial, Integrator* integrator,
                      std::vector<State<double>>* sensitivities, std::vector<double>* scales) = 0;
   /// Computes the derivatives at a state for the calls of derivative() that follow. @param kappa rate of stabilization [1/s], (25).

@@ -64,7 +64,7 @@ class Integrator {
 /// The integrator that the study selects by solver.integrator. @param system must outlive it.
 std::unique_ptr<Integrator> make_integrator(const CompiledSystem& system);
 
-/// Whether the design in `equations` is one that a mechanism can have: kInvalidDesign with the first impossible constant, or ok.
+/// Checks that the design in `equations` is possible: kInvalidDesign with the first impossible constant, or ok.
 Status check_design(const CompiledSystem& system, const Equations<double>& equations);
 
 /// Sets the design in `equations` and solves for a consistent initial state at t = 0.

@@ -22,7 +22,7 @@ class InteractiveSimulation {
 
   const CommandInputs& inputs() const { return inputs_; }
   double duration() const { return inputs_.study.duration; }
-  /// The names of frames; those of the controllers are the study's.
+  /// The names of frames; controllers have the names of the study.
   const FrameNames& names() const { return names_; }
   const std::vector<double>& parameters() const { return parameters_; }
 

@@ -15,7 +15,7 @@ namespace codesign {
 /// pass.
 ///
 /// Plain arithmetic on the compiler's vector type, all inlined; doc/decisions/0003-lanes.md says why no library's dual number is used. Like
-/// a double, it is uninitialized after default construction. Comparisons are those of the values.
+/// a double, it is uninitialized after default construction. Comparisons compare the values.
 template <int N>
 struct Lanes {
   static_assert(N % 4 == 0, "lanes come in fours");

@@ -30,7 +30,7 @@ std::vector<GainOrder> orders_of(const FinishedJob& job, const std::string& serv
 /// outside the server's limits.
 GainValues wanted_values(const GainOrder& order, const GainServerState& state, const std::string& name);
 
-/// The values of `names` among those of a server.
+/// The entries of `values` whose names are in `names`.
 GainValues only(const GainValues& names, const GainValues& values);
 
 }  // namespace codesign

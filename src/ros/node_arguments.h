@@ -23,7 +23,7 @@ struct RunningNode {
 /// @return the exit code of the process: 0, also after printing `help` for `--help`; 2 for an unknown argument.
 int run_node(int argc, char** argv, const std::string& name, const std::string& help, const std::function<RunningNode()>& make);
 
-/// The nodes, for run_node(). Their headers, with those of ROS, stay out of the files with main().
+/// The nodes, for run_node(). Their headers, and the headers of ROS, stay out of the files with main().
 RunningNode make_simulation_node();
 /// @param ranks the processes of the job, as in require_engine(); must outlive the node.
 RunningNode make_optimization_node(Dispatcher* ranks);

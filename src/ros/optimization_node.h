@@ -71,7 +71,7 @@ class OptimizationNode {
   NodeState state_;
   LoadedStudy loaded_;
   ros::Publisher progress_, tuned_;
-  // The order of the members from here on matters: what callbacks and workers use must outlive them.
+  // The order of the members from here on matters: members that callbacks and workers use must outlive them.
   ros::CallbackQueue queue_;
   ros::NodeHandle doors_;
   std::unique_ptr<ActionServer> action_;

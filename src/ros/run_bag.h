@@ -17,8 +17,8 @@
 
 namespace codesign {
 
-/// The bag of the first run of the simulation, if one is asked for: every frame, tf of all links, commands, caption, description,
-/// scene and version. A failure to write gives the warning `output_failed` and ends the bag, not the run.
+/// The bag of the first run of the simulation, if `~bag` requests one: every frame, tf of all links, commands, caption, description, scene
+/// and version. A failure to write gives the warning `output_failed` and ends the bag, not the run.
 class RunBag {
  public:
   /// @param options, state must outlive this.

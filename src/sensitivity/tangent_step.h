@@ -63,7 +63,7 @@ class TangentStep {
   const Directions<N>& directions() const { return y_; }
 
  private:
-  /// Takes the directions of `lanes`, whose values are those of `at`, and begins the next step there.
+  /// Takes the directions of `lanes`, which have the same values as `at`, and begins the next step there.
   void take_up(const State<double>& at, const State<Lanes<N>>& lanes);
   using Vector = typename Lanes<N>::Vector;
   /// to = from + sum of factors[j] u'_j, for the components of u' from the `first` on.

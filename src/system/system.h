@@ -30,7 +30,7 @@ struct JointLoad {
   bool passive = false;            ///< damping or a torsion spring
   bool spring = false;             ///< a torsion spring, which depends on the position
   bool stop = false;               ///< `<limit lower upper>` as stops
-  bool saturated = false;          ///< `<limit effort>` bounds what the controllers apply
+  bool saturated = false;          ///< `<limit effort>` bounds the effort of the controllers
   std::vector<int> controllers;    ///< indices of the controllers that drive this coordinate
   std::vector<int> constant;       ///< indices into Study::loads
 
@@ -56,7 +56,7 @@ struct LinkLoad {
 class System {
  public:
   /// @param sharing how redundant constraints are treated, theory (23); by default there are none.
-  /// @param drives joints (indices in `robot`) whose motion is prescribed: each gets a row behind those of the couplings, theory (28).
+  /// @param drives joints (indices in `robot`) whose motion is prescribed: each gets a row after the rows of the couplings, theory (28).
   /// @throws InputError for a mechanism without moving mass, loads or actuators on joints without a coordinate of their own, and signals,
   /// controllers or couplings that cannot be resolved.
   System(const RobotDescription& robot, const Study& study, ReactionSharing sharing = {}, const std::vector<int>& drives = {});
