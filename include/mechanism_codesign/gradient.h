@@ -19,7 +19,7 @@ namespace codesign {
 struct Extremes {
   Eigen::VectorXd values;     ///< signal minus reference, in the unit of the signal
   Eigen::VectorXd times;      ///< when the signal has this value [s]
-  Eigen::MatrixXd gradients;  ///< one column per value; empty if not asked for
+  Eigen::MatrixXd gradients;  ///< one column per value; empty unless requested
 };
 
 /// The derivatives that an evaluation computes besides the objective. kGaussNewton: the gradient, and Evaluation::jacobian_root.
@@ -30,9 +30,9 @@ inline Derivatives gradient_if(bool with_gradient) { return with_gradient ? Deri
 struct Evaluation {
   Status status;             ///< if not ok, objective and gradient are not valid
   double objective = 0.0;    ///< psi, in the units of the study's terms
-  Eigen::VectorXd gradient;  ///< psi_rho, order of Problem::tuned_names(); empty if not asked for
+  Eigen::VectorXd gradient;  ///< psi_rho, order of Problem::tuned_names(); empty unless requested
   /// Upper triangular R, p x p, with R^T R = J^T J and a diagonal that is not negative; J is the Jacobian of the residuals whose squares
-  /// sum up to psi without its peaks, doc/theory.md (22a). Empty if not asked for.
+  /// sum up to psi without its peaks, doc/theory.md (22a). Empty unless requested.
   Eigen::MatrixXd jacobian_root;
   Extremes extremes;  ///< empty if the study has neither constraints on signals nor peaks
   Statistics statistics;
@@ -77,8 +77,7 @@ struct GradientCheck {
   Evaluation evaluation;                           ///< objective and gradient g under check
   Eigen::VectorXd reference;                       ///< the reference gradient r
   Eigen::VectorXd reference_error;                 ///< error estimate of the reference; zero for the complex step
-  Eigen::MatrixXd extreme_reference;               ///< reference for the gradients in Evaluation::extremes; empty unless the method is
-                                                   ///< kComplexStep
+  Eigen::MatrixXd extreme_reference;               ///< reference for the gradients in Evaluation::extremes; only for kComplexStep
   double largest_relative_difference = 0;          ///< max_k |g_k - r_k| / max(|r_k|, 1e-3 max_j |r_j|), also over the extremes
 };
 

@@ -38,8 +38,7 @@ struct ScenarioResult {
   double weight = 1.0;                                 ///< w; the sum over all scenarios is 1
   std::vector<std::pair<std::string, double>> values;  ///< the parameters that the run or the sample sets
   double initial_objective = 0.0, objective = 0.0;     ///< psi at `initial_rho` and at `rho`
-  std::string friction_law{};                          ///< friction law of all joints if the study varies the law; empty if the joints keep
-                                                       ///< the laws of the model
+  std::string friction_law{};                          ///< the law of all joints if the study varies it; empty: the laws of the model
   /// Whether the run failed at `initial_rho` and at `rho`. A failed run counts with the largest objective of the runs that did not fail.
   bool initial_failed = false, failed = false;
 };
@@ -111,9 +110,8 @@ struct OptimizationResult {
   Eigen::VectorXd initial_values, values;
   std::vector<ScenarioResult> scenarios;
   std::vector<int> initial_failed, failed;  ///< indices of the scenarios that could not be integrated at `initial_rho` and `rho`
-  std::optional<double> value_at_risk;      ///< for the measure cvar: the value that samples of the search exceed with probability <= 1 -
-                                            ///< level
-  std::optional<Validation> validation;     ///< if `robust.validate` asks for it
+  std::optional<double> value_at_risk;      ///< for the measure cvar: the value at risk on the samples of the search
+  std::optional<Validation> validation;     ///< if `robust.validate` requests it
   // For a study with several starts, else empty: the searches, best start first, and the optima, best first.
   std::vector<StartResult> starts;
   std::vector<Optimum> optima;

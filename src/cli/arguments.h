@@ -33,7 +33,7 @@ struct Arguments {
   bool verify = false;               ///< gradient
   CheckMethod method = CheckMethod::kComplexStep;
   std::string output;   ///< optimize, identify, excite; empty: no files
-  bool resume = false;  ///< optimize; go on with the journal in `output`
+  bool resume = false;  ///< optimize; continue with the journal in `output`
 };
 
 /// @param words the command line without the program's name.

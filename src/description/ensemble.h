@@ -56,7 +56,7 @@ struct UncertainQuantity {
   /// For a number that depends on others: `distribution` is its distribution given these others; doc/theory.md (24h).
   std::vector<MeanSlope> slopes{};
   bool is_identified = false;  ///< from a file that an identification wrote
-  double spread = 0.0;         ///< of an identified number: its standard deviation whatever the others are
+  double spread = 0.0;         ///< for an identified number: its marginal standard deviation
 };
 
 /// The measure that is minimized over all runs and samples psi_i with weights w_i, sum 1.

@@ -116,8 +116,8 @@ struct Study {
   double duration = 0.0;                           ///< [s]
   std::array<double, 3> gravity{0.0, 0.0, -9.81};  ///< [m/s^2], in the root link's frame
   std::vector<InitialJointState> initial_state;
-  /// Extra states at the start, in the order of Layout::states, those behind the last one zero. No file gives them: a study starts from
-  /// zero, a segment of a recording from anywhere.
+  /// Extra states at the start, in the order of Layout::states; missing entries at the end are zero. No file gives them: a study starts
+  /// from zero, a segment of a recording from anywhere.
   std::vector<Quantity> initial_extra_states;
   std::vector<ControllerDescription> controllers;
   std::vector<LoadDescription> loads;

@@ -27,7 +27,7 @@ T integral_rate(const StateView<T>& view, int controller, OptionalGradient<T> gr
   return rate.value;
 }
 
-/// f' = (u - f) / tau of the effort behind the drive's lag, (53). Appends its gradient.
+/// f' = (u - f) / tau of the effort after the drive's lag, (53). Appends its gradient.
 template <class T>
 T lag_rate(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
   const int f = view.system.controllers()[static_cast<std::size_t>(controller)].states.lag;

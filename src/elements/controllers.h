@@ -122,7 +122,7 @@ T wanted_acceleration(const StateView<T>& view, int controller, OptionalGradient
   return setpoint.acceleration + pid_output(view, controller, gradient);
 }
 
-/// u_k = tau_k(alpha) of (C6). All controllers of this kind are one law: alpha holds the accelerations that they ask for together, zero for
+/// u_k = tau_k(alpha) of (C6). All controllers of this kind are one law: alpha has the accelerations that they demand together, zero for
 /// joints without one. Appends its gradient.
 template <class T>
 T computed_torque(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {

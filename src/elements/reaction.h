@@ -117,7 +117,7 @@ T coordinate_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, Opt
   T value(0.0);
   for (const JointLoad& load : view.system.loads()) {
     if (load.pair != axis.pair) continue;
-    // A copy, since a controller may ask for more detail of this coordinate, which overwrites the object behind the reference.
+    // A copy, since a controller may request more detail of this coordinate, which overwrites the referenced object.
     const CoordinateMotion<T> motion =
         view.coordinate(load.pair, load.element, load.needs_position() ? CoordinateDetail::kAll : CoordinateDetail::kGradient);
     const auto own = mark(gradient);

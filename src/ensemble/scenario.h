@@ -21,7 +21,7 @@ struct Scenario {
   std::string run;  ///< name of the run; empty if the study has none
   int sample = -1;  ///< number of the sample from 0; -1: the nominal values
   double weight = 1.0;
-  std::string friction_law;  ///< friction law of all joints if the study varies the law; empty if the joints keep the laws of the model
+  std::string friction_law;  ///< the law of all joints if the study varies it; empty: the laws of the model
   std::shared_ptr<const CompiledSystem> system;
   std::vector<std::pair<int, double>> values;  ///< values of parameters (index in Study::parameters) that differ from their start values
 

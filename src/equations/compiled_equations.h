@@ -50,7 +50,7 @@ class CompiledEquations {
   /// The derivatives of one function along N directions of state and design, for T = Lanes<N> only; false as above, and for T = double. The
   /// directions of the design are the directions of the parameters given to set_design().
   /// @param turns State::turns. @param values of q, v, s and z. @param directions of the same vectors, N numbers side by side per entry.
-  /// @param results one array per result in the order of EquationFunction, N numbers side by side per entry; empty ones behind the last.
+  /// @param results one array per result in the order of EquationFunction, N numbers side by side per entry; then empty arrays.
   bool tangents(EquationFunction function, double t, const std::vector<double>& turns, const In<double> (&values)[4],
                 const In<double> (&directions)[4], const Out<double> (&results)[4]);
 

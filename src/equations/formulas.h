@@ -46,8 +46,8 @@ class Formulas {
   /// for the same entry add up. The sequence of calls depends on the system alone, never on state or design, so it is recorded once.
   template <class Sink>
   void assemble(Sink* sink);
-  /// Constraint values Phi(q) and rates Phi_q v, Layout::m entries each; those behind Layout::constraints() are zero. The state's z is not
-  /// used, but must have its size.
+  /// Constraint values Phi(q) and rates Phi_q v, Layout::m entries each; entries from Layout::constraints() on are zero. The state's z is
+  /// not used, but must have its size.
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
   /// Phi and Phi_q v of one pair's rows, for bodies that move as given; the ground is a body at rest.
   /// @param errors, rates one value per row of the pair.

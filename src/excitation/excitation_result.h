@@ -41,8 +41,7 @@ struct ExcitationResult {
   std::string termination;  ///< of the best search
   std::vector<PredictedNumber> numbers;            ///< empty: no trajectory was found
   std::vector<std::string> undetermined;           ///< sentences about numbers that no trajectory determines
-  double criterion_before = 0.0, criterion = 0.0;  ///< (46a) of the recordings; infinite if they determine fewer numbers than other
-                                                   ///< trajectories would
+  double criterion_before = 0.0, criterion = 0.0;  ///< (46a) of the recordings; infinite if they determine too few numbers
   int counted = 0;                                 ///< number of identified numbers, or sums of them, in the criterion
   TrajectoryPoints before, points;
   Eigen::VectorXd rest;          ///< positions of the joints at both ends

@@ -15,8 +15,7 @@ constexpr double kMissed = 1e-11;      // peaks between the times that rise less
 constexpr double kKept = 1.0 - 1e-8;   // target of fit(): the errors of peaks are smaller than the remainder
 constexpr double kLeastFactor = 1e-6;  // smallest factor of fit(): smaller motions determine nothing
 constexpr int kMostFits = 100;
-constexpr double kBesideTurn[] = {1e-4, 1e-3, 1e-2, 3e-2, 0.1, 0.3};  // fractions of a step, on both sides of the time at which a joint
-                                                                      // changes its direction
+constexpr double kBesideTurn[] = {1e-4, 1e-3, 1e-2, 3e-2, 0.1, 0.3};  // fractions of a step around a change of direction
 
 /// The time between `from` and `to` at which the velocity of a joint changes its sign.
 double turning_time(const TrajectorySpace& space, const Eigen::VectorXd& coefficients, double from, double to) {

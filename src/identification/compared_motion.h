@@ -28,8 +28,7 @@ struct ComparedRecording {
 
 /// A joint whose efforts are compared, with its place for drawing them.
 struct ComparedJoint {
-  std::size_t joint = 0, link = 0;                  ///< indices in FrameNames: the joint, and its child link; the joint lies at the child's
-                                                    ///< origin
+  std::size_t joint = 0, link = 0;                  ///< indices in FrameNames: the joint, and its child link, whose origin is at the joint
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< joint axis in the frame of the link, of unit length
   bool is_torque = true;                            ///< false: a force
 };

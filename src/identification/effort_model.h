@@ -19,8 +19,7 @@ class MotionProjection;
 /// The measured motion, one row per measured joint and one column per instant (a sample), recording after recording.
 struct MotionSamples {
   Eigen::MatrixXd position, velocity, acceleration;  ///< [rad or m], per s, per s^2
-  std::vector<int> shifted{};                        ///< joints whose positions are known except for a constant in each recording,
-                                                     ///< ascending
+  std::vector<int> shifted{};                        ///< joints with positions known up to a constant in each recording, ascending
   std::vector<int> begins{0};  ///< the first sample of each recording, ascending; joints move little between samples of one recording
 };
 

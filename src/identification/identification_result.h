@@ -23,8 +23,7 @@ struct IdentifiedNumber {
   double start = 0.0, value = 0.0;
   double lower = -std::numeric_limits<double>::infinity();  ///< bounds
   double upper = std::numeric_limits<double>::infinity();
-  bool is_on_bound = false;      ///< whether the data hold the value on a bound; it then has no interval and counts as known for the other
-                                 ///< intervals
+  bool is_on_bound = false;      ///< whether the data hold the value on a bound; it then has no interval and counts as known
   bool is_determined = true;     ///< whether the data determine it
   double slope_signal = 1.0;     ///< for a delay: DelaySignal::share
   double deviation = 0.0;        ///< standard deviation; infinite if not determined
@@ -51,8 +50,7 @@ struct FittedSeries {
 
 /// The result of `codesign identify`.
 struct IdentificationResult {
-  Status status;            ///< ok; kNotIdentifiable, with all members set; kCancelled, with the best point; or the status of a failed
-                            ///< start
+  Status status;            ///< ok; kNotIdentifiable, with all members; kCancelled, with the best point; or the failure of the start
   std::string termination;  ///< as OptimizationResult::termination
   std::vector<IdentifiedNumber> numbers;  ///< empty if the start failed
   Eigen::VectorXd x;

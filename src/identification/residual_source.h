@@ -42,10 +42,10 @@ inline void ResidualSource::count_by(const Eigen::VectorXd& /*spreads*/, const L
 struct DelaySignal {
   std::string joint;
   Eigen::Index column = 0;  ///< index of the delay in x
-  Eigen::Index output = 0;  ///< of the residuals
+  Eigen::Index output = 0;  ///< index of the output
   double share = 1.0;       ///< in (0, 1], doc/theory.md (33a)
-  Eigen::VectorXd slopes;   ///< rows of this output in the delay's column of the Jacobian, without the noise of the recorded effort; empty:
-                            ///< not known
+  Eigen::VectorXd slopes;   ///< rows of the output in the delay's column of the Jacobian, without the recorded effort's noise; empty: not
+                            ///< known
 };
 
 /// Residuals of recordings, as an identification needs them.

@@ -16,8 +16,7 @@ namespace {
 
 constexpr int kMostRuns = 8, kFewRuns = 3;
 constexpr double kSettled = 1e-8;    // of the value: a start with a smaller promise is the best one
-constexpr double kPatience = 10.0;   // kSettled grows by this factor with each run: promises that are not kept come from the noise of step
-                                     // sizes
+constexpr double kPatience = 10.0;   // factor of kSettled with each run: the noise of step sizes makes promises that are not kept
 constexpr double kResolved = 1e-14;  // of the sum of squares of the recorded values: a simulation does not resolve less
 
 /// Columns scaled to length one, so that the rank does not depend on units.

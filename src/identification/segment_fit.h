@@ -45,8 +45,8 @@ struct SegmentSolution {
   Eigen::MatrixXd residuals;   ///< computed minus recorded, times x outputs
   Eigen::VectorXd correction;  ///< to be subtracted from the start for the best start, to first order
   // Only for kElimination.
-  Eigen::MatrixXd jacobian;      ///< derivatives of these residuals by x, with a start that follows x: (times outputs) x variables, output
-                                 ///< 0 first
+  Eigen::MatrixXd jacobian;      ///< derivatives of these residuals by x, the start following x: (times outputs) x variables, output 0
+                                 ///< first
   Eigen::MatrixXd slope;         ///< derivative of minus the best start by x
   int runs = 0, whole_runs = 0;  ///< number of simulations, and of these the number with all derivatives
 };

@@ -15,7 +15,7 @@ namespace codesign {
 
 /// Time and position at which a segment begins.
 struct SegmentBegin {
-  double time = 0.0;      ///< [s] of the system
+  double time = 0.0;      ///< [s] on the system's clock
   VectorX<double> theta;  ///< tree coordinates near the start, from which loops are closed
 };
 
@@ -29,8 +29,8 @@ class SegmentRun {
   /// @param of must outlive this. @param first the first segment; pivots are chosen near its start.
   SegmentRun(const SegmentSystem& of, const SegmentBegin& first);
 
-  /// Integrates from begin.time to the last of `times`. @param parameters all of the system. @param times [s] of the system, ascending,
-  /// none before begin.time. @param lanes of the derivatives; the values do not depend on them, to the last bit
+  /// Integrates from begin.time to the last of `times`. @param parameters all parameters of the system. @param times [s] on the system's
+  /// clock, ascending, none before begin.time. @param lanes of the derivatives; the values do not depend on them, to the last bit
   Status run(const std::vector<double>& parameters, const SegmentBegin& begin, const std::vector<double>& times,
              SegmentLanes lanes = SegmentLanes::kAll);
   /// times x outputs, of the last run

@@ -15,8 +15,8 @@ namespace codesign {
 /// The commanded joints and controllers of a mechanism.
 struct CommandOptions {
   std::optional<std::vector<std::string>> joints;  ///< joints that take efforts; nullopt: drivable_joints()
-  std::vector<std::string> disconnected;           ///< controllers whose output is not applied; for inverse dynamics, the output is only
-                                                   ///< the feedback part
+  std::vector<std::string> disconnected;           ///< controllers whose output is not applied; inverse dynamics then give only the
+                                                   ///< feedback part
   std::optional<double> duration;                  ///< duration of the run [s] in place of the study's
   double rate = 0.0;                               ///< instants at which commands may take effect, per second: each one ends a step
 };

@@ -14,7 +14,7 @@ namespace codesign {
 /// A = U diag(values) V^T, values in descending order; U and V are square and orthogonal.
 struct SingularValues {
   Eigen::VectorXd values;
-  Eigen::MatrixXd U, V;  ///< empty where they were not asked for
+  Eigen::MatrixXd U, V;  ///< empty unless requested
 };
 enum class SingularVectors { kNone, kLeft, kRight, kBoth };
 SingularValues singular_values(const Eigen::MatrixXd& A, SingularVectors vectors = SingularVectors::kNone);

@@ -16,8 +16,7 @@ struct SearchHooks {
   ProgressObserver progress = nullptr;       ///< called about once a second, also while screening and validating
   std::shared_ptr<EvaluationMemory> memory;  ///< has the evaluations of an earlier process, and keeps the evaluations of this process
   Dispatcher* ranks = nullptr;               ///< the processes of the job, as in require_engine()
-  ProgressMeter* meter = nullptr;            ///< meter of a caller that polls the progress; its observer is then called instead of
-                                             ///< `progress`
+  ProgressMeter* meter = nullptr;            ///< meter of a caller that polls the progress; its observer replaces `progress`
 };
 
 /// The records for the engine of a job: its memory, and the count of runs for the meter, which must outlive the engine.

@@ -31,8 +31,7 @@ struct Problem::Contents {
   std::vector<SourceText> overlays;
   SourceText study_text;
   std::shared_ptr<const CompiledSystem> system;
-  std::vector<std::shared_ptr<const CompiledSystem>> variants;  ///< the systems of variant_of(); empty if the study's own system is the
-                                                                ///< only one
+  std::vector<std::shared_ptr<const CompiledSystem>> variants;  ///< the systems of variant_of(); empty if there is only the study's own
   double setup_seconds = 0.0;                                   ///< processor time of reading and compiling [s]
   Warnings warnings;
   std::vector<LoadedTrajectory> trajectories;  ///< in the order in which the study names them

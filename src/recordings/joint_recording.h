@@ -15,8 +15,7 @@ namespace codesign {
 struct JointSamples {
   std::string joint;
   std::vector<double> position, velocity, effort;
-  std::optional<FittedNumber> start = std::nullopt;  ///< position of the joint at the first time, if positions must be integrated from
-                                                     ///< velocities
+  std::optional<FittedNumber> start = std::nullopt;  ///< position at the first time, if velocities are to be integrated
 
   std::vector<double>& of(MeasuredQuantity quantity) {
     return quantity == MeasuredQuantity::kPosition ? position : quantity == MeasuredQuantity::kVelocity ? velocity : effort;

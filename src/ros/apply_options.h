@@ -9,7 +9,7 @@
 
 namespace codesign {
 
-/// The times of the ramp that a request asks for. Zero: the default. @throws InputError for a time below 0 or above 100000 s.
+/// The times of the ramp in a request. Zero: the default. @throws InputError for a time below 0 or above 100000 s.
 RampOptions ramp_options(const mechanism_codesign::ApplyRequest& request);
 
 /// The options of a request for watching the robot. Zero: the default. @throws InputError for a wrong number, or if the request both names

@@ -48,8 +48,7 @@ class CommandInbox {
   std::vector<Command> commands_;
   ros::Time awaited_;
   bool answered_ = false;
-  std::map<std::string, ros::WallTime> told_;  ///< per topic: time of the last warning about a refused message; at most one warning per
-                                               ///< second
+  std::map<std::string, ros::WallTime> told_;  ///< per topic: time of the last warning of a refused message, at most one per second
   std::size_t refused_ = 0;
   std::vector<ros::Subscriber> subscribers_;
 };

@@ -18,7 +18,7 @@ namespace codesign {
 /// `recording_joints_left_out` warns of the others. An array that is empty in all messages, or NaN throughout, was not measured.
 /// `recording_clock` warns where stamps and times of reception differ by more than half a second, `recording_all_zero` of efforts and
 /// velocities that are zero throughout.
-/// @throws InputError as BagReader says, and for stamps of zero and arrays of other sizes than the names.
+/// @throws InputError as BagReader, and for stamps of zero and arrays whose sizes differ from the number of names.
 JointRecording read_recording_bag(const RecordingDescription& description, const std::string& path, const std::vector<std::string>& joints,
                                   Warnings* warnings);
 

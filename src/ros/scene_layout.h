@@ -41,8 +41,8 @@ SceneLayout lay_out(const std::vector<ShownRun>& runs);
 struct Stage {
   mechanism_codesign::Scene scene;                    ///< without header
   Eigen::Vector3d caption = Eigen::Vector3d::Zero();  ///< middle of the text's first line, at the top of the picture [m]
-  Eigen::Vector3d label = Eigen::Vector3d::Zero();    ///< place of a mechanism's name relative to its root link, above the mechanism in the
-                                                      ///< picture [m]
+  Eigen::Vector3d label = Eigen::Vector3d::Zero();    ///< place of a mechanism's name, above it in the picture, relative to its root link
+                                                      ///< [m]
   double letter = 0.0;                                ///< height of the letters of names [m]
 };
 

@@ -52,7 +52,7 @@ struct LinkLoad {
 };
 
 /// A mechanism and a study with every name resolved to an index, the same for all designs: topology, layout of the unknowns, loads,
-/// controllers and signals. It says which equations there are; the elements (src/elements) evaluate them. Immutable and thread-safe.
+/// controllers and signals. It determines the equations; the elements (src/elements) evaluate them. Immutable and thread-safe.
 class System {
  public:
   /// @param sharing how redundant constraints are treated, theory (23); by default there are none.
