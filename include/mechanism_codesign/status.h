@@ -39,7 +39,7 @@ struct Status {
   std::string cause;  ///< one sentence for the user; may be empty on success
 
   bool ok() const { return code == StatusCode::kSuccess; }
-  /// Whether the computation was interrupted from outside, so that its outcome does not depend on the design.
+  /// Whether the computation was interrupted from outside, so that its outcome is no property of the design.
   bool is_interrupted() const { return code == StatusCode::kCancelled || code == StatusCode::kWorkerLost; }
 };
 
