@@ -10,7 +10,7 @@ namespace codesign {
 /// One constraint row, an entry of Phi.
 struct ConstraintRow {
   std::string joint;  ///< name of the joint, loop or coupling (or body, for unit Euler parameters)
-  int row = 0;        ///< number of the row within it, from 1
+  int row = 0;        ///< number of the row within that joint, loop, coupling or body, from 1
   std::string kind;   ///< e.g. "parallel axes, x_i . z_j", the products of doc/theory.md (6)
 };
 
@@ -29,7 +29,7 @@ struct Counts {
   int total_equations = 0;                    ///< dynamic equations + sensitivities
   std::vector<ConstraintRow> redundant_rows;  ///< rows that follow from the others, theory (23)
   std::vector<std::string> undetermined_reactions;  ///< joints, loops and couplings whose reactions are not unique, theory (23)
-  std::vector<std::string> chosen_friction;         ///< those of them whose friction depends on such a reaction
+  std::vector<std::string> chosen_friction;         ///< the entries of `undetermined_reactions` whose friction depends on the reaction
 };
 
 }  // namespace codesign

@@ -13,7 +13,7 @@ struct SourceLocation {
   int line = 0;      ///< from 1; 0 means the file as a whole
 };
 
-/// What a user needs to know to correct an invalid input.
+/// An invalid input, with all that a user needs to correct it.
 struct InputFault {
   SourceLocation where;
   std::string element;  ///< e.g. `<joint name="crank_joint">` or `objective.integral[0].signal`

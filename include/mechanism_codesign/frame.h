@@ -57,7 +57,7 @@ struct FrameNames {
   std::vector<std::string> signals;  ///< the requested signals, as spelled in the request
 };
 
-/// Everything that is observed of a run at one instant.
+/// All observed quantities of a run at one instant.
 struct Frame {
   double time = 0.0;  ///< [s]
   std::vector<JointSample> joints;

@@ -14,15 +14,15 @@
 
 namespace codesign {
 
-/// Numbers of the signals that constraints (`path:`, `final:`) and peaks read; doc/theory.md (21a). For each signal in turn: its values at
-/// fixed instants, then the largest value in each window between them, then the smallest.
+/// Extreme values of the signals that constraints (`path:`, `final:`) and peaks read; doc/theory.md (21a). For each signal in turn: its
+/// values at fixed instants, then its largest value in each window between two instants, then its smallest value in each window.
 struct Extremes {
   Eigen::VectorXd values;     ///< signal minus reference, in the unit of the signal
-  Eigen::VectorXd times;      ///< when it has that value [s]
-  Eigen::MatrixXd gradients;  ///< one column per value; empty if not asked for
+  Eigen::VectorXd times;      ///< when the signal has this value [s]
+  Eigen::MatrixXd gradients;  ///< one column per value; empty unless requested
 };
 
-/// What an evaluation computes besides the objective. kGaussNewton: the gradient, and Evaluation::jacobian_root.
+/// The derivatives that an evaluation computes besides the objective. kGaussNewton: the gradient, and Evaluation::jacobian_root.
 enum class Derivatives { kNone, kGradient, kGaussNewton };
 inline Derivatives gradient_if(bool with_gradient) { return with_gradient ? Derivatives::kGradient : Derivatives::kNone; }
 
@@ -30,17 +30,17 @@ inline Derivatives gradient_if(bool with_gradient) { return with_gradient ? Deri
 struct Evaluation {
   Status status;             ///< if not ok, objective and gradient are not valid
   double objective = 0.0;    ///< psi, in the units of the study's terms
-  Eigen::VectorXd gradient;  ///< psi_rho, order of Problem::tuned_names(); empty if not asked for
+  Eigen::VectorXd gradient;  ///< psi_rho, order of Problem::tuned_names(); empty unless requested
   /// Upper triangular R, p x p, with R^T R = J^T J and a diagonal that is not negative; J is the Jacobian of the residuals whose squares
-  /// sum up to psi without its peaks, doc/theory.md (22a). Empty if not asked for.
+  /// sum up to psi without its peaks, doc/theory.md (22a). Empty unless requested.
   Eigen::MatrixXd jacobian_root;
   Extremes extremes;  ///< empty if the study has neither constraints on signals nor peaks
   Statistics statistics;
   Warnings warnings;  ///< warnings of the run, as Simulation::warnings()
 };
 
-/// Evaluates psi(rho) and its gradient, by direct sensitivities (18) or the adjoint (18a), as `solver.gradient` of the study says;
-/// kGaussNewton always by direct sensitivities. Holds a workspace that is reused from call to call; not thread-safe, use one per thread.
+/// Evaluates psi(rho) and its gradient. `solver.gradient` of the study selects direct sensitivities (18) or the adjoint (18a); kGaussNewton
+/// always uses direct sensitivities. Holds a workspace that is reused from call to call; not thread-safe, use one per thread.
 class Evaluator {
  public:
   explicit Evaluator(const Problem& problem);
@@ -50,11 +50,12 @@ class Evaluator {
   Evaluator& operator=(Evaluator&&) noexcept;
 
   /// Runs the study at one design.
-  /// @param rho the tuned parameters, in the order of Problem::tuned_names(); the others keep their start values.
+  /// @param rho the tuned parameters, in the order of Problem::tuned_names(); all other parameters keep their start values.
   /// @param cancel the evaluation ends with kCancelled soon after this is set, from any thread; null: never.
   Evaluation evaluate(const Eigen::VectorXd& rho, Derivatives derivatives, const std::atomic<bool>* cancel = nullptr);
   Evaluation evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel = nullptr);
-  /// The same for values of all named parameters, in the order of Problem::all_parameters(); the gradient is still by the tuned ones.
+  /// Runs the study with values of all named parameters, in the order of Problem::all_parameters(); the gradient has one entry per tuned
+  /// parameter, as above.
   Evaluation evaluate_design(const std::vector<double>& parameters, Derivatives derivatives, const std::atomic<bool>* cancel = nullptr);
   Evaluation evaluate_design(const std::vector<double>& parameters, bool with_gradient, const std::atomic<bool>* cancel = nullptr);
 
@@ -76,7 +77,7 @@ struct GradientCheck {
   Evaluation evaluation;                           ///< objective and gradient g under check
   Eigen::VectorXd reference;                       ///< the reference gradient r
   Eigen::VectorXd reference_error;                 ///< error estimate of the reference; zero for the complex step
-  Eigen::MatrixXd extreme_reference;               ///< of Evaluation::extremes; kComplexStep only, else empty
+  Eigen::MatrixXd extreme_reference;               ///< reference for the gradients in Evaluation::extremes; only for kComplexStep
   double largest_relative_difference = 0;          ///< max_k |g_k - r_k| / max(|r_k|, 1e-3 max_j |r_j|), also over the extremes
 };
 

@@ -23,9 +23,9 @@ struct Trial {
   double gradient_norm = 0.0;   ///< norm of the gradient by the scaled variables x of (24)
   Eigen::VectorXd gradient;     ///< psi_rho
   Eigen::VectorXd rho;          ///< the trial point
-  int start = 0;                ///< of several starts: the number of the search, from 1, in the order in which searches began
+  int start = 0;                ///< number of the search in a study with several starts, from 1, in the order in which the searches began
   double best_objective = 0.0;  ///< at the best point so far; a point that violates the constraints less is better
-  double best_violation = 0.0;  ///< largest violation of a constraint there, beyond its tolerance; 0 if all are met
+  double best_violation = 0.0;  ///< largest violation of a constraint at that point, beyond its tolerance; 0 if all constraints are met
 };
 
 /// Called after each trial point; returning false ends the search with kCancelled and the best point so far.
@@ -38,20 +38,20 @@ struct ScenarioResult {
   double weight = 1.0;                                 ///< w; the sum over all scenarios is 1
   std::vector<std::pair<std::string, double>> values;  ///< the parameters that the run or the sample sets
   double initial_objective = 0.0, objective = 0.0;     ///< psi at `initial_rho` and at `rho`
-  std::string friction_law{};                          ///< of all joints, if the law is uncertain; else empty: the model's laws
-  /// Whether it could not be integrated at `initial_rho` and at `rho`; its objective is then that of the worst of the others.
+  std::string friction_law{};                          ///< the law of all joints if the study varies it; empty: the laws of the model
+  /// Whether the run failed at `initial_rho` and at `rho`. A failed run counts with the largest objective of the runs that did not fail.
   bool initial_failed = false, failed = false;
 };
 
 /// The best point on samples that the search has not seen.
 struct Validation {
   int samples = 0;         ///< fresh samples of each run
-  int failed = 0;          ///< scenarios that could not be integrated; the numbers below are of the others
+  int failed = 0;          ///< scenarios that could not be integrated; the members below leave them out, except `promised` and `within`
   double promised = 0.0;   ///< the measure on the samples of the search
   double objective = 0.0;  ///< the same measure on the fresh samples
   double mean = 0.0, worst = 0.0;
-  double value_at_risk = 0.0;  ///< of the measure cvar: the value that fresh samples exceed with a probability of at most 1 - level
-  double within = 0.0;         ///< of the measure cvar: share of all fresh samples that keep OptimizationResult::value_at_risk
+  double value_at_risk = 0.0;  ///< for the measure cvar: the value that fresh samples exceed with a probability of at most 1 - level
+  double within = 0.0;         ///< for the measure cvar: share of all fresh samples that do not exceed OptimizationResult::value_at_risk
 };
 
 /// One local search of several.
@@ -68,7 +68,7 @@ struct StartResult {
 struct Optimum {
   Eigen::VectorXd rho;
   double objective = 0.0;
-  int found = 0;  ///< by how many searches
+  int found = 0;  ///< number of searches that ended at this point
 };
 
 /// A signal that a constraint or a peak reads, over all scenarios; doc/theory.md (21a).
@@ -77,17 +77,18 @@ struct WatchedResult {
   double initial_smallest = 0.0, initial_largest = 0;  ///< signal minus reference at `initial_rho`
   double smallest = 0.0, largest = 0.0;                ///< at `rho`
   double smallest_time = 0.0, largest_time = 0.0;      ///< [s]
-  double violation = 0.0;                              ///< of its bounds at `rho`; 0 if they are met, and for peaks
-  int smallest_scenario = 0, largest_scenario = 0;     ///< in which run and sample; index into OptimizationResult::scenarios
-  /// Bounds at `rho` and the nominal values of the other parameters; infinite without one, as for peaks in the objective.
+  double violation = 0.0;                              ///< largest violation of the bounds at `rho`; 0 if they are met, and for peaks
+  int smallest_scenario = 0, largest_scenario = 0;     ///< index of the scenario in OptimizationResult::scenarios
+  /// The bounds, computed at `rho` and the nominal values of the other parameters; infinite where the study gives none, and for peaks in
+  /// the objective.
   double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
-  double after = 0.0, before = 0.0;  ///< the interval in which it counts [s]; of `final` the end of the run
+  double after = 0.0, before = 0.0;  ///< the interval in which the signal is watched [s]; for `final` the end of the run
 };
 
 /// The best point of an optimization and how the search ended.
 struct OptimizationResult {
-  /// Ok; kCancelled; kAlgorithmFailed; kInfeasible if no point that meets the constraints was found; or the status of the start
-  /// value if that could not be evaluated. Only in the last case the members below hold no point.
+  /// Ok; kCancelled; kAlgorithmFailed; kInfeasible if no point that meets the constraints was found; or, if the start value could not be
+  /// evaluated, the status of that evaluation. Only in the last case the members below hold no point.
   Status status;
   std::string
       termination;  ///< why the search ended, in snake case: "objective_tolerance_reached", "max_evaluations_reached", "cancelled", ...
@@ -105,16 +106,16 @@ struct OptimizationResult {
   Statistics statistics;               ///< sums over all evaluations; drift and energy error are the largest of any evaluation
   Warnings warnings;                   ///< about the best point, and about the search: a parameter without influence or on its bound
   std::vector<bool> influences;        ///< per tuned parameter: whether the objective or a watched signal depended on it at any trial point
-  // Of a study with runs or uncertain parameters, else empty: psi of each scenario at `initial_rho` and `rho`, and what they are.
+  // For a study with runs or uncertain parameters, else empty: psi of each scenario at `initial_rho` and `rho`, and the scenarios.
   Eigen::VectorXd initial_values, values;
   std::vector<ScenarioResult> scenarios;
   std::vector<int> initial_failed, failed;  ///< indices of the scenarios that could not be integrated at `initial_rho` and `rho`
-  std::optional<double> value_at_risk;      ///< of the measure cvar: what the samples of the search exceed with at most 1 - level
-  std::optional<Validation> validation;     ///< if `robust.validate` asks for it
-  // Of a study with several starts, else empty: the searches, best start first, and the optima, best first.
+  std::optional<double> value_at_risk;      ///< for the measure cvar: the value at risk on the samples of the search
+  std::optional<Validation> validation;     ///< if `robust.validate` requests it
+  // For a study with several starts, else empty: the searches, best start first, and the optima, best first.
   std::vector<StartResult> starts;
   std::vector<Optimum> optima;
-  int screened = 0, unusable = 0;  ///< points whose objective was computed to choose the starts, and those of them that failed
+  int screened = 0, unusable = 0;  ///< number of points evaluated to choose the starts, and of these the number of failed points
 };
 
 /// Minimizes psi(rho) within the bounds and the parameter constraints, from the parameters' start values.

@@ -20,8 +20,8 @@ class CompiledSystem;
 struct RobotDescription;
 struct Study;
 
-/// Names of parameters with values that replace those of model and study, such as ("crank_length", 0.07); of equal names the last one
-/// counts.
+/// Parameter values that replace the values in model and study, by name, such as ("crank_length", 0.07). If a name occurs twice, the last
+/// entry counts.
 using ParameterSettings = std::vector<std::pair<std::string, double>>;
 
 /// A mechanism and a study, read and compiled: the input of simulations, gradients and optimizations. Immutable, thread-safe, and cheap to
@@ -43,7 +43,7 @@ class Problem {
 
   /// Duration of the study [s]; 0 without a study.
   double duration() const;
-  /// Every named parameter with its start value and bounds: the parameters of the model in their order, then those of the study.
+  /// Every named parameter with its start value and bounds: the parameters of the model in their order, then the parameters of the study.
   const std::vector<Parameter>& all_parameters() const;
   /// Start values of all named parameters, in the order of all_parameters().
   std::vector<double> parameters() const;

@@ -34,8 +34,8 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  /// Assembles positions, velocities, accelerations and reactions at t = 0, theory (19); the status says if and why that failed. Must be
-  /// called before the functions below; a second call starts the run anew.
+  /// Assembles positions, velocities, accelerations and reactions at t = 0, theory (19); the status says whether and why this failed. Call
+  /// start() before the functions below; a second call starts the run anew.
   Status start();
 
   /// Integrates until `time` [s] lies within the last step; returns at once if it does already. `time` may exceed the study's duration.
@@ -47,9 +47,9 @@ class Simulation {
 
   /// Goes on from `time` [s], which must lie within the last step (or be 0 after start()), with other parameter values. Positions and
   /// velocities stay; if dimensions change, the independent coordinates stay and the loops are closed from there. Accelerations and
-  /// reactions follow the new values, and the energy balance begins anew. What was integrated behind `time` is discarded.
+  /// reactions follow the new values, and the energy balance begins anew. The part of the last step after `time` is discarded.
   /// @param parameters values of all named parameters. @returns kInvalidDesign, kAssemblyFailed or another status if the mechanism cannot
-  /// have these values there; the run then goes on with those before.
+  /// have these values at `time`; the run then continues with the previous values.
   Status go_on(double time, const std::vector<double>& parameters);
 
   /// Fills `frame` with everything at `time` [s], which must lie within the last step (or be 0 after start()), by the dense output of the

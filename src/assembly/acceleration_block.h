@@ -16,7 +16,7 @@ namespace codesign {
 std::vector<Eigen::Triplet<double>> acceleration_block(const CompiledSystem& system, Equations<double>* equations,
                                                        const State<double>& state, int first, int count);
 
-/// Phi_q at a state, constraints x n: the rows of G below those of the bodies. `equations` must hold the design.
+/// Phi_q at a state, constraints x n: the rows of G below the rows of the bodies. `equations` must hold the design.
 SparseMatrix constraint_jacobian(const CompiledSystem& system, Equations<double>* equations, const State<double>& state);
 
 }  // namespace codesign

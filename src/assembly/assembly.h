@@ -37,7 +37,7 @@ class Assembly {
   void begin_at(double time, const VectorX<double>& theta);
 
   /// Finds positions, velocities, accelerations and multipliers and writes them to `state`, with t = 0, or as begin_at() says, and the
-  /// extra states as set_extra_states() says, but for controllers that begin otherwise (Formulas::begin_controllers()).
+  /// extra states as set_extra_states() says, except for controllers with another begin (Formulas::begin_controllers()).
   /// @param parameters all named parameters (Study::parameters order).
   /// @param equations must hold the design at `parameters`.
   Status solve(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
@@ -50,9 +50,9 @@ class Assembly {
   /// Finds velocities at the positions that the last solve_positions() found, which `state` must hold.
   Status solve_velocities(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
 
-  /// Finds positions and velocities near those of a run, whose design has changed, in place of the study's start: coordinates whose
-  /// positions the study gives keep theirs and their rates if the loops allow it, others follow. Extra states and accelerations in `state`
-  /// stay. @param from tree coordinates of the run. @param state the run's, overwritten unless this fails.
+  /// Finds positions and velocities near a state of a run whose design has changed, in place of the study's start: coordinates whose
+  /// positions the study gives keep their positions and rates if the loops allow it; the other coordinates follow. Extra states and
+  /// accelerations in `state` stay. @param from tree coordinates of the run. @param state of the run, overwritten unless this fails.
   Status solve_from(const TreeCoordinates& from, const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
 
   /// Exact initial sensitivities, doc/theory.md (20): carries the first-order parts of `parameters` (complex step or lanes) through the
@@ -73,8 +73,8 @@ class Assembly {
   const std::vector<std::size_t>& contradicting() const { return contradicting_; }
   /// Solves G(q, v, s; z) = 0 for state->z (accelerations, multipliers, rates of the extra states), starting from the present state->z.
   Status solve_rates(Equations<double>* equations, State<double>* state);
-  /// Sets state->z to the solution of the last solve_rates() with its exact first-order parts, which follow from those of the rest of
-  /// `state`. @param z that solution; the values of `state` must be the ones that it belongs to. @param equations must hold the design,
+  /// Sets state->z to the solution of the last solve_rates() with its exact first-order parts, which follow from the first-order parts of
+  /// the rest of `state`. @param z that solution; it must belong to the values of `state`. @param equations must hold the design,
   /// derivatives included.
   template <class T>
   void extend_rates(const VectorX<double>& z, Equations<T>* equations, State<T>* state) const;

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// The part of Assembly that starts from a position on the way, not from the study's start.
+// The part of Assembly that starts from a position of a run, not from the study's start.
 #include "assembly/assembly.h"
 
 namespace codesign {

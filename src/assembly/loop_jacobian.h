@@ -25,14 +25,14 @@ struct LoopMiss {
 };
 
 /// The Jacobian Phi^l_theta of the rows of loops and couplings with respect to the tree's joint coordinates, doc/theory.md (19). A loop's
-/// rows have entries only in the coordinates on the way around the loop, so that cost and size grow with the lengths of the loops.
+/// rows have entries only in the coordinates of the tree's joints along the loop, so that cost and size grow with the lengths of the loops.
 class LoopJacobian {
  public:
   /// @param system, tree must outlive this.
   LoopJacobian(const CompiledSystem& system, const TreeLayout& tree);
 
   int rows() const { return static_cast<int>(constraint_rows_.size()); }
-  /// The rows of Phi that forward kinematics of the tree does not satisfy: those of the loops in order, then those of the couplings.
+  /// The rows of Phi that forward kinematics of the tree does not satisfy: the rows of the loops in order, then the rows of the couplings.
   const std::vector<int>& constraint_rows() const { return constraint_rows_; }
   /// The rows of this matrix out of all constraint rows, of a vector or matrix.
   template <class Rows>
@@ -64,7 +64,7 @@ class LoopJacobian {
   std::vector<Part> parts() const;
 
  private:
-  /// A coordinate on the way around a loop, and whether it moves the loop's body j (else body i).
+  /// A coordinate of a tree joint along a loop, and whether it moves the loop's body j (else body i).
   struct Mover {
     int coordinate;
     bool moves_j;

@@ -15,7 +15,7 @@ int dimension_of_cone(const std::vector<Eigen::MatrixXd>& forms);
 
 /// At a singular position (a stretched-out or flat linkage) the null space of Phi_q contains velocities that belong to no motion, because
 /// the second derivatives of the constraints forbid them; doc/theory.md (23a).
-/// @returns the dimension of the null space minus that of the motions; 0 at a regular position.
+/// @returns the dimension of the null space minus the dimension of the motions; 0 at a regular position.
 /// @param assembly its last positions are used. @param equations must hold the design at `parameters`.
 int motions_lost_to_curvature(const std::vector<double>& parameters, const Assembly& assembly, const Equations<double>& equations);
 

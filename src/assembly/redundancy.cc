@@ -64,7 +64,7 @@ class TestMotion {
     state_.resize(system.layout());
   }
 
-  /// Removes from `rows` (rows of the LoopJacobian) those that are violated after a test motion along which the other rows hold.
+  /// Removes the rows from `rows` (rows of the LoopJacobian) that are violated after a test motion along which the other rows hold.
   void sift(const VectorX<double>& theta, std::vector<int>* rows) {
     for (int trial = 0; trial < kTrials && !rows->empty(); ++trial) {
       held_.setOnes(loops_.rows());

@@ -26,7 +26,7 @@ struct Redundancy {
 /// if less than 1e-3 of it (in the scaling of LoopScales) is independent of the other rows, and is dropped if it also holds after motions
 /// of 0.2 rad along which the other rows hold. A multiplier is not unique if a self-stress, a set of loads that balance each other, changes
 /// it.
-/// @param assembly its last positions must be those of `state`, where the constraints hold.
+/// @param assembly its last positions must equal the positions of `state`, where the constraints hold.
 /// @param equations must hold the design at `parameters`.
 Redundancy analyse_redundancy(const CompiledSystem& system, Equations<double>* equations, const Assembly& assembly,
                               const std::vector<double>& parameters, const State<double>& state);

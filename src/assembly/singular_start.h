@@ -26,7 +26,8 @@ class SingularStart {
 
   /// Whether rates x (or, from rest, accelerations), tree.size, belong to a motion.
   bool is_motion(const VectorX<double>& x);
-  /// Changes the rates that are not `held` as little as possible so that x belongs to a motion. False, with x unchanged, if none is found.
+  /// Changes the rates that are not `held` as little as possible so that x belongs to a motion. False, with x unchanged, if no motion is
+  /// found.
   bool choose_motion(const std::vector<bool>& held, VectorX<double>* x);
 
   /// Tree accelerations from the bodies' accelerations a (n entries) at rest; zero at a regular position.

@@ -87,8 +87,8 @@ JointMotion<T> joint_motion(const JointDescription& joint, const std::vector<T>&
 
 }  // namespace
 
-// The order is that of repeated passes over the file, each of which takes the joints whose parent is placed. The queue computes it without
-// one pass per level where a file lists children before parents.
+// The order equals the order of repeated passes over the file, each of which takes the joints whose parent is placed. The queue computes it
+// without one pass per level if a file lists children before parents.
 TreeLayout::TreeLayout(const RobotDescription& robot) : offset(robot.joints.size(), 0) {
   std::vector<std::vector<int>> children(robot.links.size());
   for (std::size_t k = 0; k < robot.joints.size(); ++k)

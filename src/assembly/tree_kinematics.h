@@ -60,7 +60,7 @@ std::vector<CoordinateTwist> coordinate_twists(const RobotDescription& robot, co
                                                const std::vector<double>& parameters, const VectorX<double>& theta,
                                                const std::vector<LinkMotion<double>>& links);
 
-/// Sets the turns of a state to the tree's coordinates, so that a position beyond one turn is kept; those of loops count from zero.
+/// Sets the turns of a state to the tree's coordinates, so that a position beyond one turn is kept; the turns of loops count from zero.
 void set_turns(const System& system, const TreeLayout& layout, const VectorX<double>& theta, State<double>* state);
 
 /// Centroidal coordinates q and velocities v of the bodies (n entries each) for given motions of their links.

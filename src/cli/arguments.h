@@ -23,8 +23,8 @@ struct Arguments {
   std::string model;
   std::string study;                  ///< path; empty: none given
   std::vector<std::string> overlays;  ///< paths, in order
-  std::string result;                 ///< path of a result.json whose design is taken; empty: none
-  ParameterSettings settings;         ///< --set NAME=VALUE, in order; they replace what `result` says
+  std::string result;                 ///< path of the result.json with the design to use; empty: none
+  ParameterSettings settings;         ///< --set NAME=VALUE, in order; they replace the values of `result`
   bool json = false;
   bool sticks = false;               ///< urdf; with_sticks()
   std::vector<std::string> signals;  ///< simulate
@@ -33,7 +33,7 @@ struct Arguments {
   bool verify = false;               ///< gradient
   CheckMethod method = CheckMethod::kComplexStep;
   std::string output;   ///< optimize, identify, excite; empty: no files
-  bool resume = false;  ///< optimize; go on with the journal in `output`
+  bool resume = false;  ///< optimize; continue with the journal in `output`
 };
 
 /// @param words the command line without the program's name.

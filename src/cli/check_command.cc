@@ -43,7 +43,7 @@ void print_table(const Counts& counts, std::ostream& out) {
   print_redundancy(counts, out);
 }
 
-/// The limits that are exceeded at the start.
+/// The limits that the start exceeds.
 std::vector<LimitCrossing> crossings_at_start(const Problem& problem, const std::vector<double>& parameters) {
   Simulation simulation(problem.system(), parameters);
   LimitWatch watch(problem, parameters, simulation.names());

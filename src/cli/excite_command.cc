@@ -17,7 +17,7 @@
 namespace codesign::cli {
 namespace {
 
-constexpr int kIntervalDigits = 4;  // of a predicted interval
+constexpr int kIntervalDigits = 4;  // digits of a predicted interval
 
 void print_excitation_trial(const ExcitationTrial& trial, std::ostream& err) {
   err << "start " << trial.start << ", evaluation " << trial.evaluation << ": ";
@@ -67,7 +67,7 @@ std::string trajectory_text(const TrajectoryPoints& points) {
   return text.str();
 }
 
-/// Does one thing; a failure is reported and does not affect the others.
+/// Runs an action; reports a failure, which does not affect other actions.
 template <class Action>
 void attempt(const Action& action, std::vector<Failure>* failures) {
   try {

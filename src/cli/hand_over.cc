@@ -46,7 +46,7 @@ int wait_for(pid_t child) {
 }  // namespace
 
 std::string find_script(const std::string& name, const std::string& program_folder) {
-  // rosrun's folder for programs is lib/PACKAGE, that of a build without ROS is bin.
+  // The folder of programs is lib/PACKAGE for rosrun, and bin in a build without ROS.
   for (const char* share : {"../../share/mechanism_codesign", "../share/mechanism_codesign"}) {
     const fs::path place = fs::path(program_folder) / share;
     std::string built;

@@ -48,7 +48,7 @@ Problem load_identifiable(const Arguments& arguments) {
   return problem;
 }
 
-/// The folder, in which no file that is read will be replaced. @throws InputError
+/// Creates the folder, and checks that no result replaces an input file. @throws InputError
 void make_room(const std::string& folder, const Problem& problem) {
   make_folder(folder, "--output");
   std::vector<std::string> names;
@@ -66,9 +66,9 @@ void try_to(Write write, std::vector<Failure>* failures) {
   }
 }
 
-/// Replaces the bag of an earlier identification in this folder. Interrupted here, the bag ends early, which is a failure; interrupted
-/// before, it does not, since a second interrupt ends the program. A motion that cannot be shown is told, and the identification is no
-/// worse.
+/// Replaces the bag of an earlier identification in this folder. An interrupt during this call ends the bag early, which is a failure.
+/// After an earlier interrupt the bag is written in full, since a second interrupt ends the program. If a motion cannot be shown, a warning
+/// says so; the identification does not fail.
 void write_show(const Arguments& arguments, const Problem& problem, const StudyRecordings& recordings, const IdentificationResult& result,
                 const Json& object, const std::string& path, const Console& console, std::vector<Failure>* failures) {
   const bool is_told_before = console.cancel;
@@ -104,7 +104,7 @@ int identify(const Arguments& arguments, const Console& console) {
   if (!arguments.output.empty()) make_room(arguments.output, problem);
   Warnings warnings;
   const StudyRecordings recordings = read_recordings(problem, console, &warnings);
-  // Until here an interrupt ends the program at once: there is nothing to lose.
+  // Until here there are no results to lose, and an interrupt ends the program at once.
   if (console.loaded) console.loaded();
   FitLines lines(problem.optimizer_options().max_evaluations);
   const auto observer = [&](const FitTrial& trial) {

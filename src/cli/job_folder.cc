@@ -63,7 +63,7 @@ void JobFolder::make_room(bool resume) {
   }
   for (const std::string name : {"best.urdf", "best.json"}) {
     unlink((in_folder(name) + kPartSuffix).c_str());
-    // The optimization that is resumed reaches its best point again.
+    // The resumed optimization reaches its best point again.
     if (resume) continue;
     if (std::rename(in_folder(name).c_str(), in_folder("killed_" + name).c_str()) == 0)
       notes_.push_back("an optimization in this folder was killed; its best point is now in " + in_folder("killed_" + name));

@@ -21,16 +21,16 @@
 
 namespace codesign::cli {
 
-/// A result must not replace what it comes from. @param names of the files that are written into the folder. @throws InputError
+/// Checks that no result replaces an input file. @param names of the files to be written into the folder. @throws InputError
 void require_other_files(const std::string& folder, const std::vector<std::string>& names, const Problem& problem);
 
 /// The output folder of `codesign optimize`. convergence.csv, best.urdf and best.json are written while the optimization runs; finish()
-/// writes those of ResultFolder, each as a whole. A lock admits one optimization at a time. Results of an
-/// earlier optimization are removed; its journal is kept as previous_journal.jsonl, and the best point of one that was killed as
+/// writes the files of ResultFolder, each as a whole. A lock admits one optimization at a time. Results of an
+/// earlier optimization are removed; its journal is kept as previous_journal.jsonl, and the best point of a killed optimization as
 /// killed_best.urdf and killed_best.json.
 class JobFolder {
  public:
-  /// Creates and locks the folder and opens convergence.csv and journal.jsonl. @param resume the folder's journal is gone on with.
+  /// Creates and locks the folder and opens convergence.csv and journal.jsonl. @param resume continues with the folder's journal.
   /// @throws InputError if that fails, or if another optimization uses the folder; OutputError if the journal cannot be written.
   JobFolder(const std::string& path, const Problem& problem, bool resume = false);
 

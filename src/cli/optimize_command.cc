@@ -51,7 +51,7 @@ void tell(const std::vector<std::string>& sentences, const Console& console) {
   for (const std::string& sentence : sentences) console.err << "codesign optimize: " << sentence << std::endl;
 }
 
-/// A sentence if processes were started that can have nothing to do.
+/// A sentence if more processes were started than can have work.
 std::vector<std::string> idle_ranks(const Problem& problem, const Dispatcher* ranks) {
   const EnsembleDescription& ensemble = problem.study().ensemble;
   if (ranks == nullptr || ranks->ranks() == 1 || ensemble.is_ensemble() || ensemble.multistart.starts > 0) return {};

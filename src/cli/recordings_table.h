@@ -15,11 +15,11 @@ namespace codesign::cli {
 /// load_recordings().
 StudyRecordings read_recordings(const Problem& problem, const Console& console, Warnings* warnings);
 
-/// Reads and filters the recordings of the study's `identify:`; none without one. @param warnings gets those of the recordings. @throws
-/// InputError as load_recordings() and measured_motion().
+/// Reads and filters the recordings of the study's `identify:`; empty without `identify:`. @param warnings receives the warnings about the
+/// recordings. @throws InputError as load_recordings() and measured_motion().
 std::vector<RecordingSummary> check_recordings(const Problem& problem, const Console& console, Warnings* warnings);
 
-/// A row per recording, and what each holds.
+/// Prints a row per recording with its content.
 void print_recordings(const std::vector<RecordingSummary>& recordings, std::ostream& out);
 
 }  // namespace codesign::cli

@@ -15,11 +15,11 @@
 namespace codesign::cli {
 
 /// Writes each warning as a line to the error stream and all of them to `warnings` of `object`; also sets its `setup_seconds`.
-/// @param of_run warnings of the run, in addition to those of the input files.
+/// @param of_run warnings of the run, in addition to the warnings of the input files.
 void add_warnings(const Arguments& arguments, const Problem& problem, const Warnings& of_run, Json* object, const Console& console);
 
 /// Ends a command: prints `object` if --json was given, with an `error` if something failed, and writes each failure to the error stream.
-/// The code of the error is that of `status`, or if that is ok, of the first of `failures`. @returns the exit code.
+/// The code of the error is the code of `status` or, if that is ok, of the first of `failures`. @returns the exit code.
 int finish(const Arguments& arguments, const Status& status, Json object, const Console& console,
            const std::vector<Failure>& failures = {});
 

@@ -39,9 +39,9 @@ int report(bool json, const Json& error, const Console& console, int code) {
 int run_command(const std::vector<std::string>& words, const Console& console) {
   const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
   try {
-    // Its page is made by a script, which reads its own command line.
+    // A script makes the report, and reads its own command line.
     if (!words.empty() && words[0] == "report") return hand_over("report", {words.begin() + 1, words.end()});
-    // It talks to robots, so it is linked with ROS, which this program is not.
+    // A program of its own, since `apply` needs ROS, and this program is not linked with ROS.
     if (!words.empty() && words[0] == "apply") become("apply", {words.begin() + 1, words.end()});
     return dispatch(parse_arguments(words), console);
   } catch (const UsageError& error) {

@@ -34,10 +34,10 @@ void summarize(const RunSummary& run, double duration, double setup_seconds, std
   for (const LimitCrossing& crossing : run.crossings) err << describe(crossing) << std::endl;
 }
 
-/// Adds the objective. It needs a run of its own with the quadrature, so it is computed only for output that shows it. If that run is
+/// Adds the objective. The objective needs a separate run with the quadrature and is computed only for output that shows it. If that run is
 /// cancelled, `status` becomes kCancelled.
-/// @param as_searched computes it as a search does, so that the objective of a result comes out again: where sensitivities take part in the
-/// error test, its steps are others.
+/// @param as_searched integrates as a search does, so that the objective of a result is reproduced: if sensitivities take part in the error
+/// test, a search has other steps.
 void add_objective(const Problem& problem, bool as_searched, const Console& console, Status* status, Json* object) {
   if (!status->ok() || !has_objective(problem.study())) return;
   const bool with_gradient = as_searched && !problem.study().tuned.empty();

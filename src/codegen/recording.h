@@ -32,7 +32,7 @@ enum class Operation : std::uint8_t {
 };
 
 /// The elementary operations of a computation as a computational graph (Griewank and Walther, Evaluating Derivatives, 2008, section 2.2).
-/// The nodes stand in the order of computation, operands before the operations that use them; an operation that occurs again with the same
+/// The nodes are in the order of computation, operands before the operations that use them; an operation that occurs again with the same
 /// operands gets no second node.
 class Recording {
  public:

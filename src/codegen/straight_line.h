@@ -42,16 +42,16 @@ class StraightLine {
 
   virtual ~StraightLine() = default;
 
-  /// Compiles the sums, to be computed in the given order, for rows that lie one behind the other. Returns null if the processor is not an
-  /// x86-64 with AVX2 and FMA, if the system does not allow programs to make code, or if the code would take more than half a megabyte
+  /// Compiles the sums, to be computed in the given order, for rows that follow one another in memory. Returns null if the processor is not
+  /// an x86-64 with AVX2 and FMA, if the system does not allow programs to make code, or if the code would take more than half a megabyte
   /// (loops are faster then).
   /// @param width numbers per row: 1, 4 or 8.
   static std::unique_ptr<StraightLine> compile(const std::vector<Sum>& sums, int width);
-  /// Likewise, with rows that lie as `layouts` says.
+  /// As above, for rows with the given `layouts`.
   /// @param most_bytes null is returned if an upper estimate of the code's size exceeds this.
   static std::unique_ptr<StraightLine> compile(const std::vector<Sum>& sums, int width, const RowLayouts& layouts, std::size_t most_bytes);
 
-  /// @param arrays the address of each array; null for arrays that no sum uses. The code writes to those that contain targets.
+  /// @param arrays the address of each array; null for arrays that no sum uses. The code writes to arrays that contain targets.
   virtual void run(const Arrays& arrays) const = 0;
 };
 

@@ -150,7 +150,7 @@ class Code final : public ValueCode, private MachineCode {
     }
   }
 
-  /// A register for the result: that of a dropped operand if there is one.
+  /// A register for the result: the register of a dropped operand if there is one.
   Xmm result_register() {
     const int r = last_dropped_ >= 0 ? last_dropped_ : free_register();
     busy_[to_index(r)] = true;

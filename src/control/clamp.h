@@ -8,7 +8,8 @@
 
 namespace codesign {
 
-/// x within -bound to bound, as a program on a robot does it. Piecewise differentiable: on the bound itself the derivative is that inside.
+/// x within -bound to bound, as a program on a robot clamps it. Piecewise differentiable: at the bound itself the derivative has the value
+/// inside.
 /// @param bound not negative, in the unit of x.
 template <class T>
 T clamp(const T& x, const T& bound) {
@@ -27,8 +28,9 @@ struct IntegralRate {
 
 /// Anti-windup of a continuous integral, theory (50): with y = |i| s / bound and d = bound / (100 s |i|),
 ///   s' = e - y^8 (e + sgn(y) (e^2 + d^2)^(1/2)) / 2,
-/// which is e on the way back and e (1 - y^8) on the way out, but for errors as small as d. The integral term i s stays within -bound to
-/// bound and leaves the bound at once when e changes its sign. Smooth: a kink at e = 0 would be a jump in the sensitivities' rates.
+/// which is e if s moves towards zero, and e (1 - y^8) if it moves towards the bound, except for errors as small as d. The integral term i
+/// s stays within -bound to bound and leaves the bound at once when e changes its sign. Smooth: a kink at e = 0 would be a jump in the
+/// sensitivities' rates.
 /// @param bound positive [unit of the output].
 template <class T>
 IntegralRate<T> clamped_integral_rate(const T& e, const T& s, const T& i, const T& bound) {

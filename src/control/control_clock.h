@@ -10,7 +10,7 @@
 
 namespace codesign {
 
-/// What a sampled controller does at an instant: it reads its input and computes an output, or an output comes into effect.
+/// An event of a sampled controller: it reads its input and computes an output, or an output comes into effect.
 struct ControlEvent {
   enum class Kind { kSample, kApply };
   Kind kind = Kind::kSample;
@@ -25,11 +25,11 @@ class ControlClock {
   explicit ControlClock(const Study& study);
 
   bool is_empty() const { return controllers_.empty(); }
-  /// Begins at t = 0, behind the samples there.
+  /// Begins at t = 0, after the samples at t = 0.
   void start();
   /// The time of the next event [s] if it is before `limit`, else `limit`.
   double next(double limit) const;
-  /// The events up to time t [s], which are taken out: at one instant the outputs that come into effect first, then the samples in the
+  /// Removes and returns the events up to time t [s]. At one instant, first the outputs come into effect, then the samples follow in the
   /// order of the controllers. Valid until the next call.
   const std::vector<ControlEvent>& due(double t);
 
@@ -37,7 +37,7 @@ class ControlClock {
   struct Sampled {
     int controller;
     double period, delay;        ///< [s]
-    std::int64_t sample, apply;  ///< numbers of the next ones
+    std::int64_t sample, apply;  ///< numbers of the next sample and of the next output
     double next() const;
     // Late in a run the rounding of both times exceeds a fraction of a short period, and no step is as short as that rounding.
     bool is_reached(double time, double t) const { return time <= t + std::max(1e-9 * period, 1e-14 * t); }

@@ -19,7 +19,8 @@ class Resolver {
 
   std::vector<Controller> resolve(const std::vector<Signal>& observed, int* states) {
     for (std::size_t k = 0; k < controllers_.size(); ++k) resolve_signals(k);
-    // Controllers read earlier ones only, so from the last to the first: whether a rate is needed is known when all later ones are done.
+    // From the last to the first: a controller reads only earlier controllers, so that all readers of a rate are known before the rate is
+    // provided.
     for (std::size_t k = controllers_.size(); k-- > 0;) provide_rate(k);
     for (std::size_t k = 0; k < controllers_.size(); ++k)
       if (needs_integral(static_cast<int>(k), observed)) controllers_[k].state = (*states)++;
@@ -74,7 +75,7 @@ class Resolver {
   void provide_rate(std::size_t k) {
     const ControllerDescription& description = study_.controllers[k];
     if (!has_error(description.kind)) return;
-    // A sampled PID and a filtered one need the error alone.
+    // A sampled or filtered PID needs only the error.
     const ControlRealization& realization = description.realization;
     const bool by_error = description.kind == ControllerKind::kPid && (realization.is_sampled() || realization.derivative_filter);
     bool wanted = !description.d.is_zero() && !by_error;
@@ -113,8 +114,8 @@ class Resolver {
     if (realization.time_constant) places.lag = (*states)++;
   }
 
-  /// A sampled controller's output determines accelerations and forces at the very instant at which it would read them; so does a filter
-  /// that has to begin with its input.
+  /// A sampled controller must not read accelerations and forces: its output determines them at the instant of the sample. The same holds
+  /// for a filter, whose state begins at its input.
   void refuse_rates(std::size_t k) const {
     const auto is_rate = [](const SignalReference& term) {
       switch (term.kind) {

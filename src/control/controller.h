@@ -9,13 +9,13 @@
 
 namespace codesign {
 
-/// Indices among the extra states of what a robot's controller remembers, theory (50)-(53), or -1.
+/// Indices of the extra states of a controller as a robot runs it, theory (50)-(53), or -1.
 struct ControllerStates {
-  int filter = -1;  ///< the filtered error; of a sampled controller the filtered rate of the error
+  int filter = -1;  ///< the filtered error; for a sampled controller the filtered rate of the error
   int last = -1;    ///< sampled: the error at the last sample
   int held = -1;    ///< sampled: the output in effect
-  int queue = -1;   ///< sampled: the first of the outputs that wait, as many as ControlRealization::queued()
-  int lag = -1;     ///< the effort behind the drive's lag
+  int queue = -1;   ///< sampled: the first of the waiting outputs, whose number is ControlRealization::queued()
+  int lag = -1;     ///< the effort after the lag of the drive
 };
 
 /// A controller with its names resolved to indices; ControllerKind lists the laws.
@@ -23,17 +23,17 @@ struct Controller {
   ControllerKind kind = ControllerKind::kPid;
   Signal input, input_rate;      ///< only if has_error(kind); input_rate is empty if it is not needed
   std::vector<Signal> feedback;  ///< kStateFeedback: one signal per term
-  int pair = -1, element = -1;   ///< the coordinate it drives: index in Topology::pairs and in the pair's chain
+  int pair = -1, element = -1;   ///< the driven coordinate: index in Topology::pairs and in the pair's chain
   int state = -1;                ///< index of its integral among the extra states, or -1
-  ControllerStates states;       ///< the others
-  /// The rates of the signals that its output's rate needs, theory (54): of `input` and then of that rate, or of `feedback`.
+  ControllerStates states;       ///< the other states
+  /// The rates of signals that the rate of the output needs, theory (54): the rates of `input` and of `input_rate`, or of `feedback`.
   std::vector<Signal> output_rate;
   bool has_output_rate = false;
   DrivenTree tree;  ///< kPdGravity and kComputedTorque only
 };
 
 /// Resolves all controllers of a study, in its order.
-/// @param observed other signals that may read controllers: those of the objective.
+/// @param observed other signals that may read controllers: the signals of the objective.
 /// @param states number of extra states; grows by one for each integral that is needed.
 /// @throws InputError for unknown names, signals that a controller cannot read, and joints that it cannot drive.
 std::vector<Controller> resolve_controllers(const Study& study, const RobotDescription& robot, const Topology& topology,

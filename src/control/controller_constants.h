@@ -20,7 +20,7 @@ struct ControllerConstants {
   std::vector<T> gains;                  ///< kStateFeedback: one per term
   std::vector<Reference<T>> references;  ///< kStateFeedback: one per term
   ShapedInput<T> shape;                  ///< kBasis
-  /// Numbers of ControlRealization; zero where they are absent.
+  /// Numbers of ControlRealization; zero if absent.
   T i_clamp{0.0}, derivative_filter{0.0}, output_limit{0.0}, time_constant{0.0};
 };
 

@@ -29,7 +29,8 @@ void choose_velocities(const std::vector<double>& times, std::vector<Knot<T>>* k
   }
 }
 
-// Accelerations that are not given, theory (C2): the mean of those of the two cubic pieces that meet at a way-point; zero at both ends.
+// Accelerations that are not given, theory (C2): the mean of the accelerations of the two cubic pieces that meet at a way-point; zero at
+// both ends.
 template <class T>
 void choose_accelerations(const std::vector<double>& times, std::vector<Knot<T>>* knots) {
   std::vector<T> chosen(knots->size(), T(0.0));

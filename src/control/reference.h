@@ -18,7 +18,7 @@ struct ReferenceMotion {
   T value{0.0}, rate{0.0}, acceleration{0.0}, jerk{0.0};
 };
 
-/// A prescribed function of time for one design; doc/theory.md (C1), (C2), or one that is commanded, which is read at each call. T: double,
+/// A prescribed function of time for one design; doc/theory.md (C1), (C2), or a commanded function, which is read at each call. T: double,
 /// std::complex<double>, Lanes<N>, Traced.
 template <class T>
 class Reference {
@@ -26,7 +26,7 @@ class Reference {
   Reference() = default;
   Reference(const ReferenceDescription& description, const std::vector<T>& parameters);
 
-  /// The function at time t [s]. At a way-point the derivatives are those of the piece that follows.
+  /// The function at time t [s]. At a way-point the derivatives of the following piece hold.
   ReferenceMotion<T> at(double t) const;
 
  private:
@@ -45,7 +45,7 @@ class Reference {
   T offset_{0.0}, amplitude_{0.0}, angular_frequency_{0.0}, phase_{0.0};
   std::shared_ptr<const SampledFunction> samples_;  ///< scaled by amplitude_, early by phase_, minus offset_
   std::shared_ptr<const LiveFunction> live_;
-  std::shared_ptr<const Reference<T>> planned_;  ///< until live_ is commanded
+  std::shared_ptr<const Reference<T>> planned_;  ///< in effect until a command sets live_
   std::vector<Piece> pieces_;                    ///< by ascending start; the first begins at minus infinity, the last never ends
 };
 

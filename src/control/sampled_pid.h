@@ -7,7 +7,7 @@
 
 namespace codesign {
 
-/// What a sampled PID remembers between two samples, theory (51).
+/// The memory of a sampled PID between two samples, theory (51).
 template <class T>
 struct SampledPidMemory {
   T integral{0.0};    ///< sum of T e [unit of e, s]
@@ -34,7 +34,7 @@ T sample_pid(const SampledPidNumbers<T>& numbers, const T& error, bool is_first,
   T integral_term = numbers.gains.i * memory->integral;
   if (numbers.i_clamp && numbers.antiwindup) {
     const T kept = clamp(integral_term, *numbers.i_clamp);
-    // Where nothing is cut off, and where the gain is zero, the integral keeps its bits.
+    // If nothing is cut off, or the gain is zero, the integral stays unchanged to the last bit.
     if (is_less(kept, integral_term, false) || is_less(integral_term, kept, false)) {
       integral_term = kept;
       memory->integral = kept / numbers.gains.i;

@@ -23,7 +23,7 @@ enum class SignalKind {
   kJointNormalForce,
   kJointSlidingVelocity,
   kContactFriction,  ///< friction of a pair that slips isotropically; theory (13a)
-  kContactSpeed,     ///< its speed of slip
+  kContactSpeed,     ///< speed of slip of such a pair
   kLinkPosition,
   kLinkVelocity,
   kLinkAcceleration,
@@ -61,10 +61,10 @@ using Signal = std::vector<SignalReference>;
 Signal resolve_signal(const SignalDescription& signal, const RobotDescription& robot, const Topology& topology,
                       const std::vector<ControllerDescription>& controllers);
 
-/// The time derivative of a resolved signal; nothing if that of a term is not available.
+/// The time derivative of a resolved signal; std::nullopt if the derivative of a term is not available.
 std::optional<Signal> differentiate(const Signal& resolved);
 
-/// The same. @param signal, element for messages.
+/// As above, with an error. @param signal, element for messages.
 /// @throws InputError for a quantity whose derivative is not available.
 Signal differentiate(const Signal& resolved, const SignalDescription& signal, const std::string& element);
 

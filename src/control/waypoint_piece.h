@@ -26,7 +26,7 @@ std::array<T, 6> waypoint_polynomial(Interpolation interpolation, const Knot<T>&
             (from.velocity + to.velocity - T(2.0) * rise / h) / (h * h),
             zero,
             zero};
-  // D, V, A of theory (C2): the error of the Taylor polynomial at the start, taken at the end, in position, velocity and acceleration.
+  // D, V, A of theory (C2): the errors of the Taylor polynomial of the start at the end, in position, velocity and acceleration.
   const T half = T(0.5) * from.acceleration;
   const T D = rise - h * (from.velocity + h * half), V = h * (to.velocity - from.velocity - h * from.acceleration),
           A = T(0.5) * h * h * (to.acceleration - from.acceleration), h3 = h * h * h;

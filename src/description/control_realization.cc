@@ -5,7 +5,7 @@
 
 namespace codesign {
 
-// A delay that is a multiple of the sample time but for rounding needs no slot more than the multiple says.
+// A delay that is a multiple of the sample time within rounding needs no additional slot.
 int ControlRealization::queued() const { return is_sampled() ? static_cast<int>(std::ceil(delay / sample_time - 1e-9)) : 0; }
 
 }  // namespace codesign

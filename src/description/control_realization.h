@@ -8,7 +8,7 @@
 
 namespace codesign {
 
-/// How a robot runs a controller, theory (50)-(54): bounds, sampling and the lag of the drive. What is absent does not act.
+/// How a robot runs a controller, theory (50)-(54): bounds, sampling and the lag of the drive. Absent numbers have no effect.
 struct ControlRealization {
   std::optional<Quantity> i_clamp;            ///< kPid: largest magnitude of the integral term [unit of the output]
   bool antiwindup = false;                    ///< kPid: the integral itself stays within i_clamp, not its term alone

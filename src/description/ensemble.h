@@ -15,8 +15,8 @@
 
 namespace codesign {
 
-// What a study says about several runs of one design, about parameters that are not known exactly, and about several starts of the search;
-// doc/study.md describes the blocks.
+// The blocks of a study about several runs of one design, about parameters that are not known exactly, and about several starts of the
+// search; doc/study.md describes the blocks.
 
 struct Study;
 
@@ -53,13 +53,13 @@ struct UncertainQuantity {
   Distribution distribution;
   std::vector<std::string> laws;  ///< names of the friction laws to choose from; empty for a parameter
   SourceLocation where;
-  /// Of a number that depends on others: `distribution` is then that of it given those; doc/theory.md (24h).
+  /// For a number that depends on others: `distribution` is its distribution given these others; doc/theory.md (24h).
   std::vector<MeanSlope> slopes{};
   bool is_identified = false;  ///< from a file that an identification wrote
-  double spread = 0.0;         ///< of an identified number: its standard deviation whatever the others are
+  double spread = 0.0;         ///< for an identified number: its marginal standard deviation
 };
 
-/// What is minimized over all runs and samples psi_i with weights w_i, sum 1.
+/// The measure that is minimized over all runs and samples psi_i with weights w_i, sum 1.
 enum class RobustMeasure {
   kMean,              ///< sum w_i psi_i
   kWorst,             ///< max psi_i
@@ -68,7 +68,7 @@ enum class RobustMeasure {
 };
 constexpr std::array<const char*, 4> kRobustMeasureNames{"mean", "worst", "cvar", "mean_plus_deviation"};
 
-/// What a sample counts that cannot be integrated.
+/// The treatment of a sample that cannot be integrated.
 enum class FailedSamples {
   kRefuse,  ///< the trial point is refused
   kTail     ///< the sample counts as the worst of the others, with its weight; at most the fraction 1 - level may fail
@@ -117,7 +117,7 @@ constexpr std::array<const char*, 3> kEngineNames{"serial", "threads", "mpi"};
 struct EngineOptions {
   EngineKind kind = EngineKind::kThreads;
   int workers = 0;         ///< of kThreads; 0: one per processor
-  SourceLocation where{};  ///< of what the study says about it; an empty file if it says nothing: mpirun then decides for kMpi
+  SourceLocation where{};  ///< place of `engine:` in the study; an empty file if the study has none: under mpirun the engine is then kMpi
 };
 
 /// Everything of a study that is about more than one run.

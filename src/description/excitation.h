@@ -14,7 +14,7 @@ namespace codesign {
 
 // The block `excite:` of a study: the motion that an identification is to be recorded from; doc/study.md describes the keys.
 
-/// What a trajectory is made of; doc/theory.md (45).
+/// The kind of shapes of a trajectory; doc/theory.md (45).
 enum class TrajectoryKind {
   kFourier,  ///< a Fourier series
   kSpline    ///< cubic B-splines
@@ -25,7 +25,7 @@ constexpr std::array<const char*, 2> kTrajectoryNames{"fourier", "spline"};
 enum class TrajectorySearchMethod { kSlsqp, kCcsaq, kMma };
 constexpr std::array<const char*, 3> kTrajectorySearchNames{"slsqp", "ccsaq", "mma"};
 
-/// Limits of one joint that the study gives, in addition to those of `<limit>`: the narrower ones count.
+/// Limits of one joint that the study gives, in addition to `<limit>`: the narrower limits count.
 struct MotionLimitDescription {
   std::string joint;
   std::optional<std::array<double, 2>> position;         ///< lower and upper [rad or m]
@@ -37,7 +37,7 @@ struct MotionLimitDescription {
 /// A joint that is moved.
 struct ExcitedJoint {
   MotionLimitDescription limits;
-  double noise = 0.0;  ///< standard deviation of what one sample of its effort shows, positive [N m or N]
+  double noise = 0.0;  ///< standard deviation of one sample of its effort, positive [N m or N]
 };
 
 /// The whole block.

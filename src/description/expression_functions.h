@@ -30,7 +30,7 @@ int find_expression_function(const std::string& name);
 /// z[0] to the power of z[1].
 std::complex<double> expression_power(In<std::complex<double>> z);
 
-/// a / b. For real numbers the result is that of doubles, infinities and NaN included.
+/// a / b. Real numbers are divided as doubles, infinities and NaN included.
 std::complex<double> expression_quotient(std::complex<double> a, std::complex<double> b);
 
 }  // namespace codesign

@@ -14,7 +14,7 @@ struct ValueRange {
 };
 
 /// A range that contains every value of an expression whose variables lie in given ranges, by interval arithmetic (Moore 1966) on sums,
-/// differences, products and quotients. With any other operation it is that of all numbers. Rounding is not taken into account.
+/// differences, products and quotients. With any other operation the range is all numbers. Rounding is not taken into account.
 /// @param variables by index.
 ValueRange range_of(const ExpressionSteps& steps, In<ValueRange> variables);
 

@@ -48,8 +48,8 @@ struct FrictionNumbers {
 
 /// The rule for one attribute of `<codesign:friction>`.
 struct FrictionNumberRule {
-  /// The value of a missing attribute: none (it is required), `standard`, 1, or that of another one. A joint whose length or width is
-  /// missing has a law without them; the value 1 only keeps quotients finite.
+  /// The value of a missing attribute: none (it is required), `standard`, 1, or the value of another attribute. A joint whose length or
+  /// width is missing has a law without them; the value 1 only keeps quotients finite.
   enum class Missing { kRefused, kStandard, kLengthOfOne, kPinRadius, kMuStatic, kMuDynamic, kViscous };
   /// The friction laws that use the number.
   enum class Models { kAll, kWithStates, kGonthierOnly, kBrownMcPheeOnly };

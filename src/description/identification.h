@@ -14,11 +14,11 @@ namespace codesign {
 
 // The block `identify:` of a study: which recordings a model is fitted to, and how; doc/study.md describes the keys.
 
-/// What a recording may hold of a joint, in the units of the joint: [rad or m], [rad/s or m/s], [N m or N].
+/// The recorded quantities of a joint, in the units of the joint: [rad or m], [rad/s or m/s], [N m or N].
 enum class MeasuredQuantity { kPosition, kVelocity, kEffort };
 constexpr std::array<const char*, 3> kMeasuredQuantityNames{"position", "velocity", "effort"};
 
-/// A column of a table of numbers, by its name or its number. What counts is scale * (number as written) + offset.
+/// A column of a table of numbers, by its name or its number. Its value is scale * (number as written) + offset.
 struct ColumnDescription {
   std::string name;     ///< empty: the column has the number `number`
   int number = 0;       ///< from 1; 0: the column has the name `name`
@@ -35,7 +35,7 @@ struct MeasuredColumn {
   ColumnDescription column;
 };
 
-/// What separates the cells of a row.
+/// The delimiter between the cells of a row.
 enum class CellDelimiter {
   kAuto,  ///< the first of tab, semicolon and comma that the first row contains; white space if none is there
   kComma,
@@ -52,7 +52,7 @@ enum class StampKind {
 };
 constexpr std::array<const char*, 2> kStampNames{"header", "receive"};
 
-/// What to do where samples are missing for longer than a few periods.
+/// The treatment of gaps, pauses of more than a few periods.
 enum class GapRule {
   kRefuse,  ///< it is an error
   kSplit    ///< the recording is used as several
@@ -93,8 +93,8 @@ struct RecordingDescription {
   SourceLocation where;
 };
 
-/// How the effort tau(t) on a joint shows in what was recorded as its effort, e: effort_scale e(t + delay) = tau(t) + offset;
-/// doc/theory.md (28c).
+/// The relation between the effort tau(t) on a joint and its recorded effort e: effort_scale e(t + delay) = tau(t) + offset; doc/theory.md
+/// (28c).
 struct JointCalibration {
   std::string joint;
   FittedNumber effort_scale{1.0};  ///< e.g. torque constant times gear ratio; not 0
@@ -103,19 +103,19 @@ struct JointCalibration {
   SourceLocation where;
 };
 
-/// What is compared with the recording.
+/// The quantities that are compared with the recording.
 enum class ResidualKind {
   kEffort,  ///< inverse dynamics at the measured motion
   kMotion   ///< simulated motion, in segments
 };
 constexpr std::array<const char*, 2> kResidualNames{"effort", "motion"};
 
-/// Zero-phase low-pass filters and the rate of what is fitted; doc/theory.md (29)-(31).
+/// Zero-phase low-pass filters and the rate of fitted samples; doc/theory.md (29)-(31).
 struct FilterOptions {
   double cutoff = 0.0;           ///< of measured motion before it is differentiated [Hz]; 0: no filter
   double residual_cutoff = 0.0;  ///< of measured and computed efforts alike [Hz]; 0: no filter
   int order = 4;                 ///< of the Butterworth filter, which runs forward and backward
-  int decimate = 1;              ///< every so many samples of what is filtered are fitted
+  int decimate = 1;              ///< of the filtered samples, every decimate-th one is fitted
   SourceLocation where;
 };
 
@@ -152,7 +152,7 @@ struct IdentificationDescription {
   ResidualKind residual = ResidualKind::kEffort;
   double segment = 1.0;  ///< duration of the segments of kMotion [s]
   FilterOptions filter;
-  std::vector<JointCalibration> joints;  ///< those that the study names
+  std::vector<JointCalibration> joints;  ///< the joints that the study names
   LossOptions loss;
   IntervalOptions intervals;
   SourceLocation where;

@@ -14,7 +14,7 @@ constexpr bool is_turn(JointType type) { return type == JointType::kRevolute || 
 /// Whether a type has exactly one coordinate, and with it a scalar position, velocity, acceleration and effort.
 constexpr bool has_one_coordinate(JointType type) { return is_turn(type) || type == JointType::kPrismatic; }
 
-/// Where a type may stand, and how it is spelled there.
+/// The places in which a type is allowed, with its spelling.
 struct JointTypeName {
   JointType type;
   const char* of_joints;  ///< value of `<joint type>`; null: no joint of the tree has this type

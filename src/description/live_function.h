@@ -6,8 +6,8 @@
 
 namespace codesign {
 
-/// A function of time that the owner of a run exchanges while the run goes on: sum c_k (t - start)^k in the unit of the signal, once it is
-/// commanded. The run must go on anew (Integrator::go_on()) after each change. Not thread-safe.
+/// A function of time that the owner of a run can replace during the run: sum c_k (t - start)^k in the unit of the signal, after the first
+/// command. After each change the run must be continued by Integrator::go_on(). Not thread-safe.
 struct LiveFunction {
   bool commanded = false;  ///< false: the planned function is in effect
   double start = 0.0;      ///< [s]

@@ -50,7 +50,7 @@ class Quantity {
   /// The value at the parameters' default values, as written in the plain attribute.
   double nominal() const { return nominal_; }
   bool is_constant() const { return expression_ == nullptr; }
-  /// Whether it is the constant zero, which stands for what is absent. An expression is not, whatever its value.
+  /// Whether it is the constant zero, which stands for an absent quantity. False for every expression, also one with the value zero.
   bool is_zero() const { return is_constant() && nominal_ == 0.0; }
   const Expression* expression() const { return expression_.get(); }
 

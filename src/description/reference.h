@@ -42,7 +42,7 @@ struct SampledDescription {
 
 struct ReferenceDescription;
 
-/// A function that is commanded while a run goes on, and until then the one that was planned; both not null.
+/// A function that commands set during a run, and the planned function until the first command; both not null.
 struct LiveDescription {
   std::shared_ptr<const LiveFunction> function;
   std::shared_ptr<const ReferenceDescription> planned;

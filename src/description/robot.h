@@ -131,7 +131,7 @@ struct SpringDamperDescription {
 struct RobotDescription {
   std::string name;
   std::vector<Parameter> parameters;
-  std::set<int> used_parameters;  ///< indices of those that a number of the file depends on, visuals included
+  std::set<int> used_parameters;  ///< indices of the parameters on which a number of the file depends, visuals included
   std::vector<LinkDescription> links;
   int root = 0;                          ///< index of the root link, which is the ground
   std::vector<JointDescription> joints;  ///< tree joints in file order, then loops in file order

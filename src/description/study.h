@@ -26,7 +26,7 @@
 
 namespace codesign {
 
-/// The initial state of one joint; what is absent is found by the assembly, theory (19).
+/// The initial state of one joint; the assembly finds absent values, theory (19).
 struct InitialJointState {
   std::string joint;
   std::optional<Quantity> position;  ///< value of an independent coordinate [rad or m]
@@ -111,13 +111,13 @@ struct LimitOptions {
   double width = 1e-3;       ///< w: depth over which the force sets in smoothly [m or rad]
 };
 
-/// A study as its file describes it: what to simulate and to optimize with a mechanism.
+/// A study as its file describes it: the simulations and optimizations of a mechanism.
 struct Study {
   double duration = 0.0;                           ///< [s]
   std::array<double, 3> gravity{0.0, 0.0, -9.81};  ///< [m/s^2], in the root link's frame
   std::vector<InitialJointState> initial_state;
-  /// Extra states at the start, in the order of Layout::states, those behind the last one zero. No file gives them: a study starts from
-  /// zero, a segment of a recording from anywhere.
+  /// Extra states at the start, in the order of Layout::states; missing entries at the end are zero. No file gives them: a study starts
+  /// from zero, a segment of a recording from anywhere.
   std::vector<Quantity> initial_extra_states;
   std::vector<ControllerDescription> controllers;
   std::vector<LoadDescription> loads;

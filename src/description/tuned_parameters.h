@@ -33,7 +33,7 @@ void require_differentiable(const Study& study);
 /// `[lower, upper]`, the bounds of a parameter as messages show them.
 std::string range_of(const Parameter& parameter);
 
-/// The error for a parameter that is tuned where only one that is not can stand. @param element the path of the place.
+/// The error for a tuned parameter in a place where tuned parameters are not allowed. @param element the path of the place.
 InputError tuned_error(const SourceLocation& where, const std::string& element, const std::string& name);
 
 /// The fault of a tuned parameter without two finite bounds, between which many starts are drawn; std::nullopt if it has them.

@@ -33,8 +33,9 @@ ContactSlip<T> bristle_slip(const StateView<T>& view, const BristleContact& cont
   return slip;
 }
 
-/// The body whose rotation turns the deflections of a contact, or -1 if none does. Deflections are given in the axes of the slip: those of
-/// slides, hinges and planes are carried by body i; a ball's are the ground's, so its deflections must be turned with the socket, body i.
+/// The body whose rotation turns the deflections of a contact, or -1 if none does. Deflections are given in the axes of the slip. Body i
+/// carries these axes for slides, hinges and planes. For a ball they are the axes of the ground, so that its deflections must be turned
+/// with the socket, body i.
 template <class T>
 int bristle_carrier(const StateView<T>& view, const BristleContact& contact) {
   const Pair& pair = view.system.topology().pairs[static_cast<std::size_t>(contact.pair)];

@@ -6,8 +6,8 @@
 
 namespace codesign {
 
-// The rows sigma - s' of the states of controllers, theory (50)-(53). What a sampled controller remembers changes at its samples only, so
-// its rows are sigma = 0.
+// The rows sigma - s' of the states of controllers, theory (50)-(53). The states of a sampled controller change only at its samples, so
+// that its rows are sigma = 0.
 
 /// s' of the integral of a controller. Appends its gradient.
 template <class T>
@@ -27,7 +27,7 @@ T integral_rate(const StateView<T>& view, int controller, OptionalGradient<T> gr
   return rate.value;
 }
 
-/// f' = (u - f) / tau of the effort behind the drive's lag, (53). Appends its gradient.
+/// f' = (u - f) / tau of the effort after the drive's lag, (53). Appends its gradient.
 template <class T>
 T lag_rate(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
   const int f = view.system.controllers()[static_cast<std::size_t>(controller)].states.lag;

@@ -122,7 +122,7 @@ T wanted_acceleration(const StateView<T>& view, int controller, OptionalGradient
   return setpoint.acceleration + pid_output(view, controller, gradient);
 }
 
-/// u_k = tau_k(alpha) of (C6). All controllers of this kind are one law: alpha holds the accelerations that they ask for together, zero for
+/// u_k = tau_k(alpha) of (C6). All controllers of this kind are one law: alpha has the accelerations that they demand together, zero for
 /// joints without one. Appends its gradient.
 template <class T>
 T computed_torque(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
@@ -170,7 +170,7 @@ T shaped_input(const StateView<T>& view, int controller, OptionalGradient<T> gra
   return input.value;
 }
 
-/// What a continuous control law says [unit of the output], before any limit. Appends its gradient.
+/// The output of a continuous control law [unit of the output], before any limit. Appends its gradient.
 template <class T>
 T law_output(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
   switch (view.system.controllers()[static_cast<std::size_t>(controller)].kind) {
@@ -192,7 +192,7 @@ T law_output(const StateView<T>& view, int controller, OptionalGradient<T> gradi
 }
 
 /// The output u of a controller [N or N m], positive along the coordinate that it drives, before the actuator's limit (13c): of a sampled
-/// controller the output that is held, else what the law says within output_limit, (50). Appends its gradient.
+/// controller the held output, else the output of the law within output_limit, (50). Appends its gradient.
 template <class T>
 T controller_output(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
   const int held = view.system.controllers()[static_cast<std::size_t>(controller)].states.held;
@@ -208,7 +208,7 @@ T controller_output(const StateView<T>& view, int controller, OptionalGradient<T
   return limited.value;
 }
 
-/// What the drive makes of the output: the effort behind its lag, (53), else the output itself. Appends its gradient.
+/// The effort of the drive: the effort after its lag, (53), else the output itself. Appends its gradient.
 template <class T>
 T drive_effort(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
   const int lag = view.system.controllers()[static_cast<std::size_t>(controller)].states.lag;

@@ -75,7 +75,7 @@ T derivative_term_rate(const StateView<T>& view, int controller, OptionalGradien
   return factor * value;
 }
 
-/// The rate of what the law of a continuous controller says; Controller::has_output_rate must be true.
+/// The rate of the output by the law of a continuous controller; Controller::has_output_rate must be true.
 template <class T>
 T law_rate(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
   const auto c = static_cast<std::size_t>(controller);

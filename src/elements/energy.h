@@ -37,7 +37,7 @@ T joint_energy(const StateView<T>& view, const JointLoad& load, OptionalGradient
   return energy;
 }
 
-/// T of (14b): translation and rotation of all bodies, and what the spin of rotors adds, theory (9a).
+/// T of (14b): translation and rotation of all bodies, and the contribution of the spin of rotors, theory (9a).
 template <class T>
 T kinetic_energy(const StateView<T>& view, OptionalGradient<T> gradient) {
   T energy(0.0);

@@ -12,7 +12,7 @@
 namespace codesign {
 
 /// The load L of friction that depends on the reaction, along one joint coordinate [N or N m]; positive against the coordinate; theory (13)
-/// with S from (10) or (48), or mu of (13e), (13f) in its place. Appends its gradient if asked for; `motion` then needs detail kGradient.
+/// with S from (10) or (48), or mu of (13e), (13f) in its place. Appends its gradient if requested; `motion` then needs detail kGradient.
 /// @param state receives velocity, normal force and load, if not null.
 template <class T>
 T reaction_friction(const StateView<T>& view, const JointLoad& load, const CoordinateMotion<T>& motion, OptionalGradient<T> gradient,

@@ -26,7 +26,7 @@ T constant_effort(const StateView<T>& view, const JointLoad& load) {
   return sum;
 }
 
-/// L of damping, torsion spring and `<dynamics friction>`, end of theory (13); `load` says which of them act.
+/// L of damping, torsion spring and `<dynamics friction>`, end of theory (13); `load` selects the ones that act.
 /// @param motion with detail kGradient for a gradient, kAll if a spring acts too.
 template <class T>
 T passive_load(const StateView<T>& view, int pair, int element, const JointLoad& load, const CoordinateMotion<T>& motion,

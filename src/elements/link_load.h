@@ -60,8 +60,8 @@ T link_load_power(const StateView<T>& view, std::size_t k, OptionalGradient<T> g
   const BodyKinematics<T>& on = view.body(load.body);
   const int c = kBodySize * load.body;
   const Vector3<T> force = load.turns ? Vector3<T>(on.A * wrench.force) : wrench.force;
-  // The power is linear in p', with factors that are linear in p. The same factors at p' are therefore the derivative by p; those of the
-  // torque change their sign, since G(p) p' = -G(p') p, theory (4).
+  // The power is linear in p', with factors that are linear in p. The same factors at p' are therefore the derivative by p; the factors of
+  // the torque change their sign, since G(p) p' = -G(p') p, theory (4).
   const auto on_p = [&](const Vector4<T>& p, double turn) -> Vector4<T> {
     if (load.turns) return T(turn) * body_rate_transposed(p, wrench.torque);
     return rotated_vector_jacobian(p, wrench.point).transpose() * wrench.force +

@@ -6,7 +6,7 @@
 
 namespace codesign {
 
-/// Signal minus reference. Appends its gradient if asked for, with the part by time that moving references bring in.
+/// Signal minus reference. Appends its gradient if requested, including the part by time of moving references.
 template <class T>
 T signal_error(const StateView<T>& view, const Signal& signal, const Reference<T>& moving, OptionalGradient<T> gradient) {
   const ReferenceMotion<T> reference = moving.at(view.state->t);
@@ -16,7 +16,7 @@ T signal_error(const StateView<T>& view, const Signal& signal, const Reference<T
 }
 
 /// The sum of weight (signal - reference)^2 over terms of the objective: the integrand g or the terminal terms w of theory (21). Appends
-/// its gradient if asked for.
+/// its gradient if requested.
 template <class T>
 T objective_terms(const StateView<T>& view, const std::vector<ResolvedTerm>& terms, const ObjectiveNumbers<T>& numbers,
                   OptionalGradient<T> gradient) {
@@ -30,13 +30,13 @@ T objective_terms(const StateView<T>& view, const std::vector<ResolvedTerm>& ter
   return sum;
 }
 
-/// Signal minus reference of the k-th watched signal, theory (21a). Appends its gradient if asked for.
+/// Signal minus reference of the k-th watched signal, theory (21a). Appends its gradient if requested.
 template <class T>
 T watched_value(const StateView<T>& view, std::size_t k, OptionalGradient<T> gradient) {
   return signal_error(view, view.system.watched()[k], view.design.watched[k], gradient);
 }
 
-/// Adds the gradient of the integrand g to the row below those of G, Layout::columns().
+/// Adds the gradient of the integrand g to the row below the rows of G, Layout::columns().
 template <class T, class Sink>
 void assemble_objective(const StateView<T>& view, Workspace<T>* workspace, Sink* sink) {
   workspace->gradient.clear();

@@ -53,7 +53,7 @@ T load_power(const StateView<T>& view, PowerKind kind, const JointLoad& load, Op
   const CoordinateDetail detail = !gradient                                              ? CoordinateDetail::kRate
                                   : kind == PowerKind::kDamping && load.needs_position() ? CoordinateDetail::kAll
                                                                                          : CoordinateDetail::kGradient;
-  // A copy, since a controller may ask for more detail of this coordinate, which overwrites the object behind the reference.
+  // A copy, since a controller may request more detail of this coordinate, which overwrites the referenced object.
   const CoordinateMotion<T> motion = view.coordinate(load.pair, load.element, detail);
   const auto before = mark(gradient);
   const T value = load_of_kind(view, kind, load, motion, gradient);

@@ -117,7 +117,7 @@ T coordinate_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, Opt
   T value(0.0);
   for (const JointLoad& load : view.system.loads()) {
     if (load.pair != axis.pair) continue;
-    // A copy, since a controller may ask for more detail of this coordinate, which overwrites the object behind the reference.
+    // A copy, since a controller may request more detail of this coordinate, which overwrites the referenced object.
     const CoordinateMotion<T> motion =
         view.coordinate(load.pair, load.element, load.needs_position() ? CoordinateDetail::kAll : CoordinateDetail::kGradient);
     const auto own = mark(gradient);
@@ -175,7 +175,7 @@ T contact_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, Option
   return value;
 }
 
-/// The part of a reaction signal that comes from multipliers: constraint rows and couplings. It is what redundant rows leave undetermined.
+/// The part of a reaction signal that comes from multipliers: constraint rows and couplings. Redundant rows leave this part undetermined.
 template <class T>
 T multiplier_reaction(const StateView<T>& view, const SignalReference& term) {
   const ReactionAxis<T> axis = reaction_axis(view, term);

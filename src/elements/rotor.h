@@ -70,7 +70,7 @@ T rotor_load(const StateView<T>& view, const Rotor& rotor, OptionalGradient<T> g
   return m.coupling * (m.ratio * joint.acceleration + m.carrier_acceleration);
 }
 
-/// Adds J^T L to the rows of motion, and 2 G^T n J_r (theta'' u + theta' omega_c x u) to those of the carrier's p.
+/// Adds J^T L to the rows of motion, and 2 G^T n J_r (theta'' u + theta' omega_c x u) to the rows of the carrier's p.
 template <class T>
 void rotor_residual(const StateView<T>& view, const Rotor& rotor, VectorX<T>* G) {
   const RotorMotion<T> m = rotor_motion(view, rotor);

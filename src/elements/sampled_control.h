@@ -9,7 +9,7 @@
 namespace codesign {
 
 // The jumps of a sampled controller's states, theory (51), (52). Each function reads a loaded view and writes to `s`, the extra states of
-// the state that is loaded, so that what follows at the same instant reads what came before.
+// the state that is loaded, so that a later event at the same instant reads the result of an earlier one.
 
 /// The measured input's error: setpoint minus the input, which is rounded to a multiple of the quantization if there is one.
 template <class T>

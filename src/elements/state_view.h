@@ -22,7 +22,7 @@ struct ControlMemory {
   std::vector<T> accelerations, by_acceleration, rates, by_rate;
 };
 
-/// The motion of one joint coordinate, kept while design and state stay the same, because several elements ask for it.
+/// The motion of one joint coordinate, kept while design and state stay the same, because several elements need it.
 template <class T>
 struct KnownCoordinate {
   std::uint64_t version = 0;  ///< StateView::version when it was computed
@@ -33,8 +33,8 @@ struct KnownCoordinate {
 /// Everything that the elements read: the system, the constants of one design, and the motion of the bodies at one state.
 ///
 /// Formulas sets the design and loads the state; the elements get the view as const. Order: set_design(), then load() for each state, then
-/// any number of elements. Not thread-safe, although const: motions of joint coordinates are computed when an element first asks for them.
-/// No allocation after set_design().
+/// any number of elements. Not thread-safe, although const: motions of joint coordinates are computed when an element first needs them. No
+/// allocation after set_design().
 template <class T>
 struct StateView {
   /// @param of must outlive the view.
@@ -58,8 +58,8 @@ struct StateView {
   bool coordinate_moves_r(int pair, int element) const {
     return coordinate_constants(pair, element).kind == CoordinateConstants<T>::Kind::kSlide;
   }
-  /// The motion of a joint coordinate, theory (8), with the members that `detail` includes; the position counts whole turns. The object
-  /// behind the reference is overwritten when another state is loaded, or when more detail of the same coordinate is asked for.
+  /// The motion of a joint coordinate, theory (8), with the members that `detail` includes; the position counts whole turns. The referenced
+  /// object is overwritten when another state is loaded, or when more detail of the same coordinate is requested.
   const CoordinateMotion<T>& coordinate(int pair, int element, CoordinateDetail detail = CoordinateDetail::kAll) const;
   /// The position of a joint coordinate [m or rad], whole turns counted, when its rate and gradients are not needed.
   T coordinate_value(int pair, int element) const;

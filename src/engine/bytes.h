@@ -11,7 +11,8 @@
 
 namespace codesign {
 
-/// Writes numbers and texts one after another, with the bits they have in memory: for processes of one program on machines of one kind.
+/// Writes numbers and texts one after another, with the bits that they have in memory. The reader must be a process of the same program on
+/// a machine of the same kind.
 class ByteWriter {
  public:
   template <class T>
@@ -59,7 +60,7 @@ class ByteReader {
   bool at_end() const { return rest_.empty(); }
 
  private:
-  /// The number of elements that follow. A wrong one must not make anybody reserve all memory.
+  /// The number of elements that follow. The check keeps a damaged number from reserving all memory.
   std::size_t count(std::size_t size_of_one) {
     const auto size = get<std::uint64_t>();
     if (size > rest_.size() / size_of_one) fail();

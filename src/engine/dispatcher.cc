@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-constexpr std::size_t kMostAtOnce = 256;  // messages that are received before others are sent
+constexpr std::size_t kMostAtOnce = 256;  // largest number of messages to receive before messages are sent
 
 std::string in_seconds(RankTimes::Duration duration) {
   return std::to_string(std::chrono::duration_cast<std::chrono::seconds>(duration).count()) + " s";
@@ -145,7 +145,7 @@ void Dispatcher::work() {
     watch_cancels(now, &outgoing);
     watch_ranks(now, &outgoing);
     hand_out(&outgoing);
-    // A caller is answered soon; with nobody waiting there is time.
+    // While a caller waits, the pause is short; otherwise a longer one suffices.
     const auto most = batches_.empty() ? std::chrono::milliseconds(20) : std::chrono::milliseconds(1);
     if (is_quiet && outgoing.empty() && !ends_) has_work_.wait_for(lock, pause.next(now, most));
   }
@@ -202,7 +202,7 @@ void Dispatcher::welcome(int rank, ByteReader* reader) {
 void Dispatcher::take_answer(int rank, std::uint64_t number, std::string bytes) {
   std::vector<SentTask>& sent = ranks_[static_cast<std::size_t>(rank)].sent;
   const auto place = std::find_if(sent.begin(), sent.end(), [number](const SentTask& one) { return one.number == number; });
-  // That of a task whose batch is over already.
+  // The answer of a task whose batch has ended already.
   if (place == sent.end()) return;
   place->batch->arrived.emplace_back(place->index, std::move(bytes));
   ++place->batch->done;
@@ -219,7 +219,8 @@ void Dispatcher::sort_in(int rank) {
   if (tasks == 1) half_free_.insert(rank);
 }
 
-/// A second task waits at a rank while it computes the first, so that it need not wait for a message; not if others could begin it sooner.
+/// Gives a rank a second task while it computes the first one, so that it does not idle until the next message; but not if another rank
+/// could begin that task sooner.
 void Dispatcher::hand_out(Outgoing* outgoing) {
   while (waiting_tasks_ > 0 && !free_.empty()) send_next(*free_.begin(), outgoing);
   while (waiting_tasks_ > ranks_.size() && !half_free_.empty()) send_next(*half_free_.begin(), outgoing);
@@ -259,7 +260,7 @@ void Dispatcher::watch_cancels(Clock::time_point now, Outgoing* outgoing) {
   }
 }
 
-/// Ends what the workers do for a batch, and asks all of them whether they are there.
+/// Cancels the running tasks of a batch, and pings all workers.
 void Dispatcher::end_tasks(RankBatch* batch, Clock::time_point now, Outgoing* outgoing) {
   drop_waiting(batch);
   for (int rank = 1; rank < ranks(); ++rank)
@@ -297,7 +298,7 @@ Status Dispatcher::call_roll() {
 
 void Dispatcher::watch_ranks(Clock::time_point now, Outgoing* outgoing) {
   constexpr auto kPeriod = std::chrono::milliseconds(100);
-  // Whoever was stopped himself has not listened.
+  // If this process itself was stopped, it has not received messages meanwhile; that time is not the silence of a rank.
   const Clock::duration away = now - std::exchange(looked_, now);
   if (away > std::chrono::seconds(1))
     for (RankState& state : ranks_) state.heard += away;

@@ -16,16 +16,16 @@
 
 namespace codesign {
 
-/// Rank 0 computes as well where there are at most this many ranks: beyond, its processor has enough to do with messages, and what it could
-/// compute is a small part of the whole. doc/performance.md has the figures.
+/// Rank 0 evaluates tasks itself, too, if the job has at most this many ranks. In a larger job its processor is busy with messages, and its
+/// share of the evaluations would be small. doc/performance.md has the figures.
 constexpr int kMostRanksWithLocal = 32;
 
-/// Rank 0 of a job: hands the tasks of all callers out to the other ranks (RankWorker), in the order in which they came in, and collects
-/// the answers. One thread does nothing else and makes all calls of the transport. Thread-safe; used through MpiEngine.
+/// Runs on rank 0 of a job: sends the tasks of all callers to the other ranks (RankWorker), in the order of their arrival, and collects the
+/// answers. A thread of its own makes all calls of the transport. Thread-safe; used through MpiEngine.
 ///
-/// A rank that is silent for too long, or a connection that fails, ends all batches with StatusCode::kWorkerLost, those to come as well.
-/// After a cancel the workers are asked whether they are there: mpirun ends a job by the same signal whether the user interrupts it or one
-/// of its ranks has been killed, and that tells the two apart.
+/// If a rank is silent for too long or a connection fails, all batches end with StatusCode::kWorkerLost, and so do all later batches. After
+/// a cancel the dispatcher pings all workers: mpirun sends the same signal when the user interrupts the job and when one of its ranks was
+/// killed, and a missing answer distinguishes the two cases.
 class Dispatcher {
  public:
   /// @param transport must outlive it; null for a program that runs alone.
@@ -34,28 +34,28 @@ class Dispatcher {
   Dispatcher(const Dispatcher&) = delete;
   Dispatcher& operator=(const Dispatcher&) = delete;
 
-  /// Number of processes, with rank 0.
+  /// Number of processes, rank 0 included.
   int ranks() const { return static_cast<int>(ranks_.size()); }
-  /// Tells the others that the job is over. @returns whether all of them have heard it.
+  /// Sends the end of the job to all other ranks. @returns whether all of them have answered.
   bool finish();
-  /// Why no task can be done any more; ok as long as all ranks are there.
+  /// The reason why no further task can run; ok as long as no rank is lost.
   Status lost() const;
 
-  /// Whether all ranks have said that they are there. Those that have not yet are neither asked nor given tasks.
+  /// Whether every rank has sent its first message. A rank gets neither pings nor tasks before it has.
   bool is_complete() const;
 
-  /// Asks all ranks whether they are there. @returns kWorkerLost with the first one that does not answer in time, else ok.
+  /// Pings all ranks. @returns kWorkerLost naming the first rank that does not answer in time, else ok.
   Status call_roll();
 
-  /// Makes a problem known; its texts are sent to each rank with the first task. @returns its number.
+  /// Adds a problem; its texts are sent to each rank with the first task of the problem. @returns the number of the problem.
   std::uint32_t add(PortableProblem problem);
   void remove(std::uint32_t problem);
 
-  /// Does all tasks of a batch. @param take called with each result that arrives, in this thread.
-  /// @returns once the batch is over.
+  /// Runs all tasks of a batch. @param take called with each result that arrives, in the thread of the caller.
+  /// @returns when the batch has ended.
   void run(RankBatch* batch, const std::function<void(std::size_t, Evaluation)>& take);
 
-  /// The next task of a problem, for a thread of rank 0; waits for one. Null once the problem is removed.
+  /// Waits for the next task of a problem that rank 0 evaluates itself. @returns a null batch once the problem is removed.
   std::pair<RankBatch*, std::size_t> take_local(std::uint32_t problem);
   void give_local(RankBatch* batch, std::size_t index, Evaluation evaluation, const std::exception_ptr& error);
 
@@ -85,18 +85,18 @@ class Dispatcher {
 
   Transport* const transport_;
   const RankTimes times_;
-  mutable std::mutex mutex_;  // guards all that follows but the thread
+  mutable std::mutex mutex_;  // guards all members below except the thread
   std::condition_variable has_work_, has_local_work_, has_pong_;
   std::vector<RankState> ranks_;                   // the first one is rank 0 itself
   std::set<int> free_, half_free_;                 // ranks with no and with one task
-  std::map<std::uint32_t, std::string> problems_;  // the messages that carry them
+  std::map<std::uint32_t, std::string> problems_;  // the message with each problem, by its number
   std::uint32_t next_problem_ = 1;
   std::uint64_t next_number_ = 1, next_ping_ = 1;
-  std::deque<RankBatch*> waiting_;  // batches with tasks that nobody has taken
+  std::deque<RankBatch*> waiting_;  // batches with tasks that no rank has taken
   std::size_t waiting_tasks_ = 0;
-  std::vector<RankBatch*> batches_;  // all that are not over
+  std::vector<RankBatch*> batches_;  // all batches that have not ended
   std::vector<std::uint32_t> forgotten_;
-  std::vector<std::uint64_t> roll_calls_;  // pings that are to be sent
+  std::vector<std::uint64_t> roll_calls_;  // pings to be sent
   Status lost_;
   bool ends_ = false;
   Clock::time_point looked_ = Clock::now(), watched_ = looked_;

@@ -8,13 +8,13 @@
 
 namespace codesign {
 
-/// Results of tasks that are finished already, perhaps by an earlier process. Thread-safe.
+/// Keeps the results of finished tasks, so that they are not computed again; an earlier process may have computed them. Thread-safe.
 class EvaluationMemory {
  public:
   virtual ~EvaluationMemory() = default;
-  /// The result of a task with the same system, the same bits of all parameters, and the same derivatives; nothing if it is not known.
+  /// The result of a task with the same system, the same bits of all parameters, and the same derivatives; std::nullopt if there is none.
   virtual std::optional<Evaluation> find(const EvaluationTask& task) = 0;
-  /// Told of each result as soon as it is there, in the thread that computed it. Must not throw.
+  /// Called with each result as soon as it is available, in the thread that computed it. Must not throw.
   virtual void keep(const EvaluationTask& task, const Evaluation& evaluation) = 0;
 };
 

@@ -58,7 +58,7 @@ LoadedFile get_file(ByteReader* reader) {
   return {std::move(file), get_source(reader)};
 }
 
-/// A list of anything that `get_one` reads.
+/// Reads a list whose entries `get_one` reads.
 template <class GetOne>
 auto get_list(ByteReader* reader, const GetOne& get_one) {
   std::vector<decltype(get_one(reader))> list;
@@ -156,7 +156,7 @@ TaskMessage read_task(std::uint64_t number, ByteReader* reader) {
 }
 
 std::string write_result(std::uint64_t number, const Evaluation& evaluation) {
-  // By name, so that a member that is added to Evaluation does not compile until it has a place here and in read_result().
+  // All members by name, so that a new member of Evaluation does not compile before it is written here and read in read_result().
   const auto& [status, objective, gradient, jacobian_root, extremes, statistics, warnings] = evaluation;
   const auto& [code, time, cause] = status;
   const auto& [values, times, gradients] = extremes;

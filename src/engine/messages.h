@@ -14,9 +14,10 @@
 
 namespace codesign {
 
-// What the ranks of a job tell each other. A message is a byte of MessageKind and what the kind asks for; numbers keep their bits.
+// Messages between the ranks of a job. A message is one byte, its MessageKind, followed by the fields listed there; numbers keep their
+// bits.
 
-/// Of every message but kHello; a change of any of them needs a new number.
+/// Version of the layout of all messages except kHello; a change of any layout needs a new number.
 constexpr std::uint32_t kMessageFormat = 2;
 
 enum class MessageKind : std::uint8_t {
@@ -29,15 +30,15 @@ enum class MessageKind : std::uint8_t {
   // To the others.
   kProblem,  ///< number of the problem, PortableProblem
   kTask,     ///< TaskMessage
-  kCancel,   ///< number of the task, which is not answered, or with what has come out
+  kCancel,   ///< number of the task; the rank drops a waiting task without an answer and answers a running one early
   kForget,   ///< number of the problem
   kPing,     ///< number of the ping
   kEnd,      ///< the job is over
   // To both.
-  kSign  ///< nothing but that one is there
+  kSign  ///< sign of life, without fields
 };
 
-/// Who a rank is. Its layout never changes, so that other versions understand it.
+/// The first message of a rank, which identifies it. Its layout never changes, so that other versions can read it.
 struct Hello {
   std::uint32_t format = kMessageFormat;
   std::string version, host;
@@ -51,17 +52,18 @@ struct TaskMessage {
   std::vector<double> parameters;
 };
 
-/// A message that has a kind and a number.
+/// A message that consists of a kind and a number.
 std::string write_numbered(MessageKind kind, std::uint64_t number = 0);
 std::string write_hello(const Hello& hello);
 std::string write_problem(std::uint32_t number, const PortableProblem& problem);
 std::string write_task(std::uint64_t number, std::uint32_t problem, std::uint32_t system, Derivatives derivatives,
                        const std::vector<double>& parameters);
 std::string write_result(std::uint64_t number, const Evaluation& evaluation);
-/// What was thrown: an InputError arrives as one, any other exception as std::runtime_error with the same sentence.
+/// An exception: an InputError is read back as an InputError, any other exception as a std::runtime_error with the same sentence.
 std::string write_error(std::uint64_t number, const std::exception_ptr& error);
 
-// Each reads what follows kind and number, or, where there is no number, the kind. @throws std::runtime_error for a damaged message.
+// Each function reads the fields after kind and number, or after the kind of a message without a number. @throws std::runtime_error for a
+// damaged message.
 Hello read_hello(ByteReader* reader);
 PortableProblem read_problem(ByteReader* reader);
 TaskMessage read_task(std::uint64_t number, ByteReader* reader);

@@ -9,7 +9,7 @@
 
 namespace codesign {
 
-/// Does the evaluations of one problem on all ranks of a job.
+/// Runs the evaluations of one problem on all ranks of a job.
 class MpiEngine final : public EvaluationEngine {
  public:
   /// @param dispatcher must outlive it.
@@ -18,8 +18,8 @@ class MpiEngine final : public EvaluationEngine {
   MpiEngine(const MpiEngine&) = delete;
   MpiEngine& operator=(const MpiEngine&) = delete;
 
-  /// @param tasks of systems of the problem. Those that a lost rank leaves undone end with kWorkerLost.
-  /// An exception of a task is thrown again here, once the other tasks of the call have ended.
+  /// @param tasks their systems must belong to the problem. Tasks that a lost rank leaves unfinished end with kWorkerLost.
+  /// An exception of a task is thrown again here after the other tasks of the call have ended.
   std::vector<Evaluation> evaluate(const std::vector<EvaluationTask>& tasks, const std::atomic<bool>* cancel) override;
   int workers() const override;
 

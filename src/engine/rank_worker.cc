@@ -47,7 +47,7 @@ std::string RankWorker::listen() {
       is_quiet = false;
       if (!take(std::move(*envelope))) return "";
     }
-    // Whoever was stopped himself has not listened.
+    // If this process itself was stopped, it has not received messages meanwhile; that time is not the silence of rank 0.
     const Clock::duration away = now - std::exchange(looked, now);
     if (away > std::chrono::seconds(1)) heard += away;
     if (!transport_->failure().empty()) return transport_->failure();
@@ -66,7 +66,7 @@ std::string RankWorker::listen() {
       pause.restart(now);
       continue;
     }
-    // While it computes, only a cancel or a second task can come.
+    // During a computation only a cancel or a second task can arrive.
     const auto most = is_computing_ ? std::chrono::milliseconds(10) : std::chrono::milliseconds(20);
     has_answer_.wait_for(lock, pause.next(now, most), [this] { return !answers_.empty(); });
   }

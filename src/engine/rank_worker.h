@@ -15,14 +15,14 @@
 
 namespace codesign {
 
-/// A rank other than 0: compiles the problems that it is sent, and answers their tasks in the order in which they come. One thread
-/// computes; the other one, that of the caller, makes all calls of the transport, so that a cancel reaches an evaluation that runs.
+/// Runs on every rank other than 0: compiles the problems that arrive, and runs their tasks in the order of arrival. One thread computes;
+/// the thread of the caller makes all calls of the transport, so that a cancel reaches a running evaluation.
 class RankWorker {
  public:
   /// @param transport must outlive it.
   explicit RankWorker(Transport* transport, const RankTimes& times = {});
 
-  /// Works until rank 0 ends the job. @returns empty, or a sentence if rank 0 is gone.
+  /// Works until rank 0 ends the job. @returns empty, or a sentence if rank 0 is lost.
   std::string run();
 
  private:
@@ -32,11 +32,11 @@ class RankWorker {
     std::uint64_t number;
     std::string bytes;
   };
-  /// A problem that was sent, compiled.
+  /// A received problem, compiled.
   struct Known {
     std::vector<std::shared_ptr<const CompiledSystem>> systems;
     EvaluationWorker worker;
-    std::exception_ptr error;  ///< why it could not be compiled
+    std::exception_ptr error;  ///< why the problem could not be compiled
   };
 
   std::string listen();
@@ -48,13 +48,13 @@ class RankWorker {
 
   Transport* const transport_;
   const RankTimes times_;
-  std::map<std::uint32_t, Known> problems_;  // of the computing thread
-  std::atomic<bool> cancel_{false};          // ends the task that runs
-  std::mutex mutex_;                         // guards all that follows
+  std::map<std::uint32_t, Known> problems_;  // used by the computing thread only
+  std::atomic<bool> cancel_{false};          // ends the running task
+  std::mutex mutex_;                         // guards all members below
   std::condition_variable has_items_, has_answer_;
   std::deque<Item> items_;
-  std::vector<std::string> answers_;  // that are to be sent
-  std::uint64_t running_ = 0;         // number of the task that runs; 0: none
+  std::vector<std::string> answers_;  // answers to be sent
+  std::uint64_t running_ = 0;         // number of the running task; 0: none
   bool is_computing_ = false, ends_ = false;
 };
 

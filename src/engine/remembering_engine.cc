@@ -14,7 +14,7 @@ std::vector<Evaluation> RememberingEngine::evaluate(const std::vector<Evaluation
   std::vector<Evaluation> results(tasks.size());
   std::vector<EvaluationTask> unknown;
   std::vector<std::size_t> places;
-  // A job that is cancelled ends, even if its memory could carry it further.
+  // A cancelled job ends even if its memory has results for further tasks.
   const bool looks_up = records_.memory && !is_set(cancel);
   for (std::size_t k = 0; k < tasks.size(); ++k) {
     if (std::optional<Evaluation> known = looks_up ? records_.memory->find(tasks[k]) : std::nullopt) {

@@ -10,16 +10,16 @@
 
 namespace codesign {
 
-/// What the engine of a job has from it. All may be null.
+/// What a job adds to its engine. All members may be null.
 struct EngineRecords {
   std::shared_ptr<EvaluationMemory> memory;
-  /// Told of each finished evaluation, from any thread: whether it was computed (true) or remembered.
+  /// Called for each finished evaluation, from any thread: true if it was computed, false if the memory had its result.
   std::function<void(bool)> counted = nullptr;
   Dispatcher* ranks = nullptr;  ///< the processes of the job, as in require_engine()
 };
 
-/// An engine with a memory: it does what the memory does not know, and tells the memory each result as soon as it is there. Cancelled
-/// evaluations are neither remembered nor counted.
+/// An engine with a memory: it computes only the evaluations that the memory does not have, and stores each new result in the memory as
+/// soon as it is available. Cancelled evaluations are neither stored nor counted.
 class RememberingEngine final : public EvaluationEngine {
  public:
   RememberingEngine(std::unique_ptr<EvaluationEngine> engine, EngineRecords records);

@@ -8,7 +8,7 @@
 
 namespace codesign {
 
-/// Does evaluations one after another, in the thread of the caller.
+/// Runs evaluations one after another in the thread of the caller.
 class SerialEngine final : public EvaluationEngine {
  public:
   std::vector<Evaluation> evaluate(const std::vector<EvaluationTask>& tasks, const std::atomic<bool>* cancel) override {

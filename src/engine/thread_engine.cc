@@ -50,7 +50,7 @@ void ThreadEngine::work() {
     lock.lock();
     batch.results[k] = std::move(result);
     if (error && !batch.error) batch.error = error;
-    // The batch belongs to its caller, who may return as soon as the last task is counted.
+    // The batch is a local variable of evaluate(), which may return as soon as the last task is counted.
     if (++batch.done == batch.tasks.size()) is_done_.notify_all();
   }
 }

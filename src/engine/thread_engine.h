@@ -12,7 +12,7 @@
 
 namespace codesign {
 
-/// Does evaluations on a fixed number of threads, in the order in which they were handed in.
+/// Runs evaluations on a fixed number of threads, in the order of the calls.
 class ThreadEngine final : public EvaluationEngine {
  public:
   explicit ThreadEngine(int workers);
@@ -20,7 +20,7 @@ class ThreadEngine final : public EvaluationEngine {
   ThreadEngine(const ThreadEngine&) = delete;
   ThreadEngine& operator=(const ThreadEngine&) = delete;
 
-  /// An exception of a task is thrown again here, once the other tasks of the call have ended.
+  /// An exception of a task is thrown again here after the other tasks of the call have ended.
   std::vector<Evaluation> evaluate(const std::vector<EvaluationTask>& tasks, const std::atomic<bool>* cancel) override;
   int workers() const override { return static_cast<int>(threads_.size()); }
 
@@ -35,9 +35,9 @@ class ThreadEngine final : public EvaluationEngine {
   };
   void work();
 
-  std::mutex mutex_;  // guards all that follows, and the counters of batches
+  std::mutex mutex_;  // guards all members below, and the counters of batches
   std::condition_variable has_work_, is_done_;
-  std::deque<Batch*> batches_;  // those with tasks that no worker has taken yet
+  std::deque<Batch*> batches_;  // batches with tasks that no worker has taken yet
   bool ends_ = false;
   std::vector<std::thread> threads_;
 };

@@ -21,9 +21,9 @@ class Transport {
   virtual int rank() const = 0;
   virtual int ranks() const = 0;
   virtual void send(int to, std::string bytes) = 0;
-  /// The next message, if one has arrived. Also moves on what is being sent.
+  /// The next message, if one has arrived. Also advances the messages that are being sent.
   virtual std::optional<Envelope> receive() = 0;
-  /// A sentence if a connection has failed; empty as long as none has.
+  /// A sentence about a failed connection; empty if no connection has failed.
   virtual std::string failure() const = 0;
 };
 

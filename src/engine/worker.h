@@ -9,11 +9,12 @@
 
 namespace codesign {
 
-/// Does one evaluation after another. Keeps the workspace of each system, so that it is allocated once. Not thread-safe: one per thread.
+/// Runs one evaluation after another. Keeps the workspace of each system, so that it is allocated only once. Not thread-safe: use one
+/// worker per thread.
 class EvaluationWorker {
  public:
   Evaluation evaluate(const EvaluationTask& task, const std::atomic<bool>* cancel) {
-    // After a cancel a long queue empties at once.
+    // After a cancel, tasks that still wait are not begun.
     if (is_set(cancel)) return cancelled();
     Evaluation result = compute(task.system, task.parameters, task.derivatives, cancel);
     if (task.finished) task.finished(result);
@@ -32,7 +33,7 @@ class EvaluationWorker {
     return evaluation;
   }
 
-  std::map<const CompiledSystem*, Evaluator> evaluators_;  // an Evaluator shares its system, so no address is used twice
+  std::map<const CompiledSystem*, Evaluator> evaluators_;  // an Evaluator keeps its system alive, so that its address is not reused
 };
 
 }  // namespace codesign

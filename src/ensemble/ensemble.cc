@@ -26,7 +26,7 @@ void add_new_codes(const Warnings& warnings, Warnings* all) {
       all->push_back(warning);
 }
 
-/// The index of the largest objective of those that did not fail.
+/// The index of the largest objective among the evaluations that did not fail.
 std::size_t worst_of(const std::vector<Evaluation>& members) {
   std::size_t worst = members.size();
   for (std::size_t k = 0; k < members.size(); ++k)
@@ -92,13 +92,13 @@ EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, Derivatives de
   return result;
 }
 
-/// The residuals of the mean are those of all scenarios, each times the root of its weight.
+/// The residuals of the mean are the residuals of all scenarios, each times the square root of the scenario's weight.
 void Ensemble::combine_roots(const std::vector<Evaluation>& members, EnsembleEvaluation* result) const {
   const Eigen::Index columns = result->gradients.rows();
   RowRoot root;
   root.start(columns);
   for (std::size_t k = 0; k < members.size(); ++k) {
-    // A failed one counts as the worst of the others.
+    // A failed scenario counts with the worst evaluation of the others.
     const Evaluation& member = members[k].status.ok() ? members[k] : members[worst_of(members)];
     const Eigen::MatrixXd weighted = std::sqrt(scenarios_[k].weight) * member.jacobian_root.transpose();
     for (Eigen::Index row = 0; row < columns; ++row) root.add(weighted.col(row));
@@ -106,7 +106,7 @@ void Ensemble::combine_roots(const std::vector<Evaluation>& members, EnsembleEva
   result->total.jacobian_root = root.root();
 }
 
-/// Gathers values and gradients; false if a scenario failed that must not, with its status.
+/// Collects values and gradients. Returns false, with the status of the failure, if a scenario failed that must not fail.
 bool Ensemble::collect(const std::vector<Evaluation>& members, bool with_gradient, EnsembleEvaluation* result) const {
   std::vector<std::size_t> failed;
   const auto count = static_cast<Eigen::Index>(scenarios_.size());
@@ -116,7 +116,7 @@ bool Ensemble::collect(const std::vector<Evaluation>& members, bool with_gradien
     const auto column = static_cast<Eigen::Index>(k);
     if (!member.status.ok()) {
       const bool interrupted = member.status.is_interrupted();
-      // A sample that failed has no extreme values, which constraints need of every sample.
+      // Constraints need the extreme values of every sample, and a failed sample has none.
       const bool is_constrained = !scenarios_[k].system->study().watched.empty();
       if (options_.failed == FailedSamples::kRefuse || interrupted || is_constrained) {
         result->total.status = interrupted ? member.status : named(member.status, scenarios_[k]);
@@ -134,7 +134,8 @@ bool Ensemble::collect(const std::vector<Evaluation>& members, bool with_gradien
   return failed.empty() || fill_tail(failed, members, result);
 }
 
-/// Gives failed scenarios value and gradient of the worst of the others. False if more than the tail failed.
+/// Gives each failed scenario the value and gradient of the worst scenario that did not fail. False if more scenarios failed than the tail
+/// holds.
 bool Ensemble::fill_tail(const std::vector<std::size_t>& failed, const std::vector<Evaluation>& members, EnsembleEvaluation* result) const {
   double weight = 0.0;
   for (std::size_t k : failed) weight += scenarios_[k].weight;
@@ -184,7 +185,7 @@ GradientCheck check_gradient(const Ensemble& ensemble, const Eigen::VectorXd& rh
     worst_of_one = std::max(worst_of_one, one.largest_relative_difference);
   }
   compare(&check);
-  // The extremes of each scenario were compared with their own references.
+  // The check of each scenario has compared the extremes with their references.
   check.largest_relative_difference = std::max(check.largest_relative_difference, worst_of_one);
   return check;
 }

@@ -12,15 +12,16 @@ namespace codesign {
 
 /// The objective of one design over all scenarios.
 struct EnsembleEvaluation {
-  /// Measure and its gradient; sums of the statistics; the warnings of all scenarios, each once. With one scenario it is that scenario's.
+  /// The measure and its gradient, the sums of the statistics, and the warnings of all scenarios, each once. With a single scenario: the
+  /// evaluation of that scenario.
   Evaluation total;
   Eigen::VectorXd values;     ///< psi of each scenario; empty if one failed and `total` is not ok
   Eigen::MatrixXd gradients;  ///< one column per scenario
-  /// The numbers of the watched signals of each scenario; empty without watched signals.
+  /// The extreme values of the watched signals of each scenario; empty without watched signals.
   std::vector<Extremes> extremes;
   Eigen::VectorXd by_value;  ///< derivative of the measure by psi of each scenario
-  double threshold = 0.0;    ///< of kCvar and kWorst: the value at risk
-  std::vector<int> failed;   ///< indices of the scenarios that could not be integrated and count in the tail; `total` warns of them
+  double threshold = 0.0;    ///< for kCvar and kWorst: the value at risk
+  std::vector<int> failed;   ///< indices of scenarios that could not be integrated and count in the tail; `total` warns of them
 };
 
 /// The evaluations of one design, one per scenario in their order.
@@ -31,13 +32,13 @@ class Ensemble {
  public:
   /// @param scenarios weights with sum 1. @param engine does the evaluations.
   Ensemble(std::vector<Scenario> scenarios, const RobustOptions& options, std::shared_ptr<EvaluationEngine> engine);
-  /// The scenarios of a problem, on an engine as its study asks for.
-  /// @param designs the largest number of designs that are evaluated at the same time. @param records memory and counts of the job.
+  /// Takes the scenarios of a problem and the engine that its study requests.
+  /// @param designs the largest number of designs evaluated at the same time. @param records memory and counts of the job.
   explicit Ensemble(const Problem& problem, int designs = 1, EngineRecords records = {});
-  /// The one run of a compiled study.
+  /// Takes the run of a compiled study as the only scenario.
   explicit Ensemble(std::shared_ptr<const CompiledSystem> system);
 
-  /// @param derivatives kGaussNewton: Evaluation::jacobian_root of `total` too, for the measure kMean; doc/theory.md (22b).
+  /// @param derivatives kGaussNewton also computes Evaluation::jacobian_root of `total`, for the measure kMean; doc/theory.md (22b).
   EnsembleEvaluation evaluate(const Eigen::VectorXd& rho, Derivatives derivatives, const std::atomic<bool>* cancel = nullptr) const;
   EnsembleEvaluation evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel = nullptr) const {
     return evaluate(rho, gradient_if(with_gradient), cancel);

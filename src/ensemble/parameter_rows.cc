@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-/// The values that a scenario gives to parameters of a constraint, by which its rows differ.
+/// The values that a scenario gives to the parameters of a constraint; scenarios with different values need different rows.
 std::vector<std::pair<int, double>> values_read(const Expression& margin, const Scenario& scenario) {
   const std::vector<int>& read = margin.dependencies();
   std::vector<std::pair<int, double>> values;

@@ -20,7 +20,8 @@ int index_of(const Study& study, const std::string& name) {
   return static_cast<int>(found - study.parameters.begin());
 }
 
-/// Sets what sample `row` says, one value per uncertain quantity. @param law receives the friction law, an index of the quantity's laws.
+/// Applies the sample `row`, one value per uncertain quantity, to a scenario. @param law receives the friction law, an index of the
+/// quantity's laws.
 void take_sample(const std::vector<UncertainQuantity>& uncertain, const std::vector<double>& row, Scenario* scenario, int* law) {
   for (std::size_t k = 0; k < uncertain.size(); ++k) {
     if (uncertain[k].parameter < 0) {
@@ -58,7 +59,7 @@ std::vector<Scenario> combine(const Problem& problem, const std::vector<std::vec
   return scenarios;
 }
 
-// Any constant that no user's seed is likely to differ by.
+// An arbitrary constant; two seeds that users choose are unlikely to differ by it.
 constexpr std::uint32_t kFresh = 0x9e3779b9u;
 
 }  // namespace

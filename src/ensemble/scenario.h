@@ -16,16 +16,16 @@ namespace codesign {
 /// @param sample from 0; -1: the nominal values.
 std::string scenario_name(const std::string& run, int sample);
 
-/// One run at one sample of the uncertain quantities: what a design is evaluated on.
+/// One run at one sample of the uncertain quantities. A design is evaluated on every scenario.
 struct Scenario {
   std::string run;  ///< name of the run; empty if the study has none
   int sample = -1;  ///< number of the sample from 0; -1: the nominal values
   double weight = 1.0;
-  std::string friction_law;  ///< of all joints, if the law is uncertain; else empty: the model's laws
+  std::string friction_law;  ///< the law of all joints if the study varies it; empty: the laws of the model
   std::shared_ptr<const CompiledSystem> system;
   std::vector<std::pair<int, double>> values;  ///< values of parameters (index in Study::parameters) that differ from their start values
 
-  /// All named parameters at a design.
+  /// Values of all named parameters at a design.
   std::vector<double> parameters(const Eigen::VectorXd& rho) const;
   std::string name() const { return scenario_name(run, sample); }
 };

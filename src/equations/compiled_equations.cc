@@ -19,7 +19,7 @@ constexpr int kLanesOf = 0;
 template <int N>
 constexpr int kLanesOf<Lanes<N>> = N;
 
-/// The arrays that the equations own; those of the state and of results are for the caller to set.
+/// The arrays that the equations own; the caller sets the arrays of the state and of results.
 template <class T>
 ValueCode::Arrays inner_arrays(const std::vector<T>& numbers, const LineVector& slots, const LineVector& rows) {
   ValueCode::Arrays arrays{};

@@ -24,8 +24,8 @@ class EquationCode;
 struct CompiledFunction;
 struct NumberedRecording;
 
-/// The equations of one design, evaluated by machine code that was compiled for their mechanism (EquationCode). The results are those of
-/// Formulas but for rounding. T: double or Lanes<N>. No allocation after the first evaluation; not thread-safe.
+/// The equations of one design, evaluated by machine code that was compiled for their mechanism (EquationCode). The results equal the
+/// results of Formulas within rounding. T: double or Lanes<N>. No allocation after the first evaluation; not thread-safe.
 ///
 /// The recording holds one branch of each decision. Every evaluation compares its decisions with the recorded ones and fails if one
 /// differs; Equations then evaluates the formulas.
@@ -48,9 +48,9 @@ class CompiledEquations {
   bool constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
 
   /// The derivatives of one function along N directions of state and design, for T = Lanes<N> only; false as above, and for T = double. The
-  /// directions of the design are those of the parameters given to set_design().
+  /// directions of the design are the directions of the parameters given to set_design().
   /// @param turns State::turns. @param values of q, v, s and z. @param directions of the same vectors, N numbers side by side per entry.
-  /// @param results one array per result in the order of EquationFunction, N numbers side by side per entry; empty ones behind the last.
+  /// @param results one array per result in the order of EquationFunction, N numbers side by side per entry; then empty arrays.
   bool tangents(EquationFunction function, double t, const std::vector<double>& turns, const In<double> (&values)[4],
                 const In<double> (&directions)[4], const Out<double> (&results)[4]);
 

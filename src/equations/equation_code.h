@@ -49,7 +49,7 @@ struct NumberedRecording {
 };
 
 /// The machine code of the equations of one mechanism and study, shared by all designs. The constructor records the formulas once, with the
-/// scalar Traced; the derivatives of the recording, and the code for each scalar, are made when they are first asked for. Thread-safe.
+/// scalar Traced; the derivatives of the recording, and the code for each scalar, are made when they are first needed. Thread-safe.
 class EquationCode {
  public:
   /// The scalar that code is compiled for.
@@ -68,13 +68,13 @@ class EquationCode {
   /// values while CompiledFunction::values runs, and the directions while `tangents` runs.
   const CompiledFunction* function(EquationFunction function, const Scalar& scalar) const;
 
-  /// The recording behind the code for values, or for values and derivatives.
+  /// The recording from which the code for values, or for values and derivatives, is made.
   const NumberedRecording& numbered(bool with_derivatives) const;
   /// The recorded decisions that depend on the design alone; the code may run only for designs with the same outcomes.
   const std::vector<Recording::Guard>& design_guards() const { return design_guards_; }
 
  private:
-  /// The results of one function and the decisions that were made on the way to them.
+  /// The results of one function, and the decisions that they depend on.
   struct Recorded {
     std::vector<ValueTask::Output> outputs;
     std::vector<Recording::Guard> guards;
@@ -82,7 +82,7 @@ class EquationCode {
   void record(const System& system, const AssemblyPlan& plan);
   /// Sorts the guards of the recording from index `first` on: those that vary with the state to `function`, the others to design_guards_.
   void take_guards(std::size_t first, Recorded* function);
-  /// Keeps the results of a function and its guards. @param guards index of its first guard; moved behind its last one.
+  /// Keeps the results of a function and its guards. @param guards index of its first guard; on return, the index after its last guard.
   void take(EquationFunction function, const std::vector<const VectorX<Traced>*>& results, std::size_t* guards);
   /// Makes derivatives_ from values_.
   void differentiate() const;
@@ -95,7 +95,7 @@ class EquationCode {
   std::vector<Recording::Guard> design_guards_;
 
   mutable std::once_flag differentiated_;
-  mutable NumberedRecording derivatives_;  ///< the nodes of values_, then those that derivatives need
+  mutable NumberedRecording derivatives_;  ///< the nodes of values_, then the nodes that derivatives need
   struct Known {
     std::atomic<bool> tried{false};  ///< compiled, or failed to compile
     std::unique_ptr<CompiledFunction> code;

@@ -34,7 +34,7 @@ class Formulas {
 
   /// Evaluates all constants at `parameters` (all named parameters, order of Study::parameters). Allocates.
   void set_design(const std::vector<T>& parameters);
-  /// What the elements read.
+  /// The data that the elements read.
   const StateView<T>& view() const { return view_; }
 
   /// The residual G (Layout::columns() rows) and the objective's integrand g, theory (21), at a state.
@@ -46,8 +46,8 @@ class Formulas {
   /// for the same entry add up. The sequence of calls depends on the system alone, never on state or design, so it is recorded once.
   template <class Sink>
   void assemble(Sink* sink);
-  /// Constraint values Phi(q) and rates Phi_q v, Layout::m entries each; those behind Layout::constraints() are zero. The state's z is not
-  /// used, but must have its size.
+  /// Constraint values Phi(q) and rates Phi_q v, Layout::m entries each; entries from Layout::constraints() on are zero. The state's z is
+  /// not used, but must have its size.
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
   /// Phi and Phi_q v of one pair's rows, for bodies that move as given; the ground is a body at rest.
   /// @param errors, rates one value per row of the pair.
@@ -72,7 +72,7 @@ class Formulas {
   /// The value of a signal at a state, in SI units.
   T signal(const Signal& signal, const State<T>& state, SparseGradient<T>* gradient = nullptr);
 
-  /// Makes a state the one that the functions below read. @param state must stay alive and unchanged while they are called.
+  /// Loads the state that the functions below read. @param state must stay alive and unchanged while they are called.
   void load(const State<T>& state);
   /// The motion of a body; -1 is the ground.
   const BodyKinematics<T>& body(int index) const { return view_.body(index); }

@@ -9,8 +9,8 @@ namespace codesign {
 namespace {
 
 using Kind = LimitedSignal::Kind;
-constexpr double kPerWave = 16.0;       // samples of efforts in the shortest wave
-constexpr Eigen::Index kDenseness = 4;  // as many more of positions, velocities and accelerations, which cost nothing
+constexpr double kPerWave = 16.0;       // number of effort samples in the shortest wave
+constexpr Eigen::Index kDenseness = 4;  // factor for the number of samples of positions, velocities and accelerations, which are cheap
 
 Eigen::Index samples_of(const TrajectoryBasis& basis) {
   return static_cast<Eigen::Index>(std::ceil(kPerWave * basis.period() / basis.shortest_wave()));
@@ -101,7 +101,7 @@ ExcitationProgram::Value ExcitationProgram::evaluate(const Eigen::VectorXd& x, b
   Eigen::MatrixXd by_jacobian;
   value.criterion = information_criterion(information_.jacobian(response_, step_), columns_, with_gradient ? &by_jacobian : nullptr);
   if (!std::isfinite(value.criterion)) {
-    value.status = {StatusCode::kNotIdentifiable, 0.0, "this motion tells less than others do"};
+    value.status = {StatusCode::kNotIdentifiable, 0.0, "this motion determines fewer numbers than other motions"};
     return value;
   }
   if (with_gradient) {

@@ -11,7 +11,7 @@
 namespace codesign {
 
 /// A smooth bound above the largest |z_i| - 1: m + log(sum exp(s(z_i - m)) + exp(s(-z_i - m))) / s - 1 with m the largest |z_i|; it exceeds
-/// it by log(2 N) / s at most. doc/theory.md (47).
+/// that maximum by at most log(2 N) / s. doc/theory.md (47).
 /// @param by_z may be null; else receives the derivatives.
 double limit_envelope(const Eigen::VectorXd& z, double sharpness, Eigen::VectorXd* by_z);
 
@@ -19,26 +19,26 @@ double limit_envelope(const Eigen::VectorXd& z, double sharpness, Eigen::VectorX
 /// limited signal, to be kept at most zero. Not thread-safe.
 class ExcitationProgram {
  public:
-  /// @param columns of the information's Jacobian that count. All arguments but it must outlive this.
+  /// @param columns of the information's Jacobian that count. All other arguments must outlive this.
   ExcitationProgram(const TrajectorySpace& space, const MotionLimits& limits, const Information& information, std::vector<int> columns,
                     ExcitedMotion* motion);
 
   Eigen::Index size() const { return space_.size(); }
   Eigen::Index rows() const { return static_cast<Eigen::Index>(limits_.signals.size()); }
   const TrajectorySpace& space() const { return space_; }
-  /// Of the envelopes; larger is nearer to the limits.
+  /// Sets the sharpness of the envelopes; a larger value is nearer to the limits.
   void set_sharpness(double sharpness) { sharpness_ = sharpness; }
 
   struct Value {
-    Status status;             ///< not ok: the motion cannot be followed, or its efforts tell less than all columns
-    double criterion = 0.0;    ///< (46a), of as many samples as the program takes
-    Eigen::VectorXd limits;    ///< of each signal
+    Status status;             ///< not ok: the motion cannot be followed, or its efforts do not determine all columns
+    double criterion = 0.0;    ///< (46a), for the samples of the program
+    Eigen::VectorXd limits;    ///< the envelope of each signal
     double worst = 0.0;        ///< largest |z| of all signals at the samples; at most 1 within the limits
-    Eigen::VectorXd gradient;  ///< of the criterion; empty unless asked for
+    Eigen::VectorXd gradient;  ///< derivative of the criterion; empty unless requested
     Eigen::MatrixXd limits_x;  ///< rows x size
   };
   Value evaluate(const Eigen::VectorXd& x, bool with_gradient);
-  /// `worst` alone, without the efforts' derivatives by parameters; infinite where the motion cannot be followed.
+  /// Only Value::worst, without derivatives of the efforts by parameters; infinite if the motion cannot be followed.
   double worst_of(const Eigen::VectorXd& x);
 
  private:

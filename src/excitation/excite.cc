@@ -21,9 +21,9 @@ namespace codesign {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr int kTold = 8;                // mixed trajectories by which it is decided what trajectories tell
-constexpr int kDrawsPerStart = 4;       // mixed trajectories that are drawn for each start, in case that some cannot be followed
-constexpr double kInsideLimits = 0.99;  // of the limits, where a search begins
+constexpr int kTold = 8;                // number of mixed trajectories that decide which numbers trajectories determine
+constexpr int kDrawsPerStart = 4;       // number of mixed trajectories drawn for each start, since some may not be followed
+constexpr double kInsideLimits = 0.99;  // a search begins within this share of the limits
 
 /// Positions of the excited joints at the study's start.
 Eigen::VectorXd start_positions(const Problem& problem, const std::vector<MeasuredJoint>& joints) {
@@ -89,7 +89,7 @@ class Excitation {
   const TrajectorySpace space_;
   ExcitedMotion motion_;
   LimitScan scan_;
-  ExcitationProgram probe_;  ///< for limits alone
+  ExcitationProgram probe_;  ///< only for limits
   Eigen::MatrixXd numbers_;
   Eigen::VectorXd plain_, best_;
   LimitScan::Extremes plain_extremes_, extremes_;
@@ -99,7 +99,8 @@ class Excitation {
   ExcitationResult result_;
 };
 
-// Around the middle of the joints' ranges or, where the mechanism cannot be assembled or held there, around the study's start.
+// Finds a plain trajectory around the middle of the joints' ranges or, if the mechanism cannot be assembled or held there, around the
+// study's start.
 bool Excitation::find_plain() {
   for (const bool at_start : {false, true}) {
     plain_ = at_start ? space_.plain_around(start_) : space_.plain();
@@ -119,7 +120,7 @@ bool Excitation::find_plain() {
   return false;
 }
 
-/// Makes the excursions smaller until the limits are kept at the samples of the search.
+/// Reduces the excursions until the samples of the search are within the limits.
 bool Excitation::move_within(Eigen::VectorXd* x) {
   constexpr int kMostSteps = 60;
   for (int k = 0; k < kMostSteps && !is_set(cancel_); ++k) {
@@ -130,7 +131,7 @@ bool Excitation::move_within(Eigen::VectorXd* x) {
   return false;
 }
 
-/// What some trajectory tells: rank of the stacked Jacobians of several.
+/// Finds the numbers that some trajectory determines, by the rank of the stacked Jacobians of several trajectories.
 Status Excitation::find_told() {
   const double rate = description_.sample_rate;
   const std::vector<double> times =
@@ -204,9 +205,9 @@ void Excitation::predict_before() {
   result_.criterion = result_.criterion_before;
 }
 
-/// Makes a trajectory of a search keep all limits between the samples, too, and keeps it if it is the best so far.
+/// Changes the trajectory of a search until it is within all limits between the samples, too, and keeps it if it is the best so far.
 void Excitation::take(Eigen::VectorXd x, const std::string& termination) {
-  // What was found is worth the little that is left to do, also after a cancel.
+  // After a cancel, too, the result is completed, since little work is left.
   motion_.obey(nullptr);
   LimitScan::Extremes extremes;
   TrajectoryPoints points;
@@ -263,10 +264,10 @@ void Excitation::conclude() {
     result_.status = {StatusCode::kCancelled, 0.0, "cancelled"};
     result_.termination = "cancelled";
   } else if (!result_.undetermined.empty()) {
-    result_.status = {StatusCode::kNotIdentifiable, 0.0, "no trajectory tells all numbers"};
+    result_.status = {StatusCode::kNotIdentifiable, 0.0, "no trajectory determines all numbers"};
     for (std::size_t k = 0; k < result_.undetermined.size(); ++k) result_.status.cause += (k == 0 ? ": " : "; ") + result_.undetermined[k];
   } else if (!std::isfinite(result_.criterion)) {
-    result_.status = {StatusCode::kNotIdentifiable, 0.0, "no trajectory was found that tells all numbers by itself"};
+    result_.status = {StatusCode::kNotIdentifiable, 0.0, "no single trajectory was found that determines all numbers"};
   }
 }
 

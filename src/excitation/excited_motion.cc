@@ -24,7 +24,7 @@ Status at_time_sample(Eigen::Index sample, Status status) {
 
 Status cancelled() { return {StatusCode::kCancelled, 0.0, "cancelled"}; }
 
-/// make_driven_system() speaks of recordings; here the study is what has to change.
+/// Calls make_driven_system() with messages for this use: they name the study, where make_driven_system() names recordings.
 DrivenSystem driven_by(const CompiledSystem& system, const std::vector<MeasuredJoint>& joints) {
   try {
     return make_driven_system(system, joints);
@@ -41,7 +41,7 @@ DrivenSystem driven_by(const CompiledSystem& system, const std::vector<MeasuredJ
 
 }  // namespace
 
-/// What one thread works with.
+/// The workspace of one thread.
 struct ExcitedMotion::PathWorker {
   explicit PathWorker(const DrivenSystem& driven) : motion(driven), tangents(*driven.system) {}
 
@@ -62,7 +62,7 @@ struct ExcitedMotion::PathWorker {
   DrivenMotion motion;
   LaneGroups<EffortTangent> tangents;
   State<double> state;
-  Eigen::MatrixXd effort, position, velocity;  // of the two sides of a difference
+  Eigen::MatrixXd effort, position, velocity;  // at the two points of a difference
   RowJacobian jacobian;
 };
 

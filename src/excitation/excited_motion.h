@@ -14,25 +14,26 @@
 
 namespace codesign {
 
-/// A motion of the excited joints, joints x samples; between samples joints move little.
+/// A motion of the excited joints, joints x samples; joints move little between samples.
 struct DrivePath {
   Eigen::MatrixXd position, velocity, acceleration;  ///< [rad or m], per s, per s^2
 
   Eigen::Index samples() const { return position.cols(); }
 };
 
-/// What a mechanism makes of a DrivePath.
+/// The response of a mechanism to a DrivePath.
 struct PathResponse {
   Eigen::MatrixXd effort;                                ///< of the excited joints [N m or N], joints x samples
   Eigen::MatrixXd follower_position, follower_velocity;  ///< followers x samples
-  RowJacobian jacobian;  ///< d effort / d rho, (samples * joints) x tuned parameters, row sample * joints + k; empty unless asked for
+  RowJacobian jacobian;  ///< d effort / d rho, (samples * joints) x tuned parameters, row sample * joints + k; empty unless requested
 };
 
 /// Inverse dynamics of a mechanism along motions that a search proposes, at one design, with exact derivatives of the efforts by the tuned
-/// parameters; doc/theory.md (28), (46). Not thread-safe itself; the bits of its results do not depend on the number of threads.
+/// parameters; doc/theory.md (28), (46). Not thread-safe itself; the results are the same to the last bit for any number of threads.
 class ExcitedMotion {
  public:
-  /// @param system as make_system() compiled it; must outlive this. @param joints all with an effort; they determine the motion.
+  /// @param system as make_system() compiled it; must outlive this. @param joints the excited joints, all with an effort; they determine
+  /// the motion.
   /// @param followers other joints with one coordinate. @param parameters all named parameters.
   /// @throws InputError as make_driven_system(), and for a follower that moves no mass.
   ExcitedMotion(const CompiledSystem& system, std::vector<MeasuredJoint> joints, const std::vector<MeasuredJoint>& followers,
@@ -43,9 +44,9 @@ class ExcitedMotion {
   Eigen::Index followers() const { return static_cast<Eigen::Index>(followers_.size()); }
   Eigen::Index parameters() const;
 
-  /// Assembles the mechanism at positions of the excited joints, from which motions begin near.
+  /// Assembles the mechanism at positions of the excited joints; motions must begin near these positions.
   Status begin(const Eigen::VectorXd& positions);
-  /// After begin() has succeeded. Statuses as DrivenMotion; the cause names the sample.
+  /// Call it after begin() has succeeded. Statuses as DrivenMotion; the cause names the sample.
   Status respond(const DrivePath& path, bool with_jacobian, PathResponse* response);
 
   /// Derivatives of the last response by the motion: direction order * joints + j is position (0), velocity (1) or acceleration (2) of
@@ -77,7 +78,7 @@ class ExcitedMotion {
   std::vector<Place> followers_;
   std::vector<std::unique_ptr<PathWorker>> workers_;
   State<double> rest_;
-  std::vector<State<double>> states_;  ///< of the samples of the last response
+  std::vector<State<double>> states_;  ///< states at the samples of the last response
   const std::atomic<bool>* cancel_ = nullptr;
 };
 

@@ -11,7 +11,7 @@
 namespace codesign {
 namespace {
 
-/// The effort as the sensor would show it, at equal steps.
+/// The effort as the sensor would record it, at equal steps.
 RecordedEffort shown_by(const EffortSensor& sensor, const Eigen::VectorXd& effort, double step) {
   std::vector<double> times, values;
   for (Eigen::Index k = 0; k < effort.size(); ++k) {
@@ -21,12 +21,12 @@ RecordedEffort shown_by(const EffortSensor& sensor, const Eigen::VectorXd& effor
   return {std::move(times), std::move(values)};
 }
 
-/// Adds to `by_effort` what follows from the derivatives `by_slope` by the slopes of a RecordedEffort at equal steps.
+/// Adds to `by_effort` the contribution of the derivatives `by_slope` by the slopes of a RecordedEffort at equal steps.
 void add_by_slopes(const Eigen::VectorXd& by_slope, double step, Eigen::VectorXd* by_effort) {
   const Eigen::Index last = by_slope.size() - 1;
   if (last < 2) return;
   Eigen::VectorXd inner = by_slope;
-  // At the ends: twice the chord minus the slope of the neighbour.
+  // The slope at an end is twice the chord minus the slope of the neighbour.
   inner[1] -= by_slope[0];
   inner[last - 1] -= by_slope[last];
   (*by_effort)[0] -= 2.0 * by_slope[0] / step;
@@ -81,7 +81,7 @@ Information::ByResponse Information::by_response(const Eigen::MatrixXd& by_jacob
       result.jacobian.row(sample * n + joint) = weight * by_effort * block.row(sample).head(variables_.tuned());
     if (at.scale >= 0) result.effort.row(joint) -= weight * by_effort / sensor.scale * block.col(at.scale).transpose();
     if (at.delay < 0) continue;
-    // The residual's derivative by the delay is minus the slope of what is shown, in the unit of the start.
+    // The derivative of the residual by the delay is minus the slope of the recorded effort, times the scale at the start.
     Eigen::VectorXd by_effort_of_slopes = Eigen::VectorXd::Zero(samples);
     add_by_slopes(-weight * by_effort * block.col(at.delay), step, &by_effort_of_slopes);
     result.effort.row(joint) += by_effort_of_slopes.transpose();

@@ -11,24 +11,25 @@
 
 namespace codesign {
 
-/// What recorded efforts along a motion will tell of the unknowns of an identification, FitVariables, at their start values; doc/theory.md
-/// (46). The efforts have white noise, independent from joint to joint.
+/// The information of recorded efforts along a motion about the unknowns of an identification, FitVariables, at their start values;
+/// doc/theory.md (46). Efforts have white noise, independent from joint to joint.
 class Information {
  public:
-  /// @param variables must outlive this. @param joints, noise of each: standard deviation of one sample [N m or N].
+  /// @param variables must outlive this. @param joints names of joints. @param noise of each joint: standard deviation of one sample [N m
+  /// or N].
   Information(const FitVariables& variables, std::vector<std::string> joints, Eigen::VectorXd noise);
 
   const FitVariables& variables() const { return variables_; }
   /// The Jacobian of all residuals, each divided by its standard deviation; row joint * samples + sample.
-  /// @param response with a Jacobian. @param step between samples [s].
+  /// @param response with a Jacobian. @param step time between samples [s].
   Eigen::MatrixXd jacobian(const PathResponse& response, double step) const;
 
-  /// Derivatives of a number by what a response has.
+  /// Derivatives of a number by the entries of a response.
   struct ByResponse {
     RowJacobian jacobian;    ///< as PathResponse::jacobian
     Eigen::MatrixXd effort;  ///< joints x samples
   };
-  /// The derivatives of a number by a response, from those by the entries of jacobian().
+  /// The derivatives of a number by a response, from its derivatives by the entries of jacobian().
   ByResponse by_response(const Eigen::MatrixXd& by_jacobian, Eigen::Index samples, double step) const;
 
  private:
@@ -38,7 +39,7 @@ class Information {
 };
 
 /// The negative logarithm of the determinant of the information matrix J^T J of some columns, (46a): twice the logarithm of the volume of
-/// the confidence ellipsoid, but for a constant. Infinite where these columns depend on each other.
+/// the confidence ellipsoid, up to a constant. Infinite if these columns depend on each other.
 /// @param columns of J. @param by_jacobian may be null; else receives the derivatives by all entries of J.
 double information_criterion(const Eigen::MatrixXd& J, const std::vector<int>& columns, Eigen::MatrixXd* by_jacobian);
 

@@ -10,12 +10,12 @@ namespace {
 
 using Kind = LimitedSignal::Kind;
 constexpr Eigen::Index kScanPerWave = 64;
-constexpr int kRounds = 14;            // each halves the intervals beside a peak, and quarters what is missed there
-constexpr double kMissed = 1e-11;      // smaller peaks between the times do not count
-constexpr double kKept = 1.0 - 1e-8;   // what fit() aims at: peaks are found to less than the rest
-constexpr double kLeastFactor = 1e-6;  // of fit(): smaller motions tell nothing
+constexpr int kRounds = 14;            // each round halves the intervals beside a peak, and reduces the error of the peak to a quarter
+constexpr double kMissed = 1e-11;      // peaks between the times that rise less do not count
+constexpr double kKept = 1.0 - 1e-8;   // target of fit(): the errors of peaks are smaller than the remainder
+constexpr double kLeastFactor = 1e-6;  // smallest factor of fit(): smaller motions determine nothing
 constexpr int kMostFits = 100;
-constexpr double kBesideTurn[] = {1e-4, 1e-3, 1e-2, 3e-2, 0.1, 0.3};  // of a step, around the time at which a joint turns back
+constexpr double kBesideTurn[] = {1e-4, 1e-3, 1e-2, 3e-2, 0.1, 0.3};  // fractions of a step around a change of direction
 
 /// The time between `from` and `to` at which the velocity of a joint changes its sign.
 double turning_time(const TrajectorySpace& space, const Eigen::VectorXd& coefficients, double from, double to) {
@@ -77,7 +77,8 @@ Status LimitScan::evaluate(const Eigen::VectorXd& x, const std::vector<double>& 
   return {};
 }
 
-// The middles of both intervals beside each peak that might, beyond its neighbours' bend, exceed the highest or lowest value of its signal.
+// The middles of both intervals beside each peak that may exceed the highest or lowest value of its signal, as estimated from the bend of
+// its neighbours.
 std::vector<double> LimitScan::finer_times(const std::vector<ScanPoint>& points) const {
   std::vector<double> times;
   for (std::size_t s = 0; s < limits_.signals.size(); ++s)
@@ -127,7 +128,8 @@ bool LimitScan::fit(Eigen::VectorXd* x, Extremes* extremes) {
     *extremes = scan(*x);
     if (extremes->status.is_interrupted()) return false;
     if (extremes->status.ok() && extremes->worst <= 1.0) return true;
-    // Gravity and the rest are no part of the excursion, so that the excess alone may not do; then twice as much is taken.
+    // Gravity and the rest position do not shrink with the excursion, so that a reduction by the excess may not suffice; the next one is
+    // then twice as large.
     const double factor = extremes->status.ok() ? std::max(0.5, 1.0 / (1.0 + haste * (extremes->worst - kKept))) : 0.8;
     haste = std::min(2.0 * haste, 64.0);
     total *= factor;

@@ -11,13 +11,13 @@
 
 namespace codesign {
 
-/// What a limited signal does between the samples.
+/// The extreme values of a limited signal between the samples.
 struct ScannedSignal {
   double lowest = 0.0, highest = 0.0;
 };
 
-/// Looks for the extreme values of all limited signals over a whole period: at many times, more of them where a joint turns back, since
-/// friction turns there within a small part of a sample, and ever finer at the largest peaks.
+/// Searches the extreme values of all limited signals over a whole period: at many times, with more times where a joint changes its
+/// direction, since friction changes its sign there within a small part of a sample, and with ever finer times at the largest peaks.
 class LimitScan {
  public:
   /// All arguments must outlive this.
@@ -31,14 +31,14 @@ class LimitScan {
   };
   Extremes scan(const Eigen::VectorXd& x);
 
-  /// Makes all excursions smaller by the same factor, as little as keeps all limits. @return false if not even the rest keeps them, or the
-  /// motion cannot be followed however small it is.
+  /// Reduces all excursions by the same factor, no more than necessary to stay within all limits. @return false if the positions at rest
+  /// violate a limit, or if even a small motion cannot be followed.
   bool fit(Eigen::VectorXd* x, Extremes* extremes);
 
  private:
   struct ScanPoint {
     double time;
-    Eigen::VectorXd values;  ///< of the signals
+    Eigen::VectorXd values;  ///< values of the signals
   };
   std::vector<double> first_times(const Eigen::VectorXd& x) const;
   Status evaluate(const Eigen::VectorXd& x, const std::vector<double>& times, std::vector<ScanPoint>* points);

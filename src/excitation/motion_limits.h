@@ -11,12 +11,12 @@
 
 namespace codesign {
 
-/// A number that has to stay between two limits.
+/// A number that must stay between two limits.
 struct LimitedSignal {
   enum class Kind { kPosition, kVelocity, kAcceleration, kEffort };
   Kind kind = Kind::kPosition;
   bool is_follower = false;
-  Eigen::Index joint = 0;           ///< among the excited joints, or among the followers
+  Eigen::Index joint = 0;           ///< index among the excited joints, or among the followers
   double lower = 0.0, upper = 0.0;  ///< lower < upper
   std::string name;                 ///< `elbow_joint/velocity`
 
@@ -26,19 +26,18 @@ struct LimitedSignal {
   double relative(double value) const { return (value - middle()) / half(); }
 };
 
-/// Which joints are moved, and what their motion has to keep.
+/// The excited joints, and the limits of their motion.
 struct MotionLimits {
   std::vector<MeasuredJoint> joints, followers;
-  Eigen::VectorXd noise;               ///< of the efforts of `joints` [N m or N]
-  std::vector<LimitedSignal> signals;  ///< of `joints`, in their order, then of `followers`
+  Eigen::VectorXd noise;               ///< standard deviations of the efforts of `joints` [N m or N]
+  std::vector<LimitedSignal> signals;  ///< limits of `joints`, in their order, then of `followers`
 
-  /// The limits of a kind of an excited joint; null: none.
+  /// The limit of this kind of an excited joint; null: none.
   const LimitedSignal* find(Eigen::Index joint, LimitedSignal::Kind kind) const;
 };
 
-/// The limits of `<limit>` and those of the study's `excite:`, of which the narrower ones count. Followers are the joints of the tree with
-/// a limit that are not excited.
-/// @param problem whose study has a block `excite`.
+/// The narrower limits of `<limit>` and the study's `excite:`. Followers are the joints of the tree that have a limit and are not excited.
+/// @param problem with a block `excite` in its study.
 /// @throws InputError for ranges that exclude each other, excited joints without a largest velocity, and limits of joints that move no mass
 MotionLimits motion_limits(const Problem& problem);
 

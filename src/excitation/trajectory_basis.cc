@@ -46,7 +46,7 @@ TrajectoryBasis::Shapes TrajectoryBasis::at(double time) const {
   return shapes;
 }
 
-// Neighbouring harmonics together: the velocities of two sines, and the accelerations of two cosines, cancel at time 0.
+// Each shape combines neighbouring harmonics: the velocities of two sines, and the accelerations of two cosines, cancel at time 0.
 void TrajectoryBasis::add_fourier(double time, Shapes* shapes) const {
   const double omega = 2.0 * kPi / period_;
   const auto add = [&](int harmonic, double sign) {
@@ -65,7 +65,7 @@ void TrajectoryBasis::add_fourier(double time, Shapes* shapes) const {
   }
 }
 
-// Those B-splines that lie within the period: at the ends of its support a cubic one is zero with two derivatives.
+// The B-splines that lie within the period: at the ends of its support a cubic B-spline and its first two derivatives are zero.
 void TrajectoryBasis::add_spline(double time, Shapes* shapes) const {
   const double step = period_ / waves_;
   for (Eigen::Index k = 0; k < size_; ++k) {

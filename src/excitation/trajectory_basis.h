@@ -8,8 +8,8 @@
 
 namespace codesign {
 
-/// The shapes f_k(t) of which a trajectory is made, q(t) = q_rest + sum c_k f_k(t), doc/theory.md (45). They repeat after a period, and at
-/// its beginning value, velocity and acceleration of each are zero, so that every sum of them begins and ends at rest.
+/// The shapes f_k(t) of trajectories q(t) = q_rest + sum c_k f_k(t), doc/theory.md (45). Shapes are periodic; at the begin of the period
+/// value, velocity and acceleration of each shape are zero, so that every sum of shapes begins and ends at rest.
 class TrajectoryBasis {
  public:
   /// @param kind, period, harmonics or knots as the study's reader admits them
@@ -26,7 +26,7 @@ class TrajectoryBasis {
   };
   Shapes at(double time) const;
 
-  /// Coefficients of a plain motion, which swings there and back: the k-th of several that differ.
+  /// Coefficients of a plain motion, which swings there and back. @param k selects one of several different plain motions
   Eigen::VectorXd plain(int k) const;
 
  private:

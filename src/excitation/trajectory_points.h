@@ -9,7 +9,7 @@
 
 namespace codesign {
 
-/// The motion of several joints at given times, and the efforts that it is expected to need; in the joints' units, joints x times.
+/// The motion of several joints at given times, with the expected efforts; in the joints' units, joints x times.
 struct TrajectoryPoints {
   std::vector<std::string> joints;
   std::vector<double> times;  ///< ascending from 0 [s]
@@ -20,8 +20,8 @@ struct TrajectoryPoints {
 /// depend on ROS. @throws OutputError if the bag cannot be written. An existing file is replaced.
 using TrajectoryBagWriter = std::function<void(const std::string& path, const TrajectoryPoints& points)>;
 
-/// The writer that a program is linked with: ros/linked_bag_reader.cc where ROS was found, else cli/linked_bag_reader.cc, which gives an
-/// empty one. Not in this library.
+/// The writer that the program is linked with: from ros/linked_bag_reader.cc if ROS was found, else an empty one from
+/// cli/linked_bag_reader.cc. It is not in this library.
 TrajectoryBagWriter linked_trajectory_writer();
 
 }  // namespace codesign

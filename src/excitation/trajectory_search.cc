@@ -12,12 +12,12 @@
 namespace codesign {
 namespace {
 
-constexpr double kSharpness[] = {60.0, 600.0};  // of the envelopes, one search after the other
-constexpr double kTolerance = 1e-5;             // of the criterion, which is a logarithm: a change by this is 5 millionths of the volume
+constexpr double kSharpness[] = {60.0, 600.0};  // of the envelopes in the first and the second search
+constexpr double kTolerance = 1e-5;             // of the criterion, which is a logarithm: this change is 5 millionths of the volume
 constexpr double kRowTolerance = 1e-7;
 constexpr double kInside = 0.999, kFarBeyond = 3.0;  // of the limits
 constexpr int kMostShrinks = 3;
-constexpr int kMostCalls = 3;  // of NLopt for one point: SLSQP asks for the value, then for the gradient, and counts in a way of its own
+constexpr int kMostCalls = 3;  // calls by NLopt per point: SLSQP asks for the value, then for the gradient, and counts differently
 
 nlopt::algorithm method_of(TrajectorySearchMethod method) {
   switch (method) {
@@ -31,7 +31,7 @@ nlopt::algorithm method_of(TrajectorySearchMethod method) {
   return nlopt::LD_SLSQP;
 }
 
-/// What NLopt's callbacks share.
+/// The state that NLopt's callbacks share.
 class TrajectorySearch {
  public:
   TrajectorySearch(const ExcitationDescription& description, int start, const ExcitationObserver& observer, ExcitationProgram* program)
@@ -100,7 +100,8 @@ class TrajectorySearch {
       Eigen::Map<RowMajor>(gradient, count, size).setZero();
   }
 
-  /// A motion that cannot be followed is worse than all others, and more so farther away, so that a line search turns back.
+  /// The value of a motion that cannot be followed: worse than all values so far, and larger with growing distance, so that a line search
+  /// turns back.
   double step_back(double* gradient) const {
     const Eigen::VectorXd away = last_x_ - result_.x;
     if (gradient) Eigen::Map<Eigen::VectorXd>(gradient, away.size()) = 2.0 * away;
@@ -112,7 +113,7 @@ class TrajectorySearch {
     const Eigen::Map<const Eigen::VectorXd> x(at, size);
     if (interrupted_) throw nlopt::forced_stop();
     if (last_x_.size() == x.size() && last_x_ == x && (last_has_gradient_ || !with_gradient)) return;
-    // A gradient that is asked for after its value is no other evaluation.
+    // A request for the gradient at the point of the last value does not count as another evaluation.
     const bool is_new = last_x_.size() != x.size() || last_x_ != x;
     if (is_new && result_.evaluations >= most_) throw nlopt::forced_stop();
     last_x_ = x;
@@ -140,7 +141,7 @@ class TrajectorySearch {
     result_.x = x;
   }
 
-  // With many joints a search stays beyond its limits for long. What smaller excursions leave of its points is often better than the start.
+  // With many joints a search stays outside the limits for long. With reduced excursions such a point is often better than the start.
   void keep_within_limits() {
     ExcitationProgram::Value value;
     value.worst = last_.worst;
@@ -160,7 +161,7 @@ class TrajectorySearch {
   TrajectorySearchResult result_;
   ExcitationProgram::Value last_;
   Eigen::VectorXd last_x_;
-  int most_ = 0;  // evaluations until the end of this search
+  int most_ = 0;  // limit of evaluations until the end of this search
   bool last_has_gradient_ = false, interrupted_ = false;
   double worst_ = -std::numeric_limits<double>::infinity();
 };

@@ -10,15 +10,15 @@
 
 namespace codesign {
 
-/// One evaluation of a search, for progress.
+/// One evaluation of a search, for reports of progress.
 struct ExcitationTrial {
   int start = 0;       ///< from 1
   int evaluation = 0;  ///< from 1 in each search
   Status status;
   double criterion = 0.0;  ///< (46a)
-  double worst = 0.0;      ///< largest |z| at the samples; above 1: a limit is violated there
+  double worst = 0.0;      ///< largest |z| at the samples; above 1: a limit is violated
 };
-/// Called after each evaluation; false ends the search with the best point so far.
+/// Called after each evaluation; returning false ends the search with the best point so far.
 using ExcitationObserver = std::function<bool(const ExcitationTrial&)>;
 
 /// The best point of a search that keeps all limits at the samples.
@@ -29,8 +29,8 @@ struct TrajectorySearchResult {
   std::string termination;
 };
 
-/// Searches from one start with one of NLopt's methods, twice: with blunt envelopes of the limits, then with sharp ones.
-/// @param x the start, within the limits, whose criterion is finite.
+/// Searches twice from one start with an algorithm of NLopt: with blunt envelopes of the limits, then with sharp envelopes.
+/// @param x the start, within the limits and with a finite criterion.
 TrajectorySearchResult search_trajectory(const ExcitationDescription& description, const Eigen::VectorXd& x, int start,
                                          const ExcitationObserver& observer, ExcitationProgram* program);
 

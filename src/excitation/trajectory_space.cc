@@ -10,9 +10,9 @@ namespace {
 
 using Kind = LimitedSignal::Kind;
 constexpr Eigen::Index kFinePerWave = 64;
-constexpr double kLargest = 10.0;   // of a coefficient: shapes that cancel each other may be larger than one alone
-constexpr double kHalfTurn = 3.14;  // where a joint without limits may rest, from its start [rad or m]
-constexpr double kInnerRest = 0.8;  // mixed trajectories do not rest nearer to a limit
+constexpr double kLargest = 10.0;   // limit of a coefficient: shapes that cancel each other may be larger than a single one
+constexpr double kHalfTurn = 3.14;  // a joint without limits rests within this distance from its start [rad or m]
+constexpr double kInnerRest = 0.8;  // mixed trajectories rest within this share of the range
 constexpr double kRoom = 1.0 - 1e-9;
 
 std::vector<double> fine_times(const TrajectoryBasis& basis) {
@@ -104,7 +104,7 @@ double TrajectorySpace::factor_by_rates(Eigen::Index joint, const Eigen::VectorX
   return factor;
 }
 
-// Excursions of the joint as large as its limits of position, velocity and acceleration permit.
+// Makes the excursions of a joint as large as its limits of position, velocity and acceleration permit.
 void TrajectorySpace::fit_joint(Eigen::Index joint, Eigen::VectorXd* x) const {
   auto own = x->segment(joint * stride() + 1, basis_.size());
   const Eigen::VectorXd c = scale_.col(joint).cwiseProduct(own);

@@ -19,7 +19,7 @@ struct StopForce {
 /// The force of a joint's stop, doc/theory.md (13d): F = k delta(g) h(c g').
 ///
 /// delta(g) is 0 for g <= 0, g - w/2 for g >= w, and w (5/2 s^4 - 3 s^5 + s^6) with s = g/w in between; three times continuously
-/// differentiable. h(y) = y + sqrt(1 + y^2) is positive and makes the force larger on the way in than on the way out.
+/// differentiable. h(y) = y + sqrt(1 + y^2) is positive and makes the force larger while the excess grows than while it falls.
 /// @param excess g, by which the joint is beyond its limit [m or rad], @param rate g' [m/s or rad/s],
 /// @param stiffness k [N/m or N m/rad], @param dissipation c [s/m or s/rad], @param width w > 0 [m or rad].
 template <class T>

@@ -8,7 +8,7 @@
 
 namespace codesign {
 
-/// A saturated effort and its derivative by the effort asked for.
+/// A saturated effort and its derivative by the requested effort.
 template <class T>
 struct SaturatedEffort {
   T value{0.0};  ///< [unit of u]
@@ -17,7 +17,7 @@ struct SaturatedEffort {
 
 /// Smooth saturation of an actuator, doc/theory.md (13c): u / (1 + (u/u_max)^8)^(1/8).
 /// Odd and analytic, with gain 1 up to terms of order (u/u_max)^8; its magnitude stays below u_max.
-/// @param u effort asked for [N m or N]. @param u_max > 0, the limit, in the same unit.
+/// @param u requested effort [N m or N]. @param u_max > 0, the limit, in the same unit.
 template <class T>
 SaturatedEffort<T> saturate(const T& u, const T& u_max) {
   using std::sqrt;

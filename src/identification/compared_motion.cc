@@ -23,7 +23,7 @@ double bytes_of_both(const FrameNames& names) {
                                    names.frictions.size() * sizeof(FrictionSample) + names.loops.size() * sizeof(double));
 }
 
-/// Where the fitted series hold the simulated motion of a joint, theory (40); -1: nowhere, the model moves as was measured.
+/// Columns of the fitted series with the simulated motion of a joint, theory (40); -1: none, the model has the measured motion.
 struct SimulatedColumns {
   Eigen::Index position = -1, velocity = -1, effort = -1;
 };
@@ -46,14 +46,14 @@ struct ShownJoint {
   EffortSensor sensor;                   ///< the identified one
   SimulatedColumns simulated;
 
-  /// What the sensor says of the effort on the child, theory (28c) solved for tau.
+  /// The effort on the child by the sensor, theory (28c) solved for tau.
   double recorded(double time) const {
     if (!effort) return std::numeric_limits<double>::quiet_NaN();
     return sensor.scale * effort->at(time + sensor.delay).value - sensor.offset;
   }
 };
 
-/// An instant to show: the sample of the measured motion, and the row of the series, if it holds a simulated motion.
+/// An instant to show: index of the sample in the measured motion, and row of the series if the series has a simulated motion.
 struct Instant {
   double time = 0.0;
   Eigen::Index sample = 0, row = -1;
@@ -84,7 +84,7 @@ Eigen::VectorXd positions_at(const MeasuredMotion& motion, const std::vector<Mea
   return positions;
 }
 
-/// Positions that were integrated from a start that the fit has moved move with it.
+/// Shifts positions that were integrated from a fitted start to the identified start.
 void shift_to_fitted_starts(const FitVariables& variables, const Eigen::VectorXd& x, MeasuredMotion* motion) {
   for (JointMotion& joint : motion->joints)
     if (const int column = variables.start_column(motion->element, joint.joint); column >= 0 && column < x.size())
@@ -100,7 +100,8 @@ Eigen::MatrixXd some_positions(const MeasuredMotion& motion, const std::vector<M
   return some;
 }
 
-/// The measured side of a frame: as `model`, but with what was measured, and without efforts and frictions that nobody measured.
+/// The measured frame: `model` with the measured values in place of the computed ones, and without efforts and frictions that were not
+/// measured.
 Frame measured_frame(const Frame& model, const std::vector<ShownJoint>& joints, Eigen::Index sample, double time) {
   Frame frame = model;
   frame.frictions.clear();
@@ -133,7 +134,7 @@ std::vector<Instant> instants_of(const MeasuredMotion& motion, double rate) {
   return instants;
 }
 
-/// The same where the model moves by itself: it is known at the rows of the series.
+/// The same for a simulated motion, which is known only at the rows of the series.
 std::vector<Instant> instants_of(const MeasuredMotion& motion, const FittedSeries& series, Eigen::Index begin, Eigen::Index end,
                                  double rate) {
   std::vector<Instant> instants;
@@ -207,7 +208,7 @@ class MotionComparison {
     return replay->show(given, frame);
   }
 
-  /// The efforts of a simulated motion are those of its controllers, or those that were recorded and applied.
+  /// The efforts of a simulated motion: computed by its controllers, or recorded and applied to the model.
   static void set_efforts(const std::vector<ShownJoint>& joints, const Instant& instant, const FittedSeries& series, Frame* model) {
     for (const ShownJoint& joint : joints)
       model->joints[joint.place].effort =
@@ -217,7 +218,7 @@ class MotionComparison {
   const std::function<bool()>& stop_;
   const bool is_simulated_;
   DrivenReplay model_;
-  std::optional<DrivenReplay> measured_;  ///< of a simulated motion, which the model's differs from
+  std::optional<DrivenReplay> measured_;  ///< for a simulated motion, where measured and simulated positions differ
 };
 
 /// The begin of each recording in the rows of a series, and their number.

@@ -13,8 +13,8 @@ namespace {
 constexpr int kMostIterations = 40;
 constexpr double kRounding = 4e-15;       // a relative step below this is rounding
 constexpr double kConverged = 1e-11;      // a relative step below this that no longer shrinks is rounding, too
-constexpr double kSharedRounding = 1e-7;  // the same for reactions of redundant rows, which a compliance of 1e-9 divides
-constexpr double kSlow = 0.05;            // a step that is not this much smaller than the one before asks for a new matrix
+constexpr double kSharedRounding = 1e-7;  // the same for reactions of redundant rows, whose rounding is divided by a compliance of 1e-9
+constexpr double kSlow = 0.05;            // if a step is larger than this fraction of the previous one, the matrix is factorized anew
 constexpr double kFar = 0.25;             // a larger step of an Euler parameter, half a radian, might leave the branch
 constexpr int kMostDivisions = 12;
 
@@ -71,7 +71,7 @@ Status DrivenMotion::linearize(const State<double>& state) {
   return matrix_.factor(derivatives_, 0.0, 0.0, 0.0) ? Status() : singular();
 }
 
-// As the projection (17): the rows of G below those of the bodies are Phi_q times the unknown, so that one matrix serves positions,
+// Like the projection (17): the rows of G below the rows of the bodies are Phi_q times the unknown, so that one matrix serves positions,
 // velocities and rates.
 void DrivenMotion::find_correction(Part part, In<double> given, const State<double>& state) {
   const Layout& layout = system_.layout();
@@ -138,7 +138,7 @@ Status DrivenMotion::solve(const DriveMotion& given, State<double>* state) {
   return solve_rates(given.acceleration, state);
 }
 
-// On failure the way is halved; `state` is then at the last position that was reached.
+// After a failure the distance is halved; `state` then has the last position that was reached.
 Status DrivenMotion::move_to(In<double> given, int depth, State<double>* state) {
   State<double> trial = *state;
   Status status = linearize(trial);
@@ -161,7 +161,7 @@ Status DrivenMotion::follow(const DriveMotion& given, State<double>* state) {
   if (Status status = solve_velocities(given.velocity, state); !status.ok()) return status;
   const Status status = solve_rates(given.acceleration, state);
   if (status.code != StatusCode::kInitialReactionsFailed) return status;
-  state->z.setZero();  // once more from reactions without friction
+  state->z.setZero();  // try again, beginning with the reactions without friction
   if (Status again = linearize(*state); !again.ok()) return again;
   return solve_rates(given.acceleration, state);
 }

@@ -19,7 +19,7 @@ struct DriveMotion {
 /// Positions, velocities, accelerations, reactions and efforts of a driven mechanism at one design; doc/theory.md (28). A workspace: no
 /// allocation once warm, not thread-safe.
 ///
-/// Statuses: kAssemblyFailed (no position near the start has the drives where they are given), kSingularMatrix, kNonFinite,
+/// Statuses: kAssemblyFailed (no position near the start satisfies the given positions of the drives), kSingularMatrix, kNonFinite,
 /// kInitialReactionsFailed (no reactions satisfy the equations with friction).
 class DrivenMotion {
  public:
@@ -30,14 +30,14 @@ class DrivenMotion {
   void set_design(const std::vector<double>& parameters);
   /// Later solutions do not depend on earlier ones, to the last bit.
   void forget();
-  /// The pivots in use become those with which forget() begins again; for a state near all later ones.
+  /// Keeps the present pivots as the pivots that forget() returns to. Call it at a state near all later states.
   void settle() { matrix_.settle(); }
 
-  /// Finds everything for a motion of the drives near the one of `state`, from which each unknown begins.
+  /// Solves for the whole state at a motion of the drives near the motion of `state`, which is the start of the iterations.
   Status solve(const DriveMotion& given, State<double>* state);
-  /// solve(), for drives that may be far from where they are in `state`: they are moved there in steps. Counts whole turns.
+  /// solve(), for positions of the drives that may be far from `state`: the drives are moved there in steps. Counts whole turns.
   Status follow(const DriveMotion& given, State<double>* state);
-  /// Makes matrix() the one of a solution, G_z of (14), for derivatives of it.
+  /// Computes and factorizes G_z of (14) at a solution, for derivatives; matrix() returns it.
   Status linearize(const State<double>& state);
 
   /// Effort of drive k on the child of its joint, positive along the coordinate [N m or N].
@@ -52,7 +52,7 @@ class DrivenMotion {
   Status solve_positions(In<double> given, State<double>* state);
   Status solve_velocities(In<double> given, State<double>* state);
   Status solve_rates(In<double> given, State<double>* state);
-  /// The correction of q or v that the errors of the constraints ask for, in the first n entries of step_.
+  /// Computes the correction of q or v for the errors of the constraints, in the first n entries of step_.
   void find_correction(Part part, In<double> given, const State<double>& state);
   Status move_to(In<double> given, int depth, State<double>* state);
   int turn_slot(int k) const;

@@ -11,22 +11,23 @@
 
 namespace codesign {
 
-/// Frames of a mechanism whose measured joints are moved as they were measured, at one design: poses, friction, and the efforts of the
-/// drives; doc/theory.md (28). Not thread-safe.
+/// Frames of a mechanism whose measured joints follow the measured motion, at one design: poses, friction, and the efforts of the drives;
+/// doc/theory.md (28). Not thread-safe.
 class DrivenReplay {
  public:
   /// @param system must outlive this. @param positions of the measured joints at some instants, as in make_driven_system().
-  /// @throws InputError likewise.
+  /// @throws InputError as make_driven_system().
   DrivenReplay(const CompiledSystem& system, std::vector<MeasuredJoint> joints, const Eigen::MatrixXd& positions,
                const std::vector<double>& parameters);
 
   const FrameNames& names() const { return observer_.names(); }
 
-  /// Finds the mechanism near measured positions [rad or m], one per measured joint; before the first instant of each recording.
+  /// Assembles the mechanism near measured positions [rad or m], one per measured joint. Call it before the first instant of each
+  /// recording.
   Status begin(const Eigen::VectorXd& positions);
 
-  /// @param measured positions, velocities and accelerations of the measured joints, near those of the call before.
-  /// @param frame its time is not set. Its efforts are those on the drives, zero elsewhere.
+  /// @param measured positions, velocities and accelerations of the measured joints, near the motion of the previous call.
+  /// @param frame its time is not set. It has the efforts on the drives; other efforts are zero.
   Status show(const Eigen::VectorXd (&measured)[3], Frame* frame);
 
  private:
@@ -38,7 +39,7 @@ class DrivenReplay {
   MotionProjection projection_;
   Observer observer_;
   std::vector<std::size_t> drives_;  ///< index in FrameNames::joints of each drive
-  VectorX<double> theta_;            ///< of the study's start, for joints that move no mass
+  VectorX<double> theta_;            ///< positions at the study's start, for joints that move no mass
   State<double> state_;
 };
 

@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-constexpr double kRankOfMotion = 1e-3;  // as in Assembly: rounded angles and lengths leave less of a redundant row
+constexpr double kRankOfMotion = 1e-3;  // as in Assembly; a redundant row with rounded angles and lengths leaves less than this
 
 std::string list_of(const std::vector<MeasuredJoint>& measured) {
   std::string names;
@@ -40,7 +40,7 @@ std::vector<int> find_joints(const RobotDescription& robot, const std::vector<Me
   return joints;
 }
 
-/// The study without everything that depends on time or drives joints by itself.
+/// The study without everything that depends on time or drives joints.
 Study without_control(Study study) {
   study.controllers.clear();
   study.integral.clear();
@@ -59,9 +59,9 @@ void refuse_friction_states(const CompiledSystem& system) {
                     "brown_mcphee for residuals in effort; residuals in motion for laws with states"});
 }
 
-/// The study with the start near measured positions: there the joints of `held` (indices in `joints`) are put, the others are sought from
-/// there, or from where they are at the study's own start.
-/// @param usual holds positions at the study's own start. @param joints of the description, @param positions one for each.
+/// The study with a start near measured positions: the joints of `held` (indices in `joints`) have these positions, and the assembly seeks
+/// the other joints from there or from their positions at the study's own start.
+/// @param usual holds positions at the study's own start. @param joints indices in the description. @param positions one per joint.
 Study study_near(const StartWorkspace& usual, const CompiledSystem& of, const std::vector<int>& joints, const Eigen::VectorXd& positions,
                  const std::vector<int>& held) {
   Study study = without_control(of.study());
@@ -81,10 +81,11 @@ Study study_near(const StartWorkspace& usual, const CompiledSystem& of, const st
   return study;
 }
 
-/// Which tree coordinates follow from the others, preferably those that are not measured, then those without an effort.
+/// Chooses the tree coordinates that depend on the others: preferably coordinates that are not measured, then coordinates without an
+/// effort.
 class DependentCoordinates {
  public:
-  /// @param system its start is the position at which the rank is examined.
+  /// @param system the rank is examined at its start.
   DependentCoordinates(const CompiledSystem& system, const std::vector<MeasuredJoint>& measured, const std::vector<int>& joints)
       : system_(system), measured_(measured), joints_(joints), start_(system, system.parameters()) {
     if (Status status = start_.solve_positions(); !status.ok())
@@ -98,7 +99,7 @@ class DependentCoordinates {
     DrivenSystem driven;
     for (std::size_t k = 0; k < joints_.size(); ++k) {
       const bool moves_mass = system_.topology().joint_pair[to_index(joints_[k])] >= 0;
-      if (!moves_mass && !measured_[k].with_effort) continue;  // a tool's frame, say, which needs no effort
+      if (!moves_mass && !measured_[k].with_effort) continue;  // for example a tool's frame, which needs no effort
       (depends(tree.offset[to_index(joints_[k])]) ? driven.surplus : driven.drives).push_back(static_cast<int>(k));
     }
     for (int k : driven.surplus)
@@ -154,8 +155,8 @@ class DependentCoordinates {
   std::vector<int> dependent_;
 };
 
-/// The drives at the study's start or, where the rank is not the usual one there (a stretched-out linkage), at the first of the other
-/// positions where they are as many as they should be.
+/// The drives at the study's start or, if the rank there is an exception (a stretched-out linkage), at the first measured position with the
+/// right number of drives.
 DrivenSystem choose_drives(const CompiledSystem& of, const std::vector<MeasuredJoint>& measured, const std::vector<int>& joints,
                            const Eigen::MatrixXd& positions) {
   try {
@@ -163,14 +164,14 @@ DrivenSystem choose_drives(const CompiledSystem& of, const std::vector<MeasuredJ
   } catch (const InputError&) {
     StartWorkspace usual(of, of.parameters());
     if (!usual.solve_positions().ok()) throw;
-    std::vector<int> held;  // those that are probably driven, so that the linkage cannot fall back to where it was
+    std::vector<int> held;  // joints that are probably driven: they keep the linkage from returning to its former position
     for (std::size_t k = 0; k < measured.size(); ++k)
       if (measured[k].with_effort) held.push_back(static_cast<int>(k));
     for (Eigen::Index sample = 0; sample < positions.cols(); ++sample) {
       try {
         const CompiledSystem there(of.robot(), study_near(usual, of, joints, positions.col(sample), held), of.sharing());
         return DependentCoordinates(there, measured, joints).sort_out();
-      } catch (const InputError&) {  // the first error tells more
+      } catch (const InputError&) {  // the first error is more helpful
       }
     }
     throw;

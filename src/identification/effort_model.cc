@@ -33,7 +33,7 @@ void require_shape(const MotionSamples& motion, std::size_t joints) {
     throw std::invalid_argument("the first samples of the recordings begin with 0 and ascend");
 }
 
-/// Of each shifted joint, which drive it is. @throws InputError
+/// The index of the drive of each shifted joint. @throws InputError
 std::vector<int> drives_of(const std::vector<int>& shifted, const std::vector<MeasuredJoint>& joints, const DrivenSystem& driven) {
   std::vector<int> drives;
   for (int joint : shifted) {
@@ -60,7 +60,7 @@ Eigen::MatrixXd some_positions(const MotionSamples& motion) {
 
 }  // namespace
 
-/// What one thread works with.
+/// The workspace of one thread.
 struct EffortModel::EffortWorker {
   EffortWorker(const DrivenSystem& driven, const std::vector<int>& shifted)
       : motion(driven),
@@ -144,7 +144,7 @@ Status EffortModel::begin(const std::vector<double>& parameters) {
     if (!status.ok()) return at_sample(sample, status);
     states_[to_index(sample)] = worker.state;
   }
-  // All workers begin with the same pivots, chosen here, so that it does not matter which of them evaluates a sample.
+  // All workers begin with the same pivots, chosen here, so that the results do not depend on the worker that evaluates a sample.
   for (std::unique_ptr<EffortWorker>& each : workers_) {
     each = std::make_unique<EffortWorker>(driven_, shifted_drives_);
     each->motion.set_design(parameters);

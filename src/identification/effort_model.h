@@ -19,46 +19,47 @@ class MotionProjection;
 /// The measured motion, one row per measured joint and one column per instant (a sample), recording after recording.
 struct MotionSamples {
   Eigen::MatrixXd position, velocity, acceleration;  ///< [rad or m], per s, per s^2
-  std::vector<int> shifted{};                        ///< joints whose positions are known but for a constant in each recording, ascending
-  std::vector<int> begins{0};  ///< the first sample of each recording, ascending; between samples of one recording joints move little
+  std::vector<int> shifted{};                        ///< joints with positions known up to a constant in each recording, ascending
+  std::vector<int> begins{0};  ///< the first sample of each recording, ascending; joints move little between samples of one recording
 };
 
 /// The efforts that a mechanism needs for a measured motion, and their exact derivatives by the tuned parameters; doc/theory.md (28).
 ///
-/// Samples are independent of each other, so that they are shared among threads: the results are the same bits for any number of them.
-/// Nothing is allocated per sample once warm. Not thread-safe itself.
+/// Samples are independent of each other and are shared among threads; the results are the same to the last bit for any number of threads.
+/// No allocation per sample once warm. Not thread-safe itself.
 class EffortModel {
  public:
   /// @param system as make_system() compiled it; only needed by the constructor and begin(), but must outlive this.
-  /// @param motion as many rows as `joints`; finite numbers. A shifted joint must be a drive, and no joint surplus.
-  /// @param threads how many samples are evaluated at the same time.
+  /// @param motion as many rows as `joints`; finite numbers. With shifted joints, every shifted joint must be a drive, and there must be no
+  /// surplus joint.
+  /// @param threads number of samples evaluated at the same time.
   /// @throws InputError as make_driven_system().
   EffortModel(const CompiledSystem& system, std::vector<MeasuredJoint> joints, MotionSamples motion, int threads = 1);
   ~EffortModel();
 
-  /// The joints whose efforts are computed, in the order of the rows of efforts: those of DrivenSystem::drives.
+  /// The joints whose efforts are computed, in the order of the rows of efforts and of DrivenSystem::drives.
   const std::vector<std::string>& drives() const { return names_; }
   const DrivenSystem& driven() const { return driven_; }
   int samples() const { return static_cast<int>(motion_.position.cols()); }
   int parameters() const { return static_cast<int>(driven_.system->study().tuned.size()); }
 
-  /// Adds constants to the positions of the constructor. @param shifts [rad or m], one row per shifted joint and column per recording
+  /// Adds constants to the positions given to the constructor. @param shifts [rad or m], one row per shifted joint and column per recording
   void shift(const Eigen::MatrixXd& shifts);
 
-  /// Follows the motion through all samples at a design, which evaluate() later starts from at each sample, and projects the motion of
-  /// surplus joints onto that of the drives, theory (28a). To be called first, and again for dimensions that differ much.
-  /// @param parameters all named parameters (Study::parameters order). @return a failure names the sample.
+  /// Follows the motion through all samples at a design; evaluate() later starts from these states. Projects the measured motion of all
+  /// joints onto the motion of the drives, theory (28a). Call it first, and again after a large change of dimensions.
+  /// @param parameters all named parameters (Study::parameters order). @return the status of a failure names the sample.
   Status begin(const std::vector<double>& parameters);
 
-  /// After begin() has succeeded; else it throws std::logic_error.
+  /// Computes efforts and derivatives. @throws std::logic_error if begin() has not succeeded before.
   /// @param parameters all named parameters.
   /// @param efforts resized to drives x samples: effort on the child along the joint coordinate [N m or N].
-  /// @param jacobian may be null; else resized to (drives * samples) x tuned parameters, row sample * drives + k for drive k;
-  /// then follow the derivatives by the shift of each shifted joint in the recording of the sample.
-  /// @return kInvalidDesign for impossible masses or dimensions, kCancelled, or the failure of the first sample that has one.
+  /// @param jacobian may be null; else resized to (drives * samples) x tuned parameters, row sample * drives + k for drive k; then one
+  /// column per shifted joint, with the derivatives by its shift in the recording of the sample.
+  /// @return kInvalidDesign for impossible masses or dimensions, kCancelled, or the status of the first sample that fails.
   Status evaluate(const std::vector<double>& parameters, Eigen::MatrixXd* efforts, RowJacobian* jacobian);
 
-  /// The motion of the drives that is used: as measured, or projected if there are surplus joints; drives x samples.
+  /// The motion of the drives in use: as measured, or projected if there are surplus joints; drives x samples.
   const Eigen::MatrixXd& position() const { return position_; }
   const Eigen::MatrixXd& velocity() const { return velocity_; }
   const Eigen::MatrixXd& acceleration() const { return acceleration_; }
@@ -81,7 +82,7 @@ class EffortModel {
 
   const CompiledSystem& system_;
   const std::vector<MeasuredJoint> joints_;
-  MotionSamples motion_;  ///< shifted
+  MotionSamples motion_;  ///< with the shifts added
   const DrivenSystem driven_;
   std::vector<int> shifted_drives_;
   const Eigen::MatrixXd unshifted_;  ///< positions of the shifted joints

@@ -27,7 +27,7 @@ std::vector<std::string> names_of(const std::vector<MeasuredJoint>& joints) {
 
 bool has_positions(const JointSamples& samples) { return !samples.position.empty() || (!samples.velocity.empty() && samples.start); }
 
-// Drivers without a sensor, and joints without a motor, are recorded with zeros: their efforts are not known.
+// Drivers without a sensor and joints without a motor record zeros: their efforts are not known.
 bool has_efforts(const JointSamples& samples) {
   return std::any_of(samples.effort.begin(), samples.effort.end(), [](double effort) { return effort != 0.0; });
 }
@@ -95,7 +95,7 @@ EffortResiduals::EffortResiduals(const CompiledSystem& system, const FitVariable
   record();
 }
 
-// Filters need all samples; without them, only those that are fitted are computed.
+// Filters need all samples; without filters, only the fitted samples are computed.
 MotionSamples EffortResiduals::samples_of_all(const std::vector<std::string>& joints) {
   MotionSamples samples;
   begins_.assign(1, 0);
@@ -206,7 +206,7 @@ Status EffortResiduals::begin(const Eigen::VectorXd& x) {
 }
 
 Status EffortResiduals::place(const Eigen::VectorXd& x) {
-  constexpr double kNear = 0.1;  // [rad or m]: from there the samples still find their solutions
+  constexpr double kNear = 0.1;  // [rad or m]: within this distance the samples still find their solutions
   const Eigen::MatrixXd here = shifts(x);
   if (here.size() == 0) return {};
   model_->shift(here);
@@ -219,7 +219,7 @@ Status EffortResiduals::place(const Eigen::VectorXd& x) {
 }
 
 void EffortResiduals::clear_starts_without_effect(Eigen::MatrixXd* jacobian) const {
-  constexpr double kLeastEffect = 1e-10;  // of the recorded efforts, by a change of the start of 1 rad or 1 m
+  constexpr double kLeastEffect = 1e-10;  // relative to the recorded efforts, for a change of the start by 1 rad or 1 m
   for (const std::vector<int>& recording : start_columns_)
     for (int column : recording)
       if (column >= 0 && jacobian->col(column).norm() <= kLeastEffect * recorded_.norm()) jacobian->col(column).setZero();
@@ -248,7 +248,7 @@ Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* resi
   return {};
 }
 
-// The slope of the effort that the model computes has nothing in common with the noise of the recorded one.
+// The slope of the computed effort serves as a column without noise: it is independent of the noise in the recorded effort.
 std::vector<DelaySignal> EffortResiduals::delay_signals(const Eigen::VectorXd& x) {
   constexpr double kLeastShare = 0.01;
   std::vector<DelaySignal> signals;

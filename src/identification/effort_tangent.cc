@@ -42,9 +42,10 @@ void EffortTangent<N>::differentiate(const DrivenMotion& motion, const State<dou
                                      RowJacobian* jacobian) {
   y_.setZero();
   constraint_errors(state);
-  // Parameters that do not move the geometry leave positions and velocities where they are.
+  // Positions and velocities do not depend on parameters that do not change the geometry.
   if (!Phi_.isZero(0.0) || !Phi_rate_.isZero(0.0)) {
-    // A compliance, which the solution itself does not feel once it has converged, takes its share of one correction.
+    // The compliance does not change the converged solution, but it reduces one correction by its share; a second correction removes this
+    // error.
     const int rounds = system_.compliance() == 0.0 ? 1 : 2;
     for (int round = 0; round < rounds; ++round) {
       correct(motion, Phi_, at_.x());

@@ -15,13 +15,13 @@ namespace codesign {
 using RowJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Exact derivatives of the efforts by up to N of the tuned parameters, followed by the positions of some drives, doc/theory.md (28b): the
-/// implicit function theorem for positions, velocities and then rates, with the matrix of the solution. No allocation once warm.
+/// implicit function theorem for positions, velocities and then rates, with the matrix at the solution. No allocation once warm.
 template <int N>
 class EffortTangent {
  public:
-  /// @param system of the DrivenMotion whose solutions are differentiated; must outlive this.
-  /// @param lanes from the tuned parameters and then the drives. @param shifted drives by whose positions to differentiate, at given
-  /// velocities and accelerations
+  /// @param system the system of the DrivenMotion whose solutions are differentiated; must outlive this.
+  /// @param lanes a range of the tuned parameters followed by the shifted drives. @param shifted drives; the derivatives by their positions
+  /// hold velocities and accelerations fixed
   EffortTangent(const CompiledSystem& system, LaneRange<N> lanes, std::vector<int> shifted = {});
 
   /// @param parameters all named parameters. Allocates.
@@ -34,7 +34,7 @@ class EffortTangent {
   void differentiate(const DrivenMotion& motion, const State<double>& state, Eigen::Index first_row, RowJacobian* jacobian);
 
  private:
-  /// The derivatives of Phi, theta - y for the drives, along y_ and the lanes.
+  /// Computes the derivatives of Phi, and of theta - y for the drives, along y_ and the lanes.
   void constraint_errors(const State<double>& state);
   /// Corrects the n directions of y_ from `first` on for the derivatives of the errors of the constraints.
   void correct(const DrivenMotion& motion, const Directions<N>& errors, int first);
@@ -42,7 +42,7 @@ class EffortTangent {
   const CompiledSystem& system_;
   const Layout& layout_;
   const IncrementLayout at_;
-  const LaneRange<N> lanes_, seeded_;  ///< all, and the parameters among them
+  const LaneRange<N> lanes_, seeded_;  ///< all lanes, and the lanes of parameters
   const std::vector<int> shifted_;
   TangentEquations<N> equations_;
   Directions<N> y_, G_, Phi_, Phi_rate_, solution_;

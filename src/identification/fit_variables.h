@@ -16,12 +16,13 @@ namespace codesign {
 /// by joint in the order of the study: scale, delay, offset; then the fitted start positions, recording by recording.
 class FitVariables {
  public:
-  /// Where the numbers of one sensor stand in x; -1: known.
+  /// Indices of the numbers of one sensor in x; -1: known.
   struct SensorColumns {
     int scale = -1, delay = -1, offset = -1;
   };
 
-  /// @param study with a block `identify`; must outlive this. @param robot whose joints give starts and offsets their units; null: none
+  /// @param study with a block `identify`; must outlive this. @param robot its joints determine the units of starts and offsets; null: no
+  /// units
   explicit FitVariables(const Study& study, const RobotDescription* robot = nullptr);
 
   Eigen::Index size() const { return start_.size(); }
@@ -35,10 +36,10 @@ class FitVariables {
 
   /// All named parameters, in the order of Study::parameters.
   std::vector<double> parameters(const Eigen::VectorXd& x) const;
-  /// The effort sensor of a joint; that of a joint which the study does not name passes efforts on as they are.
+  /// The effort sensor of a joint. The sensor of a joint that the study does not name has scale 1, no offset and no delay.
   EffortSensor sensor(const std::string& joint, const Eigen::VectorXd& x) const;
   SensorColumns columns(const std::string& joint) const;
-  /// Where the start position of a joint in a recording stands in x; -1: known. @param recording `identify.data[0]`
+  /// Index of the start position of a joint in a recording in x; -1: known. @param recording `identify.data[0]`
   int start_column(const std::string& recording, const std::string& joint) const;
 
  private:

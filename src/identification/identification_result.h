@@ -17,28 +17,28 @@
 
 namespace codesign {
 
-/// One entry of x after the fit, and how well it is known.
+/// One entry of x after the fit, and its uncertainty.
 struct IdentifiedNumber {
   std::string name, unit;  ///< FitVariables::names()
   double start = 0.0, value = 0.0;
   double lower = -std::numeric_limits<double>::infinity();  ///< bounds
   double upper = std::numeric_limits<double>::infinity();
-  bool is_on_bound = false;      ///< and held there by the data: it then counts as known in the intervals of the others, and has none
-  bool is_determined = true;     ///< whether the data tell it
-  double slope_signal = 1.0;     ///< of a delay: DelaySignal::share
+  bool is_on_bound = false;      ///< whether the data hold the value on a bound; it then has no interval and counts as known
+  bool is_determined = true;     ///< whether the data determine it
+  double slope_signal = 1.0;     ///< for a delay: DelaySignal::share
   double deviation = 0.0;        ///< standard deviation; infinite if not determined
   double low = 0.0, high = 0.0;  ///< the interval at IntervalOptions::level
   std::optional<ProfileInterval> profile;
 };
 
-/// The residuals of one output: the effort of a joint, or with residuals in motion its position, velocity or effort.
+/// The residuals of one output: the effort of a joint or, with residuals in motion, its position, velocity or effort.
 struct OutputFit {
   std::string joint;      ///< `elbow_joint`, or `elbow_joint/position`
-  double recorded = 0.0;  ///< root mean square of what was recorded, in the unit of the output
+  double recorded = 0.0;  ///< root mean square of the recorded values, in the unit of the output
   double start = 0.0;     ///< root mean square of the residuals at the start
-  double rms = 0.0;       ///< the same after the fit
-  double worst = 0.0;     ///< largest magnitude after the fit
-  Whiteness whiteness;    ///< after the fit
+  double rms = 0.0;       ///< root mean square of the residuals after the fit
+  double worst = 0.0;     ///< largest magnitude of the residuals after the fit
+  Whiteness whiteness;    ///< of the residuals after the fit
 };
 
 /// Recorded and computed outputs of several recordings; efforts filtered like the residuals.
@@ -48,24 +48,24 @@ struct FittedSeries {
   Eigen::MatrixXd recorded, computed;  ///< rows x outputs
 };
 
-/// What codesign identify answers.
+/// The result of `codesign identify`.
 struct IdentificationResult {
-  Status status;            ///< ok; kNotIdentifiable, with all members; kCancelled, with the best point; the status of the start
+  Status status;            ///< ok; kNotIdentifiable, with all members; kCancelled, with the best point; or the failure of the start
   std::string termination;  ///< as OptimizationResult::termination
   std::vector<IdentifiedNumber> numbers;  ///< empty if the start failed
   Eigen::VectorXd x;
   std::vector<double> parameters;         ///< all named parameters (order of Study::parameters)
-  Eigen::MatrixXd covariance;             ///< of x; zero for numbers on a bound, infinite or not a number where the data tell nothing
-  int rank = 0;                           ///< of the numbers that are not on a bound
-  std::vector<std::string> undetermined;  ///< sentences: what the data do not tell
+  Eigen::MatrixXd covariance;             ///< of x; zero for numbers on a bound, infinite or NaN for numbers that the data do not determine
+  int rank = 0;                           ///< rank of the Jacobian by the numbers that are not on a bound
+  std::vector<std::string> undetermined;  ///< sentences about numbers that the data do not determine
   std::vector<OutputFit> data, holdout;   ///< one per output; the holdout is empty if the study names none
   FittedSeries data_series, holdout_series;
-  Eigen::Index samples = 0, holdout_samples = 0;  ///< times, not residuals
-  int lag = 0;                                    ///< of the noise model, in samples
+  Eigen::Index samples = 0, holdout_samples = 0;  ///< number of times, not of residuals
+  int lag = 0;                                    ///< lag of the noise model, in samples
   int evaluations = 0, failed_evaluations = 0, iterations = 0;
-  Status last_failure;  ///< of the last point that could not be evaluated; ok if there was none
+  Status last_failure;  ///< status of the last point that could not be evaluated; ok if there was none
   double cpu_seconds = 0.0;
-  FitSearches searches;  ///< of a study with several starts
+  FitSearches searches;  ///< for a study with several starts
   Warnings warnings;
 };
 

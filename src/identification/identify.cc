@@ -45,7 +45,7 @@ FittedSeries series_of(const RecordingResiduals& source, const Eigen::MatrixXd& 
   return {source.lengths(), source.times(), source.recorded(), source.recorded() + residuals};
 }
 
-/// The residuals of recordings that were not fitted, at x.
+/// Computes the residuals of recordings that were not fitted, at x.
 Status judge_holdout(const FitVariables& variables, const ResidualFit& fit, const LossOptions& loss, RecordingResiduals* residuals,
                      IdentificationResult* result) {
   Eigen::MatrixXd at_start, at_end;
@@ -62,7 +62,7 @@ Status judge_holdout(const FitVariables& variables, const ResidualFit& fit, cons
 
 Status not_identifiable(const std::vector<std::string>& sentences) {
   constexpr std::size_t kTold = 5;
-  Status status{StatusCode::kNotIdentifiable, 0.0, "the data do not tell all numbers"};
+  Status status{StatusCode::kNotIdentifiable, 0.0, "the data do not determine all numbers"};
   for (std::size_t k = 0; k < std::min(kTold, sentences.size()); ++k) status.cause += (k == 0 ? ": " : "; ") + sentences[k];
   if (sentences.size() > kTold) status.cause += "; and " + std::to_string(sentences.size() - kTold) + " more (\"undetermined\")";
   return status;
@@ -108,7 +108,7 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
   result.last_failure = fit.last_failure;
   if (fit.residuals.size() == 0) return result;
 
-  // What is known of the best point is computed even after a cancel; it takes no evaluation.
+  // The uncertainties at the best point are computed even after a cancel; they need no further evaluation.
   result.x = fit.x;
   result.parameters = variables.parameters(fit.x);
   result.samples = residuals.rows();

@@ -13,10 +13,10 @@
 namespace codesign {
 namespace {
 
-constexpr double kNearBound = 1e-9;     // of the range, or of the magnitude: a number this near to its bound is on it
-constexpr double kHoldoutFactor = 1.5;  // times the residuals of the fitted data: a holdout beyond was not explained
-constexpr double kSlopeSignal = 0.8;    // share of signal in the slope of a recorded effort below which it is told
-constexpr double kWhiteBelow = 0.01;    // probability below which residuals are not taken for white
+constexpr double kNearBound = 1e-9;     // of the range, or of the magnitude: a number nearer to its bound than this is on the bound
+constexpr double kHoldoutFactor = 1.5;  // times the residuals of the fitted data: a holdout with larger residuals is not explained
+constexpr double kSlopeSignal = 0.8;    // share of signal in the slope of a recorded effort below which a warning is given
+constexpr double kWhiteBelow = 0.01;    // probability below which residuals do not count as white
 
 double rms_of(const Eigen::VectorXd& column) { return std::sqrt(column.squaredNorm() / static_cast<double>(column.size())); }
 
@@ -60,7 +60,7 @@ void begin_numbers(const FitVariables& variables, const ResidualFit& fit, Identi
   }
 }
 
-/// A number on a bound that the residuals do not hold there, since others can make up for it, is not known but not determined.
+/// If other numbers can compensate a number on a bound, the data do not hold it there: it counts as undetermined instead of known.
 void release_undetermined(const ResidualFit& fit, const LossOptions& loss, IdentificationResult* result) {
   const Identifiability all = find_identifiable(weigh(fit.residuals, &fit.jacobian, fit.spreads, loss).jacobian);
   for (std::size_t k = 0; k < result->numbers.size(); ++k)

@@ -14,14 +14,15 @@ namespace codesign {
 std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::MatrixXd& recorded, const Eigen::MatrixXd& start,
                                      const Eigen::MatrixXd& residuals);
 
-/// Sets numbers, covariance, rank, lag and the sentences about what the data do not tell, from a fit that has a best point.
-/// @param delays whose columns count without the noise of recorded efforts, doc/theory.md (33a)
+/// Sets numbers, covariance, rank, lag and the sentences about numbers that the data do not determine, from a fit with a best point.
+/// @param delays their columns count without the noise of recorded efforts, doc/theory.md (33a)
 void judge_numbers(const FitVariables& variables, const IdentificationDescription& options, const SeriesLengths& lengths,
                    const std::vector<DelaySignal>& delays, const ResidualFit& fit, IdentificationResult* result);
 
-/// Intervals of the profile likelihood of all numbers that the data tell: each is fixed and all others are fitted anew.
-/// @param problem of the fit. @param source the fit's. Ends early once `cancel` is set. @param observer told of each evaluation, with
-/// FitTrial::profile; may be empty.
+/// Computes intervals of the profile likelihood of all numbers that the data determine: each number is fixed in turn, and all others are
+/// fitted anew.
+/// @param problem, source as in the fit. @param cancel once set, ends the profiles early. @param observer called after each evaluation,
+/// with FitTrial::profile set; may be empty.
 void add_profiles(const FitProblem& problem, const IdentificationDescription& options, const ResidualFit& fit, ResidualSource* source,
                   const FitObserver& observer, const std::atomic<bool>* cancel, IdentificationResult* result);
 

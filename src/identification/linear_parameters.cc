@@ -22,7 +22,7 @@ double change_of(const Parameter& parameter, double value) {
   return std::isfinite(width) && width > 0.0 ? kChange * width : kChangeOfZero;
 }
 
-/// Evaluates the Jacobian with parameter `index` changed to one side or, where that is no possible design, to the other.
+/// Evaluates the Jacobian with parameter `index` changed in one direction or, if that design is impossible, in the other.
 bool jacobian_beside(EffortModel* model, std::vector<double> parameters, std::size_t index, double change, RowJacobian* jacobian) {
   const double value = parameters[index];
   Eigen::MatrixXd efforts;

@@ -8,19 +8,19 @@
 
 namespace codesign {
 
-/// About `count` samples of a motion, evenly chosen, with the first of every recording.
+/// About `count` samples of a motion, chosen evenly, and the first sample of every recording.
 MotionSamples thinned(const MotionSamples& motion, int count);
 
-/// Which tuned parameters enter the efforts linearly together, so that a linear regression finds them for any values of the others.
+/// The tuned parameters that enter the efforts linearly together; a linear regression finds them for given values of the others.
 struct LinearParameters {
   std::vector<int> linear;  ///< indices in rho, ascending: the efforts are affine in these parameters together
   std::vector<int> others;  ///< the others, ascending
 };
 
-/// Found by evaluation, theory (28d): each parameter is changed by a tenth, and every column of the Jacobian that changes with it is in
-/// conflict with it. Of each conflict one parameter is left out, beginning with the one that has most. A parameter by which no change is
-/// possible (it would give an impossible design) counts as not linear.
-/// @param model begun at `parameters`; a thinned motion serves, since p + 1 Jacobians are computed.
+/// Finds linear parameters by evaluation, theory (28d): each parameter is changed by a tenth, and conflicts with every parameter whose
+/// column of the Jacobian changes. One parameter of each conflict is left out, beginning with the parameter that has most conflicts. A
+/// parameter that cannot be changed, since every change gives an impossible design, counts as not linear.
+/// @param model after begin() at `parameters`. A thinned motion suffices, and saves time, since p + 1 Jacobians are computed.
 /// @param status receives the failure at `parameters` itself, after which the result is empty; may be null.
 LinearParameters find_linear_parameters(EffortModel* model, const std::vector<double>& parameters, Status* status = nullptr);
 

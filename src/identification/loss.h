@@ -8,14 +8,14 @@
 
 namespace codesign {
 
-/// What a residual counts, and its weight in the normal equations.
+/// The contribution of a residual to the cost, and its weight in the normal equations.
 struct LossValue {
   double value = 0.0;   ///< rho(u)
   double weight = 1.0;  ///< rho'(u) / (2 u), 1 for a sum of squares
 };
 
 /// With c = LossOptions::scale: u^2; Huber: u^2 up to |u| = c and c (2 |u| - c) beyond; soft_l1: 2 c^2 (sqrt(1 + (u/c)^2) - 1).
-/// @param u a residual over the spread of its joint's residuals
+/// @param u a residual divided by the spread of its output's residuals
 inline LossValue loss_of(const LossOptions& options, double u) {
   const double c = options.scale;
   switch (options.kind) {

@@ -38,7 +38,7 @@ std::vector<Eigen::VectorXd> points_of(const FitProblem& problem, const Multista
   return points;
 }
 
-/// The starts, best first. @param interruption receives the status of a cancel.
+/// Chooses the starts, best first. @param interruption receives the status of a cancel.
 std::vector<ScreenedPoint> screen(const FitProblem& problem, const MultistartOptions& options, ResidualSource* source,
                                   FitSearches* searches, Status* interruption) {
   std::vector<ScreenedPoint> usable;
@@ -60,7 +60,7 @@ std::vector<ScreenedPoint> screen(const FitProblem& problem, const MultistartOpt
   return usable;
 }
 
-/// The result in units of the bounds, or of the start where there are none.
+/// The result scaled by the range of the bounds, or by the magnitude of the start without bounds.
 std::vector<double> scaled(const FitProblem& problem, const Eigen::VectorXd& x) {
   std::vector<double> result;
   for (Eigen::Index k = 0; k < x.size(); ++k) {
@@ -117,7 +117,7 @@ ResidualFit fit_from_starts(const FitProblem& problem, const MultistartOptions& 
     best.status = interruption;
     best.termination = "cancelled";
   }
-  // What the result says about the start is about that of the study.
+  // The start residuals in the result are the residuals at the study's start.
   if (start_status.ok() && best.residuals.size() > 0) best.start_residuals = at_start;
   best.evaluations = evaluations + searches->screened;
   best.failed_evaluations = failed + searches->unusable;

@@ -9,7 +9,7 @@ namespace codesign {
 namespace {
 
 constexpr int kMostSteps = 50;
-constexpr double kSmallStep = 1e-13;  // [rad or m] of Gauss-Newton's iteration, which converges linearly
+constexpr double kSmallStep = 1e-13;  // [rad or m] last step of the Gauss-Newton iteration, which converges linearly
 
 DriveMotion motion_of(const Eigen::VectorXd (&drives)[3]) { return {drives[0], drives[1], drives[2]}; }
 
@@ -94,7 +94,8 @@ Status MotionProjection::project(const Eigen::VectorXd (&measured)[3], Eigen::Ve
     (*drives)[0] += change;
     if (change.cwiseAbs().maxCoeff() < kSmallStep) break;
   }
-  // Rates depend on those of the drives by K too, and so do accelerations once the rates are known: both are one linear problem.
+  // Velocities of surplus joints are K times the velocities of the drives, and so are accelerations, up to known terms: each order is one
+  // linear problem.
   for (int order : {1, 2}) {
     (*drives)[order] += correction(K, Eigen::VectorXd::Zero(given[order].size()), part_of(measured[order]) - values(order, motion, *state));
     if (Status status = motion->follow(motion_of(*drives), state); !status.ok()) return status;

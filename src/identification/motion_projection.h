@@ -9,19 +9,19 @@
 
 namespace codesign {
 
-/// The motion of the drives that fits the measured motion of all joints best, where more joints were measured than there are degrees of
-/// freedom; doc/theory.md (28a). Least squares over positions, then over velocities, then over accelerations, each weighted by
+/// Computes the motion of the drives that fits the measured motion of all joints best, if more joints were measured than the mechanism has
+/// degrees of freedom; doc/theory.md (28a). Least squares over positions, then over velocities, then over accelerations, each weighted by
 /// MeasuredJoint::deviation.
 class MotionProjection {
  public:
   /// @param driven must outlive this.
   MotionProjection(const DrivenSystem& driven, const std::vector<MeasuredJoint>& measured);
 
-  /// Nothing to do: no joint is surplus.
+  /// Whether there is no surplus joint and nothing to project.
   bool empty() const { return surplus_.empty(); }
 
-  /// @param measured rows of all measured joints at one sample. @param drives the same rows for the drives alone; on return the projected
-  /// ones. @param state near the measured motion; on return the solution. @param motion holds the design.
+  /// @param measured position, velocity and acceleration of all measured joints at one sample. @param drives the same of the drives alone;
+  /// on return projected. @param motion holds the design. @param state near the measured motion; on return the solution.
   Status project(const Eigen::VectorXd (&measured)[3], Eigen::VectorXd (*drives)[3], DrivenMotion* motion, State<double>* state) const;
 
  private:

@@ -13,10 +13,10 @@
 namespace codesign {
 namespace {
 
-constexpr double kSlowStart = 0.1;      // of what was owed before, and of what all owe: a start that owes more still is slow
-constexpr std::size_t kFew = 4;         // slow starts are helped if there is one for so many segments at most
-constexpr double kWorthHelp = 1e-6;     // of the value: what starts owe that is less does not hinder a fit
-constexpr double kSettledShare = 1e-8;  // of the value of a segment: what its best start would gain at most
+constexpr double kSlowStart = 0.1;      // of the segment's previous promise, and of the sum of all: a start with a larger promise is slow
+constexpr std::size_t kFew = 4;         // slow starts are helped if at most one segment in so many has one
+constexpr double kWorthHelp = 1e-6;     // of the value: a smaller sum of promises does not hinder a fit
+constexpr double kSettledShare = 1e-8;  // of the value of a segment: a start with a smaller promise counts as the best one
 
 /// Recorded positions at a few instants, joints x instants.
 Eigen::MatrixXd positions_of_some(const JointRecording& recording, const std::vector<MeasuredJoint>& joints) {
@@ -29,7 +29,7 @@ Eigen::MatrixXd positions_of_some(const JointRecording& recording, const std::ve
   return some;
 }
 
-/// @throws InputError naming the joint: a simulated motion is compared with positions, and begins at them.
+/// @throws InputError naming the joint: a simulated motion begins at measured positions and is compared with them.
 void require_positions(const std::vector<JointRecording>& recordings) {
   for (const JointRecording& recording : recordings)
     for (const JointSamples& samples : recording.joints)
@@ -38,7 +38,7 @@ void require_positions(const std::vector<JointRecording>& recordings) {
                           "positions of each joint, or residual: effort, which integrates velocities from a start"});
 }
 
-/// Recordings do not show how far bristles are bent where a segment begins.
+/// Recordings do not show the deflection of bristles at the begin of a segment.
 void warn_of_friction_states(const CompiledSystem& system, const IdentificationDescription& options, Warnings* warnings) {
   if (system.bristles().empty()) return;
   append({warn("segment_friction_states",
@@ -49,7 +49,7 @@ void warn_of_friction_states(const CompiledSystem& system, const IdentificationD
          warnings);
 }
 
-/// How much each column varies, a first guess of what its residuals are compared with.
+/// The variation of each column, a first guess of the spread of its residuals.
 Eigen::VectorXd variation_of(const Eigen::MatrixXd& recorded) {
   Eigen::VectorXd variation(recorded.cols());
   for (Eigen::Index k = 0; k < recorded.cols(); ++k) {
@@ -67,7 +67,7 @@ double value_of(const std::vector<SegmentSolution>& solutions) {
 
 }  // namespace
 
-/// What one thread works with: a run per recording, made when first needed.
+/// The workspace of one thread: a run per recording, made when first needed.
 struct MotionResiduals::MotionWorker {
   std::vector<std::unique_ptr<SegmentRun>> runs;
 };
@@ -196,8 +196,8 @@ Status MotionResiduals::solve(const Eigen::VectorXd& x, const Guesses& guesses, 
   return failure;
 }
 
-/// Looks for better starts of some segments. @param from starts to begin with. @param improved on return those that are better; none for
-/// the other segments. The derivatives in their solutions are still those of the starts before.
+/// Looks for better starts of some segments. @param from starts to begin with. @param improved on return the starts that are better; empty
+/// for the other segments. The derivatives in `solutions` still belong to the previous starts.
 Status MotionResiduals::improve(const Eigen::VectorXd& x, Guesses from, SegmentWork work, std::vector<SegmentSolution>* solutions,
                                 Guesses* improved) {
   std::vector<SegmentSolution> found(places_.size());
@@ -214,21 +214,21 @@ Status MotionResiduals::improve(const Eigen::VectorXd& x, Guesses from, SegmentW
   return {};
 }
 
-/// A point that is worse than the best one may be so because its starts went too far: they become the best ones. Where that makes the
-/// point better than the best one so far, derivatives are those of the best starts, too.
+/// A point may be worse than the best point only because the step of its starts was too long. Replaces these starts by the best starts. If
+/// the point is then better than the best point so far, computes its derivatives at these starts, too.
 Status MotionResiduals::settle(const Eigen::VectorXd& x, std::vector<SegmentSolution>* solutions) {
   Guesses unsettled(places_.size()), improved;
   for (std::size_t k = 0; k < places_.size(); ++k)
     if ((*solutions)[k].promise > kSettledShare * (*solutions)[k].value)
-      // From here the value can only fall, and for small steps of x it is that of the best point.
+      // From these starts the value can only fall; for small steps of x it is near the value of the best point.
       unsettled[k] = {reference_.starts[k] - reference_.slopes[k] * (x - reference_.x), reference_.starts[k], (*solutions)[k].start};
   if (Status status = improve(x, std::move(unsettled), SegmentWork::kBestStart, solutions, &improved); !status.ok()) return status;
   if (!(value_of(*solutions) < reference_.value)) return {};
   return solve(x, improved, SegmentWork::kElimination, solutions);
 }
 
-/// Where the residuals of a few segments are large and curved, their starts come nearer by a constant factor only, and would make all
-/// segments wait. These take a few steps more.
+/// If the residuals of a segment are large and curved, its start converges only linearly, and a few such segments would delay the whole
+/// fit. Their starts take a few more steps.
 Status MotionResiduals::help_slow_starts(const Eigen::VectorXd& x, std::vector<SegmentSolution>* solutions) {
   double owed = 0.0;
   for (const SegmentSolution& solution : *solutions) owed += solution.promise;

@@ -12,15 +12,16 @@
 
 namespace codesign {
 
-/// What several recordings of one robot say about x when the motion is simulated in segments: computed minus recorded positions,
-/// velocities, and efforts of controllers, doc/theory.md (40)-(43). Each segment starts freely. Evaluated without a Jacobian, it starts
-/// where it fits best. With one, starts and x are unknowns of one step of Gauss and Newton: starts have taken theirs from the best point
-/// so far, and the Jacobian takes into account that they follow x. Segments are spread over threads, with the same bits for any number.
+/// Residuals of several recordings of one robot as functions of x, with the motion simulated in segments: computed minus recorded
+/// positions, velocities, and efforts of controllers, doc/theory.md (40)-(43). The start of each segment is free. Without a Jacobian,
+/// evaluate() uses the best start of each segment. With a Jacobian, starts and x are unknowns of one Gauss-Newton step: the starts take
+/// their part of the step from the best point so far, and the Jacobian includes that starts follow x. Segments are shared among threads;
+/// the results are the same to the last bit for any number of threads.
 class MotionResiduals final : public RecordingResiduals {
  public:
-  /// @param system, variables, options must outlive this. @param recordings all with the same joints. @param joints those of the
-  /// recordings, as require_same_joints() returns them. @throws InputError for motion that the joints do not determine, and for too short
-  /// segments.
+  /// @param system, variables, options must outlive this. @param recordings all with the same joints. @param joints the joints of the
+  /// recordings, as require_same_joints() returns them. @throws InputError if the joints do not determine the motion, and for segments that
+  /// are too short.
   MotionResiduals(const CompiledSystem& system, const FitVariables& variables, const IdentificationDescription& options,
                   const std::vector<MeasuredJoint>& joints, std::vector<JointRecording> recordings, int threads, Warnings* warnings);
   ~MotionResiduals() override;
@@ -39,19 +40,19 @@ class MotionResiduals final : public RecordingResiduals {
   double own_promise() const override { return owed_; }
   void obey(const std::atomic<bool>* cancel) override { cancel_ = cancel; }
 
-  /// Simulations of segments so far, over the number of segments: what evaluations cost.
+  /// Simulations of segments so far divided by the number of segments, the cost of the evaluations.
   double runs() const { return static_cast<double>(runs_) / static_cast<double>(places_.size()); }
-  /// Those of them with derivatives by x and starts; the others have derivatives by starts alone.
+  /// The part of runs() with derivatives by x and starts; the other simulations have derivatives by starts alone.
   double whole_runs() const { return static_cast<double>(whole_runs_) / static_cast<double>(places_.size()); }
   const std::vector<SegmentSystem>& systems() const { return systems_; }
   const std::vector<std::vector<Segment>>& segments() const { return segments_; }
 
  private:
   struct MotionWorker;
-  /// Where a segment stands.
+  /// The place of a segment among recordings and rows.
   struct Place {
     std::size_t recording, segment;
-    Eigen::Index row;  ///< of its first sample
+    Eigen::Index row;  ///< row of its first sample
   };
   /// The starts at the best x so far, and how they follow x.
   struct Reference {
@@ -66,7 +67,7 @@ class MotionResiduals final : public RecordingResiduals {
     Eigen::VectorXd x;
     std::vector<Eigen::VectorXd> starts;
   };
-  using Guesses = std::vector<std::vector<Eigen::VectorXd>>;  ///< starts of each segment to begin with; none: the segment is left alone
+  using Guesses = std::vector<std::vector<Eigen::VectorXd>>;  ///< per segment: starts to begin with; empty: the segment is skipped
   Guesses guesses(const Eigen::VectorXd& x) const;
   Status solve(const Eigen::VectorXd& x, const Guesses& guesses, SegmentWork work, std::vector<SegmentSolution>* solutions);
   Status settle(const Eigen::VectorXd& x, std::vector<SegmentSolution>* solutions);
@@ -89,7 +90,7 @@ class MotionResiduals final : public RecordingResiduals {
   SeriesLengths lengths_;
   Eigen::MatrixXd recorded_;
   Reference reference_;
-  bool is_counted_anew_ = true;  ///< whether reference_.value was counted otherwise
+  bool is_counted_anew_ = true;  ///< whether reference_.value was computed with other spreads or another loss
   Settled settled_;
   double owed_ = 0.0;  ///< own_promise()
   std::int64_t runs_ = 0, whole_runs_ = 0;

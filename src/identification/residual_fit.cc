@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kMostPasses = 10;
 constexpr double kSpreadTolerance = 1e-3;  // relative change of all spreads at which they count as settled
-constexpr double kLeastSpread = 1e-9;      // of the root mean square at the start: exact data leave nothing else
+constexpr double kLeastSpread = 1e-9;      // of the root mean square at the start: the lower limit of a spread, for exact data
 
 Eigen::VectorXd rms_of(const Eigen::MatrixXd& residuals) {
   return (residuals.colwise().squaredNorm() / static_cast<double>(residuals.rows())).cwiseSqrt().transpose();
@@ -31,7 +31,7 @@ double median_magnitude(const Eigen::VectorXd& column) {
   return *middle;
 }
 
-/// The spreads of residuals, none below a fraction of those at the start.
+/// The spreads of residuals, bounded below by a fraction of the spreads at the start.
 Eigen::VectorXd spreads_above(const Eigen::MatrixXd& residuals, const LossOptions& loss, const Eigen::VectorXd& at_start) {
   Eigen::VectorXd spreads = spreads_of(residuals, loss);
   for (Eigen::Index k = 0; k < spreads.size(); ++k) spreads[k] = std::max(spreads[k], kLeastSpread * at_start[k]);

@@ -13,7 +13,7 @@
 
 namespace codesign {
 
-/// Residuals as a fit counts them: over the spread s_k of their output k, and times the square roots of the weights of the loss.
+/// Residuals as a fit counts them: divided by the spread s_k of their output k, times the square roots of the weights of the loss.
 struct WeightedResiduals {
   double value = 0.0;         ///< sum of rho(r / s)
   Eigen::MatrixXd residuals;  ///< rows x outputs
@@ -32,14 +32,14 @@ struct FitTrial {
   int evaluation = 0;                     ///< from 1
   Status status;                          ///< not ok: the fit turns back from this point
   double cost = 0.0;                      ///< sum of rho(r / s); infinite if the status is not ok
-  Eigen::VectorXd rms;                    ///< of each output, in its unit; empty if the status is not ok
+  Eigen::VectorXd rms;                    ///< root mean square of the residuals of each output, in its unit; empty if the status is not ok
   Eigen::VectorXd x;                      ///< the point
   std::vector<std::string> outputs = {};  ///< ResidualSource::outputs()
   int iteration = 0;                      ///< improvements of the best point so far
-  int profile = 0;                        ///< 1, 2, ...: an evaluation for the profile of this number; 0: of the fit
+  int profile = 0;                        ///< 1, 2, ...: an evaluation for the profile of this number; 0: an evaluation of the fit
   int profiles = 0;                       ///< numbers with a profile
 };
-/// Called after each evaluation; false ends the fit with kCancelled and the best point.
+/// Called after each evaluation; returning false ends the fit with kCancelled and the best point.
 using FitObserver = std::function<bool(const FitTrial&)>;
 
 /// Limits of a fit.
@@ -52,23 +52,23 @@ struct FitProblem {
 
 /// The best point of a fit.
 struct ResidualFit {
-  Status status;            ///< ok, kCancelled, or the status at the start, without which the members below hold nothing
+  Status status;            ///< ok, kCancelled, or the status of a failed start; the members below are then empty
   std::string termination;  ///< as OptimizationResult::termination
   Eigen::VectorXd x;
   Eigen::VectorXd spreads;              ///< s_k: root mean square of the residuals; with a robust loss 1.4826 times the median of |r|
   double cost = 0.0;                    ///< sum of rho(r / s) at x
   Eigen::MatrixXd residuals, jacobian;  ///< at x, not weighted
   Eigen::MatrixXd start_residuals;
-  Eigen::Index own_unknowns = 0;  ///< of the source
+  Eigen::Index own_unknowns = 0;  ///< number of unknowns of the source's own
   int evaluations = 0, failed_evaluations = 0, iterations = 0;
-  Status last_failure;  ///< of the last failed evaluation; ok if none failed
+  Status last_failure;  ///< status of the last failed evaluation; ok if none failed
 };
 
-/// Minimizes the sum over all residuals of rho(r_k / s_k) by Levenberg-Marquardt within bounds, doc/theory.md (39). The spreads s_k of
-/// several outputs, or of a robust loss, are those of the fit itself: the fit is repeated until they stay, at most ten times.
+/// Minimizes the sum over all residuals of rho(r_k / s_k) by Levenberg-Marquardt within bounds, doc/theory.md (39). With several outputs or
+/// a robust loss, the spreads s_k come from the fit itself: the fit is repeated until they no longer change, at most ten times.
 ResidualFit fit_residuals(const FitProblem& problem, ResidualSource* source, const FitObserver& observer = {});
 
-/// The same with spreads that are known: one search.
+/// fit_residuals() with known spreads, in one search.
 ResidualFit fit_with_spreads(const FitProblem& problem, const Eigen::VectorXd& spreads, ResidualSource* source,
                              const FitObserver& observer = {});
 

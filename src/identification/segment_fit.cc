@@ -15,9 +15,9 @@ namespace codesign {
 namespace {
 
 constexpr int kMostRuns = 8, kFewRuns = 3;
-constexpr double kSettled = 1e-8;    // of the value: a start that promises to lower it by less is the best one
-constexpr double kPatience = 10.0;   // that fraction grows by this with each run: promises that are not kept are the noise of step sizes
-constexpr double kResolved = 1e-14;  // of the sum of squares of what was recorded: what a simulation does not resolve
+constexpr double kSettled = 1e-8;    // of the value: a start with a smaller promise is the best one
+constexpr double kPatience = 10.0;   // factor of kSettled with each run: the noise of step sizes makes promises that are not kept
+constexpr double kResolved = 1e-14;  // of the sum of squares of the recorded values: a simulation does not resolve less
 
 /// Columns scaled to length one, so that the rank does not depend on units.
 class StartColumns {
@@ -31,7 +31,7 @@ class StartColumns {
     if (lengths_.size() == 0) return Eigen::MatrixXd::Zero(0, right.cols());
     return lengths_.cwiseInverse().asDiagonal() * qr_.solve(right);
   }
-  /// By how much the best start lowers the sum of squares, to first order.
+  /// Decrease of the sum of squares by the best start, to first order.
   double promise(const Eigen::VectorXd& residuals) const {
     if (lengths_.size() == 0) return 0.0;
     return (qr_.householderQ().transpose() * residuals).head(qr_.rank()).squaredNorm();
@@ -42,7 +42,7 @@ class StartColumns {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
 };
 
-/// The cost of a segment as a function of its start. Keeps the best point; with derivatives by x, also how it follows x.
+/// The cost of a segment as a function of its start. Keeps the best point and, if derivatives by x are computed, its derivative by x.
 class StartCost final : public LeastSquaresModel {
  public:
   StartCost(const SegmentProblem& problem, SegmentLanes lanes, SegmentRun* run, SegmentSolution* best)
@@ -80,7 +80,8 @@ class StartCost final : public LeastSquaresModel {
     return Outcome::kStop;
   }
 
-  /// Residuals of the last run and their derivatives: by x in the first columns, of which it may have none, then by the start.
+  /// Residuals of the last run and their derivatives: by x in the first columns, unless only the derivatives by the start are computed,
+  /// then by the start.
   void compare() {
     const Eigen::Index rows = run_.values().rows(), lanes = run_.slopes().cols(), sensors = lanes - problem_.of.starts;
     residuals_ = run_.values() - problem_.segment.recorded;

@@ -18,14 +18,14 @@ SegmentRun::SegmentRun(const SegmentSystem& of, const SegmentBegin& first)
     });
     return error;
   };
-  // The first start of an integrator chooses the pivots of all later ones; a design that cannot start leaves that to them.
+  // The first start of an integrator chooses the pivots for all later starts; if this design cannot start, a later start chooses them.
   integrator_.assembly().begin_at(first.time, first.theta);
   static_cast<void>(integrator_.start(system_.parameters()));
 }
 
 void SegmentRun::choose(SegmentLanes lanes) {
   const int all = static_cast<int>(system_.study().tuned.size());
-  // Where derivatives have a say in the size of steps they are always there.
+  // If the error test includes sensitivities, all derivatives are computed in every run, so that steps do not depend on `lanes`.
   const bool is_whole = lanes == SegmentLanes::kAll || system_.study().solver.sensitivity_tolerance > 0.0;
   first_lane_ = is_whole ? 0 : lanes == SegmentLanes::kStart ? all - starts_ : all;
 }

@@ -13,30 +13,30 @@
 
 namespace codesign {
 
-/// Where a segment begins.
+/// Time and position at which a segment begins.
 struct SegmentBegin {
-  double time = 0.0;      ///< [s] of the system
-  VectorX<double> theta;  ///< tree coordinates near its start, from which loops are closed
+  double time = 0.0;      ///< [s] on the system's clock
+  VectorX<double> theta;  ///< tree coordinates near the start, from which loops are closed
 };
 
-/// By which of the tuned parameters of a SegmentSystem a run has derivatives.
+/// The tuned parameters of a SegmentSystem by which a run has derivatives.
 enum class SegmentLanes { kNone, kStart, kAll };
 
 /// The simulated outputs of one segment and their exact derivatives by all tuned parameters of a SegmentSystem, start included;
 /// doc/theory.md (41). A workspace: not thread-safe. Results do not depend on earlier runs, to the last bit.
 class SegmentRun {
  public:
-  /// @param of must outlive this. @param first the first segment, near whose start pivots are chosen.
+  /// @param of must outlive this. @param first the first segment; pivots are chosen near its start.
   SegmentRun(const SegmentSystem& of, const SegmentBegin& first);
 
-  /// Integrates from begin.time to the last of `times`. @param parameters all of the system. @param times [s] of the system, ascending,
-  /// none before begin.time. @param lanes of the derivatives; the values are the same to the last bit with any
+  /// Integrates from begin.time to the last of `times`. @param parameters all parameters of the system. @param times [s] on the system's
+  /// clock, ascending, none before begin.time. @param lanes of the derivatives; the values do not depend on them, to the last bit
   Status run(const std::vector<double>& parameters, const SegmentBegin& begin, const std::vector<double>& times,
              SegmentLanes lanes = SegmentLanes::kAll);
   /// times x outputs, of the last run
   const Eigen::MatrixXd& values() const { return values_; }
-  /// (times outputs) x tuned parameters, the rows of output 0 first; the last columns are those of the start. Columns that the last run
-  /// was not asked for hold nothing.
+  /// (times outputs) x tuned parameters, the rows of output 0 first; the last columns are the derivatives by the start. Columns outside the
+  /// lanes of the last run have no valid values.
   const Eigen::MatrixXd& slopes() const { return slopes_; }
   void obey(const std::atomic<bool>* cancel) { integrator_.obey(cancel); }
   /// Steps of all runs so far, rejected ones included.
@@ -67,7 +67,7 @@ class SegmentRun {
   RosenbrockIntegrator integrator_;
   LaneGroups<Group> groups_;
   RosenbrockIntegrator::BeforeAccept stages_;
-  int first_lane_ = 0;        ///< groups whose lanes all come before it rest
+  int first_lane_ = 0;        ///< groups of lanes that lie entirely before it are not computed
   bool reads_rates_ = false;  ///< whether an output depends on accelerations or reactions
   State<double> state_;
   SparseGradient<double> sparse_;

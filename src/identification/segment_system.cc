@@ -10,9 +10,9 @@
 namespace codesign {
 namespace {
 
-constexpr double kNoLimit = 1e9;  // [m/s or rad/s] a segment begins anywhere, so that no speed is known beyond which motions run away
+constexpr double kNoLimit = 1e9;  // [m/s or rad/s] a segment may begin in any motion, so that no speed indicates an unstable motion
 
-/// The study of a segment while it grows.
+/// Builds the study of a segment.
 class SegmentStudy {
  public:
   SegmentStudy(const CompiledSystem& of, const FitVariables& variables) : study_(of.study()), variables_(variables) {
@@ -22,7 +22,7 @@ class SegmentStudy {
     study_.watched.clear();
     study_.constraints.clear();
     study_.ensemble = {};
-    if (study_.controllers.empty()) study_.limits.effort = false;  // what was recorded was applied, whatever the limit
+    if (study_.controllers.empty()) study_.limits.effort = false;  // recorded efforts were really applied, also beyond the limit
     if (!(study_.solver.maximum_speed > 0.0)) study_.solver.maximum_speed = kNoLimit;
     for (Eigen::Index k = 0; k < variables.tuned(); ++k) columns_.push_back(static_cast<int>(k));
   }
@@ -120,7 +120,8 @@ void refuse_idas(const Study& study) {
                       "idas", "rosenbrock, or residuals in effort"});
 }
 
-/// Outputs that wait and samples between which a segment begins are not recorded; a run would have to begin with them.
+/// A segment that begins between two samples of a sampled controller would need the controller's held and pending outputs, which are not
+/// recorded.
 void refuse_sampled(const Study& study) {
   for (const ControllerDescription& controller : study.controllers)
     if (controller.realization.is_sampled())
@@ -145,7 +146,7 @@ std::vector<MotionOutput> motion_outputs(const CompiledSystem& of, const std::ve
                                          const std::vector<JointRecording>& recordings) {
   std::vector<MotionOutput> outputs;
   for (const MeasuredJoint& joint : joints) {
-    if (!moves_mass(of, joint.name)) continue;  // the frame of a tool, say
+    if (!moves_mass(of, joint.name)) continue;  // for example the frame of a tool
     outputs.push_back({joint.name, MeasuredQuantity::kPosition});
     if (std::all_of(recordings.begin(), recordings.end(), [&](const JointRecording& each) { return has_velocities(each, joint.name); }))
       outputs.push_back({joint.name, MeasuredQuantity::kVelocity});
@@ -161,7 +162,8 @@ SegmentSystem make_segment_system(const CompiledSystem& of, const FitVariables& 
   refuse_sampled(of.study());
   SegmentSystem result;
   result.outputs = outputs;
-  // Functions of time of the study's controllers run on the clock of the recording; without them small times are more exact.
+  // Controllers may read functions of time, which use the clock of the recording. Without controllers the times begin at zero, where they
+  // are more exact.
   if (of.study().controllers.empty()) result.epoch = recording.times.front();
   SegmentStudy segment(of, variables);
   segment.study().duration = recording.times.back() - result.epoch;

@@ -14,7 +14,7 @@
 
 namespace codesign {
 
-/// A recorded quantity of a joint that a simulated motion is compared with.
+/// A recorded quantity of a joint that is compared with the simulated motion.
 struct MotionOutput {
   std::string joint;
   MeasuredQuantity quantity = MeasuredQuantity::kPosition;
@@ -22,25 +22,25 @@ struct MotionOutput {
   std::string name() const { return joint + "/" + kMeasuredQuantityNames[static_cast<std::size_t>(quantity)]; }
 };
 
-/// A mechanism as one recording shows it, to be simulated in segments, doc/theory.md (40): recorded efforts drive the joints that no
-/// controller of the study drives, and each segment starts from numbers of its own.
+/// A mechanism for simulating one recording in segments, doc/theory.md (40): recorded efforts drive the joints that no controller of the
+/// study drives, and each segment has its own start.
 ///
-/// Its study has further parameters behind those of the study that it is made of: scale, delay and offset of each input, then the numbers
-/// of a start. Its tuned parameters are those of the study, the fitted numbers of inputs, then the start. Its watched signals are the
-/// outputs.
+/// Its study extends the given study: after the parameters of the given study it has scale, delay and offset of each input, then the
+/// numbers of a start. Its tuned parameters are the tuned parameters of the given study, the fitted numbers of inputs, then the start. Its
+/// watched signals are the outputs.
 struct SegmentSystem {
   std::shared_ptr<const CompiledSystem> system;
   std::vector<MotionOutput> outputs;
   std::vector<std::string> inputs;  ///< joints that a recorded effort drives
-  std::vector<int> columns;         ///< of the tuned parameters before the start: their entries of x
-  int starts = 0;                   ///< numbers of a start: positions and velocities of the independent joints, integrals of controllers
+  std::vector<int> columns;         ///< index in x of each tuned parameter before the start
+  int starts = 0;                   ///< size of a start: positions and velocities of the independent joints, integrals of controllers
   double epoch = 0.0;               ///< the time of the recording [s] at which the system's time is zero
 
-  /// All parameters of the system. @param x as FitVariables orders them. @param start of a segment, `starts` numbers
+  /// All parameters of the system. @param x as FitVariables orders them. @param start the start of a segment, `starts` numbers
   std::vector<double> parameters(const FitVariables& variables, const Eigen::VectorXd& x, const Eigen::VectorXd& start) const;
 };
 
-/// What to compare with recordings that all have `joints`: positions, velocities that are recorded everywhere, and recorded efforts of
+/// The outputs to compare with recordings that all have `joints`: positions, velocities that all recordings have, and recorded efforts of
 /// joints that a controller of the study drives.
 std::vector<MotionOutput> motion_outputs(const CompiledSystem& of, const std::vector<MeasuredJoint>& joints,
                                          const std::vector<JointRecording>& recordings);

@@ -17,7 +17,7 @@ using Samples = std::vector<std::size_t>;
 constexpr double kSmallMove = 0.1;  // [rad or m] positions are followed in steps of this size
 constexpr double kMostMoves = 1e4;
 
-/// The samples that count, by segments. The last segment is longer or shorter than the others by up to a half.
+/// The samples that count, by segment. The last segment is up to a half longer or shorter than the others.
 std::vector<Samples> samples_by_segment(const JointRecording& recording, const IdentificationDescription& options) {
   const double begin = recording.times.front(), span = recording.times.back() - begin;
   const auto count = std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(span / options.segment)));
@@ -114,7 +114,7 @@ Eigen::VectorXd positions_at(const JointRecording& recording, const std::vector<
   return positions;
 }
 
-/// Where the independent joints are in tree coordinates.
+/// Positions of the independent joints in the tree coordinates.
 Eigen::VectorXd positions_of(const StartWorkspace& start, const RobotDescription& robot, const std::vector<std::string>& independent) {
   Eigen::VectorXd positions(static_cast<Eigen::Index>(independent.size()));
   for (std::size_t k = 0; k < independent.size(); ++k)

@@ -12,24 +12,25 @@
 
 namespace codesign {
 
-/// What of a mechanism is commanded.
+/// The commanded joints and controllers of a mechanism.
 struct CommandOptions {
   std::optional<std::vector<std::string>> joints;  ///< joints that take efforts; nullopt: drivable_joints()
-  std::vector<std::string> disconnected;           ///< controllers whose output is not applied; of inverse dynamics it is the feedback part
-  std::optional<double> duration;                  ///< [s] of the run, in place of the study's
+  std::vector<std::string> disconnected;           ///< controllers whose output is not applied; inverse dynamics then give only the
+                                                   ///< feedback part
+  std::optional<double> duration;                  ///< duration of the run [s] in place of the study's
   double rate = 0.0;                               ///< instants at which commands may take effect, per second: each one ends a step
 };
 
 /// Every joint of the tree that moves mass, has a coordinate of its own and follows no other joint, in the order of the description.
 std::vector<std::string> drivable_joints(const CompiledSystem& system);
 
-/// A study extended by inputs that can be commanded while a run goes on, doc/theory.md (55): before the study's controllers one for each
-/// joint that takes efforts, u = f(t), and each set-point a function that a command replaces.
+/// A study extended by inputs for commands during a run, doc/theory.md (55). Before the study's controllers it has a controller u = f(t)
+/// for each joint that takes efforts, and each set-point is a function that a command can replace.
 struct CommandInputs {
   Study study;
-  std::vector<std::string> joints;                     ///< that take efforts
-  std::vector<std::string> controllers;                ///< that have a set-point and are connected
-  std::vector<std::size_t> indices;                    ///< of these in the original study
+  std::vector<std::string> joints;                     ///< joints that take efforts
+  std::vector<std::string> controllers;                ///< controllers that have a set-point and are connected
+  std::vector<std::size_t> indices;                    ///< indices of these controllers in the original study
   std::vector<std::shared_ptr<LiveFunction>> efforts;  ///< one per entry of `joints` [N m or N]
   std::vector<std::shared_ptr<LiveFunction>> setpoints;
 
@@ -40,11 +41,11 @@ struct CommandInputs {
 /// A controller that a trajectory of a joint commands.
 struct TrajectoryFollower {
   std::size_t controller = 0;  ///< index in CommandInputs::controllers
-  bool by_rate = false;        ///< its input is the velocity of the joint: its set-point is the rate of the trajectory
+  bool by_rate = false;        ///< true: the input is the velocity of the joint, and the set-point is the rate of the trajectory
 };
 
-/// The controller whose input is the position of a joint, else the one whose input is its velocity: of several, one that drives the joint,
-/// or no joint. None if there is no such controller.
+/// The controller whose input is the position of a joint, else the controller whose input is its velocity: of several, one that drives the
+/// joint, or no joint. None if there is no such controller.
 std::optional<TrajectoryFollower> follower_of(const CommandInputs& inputs, const std::string& joint);
 
 }  // namespace codesign

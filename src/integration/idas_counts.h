@@ -9,7 +9,7 @@ namespace codesign {
 /// The work of IDAS since its last restart.
 struct IdasCounts {
   std::int64_t steps = 0;
-  std::int64_t rejected = 0;  ///< failed error tests and solutions, those of sensitivities included
+  std::int64_t rejected = 0;  ///< failed error tests and solutions, sensitivities included
 };
 
 /// @param ida memory of IDAS. @param with_sensitivities whether it integrates any

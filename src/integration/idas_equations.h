@@ -30,7 +30,7 @@ class IdasEquations {
   /// Discards stored derivatives, pivots and the last failure.
   void start();
 
-  /// Counts the whole turns of joints from those of `state` on.
+  /// Counts the whole turns of joints, beginning with the turns of `state`.
   void count_turns_from(const State<double>& state) { state_.turns = state.turns; }
   /// Conversion of (y, y'), size() entries each, to a state, and back.
   void unpack(double t, In<double> y, In<double> y_dot, State<double>* state) const;

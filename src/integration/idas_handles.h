@@ -35,7 +35,7 @@ using VectorHandle = std::unique_ptr<std::remove_pointer_t<N_Vector>, Release<N_
 using MatrixHandle = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, Release<SUNMatDestroy>>;
 using LinearSolverHandle = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, Release<SUNLinSolFree>>;
 
-/// The numbers of a vector of SUNDIALS. Its callbacks do not mark those that are only read.
+/// The numbers of a vector of SUNDIALS. SUNDIALS does not mark vectors that its callbacks only read.
 inline Span<double> span_of(N_Vector vector) { return {N_VGetArrayPointer(vector), N_VGetLength(vector)}; }
 
 /// An owned array of vectors for the sensitivity functions of SUNDIALS.

@@ -19,8 +19,8 @@ class IdasSensitivities {
   virtual int count() const = 0;
   /// Begins the integration of a design. @param initial its assembled start.
   /// @param sensitivities receives the initial sensitivities (q, v, s, z)_rho, one per parameter; sized by the caller.
-  /// @param scales receives the size of each parameter, never zero: the absolute tolerance of its sensitivities is that of the state
-  /// divided by it.
+  /// @param scales receives the size of each parameter, never zero: the absolute tolerance of its sensitivities is the absolute tolerance
+  /// of the state divided by this size.
   virtual void start(const std::vector<double>& parameters, const State<double>& initial, Integrator* integrator,
                      std::vector<State<double>>* sensitivities, std::vector<double>* scales) = 0;
   /// Computes the derivatives at a state for the calls of derivative() that follow. @param kappa rate of stabilization [1/s], (25).
@@ -28,8 +28,8 @@ class IdasSensitivities {
   /// The derivative of (G, g) by rho_k along a direction (q, v, s, z)_rho at the last linearize(), with stabilized constraint rows:
   /// Layout::columns() + 1 entries.
   virtual void derivative(int k, const State<double>& direction, VectorX<double>* result) = 0;
-  /// Carries directions over the events of sampled controllers, theory (51), and solves for their z. @param behind the state behind them.
-  /// False if the augmented matrix is singular.
+  /// Carries directions over the events of sampled controllers, theory (51), and solves for their z. @param behind the state after the
+  /// events. False if the augmented matrix is singular.
   virtual bool jump(const std::vector<ControlEvent>& events, const State<double>& before, const State<double>& behind,
                     Equations<double>* equations, std::vector<State<double>>* directions) = 0;
   /// Projects directions (q, v)_rho onto the tangent of the constraints at a state and solves for their z; one direction per parameter.

@@ -24,9 +24,10 @@ class Integrator {
   /// Takes one accepted step that ends at `limit` [s] or before. Rejected attempts are repeated with smaller steps.
   virtual Status advance(double limit) = 0;
 
-  /// Goes on from `time` [s] within the last step, where inputs have jumped (LiveFunction) or the design changes, doc/theory.md (55): what
-  /// was integrated behind that instant is discarded, and psi() is the integral up to it. Without sensitivities.
-  /// @param parameters all named ones, from then on. @returns a status of Continuation::cross(); the run is then as it was before.
+  /// Goes on from `time` [s] within the last step, where inputs have jumped (LiveFunction) or the design changes, doc/theory.md (55): the
+  /// part of the step after that instant is discarded, and psi() is the integral up to it. Without sensitivities.
+  /// @param parameters all named parameters after that instant. @returns ok, or a failure of Continuation::cross(), after which the run is
+  /// unchanged.
   virtual Status go_on(double time, const std::vector<double>& parameters) = 0;
 
   /// The state at the end of the last step; after start(), the initial state.
@@ -64,7 +65,7 @@ class Integrator {
 /// The integrator that the study selects by solver.integrator. @param system must outlive it.
 std::unique_ptr<Integrator> make_integrator(const CompiledSystem& system);
 
-/// Whether the design in `equations` is one that a mechanism can have: kInvalidDesign with the first impossible constant, or ok.
+/// Checks that the design in `equations` is possible: kInvalidDesign with the first impossible constant, or ok.
 Status check_design(const CompiledSystem& system, const Equations<double>& equations);
 
 /// Sets the design in `equations` and solves for a consistent initial state at t = 0.

@@ -12,9 +12,9 @@
 
 namespace codesign {
 
-/// A run whose inputs and parameters change while it goes on, as a robot's do: set_effort(), set_course(), then apply() at an instant.
-/// Without commands it takes the steps of a Simulation; once there was one, steps end at the times that advance() is given. It has a system
-/// of its own. Not thread-safe.
+/// A run whose inputs and parameters can change during the run, as on a robot: set_effort(), set_course(), then apply() at an instant.
+/// Without commands it takes the same steps as a Simulation; after the first command, steps end at the times given to advance(). It has a
+/// system of its own. Not thread-safe.
 class InteractiveSimulation {
  public:
   /// @throws InputError as CommandInputs and Simulation.
@@ -22,22 +22,23 @@ class InteractiveSimulation {
 
   const CommandInputs& inputs() const { return inputs_; }
   double duration() const { return inputs_.study.duration; }
-  /// The names of frames; those of the controllers are the study's.
+  /// The names of frames; controllers have the names of the study.
   const FrameNames& names() const { return names_; }
   const std::vector<double>& parameters() const { return parameters_; }
 
-  /// Begins at t = 0 without commands. @param parameters all named ones. @returns as Simulation::start(); after a failure the run must be
-  /// started again.
+  /// Begins at t = 0 without commands. @param parameters all named parameters. @returns as Simulation::start(); after a failure the run
+  /// must be started again.
   Status start(const std::vector<double>& parameters);
-  /// Simulation::advance(), over the instants at which pieces of courses begin.
+  /// As Simulation::advance(); steps end at the instants at which pieces of courses begin.
   Status advance(double time);
   void sample(double time, Frame* frame);
 
-  /// Sets what apply() brings into effect. @param joint, controller indices in inputs(). @param effort [N or N m], held until the next one.
+  /// Sets an effort, which takes effect with apply(). @param joint, controller indices in inputs(). @param effort [N or N m], held until
+  /// the next effort.
   void set_effort(std::size_t joint, double effort);
-  /// @param course of a set-point, in the unit of the controller's input; replaces the one before, from its first piece on.
+  /// @param course of a set-point, in the unit of the controller's input; from its first piece on, it replaces the previous course.
   void set_course(std::size_t controller, const Course& course);
-  /// Brings commands into effect at `time`, at which the last advance() ended; without new ones nothing happens.
+  /// Applies the new commands, if there are any, at `time`, at which the last advance() ended.
   Status apply(double time);
   /// Changes the parameters at `time`, as Simulation::go_on().
   Status change(double time, const std::vector<double>& parameters);
@@ -45,10 +46,10 @@ class InteractiveSimulation {
   double effort(std::size_t joint) const { return inputs_.efforts[joint]->c[0]; }
   /// The set-point of a controller and its rates at `time` [s], now or later, if no other course is set.
   ReferenceMotion<double> setpoint(std::size_t controller, double time) const;
-  /// Whether a set-point is commanded, not the study's.
+  /// Whether a command has replaced the set-point of the study.
   bool is_commanded(std::size_t controller) const { return inputs_.setpoints[controller]->commanded; }
 
-  /// As Simulation::obey(), for later runs too.
+  /// As Simulation::obey(), also for later runs.
   void obey(const std::atomic<bool>* cancel);
   const Statistics& statistics() const { return simulation_->statistics(); }
   const Warnings& warnings() const { return simulation_->warnings(); }
@@ -63,9 +64,9 @@ class InteractiveSimulation {
   std::vector<double> parameters_;
   std::unique_ptr<Simulation> simulation_;
   FrameNames names_;
-  std::vector<Course> courses_;  ///< per set-point: the pieces that are yet to begin
+  std::vector<Course> courses_;  ///< per set-point: the pieces that have not begun yet
   const std::atomic<bool>* cancel_ = nullptr;
-  double now_ = 0.0;  ///< [s] of the last advance()
+  double now_ = 0.0;  ///< time of the last advance() [s]
   bool was_commanded_ = false, has_news_ = false;
 };
 

@@ -9,11 +9,11 @@
 
 namespace codesign {
 
-/// Ends a run whose motion is unstable, for example with a feedback gain of the wrong sign, before it wastes ever shorter steps.
+/// Ends a run whose motion is unstable, for example with a feedback gain of the wrong sign, before it takes ever shorter steps.
 ///
 /// With `solver.maximum_speed`, the run ends when a body exceeds it. Without, it ends if all of these hold: there is a controller; a body
 /// is ten times faster than a typical speed, the largest of the start's, of a fall through the mechanism's size, and of the velocities that
-/// setpoints and references ask for directly or as derivatives of positions; and at the pace of the last 500 steps the study would need
+/// setpoints and references prescribe directly or as derivatives of positions; and at the pace of the last 500 steps the study would need
 /// more than a tenth of `maximum_steps` (at least 5000). Speeds are |r'| [m/s] and |omega| [rad/s].
 class MotionWatch {
  public:
@@ -26,7 +26,7 @@ class MotionWatch {
 
  private:
   struct Speeds {
-    double linear = 0.0, angular = 0.0;  ///< of the fastest bodies [m/s], [rad/s]
+    double linear = 0.0, angular = 0.0;  ///< speeds of the fastest bodies [m/s], [rad/s]
     int linear_body = 0, angular_body = 0;
   };
   Speeds speeds(const State<double>& state) const;

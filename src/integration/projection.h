@@ -7,7 +7,8 @@
 
 namespace codesign {
 
-/// Projects a state onto the constraints, doc/theory.md (17), with two Newton steps, since the drift may be larger than that of one step.
+/// Projects a state onto the constraints, doc/theory.md (17), with two Newton steps, since the drift may be larger than the drift of one
+/// step.
 class Projection {
  public:
   explicit Projection(const CompiledSystem& system);

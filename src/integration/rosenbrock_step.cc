@@ -40,7 +40,7 @@ void RosenbrockStep<T>::restart(const State<T>& state) {
   equations_.linearize(state_, &derivatives_);
 }
 
-// A matrix that is singular here is told by the step that needs it.
+// If the matrix is singular here, the step that needs it reports the failure.
 template <class T>
 void RosenbrockStep<T>::choose_pivots(double h) {
   const double hg = h * tableau_.gamma;

@@ -31,7 +31,7 @@ class RosenbrockStep {
   /// Starts a solution at a consistent state. equations() must hold the design. @param psi integral of g before it
   void start(const State<T>& state, const T& psi = T(0.0));
 
-  /// Continues a solution at another state of the same time, such as that behind a jump; psi() stays.
+  /// Continues a solution at another state of the same time, such as the state after a jump; psi() stays.
   void restart(const State<T>& state);
 
   /// Begins again with the pivots of settle_pivots(), or chooses pivots anew without it, so that no bit of later steps depends on the runs

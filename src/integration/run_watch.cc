@@ -80,7 +80,7 @@ void RunWatch::go_on(const Constants<double>& constants, const State<double>& st
   motion_.set_design(constants);
   const BodyEnergy energy = motion_.energy(state.q, state.v);
   start_energy_ = energy.total() - work_ - imbalance_;
-  // What the change itself adds is no turnover.
+  // The energy that the change of the design itself adds does not count as turnover.
   start_potential_ += energy.potential - potential_;
   potential_ = energy.potential;
 }

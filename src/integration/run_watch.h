@@ -25,7 +25,7 @@ class RunWatch {
 
   /// @param constants of the design. @param initial its initial state.
   void start(const Constants<double>& constants, const State<double>& initial);
-  /// Goes on behind an instant at which design or inputs jump: the energy that the jump adds or takes counts as no error.
+  /// Continues after an instant at which design or inputs jump; the energy that the jump adds or removes does not count as an error.
   void go_on(const Constants<double>& constants, const State<double>& state);
   const BodyMotion& motion() const { return motion_; }
 

@@ -9,14 +9,14 @@
 
 namespace codesign {
 
-/// The places of the numbers that are computed of the watched signals of a study; doc/theory.md (21a).
+/// The indices of the extreme values of the watched signals of a study; doc/theory.md (21a).
 ///
 /// The interval of a signal is divided into windows by instants that do not depend on the design. The numbers of a signal are its values at
-/// the instants, then the largest value in each window, then the smallest. So their count does not change with the design, as the number of
-/// local extrema does, and each is a continuous function of it.
+/// the instants, then the largest value in each window, then the smallest. Their count therefore does not depend on the design, in contrast
+/// to the number of local extrema, and each is a continuous function of the design.
 ///
-/// A signal may jump at the break times of functions of time. Few of them are instants, so that windows end there; many would make too many
-/// numbers, so that they lie within windows, which then count the values on both sides of the jump.
+/// A signal may jump at the break times of functions of time. If there are few break times, they are instants, so that windows end there.
+/// Many would give too many numbers; they then lie within windows, which count the values on both sides of a jump.
 class WatchLayout {
  public:
   /// The numbers of one watched signal.

@@ -31,7 +31,7 @@ class BestRecord {
   std::string prefix_;
   const Problem& problem_;
   Trial first_;
-  int iteration_ = -1;  ///< iteration of the point on disk; -1: none yet
+  int iteration_ = -1;  ///< iteration of the point on disk; -1: no point yet
   std::string failure_;
 };
 

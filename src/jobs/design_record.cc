@@ -70,7 +70,7 @@ Json signal_json(const ShownSignal& shown, const Watched& watched) {
   return object;
 }
 
-/// Integrals of the powers among the signals: those of the mechanism as `energy`, friction of joints as `friction_energy`.
+/// Adds the integrals of the powers among the signals: powers of the mechanism as `energy`, friction of joints as `friction_energy`.
 void add_energies(const std::vector<ShownSignal>& shown, const std::vector<Watched>& watched, double duration, Json* summary) {
   Json whole = Json::object(), friction = Json::object();
   const std::string power = "_power";
@@ -123,7 +123,7 @@ DesignRecord record_design(const Problem& problem, const std::vector<double>& pa
   record.csv = text.str();
   record.summary = {{"status", to_json(record.status)}, {"signals", Json::array()}};
   for (std::size_t k = 0; k < shown.size(); ++k) record.summary["signals"].push_back(signal_json(shown[k], watched[k]));
-  // Of a run that ends early the integrals would not be those of the study.
+  // If the run ends early, the integrals would not cover the whole study.
   if (record.status.ok()) add_energies(shown, watched, duration, &record.summary);
   record.summary["limits_exceeded"] = to_json(limits.crossings());
   record.summary["poses"] = poses.json(simulation.names().links);

@@ -11,7 +11,7 @@
 
 namespace codesign {
 
-/// What is kept of the run of one design: a table for people and plotting, and its summary for the report.
+/// The record of a run of one design: a table for people and plotting, and a summary for the report.
 struct DesignRecord {
   Status status;
   std::string csv;  ///< `time` and shown_signals(), at 501 equally spaced instants
@@ -19,8 +19,8 @@ struct DesignRecord {
   Json summary;
 };
 
-/// Runs the nominal study at `parameters`. Peaks are those of 1001 samples; energies are integrals of powers by Simpson's rule over them,
-/// negative where energy leaves the mechanism.
+/// Runs the nominal study at `parameters`. Peaks are taken over 1001 samples; energies are integrals of powers over these samples by
+/// Simpson's rule, negative if energy leaves the mechanism.
 /// @param parameters all named parameters. @param cancel once set, the run ends soon with kCancelled; nullptr: no cancellation.
 DesignRecord record_design(const Problem& problem, const std::vector<double>& parameters, const std::atomic<bool>* cancel = nullptr);
 

@@ -70,13 +70,13 @@ std::string describe_worst(const OptimizationResult& result) {
          readable(scenario.objective) + (result.failed.empty() ? "" : "; " + std::to_string(result.failed.size()) + " failed");
 }
 
-/// What the value at risk says, and what fresh samples say of it.
+/// A sentence about the value at risk and its validation on fresh samples.
 std::string describe_risk(const RobustOptions& options, const OptimizationResult& result) {
   std::string text = "with a probability of " + readable(options.level) + " the objective is at most " + readable(*result.value_at_risk) +
                      " on these samples";
   if (const auto& v = result.validation)
-    text +=
-        ", and at most " + readable(v->value_at_risk) + " on fresh ones, of which " + readable(100.0 * v->within, 4) + " % keep the former";
+    text += ", and at most " + readable(v->value_at_risk) + " on fresh samples, of which " + readable(100.0 * v->within, 4) +
+            " % do not exceed the first value";
   return text;
 }
 

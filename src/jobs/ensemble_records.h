@@ -10,10 +10,11 @@
 
 namespace codesign {
 
-/// The index in `result.scenarios` of the largest psi at the best point, of those that could be integrated; -1: there is none.
+/// The index in `result.scenarios` of the scenario with the largest psi at the best point, among the scenarios that could be integrated;
+/// -1: there is none.
 int worst_scenario(const OptimizationResult& result);
 
-/// Adds what an optimization says about several runs, samples and starts: `scenarios`, `failed_scenarios`,
+/// Adds the results of an optimization for several runs, samples and starts: `scenarios`, `failed_scenarios`,
 /// `worst_scenario`, `value_at_risk`, `validation`, `multistart`. Adds nothing for a study
 /// with one run and one start.
 void add_ensemble(const Problem& problem, const OptimizationResult& result, Json* object);
@@ -26,9 +27,9 @@ std::vector<std::string> ensemble_sentences(const Problem& problem, const Optimi
 std::vector<std::string> start_columns(const Problem& problem);
 std::vector<std::vector<std::string>> start_rows(const OptimizationResult& result);
 
-/// Columns and rows of scenarios.csv: run, sample (from 1; 0: nominal), weight, objective before and after, whether it failed (1) there,
-/// the friction law if it is uncertain, then the parameters that any scenario sets; a cell is empty where a scenario does not set the
-/// parameter.
+/// Columns and rows of scenarios.csv: run, sample (from 1; 0: nominal), weight, objective before and after, whether the scenario failed (1)
+/// before and after, the friction law if it is uncertain, then the parameters that any scenario sets. A cell is empty if the scenario does
+/// not set the parameter.
 std::vector<std::string> scenario_columns(const OptimizationResult& result);
 std::vector<std::vector<std::string>> scenario_rows(const OptimizationResult& result);
 

@@ -102,7 +102,7 @@ Warnings warnings_of(const Json& array) {
 }  // namespace
 
 std::string to_line(const EvaluationRecord& record) {
-  // By name, so that a member that is added to Evaluation does not compile until it has a place here and in read_line().
+  // All members by name, so that a new member of Evaluation does not compile before it is written here and read in read_line().
   const auto& [status, objective, gradient, root, extremes, statistics, warnings] = record.evaluation;
   const bool with_gradient = record.derivatives != Derivatives::kNone, with_root = record.derivatives == Derivatives::kGaussNewton;
   Json line = {{"system", record.system}, {"parameters", numbers_json(record.parameters)}, {"with_gradient", with_gradient}};

@@ -10,9 +10,9 @@
 
 namespace codesign {
 
-/// A finished evaluation as a line of a journal has it.
+/// A finished evaluation, the content of a line of a journal.
 struct EvaluationRecord {
-  int system = 0;                  ///< number of the compiled system, in the order of the problem's
+  int system = 0;                  ///< number of the compiled system, in the order of distinct_systems()
   std::vector<double> parameters;  ///< all named parameters
   Derivatives derivatives = Derivatives::kNone;
   Evaluation evaluation;

@@ -45,7 +45,7 @@ Json trajectory_json(const ExcitationDescription& description, const ExcitationR
   return object;
 }
 
-/// The mean factor of one interval: that of the volume, shared by all numbers.
+/// The mean factor of one interval: the root of the factor of the volume over all numbers.
 double factor_of_one(const ExcitationResult& result) {
   return result.counted == 0 ? 1.0 : std::pow(result.volume_factor(), 1.0 / result.counted);
 }
@@ -82,9 +82,9 @@ std::vector<std::string> excitation_sentences(const ExcitationResult& result) {
   for (const std::string& sentence : result.undetermined) sentences.push_back("not identifiable by any trajectory: " + sentence);
   if (result.points.joints.empty()) return sentences;
   if (!std::isfinite(result.criterion))
-    sentences.push_back("no trajectory was found that tells all numbers by itself");
+    sentences.push_back("no single trajectory was found that determines all numbers");
   else if (!std::isfinite(result.criterion_before))
-    sentences.push_back("the plain trajectory does not tell all numbers that can be told; the one found does");
+    sentences.push_back("the plain trajectory does not determine all identifiable numbers; the trajectory found does");
   else
     sentences.push_back("predicted volume of the intervals: " + readable(result.volume_factor(), kFactorDigits) +
                         " times smaller than with the plain trajectory, each interval on average " +

@@ -15,10 +15,10 @@ namespace codesign {
 /// `undetermined`, `limits`, `trajectory`, `starts`, and counts. Infinite numbers are null.
 Json excitation_json(const Problem& problem, const ExcitationResult& result);
 
-/// What people read first, one sentence per line: what no trajectory tells, and by how much the intervals shrink.
+/// A summary for people, one sentence per line: the numbers that no trajectory determines, and the factor by which the intervals shrink.
 std::vector<std::string> excitation_sentences(const ExcitationResult& result);
 
-/// Columns and rows of trajectory.csv: time [s], then per joint JOINT/position, /velocity, /acceleration and /effort, the expected one.
+/// Columns and rows of trajectory.csv: time [s], then per joint JOINT/position, /velocity, /acceleration and the expected /effort.
 std::vector<std::string> trajectory_columns(const TrajectoryPoints& points);
 std::vector<std::vector<std::string>> trajectory_rows(const TrajectoryPoints& points);
 

@@ -16,7 +16,7 @@
 namespace codesign {
 namespace {
 
-constexpr std::size_t kConvergenceColumns = 6;  ///< before those of the tuned parameters
+constexpr std::size_t kConvergenceColumns = 6;  ///< number of columns before the tuned parameters
 constexpr std::size_t kStatusColumn = 2;
 
 using Cells = std::vector<std::string>;
@@ -34,7 +34,7 @@ Cells cells_of(const std::string& line) {
                        ": the values were changed after the optimization; tune again, or simulate and optimize from the changed values");
 }
 
-/// One folder that is being checked.
+/// The check of one folder.
 class Examination {
  public:
   explicit Examination(std::string folder) : folder_(std::move(folder)) {}
@@ -79,8 +79,8 @@ class Examination {
           fail_changed(in_folder("result.json"), in_model.name, job.parameters[k], in_folder("tuned.urdf"), in_model.value);
   }
 
-  /// Whether a row of convergence.csv is this design. The table of a node with very many trial points is thinned out, and has fewer rows
-  /// than the search had evaluations; then the simulation alone tells.
+  /// Checks that a row of convergence.csv has this design. For a job of a node with very many trial points the table is thinned out and has
+  /// fewer rows than the search had evaluations; then only the simulation can prove the design.
   void check_trial(FinishedJob* job) const {
     std::istringstream table(read_source(in_folder("convergence.csv")).text);
     std::string line;
@@ -111,7 +111,7 @@ class Examination {
     throw InputError({{in_folder("convergence.csv"), 1}, name, "the model and the study have no such parameter", "", ""});
   }
 
-  /// Parameters that were not tuned have the values with which the search began.
+  /// Checks that the parameters that were not tuned have the values at the begin of the search.
   void check_fixed(const FinishedJob& job) const {
     for (const auto& [name, initial] : read_result(read_source(in_folder("initial.json")))) {
       if (std::count(job.tuned.begin(), job.tuned.end(), name) > 0) continue;

@@ -18,12 +18,12 @@ std::string yaml_number(double value) {
   return text;
 }
 
-/// What control_toolbox::Pid reads, in its order.
+/// The parameters that control_toolbox::Pid reads, in its order.
 Json pid_parameters(const RobotGains& gains) {
   return {{"p", gains.p}, {"i", gains.i}, {"d", gains.d}, {"i_clamp", gains.i_clamp}, {"antiwindup", gains.antiwindup}};
 }
 
-/// The object at a namespace, whose parts are made where they are missing.
+/// The object at a namespace; creates missing parts of the namespace.
 Json& at_namespace(const std::string& name_space, Json* root) {
   Json* place = root;
   for (std::size_t first = 0; first <= name_space.size();) {

@@ -11,15 +11,15 @@
 
 namespace codesign {
 
-/// A file of an identification, and what makes its text.
+/// A file of an identification, with the function that makes its text.
 struct IdentificationFile {
   std::string name;  ///< `identification.json`
   std::function<std::string()> text;
 };
 
-/// The text files of an identification that has numbers: identification.json, identified_overlay.urdf,
+/// The text files of an identification with numbers: identification.json, identified_overlay.urdf,
 /// identified.urdf, residuals.csv, and the study as job_study.yaml; doc/study.md. The texts may throw. @param json identification_json()
-/// with all that the front end adds to it. All three must outlive the texts.
+/// with all additions of the front end. All three arguments must outlive the texts.
 std::vector<IdentificationFile> identification_files(const Problem& problem, const IdentificationResult& result, const Json& json);
 
 /// The contents of the bag of an identification; doc/ros_api.md.
@@ -27,7 +27,7 @@ struct IdentificationShow {
   std::string study, json, urdf;  ///< texts: the study, identification.json, the identified model
   ComparedMotion motion;
   FittedSeries data, holdout;
-  std::vector<std::string> joints;  ///< columns of both series
+  std::vector<std::string> joints;  ///< names of the columns of both series
 };
 
 /// @param json as above. @param motion compare_motion()
@@ -38,10 +38,10 @@ IdentificationShow identification_show(const Problem& problem, const Identificat
 /// @param path must not exist. @throws OutputError
 using IdentificationBagWriter = std::function<void(const std::string& path, const IdentificationShow& show)>;
 
-/// The writer that a program is linked with, like linked_bag_reader(); empty without ROS. Not in this library.
+/// The writer that the program is linked with, like linked_bag_reader(); empty without ROS. It is not in this library.
 IdentificationBagWriter linked_identification_bag();
 
-/// Instants per second in a bag where nobody asks for another rate [Hz].
+/// Default rate of the instants in a bag [Hz].
 constexpr double kShownRate = 50.0;
 
 }  // namespace codesign

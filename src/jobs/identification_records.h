@@ -11,11 +11,11 @@
 namespace codesign {
 
 /// identification.json, doc/study.md: `identified` (by name: value, start, deviation, interval, ...), `undetermined`, `covariance`,
-/// `correlation`, `data` and `holdout` (residuals by joint), `parameters`, `termination` and counts. Infinite numbers and numbers that
-/// nothing tells are null.
+/// `correlation`, `data` and `holdout` (residuals by joint), `parameters`, `termination` and counts. Infinite and unknown numbers are null.
 Json identification_json(const Problem& problem, const IdentificationResult& result);
 
-/// What people read first, one sentence per line: whether the holdout is explained, what the data do not tell, residuals by joint.
+/// A summary for people, one sentence per line: whether the holdout is explained, which numbers the data do not determine, residuals by
+/// joint.
 std::vector<std::string> identification_sentences(const IdentificationResult& result);
 
 /// Columns and rows of residuals.csv: set (data or holdout), recording (from 1), time [s], then per joint JOINT/recorded and

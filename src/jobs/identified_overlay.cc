@@ -19,7 +19,7 @@ constexpr int kDigits = 6;
 
 std::string interval_text(const IdentifiedNumber& number) {
   if (number.is_on_bound) return "on its bound, without an interval";
-  if (!number.is_determined) return "not identifiable: the recordings do not tell it";
+  if (!number.is_determined) return "not identifiable: the recordings do not determine it";
   std::string text = readable(number.low, kDigits) + " to " + readable(number.high, kDigits) + ", standard deviation " +
                      readable(number.deviation, kDigits);
   if (const auto& profile = number.profile)

@@ -10,9 +10,9 @@
 namespace codesign {
 
 /// identified_overlay.urdf, doc/study.md: sets every parameter of the model to the value of the fit, with intervals as comments. Merged
-/// after the problem's own overlays it makes the model identified.urdf. Numbers that are not of the model stand in a comment at the end, as
-/// the study takes them.
-/// @param result that has a point
+/// after the problem's own overlays, it turns the model into identified.urdf. Numbers that do not belong to the model are in a comment at
+/// the end, in the form in which a study takes them.
+/// @param result of a fit with a best point
 std::string identified_overlay(const Problem& problem, const IdentificationResult& result);
 
 }  // namespace codesign

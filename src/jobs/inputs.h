@@ -8,12 +8,12 @@
 
 namespace codesign {
 
-/// The texts and settings that a job works on, as a command line or a node was given them.
+/// The texts and settings of a job, from a command line or a node.
 struct Inputs {
   SourceText urdf;
   std::vector<SourceText> overlays;
-  SourceText study;            ///< without a name: the mechanism alone
-  bool study_is_tree = false;  ///< from the parameter server, not from a file
+  SourceText study;            ///< an empty name: no study, the mechanism alone
+  bool study_is_tree = false;  ///< whether the study is from the parameter server instead of a file
   ParameterSettings settings;
 };
 

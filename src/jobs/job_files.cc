@@ -55,7 +55,7 @@ bool has_files(const std::string& stem) {
 
 std::string bare_name(const std::string& stem) { return fs::path(stem).filename().string(); }
 
-/// The first bag of a job that does not exist. A job that was cancelled has one when it is resumed.
+/// The first name for a bag that is not taken. A cancelled job already has a bag when it is resumed.
 std::string free_bag(const std::string& stem) {
   std::string bag = stem + ".bag";
   for (int number = 1; exists(bag); ++number) bag = stem + ".resumed" + (number > 1 ? "-" + std::to_string(number) : "") + ".bag";
@@ -81,7 +81,7 @@ std::string clean(const std::string& stem) {
   throw InputError({{"request", 0}, "resume", message, value, allowed});
 }
 
-/// Names of jobs consist of these characters alone, so that none leads out of the folder.
+/// Names of jobs consist only of these characters, so that no name leads out of the folder.
 void require_bare_name(const std::string& name) {
   constexpr std::size_t kLongest = 255;
   const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
@@ -120,7 +120,7 @@ JobFiles JobFiles::resume(const std::string& directory, const std::string& name)
   require_journal_here();
   std::optional<LockFile> lock = LockFile::take(stem + kLock);
   if (!lock) throw JobIsRunning("the job " + name + " is running");
-  require_journal_here();  // its process may have completed it between the two lines above
+  require_journal_here();  // another process may have completed the job between the two lines above
   clean(stem);
   return JobFiles(stem, std::move(*lock));
 }

@@ -17,8 +17,8 @@ class JobIsRunning : public std::runtime_error {
 };
 
 /// Reserves the file names of one job in a folder that is shared by jobs of several processes. The stem is `<robot>_%Y-%m-%d-%H-%M-%S` in
-/// local time, followed by `-2`, `-3`, ... if it is taken; the files are `<stem>.bag`, `<stem>.best.json`, `<stem>.journal.jsonl`. The lock
-/// file
+/// local time, followed by `-2`, `-3`, ... if that stem is taken; the files are `<stem>.bag`, `<stem>.best.json`, `<stem>.journal.jsonl`.
+/// The lock file
 /// `<stem>.job` shows that the job is running.
 class JobFiles {
  public:
@@ -26,16 +26,17 @@ class JobFiles {
   /// is shortened to the limit of the file system. @throws OutputError if the folder or the lock file cannot be created.
   JobFiles(const std::string& directory, const std::string& robot);
 
-  /// Takes over the files of a job that was killed or cancelled, and removes its unfinished ones. @param name of the job, see name().
-  /// @throws InputError naming `resume` if `name` is no bare name or the folder has no journal of it; JobIsRunning.
+  /// Takes over the files of a job that was killed or cancelled, and removes its unfinished files. @param name of the job, see name().
+  /// @throws InputError naming `resume` if `name` is not a bare name or the folder has no journal with this name; JobIsRunning if the job
+  /// is running.
   static JobFiles resume(const std::string& directory, const std::string& name);
 
   /// The stem without the folder.
   std::string name() const;
   const std::string& stem() const { return stem_; }
-  /// A file that does not exist yet: `<stem>.bag`, or, of a job that had one when it was resumed, `<stem>.resumed.bag`, ...
+  /// The path of the bag, which does not exist yet: `<stem>.bag` or, if a resumed job already has a bag, `<stem>.resumed.bag`, ...
   const std::string& bag() const { return bag_; }
-  /// The folder of files beside the bag, which the job makes: its path without `.bag`.
+  /// The folder of files beside the bag, which the job creates: the path of the bag without `.bag`.
   std::string folder() const { return bag_.substr(0, bag_.size() - 4); }
   std::string journal() const { return stem_ + ".journal.jsonl"; }
 

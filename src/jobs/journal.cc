@@ -109,7 +109,7 @@ void Journal::open_file(Mode mode) {
 bool Journal::append(const std::string& line) {
   if (!failure_.empty()) return false;
   const std::string text = line + '\n';
-  // A disk that fills up first takes a part; only the next call says why.
+  // A disk that becomes full takes a part of the line; only the next call returns the error.
   std::size_t done = 0;
   ssize_t written = 1;
   errno = 0;
@@ -121,7 +121,7 @@ bool Journal::append(const std::string& line) {
   }
   const int cause = errno;
   failure_ = OutputError::of_system(path_, cause).what();
-  // What is on disk stays a journal that can be resumed.
+  // Removes the unfinished line, so that the job can be resumed from the file.
   if (ftruncate(file_, end_) != 0) failure_ += "; its last line is not finished";
   errno = cause;
   return false;

@@ -15,35 +15,36 @@
 
 namespace codesign {
 
-/// The file of everything that a job has evaluated, doc/study.md. Searches are deterministic given their evaluations, so the same job with
-/// this memory goes on where a killed one ended. Line 1 says whose journal it is (journal_header.h), every further line is one evaluation
-/// (evaluation_record.h), written by one call as soon as it is finished. Lines stay in the file; only their places are in memory.
+/// The file with all evaluations of a job, doc/study.md. Searches are deterministic given their evaluations, so that the same job with this
+/// memory continues where a killed job ended. Line 1 identifies the job (journal_header.h), every further line is one evaluation
+/// (evaluation_record.h), written by one call as soon as it is finished. Lines stay in the file; the memory holds only their places.
 /// Thread-safe.
 class Journal final : public EvaluationMemory {
  public:
   enum class Mode {
     kNew,    ///< the file must not exist
-    kResume  ///< the file must exist, and be of this job
+    kResume  ///< the file must exist and be the journal of this job
   };
 
-  /// Creates or opens the file. An unfinished last line, which a killed process leaves, is dropped.
-  /// @throws InputError for a file that is missing, of another job, or damaged, naming file and line. OutputError if it cannot be written.
+  /// Creates or opens the file. The unfinished last line of a killed process is dropped.
+  /// @throws InputError for a file that is missing, damaged, or the journal of another job, naming file and line. OutputError if it cannot
+  /// be written.
   Journal(std::string path, const Problem& problem, const OptimizerOptions& options, Mode mode);
   ~Journal() override;
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
   std::optional<Evaluation> find(const EvaluationTask& task) override;
-  /// Appends a line. A file that cannot be written stays as it is from then on; see failure().
+  /// Appends a line. After a failure to write, nothing more is appended; see failure().
   void keep(const EvaluationTask& task, const Evaluation& evaluation) override;
 
   /// How many evaluations are in the file.
   std::size_t evaluations() const;
-  /// How many were when it was opened.
+  /// Number of evaluations in the file when it was opened.
   std::size_t resumed() const { return resumed_; }
-  /// Sentences for the user about what was found.
+  /// Sentences for the user about the opened file.
   const std::vector<std::string>& notes() const { return notes_; }
-  /// Why lines are missing; empty if none is.
+  /// The reason for missing lines; empty if no line is missing.
   std::string failure() const;
 
  private:
@@ -59,12 +60,12 @@ class Journal final : public EvaluationMemory {
                            const std::string& allowed = "") const;
 
   const std::string path_, header_;
-  const std::size_t parameters_;  ///< their number
+  const std::size_t parameters_;  ///< number of parameters
   const std::map<const CompiledSystem*, int> systems_;
   int file_ = -1;
   std::size_t resumed_ = 0;
   std::vector<std::string> notes_;
-  mutable std::mutex mutex_;  // guards all that follows
+  mutable std::mutex mutex_;  // guards all members below
   std::unordered_multimap<std::size_t, Line> lines_;
   std::int64_t end_ = 0;  ///< size of the file
   std::string failure_;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kFormat = 1;
 
-/// The keys of the header with what they are called in messages.
+/// A key of the header with its name in messages.
 struct Part {
   const char* key;
   const char* name;
@@ -78,7 +78,7 @@ std::string header_difference(const std::string& found, const std::string& expec
            "; the bits of results may differ between versions";
   for (const Part& part : kParts)
     if (theirs.value(part.key, Json()) != ours.value(part.key, Json()))
-      return std::string(part.name) + " from that of the journal, which is of another job";
+      return std::string(part.name) + " from the journal, which belongs to another job";
   return theirs == ours ? "" : "the journal has a header that this program does not know";
 }
 

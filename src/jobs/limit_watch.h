@@ -15,8 +15,8 @@ struct LimitCrossing {
   std::string joint;
   std::string limit;   ///< lower, upper, velocity or effort
   double bound = 0.0;  ///< the limit in the file; velocity and effort: a magnitude [rad or m, rad/s or m/s, N m or N]
-  double worst = 0.0;  ///< the value farthest beyond it
-  double time = 0.0;   ///< of the first sample beyond it [s]
+  double worst = 0.0;  ///< the value farthest beyond the limit
+  double time = 0.0;   ///< time of the first sample beyond the limit [s]
 };
 
 /// Finds joints that exceed their `<limit>` during a run: velocities always, positions and efforts unless the study enforces them. A limit
@@ -34,7 +34,7 @@ class LimitWatch {
     std::size_t sample = 0;  ///< index into Frame::joints
     std::string joint, limit;
     double bound = 0.0;
-    int crossing = -1;  ///< index into crossings_ once crossed
+    int crossing = -1;  ///< index into crossings_ once the limit was exceeded
   };
   void note(Watched* watched, double value, bool beyond, double time);
 

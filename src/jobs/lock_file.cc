@@ -46,8 +46,8 @@ std::optional<LockFile> LockFile::create(const std::string& path) {
   if (descriptor < 0 && errno == EEXIST) return std::nullopt;
   if (descriptor < 0) throw OutputError::of_system(path, errno);
   LockFile file(path, descriptor);
-  // Exclusive creation reserves the name even on file systems without locks. Between the two calls another process may have taken the file
-  // for an abandoned one and removed it, which the check below detects.
+  // Exclusive creation reserves the name even on file systems without locks. Between the two calls another process may have mistaken the
+  // file for an abandoned one and removed it, which the check below detects.
   flock(descriptor, LOCK_EX);
   if (!file.is_at_its_path()) return std::nullopt;
   return file;

@@ -7,8 +7,8 @@
 
 namespace codesign {
 
-/// A lock file (flock) that exists while a process works on the files that it protects. The system releases the lock however the process
-/// ends, so that an unlocked file was left behind by a killed process. The destructor removes the file.
+/// A lock file (flock) that exists while a process works on the files that it protects. The system releases the lock at every end of the
+/// process, so that an unlocked file is the file of a killed process. The destructor removes the file.
 class LockFile {
  public:
   /// Creates and locks `path`; nullopt if it exists. @throws OutputError if it cannot be created.

@@ -10,13 +10,13 @@ namespace codesign {
 /// Whether the best point was evaluated with its gradient; false if the search was cancelled before the first trial or the start failed.
 bool is_evaluated(const Problem& problem, const OptimizationResult& result);
 
-/// Whether the objective at the best point is known; while screening it is without its gradient.
+/// Whether the objective at the best point is known; while screening, it is known without its gradient.
 bool has_objective(const Problem& problem, const OptimizationResult& result);
 
 /// Whether there is a design to report. A cancelled optimization has one, which may be its start.
 bool has_design(const Problem& problem, const OptimizationResult& result);
 
-/// What `codesign optimize --json` prints and result.json holds, but for `setup_seconds`, `warnings` and `error`; doc/results.md.
+/// The output of `codesign optimize --json` and the content of result.json, except `setup_seconds`, `warnings` and `error`; doc/results.md.
 Json optimization_json(const Problem& problem, const OptimizationResult& result);
 
 }  // namespace codesign

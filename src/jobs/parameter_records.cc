@@ -25,7 +25,8 @@ const char* bound_of(const Parameter& parameter, double value) {
   return is_on(parameter.lower) ? "lower" : is_on(parameter.upper) ? "upper" : "";
 }
 
-/// The time that the reference takes [s]: a complex run costs about four real ones, Ridders' extrapolation about twenty.
+/// The time that the reference takes [s]: a complex run takes about four times as long as a real run, Ridders' extrapolation about twenty
+/// times.
 double expected_seconds(const Problem& problem, const OptimizationResult& result) {
   const double evaluations = std::max(1, result.evaluations);
   const double runs = problem.study().solver.integrator == IntegratorKind::kIdas ? 20.0 : 4.0;
@@ -65,7 +66,7 @@ Json gradient_check_json(const Problem& problem, const OptimizationResult& resul
   try {
     check = check_gradient(Ensemble(problem), result.rho, method, cancel);
   } catch (const InputError& error) {
-    return skipped(error.what());  // a gradient that cannot be checked, such as one of an engine without its processes
+    return skipped(error.what());  // the gradient cannot be checked, for example because the processes of the engine are missing
   }
   if (!check.status.ok()) return skipped(describe(check.status));
   const std::vector<std::string> names = problem.tuned_names();

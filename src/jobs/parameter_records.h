@@ -14,7 +14,8 @@ namespace codesign {
 Json parameter_table(const Problem& problem, const OptimizationResult& result);
 
 /// The gradient at the best point beside a reference by complex step (with `idas` by Ridders' differences): `method`, `gradient`,
-/// `reference`, `largest_relative_difference`. If that is expected to take more than a few seconds, or if it fails, `skipped` says why.
+/// `reference`, `largest_relative_difference`. If the check would probably take more than a few seconds, or if it fails, `skipped` has the
+/// reason.
 Json gradient_check_json(const Problem& problem, const OptimizationResult& result, const std::atomic<bool>* cancel);
 
 }  // namespace codesign

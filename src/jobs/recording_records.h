@@ -10,7 +10,7 @@
 
 namespace codesign {
 
-/// What a recording holds, and how much of it is fitted.
+/// The content of a recording, and the fitted part.
 struct RecordingSummary {
   std::string element, file;
   std::size_t samples = 0;

@@ -27,14 +27,14 @@ void write_file(const std::string& path, const Text& text, std::vector<Failure>*
   }
 }
 
-/// Where in `folder` a file goes that the study names; empty if the study finds it from anywhere, or outside the folder.
+/// The path in `folder` for a copy of a file that the study names; empty for an absolute path, or if the path leads out of the folder.
 std::string place_of(const LoadedFile& file, const std::string& folder) {
   const std::filesystem::path path = std::filesystem::path(file.file).lexically_normal();
   if (path.is_absolute() || path.empty() || *path.begin() == "..") return "";
   return (std::filesystem::path(folder) / path).string();
 }
 
-/// So that job_study.yaml finds it there, too. The file that was read stays as it is.
+/// Copies a named file, so that job_study.yaml finds it in the folder, too. Never overwrites the file that was read.
 void write_named_file(const LoadedFile& file, const std::string& folder) {
   const std::string place = place_of(file, folder);
   std::error_code unknown;
@@ -100,7 +100,7 @@ std::vector<Failure> ResultFolder::write_runs(const OptimizationResult& result, 
       failures.push_back({"output_failed", error.what()});
     }
   };
-  // The tuned one first: it counts if time runs out.
+  // The tuned design first, since it matters more if time runs out.
   record("tuned", result.rho);
   record("initial", result.initial_rho);
   details["gradient_check"] = gradient_check_json(problem_, result, cancel);

@@ -13,9 +13,9 @@
 
 namespace codesign {
 
-/// The files that a finished optimization leaves for people, robots and `codesign report`; doc/results.md lists them. They stand for
-/// themselves: with tuned.urdf (or initial.urdf), job_study.yaml and result.json the program computes the objective again, bit for bit.
-/// Each file is written as a whole, and one that cannot be written does not affect the others.
+/// The files that a finished optimization leaves for people, robots and `codesign report`; doc/results.md lists them. They are complete:
+/// from tuned.urdf (or initial.urdf), job_study.yaml and result.json the program computes the same objective again, to the last bit. Each
+/// file is written as a whole, and a file that cannot be written does not affect the others.
 class ResultFolder {
  public:
   /// @param path an existing folder. @param problem must outlive this.
@@ -25,8 +25,8 @@ class ResultFolder {
   static const std::vector<std::string>& file_names();
 
   /// Writes result.json, tuned.urdf, initial.urdf, initial.json, job_study.yaml with the files that it names by relative paths, gains.yaml
-  /// if the study has `hardware:`, starts.csv and scenarios.csv if there are any. @param object for result.json. @returns one failure for
-  /// each file that is missing.
+  /// if the study has `hardware:`, starts.csv and scenarios.csv if the study has starts or scenarios. @param object for result.json.
+  /// @returns one failure for each file that is missing.
   std::vector<Failure> write_design(const Json& object, const OptimizationResult& result) const;
 
   /// Runs both designs and checks the gradient if that takes seconds; writes initial.csv, tuned.csv and details.json.
@@ -44,7 +44,7 @@ class ResultFolder {
 std::string csv_text(const std::vector<std::string>& columns, const std::vector<std::vector<std::string>>& rows, const std::string& where);
 
 /// Columns and a row of convergence.csv: evaluation, iteration, status, objective, best_objective, gradient_norm, then the tuned
-/// parameters. A failed point has no objective; its cells are empty, which readers of CSV take as missing.
+/// parameters. The objective of a failed point is an empty cell, which readers of CSV take as missing.
 std::vector<std::string> convergence_columns(const std::vector<std::string>& tuned_names);
 std::vector<std::string> convergence_row(const Trial& trial);
 

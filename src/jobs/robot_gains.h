@@ -12,10 +12,10 @@ namespace codesign {
 /// The gains of one controller as control_toolbox::Pid takes them. Effort = p e + i int e dt + d de/dt with e = setpoint - measured, in SI
 /// units.
 struct RobotGains {
-  std::string name_space;     ///< where the robot keeps them, without a slash at either end
-  std::string controller;     ///< its name in the study
-  std::string joint;          ///< that it drives
-  bool loses_weight = false;  ///< in the study it also carries the weight, which is not among these gains
+  std::string name_space;     ///< namespace of the gains on the robot, without a slash at either end
+  std::string controller;     ///< name of the controller in the study
+  std::string joint;          ///< the joint that the controller drives
+  bool loses_weight = false;  ///< whether the controller also compensates gravity in the study, which these gains do not
   double p = 0.0, i = 0.0, d = 0.0;
   double i_clamp = 0.0;     ///< largest effort of the integral term [N m or N]
   bool antiwindup = false;  ///< whether the integral of the error itself stays within i_clamp / i

@@ -17,7 +17,7 @@ namespace codesign {
 struct RunSummary {
   Status status;
   Statistics statistics;
-  std::vector<LimitCrossing> crossings;  ///< at the sampled instants
+  std::vector<LimitCrossing> crossings;  ///< found at the sampled instants
   Warnings warnings;                     ///< Simulation::warnings()
 };
 

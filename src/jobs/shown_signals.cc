@@ -18,7 +18,7 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-/// Of quantities whose unit is the same on every object; null: it depends on the object.
+/// The unit of a quantity; null if it depends on the object.
 const char* fixed_unit(const std::string& quantity) {
   if (ends_with(quantity, "_energy")) return "J";
   if (ends_with(quantity, "_power")) return "W";
@@ -39,7 +39,7 @@ std::string joint_unit(const std::string& quantity, const JointDescription& join
 
 std::string link_unit(const std::string& quantity) { return quantity == "position" ? "m" : quantity == "velocity" ? "m/s" : ""; }
 
-/// Adds what the limits of a joint say about one of its signals.
+/// Adds the limits of a joint that apply to one of its signals.
 void add_limits(const RobotDescription& robot, const std::vector<double>& parameters, ShownSignal* shown) {
   if (shown->signal.terms.size() != 1 || shown->signal.terms[0].factor < 0.0) return;
   const SignalTerm& term = shown->signal.terms[0];

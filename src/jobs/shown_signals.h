@@ -10,7 +10,7 @@
 
 namespace codesign {
 
-/// A signal of the files that a job leaves: what its axis says, and the limits of the URDF that bound it.
+/// A signal in the result files: the text of its axis, and its limits in the URDF.
 struct ShownSignal {
   SignalDescription signal;
   std::string unit;                    ///< SI; empty: none
@@ -18,7 +18,8 @@ struct ShownSignal {
 };
 
 /// The signals of initial.csv and tuned.csv: default_signals(), then the efforts that controllers apply, their errors, the powers of
-/// friction by joint, those of the whole mechanism, and whatever else the study reads, each once. @param parameters all named parameters.
+/// friction by joint, the powers of the whole mechanism, and all other signals that the study reads, each once. @param parameters all named
+/// parameters.
 std::vector<ShownSignal> shown_signals(const Problem& problem, const std::vector<double>& parameters);
 
 /// The unit of a signal, by its first term.

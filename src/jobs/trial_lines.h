@@ -23,9 +23,9 @@ class TrialLines {
   /// @param study must outlive this.
   explicit TrialLines(const Study& study) : scaling_(study) {}
 
-  /// "trial 12: objective 0.0123, scaled gradient 0.02, step 0.03, best 0.0123, at most 12 s left", and of several searches the number of
-  /// the search before it. `step` is the distance from the best point of this search so far, in the scaled variables of doc/theory.md (24);
-  /// the first trial of a search has none. @param progress at this trial.
+  /// "trial 12: objective 0.0123, scaled gradient 0.02, step 0.03, best 0.0123, at most 12 s left", and, with several searches, the number
+  /// of the search before it. `step` is the distance from the best point of this search so far, in the scaled variables of doc/theory.md
+  /// (24); the first trial of a search has none. @param progress at this trial.
   std::string line(const Trial& trial, const Progress& progress);
 
  private:
@@ -42,11 +42,11 @@ class TrialLines {
 /// One line of text for each evaluation of a fit, for logs.
 class FitLines {
  public:
-  /// @param most_evaluations of the fit.
+  /// @param most_evaluations limit of the fit.
   explicit FitLines(int most_evaluations) : most_evaluations_(most_evaluations) {}
 
   /// "evaluation 3: cost 12.1, root mean squares 0.1 0.2, step 0.03, at most 12 s left"; `step` is the largest change of a number since the
-  /// best point so far, over its size. Of a profile "profile 2 of 5" when it begins, else empty.
+  /// best point so far, over its size. For evaluations of profiles: "profile 2 of 5" when a profile begins, else empty.
   std::string line(const FitTrial& trial);
 
  private:

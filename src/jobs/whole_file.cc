@@ -25,7 +25,7 @@ void write_whole_file(const std::string& path, const std::string& text) {
 }
 
 void give_final_name(const std::string& active, const std::string& path) {
-  // link() never replaces an existing file. Some file systems do not support it; there rename() is used.
+  // link() never replaces an existing file. rename() is used on file systems without link().
   if (link(active.c_str(), path.c_str()) == 0) {
     unlink(active.c_str());
     return;

@@ -9,7 +9,7 @@
 namespace codesign {
 
 // The derivative by positions of the generalized forces J^T L of a load along a coordinate, (J^T L)_q = L theta_qq; doc/theory.md (8). Rows
-// and columns are those of the pair's 14 coordinates.
+// and columns belong to the pair's 14 coordinates.
 
 namespace internal {
 

@@ -8,13 +8,13 @@
 
 namespace codesign {
 
-// Decompositions of dense matrices, by Eigen. Eigen's templates take seconds to compile in each file that uses them; dense.cc compiles once
-// what is needed here. None of these functions belongs into a loop over steps: they allocate.
+// Decompositions of dense matrices, by Eigen. Eigen's templates take seconds to compile in each file that uses them; dense.cc compiles the
+// needed ones once. None of these functions belongs into a loop over steps: they allocate.
 
 /// A = U diag(values) V^T, values in descending order; U and V are square and orthogonal.
 struct SingularValues {
   Eigen::VectorXd values;
-  Eigen::MatrixXd U, V;  ///< empty where they were not asked for
+  Eigen::MatrixXd U, V;  ///< empty unless requested
 };
 enum class SingularVectors { kNone, kLeft, kRight, kBoth };
 SingularValues singular_values(const Eigen::MatrixXd& A, SingularVectors vectors = SingularVectors::kNone);
@@ -56,7 +56,7 @@ class LeastNorm {
 /// The same with Eigen's default threshold: the rounding of one number times the smaller dimension.
 LeastNorm least_norm(const Eigen::MatrixXd& A);
 
-/// Eigenvalues, ascending, and orthonormal eigenvectors (columns) of a symmetric matrix, of which the lower triangle is read.
+/// Eigenvalues, ascending, and orthonormal eigenvectors (columns) of a symmetric matrix, whose lower triangle is read.
 struct SymmetricEigen {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;

@@ -14,8 +14,8 @@ namespace codesign {
 /// A value with N directional derivatives side by side in SIMD registers: forward-mode automatic differentiation of N parameters in one
 /// pass.
 ///
-/// Plain arithmetic on the compiler's vector type, all inlined; doc/decisions/0003-lanes.md says why no library's dual number is used. Like
-/// a double, it is uninitialized after default construction. Comparisons are those of the values.
+/// Plain arithmetic on the compiler's vector type, all inlined; doc/decisions/0003-lanes.md explains why no library's dual number is used.
+/// Like a double, it is uninitialized after default construction. Comparisons compare the values.
 template <int N>
 struct Lanes {
   static_assert(N % 4 == 0, "lanes come in fours");

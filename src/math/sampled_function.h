@@ -14,7 +14,7 @@ class SampledFunction {
   /// @throws std::invalid_argument for other sizes or orders.
   SampledFunction(std::vector<double> times, std::vector<double> values);
 
-  /// Value and time derivatives at a time [s]; at a sample the second and third are those of the piece that follows.
+  /// Value and time derivatives at a time [s]; at a sample the second and third derivatives of the following piece hold.
   struct Sample {
     double value = 0.0, slope = 0.0, second = 0.0, third = 0.0;
   };

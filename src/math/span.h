@@ -40,7 +40,7 @@ class Span {
   // NOLINTBEGIN(google-explicit-constructor): an array is passed as it is.
   template <class Entry, std::size_t size, class = internal::IfSameEntries<Entry, T>>
   Span(Entry (&array)[size]) : Span(array, std::ptrdiff_t{size}) {}
-  /// Vectors, arrays and spans, and what of Eigen's lies side by side. A temporary can be read from only.
+  /// Vectors, arrays and spans, and Eigen's objects with contiguous numbers. A temporary can be read from only.
   template <class Container, class = internal::IfHolds<Container, T>>
   Span(Container& from) : Span(from.data(), static_cast<std::ptrdiff_t>(from.size())) {}
   template <class Container, class = internal::IfHolds<const Container, T>>

@@ -7,7 +7,7 @@
 namespace codesign {
 
 /// The upper triangular R with R^T R = A^T A and a diagonal that is not negative, by Householder reflections; square, of the size of A's
-/// columns. A^T A itself, whose condition is that of A squared, is not formed.
+/// columns. A^T A itself, whose condition number is the square of A's condition number, is not formed.
 Eigen::MatrixXd triangular_root(const Eigen::MatrixXd& A);
 
 /// The same of a matrix whose rows come one after another and are too many to keep. Memory for two times as many rows as columns, at

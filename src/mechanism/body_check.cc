@@ -53,7 +53,7 @@ MassFault find_mass_fault(const MassProperties<double>& body) {
   if (body.mass < 0.0) return {"negative_mass", "the mass is negative", to_decimal(body.mass)};
   const Vector3<double> moments = principal_moments(body.inertia);
   const std::string text = "principal moments " + format_numbers({moments[0], moments[1], moments[2]});
-  // Moments below those of a radius of gyration of a micrometre (1e-12 m^2 times the mass) come from rounding in the file.
+  // Moments below the moment of a radius of gyration of one micrometre (1e-12 m^2 times the mass) come from rounding in the file.
   const double rounding = kRounding * std::max(std::abs(moments[0]), std::abs(moments[2])) + 1e-12 * body.mass;
   if (moments[0] < -rounding) return {"inertia_not_positive", "the inertia has a negative principal moment", text};
   if (moments[2] > (moments[0] + moments[1]) * (1.0 + kTriangle) + rounding)

@@ -26,7 +26,7 @@ struct CoordinateConstants {
   enum class Kind {
     kNone,   ///< not available: the joint has no scalar position, or the folded chain no closed form for it
     kTurn,   ///< turn about the common z axis: sign * atan2(y_i . x_j, x_i . x_j)
-    kSlide,  ///< sign * a . d, with a fixed in body i or j and d from the joint point of i to that of j
+    kSlide,  ///< sign * a . d, with a fixed in body i or j and d from the joint point of i to the joint point of j
     kAngle,  ///< sign * atan2(a_i . b_j, c_i . d_j)
     kSine,   ///< sign * asin(a_i . b_j)
     kSpin    ///< only a rate: a . (omega_j - omega_i), with a fixed in the ground

@@ -10,7 +10,7 @@
 
 namespace codesign {
 
-/// The bodies that enter the inverse dynamics of a driven joint, theory (C4): those that it moves and those that carry it.
+/// The bodies that enter the inverse dynamics of a driven joint, theory (C4): the bodies that it moves and the bodies that carry it.
 struct DrivenTree {
   struct Node {
     int body = -1;

@@ -20,7 +20,7 @@ inline constexpr std::array<const char*, 10> kLogCholeskyUnits{"", "", "", "", "
 /// @returns in the order of kLogCholeskyNames; std::nullopt if mass or extent along some direction is not positive, as for points, rods and
 /// plates, or if a principal moment is not below the sum of the others.
 std::optional<std::array<double, 10>> log_cholesky(const MassProperties<double>& properties);
-/// The properties of ten numbers, whatever they are; the reverse of log_cholesky().
+/// The mass properties for any ten numbers; the inverse of log_cholesky().
 MassProperties<double> properties_of(const std::array<double, 10>& numbers);
 
 }  // namespace codesign

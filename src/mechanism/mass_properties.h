@@ -111,7 +111,7 @@ MassProperties<T> from_shapes(const InertialDescription& inertial, const std::ve
 
 }  // namespace internal
 
-/// Mass properties of a link at `parameters`: the numbers given or, with a density, those of its boxes, cylinders and spheres by the
+/// Mass properties of a link at `parameters`: the numbers given or, with a density, computed from its boxes, cylinders and spheres by the
 /// parallel-axis theorem; overlapping solids count twice.
 template <class T>
 MassProperties<T> mass_properties(const InertialDescription& inertial, const std::vector<T>& parameters) {

@@ -69,7 +69,8 @@ class PairBuilder {
     return sqrt(dot(x, x));
   }
 
-  // x'' is given in the joint frame of the element with the friction, else in that of the only turning element (else of the first one).
+  // x'' is given in the joint frame of the element with the friction, else in the joint frame of the only turning element (else of the
+  // first element).
   Matrix3<T> joint_axes() const {
     std::size_t frame = turns_.size() == 1 ? turns_[0] : 0;
     std::optional<std::array<double, 3>> preferred;

@@ -130,8 +130,8 @@ class TopologyBuilder {
         in_coupling_[index(joint)] = true;
   }
 
-  // A massless group between two joints is folded. Any other, with three joints or more or one that carries a load, becomes a body without
-  // mass.
+  // A massless group between two joints is folded. Any other massless group, with three joints or more or with a load, becomes a body
+  // without mass.
   void contract_massless_chains() {
     for (std::size_t link = 0; link < robot_.links.size(); ++link) {
       const int group = static_cast<int>(link);

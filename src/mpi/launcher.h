@@ -7,17 +7,17 @@
 
 namespace codesign {
 
-/// What a launcher of MPI programs (mpirun, srun) says in the environment about this process; it is there before MPI is initialized, and
-/// without MPI.
+/// Environment variables of a launcher of MPI programs (mpirun, srun) about this process. They are set before MPI is initialized, and also
+/// in a build without MPI.
 struct Launched {
   int rank = 0;
-  int ranks = 0;  ///< 0 where the launcher does not say
+  int ranks = 0;  ///< 0 if the launcher does not set it
 };
 
-/// Nothing if no launcher has started this process. @param value of an environment variable by name; null: not set.
+/// std::nullopt if no launcher has started this process. @param value of an environment variable by name; null: not set.
 std::optional<Launched> find_launcher(const char* (*value)(const char* name));
 
-/// The same, by the environment of this process.
+/// Reads the environment of this process.
 std::optional<Launched> find_launcher();
 
 }  // namespace codesign

@@ -15,10 +15,10 @@ constexpr int kTag = 0;
 
 MpiTransport::MpiTransport() {
   int provided = 0;
-  // On rank 0 another thread than this one makes the calls.
+  // On rank 0 another thread than the initializing one makes the calls.
   if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided) != MPI_SUCCESS) throw std::runtime_error("MPI does not start");
   if (provided < MPI_THREAD_SERIALIZED) throw std::runtime_error("this MPI cannot be called from several threads");
-  // Of our own, so that an error is ours to handle: by default it ends the program.
+  // A communicator of our own, with an error handler that returns; the default handler ends the program.
   MPI_Comm_dup(MPI_COMM_WORLD, &world_);
   MPI_Comm_set_errhandler(world_, MPI_ERRORS_RETURN);
   MPI_Comm_rank(world_, &rank_);
@@ -44,7 +44,7 @@ std::optional<Envelope> MpiTransport::receive() {
   return envelope;
 }
 
-/// Frees what has been sent. Messages mostly leave in the order in which they came, so the first that has not left ends the search.
+/// Frees the messages that have been sent. Messages mostly leave in order, so that the search ends at the first one that has not left.
 void MpiTransport::move_on() {
   while (!sending_.empty()) {
     int is_sent = 0;

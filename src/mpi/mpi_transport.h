@@ -26,7 +26,7 @@ class MpiTransport final : public Transport {
   std::optional<Envelope> receive() override;
   std::string failure() const override { return failure_; }
 
-  /// Waits until everything is sent, at most as long as said. @returns whether it is.
+  /// Waits until all messages are sent, at most for this time. @returns whether they are sent.
   bool flush(std::chrono::milliseconds most);
   /// Ends MPI together with all other ranks.
   void finish();

@@ -11,7 +11,7 @@ int run_on_ranks(const std::string& name, const std::function<int(Dispatcher*)>&
   constexpr int kBadInput = 2;
   const std::optional<Launched> launched = find_launcher();
   if (!launched || launched->ranks <= 1) return first(nullptr);
-  // Each process would do the same job, and write into the same files.
+  // Otherwise each process would run the same job and write the same files.
   if (launched->rank == 0)
     std::cerr << name << ": started as " << launched->ranks
               << " processes, but built without MPI; install libopenmpi-dev and build again, or start it without mpirun" << std::endl;

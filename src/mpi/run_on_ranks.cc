@@ -15,10 +15,10 @@ namespace {
 constexpr int kFailed = 1;
 constexpr auto kFlush = std::chrono::seconds(2);  // for the last messages
 
-// mpirun sends its signals to all ranks. The first one is for rank 0, which keeps what is there and then ends the others.
+// mpirun sends its signals to all ranks. The first signal is for rank 0, which keeps its results and then ends the other ranks.
 extern "C" void stay(int signal_number) { std::signal(signal_number, SIG_DFL); }
 
-/// Ends MPI. If not all ranks can end together, those that are left end at once: they would wait for each other forever.
+/// Ends MPI. If not all ranks can end together, the remaining ranks end at once; otherwise they would wait for each other forever.
 int finish(MpiTransport* transport, bool in_order, int code) {
   if (!in_order || !transport->flush(kFlush)) transport->abort(code);
   transport->finish();

@@ -18,7 +18,7 @@ struct Energy {
   double total() const { return kinetic + potential; }
 };
 
-/// Power that goes into the mechanism [W]; negative where energy leaves it.
+/// Power that enters the mechanism [W]; negative if energy leaves it.
 struct Power {
   double friction = 0.0, damping = 0.0, actuators = 0.0, loads = 0.0;  ///< the kinds of PowerKind
 

@@ -102,7 +102,8 @@ void Observer::observe(const State<double>& state, double objective, const Vecto
   for (std::size_t k = 0; k < signals_.size(); ++k) frame->signals[k] = equations->formulas().signal(signals_[k], state);
 }
 
-// A joint below which nothing has mass has no row of motion; if it mimics another joint, its position follows from that one.
+// A joint below which nothing has mass has no row of motion; if it mimics another joint, its position follows from the position of that
+// joint.
 void Observer::follow_mimics(const std::vector<double>& parameters, VectorX<double>* positions, Frame* frame) const {
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     double factor = 1.0, offset = 0.0;

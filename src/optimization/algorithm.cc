@@ -11,7 +11,7 @@ namespace codesign {
 namespace {
 
 struct Algorithm {
-  std::optional<nlopt::algorithm> id;  ///< none: Levenberg-Marquardt, which is not NLopt's
+  std::optional<nlopt::algorithm> id;  ///< std::nullopt: Levenberg-Marquardt, which NLopt does not have
   bool takes_constraints, takes_equalities;
 };
 

@@ -9,13 +9,13 @@
 
 namespace codesign {
 
-/// Where the options stand; the study's first line if they come from elsewhere.
+/// The place of the options, for messages; the study's first line if the options do not come from a file.
 SourceLocation where_of(const OptimizerOptions& options, const Study& study);
 
 /// Whether the algorithm is Levenberg-Marquardt, which minimizes sums of squares; else it is one of NLopt's.
 bool is_least_squares(const std::string& algorithm);
 
-/// @param study for its constraints. @param with_slack whether slack variables of a robust measure add constraints.
+/// @param study gives the constraints. @param with_slack whether slack variables of a robust measure add constraints.
 /// @throws InputError for an unknown algorithm, for constraints with an algorithm that takes none, or a relative tolerance out of range.
 void check_algorithm(const Study& study, const OptimizerOptions& options, bool with_slack);
 /// For Levenberg-Marquardt. @param measure of the objectives of several scenarios; kMean if there is one.

@@ -12,9 +12,9 @@ namespace codesign {
 namespace {
 
 using Eigen::Index;
-constexpr double kLeastDamping = 1e-16;  // of columns of norm 1
-constexpr double kNull = 1e-9;           // of the largest singular value: smaller ones are rounding
-constexpr double kRounding = 1e-12;      // of the gradient: a component on a bound stays there if it would gain less
+constexpr double kLeastDamping = 1e-16;  // for columns of norm 1
+constexpr double kNull = 1e-9;           // relative to the largest singular value: smaller ones are rounding
+constexpr double kRounding = 1e-12;      // relative to the gradient: a component on a bound stays there if leaving it would gain less
 constexpr int kMostBisections = 60;
 
 }  // namespace

@@ -12,8 +12,8 @@ namespace codesign {
 /// solved exactly by an active set. For the free components it uses QR factorizations of the columns of [R D^-1; sqrt(mu) 1] and the
 /// corrected seminormal equations, since g is known and R^T R p = -g/2 has no other right side.
 ///
-/// Directions in which R D^-1 changes nothing, as far as 1e-9 of its largest singular value tells, are held: the step has no component
-/// along them that no bound asks for. Rounding alone would decide on it.
+/// Directions with singular values of R D^-1 below 1e-9 of the largest one are held: the step has a component along them only where a bound
+/// requires it. Otherwise rounding errors would determine that component.
 class BoundedStep {
  public:
   /// @param root R. @param scale the diagonal of D, positive. @param lower at most 0, @param upper at least 0; may be infinite.
@@ -24,7 +24,7 @@ class BoundedStep {
   Eigen::VectorXd damped(double mu) const;
   /// The minimum of g^T p + |R p|^2 over the bounds and |D p| <= radius, to 10 % of the radius where that counts.
   Eigen::VectorXd within(double radius) const;
-  /// What the model promises, -(g^T p + |R p|^2).
+  /// The decrease that the model promises, -(g^T p + |R p|^2).
   double promise(const Eigen::VectorXd& p) const;
   /// g^T p.
   double slope(const Eigen::VectorXd& p) const { return gradient_.dot(scale_.cwiseProduct(p)); }

@@ -14,10 +14,10 @@ namespace {
 
 using Outcome = LeastSquaresModel::Outcome;
 
-constexpr double kLeastGain = 1e-4;                   // of what the model promised: a step that gains less is not taken
+constexpr double kLeastGain = 1e-4;                   // of the promise: a step that gains less is rejected
 constexpr double kPoorGain = 0.25, kGoodGain = 0.75;  // the radius shrinks below the first and grows above the second
 constexpr double kUnusable = 0.25;                    // factor of the radius after a point without a value
-constexpr double kLeastScale = 1e-8;                  // of the largest entry of D
+constexpr double kLeastScale = 1e-8;                  // relative to the largest entry of D
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon(), kRoundingOfVariables = 4.0 * kEpsilon;
 
 /// One search: the radius, the scales, and the best point so far.
@@ -77,12 +77,12 @@ class SquaresSearch {
       end = judge(step, p, promise, trial);
     else
       radius_ = kUnusable * step.length(p);
-    // What unknowns of the model's own promise where x stays is not kept.
+    // A promise of the model's own unknowns that was not kept although x stayed does not count again.
     if (stays && !(best_.value < before)) best_.owed = 0.0;
     return end;
   }
 
-  /// Compares what was gained with what was promised.
+  /// Compares the gain of the step with its promise.
   std::optional<LevenbergMarquardtEnd> judge(const BoundedStep& step, const Eigen::VectorXd& p, double promise,
                                              const Eigen::VectorXd& trial) {
     const double gain = best_.value - tried_.value, ratio = gain / promise, length = step.length(p);
@@ -95,7 +95,7 @@ class SquaresSearch {
     } else if (ratio > kGoodGain) {
       radius_ = std::max(radius_, 2.0 * length);
     }
-    // Where the radius holds back a model that is right, the next step gains more.
+    // If the model is right and only the radius limits the step, the next step gains more.
     const bool holds_back = is_limited && ratio > kGoodGain;
     const bool has_converged = std::abs(gain) <= small && promise <= small && ratio <= 2.0 && !holds_back;
     if (ratio > kLeastGain) {

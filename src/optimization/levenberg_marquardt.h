@@ -11,18 +11,18 @@ struct LeastSquaresPoint {
   double value = 0.0;        ///< psi
   Eigen::VectorXd gradient;  ///< psi_x = 2 J^T r
   Eigen::MatrixXd root;      ///< upper triangular R with R^T R = J^T J; see triangular_root(), RowRoot
-  /// Of a model with unknowns of its own, which take a step with each step of x: by how much their step alone would lower psi, to first
-  /// order. It adds to what a step of x promises, doc/theory.md (42).
+  /// For a model with unknowns of its own, which take a step with each step of x: the decrease of psi by the step of these unknowns alone,
+  /// to first order. It is added to the promise of a step of x, doc/theory.md (42).
   double owed = 0.0;
 };
 
-/// What LevenbergMarquardt minimizes.
+/// The sum of squares that minimize_squares() minimizes.
 class LeastSquaresModel {
  public:
   enum class Outcome {
     kUsable,
-    kFailed,  ///< there is no value at this point; the search turns back
-    kStop     ///< the search is to end
+    kFailed,  ///< the point has no value; the search turns back
+    kStop     ///< the search must end
   };
   virtual ~LeastSquaresModel() = default;
   /// @param point set if kUsable.
@@ -31,7 +31,7 @@ class LeastSquaresModel {
 
 struct LevenbergMarquardtOptions {
   int max_evaluations = 200;
-  double relative_tolerance = 1e-6;  ///< of psi: the search ends where a step lowers it, and promises to lower it, by less
+  double relative_tolerance = 1e-6;  ///< of psi: the search ends when both promise and gain of a step are smaller
   double largest_first_step = 1.0;   ///< the first step changes no variable by more
 };
 
@@ -50,8 +50,8 @@ const char* name_of(LevenbergMarquardtEnd end);
 /// Minimizes a sum of squares within bounds by the method of Levenberg and Marquardt as a trust region with Moré's scaling; doc/theory.md
 /// (24g). Each step is the minimum of the model
 ///   psi + psi_x^T p + p^T R^T R p    over    lower <= x + p <= upper,    |D p| <= Delta,
-/// with D_j the largest norm so far of column j of R. The bounds are part of that problem, so that a step slides along them.
-/// All points are within the bounds. Knows nothing of where residuals come from.
+/// with D_j the largest norm so far of column j of R. The bounds are part of that problem, so that a step slides along them. All points are
+/// within the bounds. It does not depend on the origin of the residuals.
 /// @param lower, upper may be infinite. @param x the start, within the bounds; receives the best point.
 /// @param best receives psi and its model there; unchanged if kStartFailed.
 LevenbergMarquardtEnd minimize_squares(const LevenbergMarquardtOptions& options, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,

@@ -21,9 +21,9 @@
 namespace codesign {
 namespace {
 
-constexpr std::uint32_t kRounds = 10;  // of screening, before it gives up to replace unusable points
+constexpr std::uint32_t kRounds = 10;  // of screening, after which unusable points are no longer replaced
 
-/// One search over starts: what its stages share.
+/// One search over starts: the state that its stages share.
 class Multistart {
  public:
   Multistart(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks, const std::atomic<bool>* cancel)
@@ -52,7 +52,7 @@ class Multistart {
       result.status = {StatusCode::kCancelled, 0.0, "cancelled; the best point so far is kept"};
       result.termination = "cancelled";
     }
-    // A rank that was killed ends the job by the same signal as the user does; that it was killed is the cause.
+    // mpirun ends the job of a killed rank with the signal that a user's interrupt sends, too; the status must name the killed rank.
     if (lost_.code == StatusCode::kWorkerLost) {
       result.status = lost_;
       result.termination = name_of(lost_.code);
@@ -61,7 +61,7 @@ class Multistart {
   }
 
  private:
-  /// Draws points until `screen` of them are usable: each round replaces those that were not in the round before.
+  /// Draws points until `screen` of them are usable: each round replaces the unusable points of the round before.
   void screen() {
     const int dimension = static_cast<int>(study_.tuned.size());
     meter_.begin(SearchStage::kScreening, asked_.screen, ensemble_.scenarios().size());
@@ -90,7 +90,7 @@ class Multistart {
     return rho;
   }
 
-  /// Evaluates points and keeps those that are usable.
+  /// Evaluates points and keeps the usable ones.
   void evaluate(const std::vector<Eigen::VectorXd>& round) {
     std::vector<EnsembleEvaluation> results(round.size());
     side_by_side(round.size(), ensemble_.engine().workers(), [&](std::size_t k) {
@@ -190,7 +190,7 @@ class Multistart {
     }
   }
 
-  /// What a result says about the initial design is about the study's start, if that can be evaluated.
+  /// The initial values in the result are the values at the study's start, if that can be evaluated.
   void take_study_start(OptimizationResult* best) const {
     if (best->gradient.size() == 0 || is_set(cancel_)) return;
     const EnsembleEvaluation start = ensemble_.evaluate(problem_.start(), true, cancel_);
@@ -219,7 +219,7 @@ class Multistart {
   std::vector<std::size_t> order_;  // the starts: indices of points, best first
   int unusable_ = 0;
   Status first_failure_;
-  Status lost_;  // kWorkerLost, if that ended an evaluation
+  Status lost_;  // kWorkerLost if an evaluation ended with this status
   Statistics statistics_;
 };
 

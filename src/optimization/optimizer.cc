@@ -50,7 +50,7 @@ OptimizationResult run_search(const Problem& problem, const OptimizerOptions& op
   OptimizationResult result = problem.study().ensemble.multistart.starts > 0 ? search_from_many_starts(problem, options, hooks, cancel)
                                                                              : search_once(problem, options, hooks, cancel);
   if (result.status.code != StatusCode::kCancelled || hooks.ranks == nullptr) return result;
-  // mpirun interrupts the job also when one of its ranks was killed, perhaps one that had nothing to do.
+  // mpirun interrupts the job also when one of its ranks was killed, perhaps an idle one.
   const Status missed = hooks.ranks->call_roll();
   if (missed.ok()) return result;
   result.status = with_best_kept(missed);

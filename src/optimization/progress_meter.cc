@@ -49,8 +49,8 @@ Progress ProgressMeter::now() const {
   return measure();
 }
 
-/// Runs until the end of the stage. Searches that have not ended are expected to take as many trials as those that have, or as many as they
-/// may while none has.
+/// Runs until the end of the stage. A running search is expected to take as many trials as the finished searches on average, or up to its
+/// limit if no search has finished.
 std::int64_t ProgressMeter::runs_left() const {
   if (stage_ == SearchStage::kScreening) return (of_ - done_) * scenarios_;
   if (stage_ == SearchStage::kValidating) return of_ * scenarios_ - (runs_ - runs_before_);

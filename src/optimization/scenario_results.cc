@@ -16,7 +16,7 @@ ScenarioResult describe(const Study& study, const Scenario& scenario, double ini
   return result;
 }
 
-/// The weight of the values up to `bound`; scenarios that failed are not among the values, and do not keep it.
+/// The weight of the values up to `bound`; failed scenarios are not among the values and count as larger than `bound`.
 double share_within(double bound, const std::vector<double>& values, const std::vector<double>& weights) {
   double share = 0.0;
   for (std::size_t k = 0; k < values.size(); ++k)
@@ -24,8 +24,8 @@ double share_within(double bound, const std::vector<double>& values, const std::
   return share;
 }
 
-/// The design on fresh samples. Unlike in the search, a sample that fails does not refuse the design; it is counted.
-/// @returns nothing if it was interrupted, with the status of that.
+/// Evaluates the design on fresh samples. Unlike in the search, a failed sample does not make the design fail; it is only counted.
+/// @returns std::nullopt if the validation was interrupted. @param interruption receives the status of the interrupted run.
 std::optional<Validation> validate(const Problem& problem, const Ensemble& ensemble, const OptimizationResult& design,
                                    const std::atomic<bool>* cancel, ProgressMeter* meter, Status* interruption) {
   const RobustOptions& options = ensemble.options();

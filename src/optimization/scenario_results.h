@@ -10,7 +10,7 @@ namespace codesign {
 
 /// Completes the result of a study with runs or uncertain parameters: names its scenarios, and validates its best point on fresh samples if
 /// `robust.validate` asks for it. Does nothing for other studies, and for a result without a point.
-/// @param ensemble of the search, whose engine does the validation. @param meter is told of the validation.
+/// @param ensemble of the search; its engine runs the validation. @param meter counts the runs of the validation.
 void describe_scenarios(const Problem& problem, const Ensemble& ensemble, const std::atomic<bool>* cancel, ProgressMeter* meter,
                         OptimizationResult* result);
 

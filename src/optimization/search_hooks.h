@@ -10,21 +10,21 @@
 
 namespace codesign {
 
-/// What a job has besides its problem; each may be empty.
+/// Optional connections of a job, besides its problem; each may be empty.
 struct SearchHooks {
   TrialObserver trial;                       ///< as in optimize()
-  ProgressObserver progress = nullptr;       ///< told about once a second, while screening and validating too
-  std::shared_ptr<EvaluationMemory> memory;  ///< evaluations of an earlier process, and the place for those of this one
+  ProgressObserver progress = nullptr;       ///< called about once a second, also while screening and validating
+  std::shared_ptr<EvaluationMemory> memory;  ///< has the evaluations of an earlier process, and keeps the evaluations of this process
   Dispatcher* ranks = nullptr;               ///< the processes of the job, as in require_engine()
-  ProgressMeter* meter = nullptr;            ///< of a caller who asks how far the job is; `progress` is not told then, but its observer
+  ProgressMeter* meter = nullptr;            ///< meter of a caller that polls the progress; its observer replaces `progress`
 };
 
-/// What the engine of a job records: its memory, and runs for the meter, which must outlive the engine.
+/// The records for the engine of a job: its memory, and the count of runs for the meter, which must outlive the engine.
 inline EngineRecords records_of(const SearchHooks& hooks, ProgressMeter* meter) {
   return {hooks.memory, [meter](bool computed) { meter->count_run(computed); }, hooks.ranks};
 }
 
-/// The observer of trials, which are counted before it is told.
+/// The observer of trials, extended so that each trial is counted before the observer is called.
 inline TrialObserver counted_trials(const SearchHooks& hooks, ProgressMeter* meter) {
   return [observer = hooks.trial, meter](const Trial& trial) {
     meter->count_trial();
@@ -32,7 +32,7 @@ inline TrialObserver counted_trials(const SearchHooks& hooks, ProgressMeter* met
   };
 }
 
-/// optimize() with hooks. With a memory the result is the same bits, except for processor times.
+/// optimize() with hooks. With a memory the result is the same to the last bit, except for processor times.
 OptimizationResult run_search(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
                               const std::atomic<bool>* cancel);
 

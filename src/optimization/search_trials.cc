@@ -55,8 +55,9 @@ void SearchTrials::conclude(const std::string& failure) {
   }
 }
 
-// Where no point meets the constraints an algorithm may end in any way, and rounding decides in which: that it failed is then the smaller
-// news. One that gave up at its start, as with equalities that depend on each other, has tried nothing.
+// If no point meets the constraints, rounding decides in which way an algorithm ends. The status is then kInfeasible even if the algorithm
+// failed. Only an algorithm that gave up at its start, for example at equalities that depend on each other, has tried nothing and gets
+// kAlgorithmFailed.
 void SearchTrials::judge_end(const std::string& failure) {
   const bool has_failed = result_.termination == "algorithm_failed", is_outside = best_violation_ > 0.0;
   std::string cause;

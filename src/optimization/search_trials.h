@@ -13,13 +13,13 @@
 
 namespace codesign {
 
-/// The status of a search that was interrupted with one of its evaluations.
+/// The status of a search that ended because one of its evaluations was interrupted.
 inline Status with_best_kept(const Status& interruption) {
   return {interruption.code, 0.0, interruption.cause + "; the best point so far is kept"};
 }
 
-/// The trial points of one local search, by whatever algorithm: evaluates them, keeps the best, tells the observer, and says at the end how
-/// the search ended. Of two points that violate constraints the one that violates them less is better.
+/// The trial points of one local search with any algorithm. Evaluates each point, calls the observer, keeps the best point, and determines
+/// at the end how the search ended. Of two points that violate constraints, the point with the smaller violation is better.
 class SearchTrials {
  public:
   /// All arguments but `start` must outlive this.
@@ -28,7 +28,7 @@ class SearchTrials {
 
   /// @throws InputError for a start at which a number of the study or a constraint is not finite.
   void start(const Eigen::VectorXd& rho);
-  /// Evaluates a trial point, which last() is then. False if the search was interrupted and must end.
+  /// Evaluates a trial point; last() is then this point. False if the search was interrupted and must end.
   bool evaluate(const Eigen::VectorXd& rho, Derivatives derivatives);
   /// Sets the status and the termination, with the margins and warnings of the best point. @param failure why the algorithm gave up, if
   /// result().termination says that it did.
@@ -38,12 +38,12 @@ class SearchTrials {
   const Eigen::VectorXd& last_rho() const { return last_rho_; }
   OptimizationResult& result() { return result_; }
   bool have_best() const { return have_best_; }
-  /// Of a study with watched signals: the evaluation at the best point.
+  /// The evaluation at the best point, for a study with watched signals.
   const EnsembleEvaluation& best() const { return best_; }
-  /// Largest violation of a constraint there, beyond its tolerance; 0 if all are met.
+  /// Largest violation of a constraint at the best point, beyond its tolerance; 0 if all constraints are met.
   double best_violation() const { return best_violation_; }
   const ParameterRows& parameter_rows() const { return parameter_rows_; }
-  /// Whether the search was cancelled, or its evaluation lost.
+  /// Whether the search was cancelled, or an evaluation was lost with its worker.
   bool interrupted() const { return !interruption_.ok(); }
 
  private:

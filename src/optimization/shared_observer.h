@@ -10,7 +10,8 @@
 
 namespace codesign {
 
-/// Lets searches in several threads tell one observer of their trials, one at a time, numbered through, with the best objective of all.
+/// Passes the trials of searches in several threads to one observer: one trial at a time, numbered consecutively over all searches, with
+/// the best objective of all searches.
 class SharedObserver {
  public:
   explicit SharedObserver(const TrialObserver& observer) : observer_(observer) {}
@@ -46,7 +47,7 @@ class SharedObserver {
   const TrialObserver& observer_;
   std::mutex mutex_;
   int evaluations_ = 0, iterations_ = 0;
-  std::pair<double, double> best_;  ///< violation of the constraints and objective
+  std::pair<double, double> best_;  ///< violation of the constraints and objective of the best point
   bool has_best_ = false, stopped_ = false;
 };
 

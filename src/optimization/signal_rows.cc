@@ -23,8 +23,8 @@ SignalRows::SignalRows(const Study& study) : study_(study), layout_(study) {
   }
 }
 
-/// Rows for every instant and window of a signal. An extreme value between two instants is a row of its own beside those of the instants,
-/// so that each row stays smooth where the extremum moves from one place to another.
+/// Rows for every instant and window of a signal. The extreme value between two instants has its own row beside the rows of the instants,
+/// so that each row stays smooth when the extremum moves from one place to another.
 void SignalRows::add(std::size_t watched, double sign, int peak) {
   const WatchLayout::Entry& entry = layout_.entries()[watched];
   for (int k = 0; k < static_cast<int>(entry.instants.size()); ++k) inequalities_.push_back({watched, entry.at_instant(k), sign, peak});

@@ -9,12 +9,13 @@
 
 namespace codesign {
 
-/// One smooth constraint on a watched signal in one scenario, theory (24d). With x an instant's value or a window's extreme value:
+/// One smooth constraint on a watched signal in one scenario, theory (24d). With x the value at an instant or the extreme value in a
+/// window:
 ///   sign x - sign bound <= 0, or = 0 for an equality    of `path:` and `final:`
 ///   sign x - p <= 0                                      of a peak, p its slack variable
 struct SignalRow {
   std::size_t watched = 0;  ///< index in Study::watched
-  int place = 0;            ///< of x among the numbers of WatchLayout
+  int place = 0;            ///< index of x among the numbers of WatchLayout
   double sign = 1.0;
   int peak = -1;  ///< number of the peak among the study's peaks; -1: a constraint
 };
@@ -30,9 +31,9 @@ class SignalRows {
   const std::vector<std::size_t>& peaks() const { return peaks_; }
   const WatchLayout& layout() const { return layout_; }
 
-  /// The left side of a constraint's row; of a peak's row without p. @param parameters all named parameters of the scenario.
+  /// The left side of the row of a constraint, or of a peak's row without p. @param parameters all named parameters of the scenario.
   double value(const SignalRow& row, const Extremes& extremes, const std::vector<double>& parameters) const;
-  /// Its derivative by the k-th tuned parameter.
+  /// Derivative of value() by the k-th tuned parameter.
   double derivative(const SignalRow& row, std::size_t k, const Extremes& extremes, const std::vector<double>& parameters) const;
   /// The largest violation of the bounds of one watched signal; 0 if they are met.
   double violation(std::size_t watched, const Extremes& extremes, const std::vector<double>& parameters) const;

@@ -12,7 +12,7 @@ namespace codesign {
 ///   worst:  minimize t              subject to psi_i <= t,            y = t
 ///   CVaR:   minimize t + sum_i w_i z_i / (1 - level)
 ///                                   subject to psi_i - t <= z_i, z_i >= 0,   y = (t, z_1, ..., z_S)
-/// (Rockafellar and Uryasev 2002). The means need no slack: variables() is 0.
+/// (Rockafellar and Uryasev 2002). The other measures need no slack variables: variables() is 0.
 class SlackForm {
  public:
   /// @param weights w, one per scenario.

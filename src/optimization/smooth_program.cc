@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-/// A watched signal before any scenario is looked at.
+/// The result of a watched signal before any scenario is added.
 WatchedResult describe_bounds(const WatchedSignal& signal, const std::vector<double>& parameters) {
   WatchedResult result;
   result.element = signal.element;
@@ -28,7 +28,7 @@ WatchedResult describe_bounds(const WatchedSignal& signal, const std::vector<dou
   return result;
 }
 
-/// Extends the ranges of a watched signal by those of one scenario.
+/// Extends the ranges of a watched signal by the ranges of one scenario.
 void widen(const WatchLayout::Entry& entry, const Extremes& extremes, const Extremes& initial, int scenario, WatchedResult* result) {
   const auto now = extremes.values.segment(entry.first, entry.size()), before = initial.values.segment(entry.first, entry.size());
   Eigen::Index low = 0, high = 0;

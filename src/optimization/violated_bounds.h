@@ -9,7 +9,7 @@
 
 namespace codesign {
 
-/// A violation of a bound on a signal that counts as met, in the unit of the signal.
+/// Largest violation of a bound on a signal at which the bound still counts as met, in the unit of the signal.
 constexpr double kMostViolation = 1e-8;
 
 /// Whether the best point of a search meets all constraints, on parameters and on signals.

@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-constexpr double kEqual = 1e-6;  // of the value, or of its standard deviation if that is larger
+constexpr double kEqual = 1e-6;  // relative to the value, or to its standard deviation if that is larger
 
 }  // namespace
 
@@ -25,11 +25,10 @@ Warnings differing_nominals(const Study& study) {
     where = quantity.where;
   }
   if (values.empty()) return {};
-  return {
-      warn("nominal_differs",
-           {where, "uncertain.from",
-            "samples lie around the identified values, but nominal runs are those of others; give identified_overlay.urdf as an overlay",
-            values, identified})};
+  return {warn("nominal_differs",
+               {where, "uncertain.from",
+                "samples lie around the identified values, but nominal runs use other values; give identified_overlay.urdf as an overlay",
+                values, identified})};
 }
 
 }  // namespace codesign

@@ -21,7 +21,7 @@ struct LoadedTrajectory {
 
 /// A text that a study names, as its loader has read it.
 struct LoadedFile {
-  std::string file;  ///< as the study names it
+  std::string file;  ///< the name in the study
   SourceText source;
 };
 
@@ -31,7 +31,7 @@ struct Problem::Contents {
   std::vector<SourceText> overlays;
   SourceText study_text;
   std::shared_ptr<const CompiledSystem> system;
-  std::vector<std::shared_ptr<const CompiledSystem>> variants;  ///< of variant_of(); empty if there is only the study itself
+  std::vector<std::shared_ptr<const CompiledSystem>> variants;  ///< the systems of variant_of(); empty if there is only the study's own
   double setup_seconds = 0.0;                                   ///< processor time of reading and compiling [s]
   Warnings warnings;
   std::vector<LoadedTrajectory> trajectories;  ///< in the order in which the study names them
@@ -47,10 +47,10 @@ Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& over
 /// @param run index of the run; 0 if the study has no runs. @param law index in `laws` of the uncertain friction law; -1: the model's own.
 std::shared_ptr<const CompiledSystem> variant_of(const Problem& problem, int run, int law);
 
-/// Every system of the problem once: its own first, then those of variant_of(), in an order that its texts decide.
+/// Every system of the problem once: the study's own system first, then the systems of variant_of(). The texts alone determine the order.
 std::vector<std::shared_ptr<const CompiledSystem>> distinct_systems(const Problem& problem);
 
-/// The problem compiled anew with another study of the same model; the texts stay those of `problem`. @throws InputError as load_problem().
+/// The problem compiled anew with another study of the same model; the texts of `problem` stay. @throws InputError as load_problem().
 Problem with_study(const Problem& problem, Study study, const ParameterSettings& settings = {});
 
 }  // namespace codesign

@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-/// What the parameters can be in any design and scenario, order of Study::parameters.
+/// The ranges of the parameters over all designs and scenarios, order of Study::parameters.
 std::vector<ValueRange> ranges_of(const Study& study) {
   std::set<std::string> changed;
   for (const RunDescription& run : study.ensemble.runs)

@@ -24,8 +24,8 @@ std::string describe_unmet(const Study& study, const Eigen::VectorXd& margins);
 /// @throws InputError naming the first constraint whose margin is not finite at `parameters`, the start of an optimization.
 void require_numbers_at_start(const Study& study, const std::vector<double>& parameters);
 
-/// A warning for each constraint that no design can meet, as far as intervals show it: tuned parameters, and those that a run sets or that
-/// are uncertain, within their bounds, the others at their values. An optimization then ends as kInfeasible.
+/// A warning for each constraint that no design can meet, by interval arithmetic: tuned parameters, and parameters that a run sets or that
+/// are uncertain, vary within their bounds, the others have their values. An optimization then ends as kInfeasible.
 Warnings unsatisfiable_constraints(const Study& study);
 
 /// @throws InputError if the two bounds of one expression, which are two constraints with the same place, have changed their order since

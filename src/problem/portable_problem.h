@@ -10,7 +10,7 @@
 
 namespace codesign {
 
-/// All that another process needs to compile the same problem, on a machine that has none of its files.
+/// All data that another process needs to compile the same problem on a machine without its files.
 struct PortableProblem {
   SourceText urdf;
   std::vector<SourceText> overlays;
@@ -21,7 +21,7 @@ struct PortableProblem {
   std::vector<std::string> tuned;  ///< names of the tuned parameters
 };
 
-/// @param problem as loaded, or with another choice or other start values of its parameters; other changes of its study are not carried.
+/// @param problem as loaded, or with other tuned parameters or start values; other changes of its study are not included.
 PortableProblem make_portable(const Problem& problem);
 
 /// The same problem, with the same order of its systems. @throws InputError as load_problem().

@@ -40,7 +40,7 @@ void apply_settings(const ParameterSettings& settings, Study* study) {
   }
 }
 
-/// `loader`, with what it reads kept in `loaded`. No loader stays none.
+/// `loader`, extended to keep all trajectories that it reads in `loaded`; an empty loader stays empty.
 TrajectoryLoader keeping(const TrajectoryLoader& loader, std::vector<LoadedTrajectory>* loaded) {
   if (!loader) return {};
   return [&loader, loaded](const TrajectoryAddress& address) {
@@ -49,7 +49,7 @@ TrajectoryLoader keeping(const TrajectoryLoader& loader, std::vector<LoadedTraje
   };
 }
 
-/// Likewise.
+/// The same for files.
 FileLoader keeping(const FileLoader& files, std::vector<LoadedFile>* loaded) {
   return [&files, loaded](const FileAddress& address) {
     loaded->push_back({address.file, files(address)});
@@ -164,7 +164,7 @@ Problem load_portable(const PortableProblem& portable) {
   Study study = read_study(portable.study, robot, loader, files);
   if (study.parameters.size() != portable.values.size())
     throw InputError({{portable.study.name, 0}, "parameters", "the problem was sent with other parameters", "", ""});
-  // Not by settings, which check bounds: these values have passed that already.
+  // Not by settings, which check bounds: these values have passed that check already.
   for (std::size_t k = 0; k < portable.values.size(); ++k) study.parameters[k].value = portable.values[k];
   study.tuned.clear();
   for (const std::string& name : portable.tuned)

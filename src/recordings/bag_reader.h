@@ -13,13 +13,13 @@ namespace codesign {
 
 /// Callback that reads the joint states of a topic from a bag. The caller provides it, since this library does not depend on ROS, which
 /// reads bags.
-/// @param path of the bag. @param joints names of the model's joints with one coordinate; others in the messages are ignored.
+/// @param path of the bag. @param joints names of the model's joints with one coordinate; other joints in the messages are ignored.
 /// @throws InputError if the bag or topic cannot be read, or names none of the joints.
 using BagReader = std::function<JointRecording(const RecordingDescription& description, const std::string& path,
                                                const std::vector<std::string>& joints, Warnings* warnings)>;
 
-/// The reader that a program is linked with: ros/linked_bag_reader.cc where ROS was found, else cli/linked_bag_reader.cc, which gives an
-/// empty one. Not in this library.
+/// The reader that the program is linked with: from ros/linked_bag_reader.cc if ROS was found, else an empty one from
+/// cli/linked_bag_reader.cc. It is not in this library.
 BagReader linked_bag_reader();
 
 }  // namespace codesign

@@ -11,11 +11,11 @@
 
 namespace codesign {
 
-/// What was measured of one joint, one number per time in the joint's units; an empty column was not measured.
+/// The measurements of one joint, one number per time in the joint's units. An empty column was not measured.
 struct JointSamples {
   std::string joint;
   std::vector<double> position, velocity, effort;
-  std::optional<FittedNumber> start = std::nullopt;  ///< where the joint is at the first time, if positions are to be integrated
+  std::optional<FittedNumber> start = std::nullopt;  ///< position at the first time, if velocities are to be integrated
 
   std::vector<double>& of(MeasuredQuantity quantity) {
     return quantity == MeasuredQuantity::kPosition ? position : quantity == MeasuredQuantity::kVelocity ? velocity : effort;
@@ -23,21 +23,21 @@ struct JointSamples {
   const std::vector<double>& of(MeasuredQuantity quantity) const { return const_cast<JointSamples*>(this)->of(quantity); }
 };
 
-/// Measurements of several joints at common times. What load_recordings() returns has ascending times, finite numbers and no gap.
+/// Measurements of several joints at common times. The recordings of load_recordings() have ascending times, finite numbers and no gap.
 struct JointRecording {
   std::string file;                 ///< the path that was read
-  std::string topic;                ///< of a bag; empty for a table
-  std::vector<double> times;        ///< [s], as written in a table's column, or from the bag's beginning
+  std::string topic;                ///< topic in a bag; empty for a table
+  std::vector<double> times;        ///< [s], from the column of a table, or counted from the begin of the bag
   std::vector<std::size_t> places;  ///< one per time: the line of the file, or the number of the topic's message, from 1
   std::vector<JointSamples> joints;
   std::string element;   ///< the entry of the study, for messages: `identify.data[0]`
-  SourceLocation where;  ///< likewise
+  SourceLocation where;  ///< place of this entry, for messages
 
   /// The samples of a joint; null if it was not recorded.
   const JointSamples* find(const std::string& joint) const;
   /// The place of sample k in words: `line 812, t = 8.11 s`.
   std::string place_of(std::size_t k) const;
-  /// The file and, of a table, the line of sample k.
+  /// The file and, for a table, the line of sample k.
   SourceLocation location_of(std::size_t k) const;
 };
 

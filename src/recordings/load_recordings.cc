@@ -13,7 +13,7 @@
 namespace codesign {
 namespace {
 
-/// What is the same for all recordings of a study.
+/// Data that all recordings of a study share.
 struct Context {
   const IdentificationDescription& identification;
   const RobotDescription& robot;
@@ -47,7 +47,7 @@ void require_calibrated_joints(const JointRecording& recording, const Identifica
   }
 }
 
-/// Gives the joints of a recording where they start.
+/// Sets the start positions of the joints of a recording.
 void add_starts(const RecordingDescription& description, JointRecording* recording) {
   std::vector<std::string> names;
   for (const JointSamples& samples : recording->joints) names.push_back(samples.joint);
@@ -58,9 +58,8 @@ void add_starts(const RecordingDescription& description, JointRecording* recordi
     if (found == recording->joints.end())
       throw unknown_name(start.position.where, element, "joint in " + recording->file, start.joint, names);
     if (!found->position.empty())
-      throw InputError({start.position.where, element,
-                        "positions of this joint were recorded, which tell where it starts: " + recording->file, start.joint,
-                        "no start, or columns without its positions"});
+      throw InputError({start.position.where, element, "positions of this joint were recorded, which give its start: " + recording->file,
+                        start.joint, "no start, or columns without its positions"});
     if (found->velocity.empty())
       throw InputError({start.position.where, element,
                         "no velocity of this joint was recorded, from which positions follow: " + recording->file, start.joint,
@@ -69,11 +68,11 @@ void add_starts(const RecordingDescription& description, JointRecording* recordi
   }
 }
 
-/// Nothing tells how far a joint moves in a gap if only its velocity is recorded.
+/// If only the velocity of a joint is recorded, its motion during a gap is unknown.
 void require_one_piece(const RecordingDescription& description, const std::vector<JointRecording>& pieces) {
   if (pieces.size() < 2 || description.starts.empty()) return;
   throw InputError({description.where, description.element + ".gaps",
-                    "after a gap nothing tells where joints without positions are: " + pieces.front().file, "split",
+                    "after a gap the positions of joints without recorded positions are unknown: " + pieces.front().file, "split",
                     "one entry for each piece, with `from`, `to` and `start`"});
 }
 

@@ -13,13 +13,13 @@
 
 namespace codesign {
 
-/// The motion of a joint at equal steps, and the effort that was recorded with it; in the joint's units.
+/// The motion of a joint at equal steps, and its recorded effort; in the joint's units.
 struct JointMotion {
   std::string joint;
-  Eigen::VectorXd position, velocity, acceleration;  ///< empty if nothing was recorded that tells them
-  Eigen::VectorXd effort;                            ///< as recorded, not filtered; empty if it was not
-  bool velocity_measured = false;                    ///< or else it is the derivative of the position
-  bool position_measured = true;                     ///< or else it is the integral of the velocity, from JointSamples::start
+  Eigen::VectorXd position, velocity, acceleration;  ///< empty if the recording does not determine them
+  Eigen::VectorXd effort;                            ///< as recorded, not filtered; empty if not recorded
+  bool velocity_measured = false;                    ///< false: the velocity is the derivative of the position
+  bool position_measured = true;                     ///< false: the position is the integral of the velocity from JointSamples::start
 };
 
 /// A recording at equal steps, with velocities and accelerations; doc/theory.md (29)-(31).
@@ -27,18 +27,19 @@ struct MeasuredMotion {
   std::string element;  ///< the entry of the study: `identify.data[0]`
   UniformTimes times;
   std::vector<JointMotion> joints;  ///< in the order of the recording
-  /// The samples to fit: `first`, `first + every`, ... below `end`. Near the ends filters know one side only, so that 2/cutoff is left out
-  /// there, for both cutoffs; what a mirrored end does to the filter of order four has then decayed to 1 %.
+  /// The samples to fit: `first`, `first + every`, ... below `end`. Near the ends a filter has samples on one side only, so that 2/cutoff
+  /// is left out at each end, for both cutoffs; the effect of the mirrored end on a filter of order four has then decayed to 1 %.
   Eigen::Index first = 0, end = 0, every = 1;
 
   Eigen::Index fitted() const { return end > first ? (end - first + every - 1) / every : 0; }
 };
 
 /// Positions and measured velocities are resampled by cubics, efforts by lines; positions and velocities are filtered at `cutoff`; a
-/// velocity that was not measured is the derivative of the position, an acceleration always that of the velocity. A position that was not
-/// measured is the integral of the filtered velocity from where the study says that the joint starts; without that it stays empty.
+/// velocity that was not measured is the derivative of the position, and the acceleration is always the derivative of the velocity. A
+/// position that was not measured is the integral of the filtered velocity from the joint's start in the study; without a start it is
+/// empty.
 ///
-/// Residuals in effort are to be filtered at `residual_cutoff`, the measured and the computed ones alike, and then to be taken at the
+/// For residuals in effort the caller must filter both measured and computed efforts at `residual_cutoff`, and then take them at the
 /// samples to fit.
 /// @param recording as load_recordings() returns it. Warns with `recording_resampled`, `recording_not_filtered` and `recording_aliased`.
 /// @throws InputError if a cutoff is not below half of the rate, or the recording is too short for the filter.

@@ -149,7 +149,7 @@ NumberTable::Columns NumberTable::read(const std::vector<int>& indices) const {
 void NumberTable::read_row(const Cells& cells, std::size_t line, const std::vector<int>& indices, Columns* columns) const {
   if (static_cast<int>(cells.size()) != width_)
     fail(line, "", "a row of " + std::to_string(cells.size()) + " cells, where the first has " + std::to_string(width_), "",
-         "rows of equal length; `delimiter` tells what separates the cells");
+         "rows of equal length; `delimiter` gives the separator of the cells");
   for (std::size_t k = 0; k < indices.size(); ++k) {
     const auto column = static_cast<std::size_t>(indices[k]);
     columns->values[k].push_back(read_cell(cells[column], line, column));

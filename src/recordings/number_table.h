@@ -14,8 +14,8 @@ namespace codesign {
 
 /// A table of numbers as text: one row per line, all rows with the same number of cells.
 ///
-/// Lines that are empty or begin with `#` are skipped. The first row holds the names of the columns, unless all its cells are numbers; then
-/// a comment right above it with as many cells counts as names, as numpy writes them. Names may be quoted.
+/// Lines that are empty or begin with `#` are skipped. The first row has the names of the columns, unless all its cells are numbers. In
+/// that case, a comment directly above it with as many cells has the names, as numpy writes them. Names may be quoted.
 class NumberTable {
  public:
   /// @param file for messages. @throws InputError if there is no row.
@@ -26,13 +26,13 @@ class NumberTable {
   /// Number of columns.
   int width() const { return width_; }
   const std::string& file() const { return file_; }
-  /// The line of the names, or else of the first row.
+  /// The line of the names or, without names, of the first row.
   int first_line() const { return first_line_; }
 
   /// The numbers of some columns.
   struct Columns {
-    std::vector<std::vector<double>> values;  ///< one per column asked for, with one number per row
-    std::vector<std::size_t> lines;           ///< of each row, from 1
+    std::vector<std::vector<double>> values;  ///< one per requested column, with one number per row
+    std::vector<std::size_t> lines;           ///< line number of each row, from 1
   };
   /// Reads some columns; the others may hold any text. `nan` and `inf` are numbers here. @param indices from 0 to width() - 1.
   /// @throws InputError with the line for a row with more or fewer cells and a cell that is not a number.
@@ -47,11 +47,11 @@ class NumberTable {
                          const std::string& allowed) const;
 
   std::string file_, text_;
-  char delimiter_ = ',';  ///< a blank: any white space
+  char delimiter_ = ',';  ///< a blank stands for any white space
   std::vector<std::string> names_;
   int width_ = 0;
-  std::size_t body_ = 0;  ///< where the rows begin in the text
-  int body_line_ = 1;     ///< the line there
+  std::size_t body_ = 0;  ///< index in the text at which the rows begin
+  int body_line_ = 1;     ///< the line at which the rows begin
   int first_line_ = 1;
 };
 

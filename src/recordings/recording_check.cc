@@ -32,14 +32,15 @@ void require_finite(const JointRecording& recording) {
 void require_ascending(const JointRecording& recording) {
   for (std::size_t k = 1; k < recording.times.size(); ++k) {
     const double step = recording.times[k] - recording.times[k - 1];
-    if (step == 0.0) fail_at(recording, k, "the time is that of the sample before", readable(recording.times[k]), "ascending times");
+    if (step == 0.0)
+      fail_at(recording, k, "the time equals the time of the previous sample", readable(recording.times[k]), "ascending times");
     if (!(step > 0.0))
       fail_at(recording, k, "the time jumps back by " + readable(-step, 6) + " s: the clock was set, or two recordings were joined",
               readable(recording.times[k]), "ascending times; `from` and `to` choose a part of the recording");
   }
 }
 
-/// ` from 7 s to 37 s`, without the ends that nobody chose.
+/// ` from 7 s to 37 s`, without ends that the study does not choose.
 std::string range_text(double from, double to) {
   return (std::isfinite(from) ? " from " + readable(from) + " s" : "") + (std::isfinite(to) ? " to " + readable(to) + " s" : "");
 }
@@ -52,7 +53,7 @@ std::string range_text(double from, double to) {
                     "at least " + std::to_string(kLeastSamples) + " samples"});
 }
 
-/// The indices where pieces begin, and the end of the last one.
+/// The indices at which pieces begin, and the end of the last piece.
 std::vector<std::size_t> piece_ends(const std::vector<double>& times, double longest) {
   std::vector<std::size_t> ends = {0};
   for (std::size_t k = 1; k < times.size(); ++k)

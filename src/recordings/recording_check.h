@@ -10,17 +10,17 @@
 
 namespace codesign {
 
-/// A pause between two samples counts as a gap if it is longer than this many median periods; shorter ones are interpolated.
+/// A pause between two samples counts as a gap if it is longer than this many median periods; shorter pauses are interpolated.
 constexpr double kGapPeriods = 5.0;
-/// Fewer samples than these are no recording.
+/// The least number of samples of a recording.
 constexpr std::size_t kLeastSamples = 20;
 
-/// The samples with `from` <= t <= `to`. Numbers must be finite and times ascend in that part alone.
+/// The samples with `from` <= t <= `to`. Numbers must be finite and times must ascend only in this part.
 /// @throws InputError with the place of a number that is not finite, of a time that repeats or jumps back, and if fewer than kLeastSamples
-/// are left.
+/// samples are left.
 JointRecording checked_part(const JointRecording& recording, double from, double to);
 
-/// The recording in pieces without gaps. With GapRule::kSplit pieces of fewer than kLeastSamples are left out, with the warning
+/// The recording in pieces without gaps. With GapRule::kSplit, pieces of fewer than kLeastSamples samples are left out, with the warning
 /// `recording_piece_dropped`; interpolated pauses of more than 1.5 periods give `recording_samples_missing`.
 /// @throws InputError with the place of the first gap for GapRule::kRefuse, or if nothing is left.
 std::vector<JointRecording> without_gaps(const JointRecording& recording, GapRule rule, Warnings* warnings);

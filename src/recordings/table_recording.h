@@ -10,10 +10,10 @@
 
 namespace codesign {
 
-/// Reads a table of numbers; what its numbers mean is left to check_recording(). Without `columns` in the description, those named `time`
-/// (or `t`) and `JOINT/position`, `JOINT/velocity`, `JOINT/effort` are read.
+/// Reads a table of numbers without checking their values. Without `columns` in the description, the columns named `time` (or `t`) and
+/// `JOINT/position`, `JOINT/velocity`, `JOINT/effort` are read.
 /// @param path of the file, at most 2 GB. @param joints known names of joints.
-/// @throws InputError for a file that cannot be read, a column that is not there, or a cell that is not a number.
+/// @throws InputError for a file that cannot be read, a missing column, or a cell that is not a number.
 JointRecording read_table_recording(const RecordingDescription& description, const std::string& path,
                                     const std::vector<std::string>& joints);
 

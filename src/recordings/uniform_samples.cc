@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-/// The slope at sample k of the parabola through it and its neighbours; at the ends, through the three samples there.
+/// The slope at sample k of the parabola through it and its neighbours; at an end, of the parabola through the last three samples.
 double slope_at(const std::vector<double>& t, const std::vector<double>& x, std::size_t k) {
   const std::size_t middle = std::clamp<std::size_t>(k, 1, t.size() - 2);
   const double h0 = t[middle] - t[middle - 1], h1 = t[middle + 1] - t[middle];

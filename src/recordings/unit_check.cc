@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-/// How a measured velocity goes with the difference quotients of the position: factor of proportion and correlation.
+/// The relation of a measured velocity to the difference quotients of the position: factor of proportion and correlation.
 struct Proportion {
   double factor = 1.0, correlation = 0.0;
 };

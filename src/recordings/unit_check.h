@@ -8,8 +8,8 @@
 
 namespace codesign {
 
-/// Warns of what looks like other units: `recording_units` where a measured velocity is not the derivative of the position but nearly
-/// proportional to it, and `recording_beyond_limits` where positions lie far outside the joint's `<limit>`.
+/// Warns of values that seem to have other units: `recording_units` if a measured velocity is not the derivative of the position but nearly
+/// proportional to it, and `recording_beyond_limits` if positions lie far outside the joint's `<limit>`.
 void check_units(const RobotDescription& robot, const JointRecording& recording, Warnings* warnings);
 
 }  // namespace codesign

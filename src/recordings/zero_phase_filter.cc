@@ -43,7 +43,7 @@ void ZeroPhaseFilter::apply(Eigen::Ref<Eigen::VectorXd> samples, Workspace* work
     x[m + n + k] = 2.0 * samples[n - 1] - samples[n - 2 - k];
   }
   for (Eigen::Index k = 0; k < n; ++k) x[m + k] = samples[k];
-  // All sections forward before any backward: each begins in the steady state of what it gets.
+  // All forward runs come before the backward runs, since each run begins in the steady state of its own input.
   for (const Section& section : sections_) run(section, x, x + n + 2 * m, 1);
   for (const Section& section : sections_) run(section, x + n + 2 * m - 1, x - 1, -1);
   for (Eigen::Index k = 0; k < n; ++k) samples[k] = x[m + k];

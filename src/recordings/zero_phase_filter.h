@@ -7,11 +7,11 @@
 
 namespace codesign {
 
-/// A Butterworth low-pass filter that runs over samples forward and then backward, so that nothing is delayed; doc/theory.md (29). Linear
-/// in the samples; constants and straight lines pass unchanged away from the ends. The gain at the cutoff is 1/2 (-6 dB).
+/// A Butterworth low-pass filter that runs over samples forward and then backward, so that it does not delay; doc/theory.md (29). Linear in
+/// the samples; constants and straight lines pass unchanged away from the ends. The gain at the cutoff is 1/2 (-6 dB).
 ///
 /// Both ends are continued by 3 (order + 1) samples, mirrored in the end point, and each run begins in the steady state of its first
-/// sample, as scipy.signal.filtfilt and MATLAB's filtfilt do; the numbers are the same. Second-order sections keep the digits at low
+/// sample, as in scipy.signal.filtfilt and MATLAB's filtfilt, with the same results. Second-order sections keep the precision at low
 /// cutoffs.
 class ZeroPhaseFilter {
  public:
@@ -25,7 +25,7 @@ class ZeroPhaseFilter {
   using Workspace = std::vector<double>;
   /// Filters `samples` in place; at least least_samples() of them.
   void apply(Eigen::Ref<Eigen::VectorXd> samples, Workspace* workspace) const;
-  /// The same for each column.
+  /// Filters each column in place.
   void apply_to_columns(Eigen::Ref<Eigen::MatrixXd> columns, Workspace* workspace) const;
 
  private:

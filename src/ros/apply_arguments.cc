@@ -22,7 +22,7 @@ struct ApplyOption {
   std::function<void(const std::string&, ApplyArguments*)> apply;
 };
 
-/// A number that is more than zero: zero is the default in a request.
+/// A number above zero, since zero stands for the default in a request.
 ApplyOption number(const std::string& name, double ApplyRequest::*field) {
   return {true, [name, field](const std::string& text, ApplyArguments* to) {
             double value = 0.0;

@@ -11,7 +11,7 @@
 
 namespace codesign {
 
-/// What `codesign apply` was told.
+/// The arguments of `codesign apply`.
 struct ApplyArguments {
   mechanism_codesign::ApplyRequest request;  ///< `result` is the path of the folder or bag
   bool json = false, help = false;

@@ -28,7 +28,7 @@ ApplyDoor::ApplyDoor(const ros::NodeHandle& doors, const std::string& output_dir
       output_directory_(output_directory),
       state_(*state),
       service_(doors_.advertiseService("apply", &ApplyDoor::on_request, this)),
-      // Subscribed in the service's namespace, so that a remapping of the service applies to it too.
+      // Subscribed in the service's namespace, so that a remapping of the service applies to this topic, too.
       cancel_(ros::NodeHandle(doors_, "apply").subscribe<std_msgs::Empty>("cancel", 1, [this](const std_msgs::Empty::ConstPtr&) {
         worker_.cancel();
       })) {}

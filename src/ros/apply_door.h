@@ -20,9 +20,9 @@ class ApplyDoor {
   /// @param doors with the callback queue of services. @param output_directory must outlive this, as must state.
   ApplyDoor(const ros::NodeHandle& doors, const std::string& output_directory, NodeState* state);
 
-  /// The bag of a job that has ended, for requests that name none. Thread-safe.
+  /// Notes the bag of a job that has ended; requests that name no job use it. Thread-safe.
   void note_job(const std::string& bag);
-  /// Takes back what a running request has sent, waits for its end, and accepts no further ones.
+  /// Rolls back the values that a running request has sent, waits for its end, and accepts no further requests.
   void finish() { worker_.finish(); }
 
  private:
@@ -40,7 +40,7 @@ class ApplyDoor {
   ros::Subscriber cancel_;
 };
 
-/// The path of a job that a request names: a bare name, or a path below `directory`. @throws InputError for a path outside of it.
+/// The path of a job that a request names: a bare name, or a path below `directory`. @throws InputError for a path outside of `directory`.
 std::string path_in(const std::string& directory, const std::string& result);
 
 }  // namespace codesign

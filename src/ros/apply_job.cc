@@ -29,7 +29,7 @@ using Response = mechanism_codesign::ApplyResponse;
 /// How long servers and topics may take to appear [s].
 constexpr double kPatience = 5.0;
 
-/// Ends the work with a code and a sentence.
+/// An exception that ends the job with a code and a sentence.
 struct Refusal {
   std::string code, message;
 };

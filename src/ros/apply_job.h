@@ -10,9 +10,10 @@
 
 namespace codesign {
 
-/// Sends the gains of a finished optimization to the servers of a running robot, as doc/results.md tells: for the service `apply` and for
-/// `codesign apply` alike. It serves its callbacks itself, in a thread of its own, and does not throw.
-/// @param request all but `result`. @param path of the job's folder or bag. @param cancel once set, values that were sent are taken back.
+/// Sends the gains of a finished optimization to the servers of a running robot, as doc/results.md describes, for the service `apply` and
+/// for `codesign apply`. It serves its callbacks in a thread of its own, and does not throw.
+/// @param request all but `result`. @param path of the job's folder or bag. @param cancel once set, the values that were sent are rolled
+/// back.
 mechanism_codesign::ApplyResponse apply_gains(const mechanism_codesign::ApplyRequest& request, const std::string& path,
                                               const std::atomic<bool>& cancel);
 

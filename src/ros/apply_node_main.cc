@@ -13,7 +13,7 @@
 
 namespace {
 
-/// Set by a request to end: what was sent is taken back.
+/// Set by a request to end; the values that were sent are then rolled back.
 std::atomic<bool> is_cancelled{false};
 
 constexpr int kSuccess = 0, kFailure = 1, kMistake = 2;
@@ -33,7 +33,7 @@ int apply(const codesign::ApplyArguments& arguments) {
 
 }  // namespace
 
-/// The program behind `codesign apply`, which hands its words over to it.
+/// The program that `codesign apply` starts with its arguments.
 int main(int argc, char** argv) {
   ros::init(argc, argv, "codesign_apply",
             ros::init_options::AnonymousName | ros::init_options::NoSigintHandler | ros::init_options::NoRosout);

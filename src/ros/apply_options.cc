@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-/// More than a day. A ramp with more steps than an int can count would be a jump.
+/// More than a day. The limit keeps the number of steps of a ramp within the range of int.
 constexpr double kLongestTime = 1e5;
 
 double checked_time(double value, const char* name, double fallback) {

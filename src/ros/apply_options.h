@@ -9,11 +9,11 @@
 
 namespace codesign {
 
-/// The times of the ramp that a request asks for. Zero: the default. @throws InputError for a time below 0 or above 100000 s.
+/// The times of the ramp in a request. Zero: the default. @throws InputError for a time below 0 or above 100000 s.
 RampOptions ramp_options(const mechanism_codesign::ApplyRequest& request);
 
-/// What a request wants to be watched. Zero: the default. @throws InputError for a wrong number, or joint states both named and left
-/// unwatched.
+/// The options of a request for watching the robot. Zero: the default. @throws InputError for a wrong number, or if the request both names
+/// a topic of joint states and switches their watch off.
 WatchOptions watch_options(const mechanism_codesign::ApplyRequest& request);
 
 }  // namespace codesign

@@ -9,7 +9,7 @@
 
 namespace codesign {
 
-/// Wakes the thread that waits for news, such as commands and requests. Thread-safe.
+/// Wakes the thread that waits for commands and requests. Thread-safe.
 class Bell {
  public:
   void ring() {

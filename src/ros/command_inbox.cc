@@ -6,9 +6,9 @@
 namespace codesign {
 namespace {
 
-/// A controller that runs a thousand times a second may be late by a second.
+/// Queue size: one second of messages from a controller that runs at 1 kHz.
 constexpr std::uint32_t kWaitingCommands = 1000;
-/// Commands that wait for the run at most, so that a controller that goes on sending to a run that has ended fills no memory.
+/// Largest number of commands that wait for the run, so that a controller that sends to a run that has ended does not fill the memory.
 constexpr std::size_t kMostCommands = 10 * kWaitingCommands;
 
 }  // namespace
@@ -53,7 +53,7 @@ CommandInbox::CommandInbox(ros::NodeHandle node, ros::NodeHandle private_node, c
   struct Trajectory {
     using Message = trajectory_msgs::JointTrajectory;
     const CommandInputs& inputs;
-    ros::Time stamp(const Message&) const { return {}; }  // that of the header says when the trajectory begins
+    ros::Time stamp(const Message&) const { return {}; }  // the stamp in the header is the time at which the trajectory begins
     Command operator()(const std::string& topic, const Message& message) const { return read_trajectory(inputs, topic, message); }
   };
   listen(private_node, "command/effort", Efforts{inputs});

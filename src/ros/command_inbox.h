@@ -15,7 +15,7 @@
 
 namespace codesign {
 
-/// Subscribes to the command topics of the simulation, doc/ros_api.md, and keeps what arrives until the run takes it. Thread-safe.
+/// Subscribes to the command topics of the simulation, doc/ros_api.md, and keeps the commands until the run takes them. Thread-safe.
 class CommandInbox {
  public:
   /// @param inputs, state, bell must outlive this. @param bell rung for each message
@@ -26,9 +26,10 @@ class CommandInbox {
   /// Discards commands and refusals, for a new run.
   void clear();
 
-  /// A frame is about to be published with this stamp: answers to earlier ones no longer count.
+  /// To be called before a frame with this stamp is published: commands that answer earlier frames no longer count as an answer.
   void await_answer(const ros::Time& stamp);
-  /// Whether a message has come since: one with a header answers if its stamp is that of the frame, or later, or zero.
+  /// Whether a message has arrived since that answers the frame. A message with a header answers it if its stamp is zero or not before the
+  /// stamp of the frame.
   bool is_answered() const;
 
   /// Handles a message as if it had arrived: `read` returns the command or throws InputError. @param stamp of its header, or zero
@@ -47,7 +48,7 @@ class CommandInbox {
   std::vector<Command> commands_;
   ros::Time awaited_;
   bool answered_ = false;
-  std::map<std::string, ros::WallTime> told_;  ///< per topic: when its last refusal was told, at most one a second
+  std::map<std::string, ros::WallTime> told_;  ///< per topic: time of the last warning of a refused message, at most one per second
   std::size_t refused_ = 0;
   std::vector<ros::Subscriber> subscribers_;
 };

@@ -38,7 +38,7 @@ struct JointCourse {
 };
 
 struct TrajectoryCommand {
-  ros::Time begin;  ///< zero: when it takes effect
+  ros::Time begin;  ///< zero: it begins when it takes effect
   std::vector<JointCourse> joints;
 };
 

@@ -23,7 +23,7 @@ void CommandedRun::take(const TrajectoryCommand& command, const Frame& frame, co
   for (const JointCourse& course : command.joints) follow(course, begin, frame);
 }
 
-// Where the set-point is a velocity, the trajectory begins at the measured position.
+// If the set-point is a velocity, the trajectory begins at the measured position.
 void CommandedRun::follow(const JointCourse& course, double begin, const Frame& frame) {
   const std::vector<std::string>& joints = run_->names().joints;
   const auto found = std::find(joints.begin(), joints.end(), course.joint);

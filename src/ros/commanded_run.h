@@ -13,24 +13,24 @@
 
 namespace codesign {
 
-/// Brings commands into effect in a run, and ends efforts that nobody renews.
+/// Applies commands to a run, and ends efforts that are not renewed.
 class CommandedRun {
  public:
   /// @param run must outlive this. @param timeout [s] of the run after which efforts are zero; 0: never
   CommandedRun(InteractiveSimulation* run, double timeout) : run_(run), timeout_(timeout) {}
 
-  /// For a new run: nothing is commanded.
+  /// Drops all commands, for a new run.
   void clear();
 
-  /// What happened to the commands at an instant.
+  /// The outcome of the commands at an instant.
   struct Outcome {
     Status status;         ///< of InteractiveSimulation::apply()
-    bool changed = false;  ///< whether other commands are in effect than before
+    bool changed = false;  ///< whether the commands in effect have changed
   };
-  /// Brings `commands` into effect, the last one of each joint and controller. @param frame the last one; it was sampled at the present
-  /// instant. @param clock gives the time of a trajectory's stamp.
+  /// Applies the last command of each joint and controller in `commands`. @param frame the last frame, sampled at the present instant.
+  /// @param clock gives the time of a trajectory's stamp.
   Outcome apply(const std::vector<Command>& commands, const Frame& frame, const RunClock& clock);
-  /// Whether efforts were ended since no command came, and none has come since.
+  /// Whether a timeout has ended the efforts and no command has arrived since.
   bool is_timed_out() const { return timed_out_; }
 
   /// The commands in effect at `time` [s]; the stamp is for the caller to set.
@@ -45,7 +45,7 @@ class CommandedRun {
 
   InteractiveSimulation* run_;
   double timeout_;
-  std::optional<double> last_effort_;  ///< [s] when the last effort was commanded
+  std::optional<double> last_effort_;  ///< time of the last effort command [s]
   bool timed_out_ = false;
 };
 

@@ -55,10 +55,10 @@ mechanism_codesign::OptimizationProgress optimization_progress(const Trial& tria
 /// An Eigen vector as an array of a ROS message.
 std::vector<double> to_array(const Eigen::VectorXd& values);
 
-/// Messages for the warnings of the input files, followed by those of a job.
+/// Messages for the warnings of the input files, followed by the warnings of a job.
 std::vector<mechanism_codesign::Warning> warning_messages(const Warnings& of_files, const Warnings& of_job);
 
-/// The warnings of the job alone. @param of_files the number of those before them.
+/// The warnings of the job alone. @param of_files the number of warnings of the input files, which come first.
 Warnings warnings_of_job(const std::vector<mechanism_codesign::Warning>& messages, std::size_t of_files);
 
 }  // namespace codesign

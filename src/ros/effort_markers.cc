@@ -22,8 +22,8 @@ std_msgs::ColorRGBA rgba(float red, float green, float blue, float alpha) {
 std_msgs::ColorRGBA model_color() { return rgba(0.1F, 0.65F, 0.25F, 1.0F); }
 std_msgs::ColorRGBA measured_color(float alpha) { return rgba(0.3F, 0.3F, 0.35F, alpha); }
 
-/// How far both arrows move along the axis, so that the solids do not hide that of the model: it begins outside of them, or ends there if
-/// it points away from the viewer. @param length of the model's arrow, along the axis.
+/// The displacement of both arrows along the axis, so that the solids do not hide the arrow of the model: it begins outside of the solids,
+/// or ends there if it points away from the viewer. @param length of the model's arrow, along the axis.
 Eigen::Vector3d outside(const Eigen::Vector3d& from, const Eigen::Vector3d& axis, double length, const Frame& frame,
                         const MarkerStyle& style) {
   const Eigen::Vector3d way = axis.dot(style.towards_viewer) >= 0.0 ? axis : Eigen::Vector3d(-axis);
@@ -69,7 +69,7 @@ visualization_msgs::MarkerArray effort_markers(const ComparedMotion& motion, con
   for (const ComparedJoint& joint : motion.joints) {
     const LinkSample& link = model.links[joint.link];
     const Eigen::Vector3d axis = link.orientation * joint.axis;
-    // Beside the axis, on which friction is drawn.
+    // Beside the axis, since the arrow of the friction lies on the axis.
     Eigen::Vector3d from = link.position + 4.0 * style.shaft_diameter * axis.unitOrthogonal();
     const double scale = joint.is_torque ? style.metres_per_newton_metre : style.metres_per_newton;
     if (style.solids) from += outside(from, axis, scale * model.joints[joint.joint].effort, model, style);

@@ -16,12 +16,11 @@ namespace codesign {
 /// @param size of the mechanism [m].
 MarkerStyle effort_style(const ComparedMotion& motion, double size);
 
-/// What these arrows mean, in their colors; nothing if no effort is compared.
+/// The legend of these arrows, in their colors; empty if no effort is compared.
 std::vector<CaptionLine> effort_legend(const MarkerStyle& style, const ComparedMotion& motion);
 
 /// Two arrows for each compared joint, beside its child's origin, along its axis: the effort that the model needs (green), and around it
-/// the one that was recorded (grey, thick and transparent). Where the model explains the recording, the grey arrow ends where the green one
-/// does.
+/// the recorded effort (grey, thick and transparent). If the model explains the recording, both arrows end at the same point.
 /// @param context.root_frame the frame of the root link of the identified model.
 visualization_msgs::MarkerArray effort_markers(const ComparedMotion& motion, const Frame& measured, const Frame& model,
                                                const MessageContext& context, const MarkerStyle& style);

@@ -11,7 +11,7 @@
 namespace codesign {
 namespace {
 
-/// A signal handler has no argument for it.
+/// A global variable, since a signal handler has no argument for it.
 std::atomic<void (*)()> end_act{nullptr};
 
 extern "C" void on_end_signal(int) { end_act.load()(); }
@@ -31,7 +31,7 @@ void on_end_request(void (*act)()) {
   std::signal(SIGINT, on_end_signal);
   std::signal(SIGTERM, on_end_signal);
   if (std::signal(SIGHUP, on_end_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
-  // The first one to bind a name keeps it; ros::start() would bind its own.
+  // Binds the name before ros::start(), since the first function that is bound to a name keeps it.
   ros::XMLRPCManager::instance()->bind("shutdown", on_shutdown_call);
 }
 

@@ -8,7 +8,7 @@
 
 namespace codesign {
 
-/// Sets what a result says about several runs, samples and starts: `scenarios`, `worst`, `value_at_risk`, `validation`, `searches`,
+/// Sets the fields of the result about several runs, samples and starts: `scenarios`, `worst`, `value_at_risk`, `validation`, `searches`,
 /// `optima`, `screened`, `unusable`. All stay empty for a study with one run and one start. Numbers of samples, scenarios and optima begin
 /// at 1 in messages.
 void set_ensemble(const OptimizationResult& result, mechanism_codesign::OptimizeResult* message);

@@ -42,7 +42,7 @@ void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& 
     extremes = std::move(all.extremes);
   } else {
     check = check_gradient(ensemble, rho, method_of(request.check), &cancel);
-    // A check computes many runs; one more for the signals of all scenarios does not count.
+    // A check computes many runs, so that one more run per scenario for the signals is cheap.
     if (check.status.ok() && !problem.study().watched.empty()) extremes = ensemble.evaluate(rho, false, &cancel).extremes;
   }
   set_status(check.status, reply);

@@ -17,7 +17,8 @@ geometry_msgs::Point to_point(const Eigen::Vector3d& position) {
   return point;
 }
 
-/// Of the force: at a right angle to it, as much towards the viewer as possible. Of the torque: along it, towards the viewer.
+/// The direction in which an arrow moves. Force: at a right angle to it, as much towards the viewer as possible. Torque: along its axis,
+/// towards the viewer.
 Eigen::Vector3d way_of(const Eigen::Vector3d& along, bool is_torque, const Eigen::Vector3d& towards_viewer) {
   const Eigen::Vector3d unit = along.normalized();
   if (is_torque) return unit.dot(towards_viewer) >= 0.0 ? unit : Eigen::Vector3d(-unit);

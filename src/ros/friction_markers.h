@@ -12,7 +12,7 @@
 
 namespace codesign {
 
-/// Scales of the arrows that show friction, and what must not hide them.
+/// Scales of the arrows that show friction, and the solids that must not hide them.
 struct MarkerStyle {
   double metres_per_newton = 0.01;       ///< length of a force arrow per newton [m/N]
   double metres_per_newton_metre = 0.1;  ///< length of a torque arrow per newton metre [m/(N m)]
@@ -33,7 +33,7 @@ struct ArrowEnds {
 /// viewer; it begins there if it points to the viewer, else it ends there.
 ArrowEnds friction_arrow(const FrictionSample& sample, bool is_torque, const Frame& frame, const MarkerStyle& style);
 
-/// An arrow without frame, name and color. One shorter than its shaft diameter, or not finite, is removed instead of drawn.
+/// An arrow without frame, name and color. An arrow that is shorter than its shaft diameter, or not finite, is removed instead of drawn.
 visualization_msgs::Marker arrow_marker(const Eigen::Vector3d& from, const Eigen::Vector3d& along, double shaft_diameter);
 
 /// The color of arrows that show friction: red for a force, cyan for a torque.

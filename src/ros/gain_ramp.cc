@@ -15,7 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Between two questions to the guard.
+/// Pause between two calls of the guard.
 constexpr std::chrono::milliseconds kGlance{2};
 
 Clock::duration seconds(double value) { return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(value)); }
@@ -27,14 +27,14 @@ class GainRamp::Answers {
  public:
   explicit Answers(std::size_t servers) : slots_(servers) {}
 
-  /// The number of a new request.
+  /// Begins a new request and returns its number.
   int expect(std::size_t server) {
     const std::lock_guard<std::mutex> lock(mutex_);
     slots_[server].is_there = false;
     return ++slots_[server].request;
   }
 
-  /// Answers to older requests count no more.
+  /// Answers to older requests are ignored.
   void put(std::size_t server, int request, const GainServer::Answer& answer) {
     const std::lock_guard<std::mutex> lock(mutex_);
     Slot& slot = slots_[server];

@@ -17,30 +17,31 @@ struct GainValue {
   bool operator==(const GainValue& other) const { return number == other.number && is_flag == other.is_flag; }
 };
 
-/// By the names of the parameters.
+/// Values by the names of their parameters.
 using GainValues = std::map<std::string, GainValue>;
 
-/// What a server of dynamic_reconfigure says of itself.
+/// The parameters of a server of dynamic_reconfigure, as the server publishes them.
 struct GainServerState {
-  GainValues now;           ///< numbers and truth values that it has
+  GainValues now;           ///< present numbers and truth values
   GainValues lower, upper;  ///< its limits; a parameter without limits is missing
 };
 
 /// Sets parameters of a robot, as a server of dynamic_reconfigure does.
 class GainServer {
  public:
-  /// What the server has after a request, of all its parameters; empty if it did not answer.
+  /// The values of all parameters of the server after a request; empty if the server did not answer.
   using Answer = std::optional<GainValues>;
 
   virtual ~GainServer() = default;
   virtual const std::string& name() const = 0;
 
-  /// Asks the server to take `values` and returns at once. Requests are sent one after another.
+  /// Sends `values` to the server and returns at once. Requests are sent one after another.
   /// @param answer called once, maybe in another thread, maybe before send() returns.
   virtual void send(const GainValues& values, std::function<void(const Answer&)> answer) = 0;
 
-  /// Gives up a request that the server has not answered, if another one waits behind it: that one is sent at once, and reaches the server
-  /// after it. The request that is given up is answered as by a server that is gone; whether the server still takes it is unknown.
+  /// Gives up a request that the server has not answered, if a second request waits: the second request is sent at once, and reaches the
+  /// server after the first one. The callback of the first request gets an empty answer; whether the server still applies that request is
+  /// unknown.
   virtual void overtake() = 0;
 };
 

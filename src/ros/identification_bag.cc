@@ -15,9 +15,9 @@
 namespace codesign {
 namespace {
 
-/// Between the recordings [s].
+/// Pause between two recordings [s].
 constexpr double kPause = 0.5;
-/// Messages with residuals in a bag; residuals.csv has all.
+/// Largest number of messages with residuals in a bag; residuals.csv has all residuals.
 constexpr Eigen::Index kMostResiduals = 10000;
 
 /// Rows of a series that belong to one recording.
@@ -38,7 +38,7 @@ std::vector<SeriesPart> parts_of(const IdentificationShow& show) {
   return parts;
 }
 
-/// One bag on its way.
+/// Writes one bag.
 class ShowWriter {
  public:
   ShowWriter(const std::string& path, const IdentificationShow& show, const IdentificationAnswer* answer)
@@ -50,7 +50,7 @@ class ShowWriter {
     efforts_ = effort_style(show.motion, layout_.size);
     efforts_.towards_viewer = layout_.view.towards_viewer();
     efforts_.solids = solids;
-    // A joint's friction is a part of its effort: arrows of both can be compared.
+    // The arrows of friction have the same scale, since the friction of a joint is a part of its effort.
     if (!show.motion.joints.empty()) layout_.style = efforts_;
     layout_.style.solids = solids;
     legend_ = effort_legend(efforts_, show.motion);
@@ -79,7 +79,7 @@ class ShowWriter {
     writer_.write_text("study", show_.study);
     writer_.write_text("identification", show_.json);
     if (answer_) writer_.write_latched("request", 0.0, answer_->request);
-    // The measured robot has no other dimensions than those that were identified.
+    // The measured robot is shown with the identified dimensions.
     for (const char* side : {"measured", "identified"}) writer_.write_text(std::string(side) + "/robot_description", drawn_);
     tf2_msgs::TFMessage places;
     for (const char* side : {"measured", "identified"})
@@ -102,7 +102,7 @@ class ShowWriter {
     writer_.write_latched("result", end_, answer_->result);
   }
 
-  /// @param begin where the recording begins in the bag [s].
+  /// @param begin the begin of the recording in the bag [s].
   void write_motion(const ComparedRecording& recording, double begin) {
     std::vector<CaptionLine> lines{plain_line(recording.element)};
     lines.insert(lines.end(), legend_.begin(), legend_.end());
@@ -159,8 +159,8 @@ class ShowWriter {
   SceneLayout layout_;
   Stage stage_;
   std::vector<CaptionLine> legend_;
-  MarkerStyle efforts_;  ///< of the arrows of efforts
-  double end_ = 0.0;     ///< of what is written so far
+  MarkerStyle efforts_;  ///< scales of the arrows of efforts
+  double end_ = 0.0;     ///< end of the part written so far
 };
 
 }  // namespace

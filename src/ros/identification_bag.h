@@ -13,7 +13,7 @@
 
 namespace codesign {
 
-/// What only the bag of a node's job holds.
+/// Contents that only the bag of a node's job has.
 struct IdentificationAnswer {
   mechanism_codesign::IdentifyGoal request;
   mechanism_codesign::IdentifyResult result;
@@ -23,9 +23,9 @@ struct IdentificationAnswer {
 /// Writes the bag as `path`.active and renames it when it is complete. Topics: doc/ros_api.md.
 ///
 /// Recorded time starts at 1 s, and header stamps are the same; the recordings follow one another with pauses of half a second. TF frames
-/// are `measured/<link>` and `identified/<link>`, both at the origin of `world`, so that the measured robot is a ghost of the identified
-/// one.
-/// @param answer null: of the command line. @throws OutputError if writing fails; no unfinished bag is left.
+/// are `measured/<link>` and `identified/<link>`, both at the origin of `world`, so that the measured robot appears as a ghost of the
+/// identified robot.
+/// @param answer null for the command line. @throws OutputError if writing fails; no unfinished bag is left.
 void write_identification_bag(const std::string& path, const IdentificationShow& show, const IdentificationAnswer* answer);
 
 }  // namespace codesign

@@ -41,7 +41,7 @@ IdentificationDoor::IdentificationDoor(const ros::NodeHandle& node, const ros::N
           doors_, "identify", [this](const GoalHandle& goal) { on_goal(goal); }, [this](const GoalHandle& goal) { on_cancel(goal); },
           false),
       service_(doors_.advertiseService("identify", &IdentificationDoor::on_request, this)),
-      // Subscribed in the action's namespace, so that a remapping of the action applies to it too.
+      // Subscribed in the action's namespace, so that a remapping of the action applies to this topic, too.
       cancel_all_(ros::NodeHandle(doors_, "identify").subscribe("cancel", 10, &IdentificationDoor::on_cancel_all, this)) {}
 
 bool IdentificationDoor::start(const mechanism_codesign::IdentifyGoal& request, const Caller& caller, Result* refusal) {

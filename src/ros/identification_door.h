@@ -18,12 +18,12 @@
 
 namespace codesign {
 
-/// What a node has loaded.
+/// The study that a node has loaded.
 struct LoadedStudy {
   std::optional<Problem> problem;  ///< empty after bad input
   std::string fault;               ///< message of the bad input
-  std::string text;                ///< of the study
-  std::string folder;              ///< of the study file; empty for a study on the parameter server
+  std::string text;                ///< text of the study
+  std::string folder;              ///< folder of the study file; empty for a study on the parameter server
   JobOptions options;
 };
 
@@ -35,9 +35,9 @@ class IdentificationDoor {
 
   /// Accepts goals from now on.
   void open() { action_.start(); }
-  /// Cancels the running job. @returns whether there is one, which had not been cancelled before.
+  /// Cancels the running job. @returns whether a job runs that had not been cancelled before.
   bool cancel() { return worker_.cancel(); }
-  /// Cancels the running job, waits for its end, and accepts no further ones.
+  /// Cancels the running job, waits for its end, and accepts no further jobs.
   void finish() { worker_.finish(); }
 
  private:

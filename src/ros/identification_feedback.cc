@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// The time left after `done` of `of` equal parts, of which the first took `seconds` together.
+/// The time left after `done` of `of` equal parts. @param seconds the time of the finished parts together
 double seconds_left(double seconds, int done, int of) { return done > 0 ? seconds * std::max(of - done, 0) / done : kUnknown; }
 
 }  // namespace

@@ -16,19 +16,19 @@ namespace codesign {
 /// Called by the worker's thread for each message of progress.
 using IdentificationObserver = std::function<void(const mechanism_codesign::IdentificationProgress&)>;
 
-/// Makes the messages of a running identification, and keeps those of its evaluations for the bag. Used by one thread.
+/// Makes the progress messages of a running identification, and keeps the messages of evaluations for the bag. Used by one thread.
 class IdentificationFeedback {
  public:
-  /// @param names of what is fitted. @param most_evaluations of the fit. @param observer may be empty.
+  /// @param names of the fitted numbers. @param most_evaluations limit of the fit. @param observer may be empty.
   IdentificationFeedback(std::string job, std::vector<std::string> names, int most_evaluations, IdentificationObserver observer);
 
-  /// A stage begins: `reading` or `recording`, in which no evaluation is told.
+  /// Begins a stage without evaluations: `reading` or `recording`.
   void begin(const std::string& stage);
   void tell(const FitTrial& trial);
-  /// The last message: nothing is left.
+  /// Sends the last message, with no time left.
   void finish();
 
-  /// Moves out the messages of evaluations of the fit, those of profiles left out.
+  /// Moves out the messages of evaluations of the fit, without evaluations for profiles.
   std::vector<mechanism_codesign::IdentificationProgress> take() { return std::move(kept_); }
 
  private:

@@ -53,7 +53,7 @@ class IdentificationJob {
     set_warnings();
   }
 
-  /// Writes all files, if there is something to write. The bag comes last: it takes the time that a cancel leaves.
+  /// Writes all files, if the result has a point. The bag comes last: after a cancel it gets the remaining time.
   void write(const mechanism_codesign::IdentifyGoal& request, const std::atomic<bool>& cancel) {
     if (result_.numbers.empty()) return;
     feedback_.begin("recording");
@@ -71,7 +71,7 @@ class IdentificationJob {
   }
 
  private:
-  /// Of a job that was cancelled few instants are shown, so that all recordings are in the time that is left.
+  /// Rate of the instants in the bag. A cancelled job shows few instants, so that all recordings are written in the remaining time.
   double shown_rate(bool is_cancelled) const {
     constexpr double kCancelledInstants = 1000.0;
     double seconds = 0.0;
@@ -134,7 +134,7 @@ class IdentificationJob {
   StudyRecordings recordings_;
   IdentificationResult result_;
   Warnings warnings_;    ///< of recordings, fit and bag
-  std::string failure_;  ///< of files
+  std::string failure_;  ///< about files
 };
 
 }  // namespace

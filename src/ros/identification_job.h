@@ -13,7 +13,7 @@
 
 namespace codesign {
 
-/// The result of an identification, and the model that it found.
+/// The result of an identification, and the identified model.
 struct IdentificationOutcome {
   mechanism_codesign::IdentifyResult result;
   std::string identified_urdf;  ///< empty if nothing was fitted

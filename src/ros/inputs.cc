@@ -45,7 +45,7 @@ void read_study_source(const ros::NodeHandle& private_node, Inputs* inputs) {
     refuse_parameter(private_node, "study", "neither a path nor a tree", value, "a path, or the study as a tree of parameters");
 }
 
-/// The design of `~result`, then what `~set` says.
+/// The design of `~result`, then the values of `~set`.
 ParameterSettings read_settings(const ros::NodeHandle& private_node) {
   ParameterSettings settings;
   const std::string result = read_path(private_node, "result", "");

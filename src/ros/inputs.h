@@ -16,14 +16,15 @@ namespace codesign {
 /// - `~overlays`: a path or a list of paths;
 /// - `~study`: a path, or the study itself as a tree of parameters (`<rosparam ns="study" file=...>`);
 /// - `~result`: path of a result.json, whose design replaces the values of model and study;
-/// - `~set`: parameter values that replace those of model, study and result, by name.
+/// - `~set`: parameter values that replace the values of model, study and result, by name.
 /// @throws InputError for a missing or ill-typed parameter or a file that cannot be read.
 Inputs read_inputs(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
 /// Checks that a study from the parameter server names every parameter of the model.
 ///
 /// The parameter server drops empty mappings: an entry `crank_length: {}`, which means "tune it between the model's bounds", does not
-/// arrive. A study that comes as a tree must therefore name each parameter of the model, with `{tune: false}` for those that stay fixed.
+/// arrive. A study that comes as a tree must therefore name each parameter of the model, with `{tune: false}` for parameters that stay
+/// fixed.
 /// @throws InputError for a parameter of the model that a tree does not name.
 void require_every_parameter(const Inputs& inputs, const RobotDescription& robot);
 

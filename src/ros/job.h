@@ -26,7 +26,7 @@ class Dispatcher;
 struct JobOptions {
   std::string output_directory;  ///< folder for the bags
   double rate = 50.0;            ///< samples per second in the bag
-  Dispatcher* ranks = nullptr;   ///< the processes that evaluate, as in require_engine()
+  Dispatcher* ranks = nullptr;   ///< the processes of the job, as in require_engine()
 };
 
 struct OptimizationOutcome {

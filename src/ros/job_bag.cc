@@ -19,7 +19,7 @@ ShownRun shown(const BagSide& side) {
   return {side.run.names, side.run.frames, std::make_shared<LinkBoxes>(link_boxes(with_sticks(side.urdf), links))};
 }
 
-/// How both mechanisms stand in rviz: side by side, or one over the other.
+/// The arrangement of both mechanisms in rviz: side by side, or one over the other.
 struct BagScene {
   SceneLayout layout;
   std::vector<CaptionLine> legend;
@@ -37,7 +37,7 @@ struct BagScene {
   }
 };
 
-/// @param place prefix of the topics. @param apart from the initial mechanism to the tuned one. @returns where they are.
+/// @param place prefix of the topics. @param apart vector from the initial to the tuned mechanism. @returns the view of both.
 Stage write_places(const std::string& place, const Eigen::Vector3d& apart, const BagScene& scene, BagWriter* writer) {
   const ros::Time begin = BagWriter::stamp(0.0);
   Stage stage = scene.stage(apart);
@@ -94,7 +94,7 @@ void write_progress(const JobRecord& record, double duration, BagWriter* writer)
   }
 }
 
-/// The text of an instant: time, the objective of each run so far, and what the arrows mean.
+/// The text of an instant: time, the objective of each run so far, and the legend of the arrows.
 void write_caption(const std::string& place, const BagRuns& runs, std::size_t index, const BagScene& scene, BagWriter* writer) {
   double time = 0.0;
   std::string text = "objective so far:";

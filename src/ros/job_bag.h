@@ -29,19 +29,19 @@ struct BagRuns {
 struct JobRecord {
   BagRuns nominal;
   std::optional<BagRuns>
-      worst;  ///< of a study with runs or uncertain parameters: the scenario with the largest objective at the tuned design
+      worst;  ///< for a study with runs or uncertain parameters: the scenario with the largest objective at the tuned design
   std::vector<mechanism_codesign::OptimizationProgress> progress;
   mechanism_codesign::OptimizeGoal request;
   mechanism_codesign::OptimizeResult result;
   std::string study;                       ///< the text of the study
-  std::vector<std::string> study_files{};  ///< the texts of the files that it names, such as an identification
+  std::vector<std::string> study_files{};  ///< the texts of the files that the study names, such as an identification
 };
 
 /// Writes the bag as `path`.active and renames it when it is complete. Topics: doc/ros_api.md.
 ///
-/// Recorded time starts at 1 s, and header stamps are the same. TF frames are `initial/<link>` and `tuned/<link>`, both below `world`.
-/// The worst run has the same topics, with the same frames, below `worst/`; so that it can be played in place of the nominal one.
-/// The trial points are spread evenly over the duration of the runs, so that a plot shows the convergence next to the runs.
+/// Recorded time starts at 1 s, and header stamps are the same. TF frames are `initial/<link>` and `tuned/<link>`, both below `world`. The
+/// worst run has the same topics, with the same frames, below `worst/`; so that it can be played in place of the nominal run. The trial
+/// points are spread evenly over the duration of the runs, so that a plot shows the convergence next to the runs.
 /// @throws OutputError if writing fails; no unfinished bag is left.
 void write_bag(const std::string& path, const JobRecord& record);
 

@@ -13,18 +13,21 @@
 
 namespace codesign {
 
-/// Makes the messages of a running job: one for each trial point, and between them those that repeat the last trial point and tell how far
-/// the job is. Keeps those of trial points for the bag. Thread-safe: trial points and progress come from different threads.
+/// Makes the progress messages of a running job: one for each trial point, and between trial points messages that repeat the last trial
+/// point with new progress. Keeps the messages of trial points for the bag. Thread-safe: trial points and progress come from different
+/// threads.
 class JobFeedback {
  public:
-  /// @param job its name. @param parameters names of the tuned ones. @param observer may be empty; told by one thread at a time.
+  /// @param job name of the job. @param parameters names of the tuned parameters. @param observer may be empty; called by one thread at a
+  /// time.
   JobFeedback(std::string job, std::vector<std::string> parameters, FeedbackObserver observer);
 
-  /// A trial point. @param progress ProgressMeter::now(), which the caller asks before: the meter calls the function below. Workers that
-  /// finish runs at the same time may call in another order than they were counted; messages never go back to an earlier count of runs.
+  /// Sends a trial point. @param progress of ProgressMeter::now(). The caller reads it before this call, since the meter itself calls the
+  /// function below. Workers that finish runs at the same time may call in another order than their runs were counted; a message never
+  /// goes back to an earlier count of runs.
   void tell(const Trial& trial, const Progress& progress);
   void tell(const Progress& progress);
-  /// The last message: nothing is left.
+  /// Sends the last message, with no time left.
   void finish(Progress progress);
 
   /// Moves out the messages of trial points.
@@ -34,7 +37,7 @@ class JobFeedback {
   const std::string job_;
   const std::vector<std::string> parameters_;
   const FeedbackObserver observer_;
-  std::mutex mutex_;  // guards all that follows
+  std::mutex mutex_;  // guards all members below
   ProgressLog log_;
   Progress latest_;  ///< with the largest count of runs
   mechanism_codesign::OptimizationProgress last_;

@@ -112,7 +112,7 @@ dynamic_reconfigure::Config LiveParameters::set(const dynamic_reconfigure::Confi
   return config_of(parameters_, values_);
 }
 
-// The request stays until it is answered, so that no second one takes its place.
+// The request stays until it is answered, so that no second request replaces it.
 bool LiveParameters::serve(const std::function<Status(const std::vector<double>&)>& change) {
   std::vector<double> wanted;
   {

@@ -27,43 +27,43 @@ dynamic_reconfigure::ConfigDescription describe_parameters(const std::vector<Par
 /// Values of the parameters as dynamic_reconfigure sends them.
 dynamic_reconfigure::Config config_of(const std::vector<Parameter>& parameters, const std::vector<double>& values);
 
-/// What a request asks for.
+/// The values of a request.
 struct WantedParameters {
-  std::vector<double> values;  ///< all of them, within their bounds
-  Warnings warnings;           ///< `parameter_refused`: names that are unknown and numbers that are not finite, which are left out;
-                               ///< `parameter_bounded`: values that became a bound
+  std::vector<double> values;  ///< values of all parameters, within their bounds
+  Warnings warnings;           ///< `parameter_refused`: unknown names and numbers that are not finite; they are ignored;
+                               ///< `parameter_bounded`: values that were replaced by a bound
 };
 WantedParameters wanted_parameters(const std::vector<Parameter>& parameters, const std::vector<double>& values,
                                    const dynamic_reconfigure::Config& request);
 
 /// Parameters that change while the simulation runs, by the service and topics of dynamic_reconfigure, doc/ros_api.md. The service waits
-/// for the run, so that its callback needs a thread apart from those of topics. Thread-safe.
+/// for the run, so that its callback needs another thread than the callbacks of topics. Thread-safe.
 class LiveParameters {
  public:
-  /// @param node below which service and topics are, whose callback queue serves. @param bell rung for each request
+  /// @param node the namespace of service and topics; its callback queue serves them. @param bell rung for each request
   LiveParameters(ros::NodeHandle node, const std::vector<Parameter>& parameters, const std::vector<double>& values, NodeState* state,
                  Bell* bell);
 
-  /// Hands a waiting request to `change`, which tries values, and answers it. @returns whether values have changed. To be called by the
-  /// thread of the run.
+  /// Passes the values of a waiting request to `change`, which tries them, and answers the request. @returns whether values have changed.
+  /// To be called by the thread of the run.
   bool serve(const std::function<Status(const std::vector<double>&)>& change);
-  /// The node ends: nobody waits any more.
+  /// Ends all waits, when the node ends.
   void stop();
 
-  /// The service. One request after the other, so that each one learns what became of its own values.
+  /// The service. It handles one request after the other, so that each answer reports the outcome of its own values.
   dynamic_reconfigure::Config set(const dynamic_reconfigure::Config& request);
 
  private:
   const std::vector<Parameter> parameters_;
   NodeState* state_;
   Bell* bell_;
-  std::mutex requests_;  ///< held by the request that is being served, before mutex_
+  std::mutex requests_;  ///< held by the request that is being served, locked before mutex_
   std::mutex mutex_;
   std::condition_variable answered_;
   std::vector<double> values_;
-  std::optional<std::vector<double>> wanted_;  ///< until it is answered
+  std::optional<std::vector<double>> wanted_;  ///< values of the request that is not answered yet
   bool stopped_ = false;
-  Status status_;  ///< of the last change
+  Status status_;  ///< status of the last change
   ros::Publisher descriptions_, updates_;
   ros::ServiceServer server_;
 };

@@ -13,7 +13,7 @@
 namespace codesign {
 namespace {
 
-/// Set by a request to end the node, and while the node has something to do before ROS is shut down.
+/// must_end: a request to end the node has come. has_last_act: the node must act before ROS is shut down.
 std::atomic<bool> must_end{false}, has_last_act{false};
 
 void end_node() {
@@ -21,7 +21,7 @@ void end_node() {
   if (!has_last_act) ros::requestShutdown();
 }
 
-/// ROS has to stay up until the last act is done: after the shutdown nothing can be sent any more.
+/// Serves callbacks until RunningNode::before_shutdown has returned, since nothing can be sent after the shutdown of ROS.
 void serve_callbacks(const RunningNode& node) {
   if (!node.before_shutdown) return ros::spin();
   has_last_act = true;

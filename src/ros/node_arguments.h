@@ -10,10 +10,10 @@ namespace codesign {
 
 class Dispatcher;
 
-/// A node, and what it does when it is asked to end.
+/// A node, with the action to take when it is asked to end.
 struct RunningNode {
   std::shared_ptr<void> node;
-  /// Called while ROS is still up, in a thread of its own, before the shutdown; empty: nothing.
+  /// Called in a thread of its own before the shutdown, while ROS is still up; empty: no action.
   std::function<void()> before_shutdown;
 };
 
@@ -23,9 +23,9 @@ struct RunningNode {
 /// @return the exit code of the process: 0, also after printing `help` for `--help`; 2 for an unknown argument.
 int run_node(int argc, char** argv, const std::string& name, const std::string& help, const std::function<RunningNode()>& make);
 
-/// The nodes, for run_node(). Their headers, with those of ROS, stay out of the files with main().
+/// The nodes, for run_node(). Their headers, and the headers of ROS, stay out of the files with main().
 RunningNode make_simulation_node();
-/// @param ranks the processes that evaluate for the node, as in require_engine(); they must outlive it.
+/// @param ranks the processes of the job, as in require_engine(); must outlive the node.
 RunningNode make_optimization_node(Dispatcher* ranks);
 
 }  // namespace codesign

@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-/// Warnings that are shown; more are only counted.
+/// Largest number of warnings shown; further warnings are only counted.
 constexpr std::size_t kMostShown = 50;
 
 }  // namespace

@@ -61,7 +61,7 @@ mechanism_codesign::OptimizeResult to_message(const OptimizationResult& result, 
   return message;
 }
 
-/// Both designs of a result in one scenario, the tuned one first: it counts if time runs out.
+/// Records both designs of a result in one scenario; the tuned design first, since it matters more if time runs out.
 BagRuns run_both(const Problem& problem, const OptimizationResult& result, const Scenario& scenario, double rate, Patience* patience) {
   const auto side = [&](const Eigen::VectorXd& rho) {
     const std::vector<double> parameters = scenario.parameters(rho);
@@ -72,7 +72,7 @@ BagRuns run_both(const Problem& problem, const OptimizationResult& result, const
   return {side(result.initial_rho), std::move(tuned)};
 }
 
-/// The row of convergence.csv for a trial point that was told to others; those are kept in bounded memory.
+/// The row of convergence.csv for a trial point, made from its progress message; these messages are kept in bounded memory.
 std::vector<std::string> convergence_row(const mechanism_codesign::OptimizationProgress& progress) {
   Trial trial;
   trial.evaluation = static_cast<int>(progress.evaluation);
@@ -107,7 +107,7 @@ class Job {
     open_journal(!resume.empty());
   }
 
-  /// A journal without an evaluation is of no use, unless somebody was told the name of its job by a cancelled one.
+  /// Removes a journal without evaluations. After a cancel it stays, since the client knows the name of the job and may resume it.
   ~Job() {
     const bool is_of_use = journal_ && (journal_->evaluations() > 0 || is_interrupted());
     if (has_ended_ || !is_of_use) unlink(files_.journal().c_str());
@@ -159,7 +159,7 @@ class Job {
     record_->result.bag = files_.bag();
     write_bag(files_.bag(), *record_);
     outcome_->result.bag = files_.bag();
-    // After the bag, so that it does not take the last room on a disk from it.
+    // After the bag, so that the bag gets the space on a disk that is almost full.
     write_folder(cancel);
     outcome_->result.warnings = warning_messages(problem_.warnings(), warnings());
     best_.remove();
@@ -167,7 +167,7 @@ class Job {
   }
 
  private:
-  /// The folder beside the bag. Of a job that was cancelled, and is waited for, it has no runs.
+  /// The folder beside the bag. It has no runs if the job was cancelled and a client waits for the answer.
   void write_folder(const std::atomic<bool>& cancel) {
     const ResultFolder folder(files_.folder(), problem_);
     Json object = optimization_json(problem_, result_);
@@ -193,10 +193,10 @@ class Job {
     return csv_text(convergence_columns(problem_.tuned_names()), rows, where);
   }
 
-  /// Whether the job did not end by itself, so that it may go on.
+  /// Whether the job was interrupted, so that it can be resumed.
   bool is_interrupted() const { return result_.status.is_interrupted(); }
 
-  /// A disk that does not take the journal of a new job costs the journal, not the job.
+  /// If the disk cannot take the journal of a new job, the job runs without a journal.
   void open_journal(bool resume) {
     const Journal::Mode mode = resume ? Journal::Mode::kResume : Journal::Mode::kNew;
     try {
@@ -241,10 +241,10 @@ class Job {
   const JobOptions& options_;
   const JobFiles files_;
   BestRecord best_;
-  std::shared_ptr<Journal> journal_;  ///< null if the disk does not take it
+  std::shared_ptr<Journal> journal_;  ///< null if it cannot be written
   std::string journal_failure_;
   std::vector<Failure> folder_failures_;
-  bool has_ended_ = false;  ///< by itself, with all files written
+  bool has_ended_ = false;  ///< whether the job has ended uninterrupted, with all files written
   JobRecord* record_;
   OptimizationOutcome* outcome_;
   OptimizationResult result_;

@@ -52,7 +52,7 @@ OptimizationNode::OptimizationNode(Dispatcher* ranks) : state_("optimization"), 
   evaluate_ = doors_.advertiseService("evaluate", &OptimizationNode::on_evaluate, this);
   action_ = std::make_unique<ActionServer>(
       doors_, "optimize", [this](const GoalHandle& goal) { on_goal(goal); }, [this](const GoalHandle& goal) { on_cancel(goal); }, false);
-  // Subscribed in the action's namespace, so that a remapping of the action applies to it too.
+  // Subscribed in the action's namespace, so that a remapping of the action applies to this topic, too.
   cancel_all_ = ros::NodeHandle(doors_, "optimize").subscribe("cancel", 10, &OptimizationNode::on_cancel_all, this);
   identification_ = std::make_unique<IdentificationDoor>(node_, doors_, loaded_, &state_);
   application_ = std::make_unique<ApplyDoor>(doors_, loaded_.options.output_directory, &state_);

@@ -26,16 +26,16 @@ namespace codesign {
 /// The node `optimization`: services `optimize`, `identify`, `evaluate`, `apply` and `~cancel`, actions `optimize` and `identify`. See
 /// doc/ros_api.md.
 ///
-/// One worker thread serves the service and the action `optimize`, another one `identify`, a third `evaluate`; a request to a working one
-/// is answered with `busy`. Callbacks only hand the job over and wait for it. They have their own queue with several threads, so that the
-/// node answers at any time. With bad input the node stays up and answers every request with `bad_input`.
+/// One worker thread serves the service and the action `optimize`, another one `identify`, a third `evaluate`; a request to a busy worker
+/// is answered with `busy`. Callbacks only pass the job to a worker and wait for its end. They have their own queue with several threads,
+/// so that the node answers at any time. With bad input the node stays up and answers every request with `bad_input`.
 class OptimizationNode {
  public:
-  /// @param ranks the processes that evaluate for this one, as in require_engine().
+  /// @param ranks the processes of the job, as in require_engine().
   explicit OptimizationNode(Dispatcher* ranks);
   ~OptimizationNode();
 
-  /// Ends a running `apply`, whose robot gets its values before, and waits for that. Only possible while ROS is up.
+  /// Ends a running `apply` with a rollback to the robot's previous values, and waits for it. Only possible while ROS is up.
   void take_back() { application_->finish(); }
 
  private:
@@ -71,7 +71,7 @@ class OptimizationNode {
   NodeState state_;
   LoadedStudy loaded_;
   ros::Publisher progress_, tuned_;
-  // The order of the members from here on matters: what callbacks and workers use must outlive them.
+  // The order of the members from here on matters: members that callbacks and workers use must outlive them.
   ros::CallbackQueue queue_;
   ros::NodeHandle doors_;
   std::unique_ptr<ActionServer> action_;

@@ -14,7 +14,7 @@ class Pace {
   /// @param limit frames per second of wall time.
   explicit Pace(double limit = 1.0) : interval_(1.0 / limit) {}
 
-  /// Time to wait before a frame at `now`. A late frame does not shorten later waits.
+  /// Time to wait before the next frame, asked at `now`. A late frame does not shorten later waits.
   ros::WallDuration wait(const ros::WallTime& now) {
     next_ = std::max(next_, now);
     const ros::WallDuration left = next_ - now;

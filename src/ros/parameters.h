@@ -42,7 +42,7 @@ Warnings unknown_parameters(const ros::NodeHandle& private_node, const std::vect
 /// `path` with the home directory for a leading `~`.
 std::string expand_home(const std::string& path);
 
-/// Throws an InputError that shows the value of a parameter. @param allowed what the message gives as allowed values.
+/// Throws an InputError that shows the value of a parameter. @param allowed the allowed values, for the message.
 [[noreturn]] void refuse_parameter(const ros::NodeHandle& node, const std::string& key, const std::string& message,
                                    const XmlRpc::XmlRpcValue& value, const std::string& allowed);
 

@@ -17,7 +17,7 @@ class Patience {
 
   bool operator()() {
     const ros::WallTime now = ros::WallTime::now();
-    // A node that shuts down cancels its job, too, but nobody waits for the answer.
+    // A shutdown cancels the job, too, but no client waits for the answer then.
     if (ros::isShuttingDown()) return is_over(true, 8.0, now, &shutdown_);
     return is_over(cancel_, 0.5, now, &cancelled_);
   }
@@ -30,7 +30,7 @@ class Patience {
   }
 
   const std::atomic<bool>& cancel_;
-  ros::WallTime shutdown_, cancelled_;  ///< time of the first call that saw it
+  ros::WallTime shutdown_, cancelled_;  ///< times of the first calls that saw a shutdown and a cancel
 };
 
 }  // namespace codesign

@@ -10,7 +10,7 @@
 
 namespace codesign {
 
-/// The trial points of a job in bounded memory: of more than `capacity` points only every second, then every fourth, ... is kept, and
+/// The trial points of a job in bounded memory: beyond `capacity` points, only every second, then every fourth, ... point is kept, and
 /// always the last one.
 class ProgressLog {
  public:

@@ -107,8 +107,8 @@ void ReconfigureClient::send(const GainValues& values, std::function<void(const 
   changed_.notify_all();
 }
 
-/// A server of roscpp drops a request that it has not begun when its connection ends. One that it has begun is carried out before the next
-/// one, because dynamic_reconfigure serves one at a time.
+/// When its connection ends, a server of roscpp drops a request that it has not begun. It completes a request that it has begun before the
+/// next one, because dynamic_reconfigure serves one request at a time.
 void ReconfigureClient::overtake() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (is_asking_ && !orders_.empty()) service_.shutdown();
@@ -129,7 +129,7 @@ void ReconfigureClient::serve() {
   }
 }
 
-/// Over one connection, which is made anew if the server was started again.
+/// Uses one connection, which is made anew if the server was started again.
 ReconfigureClient::Answer ReconfigureClient::ask(const GainValues& values) {
   ros::ServiceClient service;
   {

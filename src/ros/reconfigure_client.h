@@ -20,8 +20,8 @@
 namespace codesign {
 
 /// A server of dynamic_reconfigure in another process: the topics `parameter_descriptions` and `parameter_updates` and the service
-/// `set_parameters` below its namespace. Its numbers of type double and its truth values are seen, others are left alone. Requests go out
-/// from a thread of their own, so that a server that does not answer holds up nobody else.
+/// `set_parameters` below its namespace. It reads and sets numbers of type double and truth values, and leaves other parameters alone.
+/// Requests go out from a thread of their own, so that a server that does not answer does not delay other servers.
 class ReconfigureClient : public GainServer {
  public:
   /// @param node whose callback queue is served by another thread. @param name_space resolved.
@@ -31,10 +31,11 @@ class ReconfigureClient : public GainServer {
   ReconfigureClient(const ReconfigureClient&) = delete;
   ReconfigureClient& operator=(const ReconfigureClient&) = delete;
 
-  /// Waits until the server has told its parameters and its service is there. @return the name of what is missing; empty: nothing.
+  /// Waits until the server has published its parameters and offers its service. @return the name of the missing topic or service; empty:
+  /// none is missing.
   std::string wait(double patience, const std::atomic<bool>& cancel);
 
-  /// What the server has said last. Call it after wait() was successful.
+  /// The last published state of the server. Call it after wait() was successful.
   GainServerState state() const;
 
   const std::string& name() const override { return name_; }
@@ -57,7 +58,7 @@ class ReconfigureClient : public GainServer {
   std::optional<dynamic_reconfigure::Config> now_;
   std::deque<Order> orders_;
   ros::ServiceClient service_;
-  bool is_asking_ = false;  ///< a request is with the server
+  bool is_asking_ = false;  ///< whether a request waits for the server's answer
   bool ending_ = false;
   ros::Subscriber descriptions_, updates_;
   std::thread thread_;  // last: it uses all of the above
@@ -66,7 +67,7 @@ class ReconfigureClient : public GainServer {
 /// The numbers of type double and the truth values of a message.
 GainValues values_of(const dynamic_reconfigure::Config& config);
 dynamic_reconfigure::Config config_of(const GainValues& values);
-/// @param now of the topic `parameter_updates`.
+/// @param now the last message of the topic `parameter_updates`.
 GainServerState state_of(const dynamic_reconfigure::ConfigDescription& description, const dynamic_reconfigure::Config& now);
 
 }  // namespace codesign

@@ -19,14 +19,14 @@ struct RecordedRun {
   Status status;  ///< if not ok, the frames end where the run failed or was stopped
 };
 
-/// Checks that the runs of a job, of both designs, nominal and worst, fit into memory (256 MB) and into the range of ROS time. @param rate
-/// samples per second.
+/// Checks that the runs of a job (nominal and worst scenario of both designs) fit into memory (256 MB) and into the range of ROS time.
+/// @param rate samples per second.
 /// @param element where the rate was given. @throws InputError for a duration or a rate that is too large.
 void check_recording(const Problem& problem, double rate, const std::string& element);
 
 /// Runs a study at `parameters`, all named ones, and samples it at equally spaced instants from 0 to its duration.
-/// @param system of the run, such as that of a scenario. @param rate samples per second, accepted by check_recording(). @param stop if
-/// given, called repeatedly; true ends the run with kCancelled.
+/// @param system of the run, such as the system of a scenario. @param rate samples per second, accepted by check_recording(). @param stop
+/// if given, called repeatedly; true ends the run with kCancelled.
 RecordedRun record_run(const std::shared_ptr<const CompiledSystem>& system, const std::vector<double>& parameters, double rate,
                        const std::function<bool()>& stop = {});
 

@@ -115,7 +115,7 @@ void RecordingBag::refuse_other_robot() const {
        list_names(known));
 }
 
-/// The messages that name the most joints; of equally many, the first such.
+/// The group of messages that name the most joints; of several such groups, the first one.
 Group RecordingBag::largest_group() {
   std::map<std::vector<std::string>, Group> groups;
   for (std::size_t k = 0; k < messages_.size(); ++k) {

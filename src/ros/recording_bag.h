@@ -13,21 +13,23 @@ namespace codesign {
 
 /// Reads the sensor_msgs/JointState messages of a topic.
 ///
-/// A time counts from the first message of the bag: the first message of the topic stands where it was received, the others by their
-/// stamps. Several publishers may share the topic; used are the messages that name most of the joints, and `recording_joints_left_out`
-/// warns of the others. An array that is empty in all messages, or NaN throughout, was not measured. `recording_clock` warns where stamps
-/// and times of reception differ by more than half a second, `recording_all_zero` of efforts and velocities that are zero throughout.
-/// @throws InputError as BagReader says, and for stamps of zero and arrays of other sizes than the names.
+/// Times count from the first message of the bag: the first message of the topic has its time of reception, the others follow by the
+/// differences of their stamps. Several publishers may share the topic; the messages that name most of the joints are used, and
+/// `recording_joints_left_out` warns of the others. An array that is empty in all messages, or NaN throughout, was not measured.
+/// `recording_clock` warns where stamps and times of reception differ by more than half a second, `recording_all_zero` of efforts and
+/// velocities that are zero throughout.
+/// @throws InputError as BagReader, and for stamps of zero and arrays whose sizes differ from the number of names.
 JointRecording read_recording_bag(const RecordingDescription& description, const std::string& path, const std::vector<std::string>& joints,
                                   Warnings* warnings);
 
-/// Reading was ended by a cancel.
+/// Thrown if a cancel ends the reading.
 class ReadingCancelled : public std::runtime_error {
  public:
   ReadingCancelled() : std::runtime_error("cancelled") {}
 };
 
-/// As above. @throws ReadingCancelled soon after `cancel` is set, from any thread; it must outlive the reader.
+/// A reader that calls read_recording_bag() and throws ReadingCancelled soon after `cancel` is set, from any thread. `cancel` must outlive
+/// the reader.
 BagReader cancellable_bag_reader(const std::atomic<bool>& cancel);
 
 }  // namespace codesign

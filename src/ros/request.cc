@@ -85,7 +85,7 @@ void choose_options(const mechanism_codesign::OptimizeGoal& request, OptimizerOp
   choose_limits(request, options);
 }
 
-/// Sets the tuned parameters of the study. @returns their start values, where the request gives them.
+/// Sets the tuned parameters of the study. @returns the start values that the request gives.
 template <class Request>
 ParameterSettings choose_parameters(const Request& request, Study* study) {
   if (!request.parameters.empty()) {

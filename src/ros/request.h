@@ -26,8 +26,8 @@ struct OptimizationRequest {
   OptimizerOptions options;
 };
 
-/// Applies a goal to the loaded problem: the parameters to tune, their start values and the optimizer options, each where the goal gives
-/// it; everything else is as in the study.
+/// Applies a goal to the loaded problem: sets the parameters to tune, their start values and the optimizer options as far as the goal gives
+/// them; the rest is as in the study.
 /// @throws InputError naming the field of the request, or if the study has no objective.
 OptimizationRequest apply_request(const Problem& problem, const mechanism_codesign::OptimizeGoal& request);
 
@@ -35,8 +35,8 @@ OptimizationRequest apply_request(const Problem& problem, const mechanism_codesi
 /// @throws InputError naming the field of the request, or if the study has no recordings.
 Problem apply_request(const Problem& problem, const mechanism_codesign::IdentifyGoal& request);
 
-/// The tuned parameters rho (order of Study::tuned) at which a request wants an evaluation: the values of the request, and start values for
-/// the parameters that it does not name.
+/// The tuned parameters rho (order of Study::tuned) of a request for an evaluation: the values of the request, and start values for the
+/// parameters that it does not name.
 /// @throws InputError naming the field of the request, or if the study has no objective.
 Eigen::VectorXd design_of(const Problem& problem, const mechanism_codesign::EvaluateRequest& request);
 

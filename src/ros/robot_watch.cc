@@ -16,7 +16,7 @@ using SteadyClock = std::chrono::steady_clock;
 
 double seconds_since(SteadyClock::time_point time) { return std::chrono::duration<double>(SteadyClock::now() - time).count(); }
 
-/// A message from so far in the future says nothing of its age [s].
+/// The stamp of a message that is farther in the future does not show the age of the message [s].
 constexpr double kFarFuture = 3600.0;
 
 }  // namespace

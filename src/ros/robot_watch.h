@@ -22,7 +22,8 @@ namespace codesign {
 
 struct WatchOptions {
   std::string joint_states = "joint_states";  ///< topic; empty: joint states are not watched
-  /// Of the last message of each watched topic, by its arrival and by its stamp [s]. A stamp more than an hour ahead is an alarm, too.
+  /// Largest age of the last message of each watched topic, by its arrival and by its stamp [s]. A stamp more than an hour in the future is
+  /// an alarm, too.
   double max_age = 0.5;
   double deviation = 0.0;  ///< largest change of a position since the first message [rad or m]; 0: not watched
 };
@@ -37,7 +38,7 @@ class RobotWatch {
   /// range is not in the joint states, a value is outside its range; empty: nothing is wrong.
   std::string begin(double patience);
 
-  /// The first thing that went wrong, with the time at which its message came; none so far: empty.
+  /// The first alarm, with the arrival time of its message; empty if there is none so far.
   std::optional<RampAlarm> alarm();
 
  private:

@@ -17,15 +17,15 @@
 
 namespace codesign {
 
-/// The bag of the first run of the simulation, if one is asked for: every frame, tf of all links, commands, caption, description,
-/// scene and version. A failure to write gives the warning `output_failed` and ends the bag, not the run.
+/// The bag of the first run of the simulation, if `~bag` requests one: every frame, tf of all links, commands, caption, description, scene
+/// and version. A failure to write gives the warning `output_failed` and ends the bag, not the run.
 class RunBag {
  public:
   /// @param options, state must outlive this.
   RunBag(const SimulationOptions& options, NodeState* state) : options_(options), state_(state) {}
 
-  /// Begins the bag; what a killed node left of it is removed. @param description URDF of the mechanism. @param root_frame TF frame of
-  /// the root link
+  /// Begins the bag; the unfinished bag of a killed node is removed. @param description URDF of the mechanism. @param root_frame TF frame
+  /// of the root link
   void open(const std::string& description, const std::string& root_frame, const SimulationScene& scene);
   void record(const FrameNames& names, const Frame& frame, const SimulationScene& scene);
   /// @param time [s] of the run from which the commands are in effect
@@ -41,7 +41,7 @@ class RunBag {
   const SimulationOptions& options_;
   NodeState* state_;
   std::optional<LockFile> lock_;
-  std::unique_ptr<BagWriter> bag_;  ///< while it is being written
+  std::unique_ptr<BagWriter> bag_;  ///< null unless the bag is being written
 };
 
 }  // namespace codesign

@@ -31,7 +31,7 @@ double RunClock::time_of(const ros::Time& stamp) const {
 
 void RunClock::go_on_from(double time) {
   if (is_free_running()) return;
-  // A ROS clock that was set back, or that nobody publishes, may be less than the time of the run.
+  // A ROS clock that was set back or has no publisher may show less than the time of the run.
   const ros::Time now = ros::Time::now();
   start_ = now.toSec() > time / time_scale_ ? now - ros::Duration(time / time_scale_) : ros::Time();
   wall_start_ = ros::WallTime::now() - ros::WallDuration(time / time_scale_);

@@ -37,7 +37,7 @@ void RunControl::configure(bool paused, std::int64_t step_frames) {
   step_frames_ = step_frames;
 }
 
-// An answer to ~restart says that the new run has its first frame, so that it is given by note_frame().
+// note_frame() answers ~restart, since the answer means that the new run has its first frame.
 void RunControl::begin_run() {
   const std::lock_guard<std::mutex> lock(mutex_);
   begun_ = running_ = true;
@@ -98,7 +98,7 @@ std_srvs::TriggerResponse RunControl::resume() {
   steps_left_ = 0;
   changed_.notify_all();
   bell_->ring();
-  return trigger_reply(true, "goes on from t = " + to_decimal(time_) + " s");
+  return trigger_reply(true, "continues from t = " + to_decimal(time_) + " s");
 }
 
 std_srvs::TriggerResponse RunControl::step() {

@@ -17,7 +17,7 @@
 namespace codesign {
 
 /// The services ~pause, ~resume, ~step and ~restart of the simulation, doc/ros_api.md. They wait for the run, so that their callbacks need
-/// a thread apart from those of topics. Thread-safe.
+/// another thread than the callbacks of topics. Thread-safe.
 class RunControl {
  public:
   /// @param bell rung for each request
@@ -26,21 +26,21 @@ class RunControl {
   /// Offers the services below `node`, whose callback queue serves them.
   void advertise(ros::NodeHandle node);
 
-  /// @param paused whether runs stand still after their first frame. @param step_frames frames of a ~step
+  /// @param paused whether runs pause after their first frame. @param step_frames number of frames of a ~step
   void configure(bool paused, std::int64_t step_frames);
 
   // The thread of the run calls these.
 
-  /// A run begins; answers a waiting ~restart.
+  /// To be called when a run begins; answers a waiting ~restart.
   void begin_run();
-  /// A frame was published, at `time` [s] of the run.
+  /// To be called when a frame was published, at `time` [s] of the run.
   void note_frame(double time);
-  /// The run is over; requests but ~restart are refused with this sentence.
+  /// To be called when the run has ended; requests other than ~restart are then refused with this sentence.
   void end_run(const std::string& why);
-  /// No run will follow: nobody waits any more, and each request is refused with this sentence.
+  /// To be called when no run will follow: ends all waits, and refuses each request with this sentence.
   void stop(const std::string& why = "the node ends");
 
-  /// Whether the run stands still after the last frame.
+  /// Whether the run is paused after the last frame.
   bool is_paused() const;
   /// Whether ~restart waits for a new run.
   bool wants_restart() const;

@@ -14,19 +14,19 @@ namespace codesign {
 /// whose names begin with a slash.
 class SafeRanges {
  public:
-  /// The `<limit>` of every joint: position of joints with stops, velocity and effort where they are not zero.
+  /// Adds the `<limit>` of every joint: positions of joints with stops, velocities and efforts with a limit that is not zero.
   /// @param parameters all named parameters.
   void add_limits_of(const Problem& problem, const std::vector<double>& parameters);
 
-  /// A range given as `SIGNAL=LOW:HIGH`; one of the two may be empty for none. It replaces the limit of the model.
+  /// Adds a range given as `SIGNAL=LOW:HIGH`; LOW or HIGH may be empty for no limit. The range replaces the limit of the model.
   /// @throws InputError naming `element` for any other text.
   void add(const std::string& text, const std::string& element);
 
-  /// Why a value is not safe, as a sentence; empty if it is, or if there is no range for the signal. A value that is not a number is unsafe
-  /// in a range that was given; in those of the model it counts as not measured.
+  /// Why a value is not safe, as a sentence; empty if it is, or if there is no range for the signal. NaN is unsafe for a range that was
+  /// given; for a limit of the model it counts as not measured.
   std::string check(const std::string& signal, double value) const;
 
-  /// Signals whose range was given, which the robot must therefore publish: those of joints, and topics.
+  /// Signals of joints with a given range, which the robot must publish; likewise topics.
   std::vector<std::string> joint_signals() const { return given(false); }
   std::vector<std::string> topics() const { return given(true); }
 

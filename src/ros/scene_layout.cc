@@ -32,7 +32,7 @@ class ArrowScale {
   double sum_of_squares_ = 0.0, largest_ = 0.0;
 };
 
-/// Frames of a run that are looked at: about a hundred, evenly.
+/// About a hundred frames of a run, chosen evenly, which determine the layout.
 std::vector<const Frame*> some_frames(const ShownRun& run) {
   std::vector<const Frame*> frames;
   const std::size_t stride = 1 + run.frames.size() / 100;
@@ -46,7 +46,7 @@ void add_solids(const LinkSample& link, const std::vector<SolidBox>& boxes, std:
       points->push_back(link.position + link.orientation * (solid.pose * corner));
 }
 
-/// The origins of all links and the corners of the solids of those that are not the root.
+/// Adds the origins of all links and the corners of the solids of all links except the root.
 void add_links(const ShownRun& run, std::vector<Eigen::Vector3d>* points) {
   for (const Frame* frame : some_frames(run))
     for (std::size_t k = 0; k < frame->links.size(); ++k) {
@@ -62,7 +62,8 @@ Eigen::AlignedBox3d box_of(const std::vector<Eigen::Vector3d>& points) {
   return box;
 }
 
-/// The corners of the root's solids, moved to the box of half a size around what moves if they lie outside of it.
+/// Adds the corners of the root's solids. The box around the moving links, enlarged on each side by half of its largest side, limits them:
+/// corners outside are moved onto it.
 void add_root(const std::vector<ShownRun>& runs, std::vector<Eigen::Vector3d>* points) {
   const Eigen::AlignedBox3d moving = box_of(*points);
   const Eigen::Array3d margin = Eigen::Array3d::Constant(0.5 * moving.sizes().maxCoeff());
@@ -97,9 +98,9 @@ void scale_arrows(const std::vector<ShownRun>& runs, SceneLayout* layout) {
   layout->style.metres_per_newton_metre = torque.metres_per_unit(layout->size, layout->style.metres_per_newton_metre);
 }
 
-/// Height of letters over the distance of the viewer: 1/36 of the picture's height.
+/// Height of letters divided by the distance of the viewer: letters take 1/36 of the picture's height.
 constexpr double kLetter = kHalfHeight / 18.0;
-/// From line to line, in letters.
+/// Distance of lines, in heights of letters.
 constexpr double kLine = 1.6;
 
 /// The points of a mechanism whose root link stands at `place`.
@@ -107,7 +108,8 @@ void add_mechanism(const SceneLayout& layout, const Eigen::Vector3d& place, std:
   for (const Eigen::Vector3d& point : layout.points) points->push_back(place + point);
 }
 
-/// The way to stand clear of each other, to the right or one before the other, in which the farther one looks larger.
+/// The displacement that separates both mechanisms, to the right or in depth: the one of the two that makes the farther mechanism look
+/// larger.
 Eigen::Vector3d apart_in(const SceneLayout& layout) {
   const SceneView& view = layout.view;
   const Eigen::Vector2d sides = view.picture(layout.points).sizes();
@@ -122,7 +124,7 @@ Eigen::Vector3d apart_in(const SceneLayout& layout) {
   return farther(beside) <= farther(before) ? beside : before;
 }
 
-/// Above each mechanism as the camera sees it, in the middle of its picture, as far away as its middle.
+/// A place above each mechanism as the camera sees it, in the middle of its picture and at the distance of its middle.
 Eigen::Vector3d place_of_name(const SceneLayout& layout, const std::vector<Eigen::Vector3d>& places, const CameraPlace& camera) {
   const SceneView& view = layout.view;
   const Eigen::Vector3d middle = box_of(layout.points).center();
@@ -173,7 +175,7 @@ Stage stage_of(const SceneLayout& layout, const std::vector<Eigen::Vector3d>& pl
   Stage stage;
   stage.letter = kLetter * camera.distance;
   stage.label = place_of_name(layout, places, camera);
-  // The text is as far away as makes its letters look as large as those of the names.
+  // The distance at which the letters of the text look as large as the letters of the names.
   const double away = layout.letter / kLetter;
   const Eigen::Vector3d eye = camera.focus + camera.distance * view.towards_viewer();
   stage.caption = eye - away * view.towards_viewer() + ((kFilled * kHalfHeight - 0.5 * kLetter) * away) * view.up();

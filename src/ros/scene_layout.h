@@ -13,17 +13,17 @@
 
 namespace codesign {
 
-/// A run to be shown.
+/// A run to show.
 struct ShownRun {
   const FrameNames& names;
   const std::vector<Frame>& frames;
-  std::shared_ptr<const LinkBoxes> solids;  ///< of its links, in the order of `names`; null: not known
+  std::shared_ptr<const LinkBoxes> solids;  ///< solids of its links, in the order of `names`; null: not known
 };
 
 /// Placement and scales for showing runs of a mechanism in rviz. Places are in the axes of the root link [m].
 struct SceneLayout {
   double size = 0.0;                    ///< largest side of the box around the links and their solids over the runs [m]
-  std::vector<Eigen::Vector3d> points;  ///< of links, solids and arrows over the runs, all of which are to be seen
+  std::vector<Eigen::Vector3d> points;  ///< points of links, solids and arrows over the runs, which must all be visible
   double floor = 0.0;                   ///< height of the lowest solid [m]
   SceneView view;
   Eigen::Vector3d apart = Eigen::Vector3d::Zero();  ///< from the first mechanism to the second, so that their pictures do not overlap
@@ -32,20 +32,21 @@ struct SceneLayout {
   bool has_forces = false, has_torques = false;     ///< whether friction arrows of that kind are drawn
 };
 
-/// The layout of runs of the same mechanism.An arrow of the root-mean-square friction is a sixth as long as the mechanism, the largest
+/// The layout of runs of the same mechanism. An arrow of the root-mean-square friction is a sixth as long as the mechanism, the largest
 /// arrow at most 0.4 times as long, both rounded down to two digits of metres per newton. Solids of the root, such as a floor, count as far
 /// as half a size around the links that move.
 SceneLayout lay_out(const std::vector<ShownRun>& runs);
 
-/// Where to look at mechanisms, with room for a text above them.
+/// A view of mechanisms, with room for a text above them.
 struct Stage {
   mechanism_codesign::Scene scene;                    ///< without header
   Eigen::Vector3d caption = Eigen::Vector3d::Zero();  ///< middle of the text's first line, at the top of the picture [m]
-  Eigen::Vector3d label = Eigen::Vector3d::Zero();    ///< of a mechanism's name, above it in the picture, from its root link [m]
+  Eigen::Vector3d label = Eigen::Vector3d::Zero();    ///< place of a mechanism's name, above it in the picture, relative to its root link
+                                                      ///< [m]
   double letter = 0.0;                                ///< height of the letters of names [m]
 };
 
-/// @param places of the root links. @param lines of the text, of which there may be none.
+/// @param places of the root links. @param lines number of lines of the text; 0: none.
 Stage stage_of(const SceneLayout& layout, const std::vector<Eigen::Vector3d>& places, int lines);
 
 }  // namespace codesign

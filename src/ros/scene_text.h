@@ -19,7 +19,7 @@ struct CaptionLine {
   std_msgs::ColorRGBA color;
 };
 
-/// What the arrows mean: a line for each kind that is drawn, in its color, with its scale.
+/// The legend of the arrows: a line for each kind that is drawn, in its color, with its scale.
 std::vector<CaptionLine> arrow_legend(const SceneLayout& layout);
 
 /// A line in black.

@@ -46,7 +46,7 @@ CameraPlace place_camera(const std::vector<Eigen::Vector3d>& points, const Scene
   for (const Eigen::Vector3d& point : points) box.extend(point);
   CameraPlace place{box.center(), 0.0};
   constexpr int kRounds = 25;
-  // What is nearer to the camera takes more room: the camera moves until both sides are as far from the edge.
+  // Points nearer to the camera take more room in the picture: the camera moves until both sides have the same distance from the edge.
   for (int round = 0; round <= kRounds; ++round) {
     place.distance = 1e-3;
     for (const Eigen::Vector3d& point : points) {

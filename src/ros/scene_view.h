@@ -7,7 +7,7 @@
 
 namespace codesign {
 
-/// From where rviz's Orbit view looks: z is up, `yaw` turns about it from x, `pitch` rises above the plane of x and y [rad].
+/// The direction of rviz's Orbit view: z is up, `yaw` turns about it from x, `pitch` rises above the plane of x and y [rad].
 struct SceneView {
   double yaw = 5.2, pitch = 0.45;
 
@@ -20,25 +20,26 @@ struct SceneView {
   Eigen::AlignedBox2d picture(const std::vector<Eigen::Vector3d>& points) const;
 };
 
-/// A view on the broad side of a mechanism, a little from above: of one that is flat along x from x, of one that lies flat from high above.
+/// A view on the broad side of a mechanism, a little from above: a mechanism that is flat along x is seen from x, a mechanism that lies
+/// flat from high above.
 /// @param sizes of the box around it [m].
 SceneView view_of(const Eigen::Vector3d& sizes);
 
 /// The place of the camera.
 struct CameraPlace {
   Eigen::Vector3d focus = Eigen::Vector3d::Zero();  ///< the middle of the picture [m]
-  double distance = 1.0;                            ///< of the camera from there [m]
+  double distance = 1.0;                            ///< distance of the camera from the focus [m]
 };
 
-/// The picture at least: the shipped configurations of rviz have one that is a little wider.
+/// Aspect ratio of the picture, at least: the shipped configurations of rviz have a slightly wider picture.
 constexpr double kAspect = 1.24;  ///< width over height
-/// Half of its height at a distance of one: rviz's picture is 45 degrees high.
+/// Half of the picture's height at a distance of one: rviz's picture is 45 degrees high.
 constexpr double kHalfHeight = 0.41421356237309503;
-/// Where points may lie, of 1 from the middle to the edge.
+/// The largest distance of points from the middle of the picture, as a share of the distance to the edge.
 constexpr double kFilled = 0.92;
 
 /// The nearest place from which all points lie within `kFilled` of the picture. @param points at least one.
-/// @param top how far up they may lie, of 1 from the middle to the upper edge; above that is room for a text.
+/// @param top likewise for points in the upper half; the room above is for a text.
 CameraPlace place_camera(const std::vector<Eigen::Vector3d>& points, const SceneView& view, double top = kFilled);
 
 /// The eight corners of a box, none for an empty one.

@@ -25,7 +25,7 @@ namespace {
 constexpr std::uint32_t kQueueSize = 100;
 /// In the mode as_fast_as_possible, a subscriber that is slow for a second must not lose frames.
 constexpr std::uint32_t kLongQueueSize = 1000;
-/// For services that wait for the run: one ~step, one change of parameters, and one that interrupts them.
+/// Threads for services that wait for the run: one for ~step, one for a change of parameters, and one for a request that interrupts them.
 constexpr std::uint32_t kServiceThreads = 3;
 
 std::vector<std::string> all_parameters() {

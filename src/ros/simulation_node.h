@@ -58,10 +58,9 @@ class SimulationNode {
   /// Runs the study once, from 0 to its duration. The status is ok unless the run failed or was stopped.
   Status run_once();
   Status run_frames();
-  /// Brings commands and parameters into effect at the instant of the last frame, and waits there while the run is paused or a command is
-  /// awaited.
+  /// Applies commands and parameters at the instant of the last frame, and waits there while the run is paused or a command is awaited.
   Status serve();
-  /// Tries parameters for the next run. Between runs.
+  /// Between runs: tries parameters for the next run.
   void serve_idle();
   void wait_for_restart(const std::string& why);
   /// No further run is possible.
@@ -87,12 +86,12 @@ class SimulationNode {
   std::unique_ptr<CommandInbox> inbox_;
   std::unique_ptr<LiveParameters> live_;
   std::unique_ptr<FloatTopics> floats_;
-  std::string description_;  ///< URDF of the mechanism that runs, with sticks
+  std::string description_;  ///< URDF of the simulated mechanism, with sticks
   std::optional<SimulationScene> scene_;
   RunClock clock_{1.0};
   Pace pace_;
   RealTimeFactor factor_;
-  Frame frame_;  ///< the last one
+  Frame frame_;  ///< the last frame
   std::map<std::string, ros::Publisher> publishers_;
   ros::Publisher clock_publisher_, description_publisher_, commands_publisher_, factor_publisher_, caption_publisher_, scene_publisher_;
   tf2_ros::TransformBroadcaster transforms_;

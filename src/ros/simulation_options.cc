@@ -97,7 +97,7 @@ void read_topics(const Node& node, const std::string& name, SimulationOptions* o
 
 void read_bag(const Node& node, const std::string& name, SimulationOptions* options) { options->bag = read_path(node, name, ""); }
 
-/// In the order of reading: `mode` is after `time_scale`, since it overrides it.
+/// In the order of reading: `mode` comes after `time_scale`, since it overrides `time_scale`.
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> kEntries = {{"rate", read_rate},
                                               {"time_scale", positive(&SimulationOptions::time_scale)},

@@ -11,7 +11,7 @@
 namespace codesign {
 namespace {
 
-constexpr double kLook = 0.1;  // [s] between looks at what ends a wait
+constexpr double kLook = 0.1;  // [s] between two checks whether a wait must end
 
 }  // namespace
 
@@ -64,7 +64,7 @@ void SimulationNode::wait_for_restart(const std::string& why) {
   }
 }
 
-// A start that cannot be assembled is refused, so that ~restart begins with one that can.
+// Refuses parameters whose start cannot be assembled, so that ~restart begins with a valid start.
 void SimulationNode::serve_idle() {
   inbox_->take();  // commands to a run that has ended
   const std::vector<double> before = simulation_->parameters();
@@ -121,7 +121,7 @@ Status SimulationNode::serve() {
   const ros::WallTime begun = ros::WallTime::now();
   bool has_waited = false;
   for (;;) {
-    // Asked before commands are taken: what arrives in between is taken in the next round.
+    // Read before commands are taken: a command that arrives in between is taken in the next round.
     const bool goes_on = !control_.is_paused() && (!options_.lock_step || inbox_->is_answered());
     const CommandedRun::Outcome outcome = commanded_->apply(inbox_->take(), frame_, clock_);
     if (!outcome.status.ok()) return outcome.status;
@@ -140,7 +140,7 @@ Status SimulationNode::serve() {
   }
   if (!has_waited) return {};
   state_.show("waits for", "nothing");
-  // After a shorter wait, for the answer of a fast controller, the next frame stays due when it was.
+  // After a shorter wait, such as for the answer of a fast controller, the due time of the next frame does not change.
   if (ros::WallTime::now() - begun > ros::WallDuration(1.0 / options_.rate)) clock_.go_on_from(frame_.time);
   return {};
 }

@@ -19,7 +19,7 @@ double tail(double x) { return 0.5 * std::erfc(x / kSqrt2); }
 double exceeded_with(double probability) { return kSqrt2 * boost::math::erfc_inv(2.0 * probability, Policy()); }
 
 // Both the probabilities p below and q = 1 - p above the value are computed without subtracting from one, and the smaller one is inverted:
-// the other has lost its digits far out in a tail.
+// far out in a tail, the larger one has lost its digits.
 double normal_quantile(const Distribution& d, double u) {
   if (!(d.deviation > 0.0)) return std::clamp(d.mean, d.lower, d.upper);
   const double from = (d.lower - d.mean) / d.deviation, to = (d.upper - d.mean) / d.deviation;

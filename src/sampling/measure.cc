@@ -48,8 +48,8 @@ std::vector<Index> worst_first(const VectorXd& values) {
   return order;
 }
 
-// The minimum over t of t + sum w_i max(psi_i - t, 0) / (1 - level), doc/theory.md [16]: the mean of the worst values of total weight
-// 1 - level, of which the last may count with a part of its weight.
+// The minimum over t of t + sum w_i max(psi_i - t, 0) / (1 - level), doc/theory.md [16]: the mean of the worst values with a total weight
+// of 1 - level; the last of these may count with a part of its weight.
 Measured conditional_value_at_risk(double level, const VectorXd& values, const VectorXd& weights) {
   constexpr double kRounding = 1e-12;  // relative to 1 - level; a rest below it is rounding, not a part of the next value's weight
   const double slack = kRounding * (1.0 - level);

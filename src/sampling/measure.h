@@ -18,8 +18,8 @@ struct Measured {
 };
 
 /// The measure that `options` name, with its `level` or `factor`; doc/theory.md (24a). Sums run in the order of the values, so that equal
-/// arguments give equal results. Among equal values, where kWorst and kCvar have a kink, the first count: a subgradient. With
-/// kMeanPlusDeviation and all values equal, the derivative is that of the mean, likewise a subgradient.
+/// arguments give equal results. Among equal values, where kWorst and kCvar have a kink, the first ones count; the result is a subgradient.
+/// With kMeanPlusDeviation and all values equal, the derivative of the mean is returned, which is a subgradient, too.
 /// @param values psi_i, at least one, all finite
 /// @param weights as many, positive, of sum 1
 Measured measure(const RobustOptions& options, const Eigen::VectorXd& values, const Eigen::VectorXd& weights);

@@ -15,7 +15,7 @@ namespace {
 // The largest number below one.
 constexpr double kBelowOne = 1.0 - 0x1p-53;
 
-// Raw 32-bit numbers: their sequence is standardized, that of the distributions of <random> is not.
+// Raw 32-bit numbers: the standard defines their sequence, but not the algorithms of <random>'s distributions.
 std::uint32_t draw_bits(std::mt19937* generator) { return static_cast<std::uint32_t>((*generator)()); }
 
 // From 52 random bits of two draws: an odd multiple of 2^-53, inside (0, 1) and without rounding.
@@ -38,7 +38,7 @@ Eigen::MatrixXd random_points(int count, int dimension, std::uint32_t seed) {
   return points;
 }
 
-// Column by column: the intervals in a random order (Fisher and Yates), and in each a random place.
+// Each column has the intervals in a random order (Fisher and Yates) and a random place in each interval.
 Eigen::MatrixXd latin_hypercube(int count, int dimension, std::uint32_t seed) {
   std::mt19937 generator(seed);
   Eigen::MatrixXd points(count, dimension);

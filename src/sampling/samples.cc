@@ -7,7 +7,7 @@
 namespace codesign {
 namespace {
 
-/// The distribution of a quantity, given the values of those before it.
+/// The distribution of a quantity, given the values of the quantities before it.
 Distribution given(const std::vector<UncertainQuantity>& quantities, std::size_t index, const std::vector<double>& earlier) {
   Distribution distribution = quantities[index].distribution;
   for (const MeanSlope& on : quantities[index].slopes)

@@ -20,8 +20,8 @@ std::uint32_t reverse_bits(std::uint32_t x) {
   return (x << 16) | (x >> 16);
 }
 
-// Owen's scrambling: each bit is flipped or not as a function of the bits above it, so that every net stays a net. The hash is that of
-// Laine and Karras with Burley's constants, doc/theory.md [18]; in it a bit depends on those below it, hence the reversal. A random digital
+// Owen's scrambling: each bit is flipped or not as a function of the bits above it, so that every net stays a net. The hash is by Laine and
+// Karras, with Burley's constants, doc/theory.md [18]. In the hash a bit depends on the bits below it, hence the reversal. A random digital
 // shift would keep the nets too, but flips a bit everywhere or nowhere: at best the error of a mean falls as N^-1 then, and as N^-1.5 here.
 std::uint32_t scramble(std::uint32_t x, std::uint32_t key) {
   x = reverse_bits(x) + key;
@@ -36,7 +36,7 @@ Eigen::MatrixXd sobol_points(int count, int dimension, std::uint32_t seed) {
   if (dimension == 0) return points;
   const auto size = static_cast<std::size_t>(dimension);
   Engine engine(size);
-  std::mt19937 generator(seed);  // its raw numbers are standardized, the distributions of <random> are not
+  std::mt19937 generator(seed);  // the standard defines its raw numbers, but not the algorithms of <random>'s distributions
   std::vector<std::uint32_t> keys(size), bits(size, 0u);
   for (std::uint32_t& key : keys) key = static_cast<std::uint32_t>(generator());
   for (int i = 0; i < count; ++i) {

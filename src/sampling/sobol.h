@@ -7,7 +7,7 @@
 
 namespace codesign {
 
-/// Largest dimension of sobol_points(): that of Boost's table of direction numbers.
+/// Largest dimension of sobol_points(), which is the dimension of Boost's table of direction numbers.
 constexpr int kMaxSobolDimension = 3667;
 
 /// The first `count` points of a scrambled Sobol sequence, one per row; doc/theory.md (24b). A larger `count` adds rows and a larger

@@ -6,7 +6,7 @@
 namespace codesign {
 namespace {
 
-constexpr int kPositionPair = 0, kVelocityPair = 1;  // offsets of the projection's pairs in Curvature, after those of the stages
+constexpr int kPositionPair = 0, kVelocityPair = 1;  // offsets of the projection's pairs in Curvature, after the pairs of the stages
 
 }  // namespace
 

@@ -15,7 +15,7 @@ namespace codesign {
 /// gradient.
 struct WeightedPoint {
   State<double> point;
-  VectorX<double> mu;  ///< one per row of G, then the one of the integrand's row
+  VectorX<double> mu;  ///< one per row of G, then one for the integrand's row
 };
 
 /// One step of RosenbrockStep differentiated backwards; doc/theory.md (18b), (18c).
@@ -48,7 +48,7 @@ class AdjointStep {
   const WeightedPoint& velocity_errors() const { return velocity_errors_; }
   /// Weights on the entries of G_q, G_v and G_z: Theta of (18c) is the sum of entries times weights, Theta_rho the same with d/d rho.
   const ByVariable<std::vector<double>>& matrix_weights() const { return matrix_weights_; }
-  /// The same for G_t; one per row of G, then the one of the integrand's row.
+  /// The same for G_t; one per row of G, then one for the integrand's row.
   const VectorX<double>& time_weights() const { return time_weights_; }
 
   /// Resets the contributions of the previous step. Needed before a step without stages (the last point) or without projection (the start).

@@ -22,7 +22,7 @@ class Curvature {
   void set_design(const std::vector<double>& parameters);
   /// Sets all pairs to zero.
   void clear();
-  /// Sets pair k. @param u in the order of IncrementLayout. @param mu one per row of G, then the one of the integrand's row.
+  /// Sets pair k. @param u in the order of IncrementLayout. @param mu one per row of G, then one for the integrand's row.
   void set(int k, const VectorX<double>& u, const VectorX<double>& mu);
 
   /// adjoint += dTheta/dy at a state.

@@ -183,7 +183,8 @@ void compare(GradientCheck* check) {
     }
   };
   compare_with(check->evaluation.gradient, check->reference, 1e-3 * check->reference.cwiseAbs().maxCoeff());
-  // Values at the start may have gradients that are zero but for rounding, so the largest gradient of all is the measure.
+  // Values at the start may have gradients that are zero within rounding, so that differences are compared with the largest gradient of
+  // all.
   const Eigen::MatrixXd& references = check->extreme_reference;
   if (references.size() == 0) return;
   const double scale = 1e-3 * references.cwiseAbs().maxCoeff();

@@ -47,7 +47,7 @@ class GradientEngine {
 bool prefers_adjoint(const CompiledSystem& system);
 
 /// The engine for the study's integrator and gradient method. @param system must outlive it. @param cancel if it is set meanwhile, the
-/// result is nullptr. @param derivatives the most that will be asked for; kGaussNewton is by direct sensitivities whatever the study says.
+/// result is nullptr. @param derivatives the highest level that start() will request; kGaussNewton always uses direct sensitivities.
 std::unique_ptr<GradientEngine> make_gradient_engine(const CompiledSystem& system, const std::atomic<bool>* cancel = nullptr,
                                                      Derivatives derivatives = Derivatives::kGradient);
 

@@ -9,8 +9,8 @@
 namespace codesign {
 namespace {
 
-// Gauss's rule with two points on [0, 1]: both have the weight 1/2. Its weights are positive, as roots of them require; those of the
-// integrators' own quadrature are not.
+// Gauss's rule with two points on [0, 1]: both have the weight 1/2. Its weights are positive, which their roots require; some weights of
+// the integrators' own quadrature are negative.
 const double kGaussPoints[] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
 constexpr double kGaussWeight = 0.5;
 

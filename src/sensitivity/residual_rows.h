@@ -23,7 +23,7 @@ void residuals_of(ObjectivePart part, const Design<T>& design, VectorX<T>* error
 }
 
 /// Gathers the Jacobian of the residuals while an integration runs, doc/theory.md (22a): the rows of the integrand at the points of Gauss's
-/// rule in each step, times the roots of their weights in the integral, and those of the terminal terms at the end. Only the triangular
+/// rule in each step, times the roots of their weights in the integral, and the rows of the terminal terms at the end. Only the triangular
 /// root of all rows is kept.
 class ResidualRows {
  public:
@@ -34,7 +34,7 @@ class ResidualRows {
   /// @param system must outlive this.
   explicit ResidualRows(const CompiledSystem& system);
 
-  /// Begins a run: to be called after integrator->start(). kInvalidDesign for a negative weight, of which there is no root.
+  /// Begins a run: to be called after integrator->start(). kInvalidDesign for a negative weight, which has no real root.
   Status start(Integrator* integrator, Differentiate differentiate);
   /// Adds the rows of the step that the integrator has just taken.
   void look();

@@ -45,7 +45,7 @@ class RosenbrockGradient final : public GradientEngine {
   };
 
   int count() const { return static_cast<int>(system_.study().tuned.size()); }
-  /// Number of parameters per run. The rows of watched signals and residuals are collected during one run, so that all take part in it.
+  /// Number of parameters per run. Rows of watched signals and residuals are collected during one run, which then includes all parameters.
   int most_lanes() const { return watch_.is_empty() && !with_root_ ? most_lanes_ : std::max(4, count()); }
   Status start_watches();
   /// Starts the tangents of the parameters from `first` on.

@@ -76,7 +76,7 @@ double SignalWatch::value(std::size_t k, double time) {
   return value;
 }
 
-// The slope is the gradient of the signal times the rates of the dense output; those of accelerations and multipliers follow from the
+// The slope is the gradient of the signal times the rates of the dense output; the rates of accelerations and multipliers follow from the
 // derivatives of the equations.
 SignalWatch::Sample SignalWatch::sample(std::size_t k, double time) {
   Sample result;
@@ -174,7 +174,7 @@ void SignalWatch::reach_instant(std::size_t k, double time) {
   ++curves_[k].next;
 }
 
-/// Compares the value at an extremum with those of its window.
+/// Compares the value at an extremum with the extreme values of its window.
 void SignalWatch::offer(std::size_t k, double time) {
   const WatchLayout::Entry& entry = layout_.entries()[k];
   const int window = static_cast<int>(curves_[k].next) - 1;

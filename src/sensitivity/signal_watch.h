@@ -17,7 +17,7 @@ namespace codesign {
 ///
 /// A signal is a function of the dense output, with accelerations and multipliers solved for where it depends on them. Its slope, which is
 /// exact, is computed at several points of each step; where it changes sign, a root finder gives the extremum to rounding. At a smooth
-/// extremum the derivative by a parameter is that at a fixed time, because the slope is zero there.
+/// extremum the derivative by a parameter equals the derivative at a fixed time, because the slope is zero.
 class SignalWatch {
  public:
   /// The derivatives of watched signal `k` by the tuned parameters at `state`, a point of the dense output of the last step.
@@ -30,17 +30,17 @@ class SignalWatch {
   bool is_empty() const { return curves_.empty(); }
   /// Begins a run: to be called after integrator->start(). @param differentiate empty: without derivatives.
   Status start(Integrator* integrator, Differentiate differentiate);
-  /// Looks through the step that the integrator has just taken.
+  /// Searches the last step of the integrator.
   Status look();
   /// The numbers so far. At the end of the study all of them are set.
   const Extremes& extremes() const { return extremes_; }
 
  private:
-  /// A watched signal on its way through the run.
+  /// The state of the search for one watched signal.
   struct Curve {
     bool reads_rates = false;  ///< whether the signal depends on accelerations or multipliers
     std::size_t next = 0;      ///< the next instant
-    double end_slope = 0.0;    ///< at the end of the step before, where it was inside the interval; else 0
+    double end_slope = 0.0;    ///< slope at the end of the previous step, if that was inside the interval; else 0
   };
   struct Sample {
     double time = 0.0, value = 0.0, slope = 0.0;  ///< [s], [unit of the signal], [per s]
@@ -60,12 +60,12 @@ class SignalWatch {
   const CompiledSystem& system_;
   const WatchLayout layout_;
   ControlClock clock_;
-  bool begins_at_jump_ = false, ends_at_jump_ = false;  ///< whether sampled controllers act where the last step begins and ends
+  bool begins_at_jump_ = false, ends_at_jump_ = false;  ///< whether sampled controllers act at the begin and at the end of the last step
   Integrator* integrator_ = nullptr;
   Differentiate differentiate_;
   std::vector<Curve> curves_;
   Extremes extremes_;
-  double time_ = 0.0;  ///< end of the step before [s]
+  double time_ = 0.0;  ///< end of the previous step [s]
   State<double> state_, rates_;
   SparseGradient<double> sparse_;
   Eigen::VectorXd gradient_;

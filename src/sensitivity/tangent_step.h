@@ -37,7 +37,7 @@ class TangentStep {
   void accept(const RosenbrockStep<double>& step);
 
   /// Carries the sensitivities over a jump of the step's integrator: the derivative of (q, v, g(q, v, s)) and of the rates that belong to
-  /// it. @param assembly that solved for the rates of `behind`. @param behind the state behind the jump, where the step begins anew.
+  /// it. @param assembly that solved for the rates of `behind`. @param behind the state after the jump, where the step begins anew.
   void jump(const std::vector<ControlEvent>& events, const State<double>& before, const State<double>& behind, const Assembly& assembly);
 
   /// Derivatives of the objective: psi() of its integral so far, terminal() of its terminal terms at `state`, the end of the last step.
@@ -63,12 +63,12 @@ class TangentStep {
   const Directions<N>& directions() const { return y_; }
 
  private:
-  /// Takes the directions of `lanes`, whose values are those of `at`, and begins the next step there.
+  /// Takes the directions of `lanes`, which have the same values as `at`, and begins the next step there.
   void take_up(const State<double>& at, const State<Lanes<N>>& lanes);
   using Vector = typename Lanes<N>::Vector;
   /// to = from + sum of factors[j] u'_j, for the components of u' from the `first` on.
   void combine(In<double> from, In<double> factors, int first, Out<double> to) const;
-  /// For as many stages at a time as divide their number.
+  /// Handles `together` stages at a time; `together` divides the number of stages.
   template <std::size_t together>
   void change_matrices(const RosenbrockStep<double>& step);
   void stage_start(std::size_t i, double h);

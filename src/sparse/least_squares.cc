@@ -29,7 +29,7 @@ std::vector<int> independent_dense_columns(const SparseMatrix& A, const ColumnPr
   const Eigen::Index rank = pivot_columns(Eigen::MatrixXd(A), tolerance).rank;
   std::vector<int> chosen;
   for (const std::vector<int>& candidates : preferences) {
-    // Choose by what is left of the candidates after projection onto the columns chosen so far.
+    // Choose by the remainder of the candidates after projection onto the columns chosen so far.
     const auto missing = rank - static_cast<Eigen::Index>(chosen.size());
     if (missing <= 0 || candidates.empty()) continue;
     const Eigen::MatrixXd taken = dense_columns(A, chosen);

@@ -29,7 +29,7 @@ class LeastSquares {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Lists of column indices in order of preference: columns of an earlier list are preferred to those of a later one.
+/// Lists of column indices in order of preference: columns of an earlier list are preferred to columns of a later list.
 using ColumnPreferences = std::vector<std::vector<int>>;
 
 /// A maximal set of independent columns that prefers earlier lists; indices in ascending order. Within a list, matrices of up to 256

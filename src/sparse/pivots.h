@@ -24,8 +24,8 @@ LuPattern eliminate_pattern(const Pivots& pivots, const std::vector<int>& column
 /// The number of multiplications of the elimination.
 std::int64_t count_products(const LuPattern& pattern);
 
-/// Pivots for a matrix with these values: the cheapest (count_products()) of those that KLU finds with several orderings. std::nullopt if
-/// KLU finds the matrix singular with each.
+/// Pivots for a matrix with these values: the cheapest (count_products()) of the pivots that KLU finds with several orderings. std::nullopt
+/// if KLU finds the matrix singular with every ordering.
 std::optional<LuPattern> choose_pivots(const std::vector<int>& column_start, const std::vector<int>& row_index, In<double> values);
 
 }  // namespace codesign

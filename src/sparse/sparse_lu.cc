@@ -15,7 +15,7 @@ constexpr double kLargestMultiplier = 1e6;
 // Smallest over largest pivot at which the matrix counts as singular to working precision.
 constexpr double kSingular = 1e-17;
 constexpr std::size_t kMostSchedules = 4;
-// With those of earlier runs, which save making a schedule when the same pivots are chosen again.
+// Including schedules of earlier runs, which are used again if the same pivots are chosen.
 constexpr std::size_t kMostKept = 8;
 
 }  // namespace

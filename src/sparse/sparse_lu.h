@@ -30,7 +30,7 @@ class SparseLu {
   /// or chooses pivots anew if settle() was never called. For the beginning of a run, so that its last bits do not depend on the runs
   /// before.
   void forget();
-  /// Makes the pivots in use those with which forget() begins again.
+  /// Keeps the present pivots as the pivots with which forget() begins again.
   void settle();
 
   /// Solves A x = b in place, n numbers.

@@ -86,7 +86,7 @@ constexpr bool kCheckAssembly = false;
 constexpr bool kCheckAssembly = true;
 #endif
 
-/// Adds the values of an assembly to a Linearization. The sequence of calls must be the one that was recorded for `plan`.
+/// Adds the values of an assembly to a Linearization. The sequence of calls must equal the sequence recorded for `plan`.
 /// @tparam checked whether each call is compared with the recorded row and column, as in debug builds.
 template <class T, bool checked = kCheckAssembly>
 class AssemblySink {
@@ -165,7 +165,7 @@ struct SparseGradient {
   };
   Mark mark() const { return {position.size(), velocity.size(), rate.size(), time}; }
 
-  /// Multiplies what was added after the mark by a factor.
+  /// Multiplies the values added after the mark by a factor.
   void scale_from(const Mark& mark, const T& factor) {
     scale(mark.position, factor, &position);
     scale(mark.velocity, factor, &velocity);

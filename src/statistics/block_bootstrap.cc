@@ -7,7 +7,8 @@
 namespace codesign {
 namespace {
 
-/// A whole number from 0 to size - 1 of the raw bits, whose sequence is standardized; that of <random>'s distributions is not.
+/// A whole number from 0 to size - 1, made from raw bits: the standard defines their sequence, but not the algorithms of <random>'s
+/// distributions.
 Eigen::Index draw_index(Eigen::Index size, std::mt19937* generator) {
   const auto bits = static_cast<std::uint64_t>((*generator)());
   return static_cast<Eigen::Index>((bits * static_cast<std::uint64_t>(size)) >> 32);
@@ -20,7 +21,7 @@ Eigen::MatrixXd running_sums(const Eigen::MatrixXd& terms, Eigen::Index begin, E
   return sums;
 }
 
-/// Adds to each draw the sum over blocks of one series. The last block is cut to what is missing.
+/// Adds to each draw the sum over blocks of one series. The last block is cut to the missing length.
 void add_series(const Eigen::MatrixXd& sums, Eigen::Index block, std::mt19937* generator, Eigen::MatrixXd* draws) {
   const Eigen::Index length = sums.rows() - 1, size = std::min(block, length), starts = length - size + 1;
   for (Eigen::Index draw = 0; draw < draws->rows(); ++draw)

@@ -9,8 +9,8 @@
 
 namespace codesign {
 
-/// Sums of as many terms as there are, drawn in blocks of neighbours (Kuensch's moving blocks), minus their mean; doc/theory.md (36).
-/// Blocks do not cross from one series to the next. The same arguments give the same numbers everywhere.
+/// Draws sums with as many terms as `terms` has rows, in blocks of neighbours (Kuensch's moving blocks), minus their mean; doc/theory.md
+/// (36). Blocks do not cross from one series to the next. The same arguments give the same numbers everywhere.
 /// @param terms one per row, p columns. @param block neighbours per block, at least 1; a shorter series is one block
 /// @return draws x p
 Eigen::MatrixXd bootstrap_sums(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, int block, int draws, std::uint32_t seed);

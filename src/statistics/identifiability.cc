@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-// Entries of C, for columns of length one, that are rounding.
+// Entries of C below this number, for columns of length one, are rounding.
 constexpr double kNegligible = 1e-6;
 
 Eigen::VectorXd column_lengths(const Eigen::MatrixXd& R) {

@@ -26,7 +26,7 @@ Eigen::VectorXd autoregression(const Eigen::MatrixXd& terms, const SeriesLengths
   return slopes;
 }
 
-/// x_t - slope x_{t-1}; the first of a series, which has no one before it, gets the same variance.
+/// x_t - slope x_{t-1}; the first row of a series, which has no predecessor, is scaled to the same variance.
 Eigen::MatrixXd whitened(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, const Eigen::VectorXd& slopes) {
   Eigen::MatrixXd result = terms;
   Eigen::Index begin = 0;
@@ -55,8 +55,8 @@ int automatic_lag(const Eigen::MatrixXd& terms, const SeriesLengths& lengths) {
   return capped(lag, terms.rows());
 }
 
-// The weights 1 - |l| / (lag + 1) count in how many windows of lag + 1 neighbours two terms stand together. So the sum is one over windows,
-// zeros standing beside the series, which takes N p^2 operations for any lag.
+// Each term lies in lag + 1 windows of lag + 1 neighbours, and a share 1 - |l| / (lag + 1) of them contains its neighbour at distance l,
+// too. The sum is therefore computed over windows, with zeros before and after the series, in N p^2 operations for any lag.
 Eigen::MatrixXd bartlett_sum(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, int lag) {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(terms.cols(), terms.cols());
   Eigen::Index begin = 0;
@@ -81,7 +81,7 @@ LongRunCovariance long_run_covariance(const Eigen::MatrixXd& terms, const Series
   result.lag = lag > 0 ? capped(lag, terms.rows()) : automatic_lag(innovations, lengths);
   const Eigen::VectorXd recolor = (1.0 - slopes.array()).inverse();
   result.covariance = recolor.asDiagonal() * bartlett_sum(innovations, lengths, result.lag) * recolor.asDiagonal();
-  // What fixed-b asymptotics say of kernels whose width is the part b of the sample: the mean and the degrees of freedom of the estimate.
+  // Fixed-b asymptotics for kernels whose width is the fraction b of the sample: mean and degrees of freedom of the estimate.
   const double b = (result.lag + 1.0) / static_cast<double>(terms.rows());
   result.covariance /= 1.0 - b + b * b / 3.0;
   result.degrees = 1.5 / b;

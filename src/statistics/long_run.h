@@ -13,7 +13,7 @@ using SeriesLengths = std::vector<Eigen::Index>;
 /// The covariance of a sum over correlated times.
 struct LongRunCovariance {
   Eigen::MatrixXd covariance;  ///< p x p
-  int lag = 0;                 ///< of the kernel
+  int lag = 0;                 ///< lag of the kernel
   double degrees = 0.0;        ///< equivalent degrees of freedom of each variance, for Student's t
 };
 
@@ -23,8 +23,8 @@ struct LongRunCovariance {
 /// @param lag of the Bartlett kernel; 0: automatic, automatic_lag(). At most a quarter of the rows is used.
 LongRunCovariance long_run_covariance(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, int lag = 0);
 
-/// The lag that is used without one given: the larger of 1.3 sqrt(N) (Lazarus, Lewis, Stock and Watson) and that of Andrews for the column
-/// whose correlation lasts longest; N rows.
+/// The default lag for N rows: the larger of 1.3 sqrt(N) (Lazarus, Lewis, Stock and Watson) and the lag by Andrews for the column whose
+/// correlation lasts longest.
 int automatic_lag(const Eigen::MatrixXd& terms, const SeriesLengths& lengths);
 
 /// sum_|l| <= lag (1 - |l| / (lag + 1)) Gamma_l with Gamma_l = sum_t x_t x_{t-l}^T over all t of each series: the plain estimate.

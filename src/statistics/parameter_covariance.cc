@@ -17,7 +17,7 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kDraws = 2000;
 constexpr std::uint32_t kSeed = 1;
 
-/// (J^T J)^-1 with zeros for the parameters that depend on others: these are held while the others are told.
+/// (J^T J)^-1 with zeros for the parameters that depend on others: these are held fixed while the others are determined.
 Eigen::MatrixXd inverse_of_normal_matrix(const Eigen::MatrixXd& R, const Identifiability& identifiability) {
   const Eigen::Index p = R.cols();
   const auto& dependent = identifiability.dependent;
@@ -41,7 +41,7 @@ Eigen::MatrixXd inverse_of_normal_matrix(const Eigen::MatrixXd& R, const Identif
   return result;
 }
 
-/// What each time contributes to the error of the parameters, N x p: (J^T J)^-1 sum over outputs of J^T r.
+/// The contribution of each time to the error of the parameters, N x p: (J^T J)^-1 sum over outputs of J^T r.
 Eigen::MatrixXd contributions(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& inverse) {
   Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(residuals.rows(), jacobian.cols());
   for (Eigen::Index output = 0; output < residuals.cols(); ++output)

@@ -14,19 +14,18 @@ namespace codesign {
 /// How well the p parameters of a least-squares fit are known, to first order; doc/theory.md (33)-(36).
 struct ParameterCovariance {
   Identifiability identifiability;
-  /// p x p. Of a parameter that the data do not tell, the variance is infinite and its covariances are not a number.
+  /// p x p. A parameter that the data do not determine has an infinite variance, and its covariances are NaN.
   Eigen::MatrixXd covariance;
-  Eigen::VectorXd below, above;    ///< the interval at the level is [x - below, x + above]; infinite where the data do not tell x
-  double residual_variance = 0.0;  ///< sum of squares by rows minus rank, in squared units of the residuals
-  double degrees = 0.0;            ///< of Student's t in the intervals
-  int lag = 0;                     ///< of the kernel, or neighbours in a block; 0 for white noise
+  Eigen::VectorXd below, above;    ///< the interval at the level is [x - below, x + above]; infinite where the data do not determine x
+  double residual_variance = 0.0;  ///< sum of squares divided by (rows - rank), in squared units of the residuals
+  double degrees = 0.0;            ///< degrees of freedom of Student's t in the intervals
+  int lag = 0;                     ///< lag of the kernel, or number of neighbours in a block; 0 for white noise
 
-  /// p x p, ones on the diagonal; not a number where the covariance is not.
+  /// p x p, ones on the diagonal; NaN where the covariance is NaN.
   Eigen::MatrixXd correlation() const;
 };
 
-/// @param residuals at the fit, one row per time and one column per output (joint), N x m; those of several recordings stand below each
-/// other
+/// @param residuals at the fit, one row per time and one column per output (joint), N x m; several recordings stand below each other
 /// @param jacobian of the residuals, N m x p: the rows of output 0 in the order of time, then those of output 1, and so on. With a robust
 /// loss both are multiplied by the square roots of the weights.
 /// @param lengths of the recordings, with the sum N. Outputs at one time may depend on each other, recordings do not.
@@ -36,7 +35,8 @@ struct ParameterCovariance {
 ParameterCovariance parameter_covariance(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd& jacobian, const SeriesLengths& lengths,
                                          const IntervalOptions& options, Eigen::Index eliminated = 0);
 
-/// What a fit is expected to tell, before there are data: the same for residuals that are white noise of variance one.
+/// The covariance that a fit is expected to have, before there are data: parameter_covariance() for residuals that are white noise of
+/// variance one.
 /// @param jacobian of the residuals, each divided by its standard deviation, or a factor R of it with R^T R = J^T J
 /// @param rows of the jacobian. @param level of the intervals
 ParameterCovariance predicted_covariance(const Eigen::MatrixXd& jacobian, Eigen::Index rows, double level);

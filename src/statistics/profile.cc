@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-constexpr double kTolerance = 1e-4;   // of the distance from the optimum
+constexpr double kTolerance = 1e-4;   // relative to the distance from the optimum
 constexpr double kFarthest = 1e3;     // in first steps
 constexpr int kMostEvaluations = 40;  // per side
 
@@ -53,7 +53,7 @@ class Side {
     return std::sqrt(std::max(excess, 0.0)) - std::sqrt(problem_.threshold);
   }
 
-  /// Illinois: the secant, where an end that stays twice counts half.
+  /// Illinois method: a secant in which the value at an end that stays twice is halved.
   double crossing(double a, double fa, double b, double fb) {
     int stays = 0;
     while (evaluations_ < kMostEvaluations && b - a > kTolerance * b) {

@@ -11,7 +11,7 @@ namespace codesign {
 /// The test of Ljung and Box whether residuals are white; doc/theory.md (37).
 struct Whiteness {
   double statistic = 0.0;    ///< n (n + 2) sum_k rho_k^2 / (n - k), k = 1 ... lags
-  double probability = 1.0;  ///< of a statistic as large or larger if they are white
+  double probability = 1.0;  ///< probability of a statistic as large or larger if the residuals are white
   int lags = 0;
   double first_correlation = 0.0;  ///< rho_1
 };

@@ -47,8 +47,8 @@ class InverseDynamics {
     Matrix3<T> W;  ///< sum of b s^T for every b^T A s that the load depends on; theory (3)
   };
 
-  // The steps of the recursion, and after them the adjoint of each. The adjoint of a step reads the adjoints of its results and adds to
-  // those of its arguments.
+  // The steps of the recursion, and after them the adjoint of each. The adjoint of a step reads the adjoints of its results and adds to the
+  // adjoints of its arguments.
   /// Motion of a body from the motion of its parent and the acceleration of its joint.
   void move(std::size_t k, const T& acceleration);
   /// F_b and N_b from the motion of a body.

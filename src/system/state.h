@@ -46,7 +46,7 @@ struct Layout {
   int rate_column(int position) const { return position < n ? position : state_column(position - n); }
   int norm_row(int body) const { return constraints() - bodies + body; }            ///< row |p| = 1 of Phi of a body
   int coupling_row(int k) const { return constraints() - bodies - couplings + k; }  ///< row of Phi of a coupling
-  /// One behind the last row of Phi of a pair.
+  /// The index after the last row of Phi of a pair.
   int pair_end(int pair) const {
     const auto next = static_cast<std::size_t>(pair) + 1;
     return next < pair_row.size() ? pair_row[next] : coupling_row(0);
@@ -60,8 +60,8 @@ struct State {
   VectorX<T> q, v;  ///< coordinates and velocities, n each
   VectorX<T> s;     ///< extra states, Layout::states
   VectorX<T> z;     ///< accelerations, multipliers and rates of s, Layout::columns()
-  /// Turn references: the position [rad] of a turning joint is reported in the whole turn nearest to its entry. Behind them stand the flags
-  /// of redundant rows: 1 for a dropped row, 0 for an enforced one; theory (23). They have no derivative.
+  /// Turn references: the position [rad] of a turning joint is reported in the whole turn nearest to its entry. They are followed by the
+  /// flags of redundant rows: 1 for a dropped row, 0 for an enforced one; theory (23). They have no derivative.
   std::vector<TurnReference<T>> turns;
 
   /// Sets all vectors to zero with the sizes of a layout.

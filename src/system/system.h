@@ -30,7 +30,7 @@ struct JointLoad {
   bool passive = false;            ///< damping or a torsion spring
   bool spring = false;             ///< a torsion spring, which depends on the position
   bool stop = false;               ///< `<limit lower upper>` as stops
-  bool saturated = false;          ///< `<limit effort>` bounds what the controllers apply
+  bool saturated = false;          ///< `<limit effort>` bounds the effort of the controllers
   std::vector<int> controllers;    ///< indices of the controllers that drive this coordinate
   std::vector<int> constant;       ///< indices into Study::loads
 
@@ -52,11 +52,11 @@ struct LinkLoad {
 };
 
 /// A mechanism and a study with every name resolved to an index, the same for all designs: topology, layout of the unknowns, loads,
-/// controllers and signals. It says which equations there are; the elements (src/elements) evaluate them. Immutable and thread-safe.
+/// controllers and signals. It determines the equations; the elements (src/elements) evaluate them. Immutable and thread-safe.
 class System {
  public:
   /// @param sharing how redundant constraints are treated, theory (23); by default there are none.
-  /// @param drives joints (indices in `robot`) whose motion is prescribed: each gets a row behind those of the couplings, theory (28).
+  /// @param drives joints (indices in `robot`) whose motion is prescribed: each gets a row after the rows of the couplings, theory (28).
   /// @throws InputError for a mechanism without moving mass, loads or actuators on joints without a coordinate of their own, and signals,
   /// controllers or couplings that cannot be resolved.
   System(const RobotDescription& robot, const Study& study, ReactionSharing sharing = {}, const std::vector<int>& drives = {});

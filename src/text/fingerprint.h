@@ -6,7 +6,7 @@
 
 namespace codesign {
 
-/// 64 bits that tell texts apart which differ by accident, as 16 hexadecimal digits: FNV-1a (Fowler, Noll and Vo), the same on every
+/// 64 bits that distinguish texts that differ by accident, as 16 hexadecimal digits: FNV-1a (Fowler, Noll and Vo), the same on every
 /// machine. No protection against forgery.
 std::string fingerprint(const std::string& text);
 

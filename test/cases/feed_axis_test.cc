@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// The numbers are those of doc/case_studies.md.
+// The numbers are in doc/case_studies.md.
 #include "cases/shipped.h"
 #include "mechanism_codesign/optimization.h"
 

@@ -52,7 +52,7 @@ struct Shipped {
   Study study;
 };
 
-/// A shipped case as a problem. @param changes texts of its study, each with what takes its place.
+/// A shipped case as a problem. @param changes texts of its study, each with its replacement.
 inline Problem shipped_problem(const std::string& name, const std::vector<std::pair<std::string, std::string>>& changes,
                                const ParameterSettings& settings = {}) {
   const std::string root = source_dir();

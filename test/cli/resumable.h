@@ -40,7 +40,7 @@ inline Json without_times(Json object) {
   return object;
 }
 
-/// What each line but the header says without its processor time, in any order.
+/// The content of all lines except the header, without processor times, in any order.
 inline std::multiset<std::string> evaluations_of(const std::string& path) {
   std::multiset<std::string> evaluations;
   for (const std::string& line : finished_lines(path)) {

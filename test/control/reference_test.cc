@@ -131,7 +131,7 @@ TEST(Reference, QuinticPiecesMeetInPositionVelocityAndAcceleration) {
   EXPECT_NEAR(through(given).at(0.7).acceleration, 4.0, 1e-12);
 }
 
-// At inner way-points on a parabola the chosen velocity and acceleration are those of the parabola.
+// At inner way-points on a parabola the chosen velocity and acceleration equal those of the parabola.
 TEST(Reference, ChosenVelocitiesAndAccelerationsAreThoseOfAParabola) {
   std::vector<double> times{0.0, 0.5, 1.2, 1.5, 2.0, 3.0};
   std::vector<Quantity> positions;

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// What becomes of a job whose ranks are lost; the tests of MpiEngine are about those that are there.
+// Jobs whose ranks are lost; the tests of MpiEngine have ranks that answer.
 #include "engine/dispatcher.h"
 
 #include <gtest/gtest.h>
@@ -86,7 +86,7 @@ TEST(Dispatcher, AfterACancelARankThatDoesNotAnswerCountsAsLost) {
   const Problem problem = block("");
   for (const bool answers : {false, true}) {
     std::atomic<bool> cancel{false};
-    // The task that the other rank is given keeps the batch from being over before that rank is asked.
+    // The other rank gets a task, so that the batch does not end before that rank is pinged.
     const auto part = [answers, &cancel](MessageKind kind, std::uint64_t number) {
       if (kind == MessageKind::kTask) cancel = true;
       return answers && kind == MessageKind::kPing ? std::optional<std::string>(write_numbered(MessageKind::kPong, number)) : std::nullopt;

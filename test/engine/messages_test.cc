@@ -27,7 +27,7 @@ Evaluation full_evaluation() {
   return evaluation;
 }
 
-/// What follows kind and number.
+/// The fields after kind and number.
 ByteReader body_of(const std::string& message, MessageKind kind, std::uint64_t number) {
   ByteReader reader(message);
   EXPECT_EQ(reader.get<MessageKind>(), kind);

@@ -28,7 +28,7 @@ void expect_the_same(const std::vector<Evaluation>& a, const std::vector<Evaluat
   }
 }
 
-/// A block that is watched for so long that nobody waits for the end.
+/// A block with a run so long that the test cannot wait for its end.
 Problem endless_block() {
   SourceText study = block("").study_text();
   study.text.replace(study.text.find("duration: 0.8"), 13, "duration: 1.0e+9");

@@ -94,7 +94,7 @@ class RankJob {
 /// A job of two ranks whose second one is played by the test.
 class PlayedJob {
  public:
-  /// What the second rank answers to a message; nothing where it is silent.
+  /// The answer of the second rank to a message; empty if it is silent.
   using Part = std::function<std::optional<std::string>(MessageKind, std::uint64_t)>;
 
   PlayedJob(const Hello& hello, Part part, const RankTimes& times = {})

@@ -89,7 +89,7 @@ TEST(Ensemble, AFailedSampleRefusesTheDesignOrCountsInTheTail) {
   EXPECT_FALSE(Ensemble(scenarios, options, engine).evaluate(problem.start(), true).total.status.ok()) << "half of all is no tail";
 }
 
-// The residuals of the mean are those of all scenarios, times the roots of the weights.
+// The residuals of the mean are the residuals of all scenarios, times the roots of the weights.
 TEST(Ensemble, TheRootOfTheMeanHasTheSumOfTheSquares) {
   const std::string runs = "runs: {a: {weight: 3.0}, b: {set: {mu: 0.4}}, c: {set: {mu: 0.2}}}\n";
   const Problem problem = block(runs + "robust: {measure: mean, failed: tail}\n");

@@ -11,7 +11,7 @@
 
 namespace codesign {
 
-/// A model and a study compiled, and what is needed to start one design.
+/// A compiled model and study, with the objects to start one design.
 struct Compiled {
   CompiledSystem system;
   Equations<double> equations;

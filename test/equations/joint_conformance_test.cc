@@ -161,7 +161,7 @@ TEST_P(JointConformance, ReactionsBalanceEachBody) {
     force += have.force;
     moment += c.state.q.segment<3>(kBodySize * b).cross(have.force) + A * have.torque;
   }
-  // The bodies fly freely but for the joint, so its actions and reactions cancel.
+  // The bodies fly freely except for the joint, so that its actions and reactions cancel.
   EXPECT_LT(force.norm(), 1e-10);
   EXPECT_LT(moment.norm(), 1e-10);
 }

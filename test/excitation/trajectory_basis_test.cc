@@ -58,7 +58,7 @@ TEST_P(TrajectoryBasisOf, PlainMotionsDiffer) {
 INSTANTIATE_TEST_SUITE_P(Both, TrajectoryBasisOf, testing::Values(TrajectoryKind::kFourier, TrajectoryKind::kSpline));
 
 TEST(TrajectoryBasis, SplinesAreOneTogether) {
-  // In the middle all four splines that meet are there.
+  // In the middle all four overlapping splines are not zero.
   const TrajectoryBasis basis(described(TrajectoryKind::kSpline));
   for (const double time : {1.0, 1.3, 1.5, 2.0}) EXPECT_NEAR(basis.at(time).value.sum(), 1.0, 1e-14);
   EXPECT_NEAR(basis.at(4.0 / 6.0).value[0], 2.0 / 3.0, 1e-14) << "in its middle";

@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-// What a wave can rise between two of 64 samples.
+// The largest rise of a wave between two of 64 samples.
 const double kBetweenSamples = 1.0 - std::cos(std::acos(-1.0) / 64.0);
 
 class TrajectorySpaceOfArm : public testing::Test {

@@ -58,7 +58,7 @@ int replay(const std::vector<std::string>& paths) {
   return failures > 0 ? 1 : 0;
 }
 
-/// Tries one input, made from its number alone. Returns a sentence on what is wrong, empty if nothing is.
+/// Tries one input, made from its number alone. Returns a sentence about a fault; empty if there is none.
 std::string try_one(const std::vector<Seed>& seeds, std::uint64_t number, const std::string& keep) {
   Dice dice(number);
   if (number % 20 == 1) return run_isolated([&](const std::atomic<bool>&) { return try_expressions(300, &dice); }, default_limits());

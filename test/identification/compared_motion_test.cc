@@ -104,7 +104,7 @@ TEST(CompareMotion, WhichJointsAreCompared) {
   EXPECT_TRUE(motion.joints[0].is_torque);
 }
 
-// The columns of a series with residuals in motion, here 0.1 rad and 0.2 rad/s beside what was measured, at every fourth sample.
+// The columns of a series with residuals in motion, here 0.1 rad and 0.2 rad/s from the measured values, at every fourth sample.
 TEST(CompareMotion, AModelThatMovesByItselfIsShownWhereItWas) {
   const SwingingRig rig;
   const Problem problem = swinging_problem("{csv: data.csv}", "  residual: motion\n");

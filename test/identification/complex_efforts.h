@@ -22,7 +22,7 @@ class ComplexEfforts {
     derivatives_.resize(system_.patterns());
   }
 
-  /// @param rho the tuned parameters, then, if there are more numbers, what is added to the position of each drive.
+  /// @param rho the tuned parameters, then, if there are more numbers, the numbers to be added to the position of each drive.
   Eigen::VectorXcd operator()(const Eigen::VectorXcd& rho_and_shifts) {
     const auto tuned = static_cast<Eigen::Index>(system_.study().tuned.size());
     const Eigen::VectorXcd rho = rho_and_shifts.head(tuned);

@@ -124,7 +124,7 @@ struct DelayFits {
   static void RecordProperty(const std::string& key, const std::string& value) { testing::Test::RecordProperty(key, value); }
 
   double stated = 0.0, signal = 0.0;  ///< means
-  double bias = 0.0, error = 0.0;     ///< of the delays: mean and standard deviation of what they are off by [s]
+  double bias = 0.0, error = 0.0;     ///< mean and standard deviation of the errors of the delays [s]
   int warned = 0;
 };
 

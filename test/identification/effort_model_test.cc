@@ -186,7 +186,7 @@ TEST(EffortModel, JacobianOfTheSliderCrankWithItsDimensions) {
   Shipped shipped("slider_crank");
   const auto system = make_system(shipped.robot, shipped.study, nullptr);
   const RecordedMotion recorded = record_motion(*system, {"crank_joint"}, 100, 0.01);
-  // The gain of the controller has no effect on what the motion needs.
+  // The gain of the controller has no influence on the efforts that the motion needs.
   shipped.study.tuned.pop_back();
   expect_exact_jacobian(*make_system(shipped.robot, shipped.study, nullptr), {"crank_joint"}, recorded.motion);
 }

@@ -85,7 +85,7 @@ struct TwinCase {
   const char* study;
   std::vector<std::string> joints;
   std::map<std::string, double> truth;
-  double tolerance = 0.002;  ///< relative; of what the filters leave
+  double tolerance = 0.002;  ///< relative error that the filters leave
 };
 
 void PrintTo(const TwinCase& c, std::ostream* out) { *out << c.name; }

@@ -34,7 +34,7 @@ Problem problem_of(const std::string& parameters, const std::string& more = "") 
   return load_problem({"arm.urdf", kArm}, {}, {"study.yaml", study_of(parameters, more)});
 }
 
-/// What a rig records of the arm: `total` is its inertia about the axis [kg m^2], `damping` that of the joint [N m s].
+/// A recording of the arm on a rig: `total` is its inertia about the axis [kg m^2], `damping` the damping of the joint [N m s].
 struct Rig {
   double total = 0.8, damping = 0.4, scale = 1.0, offset = 0.0, noise = 0.0;
   double speed = 2.0;
@@ -82,7 +82,7 @@ TEST(Identify, FindsWhatARigWithoutNoiseHas) {
 
 TEST(Identify, ScaleAndOffsetOfTheSensor) {
   Rig rig;
-  rig.total = 0.6;  // that of the model
+  rig.total = 0.6;  // as in the model
   rig.scale = 11.0;
   rig.offset = 0.2;
   const IdentificationResult result =
@@ -162,7 +162,7 @@ TEST(Identify, ABoundDoesNotMakeKnownWhatOthersMakeUpFor) {
 }
 
 TEST(Identify, ASpeedAloneIsIntegratedFromAStartThatIsFitted) {
-  // Gravity acts on this arm, so that the effort tells where it is.
+  // Gravity acts on this arm, so that the effort determines its position.
   std::string hanging = kArm;
   hanging.replace(hanging.find("<axis xyz=\"0 0 1\"/>"), 19, "<axis xyz=\"0 -1 0\"/>");
   const Problem problem = load_problem({"arm.urdf", hanging}, {},
@@ -214,7 +214,7 @@ TEST(Identify, AStartThatNothingTellsIsNamed) {
 }
 
 TEST(Identify, AFitThatRunsAgainstImpossibleDesignsSaysSo) {
-  // The rig's inertia is below what the mass at its place has, so that the model would need a negative one.
+  // The rig's inertia is less than the inertia of the mass at its place, so that the model would need a negative inertia.
   Rig rig;
   rig.total = 0.4;
   const IdentificationResult result = run(problem_of("inertia: {lower: -5}, viscous: {}"), rig);

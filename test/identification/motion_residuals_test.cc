@@ -12,7 +12,7 @@
 namespace codesign {
 namespace {
 
-/// Residuals of a recording and what they need.
+/// Residuals of a recording, with the objects that they need.
 struct MotionCase {
   MotionCase(const Problem& of, const std::vector<JointRecording>& recordings, int threads = 1)
       : problem(of),
@@ -123,7 +123,7 @@ TEST(MotionResiduals, APointWithDerivativesTakesOneRunAndSaysWhatItsStartsOwe) {
 }
 
 TEST(MotionResiduals, APointWhoseStartsWentTooFarGetsItsBestStarts) {
-  // The second point is far from the first one, where the starts were bad, too: what they promise is not kept.
+  // The second point is far from the first one, where the starts were bad, too: they do not keep their promise.
   MotionRig rig;
   rig.noise = 1e-3;
   MotionCase c(motion_problem("", "  segment: 3.0\n  filter: {cutoff: 20.0}\n", "inertia: {}, viscous: {}, dry: {}"),

@@ -36,13 +36,13 @@ inline std::string motion_servo() {
          "gains: {p: 20.0, i: 4.0, d: 2.0}}}\n";
 }
 
-/// What a rig records of `joint` in a run of `study`, at `rate` samples per second, with normal noise on positions and velocities.
+/// The recording of `joint` on a rig in a run of `study`, at `rate` samples per second, with normal noise on positions and velocities.
 struct MotionRig {
   double duration = 6.0, rate = 100.0, noise = 0.0;
   bool with_velocity = false, with_effort = true;
   double begin = 0.0;  ///< of the clock of the recording [s]
 
-  /// @param changes values of parameters other than those of the model
+  /// @param changes values of parameters that differ from the model
   JointRecording record(const Problem& problem, const std::string& joint, const std::vector<double>& parameters) const {
     Simulation simulation(problem, parameters, {joint + "/position", joint + "/velocity", joint + "/effort"});
     JointRecording recording;

@@ -160,7 +160,7 @@ TEST(ResidualFit, WeightedRowsGiveTheCostAndItsSlope) {
   }
 }
 
-/// Decays with a third variable, of which the derivatives are rounding alone.
+/// Decays with a third variable, whose derivatives are only rounding.
 class WithRounding final : public ResidualSource {
  public:
   explicit WithRounding(Decays decays) : decays_(std::move(decays)) {}

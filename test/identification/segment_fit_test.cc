@@ -74,7 +74,7 @@ TEST(SegmentFit, WhatAStartExplainsIsNotInTheJacobian) {
   SegmentRun run(segment.of, segment.segments.front().begin);
   const Segment& at = segment.segments.at(1);
   ASSERT_TRUE(run.run(segment.of.parameters(segment.variables, segment.truth, solution.start), at.begin, at.times).ok());
-  // Efforts come out as computed minus recorded: their derivatives are those of the run.
+  // Residuals of efforts are computed minus recorded: their derivatives equal the derivatives of the run.
   const Eigen::MatrixXd by_start = run.slopes().rightCols(segment.of.starts);
   const Eigen::VectorXd weights = Eigen::VectorXd::Constant(by_start.rows(), 1.0 / 0.01);
   const Eigen::MatrixXd weighted = weights.asDiagonal() * by_start;

@@ -32,7 +32,7 @@ JointRecording wavy(const std::string& joint, double effort) {
   return recording;
 }
 
-/// A segment of a mechanism, and the derivatives of what is simulated of it.
+/// A segment of a mechanism, and the derivatives of its simulated outputs.
 struct Prepared {
   Prepared(const Problem& problem, const std::string& joint, double effort)
       : recording(wavy(joint, effort)),
@@ -129,7 +129,7 @@ TEST(SegmentRun, NoBitDependsOnEarlierRuns) {
 }
 
 TEST(SegmentRun, NoBitDependsOnWhatARunCarries) {
-  // Nine parameters and three numbers of the start: two groups of lanes, of which the start needs one.
+  // Nine parameters and three numbers of the start: two groups of lanes; the start needs one of them.
   std::string robot = motion_pendulum(), sum = "viscous", declared, tuned = "inertia: {}, viscous: {}, dry: {}";
   for (const char* name : {"v1", "v2", "v3", "v4", "v5", "v6"}) {
     sum += std::string(" + ") + name;

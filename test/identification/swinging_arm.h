@@ -33,7 +33,7 @@ inline Problem swinging_problem(const std::string& data = "{csv: data.csv}", con
   return load_problem({"arm.urdf", kSwingingArm}, {}, {"study.yaml", swinging_study(data, more)});
 }
 
-/// What a rig records of an arm with inertia 0.3 and viscous 0.4: for 5 s at 200 Hz; efforts as (tau + offset) / scale.
+/// The recording of an arm with inertia 0.3 and viscous 0.4 on a rig: for 5 s at 200 Hz; efforts as (tau + offset) / scale.
 struct SwingingRig {
   double scale = 1.0, offset = 0.0, start = 0.0;
 

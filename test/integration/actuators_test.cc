@@ -132,7 +132,7 @@ TEST(Rotor, EnergyAndMomentumAreConserved) {
   EXPECT_LT((momentum() - start).norm(), 1e-8 * start.norm());
 }
 
-// The rotors turn with the links that carry them, and their inertia is larger than that of the links.
+// The rotors turn with the links that carry them, and their inertia is larger than the inertia of the links.
 TEST(Rotor, ComputedTorqueFollowsItsWayPoints) {
   const std::string link =
       "<inertial><origin xyz='0.1 0.02 -0.3'/><mass value='1.5'/><inertia ixx='0.03' ixy='0.001' ixz='0.002' iyy='0.025' "

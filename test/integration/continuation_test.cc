@@ -12,8 +12,7 @@
 namespace codesign {
 namespace {
 
-/// Two links of which the right one can become longer, hinged on the ground 1.2 apart; a loop joins their tips. Each parameter is heard of
-/// once.
+/// Two links, hinged on the ground 1.2 apart; the right one can become longer; a loop joins their tips. Each parameter is heard of once.
 std::shared_ptr<const CompiledSystem> growing_triangle(const std::string& solver) {
   const std::string urdf =
       "<robot name='t' xmlns:codesign='urn:t'><codesign:parameter name='length' value='1' lower='0.1' upper='9'/>"

@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Whole simulations under the friction laws with states: what they share with Brown and McPhee's, and what only they can do.
+// Whole simulations under the friction laws with states: properties that they share with Brown and McPhee's law, and properties that only
+// they have.
 #include <gtest/gtest.h>
 
 #include <regex>

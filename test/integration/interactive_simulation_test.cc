@@ -47,8 +47,7 @@ TEST_P(Commanded, AHeldEffortSwingsASmallPendulumAsTheFormulaSays) {
   }
 }
 
-// The same motion as that of two studies, of which the second begins with the state at which the first one ends and has the effort as a
-// load.
+// The same motion as two studies one after the other: the second begins with the last state of the first and has the effort as a load.
 TEST_P(Commanded, AStepInEffortIsTheRunOfTwoStudies) {
   const auto first = bar_at("{position: 1.2}", GetParam());
   InteractiveSimulation run(*first, {}, {});
@@ -181,7 +180,7 @@ TEST(InteractiveSimulation, ASampledControllerSeesANewSetPointAtItsNextSample) {
   EXPECT_NEAR(hinge_at(&run, 0.21).effort, 2.0, 1e-12);
 }
 
-// The effort of a command is an actuator's: limits bound it with that of the controllers.
+// The effort of a command is an actuator's: limits bound its sum with the effort of the controllers.
 TEST(InteractiveSimulation, TheLimitOfAnActuatorBoundsTheSum) {
   const std::string urdf = robot(bar("bar") +
                                  "<joint name='hinge' type='revolute'><parent link='ground'/><child link='bar'/><axis xyz='0 1 0'/>"

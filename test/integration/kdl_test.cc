@@ -114,7 +114,7 @@ class Reference {
   KDL::Tree tree_;
 };
 
-/// What KDL does not know: dissipation, springs and mimicking joints.
+/// Elements that KDL does not have: dissipation, springs and mimicking joints.
 RobotDescription bare(RobotDescription robot) {
   for (JointDescription& joint : robot.joints) {
     joint.damping = joint.dry_friction = 0.0;

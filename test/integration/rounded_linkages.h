@@ -83,7 +83,7 @@ inline std::string bennett() {
 }
 inline const char* bennett_start() { return "{t1: {position: 1.2, velocity: 1.0}, t2: {guess: 2.7257}, t3: {guess: -1.2}}"; }
 
-/// A platform carried by two arms, one of which is a pair of parallelograms that keep it level: three degrees less than its joints have.
+/// A platform on two arms. One arm is a pair of parallelograms that keep the platform level: three degrees less than its joints have.
 inline std::string parallel_arms() {
   std::string content = link("c1", 0.2) + link("f1", 0.3) + link("platform", 0.1) + hinge("m1", "frame", "c1", "xyz='0 0 0'", true) +
                         hinge("e1", "c1", "f1", "xyz='0.2 0 0'") + hinge("w1", "f1", "platform", "xyz='0.3 0 0'");

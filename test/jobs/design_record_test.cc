@@ -25,7 +25,8 @@ TEST(DesignRecord, EnergiesBalance) {
   const Json& energy = record.summary["energy"];
   EXPECT_LT(energy["friction"].get<double>(), 0.0);
   EXPECT_EQ(record.summary["friction_energy"]["hinge"], energy["friction"]) << "the one joint with friction";
-  // What the powers put in is what kinetic and potential energy gain; here by the first and the last row of a run with these signals.
+  // The energy that the powers put in equals the gain of kinetic and potential energy, here from the first and the last row of a run with
+  // these signals.
   Simulation simulation(problem, problem.parameters(), {"mechanism/total_energy"});
   std::vector<double> total;
   const auto keep = [&total](const Frame& frame) {

@@ -56,9 +56,10 @@ TEST(EnsembleRecords, TellTheValueAtRiskOfCvar) {
   EXPECT_EQ(object["validation"]["within"], 0.875);
   const Problem asked = block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: cvar, level: 0.8}\n");
   const std::string sentence = ensemble_sentences(asked, risky).at(1);
-  EXPECT_EQ(sentence,
-            "with a probability of 0.8 the objective is at most 2.25 on these samples, and at most 2.5 on fresh ones, of which 87.5 % keep "
-            "the former");
+  EXPECT_EQ(
+      sentence,
+      "with a probability of 0.8 the objective is at most 2.25 on these samples, and at most 2.5 on fresh samples, of which 87.5 % do "
+      "not exceed the first value");
 }
 
 TEST(EnsembleRecords, TablesHaveOneRowPerSearchAndScenario) {

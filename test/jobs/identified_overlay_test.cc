@@ -13,7 +13,7 @@
 namespace codesign {
 namespace {
 
-/// An arm in gravity, whose bar is a free body; what brakes it is in an overlay.
+/// An arm in gravity with a free bar; an overlay adds the friction.
 const SourceText kModel{"arm.urdf", R"(<robot name="arm" xmlns:codesign="urn:mechanism_codesign">
   <codesign:parameter name="length" value="0.5" lower="0.4" upper="0.6" unit="m"/>
   <link name="base"/>
@@ -48,7 +48,7 @@ JointRecording arm_recording() {
     recording.places.push_back(static_cast<std::size_t>(k) + 2);
     hinge.position.push_back(q);
     hinge.velocity.push_back(v);
-    // Not what any arm needs, so that residuals are left.
+    // No arm needs these efforts, so that residuals remain.
     hinge.effort.push_back((0.9 * a + 0.42 * v + 9.0 * std::sin(q) - 0.15 + 0.05 * std::sin(31.0 * t) * std::cos(t)) / 3.0);
   }
   recording.joints = {hinge};

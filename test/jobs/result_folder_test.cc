@@ -23,7 +23,7 @@ class TakenAway : public testing::Test {
   ResultFolder folder_{directory_.path().string(), problem_};
 };
 
-/// What a colleague has who is handed the folder.
+/// The state of a colleague who gets only the folder.
 TEST_F(TakenAway, TheFilesAloneReproduceBothObjectives) {
   EXPECT_TRUE(folder_.write_design(optimization_json(problem_, result_), result_).empty());
   for (const auto& [model, design, objective] :
@@ -67,7 +67,7 @@ TEST_F(TakenAway, FilesThatTheStudyNamesGoAlong) {
   EXPECT_EQ(written("rig/i.json", "/elsewhere/rig/i.json"), 0U);
   EXPECT_EQ(read_source(path("rig/i.json")).text, identification);
   EXPECT_NO_THROW(load_problem(read_source(path("tuned.urdf")), {}, read_source(path("job_study.yaml"))));
-  // What lies outside the folder stays there, and the file that was read is left alone.
+  // Files outside the folder stay there, and the file that was read does not change.
   EXPECT_EQ(written("../i.json", "/elsewhere/i.json") + written("/far/i.json", "/far/i.json"), 0U);
   EXPECT_FALSE(std::filesystem::exists(directory_.path().parent_path() / "i.json"));
   std::ofstream(path("here.json")) << "as it is";

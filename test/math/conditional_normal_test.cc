@@ -17,7 +17,7 @@ Eigen::MatrixXd composed(const ConditionalNormal& normal) {
 }
 
 TEST(ConditionalNormal, OfTwoNumbersByHand) {
-  // deviations 2 and 3, correlation 0.6: the slope is 0.6 * 3 / 2, what is left of the second is 3 sqrt(1 - 0.36).
+  // deviations 2 and 3, correlation 0.6: the slope is 0.6 * 3 / 2, the remaining deviation of the second is 3 sqrt(1 - 0.36).
   const auto normal = conditional_normal((Eigen::Matrix2d() << 4.0, 3.6, 3.6, 9.0).finished());
   ASSERT_TRUE(normal);
   EXPECT_DOUBLE_EQ(normal->slopes(1, 0), 0.9);

@@ -124,7 +124,7 @@ TEST_F(RunOnRanks, KilledRanksEndTheJobAndNothingIsLostOrComputedTwice) {
     for (std::size_t k = 0; k < before.size(); ++k) ASSERT_EQ(now[k], before[k]) << kills;
     before = now;
     if (rank == 0) continue;
-    // A rank is missed by rank 0, which keeps what is there and says so.
+    // Rank 0 misses a rank, keeps its results and reports the loss.
     EXPECT_NE(err().find("rank " + std::to_string(rank) + " of 3 on host "), std::string::npos) << err();
     const Json result = Json::parse(read_text_file(in("killed", "result.json")));
     EXPECT_EQ(result["error"]["code"], "worker_lost");

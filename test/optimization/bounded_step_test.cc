@@ -20,7 +20,7 @@ struct StepProblem {
   BoundedStep step() const { return {gradient, root, scale, lower, upper}; }
 };
 
-/// Random, with correlated columns; bounds around zero of which some are at zero.
+/// A random problem with correlated columns; the bounds lie around zero, some of them at zero.
 StepProblem random_problem(int size, unsigned seed) {
   std::srand(seed);
   StepProblem p;
@@ -107,7 +107,7 @@ TEST(BoundedStep, WithEverythingHeldThereIsNone) {
 
 TEST(BoundedStep, HasNoComponentAlongDirectionsWithoutInfluence) {
   StepProblem problem = random_problem(6, 5);
-  // The third column is the sum of the first two but for rounding, and the gradient belongs to residuals with that Jacobian.
+  // The third column is the sum of the first two within rounding, and the gradient belongs to residuals with that Jacobian.
   problem.root.col(2) = problem.root.col(0) + problem.root.col(1) + 1e-13 * Eigen::VectorXd::Random(6);
   const Eigen::VectorXd residuals = 1e3 * Eigen::VectorXd::Random(6);
   problem.gradient = 2.0 * problem.root.transpose() * residuals;
@@ -119,7 +119,7 @@ TEST(BoundedStep, HasNoComponentAlongDirectionsWithoutInfluence) {
   EXPECT_LE((p - shortest).norm(), 1e-8 * shortest.norm());
   EXPECT_NEAR(p.dot(Eigen::VectorXd::Unit(6, 0) + Eigen::VectorXd::Unit(6, 1) - Eigen::VectorXd::Unit(6, 2)), 0.0, 1e-8 * p.norm());
 
-  // A bound on the way: the other columns do what the held one cannot.
+  // A bound limits one component: the other columns replace its effect.
   problem.lower[0] = problem.upper[0] = 0.0;
   const Eigen::VectorXd held = problem.step().within(kNoBound);
   EXPECT_EQ(held[0], 0.0);

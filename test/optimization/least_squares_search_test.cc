@@ -49,7 +49,7 @@ TEST(LeastSquaresSearch, StartsFromManyPoints) {
   EXPECT_LE(many.objective, optimize(block("", kSquares)).objective * (1.0 + 1e-8));
 }
 
-/// What is wrong with a study; empty if nothing is. @param trials receives the number of trial points.
+/// A sentence about the fault of a study; empty if it has none. @param trials receives the number of trial points.
 InputFault refusal(const std::string& blocks, int* trials) {
   try {
     optimize(block(blocks, kSquares), [trials](const Trial&) { return ++*trials > 0; });

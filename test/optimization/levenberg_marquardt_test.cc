@@ -92,7 +92,7 @@ TEST(LevenbergMarquardt, OneStepSolvesALinearProblemWithinBounds) {
   EXPECT_GT(held, 0);
 }
 
-// Units of a variable do not count: D measures steps by what they change.
+// The unit of a variable does not matter: D measures a step by the change of the residuals.
 TEST(LevenbergMarquardt, TakesTheSameStepsInOtherUnits) {
   Residuals plain([](const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J) { return rosenbrock_valley(x, r, J); });
   Residuals scaled([](const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J) {

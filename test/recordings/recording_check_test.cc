@@ -38,7 +38,7 @@ TEST(CheckedPart, NamesTheNumberThatIsNone) {
 TEST(CheckedPart, NamesTheClockThatJumps) {
   JointRecording recording = swing(100);
   recording.times[60] = recording.times[59];
-  expect_word(part_fault(recording).message, "the time is that of the sample before (line 62");
+  expect_word(part_fault(recording).message, "the time equals the time of the previous sample (line 62");
   for (std::size_t k = 60; k < 100; ++k) recording.times[k] = 0.01 * static_cast<double>(k) - 0.3;
   expect_word(part_fault(recording).message, "the time jumps back by 0.29 s");
   expect_word(part_fault(recording).message, "line 62");

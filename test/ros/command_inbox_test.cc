@@ -7,7 +7,7 @@
 namespace codesign {
 namespace {
 
-// What needs a master is tested in commands_rostest.py and outside_loop_rostest.py.
+// commands_rostest.py and outside_loop_rostest.py have the tests that need a master.
 TEST(CommandInbox, NamesBecomeLegalAndSlashesStay) {
   EXPECT_EQ(legal_name("hinge/position"), "hinge/position");
   EXPECT_EQ(legal_name("a/velocity - b-2/velocity"), "a/velocity___b_2/velocity");

@@ -8,7 +8,7 @@
 namespace codesign {
 namespace {
 
-/// What the dynamic_reconfigure server of a control_toolbox::Pid says.
+/// The state of the dynamic_reconfigure server of a control_toolbox::Pid.
 GainServerState toolbox() {
   GainServerState state;
   for (const char* name : {"p", "i", "d", "i_clamp_min", "i_clamp_max"}) {

@@ -8,7 +8,7 @@
 namespace codesign {
 namespace {
 
-/// Answers at once, from what it holds.
+/// A server that answers at once with its present values.
 class MockServer : public GainServer {
  public:
   explicit MockServer(std::string name) : name_(std::move(name)) {}

@@ -13,7 +13,7 @@ namespace {
 
 TEST(IdentificationMessage, SaysWhatIsNotKnown) {
   IdentificationResult result;
-  result.status = {StatusCode::kNotIdentifiable, 0.0, "the data do not tell all numbers"};
+  result.status = {StatusCode::kNotIdentifiable, 0.0, "the data do not determine all numbers"};
   IdentifiedNumber bound, unknown, profiled;
   bound.is_on_bound = true;
   unknown.is_determined = false;
@@ -29,7 +29,7 @@ TEST(IdentificationMessage, SaysWhatIsNotKnown) {
   const auto message = identification_message(swinging_problem(), result);
   EXPECT_FALSE(message.success);
   EXPECT_EQ(message.code, "not_identifiable");
-  EXPECT_EQ(message.message, "the data do not tell all numbers");
+  EXPECT_EQ(message.message, "the data do not determine all numbers");
   EXPECT_TRUE(std::isnan(message.numbers[0].deviation) && std::isnan(message.numbers[0].low) && std::isnan(message.numbers[0].high));
   EXPECT_FALSE(message.numbers[1].determined);
   EXPECT_TRUE(std::isinf(message.numbers[1].deviation));

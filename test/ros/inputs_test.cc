@@ -43,7 +43,7 @@ TEST(ToYaml, EveryDigitOfANumberSurvives) {
   EXPECT_EQ(YAML::Load(to_yaml(tree))["x"].as<double>(), 0.1 + 0.2);
 }
 
-// What becomes of a study on its way through roslaunch and the parameter server: empty mappings are lost.
+// A study after roslaunch and the parameter server: empty mappings are lost.
 XmlRpc::XmlRpcValue on_the_server(const YAML::Node& node) {
   XmlRpc::XmlRpcValue value;
   if (node.IsScalar()) return XmlRpc::XmlRpcValue(node.Scalar());

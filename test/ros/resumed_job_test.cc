@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Jobs that go on from a journal, and what cancelled ones leave.
+// Jobs that continue from a journal, and the files that cancelled jobs leave.
 #include <gtest/gtest.h>
 #include <ros/time.h>
 #include <rosbag/bag.h>
@@ -172,7 +172,7 @@ TEST_F(ResumedJob, ABadAlgorithmLeavesNoJournal) {
   EXPECT_TRUE(std::filesystem::is_empty(directory_.path()));
 }
 
-/// A minute of motion, for the recording of which a cancel does not wait.
+/// A minute of motion: a cancel does not wait until it is recorded.
 TEST(CancelledJob, AnswersWithinASecondEvenIfItsRunsAreLong) {
   ros::Time::init();
   const Problem usual = pendulum();

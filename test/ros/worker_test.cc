@@ -29,7 +29,7 @@ TEST(Worker, WhoeverIsToldTheEndMayStartTheNextJobAtOnce) {
   }
 }
 
-/// A job that ends when it is cancelled, and tells that it has begun.
+/// A job that signals its begin, and ends when it is cancelled.
 Worker::Job until_cancelled(std::promise<void>* begun) {
   return [begun](const std::atomic<bool>& cancel) {
     begun->set_value();

@@ -28,7 +28,7 @@ VectorXd vector(std::initializer_list<double> numbers) {
 }
 VectorXd equal(Index size) { return VectorXd::Constant(size, 1.0 / static_cast<double>(size)); }
 
-// What Rockafellar and Uryasev minimize; for finitely many values one of them is a minimum.
+// The function that Rockafellar and Uryasev minimize; for finitely many values, one of the values is a minimum.
 double minimum_over_threshold(double level, const VectorXd& values, const VectorXd& weights) {
   double least = std::numeric_limits<double>::infinity();
   for (const double t : values) least = std::min(least, t + weights.dot((values.array() - t).max(0.0).matrix()) / (1.0 - level));

@@ -76,7 +76,7 @@ TEST(Invariance, DirectionDoesNotMatter) {
       replaced(text_of("urdf/slider_crank.urdf"), "</robot>",
                "<link name=\"world\"/><joint name=\"turn\" type=\"fixed\"><parent link=\"world\"/><child link=\"ground\"/>"
                "<origin xyz=\"0.3 -0.2 0.5\" rpy=\"1.5707963267948966 0 0\"/></joint></robot>");
-  // What was -z is +y after a quarter turn about x.
+  // The axis -z becomes +y after a quarter turn about x.
   expect_same(evaluate(turned, text_of("config/slider_crank.yaml") + "\ngravity: [0.0, 9.81, 0.0]\n"));
 }
 

@@ -101,7 +101,7 @@ TEST_P(ResidualRowsTest, AreTheComplexStepOfTheResiduals) {
     for (Eigen::Index i = 0; i < count; ++i)
       for (Eigen::Index k = 0; k < count; ++k)
         EXPECT_NEAR(H(i, k), expected(i, k), 1e-9 * std::sqrt(expected(i, i) * expected(k, k))) << method << " " << i << " " << k;
-    // The residuals are those of the objective, but for the errors of both quadratures.
+    // The sum of squares of the residuals is the objective, except for the errors of both quadratures.
     EXPECT_NEAR(r.squaredNorm(), rooted.run.objective, 1e-3 * rooted.run.objective) << method;
   }
 }

@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-/// Compares results with and without compiled code with those of Equations<Lanes>.
+/// Compares results with and without compiled code with the results of Equations<Lanes>.
 class TangentEquationsTest : public ::testing::TestWithParam<bool> {
  protected:
   TangentEquationsTest() {

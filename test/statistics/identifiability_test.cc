@@ -67,8 +67,8 @@ TEST(Identifiability, AParameterWithoutEffectIsNamed) {
   EXPECT_EQ(describe_undetermined(none, {"a", "b"}).size(), 2U);
 }
 
-// A pendulum tells m c and J + m c^2 of mass m, distance c known, inertia J: with torque = (J + m c^2) a + m c g sin q all three columns of
-// (m, J) are told apart by gravity; without gravity m and J appear only together.
+// A pendulum determines m c and J + m c^2 for mass m, known distance c, inertia J: with torque = (J + m c^2) a + m c g sin q all three
+// columns of (m, J) are told apart by gravity; without gravity m and J appear only together.
 TEST(Identifiability, ThePendulumTrap) {
   const double c = 0.5;
   Eigen::MatrixXd J(200, 2);

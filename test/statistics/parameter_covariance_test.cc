@@ -21,7 +21,7 @@ IntervalOptions options_of(NoiseModel noise, int lag = 0, double level = 0.95) {
   return options;
 }
 
-/// A linear fit: columns 1, cos(0.05 k), k / 100 over 100 rows; what statsmodels was given.
+/// A linear fit: columns 1, cos(0.05 k), k / 100 over 100 rows, the input for statsmodels.
 struct LinearFit {
   Eigen::MatrixXd X = Eigen::MatrixXd(100, 3);
   Eigen::VectorXd residuals;
@@ -65,7 +65,7 @@ TEST(ParameterCovariance, TheKernelOfTheScoresIsThatOfStatsmodels) {
 
 TEST(ParameterCovariance, OutputsAtOneTimeDependOnEachOther) {
   const LinearFit fit;
-  // The same output twice tells nothing new, though white noise would promise half of the variance.
+  // The same output twice has no more information, though white noise would promise half of the variance.
   Eigen::MatrixXd residuals(100, 2), jacobian(200, 3);
   residuals << fit.residuals, fit.residuals;
   jacobian << fit.X, fit.X;

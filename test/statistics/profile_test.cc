@@ -33,7 +33,7 @@ TEST(Profile, OfAQuadraticIsTheLinearInterval) {
   EXPECT_FALSE(far.found_better);
 }
 
-// 5 + (exp(x) - 1)^2 reaches 6.25 at ln(1 - sqrt(1.25)) and ln(1 + sqrt(1.25)), the first of which does not exist.
+// 5 + (exp(x) - 1)^2 reaches 6.25 at ln(1 - sqrt(1.25)) and ln(1 + sqrt(1.25)), but the first value does not exist.
 TEST(Profile, FindsSkewedIntervalsAndOpenEnds) {
   const ProfiledCost cost = [](double x) { return 5.0 + std::pow(std::expm1(x), 2.0); };
   const ProfileInterval open = profile_interval(at(0.0, 1.25, 1.0), cost);

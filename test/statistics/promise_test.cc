@@ -18,7 +18,7 @@ constexpr double kLevel = 0.9;
 
 using Numbers = Eigen::Vector2d;
 
-/// Three terms of a recorded effort: those of two friction coefficients, which are hard to tell apart, and of an offset of the sensor.
+/// Three terms of a recorded effort: two friction coefficients, which are hard to distinguish, and an offset of the sensor.
 Eigen::MatrixXd regressors() {
   Eigen::MatrixXd terms(kTimes, 3);
   for (int k = 0; k < kTimes; ++k) {
@@ -50,7 +50,7 @@ std::vector<UncertainQuantity> identified(const Numbers& robot, std::mt19937* ra
   return quantities;
 }
 
-/// What a robot costs that runs with friction.
+/// The cost of a robot that runs with friction.
 double objective(const Numbers& robot) { return 3.0 * robot[0] + 2.0 * robot[1] + 0.5 * robot.squaredNorm(); }
 
 double bound_of(const std::vector<UncertainQuantity>& quantities) {

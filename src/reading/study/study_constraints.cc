@@ -16,7 +16,8 @@ std::string text_of(const Quantity& quantity) {
   return quantity.is_constant() ? to_decimal(quantity.nominal()) : quantity.expression()->text();
 }
 
-/// @param table the study's parameters. It is not that of the study, since a constraint does not use a parameter: it moves nothing.
+/// @param table the study's parameters. It is a copy, not the table in the study, since reading a constraint must not mark its parameters
+/// as used: a constraint moves nothing.
 void read_bounded_expression(const YamlValue& item, const ParameterTable& table, Study* study) {
   item.require_keys({"expression"}, {"between", "at_least", "at_most"});
   const YamlValue at = item.at("expression");

@@ -13,7 +13,7 @@
 namespace codesign {
 namespace {
 
-/// What the readers of one controller use.
+/// The data that the readers of one controller share.
 struct Context {
   const RobotDescription& robot;
   const ParameterTable& table;
@@ -114,7 +114,7 @@ ControllerDescription read_controller(const std::string& name, const YamlValue& 
   return controller;
 }
 
-/// A controller without a joint acts through later ones that read its output.
+/// A controller without a joint acts through later controllers that read its output.
 void refuse_idle(const Study& study) {
   const auto reads = [](const SignalDescription& signal, const std::string& name) {
     return std::any_of(signal.terms.begin(), signal.terms.end(),

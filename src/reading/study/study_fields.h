@@ -13,7 +13,7 @@
 
 namespace codesign {
 
-// Optional keys of the blocks of options; what a missing key leaves unchanged is its default. All throw InputError.
+// Optional keys of the blocks of options; a missing key leaves the option at its default. All throw InputError.
 
 /// Sets `*option` to the enumerator named at `key`, if the key exists. @param names in the order of the enumerators.
 template <class Enumeration, std::size_t N>

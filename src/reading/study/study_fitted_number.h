@@ -7,7 +7,8 @@
 
 namespace codesign {
 
-/// Reads a number that is known, or a map `{initial, lower, upper}`, which may be empty, of one to be fitted. What is not given stays.
+/// Reads a known number, or a map `{initial, lower, upper}`, which may be empty, of a number to be fitted. Missing keys leave their values
+/// unchanged.
 /// @param lower bound of a fitted number unless another one is given. @throws InputError
 void read_fitted(const YamlValue& value, double lower, FittedNumber* number);
 

@@ -57,7 +57,7 @@ void require_clamp(const ControllerDescription& controller, const HardwareGains&
                "i_clamp: the largest effort of the integral term [N m or N]");
 }
 
-/// The clamp is the controller's own where it has one: the robot gets what was simulated.
+/// If the controller has a clamp of its own, the robot gets this clamp, since it was simulated.
 void read_clamp(const ControllerDescription& controller, const YamlValue& value, const ParameterTable& table, HardwareGains* gains) {
   if (controller.realization.i_clamp) {
     for (const char* key : {"i_clamp", "antiwindup"})

@@ -82,7 +82,7 @@ IdentifiedFile select(const YamlValue& from, const Study& study, const std::set<
       from.fail(names[k] + " has a distribution of its own in uncertain and one in the file",
                 "one of the two, or except: [" + names[k] + "]");
     if (!is_determined && own.count(names[k]) == 0)
-      from.fail("the recordings did not tell " + names[k] + ", so that the file has no distribution of it",
+      from.fail("the recordings did not determine " + names[k] + ", so that the file has no distribution of it",
                 "a distribution of its own beside from, or except: [" + names[k] + "]");
     if (is_determined) result.used.push_back(k);
   }

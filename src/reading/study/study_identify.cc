@@ -54,7 +54,7 @@ JointCalibration read_calibration(const std::string& name, const YamlValue& valu
   return calibration;
 }
 
-/// What is judged on must be known.
+/// A holdout is never fitted, so that its starts must be known numbers.
 void refuse_fitted_starts(const std::vector<RecordingDescription>& holdout) {
   for (const RecordingDescription& recording : holdout)
     for (const StartPosition& start : recording.starts)

@@ -14,7 +14,7 @@ namespace codesign {
 IdentificationDescription read_identification(const YamlValue& identify, const RobotDescription& robot, const Study& study,
                                               bool is_planned = false);
 
-/// The duration of a study with `identify:` that gives none: that of a segment, `identify.segment` or its default [s].
+/// The duration of a study with `identify:` that has no `duration`: the duration of a segment, `identify.segment` or its default [s].
 double segment_of(const YamlValue& identify);
 
 }  // namespace codesign

@@ -43,7 +43,7 @@ std::array<double, 3> read_gravity(const YamlValue& value) {
   return {items[0].number(), items[1].number(), items[2].number()};
 }
 
-/// Reads what one run and its optimization need: all but the blocks of read_ensemble(). Does not check the keys of the root.
+/// Reads all blocks of one run and its optimization, that is all except the blocks of read_ensemble(). Does not check the keys of the root.
 Study read_single_run(const YamlValue& root, const std::string& file, const RobotDescription& robot, const TrajectoryLoader& loader) {
   Study study;
   study.file = file;

@@ -11,7 +11,7 @@ namespace codesign {
 /// @param ensemble with the runs and the uncertain quantities of the study. @throws InputError
 RobustOptions read_robust(const YamlValue& robust, const EnsembleDescription& ensemble);
 
-/// What applies without `robust:`: the mean, over 32 samples if something is uncertain, else over the runs. @param where for messages.
+/// The default without `robust:`: the mean, over 32 samples if something is uncertain, else over the runs. @param where for messages.
 RobustOptions default_robust(const EnsembleDescription& ensemble, const SourceLocation& where);
 
 }  // namespace codesign

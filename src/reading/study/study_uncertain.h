@@ -12,8 +12,8 @@
 namespace codesign {
 
 /// Reads the map `uncertain:`.
-/// @param study with its parameters. @param runs of the study; what they set cannot be uncertain. @param files reads what `from` names;
-/// empty: refused.
+/// @param study with its parameters. @param runs of the study; parameters that they set cannot be uncertain. @param files reads the file
+/// that `from` names; empty: such a study is refused.
 /// @throws InputError
 std::vector<UncertainQuantity> read_uncertain(const YamlValue& uncertain, const RobotDescription& robot, const Study& study,
                                               const std::vector<RunDescription>& runs, const FileLoader& files);

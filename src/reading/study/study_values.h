@@ -16,7 +16,7 @@ namespace codesign {
 std::vector<std::string> names_of(const std::vector<Parameter>& parameters);
 
 /// The index of the parameter named `name`, which the study must not tune. @throws InputError, located at `at`.
-/// @param others names that may stand there, too, for the list of what is allowed.
+/// @param others further allowed names, for the list in the message.
 int untuned_parameter(const std::string& name, const Study& study, const YamlValue& at, const std::vector<std::string>& others = {});
 
 /// A finite number within the bounds of a parameter. @throws InputError

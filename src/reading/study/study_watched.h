@@ -14,7 +14,8 @@ namespace codesign {
 void read_watched(const YamlValue& study_value, const RobotDescription& robot, const ParameterTable& table, const TrajectoryLoader& loader,
                   Study* study);
 
-/// Checks that a study with watched signals does not ask for the adjoint, which has no derivatives of them. @throws InputError if it does.
+/// Checks that a study with watched signals does not select the adjoint, which cannot compute their derivatives. @throws InputError if it
+/// does.
 void refuse_adjoint_of_watched(const YamlValue& study_value, const Study& study);
 
 }  // namespace codesign

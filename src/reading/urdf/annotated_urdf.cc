@@ -23,7 +23,7 @@
 namespace codesign {
 namespace {
 
-/// Checks every twin, also those of visuals, which are not simulated: write_tuned_urdf() writes their values.
+/// Checks every twin, also the twins of visuals, which are not simulated: write_tuned_urdf() writes their values.
 void check_twins(const XmlElement& element, const std::string& path, const ParameterTable& table) {
   const ElementRule* rule = find_rule(path);
   if (rule != nullptr) {

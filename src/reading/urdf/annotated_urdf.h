@@ -12,7 +12,7 @@ namespace codesign {
 /// Parses the URDF, merges the overlays and checks all element and attribute names. @throws InputError
 XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays);
 
-/// The mechanism that the document describes, with the document's warnings and those of reading it. @throws InputError
+/// The mechanism that the document describes, with the warnings of the document and of reading it. @throws InputError
 RobotDescription read_robot(const XmlDocument& document);
 
 }  // namespace codesign

@@ -14,7 +14,7 @@ struct ElementRule {
   std::vector<std::string> plain;     ///< attributes that cannot depend on parameters
   std::vector<std::string> twins;     ///< attributes that may have a twin `codesign:...` with an expression
   std::vector<std::string> own;       ///< attributes with the prefix that are not twins; listed without the prefix
-  std::vector<std::string> children;  ///< all allowed children if strict, else those with the prefix
+  std::vector<std::string> children;  ///< all allowed children if strict, else the allowed children with the prefix
 };
 
 /// The rule for a path such as `robot/joint/origin`; null if elements of this path have no annotations.

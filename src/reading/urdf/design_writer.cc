@@ -15,7 +15,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// The design that is written. `values` are those of the parameters in `table`.
+/// The design to write. `values` are the values of the parameters in `table`.
 struct Design {
   const XmlDocument& document;
   ParameterTable table;

@@ -13,7 +13,7 @@ void read_constraints(const XmlElement& robot, const ReadContext& context, Robot
 
 /// Warns (`loop_ignored`) of elements that close loops or couple joints in other tools and are not read here: `<loop_joint>`,
 /// `<gazebo><joint>` and mimic plugins, `drake:*_constraint`, `drake:joint`, `drake:linear_bushing_rpy`, MuJoCo's `<equality>`. Each
-/// warning shows the element to write instead, with `...` for what the file does not say.
+/// warning shows the element to write instead, with `...` for values that the file does not give.
 /// @param description must already contain the links and joints.
 void warn_of_foreign_loops(const XmlElement& robot, const RobotDescription& description, Warnings* warnings);
 

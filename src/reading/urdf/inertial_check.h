@@ -9,7 +9,7 @@
 
 namespace codesign {
 
-/// Checks that the written values agree with those of the shapes to 1e-6 (relative). @throws InputError
+/// Checks that the written values agree with the values of the shapes to 1e-6 (relative). @throws InputError
 void check_agreement(const XmlElement& element, const InertialDescription& written, const InertialDescription& from_shapes,
                      const ParameterTable& table);
 

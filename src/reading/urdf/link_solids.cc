@@ -10,7 +10,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// Half of the sides of the shape's box; zero for what has no size here.
+/// Half of the sides of the shape's box; zero for a shape without a known size.
 Eigen::Vector3d half_of(const XMLElement* geometry) {
   const XMLElement* shape = geometry != nullptr ? geometry->FirstChildElement() : nullptr;
   if (shape == nullptr) return Eigen::Vector3d::Zero();

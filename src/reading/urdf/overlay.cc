@@ -90,7 +90,7 @@ class Merger {
   }
 
  private:
-  /// A parameter has its value from its declaration or from what is set; of several overlays the last one counts.
+  /// The value of a parameter comes from its declaration or from a setting in an overlay; of several overlays the last one counts.
   void give_value_once(const XmlElement& patch, const std::string& name) {
     const bool declares = patch.tag() == kParameterTag;
     if (seen_.count(std::string(declares ? kSetTag : kParameterTag) + " " + name) != 0)

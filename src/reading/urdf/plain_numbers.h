@@ -8,7 +8,7 @@
 
 namespace codesign {
 
-// Lenient reading of plain URDF, for pictures: what is missing or no number is zero.
+// Lenient reading of plain URDF, for pictures: a missing attribute, or one that is not a number, is zero.
 
 /// One number of an attribute.
 double plain_number(const tinyxml2::XMLElement* element, const char* attribute);

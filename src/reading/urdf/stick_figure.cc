@@ -14,7 +14,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// What of a link can be drawn.
+/// The drawable parts of a link.
 struct Skeleton {
   bool is_root = true, slides = false;
   std::vector<Eigen::Vector3d> points;  ///< frames of the joints and loops that hang on it, in its frame [m]

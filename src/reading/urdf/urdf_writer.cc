@@ -9,7 +9,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// Gives each joint and loop with friction the law. What the law does not use goes, since a file with it could not be read.
+/// Gives each joint and loop with friction the law. Removes attributes that the law does not use, since a file with them could not be read.
 void write_friction_law(XMLElement* robot, FrictionModel law) {
   for (XMLElement* joint = robot->FirstChildElement(); joint != nullptr; joint = joint->NextSiblingElement()) {
     XMLElement* friction = joint->FirstChildElement("codesign:friction");

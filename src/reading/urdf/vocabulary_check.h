@@ -6,8 +6,8 @@
 
 namespace codesign {
 
-/// Checks the names without our prefix and repeated elements. In a vendor's file, names that no reader of URDF knows and repeated elements
-/// of which readers use the first only give warnings. In an overlay they are errors; repeated annotations are errors anywhere.
+/// Checks the names without our prefix and repeated elements. In a vendor's file, names that no reader of URDF knows and repeated elements,
+/// of which readers use the first one, give warnings only. In an overlay they are errors; repeated annotations are errors anywhere.
 /// @throws InputError with the nearest name.
 void check_vocabulary(const XmlDocument& document, Warnings* warnings);
 

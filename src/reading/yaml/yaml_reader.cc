@@ -29,8 +29,8 @@ const char* kind_of(const YAML::Node& node) {
   }
 }
 
-/// Counts the values, those of an alias each time it is used. A few lines with nested aliases can stand for more values than fit into
-/// memory.
+/// Counts the values; the values of an alias count each time the alias is used. A few lines with nested aliases can stand for more values
+/// than fit into memory.
 void count_values(const YAML::Node& node, int depth, const std::string& file, int* count) {
   constexpr int kMost = 2000000, kDeepest = 50;
   const SourceLocation where{file, node.Mark().line + 1};

@@ -50,7 +50,7 @@ class YamlValue {
   std::vector<std::pair<std::string, YamlValue>> entries() const;
 
   /// This value with a change laid over it: maps are merged key by key, everything else is replaced, and so is a map whose `type` the
-  /// change gives another value. What comes from the change, and each merged map, keeps line and path of the change; the rest keeps its
+  /// change gives another value. Values from the change, and each merged map, have line and path of the change; all other values keep their
   /// own.
   YamlValue merged(const YamlValue& change) const;
 

@@ -8,12 +8,12 @@
 namespace codesign {
 namespace {
 
-// Lines 1 to 3; what is uncertain begins in line 4.
+// Lines 1 to 3; `uncertain:` begins in line 4.
 const std::string kHead =
     kLeastStudy +
     "parameters: {Kp: {initial: 1.0}, mu: {initial: 0.3, lower: 0, upper: 0.35, tune: false}, mass: {initial: 1, tune: false}}\n";
 
-/// What codesign identify writes: a parameter that no recording tells, one of a sensor, and two that are correlated.
+/// A file as `codesign identify` writes it: a parameter that no recording determines, a number of a sensor, and two correlated parameters.
 std::string found() {
   return R"({
   "version": "1.0.0",

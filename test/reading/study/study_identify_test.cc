@@ -8,7 +8,7 @@
 namespace codesign {
 namespace {
 
-// Lines 1 and 2; what is identified begins in line 3.
+// Lines 1 and 2; `identify:` begins in line 3.
 const std::string kStudyToIdentify = "duration: 2.0\nparameters: {rod_length: {}, crank_length: {tune: false}}\n";
 const std::string kSomeData = "data: [{csv: excite.csv}]";
 

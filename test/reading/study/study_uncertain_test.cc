@@ -8,7 +8,7 @@
 namespace codesign {
 namespace {
 
-// Lines 1 to 3; what is uncertain begins in line 4.
+// Lines 1 to 3; `uncertain:` begins in line 4.
 const std::string kCertainStudy =
     kLeastStudy +
     "parameters: {Kp: {initial: 1.0}, free: {initial: 2.0, tune: false}, mass: {initial: 1, lower: 0, upper: 5, tune: false}}\n";
