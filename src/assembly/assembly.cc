@@ -7,7 +7,6 @@
 
 #include "assembly/given_start.h"
 #include "equations/derivative_products.h"
-#include "math/directions.h"
 
 namespace codesign {
 namespace {
@@ -84,81 +83,88 @@ void Assembly::follow_couplings(const Constants<double>& constants) {
   }
 }
 
-std::vector<std::vector<int>> Assembly::by_preference(const std::vector<bool>& given) const {
-  std::vector<std::vector<int>> lists(2);
+void Assembly::by_preference(const std::vector<bool>& given, ColumnPreferences* lists) const {
+  if (lists->size() < 2) lists->resize(2);
+  for (std::vector<int>& list : *lists) list.clear();
   for (int c = 0; c < tree_.size; ++c)
-    if (const auto k = static_cast<std::size_t>(c); !given[k]) lists[follows_[k] ? 0 : 1].push_back(c);
-  return lists;
+    if (const auto k = static_cast<std::size_t>(c); !given[k]) (*lists)[follows_[k] ? 0 : 1].push_back(c);
 }
 
-void Assembly::place(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) const {
+void Assembly::place(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
   set_turns(system_, tree_, theta_, state);
-  body_coordinates(system_, equations->constants(), link_motions(system_.robot(), tree_, parameters, theta_, theta_rate_), &state->q,
-                   &state->v);
+  link_motions(system_.robot(), tree_, parameters, theta_, theta_rate_, &work_.motion.links);
+  body_coordinates(system_, equations->constants(), work_.motion.links, &state->q, &state->v);
 }
 
-Eigen::VectorXd Assembly::loop_part(const VectorX<double>& rows) const {
-  Eigen::VectorXd part = loops_.part_of(rows);
-  for (std::size_t k = 0; k < drops_.size(); ++k)
-    if (drops_[k] && !all_rows_count_) part[static_cast<Eigen::Index>(k)] = 0.0;
-  return part;
+void Assembly::take_loop_rows() {
+  work_.rows.resize(loops_.rows(), 1);
+  for (int k = 0; k < loops_.rows(); ++k) {
+    const auto row = static_cast<std::size_t>(k);
+    work_.rows(k, 0) = drops_[row] && !all_rows_count_ ? 0.0 : work_.errors[loops_.constraint_rows()[row]];
+  }
 }
 
-Assembly::ScaledLoops Assembly::scaled_loops(const std::vector<double>& parameters, const Equations<double>& equations) const {
-  ScaledLoops loops;
-  loops.unscaled = loops_.evaluate(parameters, theta_, equations);
-  loops.scales = loops_.scales(loops.unscaled, equations);
+void Assembly::scale_loops(const std::vector<double>& parameters, const Equations<double>& equations) {
+  ScaledLoops& loops = work_.loops;
+  loops_.evaluate(parameters, theta_, equations, &work_.motion, &loops.unscaled);
+  loops_.scales(loops.unscaled, equations, &work_.motion, &loops.scales);
   for (std::size_t k = 0; k < drops_.size(); ++k)
     if (drops_[k] && !all_rows_count_) loops.scales.rows[static_cast<Eigen::Index>(k)] = 0.0;
-  loops.matrix = loops.scales.rows.asDiagonal() * loops.unscaled * loops.scales.columns.asDiagonal();
-  return loops;
+  loops.matrix = loops.unscaled;
+  for (int c = 0; c < tree_.size; ++c)
+    for (SparseMatrix::InnerIterator entry(loops.matrix, c); entry; ++entry)
+      entry.valueRef() = loops.scales.rows[entry.row()] * entry.value() * loops.scales.columns[c];
 }
 
-Assembly::Dependents Assembly::factor(const ScaledLoops& loops, const std::vector<int>& columns, double rank_tolerance) {
-  Dependents dependents;
-  dependents.columns = columns;
-  dependents.scales = loops.scales;
-  dependents.inverse.factor(columns_of(loops.matrix, columns), rank_tolerance);
-  return dependents;
+void Assembly::factor(const std::vector<int>& columns, double rank_tolerance, Dependents* dependents) const {
+  dependents->columns = columns;
+  dependents->scales = work_.loops.scales;
+  dependents->inverse.factor(work_.loops.matrix, columns, rank_tolerance);
 }
 
-Assembly::Dependents Assembly::choose(const ScaledLoops& loops, const std::vector<std::vector<int>>& preferences) const {
-  return factor(loops, independent_columns(loops.matrix, preferences, rank_tolerance_), rank_tolerance_);
+const std::vector<int>& Assembly::choose_columns(const ColumnPreferences& preferences) {
+  return work_.independent.choose(work_.loops.matrix, preferences, rank_tolerance_);
 }
 
-Eigen::MatrixXd Assembly::Dependents::solve(const Eigen::MatrixXd& rows) const {
-  Eigen::MatrixXd x = inverse.solve(scales.rows.asDiagonal() * rows);
+void Assembly::choose(const ColumnPreferences& preferences, Dependents* dependents) {
+  factor(choose_columns(preferences), rank_tolerance_, dependents);
+}
+
+const Eigen::MatrixXd& Assembly::Dependents::solve(const Eigen::MatrixXd& rows, Eigen::MatrixXd* scaled,
+                                                   LeastSquaresWorkspace* workspace) const {
+  *scaled = scales.rows.asDiagonal() * rows;
+  Eigen::MatrixXd& x = inverse.solve(*scaled, workspace);
   for (std::size_t k = 0; k < columns.size(); ++k) x.row(static_cast<Eigen::Index>(k)) *= scales.columns[columns[k]];
   return x;
 }
 
 Assembly::Rest Assembly::newton(const std::vector<double>& parameters, Equations<double>* equations, const std::vector<int>& free,
                                 double rank_tolerance) {
-  State<double> state;
-  state.resize(system_.layout());
-  VectorX<double> errors, rates;
+  work_.state.resize(system_.layout());
   double previous = std::numeric_limits<double>::infinity(), closed = kClosed;
   LoopMiss nearest{"", previous, previous};
   for (int iteration = 0; iteration < kNewtonIterations; ++iteration) {
     if (cancelled()) return Rest::kApart;
-    place(parameters, equations, &state);
-    equations->constraint_errors(state, &errors, &rates);
-    const Eigen::VectorXd loops = loop_part(errors);
-    const double error = loops.size() == 0 ? 0.0 : loops.cwiseAbs().maxCoeff();
+    place(parameters, equations, &work_.state);
+    equations->constraint_errors(work_.state, &work_.errors, &work_.rates);
+    take_loop_rows();
+    const double error = work_.rows.size() == 0 ? 0.0 : work_.rows.cwiseAbs().maxCoeff();
     if (!std::isfinite(error)) return Rest::kApart;
-    note_miss(errors, *equations);
+    note_miss(work_.errors, *equations);
     if (size_of(worst_miss_) < size_of(nearest)) nearest = worst_miss_;
     // Converged when rounding stops the quadratic decrease.
     const double size = 1.0 + theta_.cwiseAbs().maxCoeff();
     closed = kClosed * size;
     if (error == 0.0 || (error < closed && error >= 0.5 * previous)) return Rest::kClosed;
     previous = error;
-    const Eigen::VectorXd step = factor(scaled_loops(parameters, *equations), free, rank_tolerance).solve(loops);
+    scale_loops(parameters, *equations);
+    factor(free, rank_tolerance, &work_.newton);
+    const Eigen::MatrixXd& step = work_.newton.solve(work_.rows, &work_.scaled, &work_.solution);
     double largest = 0.0;  // without followers of couplings: a coupling is linear and has no branches
     for (std::size_t k = 0; k < free.size(); ++k)
-      if (!follows_[static_cast<std::size_t>(free[k])]) largest = std::max(largest, std::abs(step[static_cast<Eigen::Index>(k)]));
+      if (!follows_[static_cast<std::size_t>(free[k])]) largest = std::max(largest, std::abs(step(static_cast<Eigen::Index>(k), 0)));
     const double shortened = largest > kLargestTurn ? kLargestTurn / largest : 1.0;
-    for (std::size_t k = 0; k < free.size(); ++k) theta_[free[k]] -= shortened * step[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < free.size(); ++k) theta_[free[k]] -= shortened * step(static_cast<Eigen::Index>(k), 0);
     if (step.size() == 0 || (error >= closed && step.cwiseAbs().maxCoeff() < kAtRest * size)) break;
   }
   if (previous < closed) return Rest::kClosed;
@@ -174,52 +180,56 @@ bool Assembly::is_near() const {
 
 void Assembly::note_miss(const VectorX<double>& errors, const Equations<double>& equations) {
   worst_miss_ = {};
-  for (const LoopMiss& miss : loops_.misses(errors, equations))
-    if (size_of(miss) > size_of(worst_miss_)) worst_miss_ = miss;
+  for (std::size_t k = 0; k < loops_.owners(); ++k)
+    if (const LoopMiss miss = loops_.miss(k, errors, equations); size_of(miss) > size_of(worst_miss_)) worst_miss_ = miss;
 }
 
 // If changing the dependent coordinates alone does not close the loops, the start may be singular (a stretched-out linkage): then all
 // coordinates without a given position are changed.
 Assembly::Rest Assembly::close(const std::vector<double>& parameters, Equations<double>* equations, double rank_tolerance) {
-  const std::vector<std::vector<int>> preferences = by_preference(position_given_);
-  std::vector<int> open = preferences[0];
-  open.insert(open.end(), preferences[1].begin(), preferences[1].end());
-  std::sort(open.begin(), open.end());
-  const VectorX<double> start = theta_;
+  const ColumnPreferences& preferences = work_.positions;
+  by_preference(position_given_, &work_.positions);
+  work_.open = preferences[0];
+  work_.open.insert(work_.open.end(), preferences[1].begin(), preferences[1].end());
+  std::sort(work_.open.begin(), work_.open.end());
+  work_.first = theta_;
   rank_tolerance_ = rank_tolerance;
-  const Rest rest = newton(parameters, equations, choose(scaled_loops(parameters, *equations), preferences).columns, rank_tolerance);
+  scale_loops(parameters, *equations);
+  work_.free = choose_columns(preferences);
+  const Rest rest = newton(parameters, equations, work_.free, rank_tolerance);
   if (rest != Rest::kApart) return rest;
   const LoopMiss miss = worst_miss_;
-  theta_ = start;
-  const Rest second = newton(parameters, equations, open, rank_tolerance);
+  theta_ = work_.first;
+  const Rest second = newton(parameters, equations, work_.open, rank_tolerance);
   if (second == Rest::kApart && size_of(miss) < size_of(worst_miss_)) worst_miss_ = miss;
   return second;
 }
 
 // A position within the tolerance but not closed may be almost singular, with an exactly closed position nearby: it is taken if found.
 void Assembly::refine(const std::vector<double>& parameters, Equations<double>* equations) {
-  const VectorX<double> near = theta_;
+  work_.near = theta_;
   const LoopMiss miss = worst_miss_;
   const bool closes = close(parameters, equations, kSingularRank) == Rest::kClosed;
-  if (closes && (theta_ - near).cwiseAbs().maxCoeff() < kSamePlace) return;
-  theta_ = near;
+  if (closes && (theta_ - work_.near).cwiseAbs().maxCoeff() < kSamePlace) return;
+  theta_ = work_.near;
   worst_miss_ = miss;
   rank_tolerance_ = kRank;
 }
 
 Status Assembly::closure_failed() const {
   if (cancelled()) return {StatusCode::kCancelled, 0.0, "cancelled"};
-  return {StatusCode::kAssemblyFailed, 0.0, "loop or coupling '" + worst_miss_.owner + "' cannot be closed from the given initial state"};
+  return {StatusCode::kAssemblyFailed, 0.0,
+          "loop or coupling '" + std::string(worst_miss_.owner) + "' cannot be closed from the given initial state"};
 }
 
 Status Assembly::solve_positions(const std::vector<double>& parameters, Equations<double>* equations) {
-  const VectorX<double> start = theta_;
+  work_.start = theta_;
   all_rows_count_ = true;
   Rest rest = close(parameters, equations, kRank);
   if (rest == Rest::kNear) refine(parameters, equations);
   if (rest == Rest::kApart) {
     const LoopMiss miss = worst_miss_;
-    theta_ = start;
+    theta_ = work_.start;
     rest = close(parameters, equations, kSingularRank);
     if (rest == Rest::kApart && size_of(miss) < size_of(worst_miss_)) worst_miss_ = miss;
   }
@@ -228,8 +238,10 @@ Status Assembly::solve_positions(const std::vector<double>& parameters, Equation
   if (all_rows_count_) return {};
   // Now the enforced rows alone, to rounding: the integrators start from Phi = 0 in these rows.
   const LoopMiss miss = worst_miss_;
-  const std::vector<int> columns = choose(scaled_loops(parameters, *equations), by_preference(position_given_)).columns;
-  if (newton(parameters, equations, columns, rank_tolerance_) != Rest::kClosed || !is_near()) {
+  by_preference(position_given_, &work_.positions);
+  scale_loops(parameters, *equations);
+  work_.free = choose_columns(work_.positions);
+  if (newton(parameters, equations, work_.free, rank_tolerance_) != Rest::kClosed || !is_near()) {
     worst_miss_ = miss;
     return closure_failed();
   }
@@ -250,28 +262,28 @@ Status Assembly::solve_positions(const std::vector<double>& parameters, Equation
 }
 
 Status Assembly::solve_velocities(const std::vector<double>& parameters, Equations<double>* equations) {
-  std::vector<int> held;
-  std::vector<bool> not_open = velocity_given_;
-  for (int c = 0; c < tree_.size; ++c) {
-    const auto k = static_cast<std::size_t>(c);
-    if (!position_given_[k] || velocity_given_[k]) continue;
-    held.push_back(c);
-    not_open[k] = true;
-  }
-  std::vector<std::vector<int>> preferences = by_preference(not_open);
-  preferences.push_back(held);
-  const ScaledLoops loops = scaled_loops(parameters, *equations);
-  positions_ = choose(loops, by_preference(position_given_));
-  velocities_ = choose(loops, preferences);
-  Eigen::VectorXd holds = Eigen::VectorXd::Ones(loops_.rows());
-  for (std::size_t k = 0; k < drops_.size(); ++k)
-    if (drops_[k]) holds[static_cast<Eigen::Index>(k)] = 0.0;
-  const SparseMatrix jacobian = holds.asDiagonal() * loops.unscaled;
-  const Eigen::VectorXd step = velocities_.solve(jacobian * theta_rate_);
-  for (std::size_t k = 0; k < velocities_.columns.size(); ++k) theta_rate_[velocities_.columns[k]] -= step[static_cast<Eigen::Index>(k)];
-  const Eigen::VectorXd left = jacobian * theta_rate_;
-  if (left.size() > 0 && !(left.cwiseAbs().maxCoeff() <= 1e-9 * (1.0 + theta_rate_.cwiseAbs().maxCoeff())))
-    return contradiction(jacobian, left);
+  ColumnPreferences& preferences = work_.velocities;
+  preferences.resize(3);
+  work_.not_open = velocity_given_;
+  for (std::size_t k = 0; k < position_given_.size(); ++k)
+    if (position_given_[k]) work_.not_open[k] = true;
+  by_preference(work_.not_open, &preferences);
+  for (int c = 0; c < tree_.size; ++c)
+    if (const auto k = static_cast<std::size_t>(c); position_given_[k] && !velocity_given_[k]) preferences[2].push_back(c);
+  scale_loops(parameters, *equations);
+  by_preference(position_given_, &work_.positions);
+  choose(work_.positions, &positions_);
+  choose(preferences, &velocities_);
+  work_.enforced = work_.loops.unscaled;
+  for (int c = 0; c < tree_.size; ++c)
+    for (SparseMatrix::InnerIterator entry(work_.enforced, c); entry; ++entry)
+      if (drops_[static_cast<std::size_t>(entry.row())]) entry.valueRef() *= 0.0;
+  work_.rows.noalias() = work_.enforced * theta_rate_;
+  const Eigen::MatrixXd& step = velocities_.solve(work_.rows, &work_.scaled, &work_.solution);
+  for (std::size_t k = 0; k < velocities_.columns.size(); ++k) theta_rate_[velocities_.columns[k]] -= step(static_cast<Eigen::Index>(k), 0);
+  work_.left.noalias() = work_.enforced * theta_rate_;
+  if (work_.left.size() > 0 && !(work_.left.cwiseAbs().maxCoeff() <= 1e-9 * (1.0 + theta_rate_.cwiseAbs().maxCoeff())))
+    return contradiction();
   return {};
 }
 
@@ -324,54 +336,5 @@ void Assembly::differentiate_rates(State<double>* rates) const {
   rates->z = -(change + derivatives_.time).head(rates->z.size());
   matrix_.lu().solve(rates->z);
 }
-
-template <class T>
-void Assembly::correct(const Dependents& dependents, const VectorX<T>& rows, VectorX<T>* coordinates) const {
-  const Eigen::MatrixXd step = dependents.solve(loops_.part_of(directions_of(rows)));
-  Eigen::MatrixXd full = Eigen::MatrixXd::Zero(coordinates->size(), step.cols());
-  for (std::size_t k = 0; k < dependents.columns.size(); ++k) full.row(dependents.columns[k]) = -step.row(static_cast<Eigen::Index>(k));
-  add_directions(full, coordinates);
-}
-
-template <class T>
-void Assembly::extend(const std::vector<T>& parameters, const State<double>& start, Equations<T>* equations, State<T>* state) const {
-  state->resize(system_.layout());
-  state->t = start.t;
-  state->turns = start.turns;
-  set_extra_states(system_, parameters, &state->s);
-  VectorX<T> theta = theta_.template cast<T>(), rate = theta_rate_.template cast<T>(), Phi, Phi_rate;
-  set_given_start(system_, tree_, parameters, &theta, &rate);
-  const auto place_extended = [&] {
-    body_coordinates(system_, equations->constants(), link_motions(system_.robot(), tree_, parameters, theta, rate), &state->q, &state->v);
-    equations->constraint_errors(*state, &Phi, &Phi_rate);
-  };
-  place_extended();
-  correct(positions_, Phi, &theta);
-  place_extended();
-  correct(velocities_, Phi_rate, &rate);
-  place_extended();
-  if (system_.begins_controllers()) equations->formulas().begin_controllers(state);
-  extend_rates(start.z, equations, state);
-}
-
-// First-order solution of G(z) = 0 with the factorization of the last Newton iteration of solve_rates().
-template <class T>
-void Assembly::extend_rates(const VectorX<double>& z, Equations<T>* equations, State<T>* state) const {
-  VectorX<T> G;
-  T g(0.0);
-  state->z = z.template cast<T>();
-  equations->residual(*state, &G, &g);
-  Eigen::MatrixXd step = directions_of(G);
-  for (auto column : step.colwise()) matrix_.lu().solve(column);
-  add_directions(Eigen::MatrixXd(-step), &state->z);
-}
-
-#define CODESIGN_INSTANTIATE(T)                                                                                   \
-  template void Assembly::extend<T>(const std::vector<T>&, const State<double>&, Equations<T>*, State<T>*) const; \
-  template void Assembly::extend_rates<T>(const VectorX<double>&, Equations<T>*, State<T>*) const;
-CODESIGN_INSTANTIATE(std::complex<double>)
-CODESIGN_INSTANTIATE(Lanes<4>)
-CODESIGN_INSTANTIATE(Lanes<8>)
-#undef CODESIGN_INSTANTIATE
 
 }  // namespace codesign

@@ -17,6 +17,15 @@
 
 namespace codesign {
 
+/// The memory that Assembly::extend() and extend_rates() compute in; one per scalar, reused from design to design.
+template <class T>
+struct ExtensionWorkspace {
+  VectorX<T> theta, rate, Phi, Phi_rate, G;
+  std::vector<LinkMotion<T>> links;
+  Eigen::MatrixXd errors, rows, scaled, changes, rates;  ///< derivatives, one column per direction
+  LeastSquaresWorkspace solution;
+};
+
 /// Consistent initial conditions of a design; doc/theory.md (19), (20).
 ///
 /// Positions: the tree's joint coordinates theta start from the study's positions, else from its guesses, else from zero. Coordinates with
@@ -59,7 +68,13 @@ class Assembly {
   /// last solution of solve(). `state` receives that solution with its derivatives.
   /// @param start the state that the last solve() found. @param equations must hold the design at `parameters`, derivatives included.
   template <class T>
-  void extend(const std::vector<T>& parameters, const State<double>& start, Equations<T>* equations, State<T>* state) const;
+  void extend(const std::vector<T>& parameters, const State<double>& start, Equations<T>* equations, ExtensionWorkspace<T>* workspace,
+              State<T>* state) const;
+  template <class T>
+  void extend(const std::vector<T>& parameters, const State<double>& start, Equations<T>* equations, State<T>* state) const {
+    ExtensionWorkspace<T> workspace;
+    extend(parameters, start, equations, &workspace, state);
+  }
 
   /// SparseLu::settle() after a solution, whose pivots later solutions begin with.
   void settle_pivots() { matrix_.settle(); }
@@ -77,7 +92,12 @@ class Assembly {
   /// the rest of `state`. @param z that solution; it must belong to the values of `state`. @param equations must hold the design,
   /// derivatives included.
   template <class T>
-  void extend_rates(const VectorX<double>& z, Equations<T>* equations, State<T>* state) const;
+  void extend_rates(const VectorX<double>& z, Equations<T>* equations, ExtensionWorkspace<T>* workspace, State<T>* state) const;
+  template <class T>
+  void extend_rates(const VectorX<double>& z, Equations<T>* equations, State<T>* state) const {
+    ExtensionWorkspace<T> workspace;
+    extend_rates(z, equations, &workspace, state);
+  }
   /// The time derivative of state->z at the last solve_rates(), where q, v and s change as `rates` says [per s]; written to rates->z.
   void differentiate_rates(State<double>* rates) const;
   /// Once `cancel` is set (by any thread), a running or later solve ends soon with kCancelled. nullptr: no cancellation.
@@ -95,8 +115,25 @@ class Assembly {
     std::vector<int> columns;  ///< the dependent coordinates
     LeastSquares inverse;      ///< factorization of their columns of the scaled Jacobian
     LoopScales scales;
-    /// Least-squares changes of the dependent coordinates for given (unscaled) changes of the loops' rows, one column per case.
-    Eigen::MatrixXd solve(const Eigen::MatrixXd& rows) const;
+    /// Least-squares changes of the dependent coordinates for given (unscaled) changes of the loops' rows, one column per case. @param
+    /// scaled, workspace overwritten; the result is in the workspace.
+    const Eigen::MatrixXd& solve(const Eigen::MatrixXd& rows, Eigen::MatrixXd* scaled, LeastSquaresWorkspace* workspace) const;
+  };
+  /// The memory that positions and velocities are solved for in.
+  struct Workspace {
+    ScaledLoops loops;
+    LoopWorkspace motion;
+    IndependentColumns independent;
+    Dependents newton;
+    LeastSquaresWorkspace solution;
+    SparseMatrix enforced;  ///< the unscaled Jacobian, dropped rows zero
+    State<double> state;
+    VectorX<double> errors, rates, left;
+    VectorX<double> start, first, near;  ///< tree coordinates to return to, of solve_positions(), close() and refine()
+    Eigen::MatrixXd rows, scaled;
+    ColumnPreferences positions, velocities;
+    std::vector<int> free, open;
+    std::vector<bool> not_open;
   };
   /// Result of Newton's method: closed to rounding, within the closure tolerance, or neither.
   enum class Rest { kClosed, kNear, kApart };
@@ -114,18 +151,22 @@ class Assembly {
   bool is_near() const;
   Status choose_branch(const std::vector<double>& parameters, Equations<double>* equations);
   Status check_rest(const State<double>& state);
-  Status contradiction(const SparseMatrix& jacobian, const Eigen::VectorXd& left);
-  void place(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) const;
+  Status contradiction();
+  void place(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
   void set_start(const std::vector<double>& parameters);
   void follow_couplings(const Constants<double>& constants);
-  std::vector<std::vector<int>> by_preference(const std::vector<bool>& given) const;
-  ScaledLoops scaled_loops(const std::vector<double>& parameters, const Equations<double>& equations) const;
-  /// The rows of the loops and couplings from all constraint rows; dropped rows are zero unless all_rows_count_.
-  Eigen::VectorXd loop_part(const VectorX<double>& rows) const;
-  Dependents choose(const ScaledLoops& loops, const std::vector<std::vector<int>>& preferences) const;
-  static Dependents factor(const ScaledLoops& loops, const std::vector<int>& columns, double rank_tolerance);
+  /// The first two lists of column preferences: followers, then the other coordinates that are not given.
+  void by_preference(const std::vector<bool>& given, ColumnPreferences* lists) const;
+  /// Sets work_.loops.
+  void scale_loops(const std::vector<double>& parameters, const Equations<double>& equations);
+  /// Sets work_.rows to the rows of the loops and couplings of work_.errors; dropped rows are zero unless all_rows_count_.
+  void take_loop_rows();
+  /// The dependent coordinates at work_.loops, valid until the next call.
+  const std::vector<int>& choose_columns(const ColumnPreferences& preferences);
+  void choose(const ColumnPreferences& preferences, Dependents* dependents);
+  void factor(const std::vector<int>& columns, double rank_tolerance, Dependents* dependents) const;
   template <class T>
-  void correct(const Dependents& dependents, const VectorX<T>& rows, VectorX<T>* coordinates) const;
+  void correct(const Dependents& dependents, const VectorX<T>& rows, ExtensionWorkspace<T>* workspace, VectorX<T>* coordinates) const;
 
   const CompiledSystem& system_;
   TreeLayout tree_;
@@ -147,6 +188,7 @@ class Assembly {
   IterationMatrix matrix_;
   VectorX<double> residual_;  ///< workspace of solve_rates()
   LoopMiss worst_miss_;
+  Workspace work_;
   const std::atomic<bool>* cancel_ = nullptr;
 };
 

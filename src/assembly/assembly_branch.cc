@@ -13,7 +13,8 @@ constexpr double kTakesPart = 1e-9;  // smaller entries of the loops' Jacobian c
 }  // namespace
 
 // The message names the joints with a given velocity that appear in a violated row.
-Status Assembly::contradiction(const SparseMatrix& jacobian, const Eigen::VectorXd& left) {
+Status Assembly::contradiction() {
+  const VectorX<double>& left = work_.left;
   const double most = left.cwiseAbs().maxCoeff();
   std::string joints, loop;
   const std::vector<InitialJointState>& given = system_.study().initial_state;
@@ -23,7 +24,7 @@ Status Assembly::contradiction(const SparseMatrix& jacobian, const Eigen::Vector
     for (Eigen::Index row = 0; row < left.size(); ++row) {
       if (std::abs(left[row]) < 1e-3 * most) continue;
       loop = loops_.owner(static_cast<int>(row));
-      if (std::abs(jacobian.coeff(row, tree_.offset[static_cast<std::size_t>(joint)])) < kTakesPart) continue;
+      if (std::abs(work_.enforced.coeff(row, tree_.offset[static_cast<std::size_t>(joint)])) < kTakesPart) continue;
       joints += (joints.empty() ? "'" : ", '") + given[k].joint + "'";
       contradicting_.push_back(k);
       break;
@@ -50,8 +51,8 @@ Status Assembly::choose_branch(const std::vector<double>& parameters, Equations<
 
 // From rest, the accelerations take the place of the velocities in the check for a possible motion, doc/theory.md (19a).
 Status Assembly::check_rest(const State<double>& state) {
-  if (!theta_rate_.isZero(0.0)) return {};
-  const VectorX<double> accelerations = singular_start_.tree_accelerations(state.z.head(system_.layout().n));
+  if (!theta_rate_.isZero(0.0) || !singular_start_.is_singular()) return {};
+  const VectorX<double>& accelerations = singular_start_.tree_accelerations(In<double>(state.z).first(system_.layout().n));
   if (accelerations.size() == 0 || accelerations.cwiseAbs().maxCoeff() < 1e-9 || singular_start_.is_motion(accelerations)) return {};
   return {StatusCode::kSingularConfiguration, 0.0,
           "the start is at rest in a singular position, where several motions of " + singular_start_.joints() +

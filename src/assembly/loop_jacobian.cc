@@ -66,6 +66,28 @@ LoopJacobian::LoopJacobian(const CompiledSystem& system, const TreeLayout& tree)
   }
   std::sort(coordinates_.begin(), coordinates_.end());
   coordinates_.erase(std::unique(coordinates_.begin(), coordinates_.end()), coordinates_.end());
+  find_pattern();
+}
+
+void LoopJacobian::find_pattern() {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const Loop& loop : loops_)
+    for (const Mover& mover : loop.movers)
+      for (int k = 0; k < rows_of(loop); ++k) entries.emplace_back(loop.first_row + k, mover.coordinate, 0.0);
+  const std::vector<Coupling>& couplings = system_.topology().couplings;
+  for (std::size_t k = 0; k < couplings.size(); ++k)
+    for (const CouplingTerm& term : couplings[k].terms)
+      entries.emplace_back(first_coupling_row_ + static_cast<int>(k), tree_.offset[to_index(term.joint)], 0.0);
+  pattern_.resize(rows(), tree_.size);
+  pattern_.setFromTriplets(entries.begin(), entries.end());
+  std::vector<bool> seen(to_index(static_cast<int>(pattern_.nonZeros())), false);
+  for (const Eigen::Triplet<double>& entry : entries) {
+    const int* const begin = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[entry.col()];
+    const int* const end = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[entry.col() + 1];
+    const auto slot = static_cast<int>(std::lower_bound(begin, end, entry.row()) - pattern_.innerIndexPtr());
+    places_.push_back({slot, !seen[to_index(slot)]});
+    seen[to_index(slot)] = true;
+  }
 }
 
 void LoopJacobian::add_row(int row, const std::string& owner) {
@@ -106,34 +128,42 @@ void LoopJacobian::add_loop(int index) {
 
 SparseMatrix LoopJacobian::evaluate(const std::vector<double>& parameters, const VectorX<double>& theta,
                                     const Equations<double>& equations) const {
-  SparseMatrix result(rows(), tree_.size);
-  if (rows() == 0) return result;
-  const std::vector<LinkMotion<double>> links =
-      link_motions(system_.robot(), tree_, parameters, theta, VectorX<double>(VectorX<double>::Zero(tree_.size)));
-  const std::vector<CoordinateTwist> twists = coordinate_twists(system_.robot(), tree_, parameters, theta, links);
-  VectorX<double> q, v;
-  body_coordinates(system_, equations.constants(), links, &q, &v);
-  std::vector<Eigen::Triplet<double>> entries;
+  LoopWorkspace workspace;
+  SparseMatrix jacobian;
+  evaluate(parameters, theta, equations, &workspace, &jacobian);
+  return jacobian;
+}
+
+void LoopJacobian::evaluate(const std::vector<double>& parameters, const VectorX<double>& theta, const Equations<double>& equations,
+                            LoopWorkspace* workspace, SparseMatrix* jacobian) const {
+  *jacobian = pattern_;
+  if (rows() == 0) return;
+  LoopWorkspace& w = *workspace;
+  w.standstill.setZero(tree_.size);
+  link_motions(system_.robot(), tree_, parameters, theta, w.standstill, &w.links);
+  coordinate_twists(system_.robot(), tree_, parameters, theta, w.links, &w.twists);
+  body_coordinates(system_, equations.constants(), w.links, &w.q, &w.v);
+  auto place = places_.begin();
+  const auto add = [&](double x) {
+    double& entry = jacobian->valuePtr()[place->slot];
+    entry = place->is_first ? x : entry + x;
+    ++place;
+  };
   double errors[kMostRows], rates[kMostRows];
   for (const Loop& loop : loops_) {
     const Pair& pair = system_.topology().pairs[to_index(loop.pair)];
-    const BodyKinematics<double> i = standing(q, pair.body_i), j = standing(q, pair.body_j);
-    const int size = equations.rows(loop.pair).size();
+    const BodyKinematics<double> i = standing(w.q, pair.body_i), j = standing(w.q, pair.body_j);
+    const int size = rows_of(loop);
     for (const Mover& mover : loop.movers) {
       BodyKinematics<double> moved = mover.moves_j ? j : i;
-      move(twists[to_index(mover.coordinate)], &moved);
+      move(w.twists[to_index(mover.coordinate)], &moved);
       equations.formulas().pair_errors(loop.pair, mover.moves_j ? i : moved, mover.moves_j ? moved : j, Out<double>(errors).first(size),
                                        Out<double>(rates).first(size));
-      for (int k = 0; k < size; ++k) entries.emplace_back(loop.first_row + k, mover.coordinate, rates[k]);
+      for (int k = 0; k < size; ++k) add(rates[k]);
     }
   }
-  for (std::size_t k = 0; k < system_.topology().couplings.size(); ++k)
-    for (std::size_t t = 0; t < system_.topology().couplings[k].terms.size(); ++t)
-      entries.emplace_back(first_coupling_row_ + static_cast<int>(k),
-                           tree_.offset[to_index(system_.topology().couplings[k].terms[t].joint)],
-                           equations.constants().couplings[k].coefficients[t]);
-  result.setFromTriplets(entries.begin(), entries.end());
-  return result;
+  for (const CouplingConstants<double>& coupling : equations.constants().couplings)
+    for (double coefficient : coupling.coefficients) add(coefficient);
 }
 
 int LoopJacobian::power(const Loop& loop, int within, const Equations<double>& equations) {
@@ -144,24 +174,36 @@ int LoopJacobian::power(const Loop& loop, int within, const Equations<double>& e
 }
 
 LoopScales LoopJacobian::scales(const SparseMatrix& jacobian, const Equations<double>& equations) const {
-  const Eigen::SparseMatrix<double, Eigen::RowMajor> by_rows = jacobian;
-  const auto largest = [&](int row, bool turns_only) {
-    double value = 0.0;
-    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(by_rows, row); entry; ++entry)
-      if (!turns_only || !slides(static_cast<int>(entry.col()))) value = std::max(value, std::abs(entry.value()));
-    return value > 0.0 ? value : 1.0;
-  };
-  LoopScales scales{Eigen::VectorXd::Ones(rows()), Eigen::VectorXd::Ones(jacobian.cols())};
+  LoopWorkspace workspace;
+  LoopScales result;
+  scales(jacobian, equations, &workspace, &result);
+  return result;
+}
+
+void LoopJacobian::scales(const SparseMatrix& jacobian, const Equations<double>& equations, LoopWorkspace* workspace,
+                          LoopScales* result) const {
+  LoopWorkspace& w = *workspace;
+  w.largest.setZero(rows());
+  w.largest_turn.setZero(rows());
+  for (int c = 0; c < tree_.size; ++c)
+    for (SparseMatrix::InnerIterator entry(jacobian, c); entry; ++entry) {
+      w.largest[entry.row()] = std::max(w.largest[entry.row()], std::abs(entry.value()));
+      if (!slides(c)) w.largest_turn[entry.row()] = std::max(w.largest_turn[entry.row()], std::abs(entry.value()));
+    }
+  const auto or_one = [](double value) { return value > 0.0 ? value : 1.0; };
+  LoopScales& scales = *result;
+  scales.rows.setOnes(rows());
+  scales.columns.setOnes(jacobian.cols());
   for (const Loop& loop : loops_) {
     double lever = 0.0;
     for (int k = 0; k < rows_of(loop); ++k)
-      if (power(loop, k, equations) == 1) lever = std::max(lever, largest(loop.first_row + k, true));
+      if (power(loop, k, equations) == 1) lever = std::max(lever, or_one(w.largest_turn[loop.first_row + k]));
     for (int k = 0; k < rows_of(loop); ++k) {
       const int order = power(loop, k, equations), row = loop.first_row + k;
-      if (order > 0) scales.rows[row] = 1.0 / (order == 1 ? lever : largest(row, false));
+      if (order > 0) scales.rows[row] = 1.0 / (order == 1 ? lever : or_one(w.largest[row]));
     }
   }
-  for (int k = first_coupling_row_; k < rows(); ++k) scales.rows[k] = 1.0 / largest(k, false);
+  for (int k = first_coupling_row_; k < rows(); ++k) scales.rows[k] = 1.0 / or_one(w.largest[k]);
   for (int c : coordinates_) {
     if (!slides(c)) continue;
     double value = 0.0;
@@ -169,25 +211,24 @@ LoopScales LoopJacobian::scales(const SparseMatrix& jacobian, const Equations<do
       value = std::max(value, std::abs(entry.value()) * scales.rows[entry.row()]);
     if (value > 0.0) scales.columns[c] = 1.0 / value;
   }
-  return scales;
 }
 
-std::vector<LoopMiss> LoopJacobian::misses(const VectorX<double>& errors, const Equations<double>& equations) const {
-  std::vector<LoopMiss> misses;
-  for (const Loop& loop : loops_) {
-    LoopMiss& miss = misses.emplace_back();
-    miss.owner = system_.topology().pairs[to_index(loop.pair)].name;
-    for (int k = 0; k < rows_of(loop); ++k) {
-      const double error = std::abs(errors[constraint_rows_[to_index(loop.first_row + k)]]);
-      const int order = power(loop, k, equations);
-      const double length = order == 2 ? equations.constants().pairs[to_index(loop.pair)].distance : 1.0;
-      double& part = order == 0 ? miss.angle : miss.length;
-      part = std::max(part, length > 0.0 ? error / length : std::sqrt(2.0 * error));
-    }
+LoopMiss LoopJacobian::miss(std::size_t owner, const VectorX<double>& errors, const Equations<double>& equations) const {
+  const auto error = [&](int row) { return std::abs(errors[constraint_rows_[to_index(row)]]); };
+  if (owner >= loops_.size()) {
+    const int row = first_coupling_row_ + static_cast<int>(owner - loops_.size());
+    return {owners_[to_index(row)], 0.0, error(row)};
   }
-  for (int k = first_coupling_row_; k < rows(); ++k)
-    misses.push_back({owners_[to_index(k)], 0.0, std::abs(errors[constraint_rows_[to_index(k)]])});
-  return misses;
+  const Loop& loop = loops_[owner];
+  LoopMiss miss{system_.topology().pairs[to_index(loop.pair)].name, 0.0, 0.0};
+  for (int k = 0; k < rows_of(loop); ++k) {
+    const double size = error(loop.first_row + k);
+    const int order = power(loop, k, equations);
+    const double length = order == 2 ? equations.constants().pairs[to_index(loop.pair)].distance : 1.0;
+    double& part = order == 0 ? miss.angle : miss.length;
+    part = std::max(part, length > 0.0 ? size / length : std::sqrt(2.0 * size));
+  }
+  return miss;
 }
 
 std::vector<LoopJacobian::Part> LoopJacobian::parts() const {

@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_ASSEMBLY_LOOP_JACOBIAN_H_
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "assembly/tree_kinematics.h"
@@ -19,9 +20,17 @@ struct LoopScales {
 
 /// Closure error of one loop or coupling: the largest of its rows, lengths and angles apart.
 struct LoopMiss {
-  std::string owner;    ///< name of the loop or coupling
-  double length = 0.0;  ///< [m]
-  double angle = 0.0;   ///< [rad]; for a coupling, in the unit of its follower's coordinate
+  std::string_view owner;  ///< name of the loop or coupling; valid as long as the LoopJacobian and its system
+  double length = 0.0;     ///< [m]
+  double angle = 0.0;      ///< [rad]; for a coupling, in the unit of its follower's coordinate
+};
+
+/// The memory that LoopJacobian computes in.
+struct LoopWorkspace {
+  std::vector<LinkMotion<double>> links;
+  std::vector<CoordinateTwist> twists;
+  VectorX<double> standstill, q, v;
+  Eigen::VectorXd largest, largest_turn;  ///< per row: the largest entry in all columns, in those that are no slides
 };
 
 /// The Jacobian Phi^l_theta of the rows of loops and couplings with respect to the tree's joint coordinates, doc/theory.md (19). A loop's
@@ -47,13 +56,19 @@ class LoopJacobian {
   const std::vector<int>& coordinates() const { return coordinates_; }
 
   /// The matrix, rows() x tree.size, at theta. `equations` must hold the design at `parameters`.
+  /// @param workspace, jacobian overwritten; their memory is used again.
+  void evaluate(const std::vector<double>& parameters, const VectorX<double>& theta, const Equations<double>& equations,
+                LoopWorkspace* workspace, SparseMatrix* jacobian) const;
   SparseMatrix evaluate(const std::vector<double>& parameters, const VectorX<double>& theta, const Equations<double>& equations) const;
 
-  /// @param jacobian the result of evaluate().
+  /// @param jacobian the result of evaluate(). @param workspace, scales overwritten; their memory is used again.
+  void scales(const SparseMatrix& jacobian, const Equations<double>& equations, LoopWorkspace* workspace, LoopScales* scales) const;
   LoopScales scales(const SparseMatrix& jacobian, const Equations<double>& equations) const;
 
-  /// Converts constraint errors Phi (all m rows) to closure errors, one per loop and then one per coupling.
-  std::vector<LoopMiss> misses(const VectorX<double>& errors, const Equations<double>& equations) const;
+  /// The number of loops and couplings, in this order.
+  std::size_t owners() const { return loops_.size() + static_cast<std::size_t>(rows() - first_coupling_row_); }
+  /// The closure error of a loop or coupling, from constraint errors Phi (all m rows).
+  LoopMiss miss(std::size_t owner, const VectorX<double>& errors, const Equations<double>& equations) const;
 
   /// A connected part: rows that share coordinates, directly or through other rows, with the pairs and couplings of these coordinates.
   struct Part {
@@ -75,6 +90,7 @@ class LoopJacobian {
   };
 
   void add_loop(int pair);
+  void find_pattern();
   int rows_of(const Loop& loop) const;
   /// Power of length in the unit of a loop's row: 0 for an angle, 1 for a position [m], 2 for half a squared distance [m^2].
   static int power(const Loop& loop, int within, const Equations<double>& equations);
@@ -86,6 +102,13 @@ class LoopJacobian {
   std::vector<int> constraint_rows_, coordinates_;
   std::vector<std::string> owners_;
   std::vector<Loop> loops_;
+  /// Where evaluate() puts a number: the first one of a slot is written, later ones are added.
+  struct Place {
+    int slot;
+    bool is_first;
+  };
+  SparseMatrix pattern_;       ///< zeros
+  std::vector<Place> places_;  ///< in the order of evaluate()
   std::vector<int> joint_of_;  ///< per coordinate: its joint in the description
   std::vector<bool> slides_;   ///< per coordinate: whether it is a length
   int first_coupling_row_ = 0;

@@ -19,7 +19,7 @@ std::string miss_text(const LoopMiss& miss) {
 }
 
 /// Where in the input a loop or coupling of this name stands; the root link's place if there is none.
-InputFault fault_of(const CompiledSystem& system, const std::string& name) {
+InputFault fault_of(const CompiledSystem& system, std::string_view name) {
   for (const Coupling& coupling : system.topology().couplings)
     if (coupling.name == name) return {coupling.where, coupling.element(), "", "", ""};
   for (const Pair& pair : system.topology().pairs)
@@ -33,7 +33,7 @@ InputFault fault_of(const CompiledSystem& system, const std::string& name) {
 /// Throws for a start whose positions or velocities contradict a loop or coupling.
 void require_start(const CompiledSystem& system, const Assembly& assembly, const Status& status) {
   if (status.code != StatusCode::kAssemblyFailed && status.code != StatusCode::kInitialVelocityFailed) return;
-  InputFault fault = fault_of(system, status.code == StatusCode::kAssemblyFailed ? assembly.worst_miss().owner : "");
+  InputFault fault = fault_of(system, status.code == StatusCode::kAssemblyFailed ? assembly.worst_miss().owner : std::string_view());
   fault.message = status.cause;
   const std::vector<InitialJointState>& given = system.study().initial_state;
   const std::vector<std::size_t>& contradicting = assembly.contradicting();

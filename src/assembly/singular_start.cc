@@ -22,10 +22,20 @@ SingularStart::SingularStart(const CompiledSystem& system, const TreeLayout& tre
   state_.resize(system.layout());
 }
 
-VectorX<double> SingularStart::rates(const VectorX<double>& theta, const VectorX<double>& x) {
-  body_coordinates(system_, equations_->constants(), link_motions(system_.robot(), tree_, parameters_, theta, x), &state_.q, &state_.v);
+void SingularStart::rates(const VectorX<double>& theta, const VectorX<double>& x, VectorX<double>* result) {
+  link_motions(system_.robot(), tree_, parameters_, theta, x, &motion_.links);
+  body_coordinates(system_, equations_->constants(), motion_.links, &state_.q, &state_.v);
   equations_->constraint_errors(state_, &Phi_, &Phi_rate_);
-  return loops_.part_of(Phi_rate_);
+  result->resize(loops_.rows());
+  for (int k = 0; k < loops_.rows(); ++k) (*result)[k] = Phi_rate_[loops_.constraint_rows()[static_cast<std::size_t>(k)]];
+}
+
+void SingularStart::difference(double step, const VectorX<double>& x, VectorX<double>* result) {
+  moved_ = theta_ + step * x;
+  rates(moved_, x, &forward_);
+  moved_ = theta_ - step * x;
+  rates(moved_, x, result);
+  *result = forward_ - *result;
 }
 
 void SingularStart::load(const std::vector<double>& parameters, const VectorX<double>& theta, Equations<double>* equations) {
@@ -33,30 +43,36 @@ void SingularStart::load(const std::vector<double>& parameters, const VectorX<do
   parameters_ = parameters;
   theta_ = theta;
   equations_ = equations;
-  L_.resize(count, 0);
-  if (count == 0 || count * tree_.size > kLargest) return;
-  J_ = loops_.evaluate(parameters, theta, *equations);
-  L_ = orthogonal_complement(J_, kRankAtStart);
+  if (count == 0 || count * tree_.size > kLargest) {
+    L_.resize(count, 0);
+    return;
+  }
+  loops_.evaluate(parameters, theta, *equations, &motion_, &sparse_J_);
+  J_ = sparse_J_;
+  qr_.matrix(J_.rows(), J_.cols()) = J_;
+  qr_.factor(kRankAtStart);
+  qr_.complement(&L_);
 }
 
 // (J x)_theta x, by central differences of fourth order.
-VectorX<double> SingularStart::curvature(const VectorX<double>& x) {
+void SingularStart::curvature(const VectorX<double>& x) {
   const double h = kDifference / x.cwiseAbs().maxCoeff();
-  const VectorX<double> near = rates(theta_ + h * x, x) - rates(theta_ - h * x, x);
-  const VectorX<double> far = rates(theta_ + 2.0 * h * x, x) - rates(theta_ - 2.0 * h * x, x);
-  return (8.0 * near - far) / (12.0 * h);
+  difference(h, x, &near_);
+  difference(2.0 * h, x, &far_);
+  H_ = (8.0 * near_ - far_) / (12.0 * h);
 }
 
-VectorX<double> SingularStart::violation(const VectorX<double>& x) {
-  const VectorX<double> H = curvature(x);
-  tolerance_ = kIsMotion * H.norm() + 1e-8 * J_.norm() * x.squaredNorm();
-  return L_.transpose() * H;
+const VectorX<double>& SingularStart::violation(const VectorX<double>& x) {
+  curvature(x);
+  tolerance_ = kIsMotion * H_.norm() + 1e-8 * J_.norm() * x.squaredNorm();
+  B_.noalias() = L_.transpose() * H_;
+  return B_;
 }
 
 bool SingularStart::is_motion(const VectorX<double>& x) {
   if (L_.cols() == 0 || x.isZero(0.0)) return true;
-  const VectorX<double> B = violation(x);
-  violated_ = L_ * B;
+  const VectorX<double>& B = violation(x);
+  violated_.noalias() = L_ * B;
   return B.norm() <= tolerance_;
 }
 
@@ -72,7 +88,8 @@ bool SingularStart::solve(const std::vector<int>& free, VectorX<double>* x) {
     if (error.norm() <= 1e-6 * tolerance_) return true;
     for (Eigen::Index k = 0; k < count; ++k) {
       const VectorX<double> unit = x->norm() * VectorX<double>::Unit(tree_.size, free[static_cast<std::size_t>(k)]);
-      A.col(k) << J.col(free[static_cast<std::size_t>(k)]), (violation(*x + unit) - violation(*x - unit)) / (2.0 * x->norm());
+      A.col(k) << J.col(free[static_cast<std::size_t>(k)]),
+          (VectorX<double>(violation(*x + unit)) - violation(*x - unit)) / (2.0 * x->norm());
     }
     const VectorX<double> step = LeastNorm(A, 1e-6).solve(error);
     for (Eigen::Index k = 0; k < count; ++k) (*x)[free[static_cast<std::size_t>(k)]] -= step[k];
@@ -96,14 +113,21 @@ bool SingularStart::choose_motion(const std::vector<bool>& held, VectorX<double>
   return false;
 }
 
-VectorX<double> SingularStart::tree_accelerations(const VectorX<double>& a) {
-  if (L_.cols() == 0) return VectorX<double>::Zero(tree_.size);
-  Eigen::MatrixXd body_velocities(a.size(), tree_.size);
+const VectorX<double>& SingularStart::tree_accelerations(In<double> a) {
+  accelerations_.setZero(tree_.size);
+  if (!is_singular()) return accelerations_;
+  Eigen::MatrixXd& body_velocities = tree_of_bodies_.matrix(a.size(), tree_.size);
+  unit_.setZero(tree_.size);
   for (int c = 0; c < tree_.size; ++c) {
-    rates(theta_, VectorX<double>::Unit(tree_.size, c));
+    unit_[c] = 1.0;
+    rates(theta_, unit_, &forward_);
+    unit_[c] = 0.0;
     body_velocities.col(c) = state_.v;
   }
-  return least_norm(body_velocities).solve(a);
+  tree_of_bodies_.factor(least_norm_threshold(a.size(), tree_.size));
+  a_ = Eigen::Map<const Eigen::VectorXd>(a.data(), a.size());
+  accelerations_ = tree_of_bodies_.solve(a_, &solution_);
+  return accelerations_;
 }
 
 std::string SingularStart::joints() const {

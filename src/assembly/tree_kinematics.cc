@@ -111,9 +111,10 @@ TreeLayout::TreeLayout(const RobotDescription& robot) : offset(robot.joints.size
 }
 
 template <class T>
-std::vector<LinkMotion<T>> link_motions(const RobotDescription& robot, const TreeLayout& layout, const std::vector<T>& parameters,
-                                        const VectorX<T>& theta, const VectorX<T>& theta_rate) {
-  std::vector<LinkMotion<T>> links(robot.links.size());
+void link_motions(const RobotDescription& robot, const TreeLayout& layout, const std::vector<T>& parameters, const VectorX<T>& theta,
+                  const VectorX<T>& theta_rate, std::vector<LinkMotion<T>>* result) {
+  std::vector<LinkMotion<T>>& links = *result;
+  links.assign(robot.links.size(), LinkMotion<T>());
   for (int k : layout.joint_order) {
     const JointDescription& joint = robot.joints[static_cast<std::size_t>(k)];
     const LinkMotion<T>& parent = links[static_cast<std::size_t>(joint.parent)];
@@ -125,13 +126,12 @@ std::vector<LinkMotion<T>> link_motions(const RobotDescription& robot, const Tre
     child.omega = parent.omega + X_GF.R * m.omega;
     child.velocity = parent.velocity + cross<T>(parent.omega, child.X.t - parent.X.t) + X_GF.R * m.velocity;
   }
-  return links;
 }
 
-std::vector<CoordinateTwist> coordinate_twists(const RobotDescription& robot, const TreeLayout& layout,
-                                               const std::vector<double>& parameters, const VectorX<double>& theta,
-                                               const std::vector<LinkMotion<double>>& links) {
-  std::vector<CoordinateTwist> twists(static_cast<std::size_t>(layout.size));
+void coordinate_twists(const RobotDescription& robot, const TreeLayout& layout, const std::vector<double>& parameters,
+                       const VectorX<double>& theta, const std::vector<LinkMotion<double>>& links, std::vector<CoordinateTwist>* result) {
+  std::vector<CoordinateTwist>& twists = *result;
+  twists.resize(static_cast<std::size_t>(layout.size));
   for (int k : layout.joint_order) {
     const JointDescription& joint = robot.joints[static_cast<std::size_t>(k)];
     const int first = layout.offset[static_cast<std::size_t>(k)], count = coordinates_of(joint.type);
@@ -146,7 +146,6 @@ std::vector<CoordinateTwist> coordinate_twists(const RobotDescription& robot, co
       unit[c] = 0.0;
     }
   }
-  return twists;
 }
 
 void set_turns(const System& system, const TreeLayout& layout, const VectorX<double>& theta, State<double>* state) {
@@ -178,9 +177,9 @@ void body_coordinates(const System& system, const Constants<T>& constants, const
   }
 }
 
-#define CODESIGN_INSTANTIATE(T)                                                                                                          \
-  template std::vector<LinkMotion<T>> link_motions(const RobotDescription&, const TreeLayout&, const std::vector<T>&, const VectorX<T>&, \
-                                                   const VectorX<T>&);                                                                   \
+#define CODESIGN_INSTANTIATE(T)                                                                                                       \
+  template void link_motions(const RobotDescription&, const TreeLayout&, const std::vector<T>&, const VectorX<T>&, const VectorX<T>&, \
+                             std::vector<LinkMotion<T>>*);                                                                            \
   template void body_coordinates(const System&, const Constants<T>&, const std::vector<LinkMotion<T>>&, VectorX<T>*, VectorX<T>*);
 CODESIGN_FOR_EACH_NUMBER_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE

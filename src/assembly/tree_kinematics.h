@@ -45,9 +45,17 @@ struct LinkMotion {
 };
 
 /// Forward kinematics of the URDF tree: the motions of all links, in the order of the description, at theta and theta_rate.
+/// @param links overwritten, its memory is used again.
+template <class T>
+void link_motions(const RobotDescription& robot, const TreeLayout& layout, const std::vector<T>& parameters, const VectorX<T>& theta,
+                  const VectorX<T>& theta_rate, std::vector<LinkMotion<T>>* links);
 template <class T>
 std::vector<LinkMotion<T>> link_motions(const RobotDescription& robot, const TreeLayout& layout, const std::vector<T>& parameters,
-                                        const VectorX<T>& theta, const VectorX<T>& theta_rate);
+                                        const VectorX<T>& theta, const VectorX<T>& theta_rate) {
+  std::vector<LinkMotion<T>> links;
+  link_motions(robot, layout, parameters, theta, theta_rate, &links);
+  return links;
+}
 
 /// The rigid motion of all links below a joint for the unit rate of one of its coordinates, in ground axes.
 struct CoordinateTwist {
@@ -55,10 +63,10 @@ struct CoordinateTwist {
   Vector3<double> point;            ///< origin of the joint's child link [m]
 };
 
-/// The twist of each coordinate (layout.size) at theta. @param links the result of link_motions() at theta.
-std::vector<CoordinateTwist> coordinate_twists(const RobotDescription& robot, const TreeLayout& layout,
-                                               const std::vector<double>& parameters, const VectorX<double>& theta,
-                                               const std::vector<LinkMotion<double>>& links);
+/// The twist of each coordinate (layout.size) at theta. @param links the result of link_motions() at theta. @param twists overwritten, its
+/// memory is used again.
+void coordinate_twists(const RobotDescription& robot, const TreeLayout& layout, const std::vector<double>& parameters,
+                       const VectorX<double>& theta, const std::vector<LinkMotion<double>>& links, std::vector<CoordinateTwist>* twists);
 
 /// Sets the turns of a state to the tree's coordinates, so that a position beyond one turn is kept; the turns of loops count from zero.
 void set_turns(const System& system, const TreeLayout& layout, const VectorX<double>& theta, State<double>* state);

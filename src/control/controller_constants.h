@@ -25,25 +25,33 @@ struct ControllerConstants {
 };
 
 /// Evaluates a description at `parameters`, all named parameters. The description must outlive the result.
+/// @param result new, or of the same description at other parameters; overwritten, its memory is used again.
 template <class T>
-ControllerConstants<T> controller_constants(const ControllerDescription& description, const std::vector<T>& parameters) {
-  ControllerConstants<T> c;
-  c.setpoint = Reference<T>(description.setpoint, parameters);
-  c.feedforward = Reference<T>(description.feedforward, parameters);
+void controller_constants(const ControllerDescription& description, const std::vector<T>& parameters, ControllerConstants<T>* result) {
+  ControllerConstants<T>& c = *result;
+  c.setpoint.set(description.setpoint, parameters);
+  c.feedforward.set(description.feedforward, parameters);
   c.pid.p = description.p.at(parameters);
   c.pid.i = description.i.at(parameters);
   c.pid.d = description.d.at(parameters);
-  for (const FeedbackTerm& term : description.feedback) {
-    c.gains.push_back(term.gain.at(parameters));
-    c.references.emplace_back(term.reference, parameters);
+  c.gains.resize(description.feedback.size());
+  c.references.resize(description.feedback.size());
+  for (std::size_t k = 0; k < description.feedback.size(); ++k) {
+    c.gains[k] = description.feedback[k].gain.at(parameters);
+    c.references[k].set(description.feedback[k].reference, parameters);
   }
   const ControlRealization& realization = description.realization;
   if (realization.i_clamp) c.i_clamp = realization.i_clamp->at(parameters);
   if (realization.derivative_filter) c.derivative_filter = realization.derivative_filter->at(parameters);
   if (realization.output_limit) c.output_limit = realization.output_limit->at(parameters);
   if (realization.time_constant) c.time_constant = realization.time_constant->at(parameters);
-  if (description.kind == ControllerKind::kBasis) c.shape = ShapedInput<T>(description.basis, parameters);
-  return c;
+  if (description.kind == ControllerKind::kBasis) c.shape.set(description.basis, parameters);
+}
+template <class T>
+ControllerConstants<T> controller_constants(const ControllerDescription& description, const std::vector<T>& parameters) {
+  ControllerConstants<T> constants;
+  controller_constants(description, parameters, &constants);
+  return constants;
 }
 
 /// A sentence about a number of a controller that is impossible at this design; empty if there is none. Gains may be anything.

@@ -6,17 +6,9 @@
 #include <limits>
 
 #include "codegen/number_types.h"
-#include "control/waypoint_piece.h"
 
 namespace codesign {
 namespace {
-
-template <class T>
-std::vector<T> evaluate(const std::vector<Quantity>& quantities, const std::vector<T>& parameters) {
-  std::vector<T> values;
-  for (const Quantity& quantity : quantities) values.push_back(quantity.at(parameters));
-  return values;
-}
 
 // Velocities that are not given, theory (C2): the slope of the parabola through a way-point and its neighbours; zero at both ends.
 template <class T>
@@ -33,21 +25,20 @@ void choose_velocities(const std::vector<double>& times, std::vector<Knot<T>>* k
 // both ends.
 template <class T>
 void choose_accelerations(const std::vector<double>& times, std::vector<Knot<T>>* knots) {
-  std::vector<T> chosen(knots->size(), T(0.0));
   for (std::size_t k = 1; k + 1 < knots->size(); ++k) {
     const Knot<T>&a = (*knots)[k - 1], &b = (*knots)[k], &c = (*knots)[k + 1];
     const T before(times[k] - times[k - 1]), after(times[k + 1] - times[k]);
     const T left = (T(2.0) * a.velocity + T(4.0) * b.velocity - T(6.0) * (b.position - a.position) / before) / before;
     const T right = (T(6.0) * (c.position - b.position) / after - T(4.0) * b.velocity - T(2.0) * c.velocity) / after;
-    chosen[k] = T(0.5) * (left + right);
+    (*knots)[k].acceleration = T(0.5) * (left + right);
   }
-  for (std::size_t k = 0; k < knots->size(); ++k) (*knots)[k].acceleration = chosen[k];
 }
 
 }  // namespace
 
 template <class T>
-Reference<T>::Reference(const ReferenceDescription& description, const std::vector<T>& parameters) : kind_(description.kind) {
+void Reference<T>::set(const ReferenceDescription& description, const std::vector<T>& parameters) {
+  kind_ = description.kind;
   switch (kind_) {
     case ReferenceDescription::Kind::kConstant:
       offset_ = description.constant.at(parameters);
@@ -86,16 +77,17 @@ typename Reference<T>::Piece Reference<T>::hold(double start, const T& value) {
 template <class T>
 void Reference<T>::set_waypoints(const WaypointsDescription& description, const std::vector<T>& parameters) {
   const std::vector<double>& times = description.times;
-  std::vector<Knot<T>> knots(times.size());
+  std::vector<Knot<T>>& knots = knots_;
+  knots.assign(times.size(), Knot<T>());
   const auto take = [&](const std::vector<Quantity>& quantities, T Knot<T>::*member) {
-    const std::vector<T> values = evaluate(quantities, parameters);
-    for (std::size_t k = 0; k < values.size(); ++k) knots[k].*member = values[k];
+    for (std::size_t k = 0; k < quantities.size(); ++k) knots[k].*member = quantities[k].at(parameters);
   };
   take(description.positions, &Knot<T>::position);
   if (description.velocities.empty()) choose_velocities(times, &knots);
   take(description.velocities, &Knot<T>::velocity);
   if (description.accelerations.empty()) choose_accelerations(times, &knots);
   take(description.accelerations, &Knot<T>::acceleration);
+  pieces_.clear();
   pieces_.push_back(hold(-std::numeric_limits<double>::infinity(), knots.front().position));
   for (std::size_t k = 0; k + 1 < knots.size(); ++k)
     pieces_.push_back({times[k], waypoint_polynomial(description.interpolation, knots[k], knots[k + 1], times[k + 1] - times[k])});
@@ -162,7 +154,8 @@ ReferenceMotion<T> Reference<T>::at(double t) const {
   return along(piece, t);
 }
 
-Reference<Traced>::Reference(const ReferenceDescription& description, const std::vector<Traced>& parameters) {
+void Reference<Traced>::set(const ReferenceDescription& description, const std::vector<Traced>& parameters) {
+  motion_ = {};
   if (description.kind == ReferenceDescription::Kind::kConstant) {
     motion_.value = description.constant.at(parameters);
     return;

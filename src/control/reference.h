@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "codegen/traced.h"
+#include "control/waypoint_piece.h"
 #include "description/reference.h"
 #include "math/scalar.h"
 
@@ -24,7 +25,10 @@ template <class T>
 class Reference {
  public:
   Reference() = default;
-  Reference(const ReferenceDescription& description, const std::vector<T>& parameters);
+  Reference(const ReferenceDescription& description, const std::vector<T>& parameters) { set(description, parameters); }
+  /// Becomes what the constructor makes. Uses its memory again, so that the same description at other parameters allocates nothing, unless
+  /// it is commanded.
+  void set(const ReferenceDescription& description, const std::vector<T>& parameters);
 
   /// The function at time t [s]. At a way-point the derivatives of the following piece hold.
   ReferenceMotion<T> at(double t) const;
@@ -46,6 +50,7 @@ class Reference {
   std::shared_ptr<const SampledFunction> samples_;  ///< scaled by amplitude_, early by phase_, minus offset_
   std::shared_ptr<const LiveFunction> live_;
   std::shared_ptr<const Reference<T>> planned_;  ///< in effect until a command sets live_
+  std::vector<Knot<T>> knots_;                   ///< workspace of set()
   std::vector<Piece> pieces_;                    ///< by ascending start; the first begins at minus infinity, the last never ends
 };
 
@@ -54,7 +59,8 @@ template <>
 class Reference<Traced> {
  public:
   Reference() = default;
-  Reference(const ReferenceDescription& description, const std::vector<Traced>& parameters);
+  Reference(const ReferenceDescription& description, const std::vector<Traced>& parameters) { set(description, parameters); }
+  void set(const ReferenceDescription& description, const std::vector<Traced>& parameters);
 
   ReferenceMotion<Traced> at(double) const { return motion_; }
 

@@ -6,7 +6,9 @@
 namespace codesign {
 
 template <class T>
-ShapedInput<T>::ShapedInput(const BasisDescription& basis, const std::vector<T>& parameters) : basis_(&basis) {
+void ShapedInput<T>::set(const BasisDescription& basis, const std::vector<T>& parameters) {
+  basis_ = &basis;
+  coefficients_.clear();
   for (const Quantity& coefficient : basis.coefficients) coefficients_.push_back(coefficient.at(parameters));
 }
 
@@ -22,7 +24,7 @@ ReferenceMotion<T> ShapedInput<T>::at(double t) const {
   return motion;
 }
 
-ShapedInput<Traced>::ShapedInput(const BasisDescription& basis, const std::vector<Traced>& parameters) {
+void ShapedInput<Traced>::set(const BasisDescription& basis, const std::vector<Traced>& parameters) {
   Recording* const recording = parameters.front().recording();
   motion_.value = Traced(recording, recording->timed(SourceId(basis), 0));
   motion_.rate = Traced(recording, recording->timed(SourceId(basis), 1));

@@ -16,7 +16,9 @@ class ShapedInput {
  public:
   ShapedInput() = default;
   /// @param basis must outlive the object.
-  ShapedInput(const BasisDescription& basis, const std::vector<T>& parameters);
+  ShapedInput(const BasisDescription& basis, const std::vector<T>& parameters) { set(basis, parameters); }
+  /// Becomes what the constructor makes; uses its memory again.
+  void set(const BasisDescription& basis, const std::vector<T>& parameters);
 
   const std::vector<T>& coefficients() const { return coefficients_; }
 
@@ -33,7 +35,8 @@ template <>
 class ShapedInput<Traced> {
  public:
   ShapedInput() = default;
-  ShapedInput(const BasisDescription& basis, const std::vector<Traced>& parameters);
+  ShapedInput(const BasisDescription& basis, const std::vector<Traced>& parameters) { set(basis, parameters); }
+  void set(const BasisDescription& basis, const std::vector<Traced>& parameters);
 
   ReferenceMotion<Traced> at(double) const { return motion_; }
 

@@ -12,6 +12,12 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double kStep = 1e-30;
 
+UsedNumbers<Complex> complex_numbers(In<double> values) {
+  UsedNumbers<Complex> numbers(static_cast<std::size_t>(values.size()));
+  for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = values[static_cast<std::ptrdiff_t>(k)];
+  return numbers;
+}
+
 double real_part(const Complex& value) { return value.imag() == 0.0 ? value.real() : std::numeric_limits<double>::quiet_NaN(); }
 
 }  // namespace
@@ -21,12 +27,7 @@ struct Expression::Program {
   std::size_t stack = 0;
 
   Complex evaluate(In<Complex> variables) const {
-    constexpr std::size_t kSmall = 32;
-    if (stack <= kSmall) {
-      Complex numbers[kSmall];
-      return run(steps, variables, numbers);
-    }
-    std::vector<Complex> numbers(stack);
+    UsedNumbers<Complex> numbers(stack);
     return run(steps, variables, numbers);
   }
 };
@@ -47,33 +48,26 @@ Expression::Expression(const std::string& text, const ExpressionScope& scope) : 
 
 Expression::~Expression() = default;
 
-double Expression::value(const std::vector<double>& parameters) const {
-  std::vector<double> values;
-  values.reserve(dependencies_.size());
-  for (int index : dependencies_) values.push_back(parameters.at(static_cast<std::size_t>(index)));
-  return value_of(values);
+template <class T, class Entry>
+UsedNumbers<T> Expression::used(const std::vector<Entry>& parameters) const {
+  UsedNumbers<T> values(dependencies_.size());
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] = parameters.at(static_cast<std::size_t>(dependencies_[k]));
+  return values;
 }
 
+double Expression::value(const std::vector<double>& parameters) const { return real_part(program_->evaluate(used<Complex>(parameters))); }
+
 std::complex<double> Expression::value(const std::vector<std::complex<double>>& parameters) const {
-  std::vector<Complex> values;
-  values.reserve(dependencies_.size());
-  for (int index : dependencies_) values.push_back(parameters.at(static_cast<std::size_t>(index)));
-  return program_->evaluate(values);
+  return program_->evaluate(used<Complex>(parameters));
 }
 
 double Expression::derivative(int index, const std::vector<double>& parameters) const {
   const auto found = std::lower_bound(dependencies_.begin(), dependencies_.end(), index);
   if (found == dependencies_.end() || *found != index) return 0.0;
-  std::vector<double> values;
-  values.reserve(dependencies_.size());
-  for (int used : dependencies_) values.push_back(parameters.at(static_cast<std::size_t>(used)));
-  return derivative_of(static_cast<std::size_t>(found - dependencies_.begin()), values);
+  return derivative_of(static_cast<std::size_t>(found - dependencies_.begin()), used<double>(parameters));
 }
 
-double Expression::value_of(const std::vector<double>& values) const {
-  const std::vector<Complex> variables(values.begin(), values.end());
-  return real_part(program_->evaluate(variables));
-}
+double Expression::value_of(In<double> values) const { return real_part(program_->evaluate(complex_numbers(values))); }
 
 ValueRange Expression::range(const std::vector<ValueRange>& parameters) const {
   std::vector<ValueRange> values;
@@ -82,9 +76,9 @@ ValueRange Expression::range(const std::vector<ValueRange>& parameters) const {
   return range_of(program_->steps, values);
 }
 
-double Expression::derivative_of(std::size_t k, const std::vector<double>& values) const {
-  std::vector<Complex> variables(values.begin(), values.end());
-  variables.at(k) += Complex(0.0, kStep);
+double Expression::derivative_of(std::size_t k, In<double> values) const {
+  UsedNumbers<Complex> variables = complex_numbers(values);
+  variables[k] += Complex(0.0, kStep);
   return program_->evaluate(variables).imag() / kStep;
 }
 

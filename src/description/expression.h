@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "description/expression_range.h"
+#include "math/short_vector.h"
+#include "math/span.h"
 
 namespace codesign {
 
@@ -18,11 +20,16 @@ struct ExpressionScope {
   std::function<std::vector<std::string>()> names;  ///< all names, for messages
 };
 
+/// Numbers for the parameters that one expression uses: the expressions that people write use few.
+template <class T>
+using UsedNumbers = ShortVector<T, 32>;
+
 /// An arithmetic expression of named parameters, in xacro's syntax inside `${...}`.
 ///
 /// Operators + - * / ** ^ and parentheses, comparison with `?:`, the constant `pi`, and the usual functions (sqrt, sin, cos, tan, asin,
 /// acos, atan, atan2, sinh, cosh, tanh, exp, log, log10, pow, abs, sign, min, max, floor, ceil, radians, degrees). Immutable and safe to
-/// evaluate from several threads.
+/// evaluate from several threads. Evaluation allocates nothing unless an expression uses more than 32 parameters or nests deeper than 32
+/// numbers.
 class Expression {
  public:
   /// @param text the expression without the `${` `}`.
@@ -49,14 +56,18 @@ class Expression {
 
   /// Value, and derivative by parameter dependencies()[k], from the parameters that appear only: `values[k]` is the value of parameter
   /// dependencies()[k]. The cost does not grow with the number of parameters that the expression does not use.
-  double value_of(const std::vector<double>& values) const;
-  double derivative_of(std::size_t k, const std::vector<double>& values) const;
+  double value_of(In<double> values) const;
+  double derivative_of(std::size_t k, In<double> values) const;
 
   /// A range that contains the value wherever all parameters lie in theirs. @param parameters in the order of the names.
   ValueRange range(const std::vector<ValueRange>& parameters) const;
 
  private:
   struct Program;
+  /// The numbers of the parameters that appear. @throws std::out_of_range if there are fewer parameters than names.
+  template <class T, class Entry>
+  UsedNumbers<T> used(const std::vector<Entry>& parameters) const;
+
   std::string text_;
   std::vector<int> dependencies_;
   std::unique_ptr<const Program> program_;

@@ -21,9 +21,16 @@ std::vector<double> start_parameters(const Study& study) {
 }
 
 std::vector<double> parameters_at(const Study& study, const Eigen::VectorXd& rho) {
-  std::vector<double> values = start_parameters(study);
-  for (std::size_t k = 0; k < study.tuned.size(); ++k) values[static_cast<std::size_t>(study.tuned[k])] = rho[static_cast<Eigen::Index>(k)];
+  std::vector<double> values;
+  parameters_at(study, rho, &values);
   return values;
+}
+
+void parameters_at(const Study& study, const Eigen::VectorXd& rho, std::vector<double>* values) {
+  values->clear();
+  for (const Parameter& parameter : study.parameters) values->push_back(parameter.value);
+  for (std::size_t k = 0; k < study.tuned.size(); ++k)
+    (*values)[static_cast<std::size_t>(study.tuned[k])] = rho[static_cast<Eigen::Index>(k)];
 }
 
 Eigen::VectorXd start_of(const Study& study) {

@@ -17,6 +17,8 @@ std::vector<double> start_parameters(const Study& study);
 /// All named parameters, in the order of Study::parameters: the tuned ones from `rho` (p entries, order of Study::tuned), the others at
 /// their start values.
 std::vector<double> parameters_at(const Study& study, const Eigen::VectorXd& rho);
+/// The same. @param values overwritten, its memory is used again.
+void parameters_at(const Study& study, const Eigen::VectorXd& rho, std::vector<double>* values);
 
 /// The start of rho: the start values of the p tuned parameters, in the order of Study::tuned.
 Eigen::VectorXd start_of(const Study& study);

@@ -42,8 +42,10 @@ struct Design {
   std::vector<ConstantWrench<T>> wrenches;          ///< one per entry of System::link_loads()
   Vector3<T> gravity;                               ///< [m/s^2], in the root link's axes
 
-  /// Evaluates all members at `values`, one value per named parameter. Allocates.
+  /// Evaluates all members at `values`, one value per named parameter. A later design of the same system allocates nothing.
   void set(const System& system, const std::vector<T>& values);
+
+  MassWorkspace<T> mass_workspace;  ///< workspace of set()
 };
 
 /// Evaluates Design::efforts and Design::wrenches, theory (13g), from the design's parameters and link constants, which must be set before.
@@ -72,25 +74,25 @@ template <class T>
 void Design<T>::set(const System& system, const std::vector<T>& values) {
   parameters = values;
   for (int k = 0; k < 3; ++k) gravity[k] = T(system.study().gravity[static_cast<std::size_t>(k)]);
-  constants = evaluate_constants(system.robot(), system.topology(), parameters);
+  evaluate_constants(system.robot(), system.topology(), parameters, &mass_workspace, &constants);
   set_constant_loads(system, this);
-  rows.clear();
-  for (std::size_t k = 0; k < constants.pairs.size(); ++k) rows.push_back(pair_rows(system.topology().pairs[k].kind, constants.pairs[k]));
+  rows.resize(constants.pairs.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) pair_rows(system.topology().pairs[k].kind, constants.pairs[k], &rows[k]);
   const Study& study = system.study();
-  controllers.clear();
-  for (const ControllerDescription& description : study.controllers) controllers.push_back(controller_constants(description, parameters));
+  controllers.resize(study.controllers.size());
+  for (std::size_t k = 0; k < controllers.size(); ++k) controller_constants(study.controllers[k], parameters, &controllers[k]);
   const auto evaluate = [this](const std::vector<ObjectiveTerm>& terms, ObjectiveNumbers<T>* numbers) {
     numbers->weights.clear();
-    numbers->references.clear();
-    for (const ObjectiveTerm& term : terms) {
-      numbers->weights.push_back(term.weight.at(parameters));
-      numbers->references.emplace_back(term.reference, parameters);
+    numbers->references.resize(terms.size());
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      numbers->weights.push_back(terms[k].weight.at(parameters));
+      numbers->references[k].set(terms[k].reference, parameters);
     }
   };
   evaluate(study.integral, &integral);
   evaluate(study.terminal, &terminal);
-  watched.clear();
-  for (const WatchedSignal& signal : study.watched) watched.emplace_back(signal.reference, parameters);
+  watched.resize(study.watched.size());
+  for (std::size_t k = 0; k < watched.size(); ++k) watched[k].set(study.watched[k].reference, parameters);
 }
 
 }  // namespace codesign

@@ -40,7 +40,7 @@ struct StateView {
   /// @param of must outlive the view.
   explicit StateView(const System& of);
 
-  /// Evaluates all constants at `parameters` (all named parameters, order of Study::parameters). Allocates.
+  /// Evaluates all constants at `parameters` (all named parameters, order of Study::parameters). Allocates nothing but the first time.
   void set_design(const std::vector<T>& parameters);
   /// Computes the motion of all bodies from q, v and the accelerations in z. @param at is kept as a pointer: it must stay alive and
   /// unchanged while the view is read.

@@ -64,20 +64,32 @@ bool CompiledEquations<T>::prepare() {
   if (code_) numbered_ = &code_->numbered(kLanesOf<T> > 0);
   if (code_ && !fill_numbers()) code_ = nullptr;
   if (!code_) return false;
-  functions_.clear();
-  for (const SourceId& source : numbered_->recording.timed_sources()) {
-    if (const auto* basis = source.as<BasisDescription>())
-      functions_.emplace_back(ShapedInput<T>(*basis, parameters_));
-    else
-      functions_.emplace_back(Reference<T>(*source.as<ReferenceDescription>(), parameters_));
-  }
+  set_functions();
   return true;
+}
+
+template <class T>
+void CompiledEquations<T>::set_functions() {
+  const auto& sources = numbered_->recording.timed_sources();
+  functions_.resize(sources.size());
+  const auto set = [this](auto* function, std::size_t k, const auto& description) {
+    using Function = std::remove_pointer_t<decltype(function)>;
+    if (!function) function = &functions_[k].template emplace<Function>();
+    function->set(description, parameters_);
+  };
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    if (const auto* basis = sources[k].template as<BasisDescription>())
+      set(std::get_if<ShapedInput<T>>(&functions_[k]), k, *basis);
+    else
+      set(std::get_if<Reference<T>>(&functions_[k]), k, *sources[k].template as<ReferenceDescription>());
+  }
 }
 
 template <class T>
 bool CompiledEquations<T>::fill_numbers() {
   const Recording& recording = numbered_->recording;
-  std::vector<T> values(to_index(recording.size()), T(0.0));
+  std::vector<T>& values = nodes_;
+  values.assign(to_index(recording.size()), T(0.0));
   numbers_.assign(numbered_->numbers.size(), T(0.0));
   for (std::size_t k = 0; k < numbers_.size(); ++k) {
     const int n = numbered_->numbers[k];

@@ -59,6 +59,8 @@ class CompiledEquations {
   bool prepare();
   /// Evaluates the recorded numbers that depend on the design alone; false if the design needs a branch that was not recorded.
   bool fill_numbers();
+  /// Evaluates the functions of time for the design.
+  void set_functions();
   /// Evaluates the functions of time at `t` and copies the turn references to the code's inputs.
   void set_instant(double t, const std::vector<double>& turns);
 
@@ -82,6 +84,7 @@ class CompiledEquations {
   bool known_ = false;  ///< whether code_ and numbers_ belong to parameters_
   const EquationCode* code_ = nullptr;
   const NumberedRecording* numbered_ = nullptr;
+  std::vector<T> nodes_;                                               ///< workspace of fill_numbers(): values of the recording's nodes
   std::vector<T> numbers_;                                             ///< array EquationArrays::kNumbers
   std::vector<std::variant<Reference<T>, ShapedInput<T>>> functions_;  ///< functions of time, order of the recording
   std::array<Misses, kEquationFunctions> misses_;                      ///< per EquationFunction

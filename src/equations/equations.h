@@ -20,7 +20,7 @@ class Equations {
   /// @param system must outlive the equations.
   explicit Equations(const CompiledSystem& system) : system_(system), formulas_(system), compiled_(system) {}
 
-  /// Evaluates all constants at `parameters` (all named parameters, order of Study::parameters). Allocates.
+  /// Evaluates all constants at `parameters` (all named parameters, order of Study::parameters). Allocates nothing but the first time.
   void set_design(const std::vector<T>& parameters) {
     compiled_.set_design(parameters);
     formulas_.set_design(parameters);

@@ -32,7 +32,7 @@ class Formulas {
   /// @param system must outlive the formulas.
   explicit Formulas(const System& system);
 
-  /// Evaluates all constants at `parameters` (all named parameters, order of Study::parameters). Allocates.
+  /// Evaluates all constants at `parameters` (all named parameters, order of Study::parameters). Allocates nothing but the first time.
   void set_design(const std::vector<T>& parameters);
   /// The data that the elements read.
   const StateView<T>& view() const { return view_; }

@@ -53,19 +53,19 @@ MotionWatch::Speeds MotionWatch::speeds(const State<double>& state) const {
 double MotionWatch::target(const Equations<double>& equations) const {
   const Study& study = system_.study();
   double largest = 0.0;
-  const auto look = [&](const Signal& signal, const ReferenceDescription& description) {
+  const auto look = [&](const Signal& signal, const Reference<double>& reference) {
     const bool velocity = reads(signal, kVelocities), position = reads(signal, kPositions);
-    const Reference<double> reference(description, equations.parameters());
     for (int k = 0; (velocity || position) && k <= kInstants; ++k) {
       const ReferenceMotion<double> asked = reference.at(study.duration * k / kInstants);
       largest = std::max(largest, std::abs(velocity ? asked.value : asked.rate));
     }
   };
-  for (std::size_t c = 0; c < study.controllers.size(); ++c) look(system_.controllers()[c].input, study.controllers[c].setpoint);
+  const Design<double>& design = equations.formulas().view().design;
+  for (std::size_t c = 0; c < study.controllers.size(); ++c) look(system_.controllers()[c].input, design.controllers[c].setpoint);
   for (const ResolvedTerm& term : system_.integral())
-    look(term.signal, study.integral[static_cast<std::size_t>(term.description)].reference);
+    look(term.signal, design.integral.references[static_cast<std::size_t>(term.description)]);
   for (const ResolvedTerm& term : system_.terminal())
-    look(term.signal, study.terminal[static_cast<std::size_t>(term.description)].reference);
+    look(term.signal, design.terminal.references[static_cast<std::size_t>(term.description)]);
   return largest;
 }
 

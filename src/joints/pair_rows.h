@@ -56,12 +56,14 @@ void share_vectors(const PairConstants<T>& c, PairRows<T>* rows) {
 
 }  // namespace internal
 
-/// The constraint rows of a pair of this kind; the table in theory (6) lists them.
+/// The constraint rows of a pair of this kind; the table in theory (6) lists them. @param result overwritten, its memory is used again.
 template <class T>
-PairRows<T> pair_rows(PairKind kind, const PairConstants<T>& c) {
+void pair_rows(PairKind kind, const PairConstants<T>& c, PairRows<T>* result) {
   using V = PairVector<T>;
   using R = PairRows<T>;
-  R rows;
+  R& rows = *result;
+  rows.used = {};
+  rows.products.clear();
   internal::share_vectors(c, &rows);
   const auto axis = [&](Side side, int k) {
     const int index = R::shared(side, k);
@@ -112,6 +114,11 @@ PairRows<T> pair_rows(PairKind kind, const PairConstants<T>& c) {
   for (const ProductRow<T>& row : rows.products)
     for (const V* x : {&row.X, &row.Y})
       for (int k = 0; k < x->terms; ++k) rows.used[static_cast<std::size_t>(x->term[k].shared)] = true;
+}
+template <class T>
+PairRows<T> pair_rows(PairKind kind, const PairConstants<T>& c) {
+  PairRows<T> rows;
+  pair_rows(kind, c, &rows);
   return rows;
 }
 

@@ -59,24 +59,10 @@ Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& A, double threshold
   return Q.rightCols(A.rows() - qr.rank());
 }
 
-struct LeastNorm::Implementation {
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors;
-};
+LeastNorm least_norm(const Eigen::MatrixXd& A) { return {A, least_norm_threshold(A.rows(), A.cols())}; }
 
-LeastNorm::LeastNorm() : implementation_(std::make_unique<Implementation>()) {}
-LeastNorm::LeastNorm(const Eigen::MatrixXd& A, double threshold) : LeastNorm() {
-  implementation_->factors.setThreshold(threshold);
-  implementation_->factors.compute(A);
-}
-LeastNorm::~LeastNorm() = default;
-LeastNorm::LeastNorm(LeastNorm&&) noexcept = default;
-LeastNorm& LeastNorm::operator=(LeastNorm&&) noexcept = default;
-
-Eigen::Index LeastNorm::rank() const { return implementation_->factors.rank(); }
-Eigen::MatrixXd LeastNorm::solve(const Eigen::MatrixXd& b) const { return implementation_->factors.solve(b); }
-
-LeastNorm least_norm(const Eigen::MatrixXd& A) {
-  return {A, Eigen::NumTraits<double>::epsilon() * static_cast<double>(std::min(A.rows(), A.cols()))};
+double least_norm_threshold(Eigen::Index rows, Eigen::Index columns) {
+  return Eigen::NumTraits<double>::epsilon() * static_cast<double>(std::min(rows, columns));
 }
 
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A) {

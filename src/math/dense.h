@@ -9,7 +9,8 @@
 namespace codesign {
 
 // Decompositions of dense matrices, by Eigen. Eigen's templates take seconds to compile in each file that uses them; dense.cc compiles the
-// needed ones once. None of these functions belongs into a loop over steps: they allocate.
+// needed ones once. None of these functions belongs into a loop over steps: they allocate. The classes PivotedQr and LeastNorm allocate
+// only for matrices of a shape that they have not had before.
 
 /// A = U diag(values) V^T, values in descending order; U and V are square and orthogonal.
 struct SingularValues {
@@ -28,12 +29,50 @@ struct PivotedColumns {
 /// @param threshold a pivot counts as zero below this fraction of the largest one.
 PivotedColumns pivot_columns(const Eigen::MatrixXd& A, double threshold);
 
+/// The same decomposition, with a workspace for each shape of A.
+class PivotedQr {
+ public:
+  PivotedQr();
+  ~PivotedQr();
+  PivotedQr(PivotedQr&&) noexcept;
+  PivotedQr& operator=(PivotedQr&&) noexcept;
+
+  /// The matrix that factor() decomposes: rows x columns, to be filled by the caller; what it holds is undefined.
+  Eigen::MatrixXd& matrix(Eigen::Index rows, Eigen::Index columns);
+  /// Decomposes matrix(). @param threshold as pivot_columns().
+  void factor(double threshold);
+
+  Eigen::Index rank() const;
+  /// PivotedColumns::order[k].
+  int column(Eigen::Index k) const;
+  /// orthogonal_complement() of the matrix.
+  void complement(Eigen::MatrixXd* basis);
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
 /// R of the QR decomposition A = Q R, square and upper triangular with diagonal entries of 0 or more; rows of zeros where A has fewer rows
 /// than columns. R^T R = A^T A.
 Eigen::MatrixXd upper_factor(const Eigen::MatrixXd& A);
 
 /// An orthonormal basis (one vector per column) of the vectors orthogonal to all columns of A. @param threshold as pivot_columns().
 Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& A, double threshold);
+
+/// The memory for solutions of LeastNorm, one for each shape of A and b.
+class LeastNormWorkspace {
+ public:
+  LeastNormWorkspace();
+  ~LeastNormWorkspace();
+  LeastNormWorkspace(LeastNormWorkspace&&) noexcept;
+  LeastNormWorkspace& operator=(LeastNormWorkspace&&) noexcept;
+
+ private:
+  friend class LeastNorm;
+  struct Solution;
+  std::vector<std::unique_ptr<Solution>> solutions_;
+};
 
 /// Least-squares solutions of least norm, A x = b, by the complete orthogonal decomposition.
 class LeastNorm {
@@ -45,9 +84,16 @@ class LeastNorm {
   LeastNorm(LeastNorm&&) noexcept;
   LeastNorm& operator=(LeastNorm&&) noexcept;
 
+  /// The matrix that factor() decomposes: rows x columns, to be filled by the caller; what it holds is undefined.
+  Eigen::MatrixXd& matrix(Eigen::Index rows, Eigen::Index columns);
+  /// Decomposes matrix(). @param threshold as pivot_columns().
+  void factor(double threshold);
+
   Eigen::Index rank() const;
   /// @param b one right-hand side per column, as many rows as A. @returns one solution per column.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+  /// The same, in the workspace, valid until it is used again.
+  Eigen::MatrixXd& solve(const Eigen::MatrixXd& b, LeastNormWorkspace* workspace) const;
 
  private:
   struct Implementation;
@@ -55,6 +101,7 @@ class LeastNorm {
 };
 /// The same with Eigen's default threshold: the rounding of one number times the smaller dimension.
 LeastNorm least_norm(const Eigen::MatrixXd& A);
+double least_norm_threshold(Eigen::Index rows, Eigen::Index columns);
 
 /// Eigenvalues, ascending, and orthonormal eigenvectors (columns) of a symmetric matrix, whose lower triangle is read.
 struct SymmetricEigen {

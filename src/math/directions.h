@@ -10,12 +10,17 @@ namespace codesign {
 // column per direction. The derivatives of a solution of equations follow from a linear solve with this matrix on the right-hand side
 // (implicit function theorem).
 
-/// The derivatives of x: x.size() x 1 for complex numbers, x.size() x N for lanes.
-inline Eigen::MatrixXd directions_of(const VectorX<std::complex<double>>& x) { return x.imag(); }
+/// The derivatives of x: x.size() x 1 for complex numbers, x.size() x N for lanes. @param d resized and filled.
+inline void directions_of(const VectorX<std::complex<double>>& x, Eigen::MatrixXd* d) { *d = x.imag(); }
 template <int N>
-Eigen::MatrixXd directions_of(const VectorX<Lanes<N>>& x) {
-  Eigen::MatrixXd d(x.size(), N);
-  for (Eigen::Index k = 0; k < x.size(); ++k) d.row(k) = x[k].directions().transpose();
+void directions_of(const VectorX<Lanes<N>>& x, Eigen::MatrixXd* d) {
+  d->resize(x.size(), N);
+  for (Eigen::Index k = 0; k < x.size(); ++k) d->row(k) = x[k].directions().transpose();
+}
+template <class T>
+Eigen::MatrixXd directions_of(const VectorX<T>& x) {
+  Eigen::MatrixXd d;
+  directions_of(x, &d);
   return d;
 }
 

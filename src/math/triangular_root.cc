@@ -11,7 +11,8 @@ constexpr Eigen::Index kWaiting = 32;  // rows that wait for a reflection, at le
 
 /// Replaces the first `used` rows of A by their triangular root, in the rows above; the rows below it are left over.
 /// @param workspace of the size of A's columns.
-void reduce(Eigen::Index used, Eigen::MatrixXd* A, Eigen::VectorXd* workspace) {
+template <class Matrix>
+void reduce(Eigen::Index used, Matrix* A, Eigen::VectorXd* workspace) {
   const Eigen::Index columns = A->cols();
   for (Eigen::Index k = 0; k < std::min(columns, used); ++k) {
     const Eigen::Index rows = used - k, right = columns - k - 1;
@@ -50,6 +51,15 @@ void RowRoot::add(const Eigen::Ref<const Eigen::VectorXd>& row) {
   rows_.row(used_++) = row.transpose();
 }
 
-Eigen::MatrixXd RowRoot::root() const { return triangular_root(rows_.topRows(used_)); }
+// The rows stand side by side as those of triangular_root() do, which gives the same bits.
+void RowRoot::root(Eigen::MatrixXd* root) {
+  const Eigen::Index columns = rows_.cols();
+  reduced_.resize(rows_.size());
+  Eigen::Map<Eigen::MatrixXd, Eigen::AlignedMax> rows(reduced_.data(), std::max(used_, columns), columns);
+  rows.setZero();
+  rows.topRows(used_) = rows_.topRows(used_);
+  reduce(used_, &rows, &workspace_);
+  *root = rows.topRows(columns);
+}
 
 }  // namespace codesign

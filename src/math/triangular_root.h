@@ -18,11 +18,17 @@ class RowRoot {
   void start(Eigen::Index columns);
   /// Adds a row, given as a column vector.
   void add(const Eigen::Ref<const Eigen::VectorXd>& row);
-  /// R of all rows so far.
-  Eigen::MatrixXd root() const;
+  /// R of all rows so far; resized and filled. Allocates nothing but this result once warm.
+  void root(Eigen::MatrixXd* root);
+  Eigen::MatrixXd root() {
+    Eigen::MatrixXd R;
+    root(&R);
+    return R;
+  }
 
  private:
-  Eigen::MatrixXd rows_;  ///< R of the rows before, then rows that wait
+  Eigen::MatrixXd rows_;     ///< R of the rows before, then rows that wait
+  Eigen::VectorXd reduced_;  ///< memory for the root of all rows
   Eigen::VectorXd workspace_;
   Eigen::Index used_ = 0;  ///< rows in use
 };

@@ -52,12 +52,12 @@ MassFault find_mass_fault(const MassProperties<double>& body) {
   constexpr double kRounding = 1e-9, kTriangle = 1e-6;
   if (body.mass < 0.0) return {"negative_mass", "the mass is negative", to_decimal(body.mass)};
   const Vector3<double> moments = principal_moments(body.inertia);
-  const std::string text = "principal moments " + format_numbers({moments[0], moments[1], moments[2]});
+  const auto text = [&moments] { return "principal moments " + format_numbers({moments[0], moments[1], moments[2]}); };
   // Moments below the moment of a radius of gyration of one micrometre (1e-12 m^2 times the mass) come from rounding in the file.
   const double rounding = kRounding * std::max(std::abs(moments[0]), std::abs(moments[2])) + 1e-12 * body.mass;
-  if (moments[0] < -rounding) return {"inertia_not_positive", "the inertia has a negative principal moment", text};
+  if (moments[0] < -rounding) return {"inertia_not_positive", "the inertia has a negative principal moment", text()};
   if (moments[2] > (moments[0] + moments[1]) * (1.0 + kTriangle) + rounding)
-    return {"triangle_inequality", "the inertia breaks the triangle inequality", text + ", the largest at most the sum of the others"};
+    return {"triangle_inequality", "the inertia breaks the triangle inequality", text() + ", the largest at most the sum of the others"};
   return {};
 }
 

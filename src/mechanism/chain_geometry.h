@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "math/short_vector.h"
 #include "mechanism/pose.h"
 #include "mechanism/topology.h"
 
@@ -12,9 +13,10 @@ namespace codesign {
 /// A chain of joints from body i to body j with all joints at zero, in the frame of the base link of body i.
 template <class T>
 struct ChainGeometry {
-  Pose<T> X_ij;                  ///< pose of the base link of body j
-  std::vector<Pose<T>> frames;   ///< per element: its joint frame
-  std::vector<Vector3<T>> axes;  ///< per element: its unit axis, with URDF's sign also for reversed elements
+  static constexpr std::size_t kFew = 6;  // elements of the longest chain that turns and slides in all directions
+  Pose<T> X_ij;                           ///< pose of the base link of body j
+  ShortVector<Pose<T>, kFew> frames;      ///< per element: its joint frame
+  ShortVector<Vector3<T>, kFew> axes;     ///< per element: its unit axis, with URDF's sign also for reversed elements
 };
 
 /// Multiplies the fixed offsets along the chain.

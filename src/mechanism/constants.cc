@@ -16,9 +16,9 @@ namespace codesign {
 namespace {
 
 template <class T>
-BodyConstants<T> body_constants(const RobotDescription& robot, const Topology& topology, const Body& body,
-                                const std::vector<T>& parameters) {
-  const MassProperties<T> m = merged_mass(robot, topology.link_base, topology.link_parent_joint, body.links, parameters);
+BodyConstants<T> body_constants(const RobotDescription& robot, const Topology& topology, const Body& body, const std::vector<T>& parameters,
+                                MassWorkspace<T>* workspace) {
+  const MassProperties<T> m = merged_mass(robot, topology.link_base, topology.link_parent_joint, body.links, parameters, workspace);
   return {m.mass, m.inertia, m.centre};
 }
 
@@ -47,11 +47,31 @@ SpringDamperConstants<T> spring_constants(const RobotDescription& robot, const T
 }
 
 template <class T>
-CouplingConstants<T> coupling_constants(const Coupling& coupling, const std::vector<T>& parameters) {
-  CouplingConstants<T> result;
-  for (const CouplingTerm& term : coupling.terms) result.coefficients.push_back(T(term.sign) * term.factor.at(parameters));
-  result.offset = coupling.offset.at(parameters);
-  return result;
+void set_coupling(const Coupling& coupling, const std::vector<T>& parameters, CouplingConstants<T>* constants) {
+  constants->coefficients.clear();
+  for (const CouplingTerm& term : coupling.terms) constants->coefficients.push_back(T(term.sign) * term.factor.at(parameters));
+  constants->offset = coupling.offset.at(parameters);
+}
+
+/// Sets Constants::links and Constants::joint_frames; the bodies' centres must be set before.
+template <class T>
+void set_frames(const RobotDescription& robot, const Topology& topology, const std::vector<T>& parameters, Constants<T>* constants) {
+  constants->links.resize(robot.links.size());
+  for (std::size_t link = 0; link < robot.links.size(); ++link) {
+    if (topology.link_body[link] == Topology::kMassless) continue;
+    const Pose<T> X = link_in_base(robot, topology.link_base, topology.link_parent_joint, static_cast<int>(link), parameters);
+    constants->links[link] = {X.t - centre_of(*constants, topology.link_body[link]), X.R};
+  }
+  constants->joint_frames.clear();
+  for (const JointDescription& joint : robot.joints) {
+    LinkConstants<T>& frame = constants->joint_frames.emplace_back();
+    if (topology.link_body[to_index(joint.child)] == Topology::kMassless) continue;
+    const LinkConstants<T>& child = constants->links[to_index(joint.child)];
+    frame = child;
+    if (!joint.is_loop) continue;
+    const Pose<T> X = pose_at(joint.child_origin, parameters);
+    frame = {child.s + child.R * X.t, child.R * X.R};
+  }
 }
 
 MassFault body_fault(const BodyConstants<double>& body) {
@@ -64,7 +84,8 @@ MassFault body_fault(const BodyConstants<double>& body) {
 std::string body_fault(const RobotDescription& robot, const Topology& topology, std::size_t k, const Constants<double>& constants) {
   const MassFault fault = body_fault(constants.bodies[k]);
   if (fault.code.empty()) return "";
-  const MassFault known = body_fault(body_constants(robot, topology, topology.bodies[k], default_values(robot)));
+  MassWorkspace<double> workspace;
+  const MassFault known = body_fault(body_constants(robot, topology, topology.bodies[k], default_values(robot), &workspace));
   if (known.code == fault.code) return "";
   return "body '" + topology.bodies[k].name + "': " + fault.message + (fault.value.empty() ? "" : " (" + fault.value + ")");
 }
@@ -98,31 +119,22 @@ std::string joint_fault(const RobotDescription& robot, const Pair& pair, const P
 }  // namespace
 
 template <class T>
-Constants<T> evaluate_constants(const RobotDescription& robot, const Topology& topology, const std::vector<T>& parameters) {
-  Constants<T> constants;
-  for (const Body& body : topology.bodies) constants.bodies.push_back(body_constants(robot, topology, body, parameters));
-  constants.links.resize(robot.links.size());
-  for (std::size_t link = 0; link < robot.links.size(); ++link) {
-    if (topology.link_body[link] == Topology::kMassless) continue;
-    const Pose<T> X = link_in_base(robot, topology.link_base, topology.link_parent_joint, static_cast<int>(link), parameters);
-    constants.links[link] = {X.t - centre_of(constants, topology.link_body[link]), X.R};
+void evaluate_constants(const RobotDescription& robot, const Topology& topology, const std::vector<T>& parameters,
+                        MassWorkspace<T>* workspace, Constants<T>* constants) {
+  constants->bodies.clear();
+  for (const Body& body : topology.bodies) constants->bodies.push_back(body_constants(robot, topology, body, parameters, workspace));
+  set_frames(robot, topology, parameters, constants);
+  constants->pairs.resize(topology.pairs.size());
+  for (std::size_t k = 0; k < topology.pairs.size(); ++k) {
+    const Pair& pair = topology.pairs[k];
+    pair_constants(robot, topology, pair, centre_of(*constants, pair.body_i), centre_of(*constants, pair.body_j), parameters,
+                   &constants->pairs[k]);
   }
-  for (const JointDescription& joint : robot.joints) {
-    LinkConstants<T>& frame = constants.joint_frames.emplace_back();
-    if (topology.link_body[to_index(joint.child)] == Topology::kMassless) continue;
-    const LinkConstants<T>& child = constants.links[to_index(joint.child)];
-    frame = child;
-    if (!joint.is_loop) continue;
-    const Pose<T> X = pose_at(joint.child_origin, parameters);
-    frame = {child.s + child.R * X.t, child.R * X.R};
-  }
-  for (const Pair& pair : topology.pairs)
-    constants.pairs.push_back(
-        pair_constants(robot, topology, pair, centre_of(constants, pair.body_i), centre_of(constants, pair.body_j), parameters));
+  constants->springs.clear();
   for (const SpringDamperDescription& spring : robot.spring_dampers)
-    constants.springs.push_back(spring_constants(robot, topology, spring, constants, parameters));
-  for (const Coupling& coupling : topology.couplings) constants.couplings.push_back(coupling_constants(coupling, parameters));
-  return constants;
+    constants->springs.push_back(spring_constants(robot, topology, spring, *constants, parameters));
+  constants->couplings.resize(topology.couplings.size());
+  for (std::size_t k = 0; k < topology.couplings.size(); ++k) set_coupling(topology.couplings[k], parameters, &constants->couplings[k]);
 }
 
 std::string find_impossible(const RobotDescription& robot, const Topology& topology, const Constants<double>& constants) {
@@ -148,7 +160,7 @@ std::string find_impossible(const RobotDescription& robot, const Topology& topol
 }
 
 #define CODESIGN_INSTANTIATE(T) \
-  template Constants<T> evaluate_constants<T>(const RobotDescription&, const Topology&, const std::vector<T>&);
+  template void evaluate_constants<T>(const RobotDescription&, const Topology&, const std::vector<T>&, MassWorkspace<T>*, Constants<T>*);
 CODESIGN_FOR_EACH_NUMBER_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 

@@ -4,10 +4,12 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "description/robot.h"
 #include "math/scalar.h"
+#include "mechanism/rigid_groups.h"
 #include "mechanism/topology.h"
 
 namespace codesign {
@@ -72,6 +74,18 @@ struct PairConstants {
   SlipConstants<T> slip;                            ///< isotropic friction; see slips_isotropically()
   std::vector<CoordinateConstants<T>> coordinates;  ///< one per chain element; a single cylindrical loop has two: turn, slide
   std::vector<JointDynamicsConstants<T>> dynamics;  ///< one per coordinate
+
+  /// Sets everything to what a new object holds, but keeps the memory of the vectors.
+  void clear() {
+    PairConstants empty;
+    empty.slip.coordinates.swap(slip.coordinates);
+    empty.coordinates.swap(coordinates);
+    empty.dynamics.swap(dynamics);
+    *this = std::move(empty);
+    slip.coordinates.clear();
+    coordinates.clear();
+    dynamics.clear();
+  }
 };
 
 /// The pose of a frame in the frame of its body, or in the ground.
@@ -108,9 +122,18 @@ struct Constants {
 };
 
 /// Evaluates the description at `parameters`, all named parameters in the order of Study::parameters.
+/// @param workspace, constants overwritten; their memory is used again, so that later designs of the same mechanism allocate nothing.
 /// @throws InputError for a spring-damper on a link without <inertial>.
 template <class T>
-Constants<T> evaluate_constants(const RobotDescription& robot, const Topology& topology, const std::vector<T>& parameters);
+void evaluate_constants(const RobotDescription& robot, const Topology& topology, const std::vector<T>& parameters,
+                        MassWorkspace<T>* workspace, Constants<T>* constants);
+template <class T>
+Constants<T> evaluate_constants(const RobotDescription& robot, const Topology& topology, const std::vector<T>& parameters) {
+  Constants<T> constants;
+  MassWorkspace<T> workspace;
+  evaluate_constants(robot, topology, parameters, &workspace, &constants);
+  return constants;
+}
 
 /// A sentence that names the first impossible mass, inertia, length or coefficient of a design; empty if there is none. Mass faults
 /// that a body has at the default parameters too do not count, since check_bodies() warned of them.

@@ -86,11 +86,13 @@ MassProperties<T> solid(const ShapeDescription& shape, const T& density, const s
   return result;
 }
 
-/// The sum of the solids, in the link's frame. Without mass, centre and inertia are zero.
+/// The sum of the solids, in the link's frame. Without mass, centre and inertia are zero. @param workspace overwritten.
 template <class T>
-MassProperties<T> from_shapes(const InertialDescription& inertial, const std::vector<T>& parameters) {
+MassProperties<T> from_shapes(const InertialDescription& inertial, const std::vector<T>& parameters,
+                              std::vector<MassProperties<T>>* workspace) {
   const T density = inertial.density->at(parameters);
-  std::vector<MassProperties<T>> parts;
+  std::vector<MassProperties<T>>& parts = *workspace;
+  parts.clear();
   MassProperties<T> total;
   for (const ShapeDescription& shape : inertial.shapes) {
     MassProperties<T> part = solid(shape, density, parameters);
@@ -112,10 +114,11 @@ MassProperties<T> from_shapes(const InertialDescription& inertial, const std::ve
 }  // namespace internal
 
 /// Mass properties of a link at `parameters`: the numbers given or, with a density, computed from its boxes, cylinders and spheres by the
-/// parallel-axis theorem; overlapping solids count twice.
+/// parallel-axis theorem; overlapping solids count twice. @param workspace overwritten.
 template <class T>
-MassProperties<T> mass_properties(const InertialDescription& inertial, const std::vector<T>& parameters) {
-  if (inertial.density) return internal::from_shapes(inertial, parameters);
+MassProperties<T> mass_properties(const InertialDescription& inertial, const std::vector<T>& parameters,
+                                  std::vector<MassProperties<T>>* workspace) {
+  if (inertial.density) return internal::from_shapes(inertial, parameters, workspace);
   MassProperties<T> result;
   result.mass = inertial.mass.at(parameters);
   result.centre = internal::values_at(inertial.origin.xyz, parameters);
@@ -126,6 +129,11 @@ MassProperties<T> mass_properties(const InertialDescription& inertial, const std
       J(2), J(4), J(5);
   result.inertia = internal::turned(rotation_from_rpy<T>(internal::values_at(inertial.origin.rpy, parameters)), given);
   return result;
+}
+template <class T>
+MassProperties<T> mass_properties(const InertialDescription& inertial, const std::vector<T>& parameters) {
+  std::vector<MassProperties<T>> workspace;
+  return mass_properties(inertial, parameters, &workspace);
 }
 
 }  // namespace codesign

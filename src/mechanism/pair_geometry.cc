@@ -12,8 +12,14 @@ namespace {
 template <class T>
 class PairBuilder {
  public:
-  PairBuilder(const RobotDescription& robot, const Topology& topology, const Pair& pair, const std::vector<T>& parameters)
-      : robot_(robot), pair_(pair), parameters_(parameters), geometry_(chain_geometry(robot, topology, pair.chain, parameters)) {
+  PairBuilder(const RobotDescription& robot, const Topology& topology, const Pair& pair, const std::vector<T>& parameters,
+              PairConstants<T>* result)
+      : robot_(robot),
+        pair_(pair),
+        parameters_(parameters),
+        geometry_(chain_geometry(robot, topology, pair.chain, parameters)),
+        result_(*result) {
+    result_.clear();
     for (std::size_t k = 0; k < pair.chain.size(); ++k) {
       const JointType type = joint(k).type;
       if (type == JointType::kPrismatic) slides_.push_back(k);
@@ -21,7 +27,7 @@ class PairBuilder {
     }
   }
 
-  PairConstants<T> build(const Vector3<T>& centre_i, const Vector3<T>& centre_j) {
+  void build(const Vector3<T>& centre_i, const Vector3<T>& centre_j) {
     const Pose<T> X_ji = geometry_.X_ij.inverse();
     const Vector3<T> point = joint_point();
     const Matrix3<T> C = joint_axes();
@@ -39,11 +45,11 @@ class PairBuilder {
     if (pair_.kind == PairKind::kCylindrical && pair_.chain.size() == 1) add_cylindrical_coordinates();
     if (pair_.friction_joint >= 0) result_.friction = friction();
     if (pair_.friction_joint >= 0) place_slip();
-    return result_;
   }
 
  private:
   using Coordinate = CoordinateConstants<T>;
+  using Elements = ShortVector<std::size_t, ChainGeometry<T>::kFew>;
 
   const JointDescription& joint(std::size_t k) const { return robot_.joints[static_cast<std::size_t>(pair_.chain[k].joint)]; }
   const Vector3<T>& axis(std::size_t k) const { return geometry_.axes[k]; }
@@ -148,7 +154,7 @@ class PairBuilder {
   Vector3<T> dual_axis(std::size_t k) const {
     if (slides_.size() == 1) return axis(k);
     Vector3<T> normal = Vector3<T>::Zero();
-    std::vector<std::size_t> others;
+    Elements others;
     for (std::size_t other : slides_)
       if (other != k) others.push_back(other);
     if (others.size() == 1) {
@@ -274,21 +280,21 @@ class PairBuilder {
   const Pair& pair_;
   const std::vector<T>& parameters_;
   ChainGeometry<T> geometry_;
-  std::vector<std::size_t> turns_, slides_;
-  PairConstants<T> result_;
+  Elements turns_, slides_;
+  PairConstants<T>& result_;
 };
 
 }  // namespace
 
 template <class T>
-PairConstants<T> pair_constants(const RobotDescription& robot, const Topology& topology, const Pair& pair, const Vector3<T>& centre_i,
-                                const Vector3<T>& centre_j, const std::vector<T>& parameters) {
-  return PairBuilder<T>(robot, topology, pair, parameters).build(centre_i, centre_j);
+void pair_constants(const RobotDescription& robot, const Topology& topology, const Pair& pair, const Vector3<T>& centre_i,
+                    const Vector3<T>& centre_j, const std::vector<T>& parameters, PairConstants<T>* constants) {
+  PairBuilder<T>(robot, topology, pair, parameters, constants).build(centre_i, centre_j);
 }
 
-#define CODESIGN_INSTANTIATE(T)                                                                                                            \
-  template PairConstants<T> pair_constants<T>(const RobotDescription&, const Topology&, const Pair&, const Vector3<T>&, const Vector3<T>&, \
-                                              const std::vector<T>&);
+#define CODESIGN_INSTANTIATE(T)                                                                                                \
+  template void pair_constants<T>(const RobotDescription&, const Topology&, const Pair&, const Vector3<T>&, const Vector3<T>&, \
+                                  const std::vector<T>&, PairConstants<T>*);
 CODESIGN_FOR_EACH_NUMBER_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 

@@ -16,18 +16,25 @@ struct RigidGroups {
   explicit RigidGroups(const RobotDescription& robot);
 };
 
+/// What merged_mass() adds up, kept so that a later call allocates nothing.
+template <class T>
+struct MassWorkspace {
+  std::vector<MassProperties<T>> links, solids;
+};
+
 /// Mass, centre of mass and inertia about it of `links`, which form one group, in the frame of their base link. If the mass is zero, the
-/// centre is the origin of the base link.
+/// centre is the origin of the base link. @param workspace overwritten.
 template <class T>
 MassProperties<T> merged_mass(const RobotDescription& robot, const std::vector<int>& link_base, const std::vector<int>& link_parent_joint,
-                              const std::vector<int>& links, const std::vector<T>& parameters) {
+                              const std::vector<int>& links, const std::vector<T>& parameters, MassWorkspace<T>* workspace) {
   MassProperties<T> result;
-  std::vector<MassProperties<T>> parts;
+  std::vector<MassProperties<T>>& parts = workspace->links;
+  parts.clear();
   for (int link : links) {
     const auto& inertial = robot.links[static_cast<std::size_t>(link)].inertial;
     if (!inertial) continue;
     const Pose<T> X = link_in_base(robot, link_base, link_parent_joint, link, parameters);
-    MassProperties<T> part = mass_properties<T>(*inertial, parameters);
+    MassProperties<T> part = mass_properties<T>(*inertial, parameters, &workspace->solids);
     part.centre = X * part.centre;
     part.inertia = X.R * part.inertia * X.R.transpose();
     result.mass += part.mass;
@@ -40,6 +47,12 @@ MassProperties<T> merged_mass(const RobotDescription& robot, const std::vector<i
     result.inertia += part.inertia + part.mass * (dot(offset, offset) * Matrix3<T>::Identity() - offset * offset.transpose());
   }
   return result;
+}
+template <class T>
+MassProperties<T> merged_mass(const RobotDescription& robot, const std::vector<int>& link_base, const std::vector<int>& link_parent_joint,
+                              const std::vector<int>& links, const std::vector<T>& parameters) {
+  MassWorkspace<T> workspace;
+  return merged_mass(robot, link_base, link_parent_joint, links, parameters, &workspace);
 }
 
 }  // namespace codesign

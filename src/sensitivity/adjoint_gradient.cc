@@ -123,10 +123,11 @@ void AdjointGradient::add_boundaries(Eigen::VectorXd* gradient) {
   const int count = static_cast<int>(gradient->size());
   for (int first = 0; first < count; first += 8) {
     const LaneRange<8> range{first, std::min(8, count - first)};
-    const std::vector<Lanes<8>> seeded = range.seed(system_, integrator_.equations().parameters());
+    std::vector<Lanes<8>>& seeded = back_->boundary_parameters;
+    range.seed(system_, integrator_.equations().parameters(), &seeded);
     State<Lanes<8>>& state = back_->boundary_state;
     equations.set_design(seeded);
-    integrator_.assembly().extend(seeded, integrator_.initial_state(), &equations, &state);
+    integrator_.assembly().extend(seeded, integrator_.initial_state(), &equations, &back_->boundary_extension, &state);
     auto sum = gradient->segment(first, range.count);
     const auto add = [&](const VectorX<Lanes<8>>& part, int column) {
       for (Eigen::Index k = 0; k < part.size(); ++k) sum += adjoint[column + k] * part[k].directions().head(range.count);

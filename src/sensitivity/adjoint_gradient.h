@@ -43,6 +43,8 @@ class AdjointGradient final : public GradientEngine {
     AdjointStep adjoint;
     std::optional<LaneGroups<ParameterLanes>> parameters;
     Equations<Lanes<8>> boundary;
+    std::vector<Lanes<8>> boundary_parameters;  ///< with the directions of eight of them
+    ExtensionWorkspace<Lanes<8>> boundary_extension;
     State<Lanes<8>> boundary_state;
     StepPath path;
     State<double> point;

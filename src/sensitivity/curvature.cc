@@ -16,7 +16,8 @@ Curvature<N>::Curvature(const CompiledSystem& system)
 
 template <int N>
 void Curvature<N>::set_design(const std::vector<double>& parameters) {
-  equations_.set_design(std::vector<Lanes<N>>(parameters.begin(), parameters.end()));
+  parameters_.assign(parameters.begin(), parameters.end());
+  equations_.set_design(parameters_);
 }
 
 template <int N>

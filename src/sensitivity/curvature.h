@@ -41,6 +41,7 @@ class Curvature {
 
   const CompiledSystem& system_;
   const IncrementLayout at_;
+  std::vector<Lanes<N>> parameters_;  ///< workspace of set_design()
   Equations<Lanes<N>> equations_;
   Linearization<Lanes<N>> derivatives_;
   State<Lanes<N>> state_;

@@ -23,7 +23,7 @@ const std::string& tuned_name(const CompiledSystem& system, Eigen::Index k) {
 
 class Evaluator::Implementation {
  public:
-  explicit Implementation(std::shared_ptr<const CompiledSystem> system) : system_(std::move(system)) {}
+  explicit Implementation(std::shared_ptr<const CompiledSystem> system) : system_(std::move(system)), watched_(system_->study()) {}
 
   Evaluation evaluate(const std::vector<double>& parameters, Derivatives derivatives, const std::atomic<bool>* cancel) {
     Evaluation evaluation;
@@ -47,14 +47,17 @@ class Evaluator::Implementation {
     evaluation.statistics.cpu_seconds = timer.seconds();
     return evaluation;
   }
-  const CompiledSystem& system() const { return *system_; }
+  Evaluation evaluate(const Eigen::VectorXd& rho, Derivatives derivatives, const std::atomic<bool>* cancel) {
+    parameters_at(system_->study(), rho, &parameters_);
+    return evaluate(parameters_, derivatives, cancel);
+  }
 
  private:
   void collect(GradientEngine* engine, Derivatives derivatives, const std::atomic<bool>* cancel, Evaluation* evaluation) const {
     const double time = engine->time();
     evaluation->objective = engine->objective();
     evaluation->extremes = engine->extremes();
-    evaluation->objective += peak_terms(system_->study(), evaluation->extremes, nullptr);
+    evaluation->objective += peak_terms(system_->study(), watched_, evaluation->extremes, nullptr);
     if (!std::isfinite(evaluation->objective)) {
       evaluation->status = {StatusCode::kNonFinite, time, "the objective is not finite"};
       return;
@@ -62,7 +65,7 @@ class Evaluator::Implementation {
     if (derivatives == Derivatives::kNone) return;
     engine->gradient(&evaluation->gradient);
     if (derivatives == Derivatives::kGaussNewton) engine->jacobian_root(&evaluation->jacobian_root);
-    peak_terms(system_->study(), evaluation->extremes, &evaluation->gradient);
+    peak_terms(system_->study(), watched_, evaluation->extremes, &evaluation->gradient);
     if (is_set(cancel)) {
       evaluation->status = {StatusCode::kCancelled, time, "cancelled"};
       return;
@@ -89,6 +92,8 @@ class Evaluator::Implementation {
   }
 
   std::shared_ptr<const CompiledSystem> system_;
+  WatchLayout watched_;
+  std::vector<double> parameters_;  // workspace: all named parameters of one design
   // Made by the first evaluation, which can be cancelled meanwhile. That for kGaussNewton may be of another kind; no result depends on
   // which evaluations came before.
   std::unique_ptr<GradientEngine> engine_, root_engine_;
@@ -101,7 +106,7 @@ Evaluator::Evaluator(Evaluator&&) noexcept = default;
 Evaluator& Evaluator::operator=(Evaluator&&) noexcept = default;
 
 Evaluation Evaluator::evaluate(const Eigen::VectorXd& rho, Derivatives derivatives, const std::atomic<bool>* cancel) {
-  return implementation_->evaluate(implementation_->system().parameters(rho), derivatives, cancel);
+  return implementation_->evaluate(rho, derivatives, cancel);
 }
 
 Evaluation Evaluator::evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel) {

@@ -49,9 +49,9 @@ void IdasTangent::start(const std::vector<double>& parameters, const State<doubl
                         std::vector<State<double>>* sensitivities, std::vector<double>* scales) {
   matrix_.forget();
   groups_.for_each([&](auto* group) {
-    const auto lanes = group->range.seed(system_, parameters);
-    group->equations.set_design(lanes);
-    integrator->assembly().extend(lanes, initial, &group->equations, &group->state);
+    group->range.seed(system_, parameters, &group->parameters);
+    group->equations.set_design(group->parameters);
+    integrator->assembly().extend(group->parameters, initial, &group->equations, &group->extension, &group->state);
     for (int k = 0; k < group->range.count; ++k) group->take(k, &(*sensitivities)[static_cast<std::size_t>(group->range.first + k)]);
   });
   for (std::size_t k = 0; k < scales->size(); ++k) {

@@ -51,7 +51,9 @@ class IdasTangent final : public IdasSensitivities {
 
     LaneRange<N> range;
     Equations<Scalar> equations;
+    std::vector<Scalar> parameters;  ///< with the directions of `range`
     State<Scalar> state;
+    ExtensionWorkspace<Scalar> extension;
     VectorX<Scalar> G, Phi, Phi_rate, errors;
   };
 

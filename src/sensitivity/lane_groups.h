@@ -16,10 +16,18 @@ template <int N>
 struct LaneRange {
   int first = 0, count = 0;
 
-  /// All named parameters (Study::parameters order), with the derivative 1 of rho_(first+k) in lane k.
+  /// All named parameters (Study::parameters order), with the derivative 1 of rho_(first+k) in lane k. @param lanes overwritten, its memory
+  /// is used again.
+  void seed(const CompiledSystem& system, const std::vector<double>& parameters, std::vector<Lanes<N>>* lanes) const {
+    lanes->assign(parameters.begin(), parameters.end());
+    for (int k = 0; k < count; ++k) {
+      const int tuned = system.study().tuned[static_cast<std::size_t>(first + k)];
+      (*lanes)[static_cast<std::size_t>(tuned)].v[k] = 1.0;
+    }
+  }
   std::vector<Lanes<N>> seed(const CompiledSystem& system, const std::vector<double>& parameters) const {
-    std::vector<Lanes<N>> lanes(parameters.begin(), parameters.end());
-    for (int k = 0; k < count; ++k) lanes[static_cast<std::size_t>(system.study().tuned[static_cast<std::size_t>(first + k)])].v[k] = 1.0;
+    std::vector<Lanes<N>> lanes;
+    seed(system, parameters, &lanes);
     return lanes;
   }
 };

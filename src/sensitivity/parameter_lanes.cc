@@ -27,15 +27,15 @@ ParameterLanes<N>::ParameterLanes(const CompiledSystem& system, LaneRange<N> lan
 
 template <int N>
 void ParameterLanes<N>::start(const std::vector<double>& parameters) {
-  std::vector<Scalar> seeded(parameters.begin(), parameters.end());
+  seeded_.assign(parameters.begin(), parameters.end());
   for (std::size_t k = 0; k < plan_.lane.size(); ++k) {
     const int lane = plan_.lane[k] - lanes_.first;
     if (lane < 0 || lane >= lanes_.count) continue;
-    Scalar& parameter = seeded[static_cast<std::size_t>(system_.study().tuned[k])];
+    Scalar& parameter = seeded_[static_cast<std::size_t>(system_.study().tuned[k])];
     parameter.v[lane] = 1.0;
     parameter.v[lanes_.count] = xi(k);
   }
-  equations_.set_design(seeded);
+  equations_.set_design(seeded_);
   sums_.assign(xi_.size(), Vector{});
   largest_.assign(xi_.size(), 0.0);
   largest_error_.assign(xi_.size(), 0.0);

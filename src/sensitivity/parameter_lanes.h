@@ -44,6 +44,7 @@ class ParameterLanes {
   const Layout& layout_;
   const LaneRange<N> lanes_;
   const LanePlan& plan_;
+  std::vector<Scalar> seeded_;  ///< the parameters of start(), with their directions
   Equations<Scalar> equations_;
   Linearization<Scalar> derivatives_;
   State<Scalar> state_;

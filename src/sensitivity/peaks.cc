@@ -14,9 +14,12 @@ Peak find_peak(const WatchLayout::Entry& entry, const Eigen::VectorXd& values) {
 }
 
 double peak_terms(const Study& study, const Extremes& extremes, Eigen::VectorXd* gradient) {
+  return peak_terms(study, WatchLayout(study), extremes, gradient);
+}
+
+double peak_terms(const Study& study, const WatchLayout& layout, const Extremes& extremes, Eigen::VectorXd* gradient) {
   const auto is_peak = [](const WatchedSignal& watched) { return watched.role == WatchedSignal::Role::kPeak; };
   if (std::none_of(study.watched.begin(), study.watched.end(), is_peak)) return 0.0;
-  const WatchLayout layout(study);
   double sum = 0.0;
   for (std::size_t k = 0; k < study.watched.size(); ++k) {
     if (!is_peak(study.watched[k])) continue;

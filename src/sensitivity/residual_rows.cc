@@ -57,7 +57,7 @@ void ResidualRows::finish(const State<double>& state, Eigen::MatrixXd* root) {
     differentiate_(ObjectivePart::kTerminal, state, &terminal_rows_);
     add(1.0, &terminal_rows_);
   }
-  *root = root_.root();
+  root_.root(root);
 }
 
 void ResidualRows::add(double weight, Eigen::MatrixXd* rows) {

@@ -91,7 +91,8 @@ void RosenbrockGradient::carry(int first, const std::vector<double>& parameters)
   }
   groups_->for_each([&](auto* group) {
     group->step.keep_previous(with_root_ || !watch_.is_empty());
-    group->step.start(group->range.seed(system_, parameters), integrator_.assembly(), integrator_.initial_state());
+    group->range.seed(system_, parameters, &group->parameters);
+    group->step.start(group->parameters, integrator_.assembly(), integrator_.initial_state());
   });
 }
 
@@ -121,6 +122,7 @@ double RosenbrockGradient::objective() {
 void RosenbrockGradient::gradient(Eigen::VectorXd* gradient) {
   gradient->setConstant(count(), std::numeric_limits<double>::quiet_NaN());
   collect(gradient);
+  if (most_lanes() >= count()) return;
   const double end = time();
   const std::vector<double> parameters = integrator_.equations().parameters();
   for (int first = most_lanes(); first < count(); first += most_lanes()) {

@@ -40,6 +40,7 @@ class RosenbrockGradient final : public GradientEngine {
   struct Group {
     Group(const CompiledSystem& system, LaneRange<N> lanes, const RosenbrockTableau& tableau) : range(lanes), step(system, tableau) {}
     LaneRange<N> range;
+    std::vector<Lanes<N>> parameters;  ///< with the directions of `range`
     TangentStep<N> step;
     Directions<N> integral_residuals, terminal_residuals;  ///< derivatives, one column per term
   };

@@ -40,11 +40,9 @@ TangentStep<N>::TangentStep(const CompiledSystem& system, const RosenbrockTablea
 template <int N>
 void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly, const State<double>& initial) {
   equations_.equations().set_design(parameters);
-  State<Lanes<N>> start;
-  start.resize(layout_);
-  assembly.extend(parameters, initial, &equations_.equations(), &start);
+  assembly.extend(parameters, initial, &equations_.equations(), &extension_, &start_);
   y_.setZero();
-  take_up(initial, start);
+  take_up(initial, start_);
   largest_x_.setZero();
   largest_v_.setZero();
   measure();
@@ -68,7 +66,7 @@ void TangentStep<N>::jump(const std::vector<ControlEvent>& events, const State<d
                           const Assembly& assembly) {
   point_ = equations_.lanes(before, y_);
   equations_.equations().formulas().jump(events, &point_);
-  assembly.extend_rates(behind.z, &equations_.equations(), &point_);
+  assembly.extend_rates(behind.z, &equations_.equations(), &extension_, &point_);
   take_up(behind, point_);
 }
 
@@ -237,7 +235,7 @@ template <int N>
 void TangentStep<N>::go_to(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates, const Assembly& assembly) {
   interpolate(step, state.t);
   point_ = equations_.lanes(state, stage_y_);
-  if (reads_rates) assembly.extend_rates(state.z, &equations_.equations(), &point_);
+  if (reads_rates) assembly.extend_rates(state.z, &equations_.equations(), &extension_, &point_);
 }
 
 template <int N>

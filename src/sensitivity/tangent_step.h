@@ -91,6 +91,8 @@ class TangentStep {
   Directions<N> previous_y_;  ///< y_ at the start of the last accepted step; only if keeps_previous_
   bool keeps_previous_ = false;
   VectorX<Lanes<N>> integral_errors_, terminal_errors_;
+  ExtensionWorkspace<Lanes<N>> extension_;
+  State<Lanes<N>> start_;                             ///< with the initial sensitivities
   State<Lanes<N>> point_;                             ///< a point of the dense output
   std::vector<Directions<N>> stages_;                 ///< u' of each stage
   std::vector<Directions<N>> matrix_changes_;         ///< dG u of each stage, row by row

@@ -18,29 +18,18 @@ double largest_column(const SparseMatrix& A) {
   return largest;
 }
 
-Eigen::MatrixXd dense_columns(const SparseMatrix& A, const std::vector<int>& columns) { return Eigen::MatrixXd(columns_of(A, columns)); }
+/// Copies some columns into `to`, which has their shape.
+void copy_columns(const SparseMatrix& A, const std::vector<int>& columns, Eigen::MatrixXd* to) {
+  to->setZero();
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    for (SparseMatrix::InnerIterator entry(A, columns[k]); entry; ++entry) (*to)(entry.row(), static_cast<Eigen::Index>(k)) = entry.value();
+}
+
+Eigen::Index count(const std::vector<int>& columns) { return static_cast<Eigen::Index>(columns.size()); }
 
 std::vector<int> ascending(std::vector<int> columns) {
   std::sort(columns.begin(), columns.end());
   return columns;
-}
-
-std::vector<int> independent_dense_columns(const SparseMatrix& A, const ColumnPreferences& preferences, double tolerance) {
-  const Eigen::Index rank = pivot_columns(Eigen::MatrixXd(A), tolerance).rank;
-  std::vector<int> chosen;
-  for (const std::vector<int>& candidates : preferences) {
-    // Choose by the remainder of the candidates after projection onto the columns chosen so far.
-    const auto missing = rank - static_cast<Eigen::Index>(chosen.size());
-    if (missing <= 0 || candidates.empty()) continue;
-    const Eigen::MatrixXd taken = dense_columns(A, chosen);
-    Eigen::MatrixXd rest = dense_columns(A, candidates);
-    if (taken.cols() > 0) rest -= taken * LeastNorm(taken, tolerance).solve(rest);
-    const PivotedColumns pivots = pivot_columns(rest, tolerance);
-    const Eigen::Index take = std::min(missing, pivots.rank);
-    for (Eigen::Index k = 0; k < take; ++k)
-      chosen.push_back(candidates[static_cast<std::size_t>(pivots.order[static_cast<std::size_t>(k)])]);
-  }
-  return ascending(chosen);
 }
 
 std::vector<int> first_independent_columns(const SparseMatrix& A, const ColumnPreferences& preferences, double tolerance) {
@@ -74,10 +63,20 @@ void LeastSquares::factor(const SparseMatrix& A, double tolerance) {
   implementation_->dense = A.cols() <= kDense;
   if (A.rows() == 0 || A.cols() == 0) return;
   if (implementation_->dense) {
-    implementation_->dense_factors = LeastNorm(Eigen::MatrixXd(A), tolerance);
+    implementation_->dense_factors.matrix(A.rows(), A.cols()) = A;
+    implementation_->dense_factors.factor(tolerance);
     return;
   }
   implementation_->sparse_factors.factor(A, tolerance * largest_column(A));
+}
+
+void LeastSquares::factor(const SparseMatrix& A, const std::vector<int>& columns, double tolerance) {
+  if (count(columns) > kDense) return factor(columns_of(A, columns), tolerance);
+  implementation_->columns = count(columns);
+  implementation_->dense = true;
+  if (A.rows() == 0 || columns.empty()) return;
+  copy_columns(A, columns, &implementation_->dense_factors.matrix(A.rows(), count(columns)));
+  implementation_->dense_factors.factor(tolerance);
 }
 
 Eigen::MatrixXd LeastSquares::solve(const Eigen::MatrixXd& b) const {
@@ -86,9 +85,52 @@ Eigen::MatrixXd LeastSquares::solve(const Eigen::MatrixXd& b) const {
   return implementation_->sparse_factors.solve(b);
 }
 
+Eigen::MatrixXd& LeastSquares::solve(const Eigen::MatrixXd& b, LeastSquaresWorkspace* workspace) const {
+  if (b.rows() > 0 && implementation_->columns > 0 && implementation_->dense)
+    return implementation_->dense_factors.solve(b, &workspace->dense);
+  if (b.rows() == 0 || implementation_->columns == 0)
+    workspace->other.setZero(implementation_->columns, b.cols());
+  else
+    workspace->other = implementation_->sparse_factors.solve(b);
+  return workspace->other;
+}
+
+const std::vector<int>& IndependentColumns::choose(const SparseMatrix& A, const ColumnPreferences& preferences, double tolerance) {
+  chosen_.clear();
+  if (A.rows() == 0 || A.cols() == 0) return chosen_;
+  if (A.cols() <= kDense)
+    choose_dense(A, preferences, tolerance);
+  else
+    chosen_ = first_independent_columns(A, preferences, tolerance);
+  std::sort(chosen_.begin(), chosen_.end());
+  return chosen_;
+}
+
+void IndependentColumns::choose_dense(const SparseMatrix& A, const ColumnPreferences& preferences, double tolerance) {
+  qr_.matrix(A.rows(), A.cols()) = A;
+  qr_.factor(tolerance);
+  const Eigen::Index rank = qr_.rank();
+  for (const std::vector<int>& candidates : preferences) {
+    // Choose by what is left of the candidates after projection onto the columns chosen so far.
+    const Eigen::Index missing = rank - count(chosen_);
+    if (missing <= 0 || candidates.empty()) continue;
+    Eigen::MatrixXd& rest = qr_.matrix(A.rows(), count(candidates));
+    copy_columns(A, candidates, &rest);
+    if (!chosen_.empty()) {
+      Eigen::MatrixXd& taken = taken_.matrix(A.rows(), count(chosen_));
+      copy_columns(A, chosen_, &taken);
+      taken_.factor(tolerance);
+      projection_.noalias() = taken * taken_.solve(rest, &workspace_);
+      rest -= projection_;
+    }
+    qr_.factor(tolerance);
+    const Eigen::Index take = std::min(missing, qr_.rank());
+    for (Eigen::Index k = 0; k < take; ++k) chosen_.push_back(candidates[static_cast<std::size_t>(qr_.column(k))]);
+  }
+}
+
 std::vector<int> independent_columns(const SparseMatrix& A, const ColumnPreferences& preferences, double tolerance) {
-  if (A.rows() == 0 || A.cols() == 0) return {};
-  return A.cols() <= kDense ? independent_dense_columns(A, preferences, tolerance) : first_independent_columns(A, preferences, tolerance);
+  return IndependentColumns().choose(A, preferences, tolerance);
 }
 
 std::vector<int> dependent_columns(const SparseMatrix& A, double tolerance) {

@@ -6,9 +6,17 @@
 #include <memory>
 #include <vector>
 
+#include "math/dense.h"
+
 namespace codesign {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// The memory for solutions of LeastSquares.
+struct LeastSquaresWorkspace {
+  LeastNormWorkspace dense;
+  Eigen::MatrixXd other;  ///< a solution that is not dense, or of nothing
+};
 
 /// Minimizes |A x - b| (2-norm) for a sparse matrix of any rank. Up to 256 columns it uses a complete orthogonal decomposition and returns
 /// the x of least norm; beyond that a sparse QR factorization, whose x has at most as many nonzeros as the rank.
@@ -21,8 +29,12 @@ class LeastSquares {
 
   /// @param tolerance pivots below this, relative to the largest column of A, count as zero.
   void factor(const SparseMatrix& A, double tolerance);
+  /// The same for some columns of A, in the order given. Allocates nothing where the decomposition is dense and its shape was had before.
+  void factor(const SparseMatrix& A, const std::vector<int>& columns, double tolerance);
   /// The solution for each column of b; A.cols() x b.cols(). After factor().
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+  /// The same, valid until the workspace is used again. Allocates nothing on the same conditions.
+  Eigen::MatrixXd& solve(const Eigen::MatrixXd& b, LeastSquaresWorkspace* workspace) const;
 
  private:
   struct Implementation;
@@ -34,7 +46,22 @@ using ColumnPreferences = std::vector<std::vector<int>>;
 
 /// A maximal set of independent columns that prefers earlier lists; indices in ascending order. Within a list, matrices of up to 256
 /// columns yield the best conditioned columns (pivoted QR), larger ones the first.
-/// @param tolerance as for LeastSquares::factor().
+/// Allocates nothing, up to 256 columns, for matrices of shapes that it has had before.
+class IndependentColumns {
+ public:
+  /// @param tolerance as for LeastSquares::factor(). @returns indices that are valid until the next call.
+  const std::vector<int>& choose(const SparseMatrix& A, const ColumnPreferences& preferences, double tolerance);
+
+ private:
+  void choose_dense(const SparseMatrix& A, const ColumnPreferences& preferences, double tolerance);
+
+  std::vector<int> chosen_;
+  PivotedQr qr_;
+  LeastNorm taken_;
+  LeastNormWorkspace workspace_;
+  Eigen::MatrixXd projection_;
+};
+/// The same, once.
 std::vector<int> independent_columns(const SparseMatrix& A, const ColumnPreferences& preferences, double tolerance);
 
 /// The columns that depend on the others according to a pivoted QR factorization (sparse beyond 512 columns); indices in ascending order.

@@ -33,13 +33,11 @@ LuSchedule::LuSchedule(const LuPattern& pattern, const std::vector<int>& column_
 bool LuSchedule::rescale(const LuPattern& pattern) {
   if (pattern.row_of != row_of_ || pattern.column_of != column_of_) return false;
   // Each entry of A is in a slot of the row of one pivot; source_scale_ has the scale of that row.
-  std::vector<double> changed(n_);
-  for (std::size_t k = 0; k < n_; ++k) changed[k] = 1.0 / pattern.row_scale[k];
+  for (std::size_t k = 0; k < n_; ++k) inverse_scale_[k] = 1.0 / pattern.row_scale[k];
   for (std::size_t e = 0; e < source_slot_.size(); ++e) {
     const auto row = std::upper_bound(start_.begin(), start_.end(), source_slot_[e]) - start_.begin() - 1;
-    source_scale_[e] = changed[to_index(static_cast<int>(row))];
+    source_scale_[e] = inverse_scale_[to_index(static_cast<int>(row))];
   }
-  inverse_scale_ = std::move(changed);
   return true;
 }
 

@@ -72,7 +72,7 @@ std::int64_t allocations_of_way_back(GradientEngine* engine, const CompiledSyste
   return allocations() - before;
 }
 
-// Each backward run sets its design, which allocates; its steps do not, so a longer run allocates no more.
+// Each backward run chooses pivots anew, for which KLU allocates; its steps do not, so a longer run allocates no more.
 TEST_P(StepLoop, BackwardsAsksForNoMoreMemoryOnALongerWay) {
   const auto system = test.compile(method, "adjoint");
   const auto engine = make_gradient_engine(*system);

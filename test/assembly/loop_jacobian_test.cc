@@ -81,11 +81,11 @@ TEST(LoopJacobian, MissesAreLengthsAndAngles) {
   Eigen::VectorXd errors = Eigen::VectorXd::Zero(c.system.layout().m);
   errors[loops.constraint_rows()[1]] = -0.002;
   errors[loops.constraint_rows()[4]] = 0.003;
-  const std::vector<LoopMiss> misses = loops.misses(errors, c.equations);
-  ASSERT_EQ(misses.size(), 1U);
-  EXPECT_EQ(misses[0].owner, loops.owner(0));
-  EXPECT_EQ(misses[0].length, 0.002);
-  EXPECT_EQ(misses[0].angle, 0.003);
+  ASSERT_EQ(loops.owners(), 1U);
+  const LoopMiss miss = loops.miss(0, errors, c.equations);
+  EXPECT_EQ(miss.owner, loops.owner(0));
+  EXPECT_EQ(miss.length, 0.002);
+  EXPECT_EQ(miss.angle, 0.003);
 }
 
 }  // namespace

@@ -1,0 +1,69 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// The part of Assembly that carries derivatives through a solution, doc/theory.md (20).
+#include "assembly/assembly.h"
+#include "assembly/given_start.h"
+#include "math/directions.h"
+
+namespace codesign {
+
+template <class T>
+void Assembly::correct(const Dependents& dependents, const VectorX<T>& rows, ExtensionWorkspace<T>* workspace,
+                       VectorX<T>* coordinates) const {
+  ExtensionWorkspace<T>& w = *workspace;
+  directions_of(rows, &w.errors);
+  w.rows.resize(loops_.rows(), w.errors.cols());
+  for (int k = 0; k < loops_.rows(); ++k) w.rows.row(k) = w.errors.row(loops_.constraint_rows()[static_cast<std::size_t>(k)]);
+  const Eigen::MatrixXd& step = dependents.solve(w.rows, &w.scaled, &w.solution);
+  w.changes.setZero(coordinates->size(), step.cols());
+  for (std::size_t k = 0; k < dependents.columns.size(); ++k)
+    w.changes.row(dependents.columns[k]) = -step.row(static_cast<Eigen::Index>(k));
+  add_directions(w.changes, coordinates);
+}
+
+template <class T>
+void Assembly::extend(const std::vector<T>& parameters, const State<double>& start, Equations<T>* equations,
+                      ExtensionWorkspace<T>* workspace, State<T>* state) const {
+  ExtensionWorkspace<T>& w = *workspace;
+  state->resize(system_.layout());
+  state->t = start.t;
+  state->turns = start.turns;
+  set_extra_states(system_, parameters, &state->s);
+  w.theta = theta_.template cast<T>();
+  w.rate = theta_rate_.template cast<T>();
+  set_given_start(system_, tree_, parameters, &w.theta, &w.rate);
+  const auto place_extended = [&] {
+    link_motions(system_.robot(), tree_, parameters, w.theta, w.rate, &w.links);
+    body_coordinates(system_, equations->constants(), w.links, &state->q, &state->v);
+    equations->constraint_errors(*state, &w.Phi, &w.Phi_rate);
+  };
+  place_extended();
+  correct(positions_, w.Phi, workspace, &w.theta);
+  place_extended();
+  correct(velocities_, w.Phi_rate, workspace, &w.rate);
+  place_extended();
+  if (system_.begins_controllers()) equations->formulas().begin_controllers(state);
+  extend_rates(start.z, equations, workspace, state);
+}
+
+// First-order solution of G(z) = 0 with the factorization of the last Newton iteration of solve_rates().
+template <class T>
+void Assembly::extend_rates(const VectorX<double>& z, Equations<T>* equations, ExtensionWorkspace<T>* workspace, State<T>* state) const {
+  T g(0.0);
+  state->z = z.template cast<T>();
+  equations->residual(*state, &workspace->G, &g);
+  Eigen::MatrixXd& step = workspace->rates;
+  directions_of(workspace->G, &step);
+  for (auto column : step.colwise()) matrix_.lu().solve(column);
+  step = -step;
+  add_directions(step, &state->z);
+}
+
+#define CODESIGN_INSTANTIATE(T)                                                                                                           \
+  template void Assembly::extend<T>(const std::vector<T>&, const State<double>&, Equations<T>*, ExtensionWorkspace<T>*, State<T>*) const; \
+  template void Assembly::extend_rates<T>(const VectorX<double>&, Equations<T>*, ExtensionWorkspace<T>*, State<T>*) const;
+CODESIGN_INSTANTIATE(std::complex<double>)
+CODESIGN_INSTANTIATE(Lanes<4>)
+CODESIGN_INSTANTIATE(Lanes<8>)
+#undef CODESIGN_INSTANTIATE
+
+}  // namespace codesign
