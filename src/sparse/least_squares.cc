@@ -111,7 +111,7 @@ void IndependentColumns::choose_dense(const SparseMatrix& A, const ColumnPrefere
   qr_.factor(tolerance);
   const Eigen::Index rank = qr_.rank();
   for (const std::vector<int>& candidates : preferences) {
-    // Choose by what is left of the candidates after projection onto the columns chosen so far.
+    // Choose by the remainder of the candidates after projection onto the columns chosen so far.
     const Eigen::Index missing = rank - count(chosen_);
     if (missing <= 0 || candidates.empty()) continue;
     Eigen::MatrixXd& rest = qr_.matrix(A.rows(), count(candidates));
