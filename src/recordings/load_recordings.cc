@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "description/named_file.h"
+#include "recordings/even_stamps.h"
 #include "recordings/recording_check.h"
 #include "recordings/table_recording.h"
 #include "recordings/unit_check.h"
@@ -87,7 +88,10 @@ std::vector<JointRecording> load(const std::vector<RecordingDescription>& descri
     check_units(context.robot, part, context.warnings);
     std::vector<JointRecording> pieces = without_gaps(part, description.gaps, context.warnings);
     require_one_piece(description, pieces);
-    for (JointRecording& piece : pieces) recordings.push_back(std::move(piece));
+    for (JointRecording& piece : pieces) {
+      even_stamps(&piece, context.warnings);
+      recordings.push_back(std::move(piece));
+    }
   }
   return recordings;
 }
