@@ -35,8 +35,7 @@ Skeletons read_skeletons(const XMLElement* robot) {
     child.slides = text_of(joint, "type") == "prismatic";
     skeletons[text_of(joint->FirstChildElement("parent"), "link")].points.emplace_back(plain_origin(joint).translation());
   }
-  for (const XMLElement* loop = robot->FirstChildElement("codesign:loop"); loop != nullptr;
-       loop = loop->NextSiblingElement("codesign:loop"))
+  for (const XMLElement* loop = robot->FirstChildElement("loop"); loop != nullptr; loop = loop->NextSiblingElement("loop"))
     for (const char* end : {"predecessor", "successor"}) {
       const XMLElement* place = loop->FirstChildElement(end);
       skeletons[text_of(place, "link")].points.emplace_back(plain_origin(place).translation());

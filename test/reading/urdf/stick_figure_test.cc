@@ -43,8 +43,9 @@ TEST(Sticks, RunBetweenTheFramesOfJointsAndToTheLastCentreOfMass) {
 
 TEST(Sticks, RunToTheEndsOfLoopsAndBetweenTheJointsOfTheRoot) {
   std::string text = kBare;
-  text.replace(text.find("</robot>"), 8, R"(<codesign:loop name="pin" type="revolute"><predecessor link="ground" xyz="3 0 0"/>
-    <successor link="bob" xyz="0 2 0"/><axis xyz="0 1 0"/></codesign:loop></robot>)");
+  text.replace(text.find("</robot>"), 8, R"(<loop name="pin" type="revolute"><predecessor link="ground"><origin xyz="3 0 0"/></predecessor>
+    <successor link="bob"><origin xyz="0 2 0"/></successor><axis xyz="0 1 0"/></loop></robot>)");
+  ASSERT_EQ(read_urdf({"loop", text}).joints.size(), read_urdf({"bare", kBare}).joints.size() + 1) << "the loop is one of the model";
   const LinkBoxes boxes = link_boxes(with_sticks(text), {"ground", "bob"});
   ASSERT_EQ(boxes[0].size(), 1U);
   EXPECT_DOUBLE_EQ(boxes[0][0].half.z(), 1.5);
