@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "reading/urdf/link_solids.h"
 #include "reading/urdf/urdf_reader.h"
+#include "temporary_directory.h"
 
 namespace codesign {
 namespace {
@@ -51,6 +54,24 @@ TEST(Sticks, RunToTheEndsOfLoopsAndBetweenTheJointsOfTheRoot) {
   EXPECT_DOUBLE_EQ(boxes[0][0].half.z(), 1.5);
   ASSERT_EQ(boxes[1].size(), 2U) << "a stick to the loop in place of the one to the centre of mass";
   EXPECT_DOUBLE_EQ(boxes[1][0].half.z(), 1.0);
+}
+
+// A vendor's URDF without the package of its meshes.
+TEST(Sticks, StandForMeshesThatAreNotThere) {
+  const TemporaryDirectory folder;
+  const std::string there = (folder.path() / "rod.stl").string();
+  std::ofstream(there) << "solid";
+  const auto with_mesh = [](const std::string& uri) {
+    std::string text = kBare;
+    const std::string rod = "<link name=\"rod\">";
+    return text.replace(text.find(rod), rod.size(), rod + "<visual><geometry><mesh filename=\"" + uri + "\"/></geometry></visual>");
+  };
+  const auto sticks = [&](const std::string& uri) { return link_boxes(with_sticks(with_mesh(uri)), {"rod"})[0].size(); };
+  EXPECT_EQ(sticks("file://" + there), 0U);
+  EXPECT_EQ(sticks("file://" + there + "x"), 2U);
+  EXPECT_EQ(sticks("package://no_such_package_at_all/rod.stl"), 2U);
+  const std::string missing = with_sticks(with_mesh("package://no_such_package_at_all/rod.stl"));
+  EXPECT_EQ(with_sticks(missing), missing);
 }
 
 TEST(Sticks, ChangeNothingButTheLook) {
