@@ -45,6 +45,13 @@ void require_start(const CompiledSystem& system, const Assembly& assembly, const
   fault.allowed = to_decimal(1e3 * system.study().solver.closure_tolerance) + " mm and " + tolerance +
                   " rad, solver.closure_tolerance; correct the origins and axes on the way around the loop, give joints another "
                   "initial_state guess or fewer positions, or allow a larger miss";
+  const double tolerated = system.study().solver.closure_tolerance;
+  if (assembly.worst_miss().length <= tolerated && assembly.worst_miss().angle <= tolerated) {
+    // Redundant rows are dropped, and the others must close to rounding.
+    fault.message = "the positions of initial_state leave no joint free to close the loop";
+    fault.allowed =
+        "0, to rounding; of the joints around the loop give only as many a position as it has degrees of freedom, the others a guess";
+  }
   throw InputError(fault);
 }
 

@@ -11,7 +11,8 @@ MODEL is an annotated URDF (doc/annotations.md), STUDY a YAML file (doc/study.md
 commands
   check MODEL [STUDY]      the table of equations, redundant constraints
   urdf MODEL [STUDY]       the URDF that is simulated: overlays merged, parameters at their values
-    --sticks               for viewers: links without <visual> get sticks and spheres
+    --sticks               for viewers: links without <visual>, or whose meshes are not here,
+                           get sticks and spheres
   simulate MODEL STUDY     one run as CSV
     --signals A,B          the signals to print; by default of all joints, frictions, controllers
     --csv FILE             the file to write; by default standard output

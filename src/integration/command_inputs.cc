@@ -48,6 +48,11 @@ void disconnect(const std::vector<std::string>& names, Study* study) {
   }
 }
 
+/// Whether a controller is applied.
+bool drives(const Study& study) {
+  return std::any_of(study.controllers.begin(), study.controllers.end(), [](const auto& controller) { return !controller.output.empty(); });
+}
+
 void check_joints(const std::vector<std::string>& joints, const std::vector<std::string>& known) {
   std::set<std::string> seen;
   for (const std::string& joint : joints) {
@@ -73,7 +78,7 @@ CommandInputs::CommandInputs(const CompiledSystem& of, const CommandOptions& opt
     joints = *options.joints;
   }
   disconnect(options.disconnected, &study);
-  if (study.controllers.empty() && !joints.empty() && !(study.solver.maximum_speed > 0.0)) study.solver.maximum_speed = kAnySpeed;
+  if (!drives(study) && !joints.empty() && !(study.solver.maximum_speed > 0.0)) study.solver.maximum_speed = kAnySpeed;
   if (options.duration) {
     // As many steps for each second as the study allows.
     const double factor = std::max(1.0, *options.duration / study.duration);

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
+#include <memory>
+#include <vector>
 
 #include "control/reference.h"
 #include "text/decimal.h"
@@ -27,6 +30,27 @@ bool reads(const Signal& signal, const SignalKind (&kinds)[N]) {
   return std::any_of(signal.begin(), signal.end(), [&kinds](const SignalReference& term) {
     return std::find(std::begin(kinds), std::end(kinds), term.kind) != std::end(kinds);
   });
+}
+
+bool is_commanded(const ReferenceDescription& description) {
+  return description.kind == ReferenceDescription::Kind::kLive && description.live.function->commanded;
+}
+
+/// The largest speed that commands ask for at this time. With an effort that is commanded every speed can be meant.
+double commanded_speed(const CompiledSystem& system, double t) {
+  double largest = 0.0;
+  for (std::size_t c = 0; c < system.controllers().size(); ++c) {
+    const ControllerDescription& controller = system.study().controllers[c];
+    if (is_commanded(controller.feedforward) && controller.feedforward.live.function->c[0] != 0.0)
+      return std::numeric_limits<double>::infinity();
+    if (!is_commanded(controller.setpoint)) continue;
+    ReferenceDescription setpoint = controller.setpoint;
+    setpoint.live.planned = std::make_shared<const ReferenceDescription>();
+    const ReferenceMotion<double> asked = Reference<double>(setpoint, std::vector<double>()).at(t);
+    if (reads(system.controllers()[c].input, kVelocities)) largest = std::max(largest, std::abs(asked.value));
+    if (reads(system.controllers()[c].input, kPositions)) largest = std::max(largest, std::abs(asked.rate));
+  }
+  return largest;
 }
 
 }  // namespace
@@ -109,6 +133,9 @@ Status MotionWatch::check(const State<double>& state, std::int64_t work) {
   mark_time_ = state.t;
   mark_work_ = work;
   if (expected <= std::max(kLeastPatience, kPatience * options.maximum_steps)) return {};
+  const double commanded = kBeyondReason * commanded_speed(system_, state.t);
+  linear_bound_ = std::max(linear_bound_, commanded);
+  angular_bound_ = std::max(angular_bound_, commanded);
   return exceeded(state, "the study would take some " + std::to_string(std::llround(expected)) +
                              " steps. Check signs and bounds of the gains, or set solver.maximum_speed if such speeds are intended");
 }

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <limits>
 #include <set>
+#include <sstream>
 
 #include "text/decimal.h"
 #include "text/nearest_name.h"
@@ -136,6 +137,23 @@ std::vector<std::string> read_texts(const ros::NodeHandle& private_node, const s
     texts.push_back(text_of(value[i]));
   }
   return texts;
+}
+
+std::vector<std::string> names_in(const std::string& text) {
+  static const char* const kAround = " \t[]'\"";
+  std::vector<std::string> names;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    const std::size_t begin = part.find_first_not_of(kAround);
+    if (begin != std::string::npos) names.push_back(part.substr(begin, part.find_last_not_of(kAround) + 1 - begin));
+  }
+  return names;
+}
+
+std::vector<std::string> read_names(const ros::NodeHandle& private_node, const std::string& key) {
+  XmlRpcValue value;
+  if (find_parameter(private_node, key, &value) && value.getType() == XmlRpcValue::TypeString) return names_in(text_of(value));
+  return read_texts(private_node, key);
 }
 
 Warnings unknown_parameters(const ros::NodeHandle& private_node, const std::vector<std::string>& known) {

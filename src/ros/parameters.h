@@ -36,6 +36,12 @@ std::string read_path(const ros::NodeHandle& private_node, const std::string& ke
 /// A text or a list of texts; empty if the parameter is not set. @throws InputError for any other type.
 std::vector<std::string> read_texts(const ros::NodeHandle& private_node, const std::string& key);
 
+/// The names in a text such as `a,b` or `[a, b]`, as a command line gives a list: rosrun passes `_name:=[a,b]` on as text.
+std::vector<std::string> names_in(const std::string& text);
+
+/// As read_texts(), but a text counts as names_in() it.
+std::vector<std::string> read_names(const ros::NodeHandle& private_node, const std::string& key);
+
 /// `unknown_parameter` for each private parameter whose name is not in `known`, with the nearest known name.
 Warnings unknown_parameters(const ros::NodeHandle& private_node, const std::vector<std::string>& known);
 

@@ -69,7 +69,7 @@ Read flag(bool SimulationOptions::*field) {
 }
 
 Read texts(std::vector<std::string> SimulationOptions::*field) {
-  return [field](const Node& node, const std::string& name, SimulationOptions* options) { options->*field = read_texts(node, name); };
+  return [field](const Node& node, const std::string& name, SimulationOptions* options) { options->*field = read_names(node, name); };
 }
 
 void read_step_frames(const Node& node, const std::string& name, SimulationOptions* options) {
@@ -89,7 +89,7 @@ void read_frame_prefix(const Node& node, const std::string& name, SimulationOpti
 }
 
 void read_topics(const Node& node, const std::string& name, SimulationOptions* options) {
-  options->wait_for_subscribers = read_texts(node, name);
+  options->wait_for_subscribers = read_names(node, name);
   for (const std::string& topic : options->wait_for_subscribers)
     if (std::count(frame_topics().begin(), frame_topics().end(), topic) == 0)
       throw unknown_name({node.resolveName(name), 0}, name, "topic", topic, frame_topics());

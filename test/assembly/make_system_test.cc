@@ -51,6 +51,19 @@ TEST(MakeSystem, ALoopThatCannotBeClosedIsNamedWithItsPlace) {
   EXPECT_NE(refused.allowed.find("closure_tolerance"), std::string::npos);
 }
 
+// Positions of all joints around a loop are rounded numbers: the miss is within closure_tolerance, which is not the way out.
+TEST(MakeSystem, PositionsOfAllJointsOfALoopAreTooMany) {
+  const auto start = [](const std::string& others) {
+    return let_go("{left_hinge: {position: 0.6}, right_hinge: {" + others + ": 0.6001}, left_pin: {" + others + ": -0.6}}",
+                  "left_hinge/velocity");
+  };
+  const InputFault refused = fault(four_bar(), start("position"));
+  EXPECT_NE(refused.message.find("leave no joint free to close the loop"), std::string::npos) << refused.message;
+  EXPECT_NE(refused.allowed.find("the others a guess"), std::string::npos) << refused.allowed;
+  EXPECT_EQ(refused.allowed.find("closure_tolerance"), std::string::npos) << refused.allowed;
+  EXPECT_NO_THROW(make(four_bar(), start("guess")));
+}
+
 TEST(MakeSystem, SomethingMustMove) {
   const std::string study = let_go("{}", "ground/position/x");
   for (const char* content :

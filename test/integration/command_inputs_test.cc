@@ -98,6 +98,14 @@ TEST(CommandInputs, ALongerRunMayTakeAsManyStepsPerSecond) {
   EXPECT_GT(CommandInputs(*system, options).study.solver.maximum_steps, 1000000000);
 }
 
+TEST(CommandInputs, WithoutAControllerThatIsAppliedNoSpeedIsTooHigh) {
+  const auto system = arm_with(kCascade);
+  CommandOptions options;
+  EXPECT_EQ(CommandInputs(*system, options).study.solver.maximum_speed, 0.0);
+  for (const ControllerDescription& controller : system->study().controllers) options.disconnected.push_back(controller.name);
+  EXPECT_GT(CommandInputs(*system, options).study.solver.maximum_speed, 1e6);
+}
+
 TEST(CommandInputs, ATrajectoryIsFollowedByPositionBeforeVelocity) {
   const CommandInputs inputs(*arm_with(kCascade), {});
   ASSERT_TRUE(follower_of(inputs, "shoulder"));

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <utility>
+
 #include "integration/servo.h"
 
 namespace codesign {
@@ -61,6 +64,39 @@ TEST(MotionWatch, SpeedsAskedForAreWithinReason) {
   const char* const spindle = "{motor: {type: pid, input: hinge/velocity, setpoint: 50, output: hinge, gains: {p: 1}}}";
   EXPECT_TRUE(Watched("{}", spindle).check(5e-4, 490.0, 600).ok());
   EXPECT_FALSE(Watched("{}", spindle).check(5e-4, 510.0, 600).ok());
+}
+
+std::shared_ptr<LiveFunction> make_live(ReferenceDescription* reference) {
+  auto function = std::make_shared<LiveFunction>();
+  auto planned = std::make_shared<const ReferenceDescription>(*reference);
+  reference->kind = ReferenceDescription::Kind::kLive;
+  reference->live = {function, std::move(planned)};
+  return function;
+}
+
+/// Watched, with a set-point of 5 rad/s that can be commanded.
+Status check_commanded(const LiveFunction& setpoint, const LiveFunction& effort, double rate) {
+  const char* const spindle = "{motor: {type: pid, input: hinge/velocity, setpoint: 5, output: hinge, gains: {p: 1}}}";
+  const Watched planned("{}", spindle);
+  Study study = planned.system->study();
+  *make_live(&study.controllers[0].setpoint) = setpoint;
+  *make_live(&study.controllers[0].feedforward) = effort;
+  const CompiledSystem system(planned.system->robot(), study);
+  MotionWatch watch(system);
+  watch.start(planned.equations, planned.start);
+  State<double> state = planned.start;
+  state.t = 5e-4;
+  state.v[5] = 0.5 * rate;
+  return watch.check(state, 600);
+}
+
+TEST(MotionWatch, SpeedsCommandedAreWithinReason) {
+  const LiveFunction none, fast{true, 0.0, {200.0}}, rest{true, 0.0, {}};
+  EXPECT_FALSE(check_commanded(none, none, 250.0).ok());
+  EXPECT_TRUE(check_commanded(fast, none, 250.0).ok());
+  EXPECT_TRUE(check_commanded(fast, rest, 1990.0).ok());
+  EXPECT_FALSE(check_commanded(fast, rest, 2010.0).ok());
+  EXPECT_TRUE(check_commanded(none, {true, 0.0, {30.0}}, 1e5).ok()) << "an effort tells no speed";
 }
 
 TEST(MotionWatch, WhatNothingDrivesCannotRunAway) {

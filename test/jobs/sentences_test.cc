@@ -13,5 +13,11 @@ TEST(Sentences, NameCodeTimeAndCause) {
   EXPECT_EQ(reason(status), "more than 7 steps (at t = 0.25 s)");
 }
 
+TEST(Sentences, WhatEndedASearchHasNoTimeOfARun) {
+  EXPECT_EQ(reason({StatusCode::kCancelled, 0.0, "the best point so far is kept"}), "the best point so far is kept");
+  EXPECT_EQ(describe({StatusCode::kInfeasible, 0.0, "outside its constraints"}), "infeasible: outside its constraints");
+  EXPECT_EQ(reason({StatusCode::kAssemblyFailed, 0.0, "no way"}), "no way (at t = 0 s)");
+}
+
 }  // namespace
 }  // namespace codesign

@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "reading/urdf/mesh_finder.h"
 #include "reading/urdf/plain_numbers.h"
 #include "text/decimal.h"
 
@@ -35,8 +36,7 @@ Skeletons read_skeletons(const XMLElement* robot) {
     child.slides = text_of(joint, "type") == "prismatic";
     skeletons[text_of(joint->FirstChildElement("parent"), "link")].points.emplace_back(plain_origin(joint).translation());
   }
-  for (const XMLElement* loop = robot->FirstChildElement("codesign:loop"); loop != nullptr;
-       loop = loop->NextSiblingElement("codesign:loop"))
+  for (const XMLElement* loop = robot->FirstChildElement("loop"); loop != nullptr; loop = loop->NextSiblingElement("loop"))
     for (const char* end : {"predecessor", "successor"}) {
       const XMLElement* place = loop->FirstChildElement(end);
       skeletons[text_of(place, "link")].points.emplace_back(plain_origin(place).translation());
@@ -47,6 +47,16 @@ Skeletons read_skeletons(const XMLElement* robot) {
 double mass_of(const XMLElement* link) {
   const XMLElement* inertial = link->FirstChildElement("inertial");
   return inertial != nullptr ? plain_number(inertial->FirstChildElement("mass"), "value") : 0.0;
+}
+
+/// Whether a viewer sees the link.
+bool is_seen(const XMLElement* link, MeshFinder* meshes) {
+  for (const XMLElement* visual = link->FirstChildElement("visual"); visual != nullptr; visual = visual->NextSiblingElement("visual")) {
+    const XMLElement* geometry = visual->FirstChildElement("geometry");
+    const XMLElement* mesh = geometry != nullptr ? geometry->FirstChildElement("mesh") : nullptr;
+    if (mesh == nullptr || meshes->is_there(text_of(mesh, "filename"))) return true;
+  }
+  return false;
 }
 
 std::string numbers(const Eigen::Vector3d& v) { return to_decimal(v.x()) + ' ' + to_decimal(v.y()) + ' ' + to_decimal(v.z()); }
@@ -134,14 +144,15 @@ std::string with_sticks(const std::string& urdf) {
   const Skeletons skeletons = read_skeletons(robot);
   const double radius = 0.02 * longest(robot, skeletons);
   bool has_changed = false;
+  MeshFinder meshes;
   for (XMLElement* link = robot->FirstChildElement("link"); link != nullptr; link = link->NextSiblingElement("link")) {
     const auto found = skeletons.find(text_of(link, "name"));
-    if (found == skeletons.end() || link->FirstChildElement("visual") != nullptr) continue;
+    if (found == skeletons.end() || is_seen(link, &meshes)) continue;
     if (found->second.is_root)
       draw_root(found->second, radius, link);
     else
       draw_link(found->second, radius, link);
-    has_changed = has_changed || link->FirstChildElement("visual") != nullptr;
+    has_changed = has_changed || is_seen(link, &meshes);
   }
   if (!has_changed) return urdf;
   tinyxml2::XMLPrinter printer;

@@ -6,7 +6,8 @@
 
 namespace codesign {
 
-/// A URDF for viewers: links without `<visual>` get some, named `stick`, so that the mechanism can be seen.
+/// A URDF for viewers: links without `<visual>`, or of whose visuals MeshFinder finds no mesh, get some, named `stick`, so that the
+/// mechanism can be seen.
 ///
 /// A link with mass gets a sphere at its joint, or a box if it slides there, and sticks from there to the frames of the joints and loops
 /// that hang on it; one on which nothing hangs a stick to its centre of mass and a sphere there. A massless link gets sticks alone. Of the

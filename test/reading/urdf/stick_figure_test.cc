@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "reading/urdf/link_solids.h"
 #include "reading/urdf/urdf_reader.h"
+#include "temporary_directory.h"
 
 namespace codesign {
 namespace {
@@ -43,13 +46,32 @@ TEST(Sticks, RunBetweenTheFramesOfJointsAndToTheLastCentreOfMass) {
 
 TEST(Sticks, RunToTheEndsOfLoopsAndBetweenTheJointsOfTheRoot) {
   std::string text = kBare;
-  text.replace(text.find("</robot>"), 8, R"(<codesign:loop name="pin" type="revolute"><predecessor link="ground" xyz="3 0 0"/>
-    <successor link="bob" xyz="0 2 0"/><axis xyz="0 1 0"/></codesign:loop></robot>)");
+  text.replace(text.find("</robot>"), 8, R"(<loop name="pin" type="revolute"><predecessor link="ground"><origin xyz="3 0 0"/></predecessor>
+    <successor link="bob"><origin xyz="0 2 0"/></successor><axis xyz="0 1 0"/></loop></robot>)");
+  ASSERT_EQ(read_urdf({"loop", text}).joints.size(), read_urdf({"bare", kBare}).joints.size() + 1) << "the loop is one of the model";
   const LinkBoxes boxes = link_boxes(with_sticks(text), {"ground", "bob"});
   ASSERT_EQ(boxes[0].size(), 1U);
   EXPECT_DOUBLE_EQ(boxes[0][0].half.z(), 1.5);
   ASSERT_EQ(boxes[1].size(), 2U) << "a stick to the loop in place of the one to the centre of mass";
   EXPECT_DOUBLE_EQ(boxes[1][0].half.z(), 1.0);
+}
+
+// A vendor's URDF without the package of its meshes.
+TEST(Sticks, StandForMeshesThatAreNotThere) {
+  const TemporaryDirectory folder;
+  const std::string there = (folder.path() / "rod.stl").string();
+  std::ofstream(there) << "solid";
+  const auto with_mesh = [](const std::string& uri) {
+    std::string text = kBare;
+    const std::string rod = "<link name=\"rod\">";
+    return text.replace(text.find(rod), rod.size(), rod + "<visual><geometry><mesh filename=\"" + uri + "\"/></geometry></visual>");
+  };
+  const auto sticks = [&](const std::string& uri) { return link_boxes(with_sticks(with_mesh(uri)), {"rod"})[0].size(); };
+  EXPECT_EQ(sticks("file://" + there), 0U);
+  EXPECT_EQ(sticks("file://" + there + "x"), 2U);
+  EXPECT_EQ(sticks("package://no_such_package_at_all/rod.stl"), 2U);
+  const std::string missing = with_sticks(with_mesh("package://no_such_package_at_all/rod.stl"));
+  EXPECT_EQ(with_sticks(missing), missing);
 }
 
 TEST(Sticks, ChangeNothingButTheLook) {
