@@ -173,7 +173,7 @@ class Assembly {
   LoopJacobian loops_;
   std::vector<bool> drops_;     ///< per row of loops_: whether the system does not enforce it
   bool all_rows_count_ = true;  ///< whether dropped rows take part in the solution
-  double rank_tolerance_;       ///< relative; the one with which the last positions were found
+  double rank_tolerance_;       ///< relative; the tolerance with which the last positions were found
   SingularStart singular_start_;
   Warnings warnings_;
   std::vector<std::size_t> contradicting_;

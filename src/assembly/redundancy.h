@@ -15,7 +15,7 @@ namespace codesign {
 struct Redundancy {
   std::vector<ConstraintRow> rows;        ///< redundant rows of loops and couplings, as many as the rank lacks; the others are independent
   std::vector<std::string> undetermined;  ///< joints, loops and couplings whose multipliers are not unique
-  std::vector<std::string> friction_chosen;  ///< those among them with friction that depends on such a multiplier
+  std::vector<std::string> friction_chosen;  ///< the ones of `undetermined` whose friction depends on such a multiplier
   std::vector<int> chosen_joints;            ///< the joints of friction_chosen, as indices in the description
   Eigen::MatrixXd self_stress;    ///< constraints x trials: multipliers s with Phi_q^T s = 0, up to the loads of unit Euler parameters
   double stress_threshold = 0.0;  ///< smaller entries of self_stress count as zero
@@ -32,7 +32,7 @@ Redundancy analyse_redundancy(const CompiledSystem& system, Equations<double>* e
                               const std::vector<double>& parameters, const State<double>& state);
 
 /// Indices of the signals that read a component of a reaction that is not unique.
-/// @param state the one at which `redundancy` was found.
+/// @param state the state at which `redundancy` was found.
 std::vector<std::size_t> open_reactions(const CompiledSystem& system, const Redundancy& redundancy, State<double> state,
                                         const std::vector<Signal>& signals, Equations<double>* equations);
 

@@ -10,7 +10,7 @@
 namespace codesign {
 
 /// `undetermined_reaction` for each signal that reads a component of a reaction that is not unique.
-/// @param state the one at which `redundancy` was found. @param equations must hold its design.
+/// @param state the state at which `redundancy` was found. @param equations must hold its design.
 Warnings warn_of_open_reactions(const CompiledSystem& system, const Redundancy& redundancy, const State<double>& state,
                                 const std::vector<SignalDescription>& signals, Equations<double>* equations);
 

@@ -13,8 +13,8 @@ namespace codesign {
 
 /// Tests whether rates of the tree coordinates (or, from rest, accelerations) belong to a motion, at a position where rows of the loops
 /// depend on each other; doc/theory.md (19a). With J = Phi^l_theta of loops and couplings and L an orthonormal basis of its left null
-/// space, rates x with J x = 0 belong to a motion only if J y = -(J x)_theta x has a solution y, which requires L^T (J x)_theta x = 0.
-/// Where redundancy is permanent this always holds; where several motions meet only their tangents satisfy it.
+/// space, rates x with J x = 0 belong to a motion only if J y = -(J x)_theta x has a solution y, which requires L^T (J x)_theta x = 0. If
+/// the redundancy is permanent, every such x satisfies this condition; where several motions meet, only their tangents do.
 class SingularStart {
  public:
   /// @param tree, loops must outlive this.

@@ -14,7 +14,7 @@ struct TreeCoordinates {
   VectorX<double> theta, rate;
 };
 
-/// The tree coordinates of a state, the inverse of body_coordinates(). Turns of a floating joint are those about x, then y, then z.
+/// The tree coordinates of a state, the inverse of body_coordinates(). The turns of a floating joint are about x, then y, then z.
 /// @param equations must hold the design; they load `state`. @param rest coordinates of joints below which nothing has mass, kept.
 /// @param result sized and filled. @returns the joint whose coordinate cannot be computed (a hinge of a folded chain without a closed form,
 /// a floating joint turned by 90 degrees about y), or an empty text.

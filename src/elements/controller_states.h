@@ -59,7 +59,7 @@ void visit_controller_states(const StateView<T>& view, int controller, const Vis
   if (states.lag >= 0) visit(states.lag, [&](OptionalGradient<T> gradient) { return lag_rate(view, controller, gradient); });
 }
 
-/// Sets the rows of a controller's states to sigma - s'; nothing for controllers without one.
+/// Sets the rows of a controller's states to sigma - s'; nothing for controllers without a state.
 template <class T>
 void controller_residual(const StateView<T>& view, std::size_t c, VectorX<T>* G) {
   visit_controller_states(view, static_cast<int>(c), [&](int state, const auto& rate) {

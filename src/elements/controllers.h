@@ -59,7 +59,8 @@ T filtered_error_rate(const StateView<T>& view, int controller, OptionalGradient
   return per_tau * (error - view.state->s[x]);
 }
 
-/// k_i s of a continuous controller, saturated by i_clamp where that bounds the term alone, (50). Appends its gradient.
+/// k_i s of a continuous controller, saturated by i_clamp if i_clamp bounds this term and not the integral itself, (50). Appends its
+/// gradient.
 template <class T>
 T clamped_integral_term(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
   const auto c = static_cast<std::size_t>(controller);
@@ -98,7 +99,8 @@ T pid_output(const StateView<T>& view, int controller, OptionalGradient<T> gradi
 }
 
 /// The load tau_k of (C4) [N or N m] along the coordinate that the controller drives. Appends its gradient by positions and velocities, and
-/// leaves those by the accelerations and rates of the nodes in ControlMemory::by_acceleration and by_rate, for the caller to apply.
+/// writes its derivatives by the accelerations and rates of the nodes to ControlMemory::by_acceleration and by_rate; the caller applies
+/// them.
 /// @param accelerations one per node of the driven tree, or none for (C5): everything at rest. With accelerations the caller must fill
 /// ControlMemory::rates before.
 template <class T>
@@ -114,7 +116,7 @@ T inverse_dynamics_load(const StateView<T>& view, int controller, In<T> accelera
   return load;
 }
 
-/// alpha_j = r'' + k_d e' + k_p e of (C6), the acceleration that a computed-torque controller asks of its joint. Appends its gradient.
+/// alpha_j = r'' + k_d e' + k_p e of (C6), the acceleration that a computed-torque controller demands of its joint. Appends its gradient.
 template <class T>
 T wanted_acceleration(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
   const ReferenceMotion<T> setpoint = view.design.controllers[static_cast<std::size_t>(controller)].setpoint.at(view.state->t);
@@ -122,8 +124,8 @@ T wanted_acceleration(const StateView<T>& view, int controller, OptionalGradient
   return setpoint.acceleration + pid_output(view, controller, gradient);
 }
 
-/// u_k = tau_k(alpha) of (C6). All controllers of this kind are one law: alpha has the accelerations that they demand together, zero for
-/// joints without one. Appends its gradient.
+/// u_k = tau_k(alpha) of (C6). The controllers of this kind form one law: alpha holds the accelerations that all of them demand, and zero
+/// for joints without a demand. Appends its gradient.
 template <class T>
 T computed_torque(const StateView<T>& view, int controller, OptionalGradient<T> gradient) {
   const std::vector<DrivenTree::Node>& nodes = view.system.controllers()[static_cast<std::size_t>(controller)].tree.nodes;

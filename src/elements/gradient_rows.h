@@ -10,7 +10,8 @@ namespace codesign {
 // Functions that append entries to a sparse gradient. `with_r` says whether the entries by r of the bodies may differ from zero; if not
 // they are left out. Entries that belong to the ground are always left out.
 
-/// The present end of a gradient, from which SparseGradient::scale_from() can scale later entries; `gradient` may be null.
+/// The mark of the present end of a gradient, with which SparseGradient::scale_from() scales the entries appended later. `gradient` may be
+/// null.
 template <class T>
 typename SparseGradient<T>::Mark mark(const SparseGradient<T>* gradient) {
   return gradient ? gradient->mark() : typename SparseGradient<T>::Mark{0, 0, 0, T(0.0)};

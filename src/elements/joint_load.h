@@ -81,7 +81,7 @@ T joint_load(const StateView<T>& view, const JointLoad& load, const CoordinateMo
   return value;
 }
 
-/// A load's friction without all else that acts there. A copy of `load` would copy its lists, too, which allocates.
+/// The friction of a load, without its other parts. A copy of `load` would also copy its lists, which allocates memory.
 inline JointLoad friction_part(const JointLoad& load) {
   JointLoad part;
   part.pair = load.pair;

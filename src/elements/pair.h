@@ -39,7 +39,7 @@ bool moves_r(const ProductRow<T>& row) {
   return row.X.terms == 2 || row.Y.terms == 2;
 }
 
-/// Whether a product has a vector on this side; a displacement is on both.
+/// Whether one of a product's vectors belongs to this side; a displacement belongs to both sides.
 template <class T>
 bool touches(const ProductRow<T>& row, Side side) {
   const auto touched = [side](const PairVector<T>& x) { return x.terms == 2 || x.term[0].side == side; };

@@ -31,7 +31,8 @@ ReactionAxis<T> reaction_axis(const StateView<T>& view, const SignalReference& t
   return axis;
 }
 
-/// The part of one product row: the sum of -c lambda (+- A d) . Y over the terms of X on the child, and likewise for the terms of Y.
+/// The contribution of one product row: the sum of -c lambda (+- A d) . Y over the terms of X on the child, and likewise for the terms of
+/// Y.
 /// @param row the row's multiplier in z.
 template <class T>
 T product_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, const ProductRow<T>& product, int row,
@@ -58,7 +59,7 @@ T product_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, const 
   return value;
 }
 
-/// The part of all constraint rows of the pair.
+/// The contribution of all constraint rows of the pair.
 template <class T>
 T constraint_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, OptionalGradient<T> gradient) {
   const PairRows<T>& rows = view.design.rows[static_cast<std::size_t>(axis.pair)];
@@ -82,7 +83,7 @@ T constraint_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, Opt
   return value;
 }
 
-/// The part of one load L along a coordinate of the joint: -L times (11a) of its J^T.
+/// The contribution of one load L along a coordinate of the joint: -L times (11a) of its J^T.
 /// @param own the mark before the gradient of L was appended; that gradient is multiplied here, and the derivative of J^T is appended.
 template <class T>
 T load_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, const CoordinateConstants<T>& coordinate, const LocalRow<T>& J,
@@ -111,7 +112,7 @@ T load_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, const Coo
   return share * load;
 }
 
-/// The part of friction, damping, springs, stops, controllers and constant efforts along the joint's coordinates.
+/// The contribution of friction, damping, springs, stops, controllers and constant efforts along the joint's coordinates.
 template <class T>
 T coordinate_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, OptionalGradient<T> gradient) {
   T value(0.0);
@@ -127,7 +128,7 @@ T coordinate_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, Opt
   return value;
 }
 
-/// The part of the rotors that the joint drives, theory (9a).
+/// The contribution of the rotors that the joint drives, theory (9a).
 template <class T>
 T rotor_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, OptionalGradient<T> gradient) {
   T value(0.0);
@@ -141,7 +142,7 @@ T rotor_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, Optional
   return value;
 }
 
-/// The part of the couplings of the joint's coordinates, theory (8a).
+/// The contribution of the couplings of the joint's coordinates, theory (8a).
 template <class T>
 T coupling_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, OptionalGradient<T> gradient) {
   T value(0.0);
@@ -161,7 +162,7 @@ T coupling_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, Optio
   return value;
 }
 
-/// The part of isotropic friction, theory (13a), of a pair among System::contacts().
+/// The contribution of isotropic friction, theory (13a), for a pair among System::contacts().
 template <class T>
 T contact_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, OptionalGradient<T> gradient) {
   const ContactFriction<T> c = contact_at(view, axis.pair);

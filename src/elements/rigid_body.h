@@ -18,7 +18,7 @@ void inertia_force(const BodyConstants<T>& body, const BodyKinematics<T>& k, Vec
   *on_p = body_rate_transposed(k.p, y) + body_rate_transposed(k.pd, w);
 }
 
-/// Derivatives of the rows of p in (9) by p, p' and p''. Those of the rows of r are m I by r'' and zero otherwise.
+/// Derivatives of the rows of p in (9) by p, p' and p''. The rows of r have the derivative m I by r''; their other derivatives are zero.
 template <class T>
 struct InertiaGradient {
   Matrix4<T> by_p, by_pd, by_pdd;

@@ -13,7 +13,7 @@
 
 namespace codesign {
 
-// The values of signals: what controllers, objectives and observers read of a state. Each function returns factor times one term, in the
+// The values of signals, which controllers, objectives and observers read from a state. Each function returns factor times one term, in the
 // term's SI unit, and appends factor times its gradient if `gradient` is not null.
 
 /// Position, velocity or acceleration of a joint coordinate, theory (8).

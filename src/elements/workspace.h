@@ -32,7 +32,7 @@ struct Workspace {
       load.W.setZero();
     }
   }
-  /// The sum of loads on a body, to be added to; null for the ground, whose loads nothing needs.
+  /// The sum of the loads on a body, to which elements add theirs; null for the ground, whose loads are not needed.
   BodyLoad<T>* load_on(int body) { return body < 0 ? nullptr : &loads[static_cast<std::size_t>(body)]; }
   /// The same for `shared_loads`.
   BodyLoad<T>* shared_load_on(int body) { return body < 0 ? nullptr : &shared_loads[static_cast<std::size_t>(body)]; }

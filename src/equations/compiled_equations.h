@@ -64,8 +64,8 @@ class CompiledEquations {
   /// Evaluates the functions of time at `t` and copies the turn references to the code's inputs.
   void set_instant(double t, const std::vector<double>& turns);
 
-  /// Counts evaluations of a function that failed for a branch that was not recorded. After a few in a row the code is not tried for a
-  /// while, since a failed evaluation costs time.
+  /// Counts the evaluations of a function that failed because the state needed a branch that was not recorded. After a few failures in a
+  /// row the code is not tried for a while, since a failed evaluation costs time.
   struct Misses {
     int in_a_row = 0, pause = 0;
   };

@@ -11,8 +11,8 @@
 namespace codesign {
 
 /// The equations of motion of one design, doc/theory.md (14), as integrators and sensitivities use them. residual(), linearize() and
-/// constraint_errors() run the machine code compiled for this mechanism where they can, else the Formulas; both give the same numbers but
-/// for rounding. T: double, std::complex<double> or Lanes<N>. Call set_design() first. No allocation after the first evaluation; not
+/// constraint_errors() run the machine code compiled for this mechanism where they can, else the Formulas; both give the same numbers,
+/// except for rounding. T: double, std::complex<double> or Lanes<N>. Call set_design() first. No allocation after the first evaluation; not
 /// thread-safe: one per thread, while the CompiledSystem is shared.
 template <class T>
 class Equations {

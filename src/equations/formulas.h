@@ -53,7 +53,7 @@ class Formulas {
   /// @param errors, rates one value per row of the pair.
   void pair_errors(int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, Out<T> errors, Out<T> rates) const;
 
-  /// Sets the states of controllers to those at t = 0, theory (50), (51): filters at rest, first samples taken.
+  /// Sets the states of controllers to their values at t = 0, theory (50), (51): filters at rest, first samples taken.
   void begin_controllers(State<T>* state);
   /// Carries the states of sampled controllers over the events of an instant, theory (51). The rates state->z do not change; solve for
   /// them afterwards.
@@ -62,9 +62,10 @@ class Formulas {
   /// Sets State::turns to the joint positions of the state. To be called after each step, so that positions count whole turns.
   void track_turns(State<T>* state);
 
-  /// The sum w of the terminal terms of the objective, theory (21). @param gradient its gradient is appended, if not null; here and below.
+  /// The sum w of the terminal terms of the objective, theory (21). @param gradient if not null, the gradient of the result is appended to
+  /// it; here and below.
   T terminal(const State<T>& state, SparseGradient<T>* gradient);
-  /// Signal minus reference of each term of the integrand g or of the terminal terms w, theory (21), in SI units; their weights are those
+  /// Signal minus reference of each term of the integrand g or of the terminal terms w, theory (21), in SI units; the weights are numbers
   /// of the design.
   void errors(ObjectivePart part, const State<T>& state, VectorX<T>* errors);
   /// Signal minus reference of the k-th watched signal, theory (21a), in SI units.

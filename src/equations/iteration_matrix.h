@@ -13,8 +13,8 @@ namespace codesign {
 
 class LazyStraightLine;
 
-/// The square matrix of every implicit solve for z = (a, lambda, sigma), with its LU factorization: G_z plus c_v G_v and c_q G_q in the
-/// columns of a and c_s G_s in the columns of sigma; theory (16). The row of the integrand is left out. The pattern is fixed.
+/// The square matrix of every implicit solve for z = (a, lambda, sigma), with its LU factorization: G_z, plus c_v G_v + c_q G_q in the
+/// columns of a, plus c_s G_s in the columns of sigma; theory (16). The row of the integrand is left out. The pattern is fixed.
 ///
 /// c_v = c_q = c_s = 0 gives G_z, for accelerations and multipliers; c_v = c_s = h gamma, c_q = (h gamma)^2 the matrix of a Rosenbrock
 /// stage; c_v = c_s = 1/c_j, c_q = 1/c_j^2 the matrix of IDAS, theory (26).

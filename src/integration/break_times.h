@@ -9,8 +9,8 @@
 namespace codesign {
 
 /// The instants [s] at which a study's functions of time have a kink or begin to move, doc/theory.md (C1). Integrators end a step there: a
-/// step across a kink loses its order, and a long step from rest could skip a motion that begins within it. All samples of a function
-/// through samples are among them, since its second derivative jumps there; at the delay that it has at the study's start.
+/// step across a kink loses its order, and a long step from rest could skip a motion that begins within it. For a function through samples
+/// these are the instants of all samples, since its second derivative jumps there; they are shifted by the start value of its delay.
 class BreakTimes {
  public:
   explicit BreakTimes(const Study& study);

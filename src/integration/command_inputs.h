@@ -44,8 +44,8 @@ struct TrajectoryFollower {
   bool by_rate = false;        ///< true: the input is the velocity of the joint, and the set-point is the rate of the trajectory
 };
 
-/// The controller whose input is the position of a joint, else the controller whose input is its velocity: of several, one that drives the
-/// joint, or no joint. None if there is no such controller.
+/// The controller that a trajectory of a joint commands: the first whose input is the position of the joint, else the first whose input is
+/// its velocity. A controller that drives another joint does not count. None if there is no such controller.
 std::optional<TrajectoryFollower> follower_of(const CommandInputs& inputs, const std::string& joint);
 
 }  // namespace codesign

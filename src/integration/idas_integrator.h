@@ -67,7 +67,7 @@ class IdasIntegrator final : public Integrator {
 
   /// (q, v, s, z)_rho of tuned parameter k at the end of the last step.
   void sensitivity(int k, State<double>* direction) const;
-  /// (q, v, s)_rho of all tuned parameters at `time` [s] within the last step, by the dense output; z is not set to anything useful.
+  /// (q, v, s)_rho of all tuned parameters at `time` [s] within the last step, by the dense output; z is meaningless.
   void interpolate_sensitivities(double time, std::vector<State<double>>* directions);
   /// Derivative of psi() by tuned parameter k.
   double psi_sensitivity(int k) const;

@@ -10,7 +10,7 @@
 
 namespace codesign {
 
-/// The memory of IDAS, its context, and where its last message is kept.
+/// The memory of IDAS, its context, and the text of its last message.
 struct IdasMemory {
   void* ida;
   SUNContext context;

@@ -37,7 +37,7 @@ class Integrator {
   /// Dense output at `time` [s] within the last step: state and psi. Accelerations and multipliers in `state->z` are of lower accuracy.
   virtual void interpolate(double time, State<double>* state, double* psi) = 0;
 
-  /// The time derivative of that dense output: the parts q, v and s of `rates` [per s].
+  /// The time derivative of the dense output: the parts q, v and s of `rates` [per s].
   virtual void interpolate_rates(double time, State<double>* rates) = 0;
 
   virtual Equations<double>& equations() = 0;

@@ -11,11 +11,11 @@ namespace codesign {
 
 /// Ends a run whose motion is unstable, for example with a feedback gain of the wrong sign, before it takes ever shorter steps.
 ///
-/// With `solver.maximum_speed`, the run ends when a body exceeds it. Without, it ends if all of these hold: there is a controller; a body
-/// is ten times faster than a typical speed, the largest of the start's, of a fall through the mechanism's size, and of the velocities that
-/// setpoints and references prescribe directly or as derivatives of positions, commanded ones too; no effort was commanded; and at the pace
-/// of the last 500 steps the study would need more than a tenth of `maximum_steps` (at least 5000). Speeds are |r'| [m/s] and |omega|
-/// [rad/s].
+/// With `solver.maximum_speed`, the run ends when a body exceeds it. Without this key, the run ends if all of these hold: there is a
+/// controller; a body is ten times faster than a typical speed, the largest of the start's, of a fall through the mechanism's size, and of
+/// the velocities that setpoints and references prescribe directly or as derivatives of positions, commanded ones too; no effort was
+/// commanded; and at the pace of the last 500 steps the study would need more than a tenth of `maximum_steps` (at least 5000). Speeds are
+/// |r'| [m/s] and |omega| [rad/s].
 class MotionWatch {
  public:
   explicit MotionWatch(const CompiledSystem& system) : system_(system) {}

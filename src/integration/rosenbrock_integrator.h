@@ -41,8 +41,8 @@ class RosenbrockIntegrator final : public Integrator {
 
   Status advance(double limit, const BeforeAccept& before_accept);
 
-  /// Carries the states of sampled controllers over the events at the end of the last step, theory (51). advance() does so by itself; to be
-  /// called before it by those who need jump_events() and before_jump().
+  /// Carries the states of sampled controllers over the events at the end of the last step, theory (51). advance() calls it by itself; a
+  /// caller that needs jump_events() and before_jump() calls it before advance().
   Status jump();
   /// The events of the last jump(), none if there was nothing to do, and the state before them.
   const std::vector<ControlEvent>& jump_events() const { return jump_events_; }

@@ -34,8 +34,8 @@ class RosenbrockStep {
   /// Continues a solution at another state of the same time, such as the state after a jump; psi() stays.
   void restart(const State<T>& state);
 
-  /// Begins again with the pivots of settle_pivots(), or chooses pivots anew without it, so that no bit of later steps depends on the runs
-  /// before. For the beginning of a run, after start(). @param h size of the first step [s].
+  /// Begins again with the pivots of settle_pivots(), or chooses pivots anew if that was never called, so that no bit of later steps
+  /// depends on earlier runs. To be called at the beginning of a run, after start(). @param h size of the first step [s].
   void choose_pivots(double h);
   /// SparseLu::settle() for all factorizations.
   void settle_pivots();
@@ -72,7 +72,7 @@ class RosenbrockStep {
 
   /// State and psi at previous().t + theta h by the method's dense output, 0 <= theta <= 1.
   void interpolate(double theta, State<T>* state, T* psi) const;
-  /// The derivative by time of that output: the parts q, v and s of `rates` [per s].
+  /// The derivative of the dense output by time: the parts q, v and s of `rates` [per s].
   void interpolate_rates(double theta, State<T>* rates) const;
 
  private:

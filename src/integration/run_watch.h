@@ -49,10 +49,10 @@ class RunWatch {
   BodyMotion motion_;
   double start_potential_ = 0.0, start_energy_ = 0.0;                     ///< [J]
   double potential_ = 0.0;                                                ///< at the last step [J]
-  double imbalance_ = 0.0;                                                ///< energy that no work explains, at the last step [J]
+  double imbalance_ = 0.0;                                                ///< energy not explained by work, at the last step [J]
   double work_ = 0.0, turnover_ = 0.0, scale_ = 0.0, worst_error_ = 0.0;  ///< [J]
   double worst_drift_time_ = 0.0, worst_error_time_ = 0.0;                ///< [s]
-  int unbalanced_steps_ = 0;  ///< consecutive steps with an energy error beyond the limit of failure
+  int unbalanced_steps_ = 0;  ///< consecutive steps with an energy error above RunLimit::failure
 };
 
 }  // namespace codesign

@@ -12,8 +12,8 @@ namespace codesign {
 
 /// Finds the first singular position that a run passes, where the rank of Phi_q drops and sensitivities lose digits; doc/theory.md (17b).
 ///
-/// Near a singular position the drift (17a) of the steps has a peak. Only at a peak, between the ends of three steps, is the response of
-/// the augmented matrix evaluated, so that other runs cost nothing.
+/// Near a singular position the drift (17a) of the steps has a peak. The response of the augmented matrix is evaluated only at a peak,
+/// found from the ends of three steps, so that runs without a peak cost nothing.
 class SingularityWatch {
  public:
   explicit SingularityWatch(const CompiledSystem& system);

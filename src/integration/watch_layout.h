@@ -16,7 +16,7 @@ namespace codesign {
 /// to the number of local extrema, and each is a continuous function of the design.
 ///
 /// A signal may jump at the break times of functions of time. If there are few break times, they are instants, so that windows end there.
-/// Many would give too many numbers; they then lie within windows, which count the values on both sides of a jump.
+/// Many break times would give too many numbers; they then lie within windows, which count the values on both sides of a jump.
 class WatchLayout {
  public:
   /// The numbers of one watched signal.

@@ -135,8 +135,8 @@ Constants<T> evaluate_constants(const RobotDescription& robot, const Topology& t
   return constants;
 }
 
-/// A sentence that names the first impossible mass, inertia, length or coefficient of a design; empty if there is none. Mass faults
-/// that a body has at the default parameters too do not count, since check_bodies() warned of them.
+/// A sentence that names the first impossible mass, inertia, length or coefficient of a design; empty if there is none. A mass fault that a
+/// body also has at the default parameters does not count, since check_bodies() warned of it.
 std::string find_impossible(const RobotDescription& robot, const Topology& topology, const Constants<double>& constants);
 
 }  // namespace codesign

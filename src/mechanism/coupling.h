@@ -42,7 +42,7 @@ struct Coupling {
 std::vector<Coupling> derive_couplings(const RobotDescription& robot, const Topology& topology);
 
 /// The row theta = 0 of one joint coordinate, whose motion is prescribed from outside; doc/theory.md (28). Its multiplier is minus the
-/// effort that the motion needs. Without a compliance.
+/// effort that the motion needs. The row has no compliance.
 /// @param joint index of a revolute, continuous or prismatic joint.
 /// @throws InputError if the joint moves only a link without `<inertial>`.
 Coupling drive_of(const RobotDescription& robot, const Topology& topology, int joint);

@@ -10,9 +10,9 @@ namespace codesign {
 
 /// Checks that a joint of `type` has the dimensions that its normal forces, theory (12), are computed from: joint_length and joint_width
 /// for prismatic joints; joint_length and pin_radius for revolute, continuous and cylindrical ones; pin_radius for spherical ones; none for
-/// planar ones. The URDF reader calls it for ordinary joints, derive_topology() for joints that it folds from a chain.
-/// @throws InputError if a dimension is missing, if joints of this type have no friction law, or for numbers of motion against the axis on
-/// joints that slip in several directions.
+/// planar ones. The URDF reader calls this function for ordinary joints, derive_topology() for joints that it folds from a chain.
+/// @throws InputError if a dimension is missing, if joints of this type have no friction law, or if a joint that slips in several
+/// directions has numbers for motion against the axis.
 void check_friction_geometry(const FrictionDescription& friction, JointType type, const std::string& element);
 
 }  // namespace codesign

@@ -15,7 +15,8 @@ inline constexpr std::array<const char*, 10> kLogCholeskyNames{"alpha", "d1", "d
 inline constexpr std::array<const char*, 10> kLogCholeskyUnits{"", "", "", "", "m", "m", "m", "m", "m", "m"};
 
 /// The ten numbers of mass, centre and inertia by the logarithmic Cholesky factor of the pseudo-inertia (Rucker and Wensing [18]), theory
-/// (28e): for every value of them there is a distribution of positive mass with these properties, and the reverse.
+/// (28e): for all values of the ten numbers there is a distribution of positive mass with these properties, and every such distribution has
+/// ten numbers.
 /// @param properties in the link's axes.
 /// @returns in the order of kLogCholeskyNames; std::nullopt if mass or extent along some direction is not positive, as for points, rods and
 /// plates, or if a principal moment is not below the sum of the others.

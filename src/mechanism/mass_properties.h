@@ -53,7 +53,7 @@ Matrix3<T> point_inertia(const T& mass, const Vector3<T>& d) {
   return mass * (square * Matrix3<T>::Identity() - d * d.transpose());
 }
 
-/// A homogeneous solid about its own centre, in its own axes. A mesh counts as without volume.
+/// A homogeneous solid about its own centre, in its own axes. A mesh counts as a solid without volume.
 template <class T>
 MassProperties<T> solid(const ShapeDescription& shape, const T& density, const std::vector<T>& parameters) {
   const Vector3<T> size = values_at(shape.size, parameters);

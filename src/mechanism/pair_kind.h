@@ -24,7 +24,7 @@ enum class PairKind {
   kFree            ///< any motion
 };
 
-/// The components of the reaction force F'', theory (11), that the multipliers of a pair's first rows are.
+/// The components of the reaction force F'', theory (11), that equal the multipliers of a pair's first rows.
 enum class ForceRows {
   kNone,    ///< no row is a component of F''
   kAll,     ///< three rows of coincident points, in ground axes
@@ -40,7 +40,7 @@ enum class BearingLaw { kPin, kRevolute, kTranslational, kPlane, kBall };
 struct PairTraits {
   JointType joint;         ///< joint type with the same motion, whose friction law applies; kFloating (no friction) if there is none
   int rows;                ///< number of constraint rows
-  ForceRows force;         ///< what the first rows of pair_rows() are
+  ForceRows force;         ///< the force components that the first rows of pair_rows() stand for
   bool torque_rows;        ///< whether the next rows are (T_y, -T_x, T_z) of the reaction torque T'', as far as there are rows
   BearingLaw bearing;      ///< formula of the normal force; not used by kinds that cannot have friction
   int slip_coordinates;    ///< number of slip coordinates of isotropic friction (13a); 0: each coordinate has its own friction, (13)

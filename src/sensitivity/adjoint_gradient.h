@@ -24,9 +24,9 @@ class AdjointGradient final : public GradientEngine {
   double time() const override { return integrator_.state().t; }
   double objective() override;
   void gradient(Eigen::VectorXd* gradient) override;
-  /// Empty: such an evaluation is by the direct method.
+  /// Empty: an evaluation that needs the root uses the direct method.
   void jacobian_root(Eigen::MatrixXd* root) override { root->resize(0, 0); }
-  /// Empty: a study with watched signals has its gradient by the direct method.
+  /// Empty: the gradient of a study with watched signals is computed by the direct method.
   const Extremes& extremes() const override { return none_; }
   const Statistics& statistics() const override { return integrator_.statistics(); }
   Warnings warnings() const override { return integrator_.warnings(); }

@@ -33,7 +33,7 @@ class IdasGradient final : public GradientEngine {
   /// the derivatives of BDF.
   const State<double>& consistent_state();
   Status start_watches(bool with_gradient);
-  /// Sets directions_ to those at the end of the last step.
+  /// Sets directions_ to the directions at the end of the last step.
   void take_directions();
 
   const CompiledSystem& system_;

@@ -12,8 +12,8 @@ namespace codesign {
 
 /// The sensitivity equations that IDAS integrates; doc/theory.md (27):
 ///   0 = G_q q_rho + G_v v_rho + G_s s_rho + G_z z_rho + G_rho, and the same for g; constraint rows are stabilized as in IdasEquations.
-/// Derivatives by the state are the analytic ones, those by parameters come from lanes. Both are computed once per point and serve all
-/// calls of the corrector there.
+/// Derivatives by the state are analytic, derivatives by parameters come from lanes. Both are computed once per point, and every call of
+/// the corrector at this point uses them.
 class IdasTangent final : public IdasSensitivities {
  public:
   explicit IdasTangent(const CompiledSystem& system);
@@ -31,10 +31,10 @@ class IdasTangent final : public IdasSensitivities {
   /// singular. @param directions (q, v, s)_rho per parameter; their z is solved for.
   void terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
                 Eigen::VectorXd* gradient);
-  /// The same of the k-th watched signal, theory (21a).
+  /// The same for the k-th watched signal, theory (21a).
   void watched(std::size_t k, const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
                Eigen::VectorXd* gradient);
-  /// The same of the residuals of the objective, theory (22a): p rows, one column per term. NaN if G_z is singular.
+  /// The same for the residuals of the objective, theory (22a): p rows, one column per term. NaN if G_z is singular.
   void residuals(ObjectivePart part, const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
                  Eigen::MatrixXd* rows);
 

@@ -14,8 +14,8 @@ struct Peak {
 };
 Peak find_peak(const WatchLayout::Entry& entry, const Eigen::VectorXd& values);
 
-/// The peaks in the objective, sum of weight max |signal - reference|, theory (21a); 0 without any. @param gradient if not null, theirs is
-/// added. @param layout of the study.
+/// The peaks in the objective, sum of weight max |signal - reference|, theory (21a); 0 without peaks. @param gradient if not null, their
+/// gradient is added to it. @param layout of the study.
 double peak_terms(const Study& study, const WatchLayout& layout, const Extremes& extremes, Eigen::VectorXd* gradient);
 double peak_terms(const Study& study, const Extremes& extremes, Eigen::VectorXd* gradient);
 

@@ -38,7 +38,8 @@ class ResidualRows {
   Status start(Integrator* integrator, Differentiate differentiate);
   /// Adds the rows of the step that the integrator has just taken.
   void look();
-  /// R of a study that ends at `state`, consistent, the end of the last step. Adds the terminal rows, so that look() may not follow.
+  /// R of a study that ends at `state`, the consistent state at the end of the last step. Adds the terminal rows; look() must not be called
+  /// afterwards.
   void finish(const State<double>& state, Eigen::MatrixXd* root);
 
  private:

@@ -60,7 +60,7 @@ class RosenbrockGradient final : public GradientEngine {
   const CompiledSystem& system_;
   RosenbrockIntegrator integrator_;
   const int most_lanes_;
-  int first_ = -1, lanes_ = 0;  ///< first parameter of `groups_`, and how many they are
+  int first_ = -1, lanes_ = 0;  ///< first parameter of `groups_`, and number of parameters in `groups_`
   std::optional<LaneGroups<Group>> groups_;
   RosenbrockIntegrator::BeforeAccept stages_;
   SignalWatch watch_;

@@ -49,14 +49,14 @@ class TangentStep {
   Eigen::Matrix<double, N, 1> watched(std::size_t k, const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates,
                                       const Assembly& assembly);
 
-  /// The same of all watched signals, one column per signal.
+  /// The same for all watched signals, one column per signal.
   void all_watched(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates, const Assembly& assembly,
                    Directions<N>* signals);
 
-  /// Derivatives of the residuals of the integrand's terms, theory (22a), at such a point, accelerations and multipliers of the dense
-  /// output included: one column per term. Only with keep_previous().
+  /// Derivatives of the residuals of the integrand's terms, theory (22a), at a point of the dense output, with the accelerations and
+  /// multipliers of the dense output: one column per term. Only with keep_previous().
   void integral_residuals(const RosenbrockStep<double>& step, const State<double>& state, Directions<N>* residuals);
-  /// The same of the terminal terms at `state`, the end of the last step.
+  /// The same for the terminal terms at `state`, the end of the last step.
   void terminal_residuals(const State<double>& state, Directions<N>* residuals);
 
   /// Derivatives of the state at the end of the last accepted step, in the order of IncrementLayout.
