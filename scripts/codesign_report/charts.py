@@ -7,7 +7,7 @@ from .numbers import Markup, escape, log_ticks, short, ticks
 
 WIDTH, HEIGHT = 420, 210
 LEFT, RIGHT, TOP, BOTTOM = 58, 10, 10, 34
-ROUNDING = 1e-9  # what stays below is drawn as a flat line, in whatever SI unit
+ROUNDING = 1e-9  # smaller variations are drawn as a flat line, in any SI unit
 
 # kind: initial, tuned or another class of the style; style: line, dots or steps.
 Series = collections.namedtuple("Series", "label kind xs ys style", defaults=("line",))
@@ -49,7 +49,7 @@ class Axis:
         size = max(abs(low), abs(high))
         if size < ROUNDING:
             low, high = -ROUNDING, ROUNDING
-        if high - low <= 1e-12 * size:  # a constant up to rounding is drawn as one
+        if high - low <= 1e-12 * size:  # a constant with rounding errors is drawn as a constant
             low, high = low - (0.5 * size or 0.5), high + (0.5 * size or 0.5)
         pad = margin * (high - low)
         self.low, self.high = low - pad, high + pad

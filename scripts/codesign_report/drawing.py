@@ -56,7 +56,7 @@ class Scene:
         flat = [self.project(p) for p in moving] or [(0.0, 0.0), (1.0, 1.0)]
         low, high = ([f(p[k] for p in flat) for k in (0, 1)] for f in (min, max))
         size = max(high[0] - low[0], high[1] - low[1], 1e-9)
-        # The ground's solids are drawn as far as they are near.
+        # Only solids of the ground that are near the mechanism are drawn.
         self.centre = [(a + b) / 2 for a, b in zip(low, high)]
         wide, tall = (max(b - a, 0.25 * size) for a, b in zip(low, high))
         self.scale = min((WIDTH - 2 * MARGIN) / wide, (HEIGHT - 2 * MARGIN - 24) / tall) * 0.94

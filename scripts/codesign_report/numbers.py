@@ -4,7 +4,7 @@ import math
 
 from jinja2.utils import markupsafe
 
-Markup, escape = markupsafe.Markup, markupsafe.escape  # of jinja2, without a dependency more
+Markup, escape = markupsafe.Markup, markupsafe.escape  # comes with jinja2, so that no dependency is added
 
 MINUS = "\u2212"
 

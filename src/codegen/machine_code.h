@@ -4,7 +4,7 @@
 
 namespace codesign {
 
-/// Where a number is: an index into one of the arrays that compiled code works on. Absent if array < 0.
+/// The place of a number: an index into one of the arrays that compiled code works on. Absent if array < 0.
 struct Place {
   int array = -1, index = 0;
 
@@ -53,7 +53,7 @@ class MachineCode : protected Xbyak::CodeGenerator {
   void load_bases() {
     for (int k = 0; k < kCodeArrays; ++k) mov(base(k), ptr[rbx + 8 * k]);
   }
-  /// Returns what eax holds.
+  /// Returns the value of eax.
   void leave() {
     pop(r13), pop(rbp), pop(rbx);
     ret();
@@ -69,8 +69,8 @@ class MachineCode : protected Xbyak::CodeGenerator {
   }
   Xbyak::Address number(const Place& place) { return qword[base(place.array) + 8 * place.index]; }
 
-  // Pointers, not spans, here and in what calls it: the code loads the addresses as they lie and has the indices built in. It writes to its
-  // targets, as if the numbers were not const.
+  // Pointers, not spans, here and in the callers: the code loads the addresses directly and contains the indices. It writes to its targets
+  // although the numbers are declared const.
   int call(const double* const* arrays) const { return run_(arrays); }
 
  private:

@@ -7,7 +7,7 @@
 #include "codegen/traced.h"
 #include "math/lanes.h"
 
-// Templates over the scalar that stand in a .cc file are instantiated for these types; INSTANTIATE is a macro of one type.
+// Templates over the scalar that a .cc file defines are instantiated for these types; INSTANTIATE is a macro with the type as its argument.
 
 /// The types that hold values: real numbers, the complex step, and several directions at once.
 #define CODESIGN_FOR_EACH_VALUE_TYPE(INSTANTIATE) \

@@ -11,7 +11,7 @@
 
 namespace codesign {
 
-/// target = (start * start_scale - sum_i row_i * factor_i) * scale, or the reciprocal of that.
+/// target = (start * start_scale - sum_i row_i * factor_i) * scale, or the reciprocal of this number.
 ///
 /// `target`, `start` and each `row` consist of `width` numbers side by side (the width of the StraightLine); `start_scale`, `scale` and
 /// each `factor` are single numbers. An absent start counts as 0, an absent scale as 1. The target must not be among the rows of its own

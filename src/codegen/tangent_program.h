@@ -15,7 +15,7 @@ namespace codesign {
 struct TangentProgram {
   struct Term {
     int row;     ///< the node whose derivative is multiplied: a leaf, or a node with a sum
-    int factor;  ///< the node whose value it is multiplied by; -1 for the number 1
+    int factor;  ///< the node by whose value it is multiplied; -1 for the number 1
     bool added;  ///< false: the product is subtracted
   };
   struct Sum {

@@ -47,7 +47,7 @@ class Traced {
   double value_ = 0.0;
 };
 
-// The functions that lanes have too; radians.
+// The functions that also exist for lanes; angles in radians.
 Traced sqrt(const Traced& x);
 Traced sin(const Traced& x);
 Traced cos(const Traced& x);

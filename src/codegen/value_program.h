@@ -19,7 +19,7 @@ struct ValueTask {
   std::vector<int> kept;                 ///< nodes whose values the caller reads from their slots afterwards
   std::vector<Place> homes;              ///< per node: the place that already has its value; absent if it is to be computed
   std::vector<Recording::Guard> guards;  ///< that must hold for the outputs to be valid
-  int reserved_slots = 0;                ///< slots in front of the program's own, which it leaves alone
+  int reserved_slots = 0;                ///< slots before the slots of the program, which does not change them
 };
 
 /// A task as a list of instructions in order. Nodes that no output, kept node or guard needs are left out; a product that is used once, in
@@ -42,7 +42,7 @@ struct ValueProgram {
   ValueProgram(const Recording& recording, const ValueTask& task);
 
   std::vector<Instruction> instructions;
-  std::vector<std::vector<Place>> stores;  ///< per instruction: where its result goes
+  std::vector<std::vector<Place>> stores;  ///< per instruction: the places of its result
   std::vector<int> slot;                   ///< per node: its index in the array of intermediate values, -1 if not computed
   int slots = 0;                           ///< size of that array, reserved slots included
 };

@@ -54,7 +54,7 @@ class Expression {
   /// Partial derivative with respect to parameter `index`, by a complex step (exact to rounding).
   double derivative(int index, const std::vector<double>& parameters) const;
 
-  /// Value, and derivative by parameter dependencies()[k], from the parameters that appear only: `values[k]` is the value of parameter
+  /// Value, and derivative by parameter dependencies()[k], from only the parameters that appear: `values[k]` is the value of parameter
   /// dependencies()[k]. The cost does not grow with the number of parameters that the expression does not use.
   double value_of(In<double> values) const;
   double derivative_of(std::size_t k, In<double> values) const;

@@ -10,8 +10,8 @@
 
 namespace codesign {
 
-/// Where the robot keeps the gains of one controller of the study: an entry of `hardware:`. doc/study.md describes it, and what
-/// control_toolbox::Pid reads there.
+/// Where the robot keeps the gains of one controller of the study: an entry of `hardware:`. doc/study.md describes it and the parameters
+/// that control_toolbox::Pid reads there.
 struct HardwareGains {
   std::string controller;           ///< a `pid` or `pd_gravity` of the study
   std::string name_space;           ///< of ROS parameters, without a slash at either end: "arm_controller/gains/elbow"

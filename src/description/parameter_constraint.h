@@ -16,7 +16,7 @@ namespace codesign {
 ParameterConstraint parse_constraint(const std::string& text, const std::vector<std::string>& names, const SourceLocation& where,
                                      const std::string& element);
 
-/// The constraint `less <= more` between two expressions. @param text how messages and results name it.
+/// The constraint `less <= more` between two expressions. @param text its name in messages and results.
 /// @throws std::invalid_argument if a side is not a valid expression, or if no parameter appears.
 ParameterConstraint make_constraint(const std::string& text, const std::string& less, const std::string& more,
                                     const std::vector<std::string>& names, const SourceLocation& where, const std::string& element);

@@ -110,7 +110,7 @@ inline bool has_stops(const JointDescription& joint) {
   return joint.limit && joint.limit->bounds_position() && joint.type != JointType::kContinuous;
 }
 
-/// URDF+ `<coupling>`: the joints up to the successor move `ratio` times as far as those up to the predecessor; theory (8a).
+/// URDF+ `<coupling>`: the joints up to the successor move `ratio` times as far as the joints up to the predecessor; theory (8a).
 struct CouplingDescription {
   std::string name;
   int predecessor = -1, successor = -1;  ///< links

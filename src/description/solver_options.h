@@ -13,7 +13,7 @@ enum class IntegratorKind { kRosenbrock, kIdas };
 enum class RosenbrockMethod { kRodas4, kRodas4P2, kRodas5P };
 /// The method for the gradient of the objective; with the Rosenbrock integrator only, IDAS always integrates sensitivities.
 enum class GradientMethod {
-  kAuto,     ///< the one below with the smaller estimated cost
+  kAuto,     ///< the method below with the smaller estimated cost
   kDirect,   ///< the tangent of every step, forward; theory (18)
   kAdjoint,  ///< the discrete adjoint of the stored steps, backward; theory (18a)
 };

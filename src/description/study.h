@@ -80,7 +80,7 @@ struct LoadDescription {
   std::string joint;  ///< one of joint and link is empty
   std::string link;
   Quantity effort;               ///< of a joint, along its coordinate [N m or N]
-  QuantityVector force, torque;  ///< of a link [N], [N m]
+  QuantityVector force, torque;  ///< on a link [N], [N m]
   QuantityVector point;          ///< where the force acts, in the link's frame [m]
   bool in_link_frame = false;    ///< components of force and torque in the link's axes, turning with it; else in the root link's axes
   SourceLocation where;
@@ -123,8 +123,8 @@ struct Study {
   std::vector<LoadDescription> loads;
   /// All named parameters: the model's in their order, then the study's own. `parameters[tuned[k]]` is rho_k.
   std::vector<Parameter> parameters;
-  /// Indices of the parameters that a number of model or study depends on. Those of constraints do not count: a constraint alone moves
-  /// nothing.
+  /// Indices of the parameters that a number of model or study depends on. Dependence of constraints does not count: a constraint alone has
+  /// no effect on the motion.
   std::set<int> used_parameters;
   std::vector<int> tuned;               ///< indices of the tuned parameters; p of them
   std::vector<ObjectiveTerm> integral;  ///< terms of the integrand g; theory (21)

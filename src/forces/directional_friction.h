@@ -10,8 +10,8 @@
 
 namespace codesign {
 
-// Friction whose numbers differ with the sign of the velocity; doc/theory.md (48). Analytic, and dissipative as either law alone is: both
-// oppose the motion, and each counts with a share between 0 and 1.
+// Friction whose numbers differ with the sign of the velocity; doc/theory.md (48). Analytic, and dissipative like each of the two laws:
+// both oppose the motion, and each counts with a share between 0 and 1.
 
 /// The share of the forward numbers, w(v) = (1 + tanh(4 v / v_t)) / 2, and its slope [s/m].
 /// @param v sliding velocity with sign [m/s]. @param v_t transition velocity, > 0 [m/s].

@@ -8,7 +8,8 @@
 
 namespace codesign {
 
-// Every operation is a few instructions, fewer than a call takes; there are so many that the compiler would not inline them all by itself.
+// Every operation takes a few instructions, fewer than a call; there are so many operations that the compiler would not inline all of them
+// by itself.
 #define CODESIGN_INLINE __attribute__((always_inline)) inline
 
 /// A value with N directional derivatives side by side in SIMD registers: forward-mode automatic differentiation of N parameters in one

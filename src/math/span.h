@@ -10,7 +10,8 @@
 namespace codesign {
 namespace internal {
 
-/// Whether the entries of a container lie side by side. Those of Eigen's expressions need not: a row of a matrix, a block of one.
+/// Whether the entries of a container lie side by side. The entries of some of Eigen's expressions do not, such as a row or a block of a
+/// matrix.
 template <class Container, class = void>
 inline constexpr bool kIsContiguous = true;
 template <class Container>
@@ -27,8 +28,8 @@ using IfHolds = std::enable_if_t<kIsContiguous<Container> &&
 
 }  // namespace internal
 
-/// An array of someone else's: a pointer to its first entry and its size. The twin of C++20's std::span, but with signed sizes, as Layout
-/// and Eigen have them. Debug builds check every index.
+/// An array that another object owns: a pointer to its first entry and its size. The twin of C++20's std::span, but with signed sizes, as
+/// Layout and Eigen have them. Debug builds check every index.
 ///
 /// Functions take arrays by value as In<T> or Out<T>, which say who may write. Kernels whose time counts take data() once and check sizes
 /// before.

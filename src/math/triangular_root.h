@@ -10,8 +10,8 @@ namespace codesign {
 /// columns. A^T A itself, whose condition number is the square of A's condition number, is not formed.
 Eigen::MatrixXd triangular_root(const Eigen::MatrixXd& A);
 
-/// The same of a matrix whose rows come one after another and are too many to keep. Memory for two times as many rows as columns, at
-/// least 32 more than columns. No allocation in add().
+/// The same for a matrix whose rows arrive one after another and are too many to keep. It holds two times as many rows as columns, at least
+/// 32 rows more than columns. No allocation in add().
 class RowRoot {
  public:
   /// Begins anew, without rows.

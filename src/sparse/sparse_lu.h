@@ -26,9 +26,9 @@ class SparseLu {
   /// Factors the matrix with these nonzeros, in the order of row_index. False if it is singular to working precision.
   bool factor(In<double> values);
 
-  /// Later factorizations do not depend on earlier matrices but on those before settle(): the next one begins with the pivots of that time,
-  /// or chooses pivots anew if settle() was never called. For the beginning of a run, so that its last bits do not depend on the runs
-  /// before.
+  /// Makes later factorizations independent of all matrices since settle(): the next one begins with the pivots that settle() kept, or
+  /// chooses pivots anew if settle() was never called. To be called at the beginning of a run, so that its last bits do not depend on
+  /// earlier runs.
   void forget();
   /// Keeps the present pivots as the pivots with which forget() begins again.
   void settle();

@@ -26,7 +26,8 @@ struct ReactionSharing {
 
 /// The places of the unknowns of (23b) in z, after the multipliers of the constraints: displacements w (7 per body), then loads eta (one
 /// per row that shares, the rows |p| = 1 of its bodies included), then mu (one per row that can be dropped; called miss in the code, since
-/// it takes the violation of a dropped row). The equations of each have the same places in G. All is empty if no row is dropped.
+/// it takes the violation of a dropped row). The equations of each have the same places in G. All members are empty or zero if no row is
+/// dropped.
 struct SharingLayout {
   std::vector<int> bodies;     ///< bodies of the pairs and couplings that share, ascending
   std::vector<int> body_slot;  ///< per body: its index in `bodies`; -1 if it is not among them

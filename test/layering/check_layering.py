@@ -9,7 +9,7 @@ import re
 import statistics
 import sys
 
-# A room may include itself, its own folders and what stands in an earlier row, never its neighbours in the same row.
+# A room may include itself, its own folders and the rooms of earlier rows, never its neighbours in the same row.
 ROWS = [
     ["text"],
     ["math"],

@@ -83,7 +83,7 @@ class TwoHostsTest(unittest.TestCase):
         subprocess.run(["ip", "-n", f"two_hosts_beta_{job.pid}", "link", "set", "cable", "down"], check=True)
         output = job.communicate(timeout=120)[0]
         self.assertNotEqual(job.returncode, 0)
-        # Whoever notices first: rank 0 by the silence, or mpirun, which then interrupts the job.
+        # Either rank 0 notices it first, by the silence, or mpirun, which then interrupts the job.
         self.assertRegex(output, r"rank [23] of 4 on host beta (has said nothing|does not answer)")
         with open(self.path("cut", "result.json")) as file:
             self.assertEqual(json.load(file)["error"]["code"], "worker_lost")

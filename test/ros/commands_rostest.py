@@ -45,7 +45,7 @@ class CommandsTest(unittest.TestCase):
         in_effect = self.robot.send(self.effort, JointState(name=["elbow"], effort=[2.5]))
         self.assertEqual((in_effect.joints, list(in_effect.efforts)), (["shoulder", "elbow"], [0.0, 2.5]))
         wait_until(lambda: self.robot.joints.last() is not before, "a paused node shows what a command changes")
-        # Computed torque asks for the same acceleration as before: at this instant the command alone makes the difference.
+        # Computed torque demands the same acceleration as before: at this instant only the command makes a difference.
         behind = self.robot.joints.last()
         elbow = behind.name.index("elbow")
         self.assertAlmostEqual(behind.effort[elbow] - before.effort[elbow], 2.5, delta=1e-9)
@@ -118,7 +118,7 @@ class CommandsTest(unittest.TestCase):
                 return any("command_refused" in key and all(part in value for part in parts) for key, value in values.items())
 
             wait_until(is_told, f"{parts} is not on /diagnostics")
-            rospy.sleep(1.1)  # the next refusal of the same topic is told again
+            rospy.sleep(1.1)  # the next refusal of the same topic is logged again
         self.robot.step()
         self.assertEqual(list(self.robot.commands.last().efforts), [0.5, 0.0])
 

@@ -220,7 +220,7 @@ class IdentifyTest(NodesTestCase):
             header.stamp -= rospy.Duration(0.5 if k >= 400 else 0.0)
             return header
 
-        # Each fault, and the words that the answer must have: what, and where.
+        # Each fault, and the words about its kind and place that the answer must contain.
         faults = (("no bag", None, ("excite.bag", "cannot be")),
                   ("topic", dict(topic="/joint_state"), ("identify.data[0].topic", "no message on this topic", "/joint_state (sensor_msgs/JointState)")),
                   ("robot", dict(change=changed(name=["wrist", "elbow"])), ("identify.data[0].topic", "another robot", "elbow, wrist")),
@@ -254,7 +254,7 @@ class IdentifyTest(NodesTestCase):
             print(f"goal: {result.message}", flush=True)
             self.assertEqual(result.code, "bad_input")
             self.assertIn(word, result.message)
-        # Positions in degrees are read, with a doubt; so are compressed bags.
+        # Positions in degrees are read, with a warning; so are compressed bags.
         write_bag(self.bag, change=changed(position=degrees))
         self.assertIn("recording_units", [warning.code for warning in self.identify("strict").warnings])
         for compression in ("bz2", "lz4"):

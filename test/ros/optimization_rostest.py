@@ -119,7 +119,7 @@ class OptimizationTest(unittest.TestCase):
         self.assertEqual(reply.returncode, 0, reply.stderr)
         return reply.stdout
 
-    def test_with_the_example_client(self):  # last, since it changes what is latched
+    def test_with_the_example_client(self):  # last, since it changes latched messages
         for way in ([], ["--action"]):
             command = ["rosrun", "mechanism_codesign", "example_client", *way, "--evaluations", "2", "Kp=2.5"]
             reply = subprocess.run(command, capture_output=True, text=True, check=False)

@@ -99,7 +99,7 @@ class ResumeTest(NodesTestCase):
         goal = OptimizeGoal(max_evaluations=12)
         whole = Job("whole", goal).result()
         self.assertTrue(whole.success, whole.message)
-        # A search that begins at the study's start evaluates what the result says of it, too.
+        # A search that begins at the study's start evaluates the values that the result reports for the start.
         computed = whole.runs - whole.remembered_runs
         self.assertGreater(computed, 500)
         out, name, before = f"{self.folder}/out", "", 0

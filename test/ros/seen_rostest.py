@@ -87,7 +87,7 @@ class SeenTest(NodesTestCase):
         self.assertLessEqual(answers[0].objective, answers[0].initial_objective)
         self.assertTrue(os.path.exists(answers[0].bag))
         self.assertFalse(self.cancel("cancelled").success, "it has ended")
-        node.end()  # which flushes what it has logged
+        node.end()  # which flushes its log
         log = node.output()
         self.assertRegex(log, r"trial 1: objective [0-9.]+, scaled gradient ")
         self.assertRegex(log, r"trial 2: .*, step [0-9.e-]+, best [0-9.]+.* left")

@@ -57,7 +57,7 @@ class Case(unittest.TestCase):
             self.assertLess(high - low, 0.02 * truth[name], name)
         self.assertLess(abs(found["data[0].start.crank_joint"]["value"] - 0.5), 0.01)
         self.assertLess(abs(found["crank_joint/delay"]["value"] - 0.004), 0.001)
-        # Only one sum of the two inertias can be known, which the answer says.
+        # Only one sum of the two inertias is identifiable, which the answer says.
         self.assertEqual(code, 1)
         self.assertEqual(answer["error"]["code"], "not_identifiable")
         self.assertIn("crank_inertia", answer["error"]["message"])

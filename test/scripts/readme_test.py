@@ -28,7 +28,7 @@ class Readme(unittest.TestCase):
         self.assertIn(". devel/setup.bash\n", block)
         lines = [line for line in block.splitlines() if line]
         self.assertLessEqual(len(lines), 30, "a model and a study in about twenty lines, and what surrounds them")
-        # The environment of this test in place of a shell in the package's folder, and a folder of its own.
+        # The script runs in the environment of this test instead of a shell in the package's folder, and in a folder of its own.
         script = block.replace(". devel/setup.bash\n", "").replace("/tmp/pendulum", self.folder)
         environment = {**os.environ, "PATH": os.path.dirname(sys.argv[1]) + os.pathsep + os.environ["PATH"]}
         done = subprocess.run(["bash", "-e", "-c", script], capture_output=True, text=True, env=environment, check=False)

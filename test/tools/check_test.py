@@ -10,7 +10,7 @@ import tempfile
 import unittest
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-# What tools/check calls beside the programs whose absence it tolerates.
+# The programs that tools/check needs in every case.
 PROGRAMS = ("bash", "dirname", "find", "xargs", "mktemp", "rm", "git", "sort", "nproc", "grep", "sed", "paste", "awk", "env")
 
 

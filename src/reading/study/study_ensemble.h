@@ -10,8 +10,8 @@
 
 namespace codesign {
 
-/// Reads `runs:`, `uncertain:`, `robust:`, `multistart:` and `engine:`. All else of the study must have been read. `robust` is set exactly
-/// if the study has runs or uncertain quantities. @param files as in read_study(). @throws InputError
+/// Reads `runs:`, `uncertain:`, `robust:`, `multistart:` and `engine:`. All other blocks of the study must have been read. `robust` is set
+/// exactly if the study has runs or uncertain quantities. @param files as in read_study(). @throws InputError
 EnsembleDescription read_ensemble(const YamlValue& study_value, const RobotDescription& robot, const RunReader& read_run,
                                   const FileLoader& files, const Study& study);
 

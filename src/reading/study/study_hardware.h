@@ -9,8 +9,8 @@
 namespace codesign {
 
 /// Reads `hardware:`, doc/study.md: for controllers of the study, the namespaces of their gains on the robot. The controllers must have
-/// been read. @throws InputError for an unknown controller, one without gains that control_toolbox has, a bad namespace or one that is
-/// named twice, an `i` gain without `i_clamp`.
+/// been read. @throws InputError for an unknown controller, a controller without gains of control_toolbox, a bad or repeated namespace, or
+/// an `i` gain without `i_clamp`.
 void read_hardware(const YamlValue& root, const ParameterTable& table, Study* study);
 
 }  // namespace codesign

@@ -10,7 +10,7 @@
 
 namespace codesign {
 
-/// Reads all of a study but the blocks of EnsembleDescription.
+/// Reads all of a study except the blocks of EnsembleDescription.
 using RunReader = std::function<Study(const YamlValue& study_value)>;
 
 /// Reads the map `runs:`. The changes of a run are merged into the study's own tree, and the whole is read by `read_run`.

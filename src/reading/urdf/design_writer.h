@@ -11,8 +11,8 @@ namespace codesign {
 
 /// Gives the parameters of a document other defaults. Every attribute with a twin and every inertial computed from shapes follows. A bound
 /// that a value exceeds is moved to the value, so that the document stays valid.
-/// @param robot as read_robot() reads the document. @param values of its parameters, in their order. @throws InputError if a value, or what
-/// a twin makes of it, is not finite
+/// @param robot as read_robot() reads the document. @param values of its parameters, in their order. @throws InputError if a value, or the
+/// value of a twin, is not finite
 void write_design(const RobotDescription& robot, const std::vector<double>& values, XmlDocument* document);
 
 }  // namespace codesign

@@ -7,7 +7,7 @@
 
 namespace codesign {
 
-/// The attribute `type`. @param spelling of joints or of loops. @param kind what messages call it. @throws InputError
+/// The attribute `type`. @param spelling of joints or of loops. @param kind the word for it in messages. @throws InputError
 JointType read_joint_type(const XmlElement& element, const char* const JointTypeName::*spelling, const std::string& kind);
 
 /// Reads a `<joint>` of the tree. @throws InputError

@@ -10,8 +10,8 @@ namespace codesign {
 /// mechanism can be seen.
 ///
 /// A link with mass gets a sphere at its joint, or a box if it slides there, and sticks from there to the frames of the joints and loops
-/// that hang on it; one on which nothing hangs a stick to its centre of mass and a sphere there. A massless link gets sticks alone. Of the
-/// root the sticks connect the frames of its joints. Sticks are as thick as 4 % of the longest link.
+/// below it; a link without joints below it gets a stick to its centre of mass and a sphere there. A massless link gets only sticks. The
+/// sticks of the root connect the frames of its joints. Sticks are as thick as 4 % of the longest link.
 /// @param urdf numbers at their values, as write_tuned_urdf() makes it. @returns the same text, to the letter, if each link has a visual or
 /// nothing to draw, or if it is no XML.
 std::string with_sticks(const std::string& urdf);

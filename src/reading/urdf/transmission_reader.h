@@ -9,7 +9,7 @@ namespace codesign {
 
 /// Sets the gear ratio of every `<codesign:actuator>` without `gear_ratio` to the mechanical reduction in the ROS `<transmission>` of its
 /// joint. A reduction that cannot be used is ignored with a warning: `transmission_not_read`, `transmission_contradicts` or
-/// `transmission_not_simple`. Transmissions of joints without an actuator are not looked at.
+/// `transmission_not_simple`. Transmissions of joints without an actuator are not examined.
 /// @param element the `<robot>`. @param robot its joints must have been read.
 void read_transmissions(const XmlElement& element, RobotDescription* robot);
 

@@ -9,8 +9,8 @@ namespace codesign {
 /// Checks that names are unique: among links, among joints and loops, among couplings, among spring-dampers. @throws InputError
 void check_names(const RobotDescription& robot);
 
-/// For a link that is the child of several joints: keeps as tree joint the one by which a walk from the root reaches the link first, and in
-/// a vendor's file turns the others into loops, with a warning (`second_parent`). Called before `<loop>` elements are added.
+/// For a link that is the child of several joints: keeps as tree joint the joint by which a walk from the root reaches the link first. In a
+/// vendor's file the other joints become loops, with a warning (`second_parent`). Called before `<loop>` elements are added.
 void close_with_second_parents(RobotDescription* robot);
 
 /// Index of the tree's root link.
@@ -18,7 +18,7 @@ void close_with_second_parents(RobotDescription* robot);
 int find_root(const RobotDescription& robot);
 
 /// Checks that every `<mimic>` names another joint with one coordinate or none, and that joints do not mimic each other in a ring. In a
-/// vendor's file a wrong one is dropped with a warning (`mimic_ignored`). @throws InputError for one of an overlay
+/// vendor's file a wrong `<mimic>` is dropped with a warning (`mimic_ignored`). @throws InputError for a wrong `<mimic>` of an overlay
 void check_mimics(RobotDescription* robot);
 
 /// Checks the friction dimensions of joints that cannot be folded with others, since both links have mass or are the ground.

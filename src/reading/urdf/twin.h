@@ -16,7 +16,7 @@ namespace codesign {
 inline const char kPrefix[] = "codesign:";
 
 /// The `count` space-separated values of an attribute, each a number or `${expression}`, for example `0 0 -${crank_length/2}`. Nominal
-/// values are those at the default parameters.
+/// values are the values at the default parameters.
 /// @throws InputError if a value is not a finite number, an expression is invalid or not finite at the defaults, or the count differs.
 std::vector<Quantity> parse_quantities(const XmlElement& element, const std::string& attribute, std::size_t count,
                                        const ParameterTable& table);

@@ -41,7 +41,7 @@ class XmlElement {
   XmlElement only(const std::string& tag) const;
 
   /// A warning about the element, or about one of its attributes.
-  /// @param message what is doubtful and what was done. @param remedy what to change to silence the warning.
+  /// @param message the doubtful value and its treatment. @param remedy the change that avoids the warning.
   Warning warning(const std::string& code, const std::string& message, const std::string& value, const std::string& remedy) const;
   Warning warning_at(const std::string& code, const std::string& attribute, const std::string& message, const std::string& remedy) const;
 

@@ -64,7 +64,7 @@ class YamlValue {
   int integer() const;
   /// `true` or `false`, in any of YAML's spellings.
   bool boolean() const;
-  /// A scalar that is one of `allowed`. @param kind what it denotes, for the message: "unknown <kind>".
+  /// A scalar that is one of `allowed`. @param kind the word for it in the message "unknown <kind>".
   std::string choice(const std::string& kind, const std::vector<std::string>& allowed) const;
 
   /// Throws InputError with the place, path and value. @param allowed the allowed values; may be empty.
