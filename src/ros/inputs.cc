@@ -52,9 +52,10 @@ ParameterSettings read_settings(const ros::NodeHandle& private_node) {
   if (!result.empty()) settings = read_result(read_source(result));
   XmlRpcValue value;
   if (!find_parameter(private_node, "set", &value)) return settings;
-  if (value.getType() != XmlRpcValue::TypeStruct)
+  XmlRpcValue numbers = value.getType() == XmlRpcValue::TypeString ? dictionary_in(value) : value;
+  if (numbers.getType() != XmlRpcValue::TypeStruct)
     refuse_parameter(private_node, "set", "not a dictionary", value, "{parameter: number, ...}");
-  for (auto& [name, number] : value) {
+  for (auto& [name, number] : numbers) {
     settings.emplace_back(name, 0.0);
     if (!is_number(number, &settings.back().second))
       refuse_parameter(private_node, "set/" + name, "not a number", number, "a finite number");

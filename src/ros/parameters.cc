@@ -150,6 +150,18 @@ std::vector<std::string> names_in(const std::string& text) {
   return names;
 }
 
+XmlRpcValue dictionary_in(const std::string& text) {
+  XmlRpcValue dictionary;
+  try {
+    const YAML::Node node = YAML::Load(text);
+    if (!node.IsMap()) return {};
+    for (const auto& entry : node) dictionary[entry.first.as<std::string>()] = entry.second.as<double>();
+  } catch (const YAML::Exception&) {
+    return {};
+  }
+  return dictionary;
+}
+
 std::vector<std::string> read_names(const ros::NodeHandle& private_node, const std::string& key) {
   XmlRpcValue value;
   if (find_parameter(private_node, key, &value) && value.getType() == XmlRpcValue::TypeString) return names_in(text_of(value));

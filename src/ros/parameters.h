@@ -39,6 +39,9 @@ std::vector<std::string> read_texts(const ros::NodeHandle& private_node, const s
 /// The names in a text such as `a,b` or `[a, b]`, as a command line gives a list: rosrun passes `_name:=[a,b]` on as text.
 std::vector<std::string> names_in(const std::string& text);
 
+/// The numbers in a text such as `{Kp: 80}`, as a command line gives a dictionary; without a type if it holds anything else.
+XmlRpc::XmlRpcValue dictionary_in(const std::string& text);
+
 /// As read_texts(), but a text counts as names_in() it.
 std::vector<std::string> read_names(const ros::NodeHandle& private_node, const std::string& key);
 

@@ -17,5 +17,15 @@ TEST(Parameters, ACommandLineGivesListsAsText) {
   for (const char* text : {"", "[]", " , "}) EXPECT_EQ(names_in(text), Names()) << text;
 }
 
+TEST(Parameters, ACommandLineGivesADictionaryAsText) {
+  XmlRpc::XmlRpcValue numbers = dictionary_in("{Kp: 80, crank_length: 0.07}");
+  ASSERT_EQ(numbers.getType(), XmlRpc::XmlRpcValue::TypeStruct);
+  EXPECT_EQ(numbers.size(), 2);
+  EXPECT_EQ(static_cast<double>(numbers["Kp"]), 80.0);
+  EXPECT_EQ(static_cast<double>(numbers["crank_length"]), 0.07);
+  for (const char* text : {"", "Kp", "[1, 2]", "{Kp: much}", "{Kp: 80"})
+    EXPECT_EQ(dictionary_in(text).getType(), XmlRpc::XmlRpcValue::TypeInvalid) << text;
+}
+
 }  // namespace
 }  // namespace codesign
