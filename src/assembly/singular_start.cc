@@ -88,8 +88,8 @@ bool SingularStart::solve(const std::vector<int>& free, VectorX<double>* x) {
     if (error.norm() <= 1e-6 * tolerance_) return true;
     for (Eigen::Index k = 0; k < count; ++k) {
       const VectorX<double> unit = x->norm() * VectorX<double>::Unit(tree_.size, free[static_cast<std::size_t>(k)]);
-      A.col(k) << J.col(free[static_cast<std::size_t>(k)]),
-          (VectorX<double>(violation(*x + unit)) - violation(*x - unit)) / (2.0 * x->norm());
+      const VectorX<double> forward = violation(*x + unit), backward = violation(*x - unit);
+      A.col(k) << J.col(free[static_cast<std::size_t>(k)]), (forward - backward) / (2.0 * x->norm());
     }
     const VectorX<double> step = LeastNorm(A, 1e-6).solve(error);
     for (Eigen::Index k = 0; k < count; ++k) (*x)[free[static_cast<std::size_t>(k)]] -= step[k];
