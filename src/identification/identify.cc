@@ -10,7 +10,9 @@
 #include "identification/motion_residuals.h"
 #include "math/cpu_timer.h"
 #include "problem/load_problem.h"
+#include "problem/margins.h"
 #include "text/cancel.h"
+#include "text/decimal.h"
 
 namespace codesign {
 namespace {
@@ -68,6 +70,19 @@ Status not_identifiable(const std::vector<std::string>& sentences) {
   return status;
 }
 
+/// The fit knows bounds alone, so that constraints among parameters are looked at behind it.
+Warnings unmet_constraints(const Study& study, const std::vector<double>& parameters) {
+  Warnings warnings;
+  for (const ParameterConstraint& constraint : study.constraints)
+    if (const double margin = constraint.margin->value(parameters); !(margin >= kMet))
+      warnings.push_back(
+          warn("identified_outside_constraint",
+               {constraint.where, constraint.element,
+                "the fit keeps bounds alone, and the identified values do not meet this constraint (margin " + to_decimal(margin) + ")",
+                constraint.text, "bounds or twins that leave such values out, other data, or no such constraint"}));
+  return warnings;
+}
+
 }  // namespace
 
 void require_identification(const Problem& problem) {
@@ -122,6 +137,7 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
     if (result.status.ok()) result.status = status;
   }
   Warnings found = warnings_of(options, result);
+  append(unmet_constraints(problem.study(), result.parameters), &found);
   append(result.warnings, &found);
   result.warnings = std::move(found);
   if (result.status.ok() && !result.undetermined.empty()) result.status = not_identifiable(result.undetermined);

@@ -96,6 +96,36 @@ std::vector<JointRecording> load(const std::vector<RecordingDescription>& descri
   return recordings;
 }
 
+/// Whether two recordings have samples in common: the same places of one file, with the same numbers.
+bool share_samples(const JointRecording& one, const JointRecording& other) {
+  const std::size_t place = std::max(one.places.front(), other.places.front());
+  if (one.file != other.file || one.topic != other.topic || place > std::min(one.places.back(), other.places.back())) return false;
+  const auto index = [place](const JointRecording& recording) {
+    return std::lower_bound(recording.places.begin(), recording.places.end(), place) - recording.places.begin();
+  };
+  return std::all_of(one.joints.begin(), one.joints.end(), [&](const JointSamples& samples) {
+    const JointSamples* same = other.find(samples.joint);
+    if (!same || same->position.size() != other.times.size() || samples.position.size() != one.times.size()) return same != nullptr;
+    return samples.position[static_cast<std::size_t>(index(one))] == same->position[static_cast<std::size_t>(index(other))];
+  });
+}
+
+/// Samples that are fitted twice count twice, and a holdout of fitted samples tells nothing.
+void warn_of_repeated(const StudyRecordings& recordings, Warnings* warnings) {
+  const auto check = [&](const JointRecording& recording, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k)
+      if (share_samples(recording, recordings.data[k])) {
+        warnings->push_back(warn(
+            "recording_repeated",
+            {recording.where, recording.element, "some of its samples are fitted as " + recordings.data[k].element + ": " + recording.file,
+             "", "other recordings, or parts by `from` and `to` that do not overlap"}));
+        return;
+      }
+  };
+  for (std::size_t k = 1; k < recordings.data.size(); ++k) check(recordings.data[k], k);
+  for (const JointRecording& holdout : recordings.holdout) check(holdout, recordings.data.size());
+}
+
 }  // namespace
 
 StudyRecordings load_recordings(const IdentificationDescription& identification, const RobotDescription& robot, const std::string& folder,
@@ -103,7 +133,9 @@ StudyRecordings load_recordings(const IdentificationDescription& identification,
   Context context{identification, robot, folder, reader, warnings, {}};
   for (const JointDescription& joint : robot.joints)
     if (has_one_coordinate(joint.type)) context.joints.push_back(joint.name);
-  return {load(identification.data, context), load(identification.holdout, context)};
+  StudyRecordings recordings{load(identification.data, context), load(identification.holdout, context)};
+  warn_of_repeated(recordings, warnings);
+  return recordings;
 }
 
 }  // namespace codesign

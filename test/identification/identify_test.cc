@@ -62,6 +62,11 @@ struct Rig {
   }
 };
 
+/// The study of an arm whose damping and inertia are tied by a constraint.
+Problem constrained(const std::string& constraint) {
+  return problem_of("inertia: {}, viscous: {}", "constraints: [\"" + constraint + "\"]\n");
+}
+
 IdentificationResult run(const Problem& problem, const Rig& rig, const Rig* holdout = nullptr) {
   StudyRecordings recordings;
   recordings.data = {rig.record("identify.data[0]")};
@@ -78,6 +83,14 @@ TEST(Identify, FindsWhatARigWithoutNoiseHas) {
   EXPECT_LT(result.data[0].rms, 1e-5 * result.data[0].recorded);
   EXPECT_GT(result.data[0].start, 0.01 * result.data[0].recorded);
   EXPECT_EQ(result.parameters.size(), 3U);
+}
+
+TEST(Identify, AConstraintThatTheFitDoesNotKeepIsTold) {
+  EXPECT_TRUE(run(constrained("viscous >= inertia"), Rig()).warnings.empty());
+  const IdentificationResult result = run(constrained("inertia >= viscous"), Rig());
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_EQ(result.warnings[0].code, "identified_outside_constraint");
+  EXPECT_NE(result.warnings[0].message.find("inertia >= viscous"), std::string::npos) << result.warnings[0].message;
 }
 
 TEST(Identify, ScaleAndOffsetOfTheSensor) {

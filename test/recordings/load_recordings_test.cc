@@ -46,7 +46,23 @@ TEST_F(LoadRecordings, ReadsDataAndHoldout) {
   EXPECT_EQ(recordings.data[0].times.size(), 100U);
   EXPECT_EQ(recordings.holdout[0].times.size(), 50U);
   EXPECT_EQ(recordings.holdout[0].element, "identify.holdout[0]");
+}
+
+TEST_F(LoadRecordings, SamplesThatAreUsedTwiceAreTold) {
+  identification_.holdout = {entry("swing.csv", "identify.holdout[0]")};
+  identification_.holdout[0].from = 0.5;
+  identification_.data[0].to = 0.495;
+  load();
   EXPECT_TRUE(warnings_.empty());
+  identification_.data[0].to = 0.6;
+  load();
+  ASSERT_EQ(warnings_.size(), 1U);
+  EXPECT_EQ(warnings_[0].code, "recording_repeated");
+  expect_word(warnings_[0].message, "identify.holdout[0]: some of its samples are fitted as identify.data[0]");
+  identification_.holdout.clear();
+  identification_.data.push_back(entry("swing.csv", "identify.data[1]"));
+  load();
+  EXPECT_EQ(warnings_.size(), 2U);
 }
 
 TEST_F(LoadRecordings, ARelativePathNeedsAFolder) {
