@@ -152,7 +152,7 @@ TEST_F(RecordedSpeed, IsNotFollowedOverAGap) {
   identification_.data[0].gaps = GapRule::kSplit;
   const InputFault fault = refusal_of([this] { load(); });
   EXPECT_EQ(fault.element, "identify.data[0].gaps");
-  expect_word(fault.message, "after a gap nothing tells");
+  expect_word(fault.message, "after a gap the positions");
   identification_.data[0].starts.clear();
   EXPECT_EQ(load().data.size(), 2U);
 }

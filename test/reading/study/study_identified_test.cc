@@ -98,7 +98,7 @@ TEST(StudyIdentified, AskForWhatTheFileDoesNotTell) {
   EXPECT_EQ(fault.where.file, "study.yaml");
   EXPECT_EQ(fault.where.line, 4);
   EXPECT_EQ(fault.element, "uncertain.from");
-  EXPECT_NE(fault.message.find("did not tell crank_length"), std::string::npos);
+  EXPECT_NE(fault.message.find("did not determine crank_length"), std::string::npos);
   EXPECT_NE(fault.allowed.find("except: [crank_length]"), std::string::npos);
 }
 
