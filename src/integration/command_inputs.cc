@@ -27,14 +27,6 @@ bool is_drivable(const CompiledSystem& system, const Constants<double>& constant
   return false;
 }
 
-std::shared_ptr<LiveFunction> make_live(ReferenceDescription* reference) {
-  auto function = std::make_shared<LiveFunction>();
-  auto planned = std::make_shared<const ReferenceDescription>(*reference);
-  reference->kind = ReferenceDescription::Kind::kLive;
-  reference->live = {function, std::move(planned)};
-  return function;
-}
-
 // Inverse dynamics need the joint which they drive: without it a controller shows its feedback part alone.
 void disconnect(const std::vector<std::string>& names, Study* study) {
   std::vector<std::string> known;
@@ -63,6 +55,14 @@ void check_joints(const std::vector<std::string>& joints, const std::vector<std:
 }
 
 }  // namespace
+
+std::shared_ptr<LiveFunction> make_live(ReferenceDescription* reference) {
+  auto function = std::make_shared<LiveFunction>();
+  auto planned = std::make_shared<const ReferenceDescription>(*reference);
+  reference->kind = ReferenceDescription::Kind::kLive;
+  reference->live = {function, std::move(planned)};
+  return function;
+}
 
 std::vector<std::string> drivable_joints(const CompiledSystem& system) {
   const Constants<double> constants = evaluate_constants(system.robot(), system.topology(), system.parameters());

@@ -24,6 +24,10 @@ struct CommandOptions {
 /// Every joint of the tree that moves mass, has a coordinate of its own and follows no other joint, in the order of the description.
 std::vector<std::string> drivable_joints(const CompiledSystem& system);
 
+/// Makes `reference` a function that commands set during a run, in place of what it was, which holds until the first command.
+/// @returns the function, empty until it is commanded.
+std::shared_ptr<LiveFunction> make_live(ReferenceDescription* reference);
+
 /// A study extended by inputs for commands during a run, doc/theory.md (55). Before the study's controllers it has a controller u = f(t)
 /// for each joint that takes efforts, and each set-point is a function that a command can replace.
 struct CommandInputs {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <utility>
 
+#include "integration/command_inputs.h"
 #include "integration/servo.h"
 
 namespace codesign {
@@ -64,14 +64,6 @@ TEST(MotionWatch, SpeedsAskedForAreWithinReason) {
   const char* const spindle = "{motor: {type: pid, input: hinge/velocity, setpoint: 50, output: hinge, gains: {p: 1}}}";
   EXPECT_TRUE(Watched("{}", spindle).check(5e-4, 490.0, 600).ok());
   EXPECT_FALSE(Watched("{}", spindle).check(5e-4, 510.0, 600).ok());
-}
-
-std::shared_ptr<LiveFunction> make_live(ReferenceDescription* reference) {
-  auto function = std::make_shared<LiveFunction>();
-  auto planned = std::make_shared<const ReferenceDescription>(*reference);
-  reference->kind = ReferenceDescription::Kind::kLive;
-  reference->live = {function, std::move(planned)};
-  return function;
 }
 
 /// Watched, with a set-point of 5 rad/s that can be commanded.
