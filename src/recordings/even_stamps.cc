@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "recordings/recording_check.h"
 #include "text/number_text.h"
@@ -15,7 +17,7 @@ struct StampLine {
   std::vector<double> number;  // of the step at which a sample was taken; more than the one before
   double start = 0.0, step = 0.0;
   std::vector<double> off;
-  double largest = 0.0;  // of |off| [s]
+  double largest = 0.0, spread = 0.0;  // of |off|: the most, and the root mean square [s]
 
   double at(std::size_t k) const { return start + number[k] * step; }
 };
@@ -47,9 +49,9 @@ std::vector<double> step_numbers(const std::vector<double>& times) {
   return numbers;
 }
 
-StampLine stamp_line(const std::vector<double>& times) {
+StampLine line_through(const std::vector<double>& times, std::vector<double> numbers) {
   StampLine line;
-  line.number = step_numbers(times);
+  line.number = std::move(numbers);
   const auto count = static_cast<double>(times.size());
   double mean_number = 0.0, mean_time = 0.0, nn = 0.0, nt = 0.0;
   for (std::size_t k = 0; k < times.size(); ++k) {
@@ -65,8 +67,18 @@ StampLine stamp_line(const std::vector<double>& times) {
   for (std::size_t k = 0; k < times.size(); ++k) {
     line.off.push_back(times[k] - line.at(k));
     line.largest = std::max(line.largest, std::abs(line.off.back()));
+    line.spread += line.off.back() * line.off.back() / count;
   }
+  line.spread = std::sqrt(line.spread);
   return line;
+}
+
+/// A pause may be a sample that is missing, or a stamp that is late: what leaves the smaller jitter counts.
+StampLine stamp_line(const std::vector<double>& times) {
+  std::vector<double> whole(times.size());
+  std::iota(whole.begin(), whole.end(), 0.0);
+  StampLine with_missing = line_through(times, step_numbers(times)), without = line_through(times, std::move(whole));
+  return with_missing.spread < without.spread ? with_missing : without;
 }
 
 /// What a column tells of `share` in x_k = x(at(k) + share off[k]): its estimate times its information, and its information.
@@ -96,10 +108,10 @@ Evidence evidence_of(const StampLine& line, const std::vector<double>& column) {
 }  // namespace
 
 void even_stamps(JointRecording* recording, Warnings* warnings) {
-  constexpr double kExact = 1e-3, kUnambiguous = 0.75;  // of a step
+  constexpr double kExact = 1e-3, kMost = 2.0, kMostSpread = 0.2;  // of a step; beyond, nothing tells which samples are missing
   constexpr double kHalf = 0.5, kDeviations = 5.0;
   const StampLine line = stamp_line(recording->times);
-  if (line.largest < kExact * line.step || line.largest > kUnambiguous * line.step) return;
+  if (line.largest < kExact * line.step || line.largest > kMost * line.step || line.spread > kMostSpread * line.step) return;
   Evidence all;
   for (const JointSamples& samples : recording->joints) {
     const Evidence one = evidence_of(line, samples.position.empty() ? samples.velocity : samples.position);

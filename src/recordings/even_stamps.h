@@ -9,7 +9,7 @@ namespace codesign {
 
 /// Puts the times of a recording on equal steps if its motion says that the samples were taken there and only their stamps jitter;
 /// doc/theory.md (30a). Missing samples stay missing. Warning `recording_even_stamps`. Otherwise nothing changes.
-/// @param recording without gaps, with ascending times, turns unwrapped
+/// @param recording with ascending times, turns unwrapped
 void even_stamps(JointRecording* recording, Warnings* warnings);
 
 }  // namespace codesign

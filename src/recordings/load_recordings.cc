@@ -86,6 +86,8 @@ std::vector<JointRecording> load(const std::vector<RecordingDescription>& descri
     add_starts(description, &part);
     unwrap_turns(context.robot, &part, context.warnings);
     check_units(context.robot, part, context.warnings);
+    // Before gaps are looked for, since late stamps look like missing samples; and again, since a clock may go on differently behind a gap.
+    even_stamps(&part, context.warnings);
     std::vector<JointRecording> pieces = without_gaps(part, description.gaps, context.warnings);
     require_one_piece(description, pieces);
     for (JointRecording& piece : pieces) {

@@ -18,7 +18,7 @@ struct StudyRecordings {
   std::vector<JointRecording> data, holdout;
 };
 
-/// Reads and checks the recordings that a study names: checked_part(), unwrap_turns(), check_units(), without_gaps(), even_stamps(). Each
+/// Reads and checks the recordings that a study names: checked_part(), unwrap_turns(), check_units(), even_stamps(), without_gaps(). Each
 /// recording must have all joints of `identify.joints`.
 /// @param folder base of relative paths; empty: only absolute paths are accepted.
 /// @param reader reads bags; if it is empty, a study that names a bag is refused.

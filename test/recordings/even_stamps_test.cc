@@ -66,6 +66,19 @@ TEST(EvenStamps, CountsMissingSamples) {
   EXPECT_NEAR(recording.times[100], 1.02, 1.5e-4);
 }
 
+// Stamps are never early, mostly a little late, and now and then by more than a step.
+TEST(EvenStamps, StampsThatAreLateAreNoMissingSamples) {
+  JointRecording recording = stamped(400, false, false);
+  for (std::size_t k = 0; k < 400; ++k)
+    recording.times[k] += k % 57 == 20 ? 0.0098 : 1e-3 * std::abs(std::sin(7.0 * static_cast<double>(k * k)));
+  recording.times[100] += 0.006;
+  recording.times[101] += 0.0062;
+  Warnings warnings;
+  even_stamps(&recording, &warnings);
+  EXPECT_EQ(warnings.size(), 1U);
+  for (std::size_t k = 1; k < 400; ++k) ASSERT_NEAR(recording.times[k] - recording.times[k - 1], 0.01, 1e-5) << k;
+}
+
 // 300 Hz with stamps in whole milliseconds: 3, 7, 10, ... ms.
 TEST(EvenStamps, UndoesTheRoundingOfStamps) {
   JointRecording recording = swing(600);
