@@ -54,21 +54,12 @@ function(codesign_optimize target)
       list(APPEND hot_options -mmove-max=256 -mstore-max=256)
     endif()
   endif()
-  set(hot sparse/lu_schedule equations/formulas_double equations/derivative_products integration/rosenbrock_step
-    integration/applied_work integration/run_watch sensitivity/tangent_step)
+  set(hot sparse/lu_schedule equations/formulas_double equations/formulas_lanes4 equations/formulas_lanes8 equations/derivative_products
+    integration/rosenbrock_step integration/applied_work integration/run_watch sensitivity/tangent_step)
   list(TRANSFORM hot PREPEND ${PROJECT_SOURCE_DIR}/src/)
   list(TRANSFORM hot APPEND .cc)
   list(APPEND hot ${PROJECT_SOURCE_DIR}/benchmark/kernel_tables.cc)
   set_source_files_properties(${hot} PROPERTIES COMPILE_OPTIONS "$<$<NOT:$<CONFIG:Debug>>:${hot_options}>" SKIP_PRECOMPILE_HEADERS ON)
-  # Lanes mostly run through machine code, so the inlining that takes half of the time to compile them is not worth it; where there is no
-  # machine code, it is.
-  get_target_property(definitions codesign_xbyak INTERFACE_COMPILE_DEFINITIONS)
-  set(lanes_options ${hot_options})
-  if(definitions)
-    list(FILTER lanes_options EXCLUDE REGEX "^--param")
-  endif()
-  set_source_files_properties(${PROJECT_SOURCE_DIR}/src/equations/formulas_lanes4.cc ${PROJECT_SOURCE_DIR}/src/equations/formulas_lanes8.cc
-    PROPERTIES COMPILE_OPTIONS "$<$<NOT:$<CONFIG:Debug>>:${lanes_options}>" SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
 # Headers of the standard library and of Eigen are half of what a small source file compiles. Our own are not among them: they change.
