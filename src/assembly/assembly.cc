@@ -97,11 +97,9 @@ void Assembly::place(const std::vector<double>& parameters, Equations<double>* e
 }
 
 void Assembly::take_loop_rows() {
-  work_.rows.resize(loops_.rows(), 1);
-  for (int k = 0; k < loops_.rows(); ++k) {
-    const auto row = static_cast<std::size_t>(k);
-    work_.rows(k, 0) = drops_[row] && !all_rows_count_ ? 0.0 : work_.errors[loops_.constraint_rows()[row]];
-  }
+  loops_.take_part(work_.errors, &work_.rows);
+  for (std::size_t k = 0; k < drops_.size(); ++k)
+    if (drops_[k] && !all_rows_count_) work_.rows(static_cast<Eigen::Index>(k), 0) = 0.0;
 }
 
 void Assembly::scale_loops(const std::vector<double>& parameters, const Equations<double>& equations) {

@@ -11,8 +11,7 @@ void Assembly::correct(const Dependents& dependents, const VectorX<T>& rows, Ext
                        VectorX<T>* coordinates) const {
   ExtensionWorkspace<T>& w = *workspace;
   directions_of(rows, &w.errors);
-  w.rows.resize(loops_.rows(), w.errors.cols());
-  for (int k = 0; k < loops_.rows(); ++k) w.rows.row(k) = w.errors.row(loops_.constraint_rows()[static_cast<std::size_t>(k)]);
+  loops_.take_part(w.errors, &w.rows);
   const Eigen::MatrixXd& step = dependents.solve(w.rows, &w.scaled, &w.solution);
   w.changes.setZero(coordinates->size(), step.cols());
   for (std::size_t k = 0; k < dependents.columns.size(); ++k)

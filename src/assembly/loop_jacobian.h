@@ -46,9 +46,15 @@ class LoopJacobian {
   /// The rows of this matrix out of all constraint rows, of a vector or matrix.
   template <class Rows>
   Rows part_of(const Rows& all) const {
-    Rows part(rows(), all.cols());
-    for (int k = 0; k < rows(); ++k) part.row(k) = all.row(constraint_rows_[static_cast<std::size_t>(k)]);
+    Rows part;
+    take_part(all, &part);
     return part;
+  }
+  /// The same into `part`, whose memory is used again.
+  template <class All, class Part>
+  void take_part(const All& all, Part* part) const {
+    part->resize(rows(), all.cols());
+    for (int k = 0; k < rows(); ++k) part->row(k) = all.row(constraint_rows_[static_cast<std::size_t>(k)]);
   }
   /// Name of the loop or coupling that row `row` of this matrix belongs to.
   const std::string& owner(int row) const { return owners_[static_cast<std::size_t>(row)]; }

@@ -26,8 +26,7 @@ void SingularStart::rates(const VectorX<double>& theta, const VectorX<double>& x
   link_motions(system_.robot(), tree_, parameters_, theta, x, &motion_.links);
   body_coordinates(system_, equations_->constants(), motion_.links, &state_.q, &state_.v);
   equations_->constraint_errors(state_, &Phi_, &Phi_rate_);
-  result->resize(loops_.rows());
-  for (int k = 0; k < loops_.rows(); ++k) (*result)[k] = Phi_rate_[loops_.constraint_rows()[static_cast<std::size_t>(k)]];
+  loops_.take_part(Phi_rate_, result);
 }
 
 void SingularStart::difference(double step, const VectorX<double>& x, VectorX<double>* result) {

@@ -122,10 +122,9 @@ ReferenceMotion<T> Reference<T>::along(const Piece& piece, double t) {
 }
 
 template <class T>
-ReferenceMotion<T> Reference<T>::live_at(double t) const {
-  if (!live_->commanded) return planned_->at(t);
-  Piece piece{live_->start, {}};
-  for (std::size_t k = 0; k < piece.c.size(); ++k) piece.c[k] = T(live_->c[k]);
+ReferenceMotion<T> Reference<T>::commanded_at(const LiveFunction& function, double t) {
+  Piece piece{function.start, {}};
+  for (std::size_t k = 0; k < piece.c.size(); ++k) piece.c[k] = T(function.c[k]);
   return along(piece, t);
 }
 
@@ -139,7 +138,7 @@ ReferenceMotion<T> Reference<T>::at(double t) const {
     return motion;
   }
   if (kind_ == ReferenceDescription::Kind::kSampled) return sampled_at(t);
-  if (kind_ == ReferenceDescription::Kind::kLive) return live_at(t);
+  if (kind_ == ReferenceDescription::Kind::kLive) return live_->commanded ? commanded_at(*live_, t) : planned_->at(t);
   if (kind_ == ReferenceDescription::Kind::kSine) {
     const T angle = angular_frequency_ * T(t) + phase_, s = amplitude_ * sin(angle), c = amplitude_ * cos(angle);
     const T square = angular_frequency_ * angular_frequency_;

@@ -33,6 +33,9 @@ class Reference {
   /// The function at time t [s]. At a way-point the derivatives of the following piece hold.
   ReferenceMotion<T> at(double t) const;
 
+  /// What a function that is commanded prescribes at time t [s].
+  static ReferenceMotion<T> commanded_at(const LiveFunction& function, double t);
+
  private:
   /// The polynomial sum c_k (t - start)^k for t >= start.
   struct Piece {
@@ -41,7 +44,6 @@ class Reference {
   };
   static ReferenceMotion<T> along(const Piece& piece, double t);
   ReferenceMotion<T> sampled_at(double t) const;
-  ReferenceMotion<T> live_at(double t) const;
   void set_waypoints(const WaypointsDescription& description, const std::vector<T>& parameters);
   static Piece hold(double start, const T& value);
 

@@ -48,23 +48,19 @@ Expression::Expression(const std::string& text, const ExpressionScope& scope) : 
 
 Expression::~Expression() = default;
 
-template <class T, class Entry>
-UsedNumbers<T> Expression::used(const std::vector<Entry>& parameters) const {
-  UsedNumbers<T> values(dependencies_.size());
-  for (std::size_t k = 0; k < values.size(); ++k) values[k] = parameters.at(static_cast<std::size_t>(dependencies_[k]));
-  return values;
+double Expression::value(const std::vector<double>& parameters) const {
+  return real_part(program_->evaluate(used<Complex>(parameters, [](double parameter) { return parameter; })));
 }
 
-double Expression::value(const std::vector<double>& parameters) const { return real_part(program_->evaluate(used<Complex>(parameters))); }
-
 std::complex<double> Expression::value(const std::vector<std::complex<double>>& parameters) const {
-  return program_->evaluate(used<Complex>(parameters));
+  return program_->evaluate(used<Complex>(parameters, [](const Complex& parameter) { return parameter; }));
 }
 
 double Expression::derivative(int index, const std::vector<double>& parameters) const {
   const auto found = std::lower_bound(dependencies_.begin(), dependencies_.end(), index);
   if (found == dependencies_.end() || *found != index) return 0.0;
-  return derivative_of(static_cast<std::size_t>(found - dependencies_.begin()), used<double>(parameters));
+  return derivative_of(static_cast<std::size_t>(found - dependencies_.begin()),
+                       used<double>(parameters, [](double parameter) { return parameter; }));
 }
 
 double Expression::value_of(In<double> values) const { return real_part(program_->evaluate(complex_numbers(values))); }

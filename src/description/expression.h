@@ -59,14 +59,20 @@ class Expression {
   double value_of(In<double> values) const;
   double derivative_of(std::size_t k, In<double> values) const;
 
+  /// The numbers of the parameters that appear, in the order of dependencies(). @param number (Entry) -> T, the number of a parameter.
+  /// @throws std::out_of_range if there are fewer parameters than names.
+  template <class T, class Entry, class Number>
+  UsedNumbers<T> used(const std::vector<Entry>& parameters, const Number& number) const {
+    UsedNumbers<T> values(dependencies_.size());
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] = number(parameters.at(static_cast<std::size_t>(dependencies_[k])));
+    return values;
+  }
+
   /// A range that contains the value wherever all parameters lie in theirs. @param parameters in the order of the names.
   ValueRange range(const std::vector<ValueRange>& parameters) const;
 
  private:
   struct Program;
-  /// The numbers of the parameters that appear. @throws std::out_of_range if there are fewer parameters than names.
-  template <class T, class Entry>
-  UsedNumbers<T> used(const std::vector<Entry>& parameters) const;
 
   std::string text_;
   std::vector<int> dependencies_;

@@ -20,17 +20,10 @@ inline double value_at(const Expression& expression, const std::vector<double>& 
 inline std::complex<double> value_at(const Expression& expression, const std::vector<std::complex<double>>& parameters) {
   return expression.value(parameters);
 }
-/// Values of the parameters that an expression uses, in the order of its dependencies(). @param number (T) -> the value as a double.
-template <class T, class Number>
-UsedNumbers<double> values_used(const Expression& expression, const std::vector<T>& parameters, const Number& number) {
-  UsedNumbers<double> values(expression.dependencies().size());
-  for (std::size_t k = 0; k < values.size(); ++k) values[k] = number(parameters[static_cast<std::size_t>(expression.dependencies()[k])]);
-  return values;
-}
 /// The value with its derivatives, by the chain rule in each lane.
 template <int N>
 Lanes<N> value_at(const Expression& expression, const std::vector<Lanes<N>>& parameters) {
-  const UsedNumbers<double> values = values_used(expression, parameters, [](const Lanes<N>& parameter) { return parameter.a; });
+  const UsedNumbers<double> values = expression.used<double>(parameters, [](const Lanes<N>& parameter) { return parameter.a; });
   Lanes<N> result(expression.value_of(values));
   for (std::size_t k = 0; k < values.size(); ++k)
     result.v += expression.derivative_of(k, values) * parameters[static_cast<std::size_t>(expression.dependencies()[k])].v;

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <memory>
-#include <vector>
 
 #include "control/reference.h"
 #include "text/decimal.h"
@@ -44,9 +42,7 @@ double commanded_speed(const CompiledSystem& system, double t) {
     if (is_commanded(controller.feedforward) && controller.feedforward.live.function->c[0] != 0.0)
       return std::numeric_limits<double>::infinity();
     if (!is_commanded(controller.setpoint)) continue;
-    ReferenceDescription setpoint = controller.setpoint;
-    setpoint.live.planned = std::make_shared<const ReferenceDescription>();
-    const ReferenceMotion<double> asked = Reference<double>(setpoint, std::vector<double>()).at(t);
+    const ReferenceMotion<double> asked = Reference<double>::commanded_at(*controller.setpoint.live.function, t);
     if (reads(system.controllers()[c].input, kVelocities)) largest = std::max(largest, std::abs(asked.value));
     if (reads(system.controllers()[c].input, kPositions)) largest = std::max(largest, std::abs(asked.rate));
   }

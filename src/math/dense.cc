@@ -54,9 +54,12 @@ Eigen::MatrixXd upper_factor(const Eigen::MatrixXd& A) {
 }
 
 Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& A, double threshold) {
-  const Qr qr = factor(A, threshold);
-  const Eigen::MatrixXd Q = qr.householderQ();
-  return Q.rightCols(A.rows() - qr.rank());
+  PivotedQr qr;
+  qr.matrix(A.rows(), A.cols()) = A;
+  qr.factor(threshold);
+  Eigen::MatrixXd basis;
+  qr.complement(&basis);
+  return basis;
 }
 
 LeastNorm least_norm(const Eigen::MatrixXd& A) { return {A, least_norm_threshold(A.rows(), A.cols())}; }

@@ -100,7 +100,10 @@ Eigen::MatrixXd& LeastNorm::matrix(Eigen::Index rows, Eigen::Index columns) { re
 void LeastNorm::factor(double threshold) { implementation_->factor(threshold); }
 Eigen::Index LeastNorm::rank() const { return implementation_->now->factors.rank(); }
 
-Eigen::MatrixXd LeastNorm::solve(const Eigen::MatrixXd& b) const { return implementation_->now->factors.solve(b); }
+Eigen::MatrixXd LeastNorm::solve(const Eigen::MatrixXd& b) const {
+  LeastNormWorkspace workspace;
+  return solve(b, &workspace);
+}
 
 // The operations of Eigen's solve(), in its order.
 Eigen::MatrixXd& LeastNorm::solve(const Eigen::MatrixXd& b, LeastNormWorkspace* workspace) const {

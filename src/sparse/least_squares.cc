@@ -80,9 +80,8 @@ void LeastSquares::factor(const SparseMatrix& A, const std::vector<int>& columns
 }
 
 Eigen::MatrixXd LeastSquares::solve(const Eigen::MatrixXd& b) const {
-  if (b.rows() == 0 || implementation_->columns == 0) return Eigen::MatrixXd::Zero(implementation_->columns, b.cols());
-  if (implementation_->dense) return implementation_->dense_factors.solve(b);
-  return implementation_->sparse_factors.solve(b);
+  LeastSquaresWorkspace workspace;
+  return solve(b, &workspace);
 }
 
 Eigen::MatrixXd& LeastSquares::solve(const Eigen::MatrixXd& b, LeastSquaresWorkspace* workspace) const {

@@ -52,7 +52,7 @@ Quantity read_quantity(const YamlValue& value, const ParameterTable& table) {
   } catch (const std::invalid_argument& error) {
     value.fail(error.what(), kAllowed);
   }
-  const double nominal = expression->value_of(values_used(*expression, table.values, [](double start) { return start; }));
+  const double nominal = expression->value(table.values);
   if (!std::isfinite(nominal)) value.fail("not finite at the parameters' start", kAllowed);
   return Quantity(nominal, std::move(expression));
 }
