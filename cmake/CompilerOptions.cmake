@@ -25,10 +25,14 @@ if(CODESIGN_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   endif()
 endif()
 
-# ccache takes precompiled headers only where it is told that it may trust them.
+# ccache takes precompiled headers only where it is told that it may trust them. With paths relative to the checkout it serves another
+# checkout too, which then builds in a minute. Not with debugging information, which contains the path of the checkout.
 if(CODESIGN_CCACHE AND CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
-    CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${CMAKE_CXX_COMPILER_LAUNCHER})
+  set(codesign_ccache_settings CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime)
+  if(CMAKE_BUILD_TYPE STREQUAL Release)
+    list(APPEND codesign_ccache_settings CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=true)
+  endif()
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env ${codesign_ccache_settings} ${CMAKE_CXX_COMPILER_LAUNCHER})
 endif()
 option(CODESIGN_PRECOMPILED_HEADERS "Parse the headers of other libraries once for each library and for all tests" ON)
 

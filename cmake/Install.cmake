@@ -16,7 +16,7 @@ if(codesign_programs)
 endif()
 set(codesign_libraries codesign_core)
 if(TARGET codesign_ros)
-  list(APPEND codesign_libraries codesign_ros)
+  list(APPEND codesign_libraries codesign_ros codesign_bag_module)
 endif()
 set_target_properties(${codesign_libraries} PROPERTIES
   ARCHIVE_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_LIB_DESTINATION}
@@ -29,7 +29,7 @@ set(library_destinations
 # Others link the target mechanism_codesign::codesign_core. The library behind the nodes is not for others.
 install(TARGETS codesign_core EXPORT mechanism_codesignTargets ${library_destinations})
 if(TARGET codesign_ros)
-  install(TARGETS codesign_ros ${library_destinations})
+  install(TARGETS codesign_ros codesign_bag_module ${library_destinations})
 endif()
 set(config_destination ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
 install(EXPORT mechanism_codesignTargets NAMESPACE mechanism_codesign:: DESTINATION ${config_destination})

@@ -33,11 +33,11 @@ set(node_mains ${ros_sources})
 list(FILTER node_mains INCLUDE REGEX "_node_main\\.cc$")
 list(FILTER ros_sources EXCLUDE REGEX "_node_main\\.cc$")
 
-# Reads recordings from bags and writes identifications and trajectories into them, for the nodes and for the program codesign, which links nothing else of ROS.
-set(bag_sources recording_bag linked_bag_reader identification_bag bag_file bag_writer conversions frame_messages friction_markers effort_markers scene_layout scene_text scene_view
+# Reads recordings from bags and writes identifications and trajectories into them, for the nodes and for the program codesign, which uses nothing else of ROS.
+set(bag_sources recording_bag identification_bag bag_file bag_writer conversions frame_messages friction_markers effort_markers scene_layout scene_text scene_view
   way_out joint_trajectory_bag)
 list(TRANSFORM bag_sources REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/ros/\\1.cc")
-list(REMOVE_ITEM ros_sources ${bag_sources})
+list(REMOVE_ITEM ros_sources ${bag_sources} ${PROJECT_SOURCE_DIR}/src/ros/bag_module.cc ${PROJECT_SOURCE_DIR}/src/ros/loaded_bag_files.cc)
 add_library(codesign_bags STATIC ${bag_sources})
 add_dependencies(codesign_bags ${PROJECT_NAME}_generate_messages_cpp)
 set_target_properties(codesign_bags PROPERTIES POSITION_INDEPENDENT_CODE ON)
@@ -47,7 +47,18 @@ target_link_libraries(codesign_bags PUBLIC codesign_core ${bag_libraries})
 codesign_warnings(codesign_bags)
 codesign_unite(codesign_bags ros_bags ${bag_sources})
 codesign_sanitize(codesign_bags)
-target_link_libraries(codesign PRIVATE codesign_bags)
+
+# The program loads it when it first reads or writes a bag.
+add_library(codesign_bag_module MODULE ${PROJECT_SOURCE_DIR}/src/ros/bag_module.cc)
+set_target_properties(codesign_bag_module PROPERTIES OUTPUT_NAME codesign_bags)
+target_include_directories(codesign_bag_module PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
+target_include_directories(codesign_bag_module SYSTEM PRIVATE ${CATKIN_DEVEL_PREFIX}/include ${catkin_INCLUDE_DIRS} ${rosbag_storage_INCLUDE_DIRS})
+target_link_libraries(codesign_bag_module PRIVATE codesign_bags)
+codesign_warnings(codesign_bag_module)
+codesign_sanitize(codesign_bag_module)
+target_sources(codesign PRIVATE ${PROJECT_SOURCE_DIR}/src/ros/loaded_bag_files.cc)
+target_link_libraries(codesign PRIVATE ${CMAKE_DL_LIBS})
+add_dependencies(codesign codesign_bag_module)
 
 add_library(codesign_ros ${ros_sources})
 add_dependencies(codesign_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})

@@ -3,7 +3,7 @@
 
 message(STATUS "No catkin: messages, nodes, launch files and their tests are left out; the library codesign_core, the program codesign and the core's tests are built")
 
-target_sources(codesign PRIVATE ${PROJECT_SOURCE_DIR}/src/cli/linked_bag_reader.cc)
+target_sources(codesign PRIVATE ${PROJECT_SOURCE_DIR}/src/cli/no_bag_files.cc)
 set(codesign_nodes)
 include(GNUInstallDirs)
 set(CATKIN_PACKAGE_BIN_DESTINATION ${CMAKE_INSTALL_BINDIR})

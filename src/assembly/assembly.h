@@ -78,6 +78,8 @@ class Assembly {
 
   /// SparseLu::settle() after a solution, whose pivots later solutions begin with.
   void settle_pivots() { matrix_.settle(); }
+  /// The matrix of solve_rates(), with the settled pivots.
+  const IterationMatrix& rates_matrix() const { return matrix_; }
 
   /// Tree joint coordinates of the last solution [rad or m], in the order of TreeLayout.
   const VectorX<double>& theta() const { return theta_; }

@@ -3,13 +3,15 @@
 
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "jobs/bag_files.h"
 #include "mpi/run_on_ranks.h"
 
 int main(int argc, char** argv) {
   codesign::cli::watch_interrupts();
   using namespace codesign::cli;
   return codesign::run_on_ranks("codesign", [&](codesign::Dispatcher* ranks) {
-    return run({argv + 1, argv + argc}, {std::cout, std::cerr, interrupted(), keep_results, ranks, codesign::linked_bag_reader(),
-                                         codesign::linked_identification_bag(), codesign::linked_trajectory_writer()});
+    const codesign::BagFiles bags = codesign::bag_files();
+    return run({argv + 1, argv + argc},
+               {std::cout, std::cerr, interrupted(), keep_results, ranks, bags.read, bags.write_identification, bags.write_trajectory});
   });
 }

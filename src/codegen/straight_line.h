@@ -55,7 +55,7 @@ class StraightLine {
   virtual void run(const Arrays& arrays) const = 0;
 };
 
-/// One list of sums for rows of width 1, 4 and 8. Each width is compiled when it is first needed.
+/// One list of sums for rows of width 1, 4 and 8. Each width is compiled when it is first needed. Copies share the compiled code.
 class LazyStraightLine {
  public:
   /// @param allowed false: get() always returns null, so that the caller uses its loops.
@@ -73,7 +73,7 @@ class LazyStraightLine {
  private:
   struct Compiled {
     bool tried = false;
-    std::unique_ptr<StraightLine> code;
+    std::shared_ptr<const StraightLine> code;
   };
 
   bool allowed_;

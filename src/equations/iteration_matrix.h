@@ -32,6 +32,8 @@ class IterationMatrix {
   void forget() { lu_.forget(); }
   /// SparseLu::settle().
   void settle() { lu_.settle(); }
+  /// SparseLu::settle_as(). @param other of the same system.
+  void settle_as(const IterationMatrix& other) { lu_.settle_as(other.lu_); }
   /// The factorization of the last factor().
   const SparseLu& lu() const { return lu_; }
 

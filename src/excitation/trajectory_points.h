@@ -20,10 +20,6 @@ struct TrajectoryPoints {
 /// depend on ROS. @throws OutputError if the bag cannot be written. An existing file is replaced.
 using TrajectoryBagWriter = std::function<void(const std::string& path, const TrajectoryPoints& points)>;
 
-/// The writer that the program is linked with: from ros/linked_bag_reader.cc if ROS was found, else an empty one from
-/// cli/linked_bag_reader.cc. It is not in this library.
-TrajectoryBagWriter linked_trajectory_writer();
-
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_POINTS_H_

@@ -87,6 +87,8 @@ class IdasIntegrator::Implementation {
   }
 
  private:
+  Status assemble(const std::vector<double>& parameters);
+  void settle_pivots();
   void start_sensitivities(const std::vector<double>& parameters);
   void restart_solver();
   Status project();
@@ -127,10 +129,27 @@ class IdasIntegrator::Implementation {
   Statistics before_restart_;
   bool watch_singularities_ = false;
   bool has_stepped_ = false;  ///< since the last start() or go_on()
+  bool has_settled_ = false;  ///< whether the study's own start was assembled
   Warnings restart_warnings_;
   std::string message_;
   Statistics statistics_;
 };
+
+// Every run begins with the pivots that are chosen at the study's own start, as with RosenbrockIntegrator::start(). All matrices have the
+// pattern of the one that the assembly factors.
+Status IdasIntegrator::Implementation::assemble(const std::vector<double>& parameters) {
+  const bool is_first = !has_settled_, is_own_start = is_first && parameters == system_.parameters();
+  has_settled_ = true;
+  if (is_first && !is_own_start && assemble_start(system_, system_.parameters(), &assembly_, &equations(), &initial_).ok()) settle_pivots();
+  Status status = assemble_start(system_, parameters, &assembly_, &equations(), &initial_);
+  if (is_own_start && status.ok()) settle_pivots();
+  return status;
+}
+
+void IdasIntegrator::Implementation::settle_pivots() {
+  assembly_.settle_pivots();
+  newton_.settle_as(assembly_.rates_matrix());
+}
 
 Status IdasIntegrator::Implementation::start(const std::vector<double>& parameters) {
   statistics_ = before_restart_ = {};
@@ -140,7 +159,7 @@ Status IdasIntegrator::Implementation::start(const std::vector<double>& paramete
   message_.clear();
   restart_warnings_.clear();
   equations_.start();
-  if (Status status = assemble_start(system_, parameters, &assembly_, &equations(), &initial_); !status.ok()) return status;
+  if (Status status = assemble(parameters); !status.ok()) return status;
   equations_.count_turns_from(initial_);
   equations_.pack(initial_, span_of(y_.get()), span_of(y_dot_.get()));
   N_VConst(0.0, psi_.get());

@@ -33,6 +33,8 @@ class IdasNewton {
 
   /// IterationMatrix::forget(), at the beginning of a run.
   void forget() { reduced_.forget(); }
+  /// IterationMatrix::settle_as().
+  void settle_as(const IterationMatrix& other) { reduced_.settle_as(other); }
 
   SUNMatrix matrix() { return matrix_.get(); }
   SUNLinearSolver solver() { return solver_.get(); }

@@ -56,6 +56,12 @@ void RosenbrockStep<T>::settle_pivots() {
   projection_matrix_.settle();
 }
 
+template <class T>
+void RosenbrockStep<T>::settle_pivots_as(const RosenbrockStep& other) {
+  stage_matrix_.settle_as(other.stage_matrix_);
+  projection_matrix_.settle_as(other.projection_matrix_);
+}
+
 // Sets w of (16) in increment i: w_v = h gamma r_v, w_q = h gamma (r_q + w_v), w_s = h gamma r_s, where r is the stage's rate plus the sum
 // of c_ij u_j / h.
 template <class T>

@@ -39,6 +39,8 @@ class RosenbrockStep {
   void choose_pivots(double h);
   /// SparseLu::settle() for all factorizations.
   void settle_pivots();
+  /// SparseLu::settle_as() for all factorizations. @param other of the same system.
+  void settle_pivots_as(const RosenbrockStep& other);
   /// Computes the step of size h [s] from state(), without accepting it. False if the matrix is singular or a value is not finite.
   bool attempt(double h);
   /// Scaled error of the last attempt, acceptable up to 1: the largest |u_last| / (absolute + relative max(|y|, |y_1|)) over (q, v, s). A

@@ -2,7 +2,8 @@
 #ifndef MECHANISM_CODESIGN_INTEGRATION_STAGE_MATRIX_H_
 #define MECHANISM_CODESIGN_INTEGRATION_STAGE_MATRIX_H_
 
-#include <Eigen/LU>
+#include <complex>
+#include <memory>
 
 #include "equations/iteration_matrix.h"
 
@@ -20,6 +21,7 @@ class StageMatrix<double> {
   bool factor(const Linearization<double>& d, double c_v, double c_q, double c_s) { return matrix_.factor(d, c_v, c_q, c_s); }
   void forget() { matrix_.forget(); }
   void settle() { matrix_.settle(); }
+  void settle_as(const StageMatrix& other) { matrix_.settle_as(other.matrix_); }
   void solve(VectorX<double>* x) const { matrix_.lu().solve(*x); }
   const SparseLu& lu() const { return matrix_.lu(); }
 
@@ -31,34 +33,19 @@ template <>
 class StageMatrix<std::complex<double>> {
  public:
   using Scalar = std::complex<double>;
-  explicit StageMatrix(const CompiledSystem& system) : system_(system) {}
+  explicit StageMatrix(const CompiledSystem& system);
+  ~StageMatrix();
+  StageMatrix(StageMatrix&&) noexcept;
 
-  bool factor(const Linearization<Scalar>& d, double c_v, double c_q, double c_s) {
-    const Layout& layout = system_.layout();
-    Eigen::MatrixXcd matrix = Eigen::MatrixXcd::Zero(layout.columns(), layout.columns());
-    const auto add = [&](const Sparsity& pattern, const std::vector<Scalar>& values, const auto& coefficient, const auto& column_of) {
-      for (int row = 0; row < layout.columns(); ++row)
-        for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
-          matrix(row, column_of(pattern.column(e))) += coefficient(pattern.column(e)) * values[static_cast<std::size_t>(e)];
-    };
-    const auto same = [](int column) { return column; };
-    add(
-        system_.patterns().rate, d.rate, [](int) { return 1.0; }, same);
-    add(
-        system_.patterns().velocity, d.velocity, [c_v](int) { return c_v; }, same);
-    add(
-        system_.patterns().position, d.position, [&](int column) { return column < layout.n ? c_q : c_s; },
-        [&](int column) { return layout.rate_column(column); });
-    lu_.compute(matrix);
-    return matrix.allFinite();
-  }
+  bool factor(const Linearization<Scalar>& d, double c_v, double c_q, double c_s);
   void forget() {}
   void settle() {}
-  void solve(VectorX<Scalar>* x) const { *x = lu_.solve(*x).eval(); }
+  void settle_as(const StageMatrix& /*other*/) {}
+  void solve(VectorX<Scalar>* x) const;
 
  private:
   const CompiledSystem& system_;
-  Eigen::PartialPivLU<Eigen::MatrixXcd> lu_;
+  std::unique_ptr<Eigen::PartialPivLU<Eigen::MatrixXcd>> lu_;
 };
 
 }  // namespace codesign

@@ -38,9 +38,6 @@ IdentificationShow identification_show(const Problem& problem, const Identificat
 /// @param path must not exist. @throws OutputError
 using IdentificationBagWriter = std::function<void(const std::string& path, const IdentificationShow& show)>;
 
-/// The writer that the program is linked with, like linked_bag_reader(); empty without ROS. It is not in this library.
-IdentificationBagWriter linked_identification_bag();
-
 /// Default rate of the instants in a bag [Hz].
 constexpr double kShownRate = 50.0;
 

@@ -18,10 +18,6 @@ namespace codesign {
 using BagReader = std::function<JointRecording(const RecordingDescription& description, const std::string& path,
                                                const std::vector<std::string>& joints, Warnings* warnings)>;
 
-/// The reader that the program is linked with: from ros/linked_bag_reader.cc if ROS was found, else an empty one from
-/// cli/linked_bag_reader.cc. It is not in this library.
-BagReader linked_bag_reader();
-
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_RECORDINGS_BAG_READER_H_

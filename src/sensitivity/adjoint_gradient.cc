@@ -25,6 +25,7 @@ Status AdjointGradient::start(const std::vector<double>& parameters, Derivatives
   if (!status.ok() || !with_gradient_) return status;
   if (!back_) {
     back_.emplace(system_, integrator_.step().tableau(), most_points_);
+    back_->replay.settle_pivots_as(integrator_.step());
     share(plan_);
   }
   back_->path.clear();

@@ -68,15 +68,27 @@ struct SparseLu::Implementation {
     ++chosen;
   }
 
+  /// The distance of the settled schedule from the first one; of the end if there is none.
+  std::ptrdiff_t settled() const {
+    return std::find_if(schedules.begin(), schedules.end(), [](const Kept& kept) { return kept.is_settled; }) - schedules.begin();
+  }
+  bool has_settled() const { return settled() < static_cast<std::ptrdiff_t>(schedules.size()); }
+
   void forget() {
-    const auto settled = std::find_if(schedules.begin(), schedules.end(), [](const Kept& kept) { return kept.is_settled; });
-    chosen = settled == schedules.end() ? 0 : 1;
-    if (chosen > 0) std::rotate(settled, settled + 1, schedules.end());
+    chosen = has_settled() ? 1 : 0;
+    const auto first = schedules.begin() + settled();
+    if (chosen > 0) std::rotate(first, first + 1, schedules.end());
   }
 
   void settle() {
     for (Kept& kept : schedules) kept.is_settled = false;
     if (chosen > 0) schedules.back().is_settled = true;
+  }
+
+  void settle_as(const Implementation& other) {
+    if (has_settled() || !other.has_settled()) return;
+    schedules.assign(1, other.schedules[static_cast<std::size_t>(other.settled())]);
+    chosen = 1;
   }
 };
 
@@ -95,6 +107,8 @@ bool SparseLu::factor(In<double> values) { return implementation_->refactor(valu
 void SparseLu::forget() { implementation_->forget(); }
 
 void SparseLu::settle() { implementation_->settle(); }
+
+void SparseLu::settle_as(const SparseLu& other) { implementation_->settle_as(*other.implementation_); }
 
 template <int N>
 void SparseLu::solve_rows(Out<double> x) const {

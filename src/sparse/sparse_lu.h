@@ -32,6 +32,8 @@ class SparseLu {
   void forget();
   /// Keeps the present pivots as the pivots with which forget() begins again.
   void settle();
+  /// Takes the settled pivots of another factorization of the same pattern as its own, unless it has some already or `other` has none.
+  void settle_as(const SparseLu& other);
 
   /// Solves A x = b in place, n numbers.
   void solve(Out<double> x) const { solve_rows<1>(x); }

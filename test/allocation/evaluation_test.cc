@@ -38,13 +38,24 @@ std::vector<double> design(const CompiledSystem& system, int k) {
   return parameters;
 }
 
-using Parameter = std::tuple<std::size_t, const char*>;
+/// A case, and the integrator and the gradient by which it is evaluated.
+struct Way {
+  const char *name, *method, *gradient;
+  IntegratorKind integrator;
+};
+constexpr Way kWays[] = {{"rodas4", "rodas4", "direct", IntegratorKind::kRosenbrock},
+                         {"rodas5p", "rodas5p", "direct", IntegratorKind::kRosenbrock},
+                         {"adjoint", "rodas4", "adjoint", IntegratorKind::kRosenbrock},
+                         {"idas", "rodas4", "direct", IntegratorKind::kIdas}};
+using CaseAndWay = std::tuple<std::size_t, Way>;
 
-class WarmWorker : public ::testing::TestWithParam<Parameter> {
+class WarmWorker : public ::testing::TestWithParam<CaseAndWay> {
  protected:
   void expect_no_allocation(Derivatives derivatives) {
-    const GradientCase test = evaluation_cases().at(std::get<0>(GetParam()));
-    const auto system = test.compile(std::get<1>(GetParam()), "direct");
+    GradientCase test = evaluation_cases().at(std::get<0>(GetParam()));
+    const Way& way = std::get<1>(GetParam());
+    test.study.solver.integrator = way.integrator;
+    const auto system = test.compile(way.method, way.gradient);
     EvaluationWorker worker;
     for (int k = 0; k < 3; ++k) {
       const std::vector<double> parameters = design(*system, k);
@@ -67,10 +78,9 @@ TEST_P(WarmWorker, AsksForAGradientOnly) { expect_no_allocation(Derivatives::kGr
 TEST_P(WarmWorker, AsksForAGradientAndARootOnly) { expect_no_allocation(Derivatives::kGaussNewton); }
 
 INSTANTIATE_TEST_SUITE_P(Mechanisms, WarmWorker,
-                         ::testing::Combine(::testing::Range(std::size_t{0}, evaluation_cases().size()),
-                                            ::testing::Values("rodas4", "rodas5p")),
+                         ::testing::Combine(::testing::Range(std::size_t{0}, evaluation_cases().size()), ::testing::ValuesIn(kWays)),
                          [](const auto& instance) {
-                           return evaluation_cases().at(std::get<0>(instance.param)).name + "_" + std::get<1>(instance.param);
+                           return evaluation_cases().at(std::get<0>(instance.param)).name + "_" + std::get<1>(instance.param).name;
                          });
 
 // The public door, which takes the tuned parameters alone.

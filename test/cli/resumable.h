@@ -17,7 +17,7 @@ runs:
   fast: {controllers: {crank_speed: {setpoint: -12.0}}}
 uncertain: {slider_width: {uniform: [0.02, 0.03]}}
 robust: {measure: mean, samples: 3, validate: 5}
-multistart: {starts: 6, screen: 24}
+multistart: {starts: 4, screen: 16}
 )";
 
 /// @param engine the block of that name; may be empty.

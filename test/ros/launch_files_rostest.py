@@ -8,6 +8,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 
 import rospy
 import rostest
@@ -50,6 +51,13 @@ def nodes_of(launch):
 
 
 class LaunchFilesTest(NodesTestCase):
+    recorded = None  # the bag of an optimization, made once
+
+    @classmethod
+    def tearDownClass(cls):
+        if cls.recorded:
+            os.remove(cls.recorded)
+
     def setUp(self):
         super().setUp()
         self.launches = []
@@ -85,10 +93,13 @@ class LaunchFilesTest(NodesTestCase):
         wait_until(lambda: len(records()) == count - len(launches), "nobody restores the parameters")
 
     def bag(self):
-        node = self.start("optimization", "recorded", output_directory=self.folder)
-        reply = node.optimize(OptimizeRequest(max_evaluations=1))
-        node.end()
-        return reply.bag
+        if not LaunchFilesTest.recorded:
+            node = self.start("optimization", "recorded", output_directory=self.folder)
+            reply = node.optimize(OptimizeRequest(max_evaluations=1))
+            node.end()
+            LaunchFilesTest.recorded = tempfile.mktemp(suffix=".bag")
+            shutil.move(reply.bag, LaunchFilesTest.recorded)
+        return LaunchFilesTest.recorded
 
     def replay(self, bag):
         return self.launch("replay.launch", "rviz:=false", f"bag:={bag}")

@@ -147,7 +147,7 @@ class ResumeTest(NodesTestCase):
         again.end()
 
     def test_feedback_tells_every_stage(self):
-        self.start_node("told", study=self.study(BLOCKS.replace("validate: 200", "validate: 1000"), duration="2.0"))
+        self.start_node("told", study=self.study(BLOCKS.replace("validate: 200", "validate: 400"), duration="1.0"))
         job = Job("told", OptimizeGoal(max_evaluations=12))
         result = job.result()
         self.assertTrue(result.success, result.message)

@@ -52,6 +52,11 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(complete("check", "CMakeLi"), [])
         self.assertEqual(complete("optimize", "a", "b", "--output", "scri"), ["scripts"])
 
+    def test_a_start_without_bags_loads_no_library_of_ros(self):
+        loaded = subprocess.run(["ldd", sys.argv[1]], capture_output=True, text=True, check=True).stdout
+        self.assertIn("codesign_core", loaded)
+        self.assertNotRegex(loaded, r"lib(rosbag|roscpp|rostime|class_loader|codesign_bags)")
+
     def test_a_shell_that_sources_the_setup_finds_it(self):
         if len(sys.argv) < 3:
             self.skipTest("there is no setup file without ROS")

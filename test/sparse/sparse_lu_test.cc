@@ -96,6 +96,31 @@ TEST(SparseLu, AfterForgettingSettledPivotsAreUsedAgain) {
   EXPECT_EQ(fresh.full_factorizations(), 1) << "the settled pivots serve";
 }
 
+TEST(SparseLu, TakesTheSettledPivotsOfAnother) {
+  const Eigen::Vector4d b(1.0 / 3, 2.0 / 7, 3.0 / 11, 4.0 / 13);
+  SparseLu first(kLuStart, kLuRows), other(kLuStart, kLuRows);
+  EXPECT_TRUE(first.factor(dense_matrix(4.0)));
+  other.settle_as(first);
+  first.settle();
+  other.settle_as(first);
+  EXPECT_TRUE(other.factor(dense_matrix(0.3)));
+  EXPECT_TRUE(first.factor(dense_matrix(0.3)));
+  EXPECT_EQ(other.full_factorizations(), 0);
+  Eigen::Vector4d x = b, y = b;
+  first.solve(x);
+  other.solve(y);
+  EXPECT_EQ(x, y);
+
+  // Its own settled pivots stay.
+  SparseLu third(kLuStart, kLuRows);
+  EXPECT_TRUE(third.factor(dense_matrix(1e8)));
+  third.settle();
+  third.settle_as(first);
+  third.forget();
+  EXPECT_TRUE(third.factor(dense_matrix(1e8)));
+  EXPECT_EQ(third.full_factorizations(), 1);
+}
+
 TEST(SparseLu, ReportsSingularMatrices) {
   SparseLu lu(kLuStart, kLuRows);
   Eigen::Matrix4d m = dense_matrix(4.0);

@@ -1,0 +1,24 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_JOBS_BAG_FILES_H_
+#define MECHANISM_CODESIGN_JOBS_BAG_FILES_H_
+
+#include "excitation/trajectory_points.h"
+#include "jobs/identification_files.h"
+#include "recordings/bag_reader.h"
+
+namespace codesign {
+
+/// The functions by which the program `codesign` reads and writes bags. Without ROS they are empty.
+struct BagFiles {
+  BagReader read;
+  IdentificationBagWriter write_identification;
+  TrajectoryBagWriter write_trajectory;
+};
+
+/// The functions that the program is linked with: from ros/loaded_bag_files.cc if ROS was found, else from cli/no_bag_files.cc. It is not
+/// in this library.
+BagFiles bag_files();
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_JOBS_BAG_FILES_H_
