@@ -2,12 +2,12 @@
 # The dependencies of the core, without ROS.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 # MPI spreads evaluations over machines; without it, one process does all. CMake looks for its C library only where the language C is enabled.
-# Before SUNDIALS: that of Debian 13 links MPI.
+# Before SUNDIALS: that of Debian 13 links MPI, and names its C++ library, which is otherwise not used.
 include(CheckLanguage)
 check_language(C)
 if(CMAKE_C_COMPILER)
   enable_language(C)
-  find_package(MPI QUIET COMPONENTS C)
+  find_package(MPI QUIET COMPONENTS C CXX)
 endif()
 if(MPI_C_FOUND)
   message(STATUS "MPI: ${MPI_C_LIBRARIES}")
