@@ -103,15 +103,22 @@ int IdasEquations::integrand(double t, In<double> y, In<double> y_dot, Out<doubl
   return std::isfinite(g[0]) ? kDone : kRetry;
 }
 
-void IdasEquations::visit(double t, In<double> y, In<double> y_dot) {
+const Linearization<double>* IdasEquations::visit(double t, In<double> y, In<double> y_dot) {
   const Out<double> known = visited_, known_y = known.subspan(1, size()), known_y_dot = known.subspan(1 + size(), size());
   if (known[0] == t && std::equal(y.begin(), y.end(), known_y.begin()) && std::equal(y_dot.begin(), y_dot.end(), known_y_dot.begin()))
-    return;
+    return nullptr;
   known[0] = t;
   std::copy(y.begin(), y.end(), known_y.begin());
   std::copy(y_dot.begin(), y_dot.end(), known_y_dot.begin());
   unpack(t, y, y_dot, &state_);
-  sensitivities_->linearize(state_, kappa_, &equations_);
+  return &sensitivities_->linearize(state_, kappa_, &equations_);
+}
+
+// The equations of the sensitivities are linear, with the matrix of this very point. With the matrix of an earlier point their corrector
+// may fail in each step through a steep part of a friction law, where the solution itself needs no new matrix.
+bool IdasEquations::visit_to_solve(double t, In<double> y, In<double> y_dot) {
+  const Linearization<double>* const derivatives = visit(t, y, y_dot);
+  return !derivatives || newton_.refactor(*derivatives);
 }
 
 void IdasEquations::derivative(int k, In<double> y_rho, In<double> y_dot_rho) {
@@ -141,7 +148,7 @@ int IdasEquations::sensitivity_residual(int count, sunrealtype t, N_Vector y, N_
   return guarded(&equations->failure_, [&] {
     const Layout& layout = equations->layout_;
     bool finite = true;
-    equations->visit(t, span_of(y), span_of(y_dot));
+    if (!equations->visit_to_solve(t, span_of(y), span_of(y_dot))) return kRetry;
     for (int k = 0; k < count; ++k) {
       const Span<double> F = span_of(F_rho[k]);
       equations->derivative(k, span_of(y_rho[k]), span_of(y_dot_rho[k]));

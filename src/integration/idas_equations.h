@@ -53,7 +53,10 @@ class IdasEquations {
   int jacobian(double t, double c_j, In<double> y, In<double> y_dot);
   int integrand(double t, In<double> y, In<double> y_dot, Out<double> g);
   /// Computes the derivatives at a point unless they are stored: the sensitivity corrector calls repeatedly at the same point.
-  void visit(double t, In<double> y, In<double> y_dot);
+  /// @returns null if they are stored.
+  const Linearization<double>* visit(double t, In<double> y, In<double> y_dot);
+  /// The same, and factors the matrix of Newton's method there. False if it is singular.
+  bool visit_to_solve(double t, In<double> y, In<double> y_dot);
   void derivative(int k, In<double> y_rho, In<double> y_dot_rho);
 
   const Layout& layout_;

@@ -24,6 +24,8 @@ namespace {
 /// position the drift in units of the tolerance is large even right after a projection.
 double restart_drift(double relative_tolerance) { return std::max(100.0, 0.03 / std::sqrt(relative_tolerance)); }
 
+constexpr double kOwnChoice = -1.0;  // by which IDAS returns to the default of an option
+
 }  // namespace
 
 class IdasIntegrator::Implementation {
@@ -176,6 +178,7 @@ Status IdasIntegrator::Implementation::start(const std::vector<double>& paramete
 void IdasIntegrator::Implementation::start_sensitivities(const std::vector<double>& parameters) {
   if (!with_sensitivities()) {
     if (y_rho_) require(IDASensToggleOff(ida_.get()), "IDASensToggleOff");
+    if (y_rho_) require(IDASetDeltaCjLSetup(ida_.get(), kOwnChoice), "IDASetDeltaCjLSetup");
     return;
   }
   const int count = carried_->count();
@@ -208,6 +211,8 @@ void IdasIntegrator::Implementation::restart_solver() {
   if (!with_sensitivities()) return;
   require(IDASensReInit(ida, IDA_STAGGERED, y_rho_->get(), y_dot_rho_->get()), "IDASensReInit");
   require(IDAQuadSensReInit(ida, psi_rho_->get()), "IDAQuadSensReInit");
+  // A matrix for another c_j would not be exact, see IdasEquations::visit_to_solve().
+  require(IDASetDeltaCjLSetup(ida, 0.0), "IDASetDeltaCjLSetup");
   // A run without sensitivities in between switches this error test off.
   require(IDASetSensErrCon(ida, SUNTRUE), "IDASetSensErrCon");
   require(IDASetSensParams(ida, nullptr, scales_.data(), nullptr), "IDASetSensParams");

@@ -24,7 +24,8 @@ class IdasSensitivities {
   virtual void start(const std::vector<double>& parameters, const State<double>& initial, Integrator* integrator,
                      std::vector<State<double>>* sensitivities, std::vector<double>* scales) = 0;
   /// Computes the derivatives at a state for the calls of derivative() that follow. @param kappa rate of stabilization [1/s], (25).
-  virtual void linearize(const State<double>& state, double kappa, Equations<double>* equations) = 0;
+  /// @returns the derivatives of (G, g) by the state, without stabilization; valid until the next call.
+  virtual const Linearization<double>& linearize(const State<double>& state, double kappa, Equations<double>* equations) = 0;
   /// The derivative of (G, g) by rho_k along a direction (q, v, s, z)_rho at the last linearize(), with stabilized constraint rows:
   /// Layout::columns() + 1 entries.
   virtual void derivative(int k, const State<double>& direction, VectorX<double>* result) = 0;

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "equations/derivative_products.h"
+#include "sparse/row_product.h"
 
 namespace codesign {
 namespace {
@@ -33,12 +34,52 @@ IdasNewton::IdasNewton(const CompiledSystem& system, SUNContext context)
   solver_->ops->free = free_shell;
 }
 
+// Divides the derivatives of the constraint rows. Since (Phi'')_v = 2 (Phi')_q, those of the stabilized row come out as those of Phi'' with
+// h/(1 + kappa h) in place of h, (26a).
+void IdasNewton::stabilize() {
+  const Layout& layout = system_.layout();
+  const ByVariable<Sparsity>& patterns = system_.patterns();
+  const double scale = 1.0 / (1.0 + kappa_ / c_j_);
+  const auto multiply = [](const Sparsity& pattern, int row, int first_column, double factor, std::vector<double>* values) {
+    for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
+      if (pattern.column(e) >= first_column) (*values)[static_cast<std::size_t>(e)] *= factor;
+  };
+  for (int row = layout.n; row < layout.n + layout.m; ++row) {
+    multiply(patterns.position, row, 0, scale * scale, &derivatives_.position);
+    multiply(patterns.velocity, row, 0, scale, &derivatives_.velocity);
+    multiply(patterns.rate, row, layout.n, scale * scale, &derivatives_.rate);
+  }
+}
+
+// The terms of (26a) with Phi''_v b_q and Phi_q b_q; subtract_position_product() has subtracted those with Phi''_q b_q.
+void IdasNewton::subtract_stabilization(In<double> b_q) {
+  const Layout& layout = system_.layout();
+  const ByVariable<Sparsity>& patterns = system_.patterns();
+  const double h = 1.0 / c_j_, damping = kappa_ / (1.0 + kappa_ * h);
+  for (int row = layout.n; row < layout.n + layout.m; ++row) {
+    double sum = damping * row_product(patterns.velocity, derivatives_.velocity, row, b_q);
+    for (int e = patterns.rate.first(row); e < patterns.rate.first(row + 1); ++e)
+      if (const int column = patterns.rate.column(e); column < layout.n)
+        sum += damping * damping * derivatives_.rate[static_cast<std::size_t>(e)] * b_q[column];
+    u_[row] -= h * sum;
+  }
+}
+
+bool IdasNewton::factor() {
+  const double h = 1.0 / c_j_;
+  if (kappa_ > 0.0) stabilize();
+  singular_ = !reduced_.factor(derivatives_, h, h * h, h);
+  return !singular_;
+}
+
+bool IdasNewton::refactor(const Linearization<double>& derivatives) {
+  derivatives_ = derivatives;
+  return factor();
+}
+
 int IdasNewton::setup(SUNLinearSolver solver, SUNMatrix) {
-  auto* self = static_cast<IdasNewton*>(solver->content);
-  const double h = 1.0 / self->c_j_;
-  self->singular_ = !self->reduced_.factor(self->derivatives_, h, h * h, h);
   // A positive value makes IDAS try a smaller step.
-  return self->singular_ ? SUNLS_LUFACT_FAIL : kSundialsSuccess;
+  return static_cast<IdasNewton*>(solver->content)->factor() ? kSundialsSuccess : SUNLS_LUFACT_FAIL;
 }
 
 int IdasNewton::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, sunrealtype) {
@@ -50,9 +91,11 @@ void IdasNewton::solve(In<double> b, Out<double> x) {
   const Layout& layout = system_.layout();
   const double h = 1.0 / c_j_;
   assert(b.size() == layout.n + layout.columns() && x.size() == b.size());
+  const In<double> b_q = b.first(layout.n);
   u_ = Eigen::Map<const VectorX<double>>(b.data() + layout.n, layout.columns());
-  subtract_position_product(system_, derivatives_, b.first(layout.n), h, u_);
   u_.segment(layout.n, layout.m) /= (1.0 + kappa_ * h) * (1.0 + kappa_ * h);
+  subtract_position_product(system_, derivatives_, b_q, h, u_);
+  if (kappa_ > 0.0) subtract_stabilization(b_q);
   reduced_.lu().solve(u_);
   Eigen::Map<VectorX<double>> x_q(x.data(), layout.n), x_v(x.data() + layout.n, layout.n), x_s(x.data() + 2 * layout.n, layout.states),
       x_lambda(x.data() + 2 * layout.n + layout.states, layout.m);

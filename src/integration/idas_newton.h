@@ -13,8 +13,7 @@ namespace codesign {
 /// With y = (q, v, s, lambda) and F = (q' - v, G), the rows q' - v and the columns of q are eliminated:
 ///   (G_z + G_v/c_j + G_q/c_j^2) (u_a, u_lambda, u_sigma) = b_G - G_q b_q/c_j,
 ///   x_v = u_a/c_j,  x_q = (x_v + b_q)/c_j,  x_s = u_sigma/c_j,  x_lambda = u_lambda.
-/// In a stabilized constraint row Phi_q becomes (1 + kappa/c_j)^2 Phi_q; b is divided by this factor instead. The row's other terms are
-/// then wrong by the order of kappa/c_j^2, which the Newton iteration corrects.
+/// A stabilized constraint row is divided by (1 + kappa/c_j)^2, so that it keeps Phi_q in the columns of a, (26a).
 class IdasNewton {
  public:
   IdasNewton(const CompiledSystem& system, SUNContext context);
@@ -26,6 +25,9 @@ class IdasNewton {
     c_j_ = c_j;
     kappa_ = kappa;
   }
+
+  /// Factors the matrix at other derivatives, with the rates of the last set_rates(). False if it is singular.
+  bool refactor(const Linearization<double>& derivatives);
 
   /// The correction [delta; multipliers; 0] (Layout::columns() entries) that removes a constraint error (m entries) as in (17), with the
   /// matrix of the last setup in place of G_z.
@@ -42,6 +44,9 @@ class IdasNewton {
   bool singular() const { return singular_; }
 
  private:
+  bool factor();
+  void stabilize();
+  void subtract_stabilization(In<double> b_q);
   static int setup(SUNLinearSolver solver, SUNMatrix matrix);
   static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b, sunrealtype tolerance);
   void solve(In<double> b, Out<double> x);

@@ -61,7 +61,7 @@ void IdasTangent::start(const std::vector<double>& parameters, const State<doubl
   }
 }
 
-void IdasTangent::linearize(const State<double>& state, double kappa, Equations<double>* equations) {
+const Linearization<double>& IdasTangent::linearize(const State<double>& state, double kappa, Equations<double>* equations) {
   kappa_ = kappa;
   equations->linearize(state, &derivatives_);
   groups_.for_each([&](auto* group) {
@@ -79,6 +79,7 @@ void IdasTangent::linearize(const State<double>& state, double kappa, Equations<
       column[group->G.size()] = g.v[k];
     }
   });
+  return derivatives_;
 }
 
 // The derivative of Phi'' + 2 kappa Phi' + kappa^2 Phi along (q, v, a) equals the derivative of Phi'' along (q, v + kappa q, a + 2 kappa v

@@ -21,7 +21,7 @@ class IdasTangent final : public IdasSensitivities {
   int count() const override { return static_cast<int>(partial_.cols()); }
   void start(const std::vector<double>& parameters, const State<double>& initial, Integrator* integrator,
              std::vector<State<double>>* sensitivities, std::vector<double>* scales) override;
-  void linearize(const State<double>& state, double kappa, Equations<double>* equations) override;
+  const Linearization<double>& linearize(const State<double>& state, double kappa, Equations<double>* equations) override;
   void derivative(int k, const State<double>& direction, VectorX<double>* result) override;
   bool jump(const std::vector<ControlEvent>& events, const State<double>& before, const State<double>& behind, Equations<double>* equations,
             std::vector<State<double>>* directions) override;

@@ -14,7 +14,9 @@ namespace {
 struct Faulty : IdasSensitivities {
   int count() const override { return 1; }
   void start(const std::vector<double>&, const State<double>&, Integrator*, std::vector<State<double>>*, std::vector<double>*) override {}
-  void linearize(const State<double>&, double, Equations<double>*) override { throw std::runtime_error("no derivatives today"); }
+  const Linearization<double>& linearize(const State<double>&, double, Equations<double>*) override {
+    throw std::runtime_error("no derivatives today");
+  }
   void derivative(int, const State<double>&, VectorX<double>*) override {}
   bool jump(const std::vector<ControlEvent>&, const State<double>&, const State<double>&, Equations<double>*,
             std::vector<State<double>>*) override {
