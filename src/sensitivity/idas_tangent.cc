@@ -185,10 +185,11 @@ void IdasTangent::residuals(ObjectivePart part, const State<double>& state, Equa
   groups_.for_each([&](auto* group) {
     auto& formulas = group->equations.formulas();
     group->load(state, directions);
-    formulas.errors(part, group->state, &group->errors);
-    residuals_of(part, formulas.view().design, &group->errors);
+    auto& errors = group->errors[part];
+    formulas.errors(part, group->state, &errors);
+    residuals_of(part, formulas.view().design, &errors);
     for (int k = 0; k < group->range.count; ++k)
-      for (Eigen::Index term = 0; term < rows->cols(); ++term) (*rows)(group->range.first + k, term) = group->errors[term].v[k];
+      for (Eigen::Index term = 0; term < rows->cols(); ++term) (*rows)(group->range.first + k, term) = errors[term].v[k];
   });
 }
 

@@ -33,8 +33,19 @@ void StepPath::append(double h, const State<double>& state) {
   if (k % stride_ == 0) push(k, state);
 }
 
+// Doubles the number of points that memory is allocated for, so that a later run with a few more steps needs none. There are at most twice
+// as many as the caller asks for.
+void StepPath::grow(const State<double>& state) {
+  const std::size_t size = kept_.size(), wanted = std::min(std::max(std::size_t{kFewest}, 2 * size), 2 * most_);
+  kept_.resize(std::max(size + 1, wanted));
+  for (std::size_t k = size; k < kept_.size(); ++k) {
+    kept_[k].numbers.reserve(static_cast<std::size_t>(1 + state.q.size() + state.v.size() + state.s.size() + state.z.size()));
+    kept_[k].turns.reserve(state.turns.size());
+  }
+}
+
 void StepPath::push(int k, const State<double>& state) {
-  if (count_ == kept_.size()) kept_.emplace_back();
+  if (count_ == kept_.size()) grow(state);
   Kept& kept = kept_[count_++];
   kept.k = k;
   kept.numbers.clear();

@@ -43,6 +43,7 @@ class StepPath {
     std::vector<double> turns;
   };
 
+  void grow(const State<double>& state);
   void push(int k, const State<double>& state);
   void thin_out();
 

@@ -12,7 +12,7 @@
 namespace codesign {
 namespace {
 
-const Json& signal_of(const Json& summary, const std::string& name) {
+const Json& signal_of(const Json& summary, const char* name) {
   for (const Json& signal : summary["signals"])
     if (signal["name"] == name) return signal;
   throw std::out_of_range(name);

@@ -80,7 +80,7 @@ TEST_P(ControlGradientTest, MeetsTheComplexStep) {
 
 TEST_P(ControlGradientTest, IsThatOfTheOtherIntegrator) {
   const auto own = compile_case(GetParam(), "{gradient: direct, method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}");
-  const auto other = compile_case(GetParam(), "{integrator: idas, relative_tolerance: 1.0e-7, absolute_tolerance: 1.0e-8}");
+  const auto other = compile_case(GetParam(), "{integrator: idas, relative_tolerance: 1.0e-8, absolute_tolerance: 1.0e-9}");
   const Eigen::VectorXd rho = start_of(own->study());
   const Evaluation a = Evaluator(own).evaluate(rho, true), b = Evaluator(other).evaluate(rho, true);
   ASSERT_TRUE(a.status.ok()) << a.status.cause;
