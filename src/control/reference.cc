@@ -111,10 +111,11 @@ ReferenceMotion<T> Reference<T>::sampled_at(double t) const {
 template <class T>
 ReferenceMotion<T> Reference<T>::along(const Piece& piece, double t) {
   ReferenceMotion<T> motion;
-  const T x(t - piece.start);
+  // Not a T: products with a plain number cost half as much with lanes.
+  const double x = t - piece.start;
   for (std::size_t k = piece.c.size(); k-- > 0;) {
-    motion.jerk = motion.jerk * x + T(3.0) * motion.acceleration;
-    motion.acceleration = motion.acceleration * x + T(2.0) * motion.rate;
+    motion.jerk = motion.jerk * x + 3.0 * motion.acceleration;
+    motion.acceleration = motion.acceleration * x + 2.0 * motion.rate;
     motion.rate = motion.rate * x + motion.value;
     motion.value = motion.value * x + piece.c[k];
   }
