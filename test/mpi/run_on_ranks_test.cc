@@ -23,8 +23,10 @@ class RunOnRanks : public testing::Test {
       setenv(name, "1", 1);
     setenv("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe", 1);
   }
-  static std::vector<std::string> on_ranks(int ranks, std::vector<std::string> words) {
+  std::vector<std::string> on_ranks(int ranks, std::vector<std::string> words) const {
     std::vector<std::string> all = {mpirun_executable(), "-n", std::to_string(ranks)};
+    // After the loss of a rank Open MPI 5 otherwise kills the others within half a second, rank 0 too.
+    if (is_open_mpi_5()) all.insert(all.begin() + 1, "--enable-recovery");
     all.insert(all.end(), words.begin(), words.end());
     return all;
   }
@@ -32,6 +34,15 @@ class RunOnRanks : public testing::Test {
     return {codesign_executable(), "optimize", kModel, study, option, folder_.path(folder)};
   }
   std::string in(const std::string& folder, const std::string& name) const { return folder_.path(folder + "/" + name); }
+  bool is_open_mpi_5() const {
+    ChildProcess({mpirun_executable(), "--version"}, folder_.path("version"), "/dev/null").wait();
+    return read_text_file(folder_.path("version")).find("(Open MPI) 5.") != std::string::npos;
+  }
+  /// mpirun of Open MPI 5.0.7 crashes whenever it starts two programs, whichever they are.
+  bool can_start_two_programs() const {
+    const std::vector<std::string> words = {mpirun_executable(), "-n", "1", "true", ":", "-n", "1", "true"};
+    return ChildProcess(words, "/dev/null", "/dev/null").wait() == 0;
+  }
   int run_job(const std::vector<std::string>& words) const { return ChildProcess(words, folder_.path("out"), folder_.path("err")).wait(); }
   std::string err() const { return read_text_file(folder_.path("err")); }
 
@@ -79,6 +90,7 @@ TEST_F(RunOnRanks, ThreadsAndRanksGiveTheSameResults) {
 }
 
 TEST_F(RunOnRanks, OnlyRankZeroNeedsTheFiles) {
+  if (!can_start_two_programs()) GTEST_SKIP() << "this mpirun cannot start two programs";
   const std::string study = resumable_study(folder_, "");
   ASSERT_EQ(run_job(job(study, "--output", "here")), kDone) << err();
   std::vector<std::string> words = on_ranks(1, job(study, "--output", "there"));
@@ -116,7 +128,7 @@ TEST_F(RunOnRanks, KilledRanksEndTheJobAndNothingIsLostOrComputedTwice) {
       const auto begin = std::chrono::steady_clock::now();
       kill(process_of(rank, folder_.path("killed")), SIGKILL);
       EXPECT_NE(process.wait(), kDone);
-      EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20)) << "it does not hang";
+      EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(rank == 0 ? 40 : 25)) << "it does not hang";
       ASSERT_TRUE(comes_true([&] { return process_of(1, folder_.path("killed")) == 0 && process_of(0, folder_.path("killed")) == 0; }));
     }
     const std::vector<std::string> now = finished_lines(journal);

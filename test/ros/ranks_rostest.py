@@ -31,6 +31,12 @@ def has_mpi():
     return shutil.which("mpirun") and b"libmpi" in subprocess.run(["ldd", node], stdout=subprocess.PIPE, check=True).stdout
 
 
+def mpirun(ranks):
+    """The words of a launch-prefix. After the loss of a rank Open MPI 5 otherwise kills the others within half a second."""
+    version = subprocess.run(["mpirun", "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    return ("mpirun", *(["--enable-recovery"] if "(Open MPI) 5." in version else []), "-n", str(ranks))
+
+
 def ranks_of(name):
     """The processes of a node by rank."""
     found = {}
@@ -48,7 +54,7 @@ def ranks_of(name):
 @unittest.skipUnless(has_mpi(), "this build has no MPI: install libopenmpi-dev and openmpi-bin, and build again")
 class RanksTest(NodesTestCase):
     def start_node(self, name, ranks, engine=""):
-        prefix = ("mpirun", "-n", str(ranks)) if ranks > 1 else ()
+        prefix = mpirun(ranks) if ranks > 1 else ()
         return self.start("optimization", name, model=CASE, prefix=prefix, study=self.study(engine), output_directory=self.folder)
 
     def study(self, engine):
