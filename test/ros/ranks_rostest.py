@@ -20,10 +20,9 @@ from node_process import SHARE, Launch, NodesTestCase, files, state_of, wait_unt
 
 CASE = "pendulum_robust"
 FEW = OptimizeRequest(max_evaluations=2)
-# For root and for machines with few processors; the last entries are the names in Open MPI 5, and the time after which mpirun ends a node.
+# For root and for machines with few processors, also in the words of Open MPI 5; and the time after which mpirun ends a node.
 os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
-                  PRTE_MCA_rmaps_default_mapping_policy=":oversubscribe",
-                  OMPI_MCA_odls_base_sigkill_timeout="7", PRTE_MCA_odls_base_sigkill_timeout="7")
+                  PRTE_MCA_rmaps_default_mapping_policy=":oversubscribe", OMPI_MCA_odls_base_sigkill_timeout="7")
 
 
 def has_mpi():
