@@ -77,7 +77,7 @@ void expect_exact_slopes(const Prepared& p) {
         };
         const double slope = slopes(output * rows + row, static_cast<Eigen::Index>(k));
         const RiddersDerivative expected = ridders_derivative(value, p.at[index], 1e-3 * std::max(0.05, std::abs(p.at[index])));
-        EXPECT_NEAR(slope, expected.value, 1e-9 * (1.0 + std::abs(expected.value)) + 3.0 * expected.error)
+        EXPECT_NEAR(slope, expected.value, 5e-9 * (1.0 + std::abs(expected.value)) + 3.0 * expected.error)
             << p.of.system->study().parameters[index].name << ", " << p.outputs[static_cast<std::size_t>(output)].name() << ", sample "
             << row;
         EXPECT_LT(expected.error, 1e-8 * (1.0 + std::abs(expected.value)));

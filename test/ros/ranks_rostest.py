@@ -93,7 +93,7 @@ class RanksTest(NodesTestCase):
         thread.start()
         wait_until(lambda: files(self.folder, ".best.json"), "no best point on disk")
         os.kill(ranks_of("robbed")[2], signal.SIGKILL)
-        node.process.wait(40)
+        node.process.wait(90)
         thread.join()
         (bag,) = files(self.folder, ".bag")
         with rosbag.Bag(bag) as opened:
