@@ -37,7 +37,7 @@ class CommandsTest(unittest.TestCase):
         self.robot.step()
 
     def setpoint(self, controller):
-        state = self.robot.controllers.last()
+        state = self.robot.controller_states()
         return state.setpoint[state.name.index(controller)]
 
     def test_an_effort_by_name_adds_to_that_of_the_controllers_and_holds(self):

@@ -50,7 +50,7 @@ class LiveParametersTest(unittest.TestCase):
         self.assertEqual(self.initial["crank_length"], 0.08)
 
     def test_a_gain_acts_at_once_and_moves_nothing(self):
-        before, output = self.robot.joints.last(), self.robot.controllers.last()
+        before, output = self.robot.joints.last(), self.robot.controller_states()
         answer = self.client.update_configuration({"Kp": 4.0})
         self.assertEqual(answer["Kp"], 4.0)
         wait_until(lambda: self.robot.controllers.last() is not output, "the new gain is not shown")
@@ -131,7 +131,7 @@ class LiveParametersTest(unittest.TestCase):
         self.assertTrue(self.robot.call("restart").success)
         self.assertEqual(self.client.get_configuration(TIMEOUT)["Kp"], 3.0)
         self.robot.step()
-        state = self.robot.controllers.last()
+        state = self.robot.controller_states()
         self.assertAlmostEqual(state.output[0], 3.0 * state.error[0], delta=1e-9)
 
 

@@ -66,6 +66,12 @@ class Robot:
         wait_until(lambda: self.joints.last().header.stamp > before, "a step without a frame")
         return self.joints.last()
 
+    def controller_states(self):
+        """Those of the last frame of the joints, on another topic, whose message may come later."""
+        stamp = self.joints.last().header.stamp
+        wait_until(lambda: self.controllers.last().header.stamp >= stamp, "no states of the controllers")
+        return self.controllers.last()
+
     def restart(self, positions):
         """~restart, with the messages of the run before forgotten. `positions`: of the joints at the start."""
         before = len(self.joints.messages)
