@@ -107,7 +107,8 @@ TEST_F(RunOnRanks, GradientsOfEnsemblesAreTheSame) {
 }
 
 TEST_F(RunOnRanks, KilledRanksEndTheJobAndNothingIsLostOrComputedTwice) {
-  if (is_open_mpi_5()) GTEST_SKIP() << "mpirun of Open MPI 5 kills the other ranks within half a second, before rank 0 can keep its results";
+  if (is_open_mpi_5())
+    GTEST_SKIP() << "mpirun of Open MPI 5 kills the other ranks within half a second, before rank 0 can keep its results";
   const std::string study = resumable_study(folder_, "");
   ASSERT_EQ(run_job(job(study, "--output", "whole")), kDone) << err();
   const std::size_t all = finished_lines(in("whole", "journal.jsonl")).size();
