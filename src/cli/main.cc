@@ -7,11 +7,11 @@
 #include "mpi/run_on_ranks.h"
 
 int main(int argc, char** argv) {
-  codesign::cli::watch_interrupts();
-  using namespace codesign::cli;
+  namespace cli = codesign::cli;
+  cli::watch_interrupts();
   return codesign::run_on_ranks("codesign", [&](codesign::Dispatcher* ranks) {
     const codesign::BagFiles bags = codesign::bag_files();
-    return run({argv + 1, argv + argc},
-               {std::cout, std::cerr, interrupted(), keep_results, ranks, bags.read, bags.write_identification, bags.write_trajectory});
+    return cli::run({argv + 1, argv + argc}, {std::cout, std::cerr, cli::interrupted(), cli::keep_results, ranks, bags.read,
+                                              bags.write_identification, bags.write_trajectory});
   });
 }

@@ -97,8 +97,9 @@ void IdasNewton::solve(In<double> b, Out<double> x) {
   subtract_position_product(system_, derivatives_, b_q, h, u_);
   if (kappa_ > 0.0) subtract_stabilization(b_q);
   reduced_.lu().solve(u_);
-  Eigen::Map<VectorX<double>> x_q(x.data(), layout.n), x_v(x.data() + layout.n, layout.n), x_s(x.data() + 2 * layout.n, layout.states),
-      x_lambda(x.data() + 2 * layout.n + layout.states, layout.m);
+  const std::ptrdiff_t n = layout.n;
+  Eigen::Map<VectorX<double>> x_q(x.data(), n), x_v(x.data() + n, n), x_s(x.data() + 2 * n, layout.states),
+      x_lambda(x.data() + 2 * n + layout.states, layout.m);
   x_v = h * u_.head(layout.n);
   x_q = h * (x_v + Eigen::Map<const VectorX<double>>(b.data(), layout.n));
   x_s = h * u_.tail(layout.states);
