@@ -33,7 +33,7 @@ struct IdasNewtonTest : ::testing::Test {
     const Eigen::Map<const VectorX<double>> all(data(x), size);
     direction.q = all.head(layout.n);
     direction.v = all.segment(layout.n, layout.n);
-    direction.s = all.segment(2 * layout.n, layout.states);
+    direction.s = all.segment(Eigen::Index{2} * layout.n, layout.states);
     direction.z << c_j * direction.v, all.tail(layout.m), c_j * direction.s;
     VectorX<double> dG, result(size);
     directional_derivative(*system, *newton.derivatives(), direction, &dG);
@@ -41,7 +41,7 @@ struct IdasNewtonTest : ::testing::Test {
     direction.z.head(layout.n) += 2.0 * kappa * direction.v + kappa * kappa * direction.q;
     direction.v += kappa * direction.q;
     directional_derivative(*system, *newton.derivatives(), direction, &dG);
-    result.segment(2 * layout.n, layout.m) = dG.segment(layout.n, layout.m);
+    result.segment(Eigen::Index{2} * layout.n, layout.m) = dG.segment(layout.n, layout.m);
     return result;
   }
 
