@@ -25,8 +25,8 @@ if(CODESIGN_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   endif()
 endif()
 
-# ccache takes precompiled headers only where it is told that it may trust them. With paths relative to the checkout it may
-# serve another checkout too, as far as GCC writes the same precompiled headers. Not with debugging information, which contains the path.
+# ccache takes precompiled headers only where it is told that it may trust them. With paths relative to the checkout it serves
+# another checkout for a part of the files. Not with debugging information, which contains the path of the checkout.
 if(CODESIGN_CCACHE AND CMAKE_CXX_COMPILER_LAUNCHER)
   set(codesign_ccache_settings CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime)
   if(CMAKE_BUILD_TYPE STREQUAL Release)

@@ -14,6 +14,7 @@
 #include "integration/motion_watch.h"
 #include "integration/projection.h"
 #include "integration/run_watch.h"
+#include "integration/settled_start.h"
 #include "integration/singularity_watch.h"
 #include "integration/standstill.h"
 
@@ -24,7 +25,7 @@ namespace {
 /// position the drift in units of the tolerance is large even right after a projection.
 double restart_drift(double relative_tolerance) { return std::max(100.0, 0.03 / std::sqrt(relative_tolerance)); }
 
-constexpr double kOwnChoice = -1.0;  // by which IDAS returns to the default of an option
+constexpr double kDefaultDelta = -1.0;  // IDAS takes a negative value for its default
 
 }  // namespace
 
@@ -90,7 +91,6 @@ class IdasIntegrator::Implementation {
 
  private:
   Status assemble(const std::vector<double>& parameters);
-  void settle_pivots();
   void start_sensitivities(const std::vector<double>& parameters);
   void restart_solver();
   Status project();
@@ -131,26 +131,21 @@ class IdasIntegrator::Implementation {
   Statistics before_restart_;
   bool watch_singularities_ = false;
   bool has_stepped_ = false;  ///< since the last start() or go_on()
-  bool has_settled_ = false;  ///< whether the study's own start was assembled
+  SettledStart settled_start_;
   Warnings restart_warnings_;
   std::string message_;
   Statistics statistics_;
 };
 
-// Every run begins with the pivots that are chosen at the study's own start, as with RosenbrockIntegrator::start(). All matrices have the
-// pattern of the one that the assembly factors.
+// Newton's matrix has the pattern of the matrix that the assembly factors.
 Status IdasIntegrator::Implementation::assemble(const std::vector<double>& parameters) {
-  const bool is_first = !has_settled_, is_own_start = is_first && parameters == system_.parameters();
-  has_settled_ = true;
-  if (is_first && !is_own_start && assemble_start(system_, system_.parameters(), &assembly_, &equations(), &initial_).ok()) settle_pivots();
-  Status status = assemble_start(system_, parameters, &assembly_, &equations(), &initial_);
-  if (is_own_start && status.ok()) settle_pivots();
-  return status;
-}
-
-void IdasIntegrator::Implementation::settle_pivots() {
-  assembly_.settle_pivots();
-  newton_.settle_as(assembly_.rates_matrix());
+  return settled_start_.start(
+      system_, parameters,
+      [this](const std::vector<double>& design) { return assemble_start(system_, design, &assembly_, &equations(), &initial_); },
+      [this] {
+        assembly_.settle_pivots();
+        newton_.settle_as(assembly_.rates_matrix());
+      });
 }
 
 Status IdasIntegrator::Implementation::start(const std::vector<double>& parameters) {
@@ -178,7 +173,7 @@ Status IdasIntegrator::Implementation::start(const std::vector<double>& paramete
 void IdasIntegrator::Implementation::start_sensitivities(const std::vector<double>& parameters) {
   if (!with_sensitivities()) {
     if (y_rho_) require(IDASensToggleOff(ida_.get()), "IDASensToggleOff");
-    if (y_rho_) require(IDASetDeltaCjLSetup(ida_.get(), kOwnChoice), "IDASetDeltaCjLSetup");
+    if (y_rho_) require(IDASetDeltaCjLSetup(ida_.get(), kDefaultDelta), "IDASetDeltaCjLSetup");
     return;
   }
   const int count = carried_->count();

@@ -23,20 +23,13 @@ RosenbrockIntegrator::RosenbrockIntegrator(const CompiledSystem& system)
       singularity_(system),
       continuation_(system) {}
 
-// Every run begins with the pivots that are chosen at the study's own start, so that its last bits depend on its design alone, and pivots
-// need not be chosen for each run. See doc/decisions/0049-journal.md.
 Status RosenbrockIntegrator::start(const std::vector<double>& parameters) {
-  const bool is_first = !has_settled_, is_own_start = is_first && parameters == system_.parameters();
-  has_settled_ = true;
-  if (is_first && !is_own_start && begin(system_.parameters()).ok()) settle_pivots();
-  Status status = begin(parameters);
-  if (is_own_start && status.ok()) settle_pivots();
-  return status;
-}
-
-void RosenbrockIntegrator::settle_pivots() {
-  assembly_.settle_pivots();
-  step_.settle_pivots();
+  return settled_start_.start(
+      system_, parameters, [this](const std::vector<double>& design) { return begin(design); },
+      [this] {
+        assembly_.settle_pivots();
+        step_.settle_pivots();
+      });
 }
 
 Status RosenbrockIntegrator::begin(const std::vector<double>& parameters) {

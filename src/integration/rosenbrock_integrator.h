@@ -12,6 +12,7 @@
 #include "integration/motion_watch.h"
 #include "integration/rosenbrock_step.h"
 #include "integration/run_watch.h"
+#include "integration/settled_start.h"
 #include "integration/singularity_watch.h"
 #include "integration/step_controller.h"
 
@@ -54,7 +55,6 @@ class RosenbrockIntegrator final : public Integrator {
 
  private:
   Status begin(const std::vector<double>& parameters);
-  void settle_pivots();
   double first_step() const;
 
   const CompiledSystem& system_;
@@ -73,7 +73,7 @@ class RosenbrockIntegrator final : public Integrator {
   SingularityWatch singularity_;
   Continuation continuation_;
   bool watch_singularities_ = false;
-  bool has_settled_ = false;  ///< whether settle_pivots() was called
+  SettledStart settled_start_;
   double proposal_ = 0.0;
   Statistics statistics_;
 };
