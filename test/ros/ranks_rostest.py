@@ -99,7 +99,8 @@ class RanksTest(NodesTestCase):
         with rosbag.Bag(bag) as opened:
             ((_, result, _),) = opened.read_messages(topics=["result"])
         self.assertEqual(result.code, "worker_lost", result.message)
-        self.assertRegex(result.message, r"rank 2 of 3 on host \S+ does not answer")
+        # Open MPI 4 ends the other ranks at once, and rank 0 calls the roll; under Open MPI 5 it notices the silence.
+        self.assertRegex(result.message, r"rank 2 of 3 on host \S+ (does not answer|has said nothing for)")
 
     def test_the_launch_file_takes_a_prefix(self):
         launch = Launch("optimize.launch", f"case:={CASE}", "prefix:=mpirun -n 2", f"output_directory:={self.folder}")
