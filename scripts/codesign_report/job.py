@@ -19,13 +19,13 @@ class Table:
 
     def __init__(self, path):
         self.columns = {}
-        with open(path, newline="", encoding="utf-8") as file:
+        with open(path, newline="", encoding="utf-8", errors="replace") as file:
             rows = csv.reader(file)
             self.names = next(rows, [])
             cells = [[] for _ in self.names]
-            for number, row in enumerate(rows, 2):
+            for row in rows:
                 if len(row) != len(self.names):
-                    raise ReportError(f"{path}:{number}: {len(row)} cells, the first line has {len(self.names)}")
+                    raise ReportError(f"{path}:{rows.line_num}: {len(row)} cells, the first line has {len(self.names)}")
                 for column, cell in zip(cells, row):
                     column.append(to_value(cell))
         self.columns = dict(zip(self.names, cells))
@@ -61,7 +61,7 @@ def read_text(path):
 def read_json(path):
     try:
         value = json.loads(read_text(path))
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise ReportError(f"{path}: not JSON: {error}") from error
     if not isinstance(value, dict):
         raise ReportError(f"{path}: not a JSON object")
@@ -73,7 +73,7 @@ def read_study(path):
     text = read_text(path)
     try:
         tree = yaml.load(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    except yaml.YAMLError:
+    except (yaml.YAMLError, RecursionError):
         tree = None
     return text, tree if isinstance(tree, dict) else {}
 
@@ -94,6 +94,15 @@ class Job:
 
     def path(self, name):
         return os.path.join(self.folder, name)
+
+    def refuse_to_replace(self, output):
+        """A page replaces no file of its job but an earlier page, neither by its own path nor by a link to it."""
+        place = os.path.realpath(output)
+        if not os.path.exists(place) or place.endswith((".html", ".htm")):
+            return
+        is_of_job = os.path.dirname(place) == os.path.realpath(self.folder)
+        if is_of_job or (self.bag and os.path.samefile(place, self.bag)):
+            raise ReportError(f"{output}: the page would replace this file of the job; choose another file with -o")
 
     def has(self, name):
         return os.path.isfile(self.path(name))

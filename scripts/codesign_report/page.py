@@ -3,16 +3,26 @@
 import json
 import os
 import shlex
+import xml.etree.ElementTree as ElementTree
 
 import jinja2
 
 from . import asked, drawing, geometry, numbers, results, signals, words
-from .job import read_text
+from .job import ReportError, read_text
 from .numbers import Markup
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 MOST_BYTES = 2_000_000
 MOST_EMBEDDED = 300_000
+
+
+def read_robot(path):
+    try:
+        return geometry.Robot(read_text(path))
+    except ElementTree.ParseError as error:
+        raise ReportError(f"{path}:{error.position[0]}: not complete XML: {error}; codesign urdf writes the model of a design") from error
+    except (AttributeError, TypeError) as error:
+        raise ReportError(f"{path}: not a model in URDF: a joint without parent or child, or an end of a loop without link") from error
 
 
 def mechanism(job):
@@ -21,7 +31,7 @@ def mechanism(job):
     for side in ("initial", "tuned"):
         poses = job.details.get(side, {}).get("poses")
         if poses and poses["times"] and job.has(side + ".urdf"):
-            sides.append((side, geometry.Robot(read_text(job.path(side + ".urdf"))), poses))
+            sides.append((side, read_robot(job.path(side + ".urdf")), poses))
     if not sides:
         return []
     scene = drawing.Scene([side[1:] for side in sides])

@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/inputs.h"
+#include "cli/job_folder.h"
 #include "cli/output_file.h"
 #include "cli/report.h"
 #include "cli/table.h"
@@ -18,6 +19,10 @@ namespace codesign::cli {
 namespace {
 
 constexpr int kIntervalDigits = 4;  // digits of a predicted interval
+constexpr const char* kResultFile = "excitation.json";
+constexpr const char* kTrajectoryFile = "trajectory.csv";
+constexpr const char* kPlainFile = "plain.csv";
+constexpr const char* kBagFile = "trajectory.bag";
 
 void print_excitation_trial(const ExcitationTrial& trial, std::ostream& err) {
   err << "start " << trial.start << ", evaluation " << trial.evaluation << ": ";
@@ -81,10 +86,10 @@ std::vector<Failure> write_excitation(const std::string& folder, const Excitatio
                                       const Console& console) {
   const auto in_folder = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
   std::vector<Failure> failures;
-  attempt([&] { write_whole_file(in_folder("excitation.json"), to_text(object)); }, &failures);
-  attempt([&] { write_whole_file(in_folder("trajectory.csv"), trajectory_text(result.points)); }, &failures);
-  attempt([&] { write_whole_file(in_folder("plain.csv"), trajectory_text(result.before)); }, &failures);
-  if (console.trajectories) attempt([&] { console.trajectories(in_folder("trajectory.bag"), result.points); }, &failures);
+  attempt([&] { write_whole_file(in_folder(kResultFile), to_text(object)); }, &failures);
+  attempt([&] { write_whole_file(in_folder(kTrajectoryFile), trajectory_text(result.points)); }, &failures);
+  attempt([&] { write_whole_file(in_folder(kPlainFile), trajectory_text(result.before)); }, &failures);
+  if (console.trajectories) attempt([&] { console.trajectories(in_folder(kBagFile), result.points); }, &failures);
   return failures;
 }
 
@@ -92,7 +97,10 @@ std::vector<Failure> write_excitation(const std::string& folder, const Excitatio
 
 int excite(const Arguments& arguments, const Console& console) {
   const Problem problem = load_excitable(arguments, console);
-  if (!arguments.output.empty()) make_folder(arguments.output, "--output");
+  if (!arguments.output.empty()) {
+    make_folder(arguments.output, "--output");
+    require_other_files(arguments.output, {kResultFile, kTrajectoryFile, kPlainFile, kBagFile}, problem);
+  }
   const auto observer = [&console](const ExcitationTrial& trial) {
     print_excitation_trial(trial, console.err);
     return !console.cancel;

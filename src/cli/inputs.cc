@@ -1,6 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/inputs.h"
 
+#include <filesystem>
+
+#include "description/named_file.h"
 #include "description/tuned_parameters.h"
 #include "jobs/inputs.h"
 #include "jobs/saved_result.h"
@@ -25,6 +28,18 @@ Problem load_tunable(const Arguments& arguments, const Console* console) {
   require_objective(problem);
   require_tuned(problem.study());
   return problem;
+}
+
+std::vector<std::string> input_files(const Problem& problem) {
+  std::vector<std::string> paths = {problem.urdf().name, problem.study_text().name};
+  for (const SourceText& overlay : problem.overlays()) paths.push_back(overlay.name);
+  for (const LoadedFile& file : problem.contents().files) paths.push_back(file.source.name);
+  const std::filesystem::path folder = std::filesystem::absolute(problem.study_text().name).parent_path();
+  for (const LoadedTrajectory& trajectory : problem.contents().trajectories) paths.push_back(folder / trajectory.bag);
+  if (const auto& identification = problem.study().identification)
+    for (const auto* recordings : {&identification->data, &identification->holdout})
+      for (const RecordingDescription& recording : *recordings) paths.push_back(folder / recording.file);
+  return paths;
 }
 
 std::vector<SignalDescription> select_signals(const Arguments& arguments, const Problem& problem) {

@@ -17,6 +17,10 @@ Problem load(const Arguments& arguments, const Console* console = nullptr);
 /// load() for commands that need a gradient. @throws InputError also if the study has no objective or tunes no parameter.
 Problem load_tunable(const Arguments& arguments, const Console* console = nullptr);
 
+/// The paths of all files from which a problem was made: model, overlays, study, and the files, trajectories and recordings that the study
+/// names.
+std::vector<std::string> input_files(const Problem& problem);
+
 /// The signals of the option `--signals`, or default_signals() without it. @throws InputError for a signal that does not exist.
 std::vector<SignalDescription> select_signals(const Arguments& arguments, const Problem& problem);
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "cli/inputs.h"
 #include "cli/output_file.h"
 #include "jobs/result_folder.h"
 #include "jobs/whole_file.h"
@@ -15,19 +16,14 @@ namespace {
 
 constexpr const char* kJournal = "journal.jsonl";
 constexpr const char* kPreviousJournal = "previous_journal.jsonl";
+constexpr const char* kConvergence = "convergence.csv";
 
 }  // namespace
 
 void require_other_files(const std::string& folder, const std::vector<std::string>& names, const Problem& problem) {
-  std::vector<std::string> inputs = {problem.urdf().name, problem.study_text().name};
-  for (const SourceText& overlay : problem.overlays()) inputs.push_back(overlay.name);
+  const std::vector<std::string> inputs = input_files(problem);
   for (const std::string& name : names)
-    for (const std::string& input : inputs) {
-      std::error_code error;
-      if (std::filesystem::equivalent(std::filesystem::path(folder) / name, input, error))
-        throw InputError(
-            {{input, 0}, "--output", "the result " + name + " would replace this file, which is read", folder, "another folder"});
-    }
+    require_no_input((std::filesystem::path(folder) / name).string(), "--output", "the result " + name, inputs);
 }
 
 JobFolder::JobFolder(const std::string& path, const Problem& problem, bool resume)
@@ -36,14 +32,19 @@ JobFolder::JobFolder(const std::string& path, const Problem& problem, bool resum
     require_journal(in_folder(kJournal));
   else
     make_folder(path, "--output");
-  require_other_files(path, ResultFolder::file_names(), problem);
+  std::vector<std::string> names = ResultFolder::file_names();
+  names.push_back(kConvergence);
+  require_other_files(path, names, problem);
   lock_ = LockFile::take(in_folder(".codesign_optimize.lock"));
   if (!lock_)
     throw InputError({{path, 0}, "--output", "another optimization is writing into this folder", path, "a folder of its own for each"});
   open_journal(resume);
   make_room(resume);
-  open_output(in_folder("convergence.csv"), "--output", &convergence_file_);
-  try_to([&] { convergence_.emplace(convergence_file_, convergence_columns(problem.tuned_names()), in_folder("convergence.csv")); });
+  const std::string convergence = in_folder(kConvergence);
+  // A link of this name is replaced, not the file that it leads to.
+  unlink(convergence.c_str());
+  open_output(convergence, "--output", &convergence_file_);
+  try_to([&] { convergence_.emplace(convergence_file_, convergence_columns(problem.tuned_names()), convergence); });
 }
 
 std::string JobFolder::in_folder(const std::string& name) const { return (std::filesystem::path(path_) / name).string(); }

@@ -39,6 +39,8 @@ class JobFolder {
 
   /// The memory of evaluations.
   std::shared_ptr<EvaluationMemory> journal() const { return journal_; }
+  /// About damaged lines of a journal that is resumed.
+  Warnings warnings() const { return journal_->warnings(); }
 
   /// Records a trial point. A file that cannot be written does not end the optimization; finish() reports it.
   void add(const Trial& trial);

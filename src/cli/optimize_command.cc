@@ -89,7 +89,9 @@ int optimize(const Arguments& arguments, const Console& console) {
   const bool designed = has_design(problem, result);
   if (!arguments.json && designed) print_result(problem, result, console.out);
   Json object = optimization_json(problem, result);
-  add_warnings(arguments, problem, result.warnings, &object, console);
+  Warnings warnings = result.warnings;
+  if (folder) append(folder->warnings(), &warnings);
+  add_warnings(arguments, problem, warnings, &object, console);
   if (!result.status.ok()) object["error"] = to_json(result.status);
   if (result.status.code == StatusCode::kWorkerLost && folder)
     tell({"all that was evaluated is in the journal; go on with --resume " + arguments.output + " in place of --output"}, console);

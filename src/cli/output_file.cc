@@ -14,6 +14,14 @@ void open_output(const std::string& path, const std::string& option, std::ofstre
     throw InputError({{path, 0}, option, "the file cannot be written", path, "a path in a folder that exists and may be written to"});
 }
 
+void require_no_input(const std::string& path, const std::string& option, const std::string& what, const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(input, error) && std::filesystem::equivalent(path, input, error))
+      throw InputError({{input, 0}, option, what + " would replace this file, which is read", path, "the path of another file"});
+  }
+}
+
 void make_folder(const std::string& path, const std::string& option) {
   std::error_code error;
   std::filesystem::create_directories(path, error);

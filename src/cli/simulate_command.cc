@@ -34,16 +34,26 @@ void summarize(const RunSummary& run, double duration, double setup_seconds, std
   for (const LimitCrossing& crossing : run.crossings) err << describe(crossing) << std::endl;
 }
 
-/// Adds the objective. The objective needs a separate run with the quadrature and is computed only for output that shows it. If that run is
-/// cancelled, `status` becomes kCancelled.
+/// @throws InputError if the table would replace a file that is read, or cannot be written.
+void open_csv(const Arguments& arguments, const Problem& problem, std::ofstream* file) {
+  std::vector<std::string> inputs = input_files(problem);
+  inputs.push_back(arguments.result);
+  require_no_input(arguments.csv, "--csv", "the table of the run", inputs);
+  open_output(arguments.csv, "--csv", file);
+}
+
+/// Adds the objective. The objective needs a separate run with the quadrature and is computed only for output that shows it. If that run
+/// fails, `status` becomes its status.
 /// @param as_searched integrates as a search does, so that the objective of a result is reproduced: if sensitivities take part in the error
 /// test, a search has other steps.
 void add_objective(const Problem& problem, bool as_searched, const Console& console, Status* status, Json* object) {
   if (!status->ok() || !has_objective(problem.study())) return;
   const bool with_gradient = as_searched && !problem.study().tuned.empty();
   const Evaluation evaluation = Evaluator(problem.system()).evaluate(problem.start(), with_gradient, &console.cancel);
-  if (evaluation.status.ok()) (*object)["objective"] = evaluation.objective;
-  if (evaluation.status.code == StatusCode::kCancelled) *status = evaluation.status;
+  if (evaluation.status.ok())
+    (*object)["objective"] = evaluation.objective;
+  else
+    *status = evaluation.status;
 }
 
 void add_run(const Problem& problem, const RunSummary& run, const Json& counts, Json series, Json* object) {
@@ -61,7 +71,7 @@ int simulate(const Arguments& arguments, const Console& console) {
   const std::vector<SignalDescription> signals = select_signals(arguments, problem);
   const std::vector<std::string> names = column_names(signals);
   std::ofstream file;
-  if (!arguments.csv.empty()) open_output(arguments.csv, "--csv", &file);
+  if (!arguments.csv.empty()) open_csv(arguments, problem, &file);
   const bool to_console = arguments.csv.empty() && !arguments.json;
   std::optional<CsvWriter> csv;
   if (file.is_open() || to_console) csv.emplace(to_console ? console.out : file, names, to_console ? "standard output" : arguments.csv);

@@ -89,7 +89,19 @@ EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, Derivatives de
   result.threshold = measured.threshold;
   if (with_gradient) result.total.gradient = result.gradients * measured.by_value;
   if (derivatives == Derivatives::kGaussNewton) combine_roots(members, &result);
+  check_finite(scenarios_.front().system->study().duration, &result);
   return result;
+}
+
+/// The objective of each scenario is finite; sums and squares of them may overflow.
+void Ensemble::check_finite(double time, EnsembleEvaluation* result) const {
+  Evaluation& total = result->total;
+  const std::string measure_name = std::string("the measure ") + kRobustMeasureNames[static_cast<std::size_t>(options_.measure)];
+  if (!std::isfinite(total.objective))
+    total.status = {StatusCode::kNonFinite, time, measure_name + " of the scenarios' objectives is not finite, though each of them is"};
+  else if (!total.gradient.allFinite() || !total.jacobian_root.allFinite())
+    total.status = {StatusCode::kNonFiniteGradient, time, "the gradient of " + measure_name + " is not finite, though the measure is"};
+  if (!total.status.ok()) result->values.resize(0);
 }
 
 /// The residuals of the mean are the residuals of all scenarios, each times the square root of the scenario's weight.

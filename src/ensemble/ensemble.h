@@ -51,6 +51,7 @@ class Ensemble {
 
  private:
   bool collect(const std::vector<Evaluation>& members, bool with_gradient, EnsembleEvaluation* result) const;
+  void check_finite(double time, EnsembleEvaluation* result) const;
   void combine_roots(const std::vector<Evaluation>& members, EnsembleEvaluation* result) const;
   bool fill_tail(const std::vector<std::size_t>& failed, const std::vector<Evaluation>& members, EnsembleEvaluation* result) const;
 

@@ -20,13 +20,16 @@ constexpr double kMostMoves = 1e4;
 /// The samples that count, by segment. The last segment is up to a half longer or shorter than the others.
 std::vector<Samples> samples_by_segment(const JointRecording& recording, const IdentificationDescription& options) {
   const double begin = recording.times.front(), span = recording.times.back() - begin;
-  const auto count = std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(span / options.segment)));
-  std::vector<Samples> segments(count);
+  const double last = std::max(1.0, std::round(span / options.segment)) - 1.0;
+  // Only segments with samples are made: a short `segment` may divide the recording into any number of them.
+  std::vector<Samples> segments;
+  double current = -1.0;
   for (std::size_t k = 0; k < recording.times.size(); k += static_cast<std::size_t>(options.filter.decimate)) {
-    const auto segment = static_cast<std::size_t>((recording.times[k] - begin) / options.segment * (1.0 + 1e-12));
-    segments[std::min(segment, count - 1)].push_back(k);
+    const double segment = std::min(std::floor((recording.times[k] - begin) / options.segment * (1.0 + 1e-12)), last);
+    if (segment != current) segments.emplace_back();
+    current = segment;
+    segments.back().push_back(k);
   }
-  segments.erase(std::remove_if(segments.begin(), segments.end(), [](const Samples& samples) { return samples.empty(); }), segments.end());
   return segments;
 }
 

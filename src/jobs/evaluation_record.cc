@@ -6,6 +6,7 @@
 
 #include "jobs/json_records.h"
 #include "text/decimal.h"
+#include "text/fingerprint.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -116,10 +117,11 @@ std::string to_line(const EvaluationRecord& record) {
   if (status.ok() && extremes.values.size() > 0) line["extremes"] = extremes_json(extremes);
   line["statistics"] = statistics_json(statistics);
   if (!warnings.empty()) line["warnings"] = to_json(warnings);
-  return line.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return with_checksum(line.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 EvaluationRecord read_line(const std::string& line) {
+  if (!has_right_checksum(line)) throw std::invalid_argument("its checksum is not that of its text");
   const Json object = Json::parse(line);
   EvaluationRecord record;
   record.system = object.at("system").get<int>();

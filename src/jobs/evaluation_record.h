@@ -18,11 +18,11 @@ struct EvaluationRecord {
   Evaluation evaluation;
 };
 
-/// The record as JSON text in one line, without a line end. Every double reads back with the same bits; infinity and NaN are texts.
-/// Objective and gradient are left out where the status is not ok.
+/// The record as JSON text in one line, without a line end, with its checksum (text/fingerprint.h) as last key. Every double reads back
+/// with the same bits; infinity and NaN are texts. Objective and gradient are left out where the status is not ok.
 std::string to_line(const EvaluationRecord& record);
 
-/// The record of a line. @throws Json::exception or std::invalid_argument if the line is not a record.
+/// The record of a line. @throws Json::exception or std::invalid_argument if the line is not a record, or has changed since it was written.
 EvaluationRecord read_line(const std::string& line);
 
 }  // namespace codesign

@@ -164,7 +164,12 @@ FinishedJob read_finished_job(const std::string& path, const TrajectoryLoader& l
   const std::string folder = folder_of_job(path);
   if (!std::filesystem::is_directory(folder))
     throw InputError({{folder, 0}, "", "no such folder", path, "the folder of codesign optimize --output, or the bag of an optimization"});
-  return Examination(folder).examine(loader, cancel);
+  try {
+    return Examination(folder).examine(loader, cancel);
+  } catch (const Json::exception& error) {
+    const std::string file = (std::filesystem::path(folder) / "result.json").string();
+    throw InputError({{file, 0}, "", std::string("a value has another type: ") + error.what(), "", "what codesign optimize writes"});
+  }
 }
 
 }  // namespace codesign

@@ -10,6 +10,13 @@
 namespace codesign {
 namespace {
 
+/// A name in a comment. A name of other than printable ASCII characters is written as a JSON text, so that no line end, of which YAML knows
+/// five, ends the comment, and no control character makes the file unreadable.
+std::string in_comment(const std::string& name) {
+  const auto is_plain = [](char c) { return c >= ' ' && c <= '~'; };
+  return std::all_of(name.begin(), name.end(), is_plain) ? name : Json(name).dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
 /// With a decimal point: rosparam takes `1e-06` for a text.
 std::string yaml_number(double value) {
   std::string text = to_decimal(value);
@@ -57,7 +64,7 @@ std::string gains_yaml(const Problem& problem, const std::vector<double>& parame
       "# Effort = p e + i (integral of e, at most i_clamp as effort) + d de/dt, e = setpoint - measured, SI units.\n";
   Json root = Json::object();
   for (const RobotGains& gains : all) {
-    text += "# " + gains.name_space + ": " + gains.controller + " of the study, which drives " + gains.joint;
+    text += "# " + gains.name_space + ": " + in_comment(gains.controller) + " of the study, which drives " + in_comment(gains.joint);
     if (gains.loses_weight) text += "; in the study it also carries the weight, which is not among these gains";
     text += "\n";
     at_namespace(gains.name_space, &root) = pid_parameters(gains);

@@ -4,7 +4,9 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -13,8 +15,11 @@
 #include <string_view>
 #include <utility>
 
+#include "equations/compiled_system.h"
+#include "integration/watch_layout.h"
 #include "jobs/journal_header.h"
 #include "jobs/output_error.h"
+#include "text/fingerprint.h"
 
 namespace codesign {
 namespace {
@@ -27,9 +32,34 @@ std::map<const CompiledSystem*, int> number_systems(const Problem& problem) {
   return numbers;
 }
 
+std::vector<Eigen::Index> count_extremes(const Problem& problem) {
+  std::vector<Eigen::Index> counts;
+  for (const auto& system : distinct_systems(problem)) counts.push_back(WatchLayout(system->study()).size());
+  return counts;
+}
+
+std::size_t hash_of(const std::vector<double>& values) {
+  return std::hash<std::string_view>()({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)});
+}
+
 std::size_t key_of(int system, Derivatives derivatives, const std::vector<double>& parameters) {
-  const std::string_view bits(reinterpret_cast<const char*>(parameters.data()), parameters.size() * sizeof(double));
-  return std::hash<std::string_view>()(bits) + 3 * static_cast<std::size_t>(system) + static_cast<std::size_t>(derivatives);
+  return hash_of(parameters) + 3 * static_cast<std::size_t>(system) + static_cast<std::size_t>(derivatives);
+}
+
+/// What is the same whenever a task is evaluated again.
+std::size_t outcome_of(const Evaluation& evaluation) {
+  std::vector<double> numbers = {static_cast<double>(evaluation.status.code), evaluation.status.time, evaluation.objective};
+  const auto add = [&numbers](const auto& more) { numbers.insert(numbers.end(), more.data(), more.data() + more.size()); };
+  add(evaluation.gradient);
+  add(evaluation.jacobian_root);
+  add(evaluation.extremes.values);
+  add(evaluation.extremes.gradients);
+  return hash_of(numbers);
+}
+
+void require_count(const char* what, Eigen::Index found, Eigen::Index expected) {
+  if (found != expected)
+    throw std::invalid_argument("it has " + std::to_string(found) + " numbers of " + what + " instead of " + std::to_string(expected));
 }
 
 bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
@@ -47,7 +77,9 @@ Journal::Journal(std::string path, const Problem& problem, const OptimizerOption
     : path_(std::move(path)),
       header_(journal_header(problem, options)),
       parameters_(problem.all_parameters().size()),
-      systems_(number_systems(problem)) {
+      tuned_(static_cast<Eigen::Index>(problem.tuned_names().size())),
+      systems_(number_systems(problem)),
+      extremes_(count_extremes(problem)) {
   if (mode == Mode::kResume) read();
   open_file(mode);
 }
@@ -56,15 +88,12 @@ Journal::~Journal() {
   if (file_ >= 0) close(file_);
 }
 
-void Journal::refuse(std::int64_t line, const std::string& message, const std::string& value, const std::string& allowed) const {
-  throw InputError({{path_, static_cast<int>(line)}, "", message, value, allowed});
-}
-
 void Journal::read() {
   require_journal(path_);
   std::ifstream file(path_, std::ios::binary);
   std::string line;
   std::int64_t number = 0;
+  ReadLines before;
   while (std::getline(file, line)) {
     ++number;
     // Each line was written with its end, by one call.
@@ -72,29 +101,65 @@ void Journal::read() {
       notes_.push_back(path_ + ": line " + std::to_string(number) + ", the last one, was not finished and is dropped");
       break;
     }
-    add_line(number, line);
+    if (number == 1)
+      check_header(line);
+    else
+      add_line(number, line, &before);
     end_ += static_cast<std::int64_t>(line.size()) + 1;
   }
-  if (!file.eof()) refuse(0, "the journal cannot be read");
+  if (!file.eof()) throw InputError({{path_, 0}, "", "the journal cannot be read", "", ""});
   resumed_ = lines_.size();
   notes_.push_back("goes on from " + path_ + ", which has " + std::to_string(resumed_) + " finished evaluations");
+  for (const Warning& warning : warnings()) notes_.push_back(warning.message);
 }
 
-void Journal::add_line(std::int64_t number, const std::string& line) {
-  if (number == 1) {
-    const std::string difference = header_difference(line, header_);
-    if (!difference.empty()) refuse(1, difference + "; optimize without resuming, or in another folder");
-    return;
-  }
+void Journal::check_header(const std::string& line) const {
+  const std::string difference = header_difference(line, header_);
+  if (!difference.empty()) throw InputError({{path_, 1}, "", difference + "; optimize without resuming, or in another folder", "", ""});
+}
+
+void Journal::add_line(std::int64_t number, const std::string& line, ReadLines* before) {
   try {
     const EvaluationRecord record = read_line(line);
-    const bool fits = record.parameters.size() == parameters_ && record.system >= 0 && record.system < static_cast<int>(systems_.size());
-    if (!fits) throw std::invalid_argument("it is of another job");
-    lines_.emplace(key_of(record.system, record.derivatives, record.parameters), Line{end_, static_cast<std::int64_t>(line.size())});
+    require_fit(record);
+    const std::size_t key = key_of(record.system, record.derivatives, record.parameters), outcome = outcome_of(record.evaluation);
+    const auto [same, is_new] = before->try_emplace(key, Read{number, outcome});
+    if (is_new) lines_.emplace(key, Line{end_, static_cast<std::int64_t>(line.size())});
+    if (same->second.outcome == outcome) return;
+    // Nothing tells which of the two is right.
+    if (lines_.erase(key) > 0) damages_.push_back({same->second.number, "line " + std::to_string(number) + " contradicts it"});
+    throw std::invalid_argument("it contradicts line " + std::to_string(same->second.number));
   } catch (const std::exception& error) {
-    refuse(number, std::string("the line is damaged: ") + error.what(), line.substr(0, 80),
-           "an evaluation; take this line and all below it out of the file to compute them again");
+    damages_.push_back({number, error.what()});
   }
+}
+
+/// @throws std::invalid_argument for a record that no evaluation of this job can have.
+void Journal::require_fit(const EvaluationRecord& record) const {
+  const bool fits = record.parameters.size() == parameters_ && record.system >= 0 && record.system < static_cast<int>(systems_.size());
+  if (!fits) throw std::invalid_argument("it is of another job");
+  const Evaluation& evaluation = record.evaluation;
+  if (!evaluation.status.ok()) return;
+  if (!std::isfinite(evaluation.objective)) throw std::invalid_argument("its objective is not finite");
+  const Eigen::Index slopes = record.derivatives == Derivatives::kNone ? 0 : tuned_;
+  const Eigen::Index extremes = extremes_[static_cast<std::size_t>(record.system)];
+  require_count("the gradient", evaluation.gradient.size(), slopes);
+  require_count("the signals' extremes", evaluation.extremes.values.size(), extremes);
+  require_count("the slopes of the signals' extremes", evaluation.extremes.gradients.size(), extremes * slopes);
+}
+
+Warnings Journal::warnings() const {
+  if (damages_.empty()) return {};
+  constexpr std::size_t kMostNamed = 10;
+  const Damage& first = damages_.front();
+  std::string others;
+  for (std::size_t k = 1; k < std::min(damages_.size(), kMostNamed); ++k)
+    others += (k > 1 ? ", " : "") + std::to_string(damages_[k].number);
+  if (damages_.size() > kMostNamed) others += " and " + std::to_string(damages_.size() - kMostNamed) + " more";
+  const std::string sentence = "line " + std::to_string(first.number) + " is damaged: " + first.reason +
+                               (others.empty() ? "" : "; damaged, too: " + others) +
+                               "; damaged lines are not used, their evaluations are computed again";
+  return {warn("journal_damaged", {{path_, static_cast<int>(first.number)}, "", sentence, "", ""})};
 }
 
 void Journal::open_file(Mode mode) {
@@ -132,6 +197,7 @@ std::optional<Evaluation> Journal::look_up(std::size_t key, const EvaluationTask
   for (auto place = first; place != last; ++place) {
     std::string line(static_cast<std::size_t>(place->second.size), '\0');
     if (pread(file_, line.data(), line.size(), place->second.begin) != static_cast<ssize_t>(line.size())) continue;
+    if (!has_right_checksum(line)) continue;  // the file has changed since it was opened
     EvaluationRecord record = read_line(line);
     const bool same = record.system == systems_.at(task.system.get()) && record.derivatives == task.derivatives &&
                       same_bits(record.parameters, task.parameters);

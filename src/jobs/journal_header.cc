@@ -10,7 +10,9 @@
 namespace codesign {
 namespace {
 
-constexpr int kFormat = 1;
+// 2: each line has its checksum.
+constexpr int kFormat = 2;
+constexpr const char* kBegin = "{\"journal\":";
 
 /// A key of the header with its name in messages.
 struct Part {
@@ -25,6 +27,10 @@ constexpr Part kParts[] = {{"model", "the model differs"},
                            {"optimizer", "the options of the optimizer differ"},
                            {"trajectories", "the recorded trajectories that the study names differ"},
                            {"files", "the contents of the files that the study names differ"}};
+
+bool is_whole(const std::string& text) {
+  return !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
+}
 
 std::string overlay_texts(const Problem& problem) {
   std::string text;
@@ -65,13 +71,17 @@ std::string journal_header(const Problem& problem, const OptimizerOptions& optio
                  {"optimizer", fingerprint(optimizer)}};
   if (const std::string numbers = trajectory_numbers(problem); !numbers.empty()) header["trajectories"] = fingerprint(numbers);
   if (const std::string texts = file_texts(problem); !texts.empty()) header["files"] = fingerprint(texts);
-  return header.dump();
+  return with_checksum(header.dump());
 }
 
 std::string header_difference(const std::string& found, const std::string& expected) {
-  const Json theirs = Json::parse(found, nullptr, false), ours = Json::parse(expected);
-  if (!theirs.is_object() || !theirs.contains("journal")) return "this is not the journal of an optimization";
-  if (theirs["journal"] != ours["journal"]) return "the journal has format " + theirs["journal"].dump() + ", this program writes format 1";
+  const std::string begin = kBegin, own_format = std::to_string(kFormat);
+  if (found.rfind(begin, 0) != 0) return "this is not the journal of an optimization";
+  const std::string format = found.substr(begin.size(), found.find(',') - begin.size());
+  if (format != own_format && is_whole(format))
+    return "the journal has format " + format + ", written by another version of this program, which writes format " + own_format;
+  const Json theirs = Json::parse(has_right_checksum(found) ? found : "", nullptr, false), ours = Json::parse(expected);
+  if (!theirs.is_object()) return "line 1 is damaged, and only this line says to which job the journal belongs";
   const Json version = theirs.value("version", Json());
   if (version != ours["version"])
     return "the journal is of version " + version.dump() + " of this program, which is version " + ours["version"].dump() +

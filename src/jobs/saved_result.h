@@ -7,7 +7,8 @@
 namespace codesign {
 
 /// The design in a result.json, best.json or identification.json: every entry of its `parameters`, to the last bit.
-/// @throws InputError naming the file, and line or entry, if it is not JSON or has no object `parameters` of numbers.
+/// @throws InputError naming file and line if it is not JSON, has a number beyond the range of double, or no object `parameters` of
+/// numbers.
 ParameterSettings read_result(const SourceText& json);
 
 }  // namespace codesign

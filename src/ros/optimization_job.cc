@@ -213,6 +213,7 @@ class Job {
     Warnings warnings = result_.warnings;
     if (!best_.failure().empty())
       warnings.push_back({"best_point_not_on_disk", "the best point so far was not on disk while the job ran: " + best_.failure(), {}});
+    if (journal_) append(journal_->warnings(), &warnings);
     const std::string failure = journal_ ? journal_->failure() : journal_failure_;
     if (!failure.empty())
       warnings.push_back({"journal_incomplete",

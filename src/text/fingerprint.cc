@@ -4,6 +4,12 @@
 #include <cstdint>
 
 namespace codesign {
+namespace {
+
+/// What with_checksum() puts behind the text before it.
+std::string checksum_end(const std::string& text) { return ",\"checksum\":\"" + fingerprint(text) + "\"}"; }
+
+}  // namespace
 
 std::string fingerprint(const std::string& text) {
   std::uint64_t hash = 0xcbf29ce484222325u;
@@ -11,6 +17,18 @@ std::string fingerprint(const std::string& text) {
   std::string digits(16, '0');
   for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit, hash >>= 4) *digit = "0123456789abcdef"[hash & 0xf];
   return digits;
+}
+
+std::string with_checksum(std::string object) {
+  object.pop_back();
+  return object + checksum_end(object);
+}
+
+bool has_right_checksum(const std::string& text) {
+  const std::size_t length = checksum_end("").size();
+  if (text.size() < length) return false;
+  const std::size_t end = text.size() - length;
+  return text.compare(end, length, checksum_end(text.substr(0, end))) == 0;
 }
 
 }  // namespace codesign

@@ -55,6 +55,17 @@ TEST(OptimizeCommand, RefusesToReplaceWhatItReads) {
   EXPECT_EQ(read_text_file(model), before);
 }
 
+TEST(OptimizeCommand, ALinkInTheFolderIsReplacedAndNotWrittenThrough) {
+  const ScratchFolder folder;
+  const std::string kept = folder.edited("kept.txt", "kept", "k", "k");
+  std::filesystem::create_directory(folder.path("job"));
+  std::filesystem::create_symlink(kept, folder.path("job/convergence.csv"));
+  const Outcome outcome = run_words({"optimize", kModel, short_study(folder), "--output", folder.path("job")});
+  EXPECT_EQ(outcome.code, kDone) << outcome.err;
+  EXPECT_EQ(read_text_file(kept), "kept");
+  EXPECT_FALSE(std::filesystem::is_symlink(folder.path("job/convergence.csv")));
+}
+
 TEST(OptimizeCommand, ListsConstraintsWithTheirMargins) {
   const ScratchFolder folder;
   const std::string study = folder.edited("bounded.yaml", read_text_file(short_study(folder)), "objective:",

@@ -43,6 +43,18 @@ TEST(OutputFile, NamesTheOptionAndThePath) {
   }
 }
 
+TEST(OutputFile, RefusesEveryPathToAFileThatIsRead) {
+  const std::string input = scratch("input"), hard = scratch("hard"), soft = scratch("soft"), other = scratch("other");
+  for (const std::string& path : {input, hard, soft, other}) std::filesystem::remove(path);
+  write_whole_file(input, "x");
+  std::filesystem::create_hard_link(input, hard);
+  std::filesystem::create_symlink(input, soft);
+  for (const std::string& path : {input, hard, soft}) EXPECT_THROW(require_no_input(path, "--csv", "the table", {"", input}), InputError);
+  EXPECT_NO_THROW(require_no_input(other, "--csv", "the table", {"", input, "/dev/null"}));
+  EXPECT_NO_THROW(require_no_input("/dev/null", "--csv", "the table", {"/dev/null"})) << "a device is not replaced";
+  for (const std::string& path : {input, hard, soft}) std::filesystem::remove(path);
+}
+
 TEST(OutputFile, RefusesAFolderThatIsAFile) {
   const std::string path = scratch("file");
   write_whole_file(path, "x");

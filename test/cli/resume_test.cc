@@ -88,6 +88,33 @@ TEST_F(Resume, AnotherJobAndAnEmptyFolderAreRefusedAndLoseNothing) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path("none")));
 }
 
+TEST_F(Resume, DamagedLinesAreNamedAndComputedAgain) {
+  study_ = short_study(folder_);
+  ASSERT_EQ(ChildProcess(job("--output", "job")).wait(), kDone);
+  const std::string result = read_text_file(in("job", "result.json"));
+  std::vector<std::string> lines = finished_lines(in("job", "journal.jsonl"));
+  ASSERT_EQ(lines.size(), 5u);
+  const std::size_t gradient = lines[2].find("\"gradient\":[") + 12;
+  lines[2].erase(gradient, lines[2].find(']', gradient) - gradient);
+  lines[3][lines[3].find("\"objective\":") + 14] ^= 1;
+  std::ofstream journal(in("job", "journal.jsonl"));
+  for (const std::string& line : lines) journal << line << '\n';
+  journal.close();
+  const Outcome outcome = run_words({"optimize", kModel, study_, "--json", "--resume", folder_.path("job")});
+  EXPECT_EQ(outcome.code, kDone) << outcome.err;
+  EXPECT_NE(outcome.err.find("2 finished evaluations"), std::string::npos) << outcome.err;
+  const Json object = json_of(outcome), first = Json::parse(result);
+  bool is_named = false;
+  for (const Json& warning : object["warnings"])
+    is_named |= warning["code"] == "journal_damaged" &&
+                warning["message"].get<std::string>().find("line 3 is damaged: its checksum is not that of its text; damaged, too: 4") !=
+                    std::string::npos;
+  EXPECT_TRUE(is_named) << outcome.err;
+  EXPECT_EQ(object["objective"], first["objective"]);
+  EXPECT_EQ(object["gradient"], first["gradient"]);
+  EXPECT_EQ(object["evaluations"], first["evaluations"]);
+}
+
 TEST_F(Resume, WithoutItTheJournalIsSetAside) {
   study_ = short_study(folder_);
   ASSERT_EQ(ChildProcess(job("--output", "job")).wait(), kDone);

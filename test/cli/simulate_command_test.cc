@@ -33,6 +33,37 @@ TEST(SimulateCommand, GivesSeriesAndObjectiveAsJson) {
   EXPECT_EQ(lines_of(read_text_file(folder.path("run.csv"))).size(), 102U);
 }
 
+TEST(SimulateCommand, ATableReplacesNoFileThatIsRead) {
+  const ScratchFolder folder;
+  std::vector<std::string> paths = {folder.edited("model.urdf", read_text_file(kModel), "<robot", "<robot"),
+                                    folder.edited("study.yaml", read_text_file(kStudy), "duration", "duration"),
+                                    folder.edited("overlay.urdf", "<robot name=\"slider_crank\"/>", "<robot", "<robot"),
+                                    folder.edited("result.json", "{\"parameters\": {}}", "{", "{")};
+  std::filesystem::create_symlink(paths[0], folder.path("soft"));
+  std::filesystem::create_hard_link(paths[1], folder.path("hard"));
+  const std::vector<std::string> words = {"simulate", paths[0], paths[1], "--overlay", paths[2], "--result", paths[3], "--csv"};
+  for (const std::string& path : {paths[0], paths[1], paths[2], paths[3], folder.path("soft"), folder.path("hard")}) {
+    const std::string before = read_text_file(path);
+    std::vector<std::string> all = words;
+    all.push_back(path);
+    const Outcome outcome = run_words(all);
+    EXPECT_EQ(outcome.code, kBadInput) << path;
+    EXPECT_NE(outcome.err.find("--csv: the table of the run would replace this file"), std::string::npos) << outcome.err;
+    EXPECT_EQ(read_text_file(path), before);
+  }
+}
+
+TEST(SimulateCommand, AnObjectiveThatIsNotFiniteIsAFailure) {
+  const ScratchFolder folder;
+  const std::string study = folder.edited("study.yaml", read_text_file(kStudy), "terminal: []",
+                                          "terminal: [{signal: crank_joint/position, reference: 100.0, weight: 1.0e+306}]");
+  const Outcome outcome = run_words({"simulate", kModel, study, "--json"});
+  EXPECT_EQ(outcome.code, kFailed) << outcome.err;
+  const Json object = json_of(outcome);
+  EXPECT_EQ(object["error"]["code"], "non_finite");
+  EXPECT_FALSE(object.contains("objective"));
+}
+
 TEST(SimulateCommand, ARunThatFailsNamesStatusTimeAndCause) {
   const ScratchFolder folder;
   const std::string study = folder.edited("study.yaml", read_text_file(kStudy), "solver: {", "solver: {maximum_steps: 20, ");

@@ -64,6 +64,20 @@ TEST(Ensemble, GradientsOfMeasuresAgreeWithDifferences) {
   }
 }
 
+// Finite objectives of which squares overflow.
+TEST(Ensemble, AMeasureThatIsNotFiniteIsAFailure) {
+  Problem problem = block(std::string(kUncertain) + "robust: {samples: 2, measure: mean_plus_deviation}\n");
+  Study study = problem.study();
+  for (ObjectiveTerm& term : study.terminal) term.weight = Quantity(1e200);
+  problem = with_study(problem, study);
+  for (const bool with_gradient : {false, true}) {
+    const EnsembleEvaluation all = Ensemble(problem).evaluate(problem.start(), with_gradient);
+    EXPECT_EQ(all.total.status.code, StatusCode::kNonFinite);
+    EXPECT_NE(all.total.status.cause.find("mean_plus_deviation"), std::string::npos) << all.total.status.cause;
+    EXPECT_EQ(all.values.size(), 0);
+  }
+}
+
 TEST(Ensemble, AFailedSampleRefusesTheDesignOrCountsInTheTail) {
   // A mass of the second run that no body can have.
   const std::string runs = "runs: {a: {}, b: {weight: 0.05, set: {mu: 0.4}}, c: {set: {mu: 0.2}}}\n";

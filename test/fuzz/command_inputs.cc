@@ -41,6 +41,15 @@ const std::vector<std::string>& ensembles() {
   return kEnsembles;
 }
 
+/// Designs as results have them.
+const std::vector<std::string>& results() {
+  static const std::vector<std::string> kResults = {
+      "{\n  \"version\": \"0.1.0\",\n  \"objective\": 1.5,\n  \"parameters\": {\n    \"crank_length\": 0.07,\n    \"Kp\": 2.0\n  }\n}\n",
+      "{\"parameters\": {}, \"gradient\": {\"Kp\": [1.0, null]}, \"warnings\": [{\"code\": \"a\", \"line\": 3}]}",
+      "{\"parameters\": {\"Kp\": 1e999, \"crank_length\": [[[[]]]]}}"};
+  return kResults;
+}
+
 const char* const kOverlay = R"(<robot name="overlay" xmlns:codesign="http://ros.org/wiki/mechanism_codesign">
   <joint name="NAME">
     <dynamics damping="0.01" friction="0.02"/>
@@ -169,6 +178,10 @@ Input random_input(const std::vector<Seed>& seeds, Dice* dice) {
       text = change_expression(text, dice);
     else
       text = name != "study.yaml" && kind < 6 ? mutate_xml(text, dice) : mutate_text(text, dice);
+  }
+  if (dice->one_in(10)) {
+    input.files["result.json"] = mutate_text(dice->pick(results()), dice);
+    input.arguments.insert(input.arguments.end(), {"--result", "result.json"});
   }
   if (dice->one_in(25)) input.disk = static_cast<long>(dice->below(20000));
   return input;

@@ -8,6 +8,7 @@
 #include "fuzz/command_inputs.h"
 #include "fuzz/command_oracle.h"
 #include "fuzz/expression_fuzz.h"
+#include "fuzz/journal_fuzz.h"
 #ifdef CODESIGN_FUZZ_REQUESTS
 #include "fuzz/request_fuzz.h"
 #endif
@@ -62,6 +63,7 @@ int replay(const std::vector<std::string>& paths) {
 std::string try_one(const std::vector<Seed>& seeds, std::uint64_t number, const std::string& keep) {
   Dice dice(number);
   if (number % 20 == 1) return run_isolated([&](const std::atomic<bool>&) { return try_expressions(300, &dice); }, default_limits());
+  if (number % 20 == 3) return run_resumed(seeds, default_limits(), &dice);
 #ifdef CODESIGN_FUZZ_REQUESTS
   if (number % 10 == 2) return run_request(seeds, default_limits(), &dice);
 #endif

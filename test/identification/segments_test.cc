@@ -39,6 +39,25 @@ TEST(Segments, EachSampleIsInOneOfThem) {
   EXPECT_TRUE(warnings.empty());
 }
 
+TEST(Segments, ShorterThanTheStepsOfTheRecordingTheyAreRefused) {
+  const Problem problem = motion_problem("", "  segment: 1.0e-9\n", "inertia: {}");
+  const JointRecording recording = record_pendulum({});
+  const FitVariables variables(problem.study());
+  const std::vector<MeasuredJoint> joints{{"hinge", true, 1.0, {}}};
+  const SegmentSystem of = make_segment_system(*problem.system(), variables, joints, {"hinge"},
+                                               motion_outputs(*problem.system(), joints, {recording}), recording);
+  Warnings warnings;
+  try {
+    cut_into_segments(recording, of, variables, {"hinge"}, *problem.study().identification, &warnings);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.fault().element, "identify.segment");
+    EXPECT_GT(error.fault().where.line, 0);
+    EXPECT_EQ(error.fault().value, "1e-09");
+    EXPECT_NE(error.fault().message.find("1 samples that count, too few"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Segments, ALoopStaysOnItsBranchThroughWholeTurns) {
   const Problem problem = load_problem(
       read_source(source_dir() + "/urdf/slider_crank.urdf"), {},

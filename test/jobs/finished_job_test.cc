@@ -85,6 +85,20 @@ TEST_F(FinishedPendulum, AValueChangedInOneFileIsRefused) {
   EXPECT_NE(refusal().find("no trial point of convergence.csv has"), std::string::npos) << refusal();
 }
 
+TEST_F(FinishedPendulum, ADamagedResultIsBadInput) {
+  const std::string whole = read_source(path("result.json")).text;
+  const std::string begin = whole.substr(0, whole.find('{') + 1), rest = whole.substr(begin.size());
+  for (const char* damage : {"\"a\": 1e999,", "\"error\": 3,", "\"error\": {\"code\": 3},"}) {
+    write_whole_file(path("result.json"), begin + damage + rest);
+    try {
+      read_finished_job(path());
+      ADD_FAILURE() << damage;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.fault().where.file, path("result.json")) << damage;
+    }
+  }
+}
+
 TEST_F(FinishedPendulum, AModelChangedAfterItIsRefused) {
   write_whole_file(path("tuned.urdf"), write_tuned_urdf(problem_.urdf(), {}, problem_.parameters()));
   EXPECT_NE(refusal().find("length is " + tuned(0) + ", but 0.5 in"), std::string::npos) << refusal();

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "ensemble/ensemble_fixture.h"
-#include "jobs/json.h"
+#include "jobs/edited_line.h"
 
 namespace codesign {
 namespace {
@@ -56,16 +56,22 @@ TEST(JournalHeader, KnowsTheContentsOfFiles) {
 
 TEST(JournalHeader, RefusesOtherVersionsAndOtherFiles) {
   const std::string own = header_of(block(""));
-  Json other = Json::parse(own);
-  other["version"] = "0.0.1";
-  EXPECT_NE(header_difference(other.dump(), own).find("version \"0.0.1\""), std::string::npos);
-  other["journal"] = 2;
-  EXPECT_NE(header_difference(other.dump(), own).find("format 2"), std::string::npos);
+  const auto set = [&own](const char* key, const Json& value) { return edited_line(own, [&](Json* line) { (*line)[key] = value; }); };
+  EXPECT_NE(header_difference(set("version", "0.0.1"), own).find("version \"0.0.1\""), std::string::npos);
+  EXPECT_NE(header_difference(set("journal", 3), own).find("format 3"), std::string::npos);
+  EXPECT_NE(header_difference("{\"journal\":1,\"version\":\"0.1.0\"}", own).find("format 1"), std::string::npos) << "it had no checksums";
   for (const char* text : {"", "time,x", "{}", "[1]"})
     EXPECT_NE(header_difference(text, own).find("not the journal"), std::string::npos) << text;
-  Json more = Json::parse(own);
-  more["more"] = 1;
-  EXPECT_NE(header_difference(more.dump(), own), "");
+  EXPECT_NE(header_difference(set("more", 1), own), "");
+}
+
+TEST(JournalHeader, RefusesADamagedLine) {
+  const std::string own = header_of(block(""));
+  std::string flipped = own;
+  flipped[own.find("\"study\":\"") + 9] ^= 1;
+  const std::string deep = "{\"journal\":" + std::string(1000000, '[');
+  for (const std::string& text : {flipped, own.substr(0, own.size() - 1), with_checksum("{\"journal\":2,}"), deep})
+    EXPECT_NE(header_difference(text, own).find("line 1 is damaged"), std::string::npos) << text.substr(0, 100);
 }
 
 }  // namespace

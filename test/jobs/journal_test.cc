@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "ensemble/ensemble_fixture.h"
+#include "jobs/edited_line.h"
 #include "temporary_directory.h"
 
 namespace codesign {
@@ -38,6 +39,18 @@ class JournalTest : public testing::Test {
     return text.str();
   }
   void write(const std::string& text) const { std::ofstream(path()) << text; }
+  static std::size_t second_line_of(const std::string& text) { return text.find('\n') + 1; }
+  /// The one damaged line is named with its reason when the journal is opened, and in a warning.
+  void expect_damage(const std::string& reason) const {
+    const Journal journal = open(Journal::Mode::kResume);
+    ASSERT_EQ(journal.warnings().size(), 1u) << reason;
+    const Warning warning = journal.warnings()[0];
+    EXPECT_EQ(warning.code, "journal_damaged");
+    EXPECT_NE(warning.message.find(path() + ":2: line 2 is damaged: "), std::string::npos) << warning.message;
+    EXPECT_NE(warning.message.find(reason), std::string::npos) << warning.message;
+    EXPECT_NE(warning.message.find("computed again"), std::string::npos) << warning.message;
+    EXPECT_EQ(journal.notes().back(), warning.message);
+  }
   void expect_refusal(const std::string& where, const std::string& message) const {
     try {
       open(Journal::Mode::kResume);
@@ -109,17 +122,73 @@ TEST_F(JournalTest, BeginsAnewIfNotEvenTheFirstLineWasFinished) {
   }
 }
 
-TEST_F(JournalTest, RefusesDamageInTheMiddle) {
+TEST_F(JournalTest, LeavesDamagedLinesOutAndNamesThem) {
   write_two();
   const std::string whole = text();
-  std::string damaged = whole;
-  damaged[damaged.find('\n') + 3] = '\0';
-  write(damaged);
-  expect_refusal(":2", "the line is damaged");
-  std::string foreign = whole;
-  foreign.replace(foreign.find("\"system\":0"), 10, "\"system\":7");
-  write(foreign);
-  expect_refusal(":2", "of another job");
+  const std::size_t second = whole.find('\n') + 1, third = whole.find('\n', second) + 1;
+  const std::string line = whole.substr(second, third - second - 1);
+  std::string flipped = line;
+  flipped[line.find("10.0")] = '3';
+  const auto set = [&](const char* key, const Json& value) { return edited_line(line, [&](Json* object) { (*object)[key] = value; }); };
+  const std::pair<std::string, const char*> cases[] = {{std::string(1, '\0') + line.substr(1), "checksum"},
+                                                       {flipped, "checksum"},
+                                                       {line.substr(0, line.rfind(",\"checksum")) + "}", "checksum"},
+                                                       {"", "checksum"},
+                                                       {set("system", 7), "of another job"},
+                                                       {set("parameters", {1.0}), "of another job"},
+                                                       {set("objective", "inf"), "not finite"}};
+  for (const auto& [damaged, reason] : cases) {
+    write(whole.substr(0, second) + damaged + "\n" + whole.substr(third));
+    expect_damage(reason);
+    EXPECT_FALSE(open(Journal::Mode::kResume).find(task(1.0)));
+    EXPECT_TRUE(open(Journal::Mode::kResume).find(task(2.0, true))) << "the other line counts";
+  }
+  Journal journal = open(Journal::Mode::kResume);
+  journal.keep(task(1.0), value(10.0));
+  EXPECT_EQ(open(Journal::Mode::kResume).find(task(1.0))->objective, 10.0);
+}
+
+TEST_F(JournalTest, LeavesOutGradientsOfAnotherLength) {
+  write_two();
+  const std::string whole = text();
+  const std::size_t third = whole.rfind('\n', whole.size() - 2) + 1;
+  for (const std::size_t count : {0, 1, 3, 100003}) {
+    const auto resize = [count](Json* line) { (*line)["gradient"] = std::vector<double>(count, 1.0); };
+    write(whole.substr(0, second_line_of(whole)) + edited_line(whole.substr(third, whole.size() - third - 1), resize) + "\n");
+    expect_damage(std::to_string(count) + " numbers of the gradient instead of 2");
+    EXPECT_FALSE(open(Journal::Mode::kResume).find(task(2.0, true)));
+  }
+}
+
+TEST_F(JournalTest, LeavesOutExtremesOfAnotherNumber) {
+  const auto more = [](Json* line) { (*line)["extremes"] = {{"values", {1.0}}, {"times", {0.0}}, {"gradients", Json::array()}}; };
+  write_two();
+  const std::string whole = text();
+  const std::size_t second = second_line_of(whole), third = whole.find('\n', second) + 1;
+  write(whole.substr(0, second) + edited_line(whole.substr(second, third - second - 1), more) + "\n");
+  expect_damage("1 numbers of the signals' extremes instead of 0");
+}
+
+TEST_F(JournalTest, UsesNeitherOfTwoLinesThatContradictEachOther) {
+  write_two();
+  {
+    Journal journal = open(Journal::Mode::kResume);
+    journal.keep(task(1.0), value(10.0));
+    journal.keep(task(2.0, true), value(21.0));
+  }
+  const Journal journal = open(Journal::Mode::kResume);
+  ASSERT_EQ(journal.warnings().size(), 1u);
+  const std::string message = journal.warnings()[0].message;
+  EXPECT_NE(message.find("line 3 is damaged: line 5 contradicts it; damaged, too: 5"), std::string::npos) << message;
+  EXPECT_FALSE(open(Journal::Mode::kResume).find(task(2.0, true)));
+  EXPECT_EQ(open(Journal::Mode::kResume).find(task(1.0))->objective, 10.0) << "said twice is no contradiction";
+}
+
+TEST_F(JournalTest, NamesAtMostTenDamagedLines) {
+  write_two();
+  write(text() + std::string(30, '\n'));
+  const std::string message = open(Journal::Mode::kResume).warnings().at(0).message;
+  EXPECT_NE(message.find("damaged, too: 5, 6, 7, 8, 9, 10, 11, 12, 13 and 20 more"), std::string::npos) << message;
 }
 
 TEST_F(JournalTest, RefusesAnotherJob) {

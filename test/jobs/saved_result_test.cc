@@ -33,6 +33,13 @@ TEST(SavedResult, SaysWhatIsWrong) {
   const InputFault fault = fault_in("{\"parameters\": {\"a\": null}}");
   EXPECT_EQ(fault.element, "parameters.a");
   EXPECT_EQ(fault.value, "null");
+  EXPECT_EQ(fault_in("{\n\"parameters\": {\"b\": 1,\n\"a\": true}}").where.line, 3);
+  const InputFault beyond = fault_in("{\"3e999\": [\"\\\"4e999\", 5e-999],\n\"parameters\": {\n\"a\": 1, \"b\": -1e999}}");
+  EXPECT_EQ(beyond.where.line, 3);
+  EXPECT_EQ(beyond.value, "1e999");
+  EXPECT_EQ(beyond.message, "a number is beyond the range of double");
+  const std::string deep(100000, '[');
+  EXPECT_EQ(fault_in("{\"parameters\": {\"a\": " + deep + std::string(deep.size(), ']') + "}}").value, "array");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -141,6 +142,25 @@ TEST_F(ResumedJob, AnotherRequestIsRefusedAndLosesNothing) {
   EXPECT_EQ(lines(job), 3U);
   EXPECT_TRUE(files(".job").empty());
   EXPECT_TRUE(run(resuming(job)).success);
+}
+
+TEST_F(ResumedJob, ADamagedLineIsNamedAndComputedAgain) {
+  const OptimizeResult whole = run();
+  const std::string job = cancelled_at(2).job;
+  const std::string path = (directory_.path() / (job + ".journal.jsonl")).string();
+  std::string text = read_source(path).text;
+  const std::size_t gradient = text.find("\"gradient\":[") + 12;
+  text.erase(gradient, text.find(']', gradient) - gradient);
+  std::ofstream(path) << text;
+  OptimizeResult result = run(resuming(job));
+  ASSERT_TRUE(result.success) << result.message;
+  EXPECT_EQ(result.remembered_runs, 1U);
+  const auto is_it = [](const auto& warning) { return warning.code == "journal_damaged"; };
+  const auto warning = std::find_if(result.warnings.begin(), result.warnings.end(), is_it);
+  ASSERT_NE(warning, result.warnings.end());
+  EXPECT_NE(warning->message.find("line 2 is damaged"), std::string::npos) << warning->message;
+  result.warnings.erase(warning);
+  EXPECT_EQ(without_circumstances(result), without_circumstances(whole));
 }
 
 TEST_F(ResumedJob, ARunningOneIsBusy) {

@@ -8,6 +8,7 @@ import math
 import os
 import re
 import resource
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -102,6 +103,11 @@ def numbers_in(folder):
 
 def run(*arguments, **options):
     return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False, **options)
+
+
+def read(path):
+    with open(path, "rb") as file:
+        return file.read()
 
 
 def processor_time_of_children():
@@ -263,6 +269,44 @@ class Report(unittest.TestCase):
         self.assertIn("cannot be written", done.stderr)
         self.assertEqual(run("report").returncode, 2)
         self.assertIn("DIR|BAG", run("report", "--help").stdout)
+
+    def test_a_page_replaces_no_file_of_its_job(self):
+        os.symlink(self.path("job", "tuned.urdf"), self.path("link"))
+        names = [self.path("job", name) for name in ("result.json", "tuned.urdf", "convergence.csv", "journal.jsonl")]
+        for output in names + [self.path("link")]:
+            before = read(output)
+            done = run("report", self.path("job"), "-o", output)
+            self.assertEqual(done.returncode, 2, output)
+            self.assertIn(f"{output}: the page would replace this file of the job", done.stderr)
+            self.assertEqual(read(output), before)
+        kept, part = self.path("kept"), self.path("linked.html.part")
+        with open(kept, "w", encoding="utf-8") as file:
+            file.write("kept")
+        os.symlink(kept, part)
+        for output in (self.path("job", "report.html"), self.path("job", "report.html"), self.path("linked.html")):
+            self.assertEqual(run("report", self.path("job"), "-o", output).returncode, 0, "a page replaces an earlier page")
+        self.assertEqual(read(kept), b"kept")
+        os.remove(self.path("job", "report.html"))
+
+    def test_damaged_files_are_named(self):
+        shutil.copytree(self.path("job"), self.path("damaged"))
+        whole = {name: read(self.path("damaged", name)) for name in ("tuned.urdf", "tuned.csv", "details.json", "result.json")}
+        lines = whole["tuned.csv"].splitlines(keepends=True)
+        cases = {"tuned.urdf": ((whole["tuned.urdf"][:300], "tuned.urdf:"), (b"", "tuned.urdf:1:"),
+                                (b"<robot name='a'><joint name='b'/></robot>", "tuned.urdf: not a model in URDF")),
+                 "tuned.csv": ((b"".join(lines[:3]) + lines[3][:20] + b"\n", "tuned.csv:4: "), (b"".join(lines[:3]) + b"\xff\n", "tuned.csv:4: ")),
+                 "details.json": ((b"[" * 100000, "details.json: not JSON"), (b'{"tuned": 3, "parameters": 4}', "a file of this job is damaged")),
+                 "result.json": ((whole["result.json"][:50], "result.json: not JSON"), (b'{"objective": "x", "gradient": 1}', "is damaged"))}
+        for name, damages in cases.items():
+            for content, words in damages:
+                with open(self.path("damaged", name), "wb") as file:
+                    file.write(content)
+                done = run("report", self.path("damaged"), "-o", self.path("damaged.html"))
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(words, done.stderr)
+                self.assertNotIn("Traceback", done.stderr)
+            with open(self.path("damaged", name), "wb") as file:
+                file.write(whole[name])
 
     def test_every_termination_has_words(self):
         sources = ("optimization/algorithm.cc", "optimization/least_squares_search.cc", "identification/residual_fit.cc")

@@ -65,6 +65,21 @@ class FolderTest(unittest.TestCase):
         self.assertNotEqual(after["generation"], before["generation"])
         self.assertEqual([point[2] for point in after["points"]], [9.0])
 
+    def test_a_row_that_is_damaged_is_named(self):
+        for row, words in (("1,0,success,4,4,1,0.5\n", "7 cells, the first line has 8"), ("x,0,success,4,4,1,0.5,1\n", "evaluation: not a number"),
+                           ("1,0,success,4,4,1,0.5,1\x00\n", "Kp: not a number"), ("1,0,success,4,,1,0.5,1\n", "best_objective: not a number"),
+                           ('1,0,success,4,4,1,0.5,1"x\n', "Kp: not a number"), ("\n", "0 cells")):
+            (self.path / "convergence.csv").unlink(missing_ok=True)
+            self.folder = SCRIPT.Folder(self.directory.name, self.job)
+            self.write(HEADER + "1,0,success,4.5,4.5,0.25,0.5,1\n")
+            with self.assertRaises(SCRIPT.BadTable) as caught:
+                self.write(row)
+            self.assertIn(f"convergence.csv:3: {words}", str(caught.exception))
+        (self.path / "convergence.csv").unlink()
+        with self.assertRaises(SCRIPT.BadTable) as caught:
+            self.write("time,x\n")
+        self.assertIn("convergence.csv:1: not the table", str(caught.exception))
+
     def test_of_many_points_every_second_is_kept(self):
         self.job.begin("long", "optimization", ["x"])
         for k in range(1, 10 * SCRIPT.MOST_POINTS):
@@ -117,6 +132,15 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.server.server_address[0], "127.0.0.1")
 
 
+    def test_a_damaged_table_ends_it(self):
+        pathlib.Path(self.directory.name, "convergence.csv").write_bytes(HEADER.encode() + b"\xff,0\n")
+        with self.assertRaises(urllib.error.HTTPError) as caught:
+            self.get("/points.json")
+        self.assertEqual(caught.exception.code, 500)
+        caught.exception.close()
+        self.assertIn("convergence.csv:2: 2 cells", self.server.failure)
+
+
 class BadInputTest(unittest.TestCase):
     def refusal(self, *arguments):
         reply = subprocess.run([WATCH, *arguments], stderr=subprocess.PIPE, text=True, check=False, timeout=60)
@@ -126,6 +150,11 @@ class BadInputTest(unittest.TestCase):
     def test_sentences_for_what_is_wrong(self):
         self.assertIn("no folder /nowhere", self.refusal("/nowhere"))
         self.assertIn("allowed: 0 to 65535", self.refusal("--port", "70000"))
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "convergence.csv").write_text(HEADER + "1,2\n", encoding="utf-8")
+            done = subprocess.run([WATCH, folder, "--port", "0"], stderr=subprocess.PIPE, text=True, check=False, timeout=60)
+            self.assertEqual((done.returncode, done.stderr),
+                             (2, f"watch: {folder}/convergence.csv:2: 2 cells, the first line has 8; the table is damaged\n"))
         with tempfile.TemporaryDirectory() as folder:
             job = SCRIPT.Job()
             with SCRIPT.make_server(0, job, None) as taken:

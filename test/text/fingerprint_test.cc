@@ -13,6 +13,20 @@ TEST(Fingerprint, IsFnv1a) {
   EXPECT_EQ(fingerprint("foobar"), "85944171f73967e8");
 }
 
+TEST(Fingerprint, AChecksumFindsEveryChangedByte) {
+  const std::string text = with_checksum("{\"a\":[1,2.5]}");
+  EXPECT_EQ(text, "{\"a\":[1,2.5],\"checksum\":\"" + fingerprint("{\"a\":[1,2.5]") + "\"}");
+  EXPECT_TRUE(has_right_checksum(text));
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    std::string changed = text;
+    for (const int bit : {1, 4, 128}) {
+      changed[k] = static_cast<char>(text[k] ^ bit);
+      EXPECT_FALSE(has_right_checksum(changed)) << changed;
+    }
+    EXPECT_FALSE(has_right_checksum(text.substr(0, k)));
+  }
+}
+
 TEST(Fingerprint, CountsEveryByte) { EXPECT_NE(fingerprint(std::string("\xff\0", 2)), fingerprint("\xff")); }
 
 }  // namespace

@@ -2,8 +2,10 @@
 #include "reading/study/study_realization.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "reading/study/study_values.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {
@@ -59,8 +61,9 @@ void read_realization(const YamlValue& value, const ParameterTable& table, Contr
   require_partner(value, "quantization", realization.is_sampled(), "sample_time");
   require_partner(value, "time_constant", !controller->output.empty(), "output, the joint that the controller drives");
   if (realization.queued() > kMostQueued)
-    value.at("delay").fail("too many outputs wait at a time: " + std::to_string(realization.queued()),
-                           "at most " + std::to_string(kMostQueued) + " times sample_time");
+    value.at("delay").fail("too many outputs wait at a time: " + readable(std::ceil(realization.delay / realization.sample_time - 1e-9)),
+                           "at most " + std::to_string(kMostQueued) + " times sample_time, which is " +
+                               readable(kMostQueued * realization.sample_time) + " s");
 }
 
 void refuse_adjoint_of_sampled(const YamlValue& study_value, const Study& study) {
