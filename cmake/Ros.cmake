@@ -28,13 +28,18 @@ catkin_package(
   DEPENDS EIGEN3
   CFG_EXTRAS mechanism_codesign-targets.cmake)
 
+# What decompresses the chunks of a bag; development packages of rosbag_storage bring both.
+find_package(BZip2 REQUIRED)
+find_library(CODESIGN_LZ4 lz4 REQUIRED)
+list(APPEND bag_libraries ${BZIP2_LIBRARIES} ${CODESIGN_LZ4})
+
 file(GLOB ros_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/ros/*.cc)
 set(node_mains ${ros_sources})
 list(FILTER node_mains INCLUDE REGEX "_node_main\\.cc$")
 list(FILTER ros_sources EXCLUDE REGEX "_node_main\\.cc$")
 
 # Reads recordings from bags and writes identifications and trajectories into them, for the nodes and for the program codesign, which uses nothing else of ROS.
-set(bag_sources recording_bag identification_bag bag_file bag_writer conversions frame_messages friction_markers effort_markers scene_layout scene_text scene_view
+set(bag_sources recording_bag bag_contents unpack_chunk identification_bag bag_file bag_writer conversions frame_messages friction_markers effort_markers scene_layout scene_text scene_view
   way_out joint_trajectory_bag)
 list(TRANSFORM bag_sources REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/ros/\\1.cc")
 list(REMOVE_ITEM ros_sources ${bag_sources} ${PROJECT_SOURCE_DIR}/src/ros/bag_module.cc ${PROJECT_SOURCE_DIR}/src/ros/loaded_bag_files.cc)

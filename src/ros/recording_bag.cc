@@ -1,24 +1,52 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/recording_bag.h"
 
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 #include <sensor_msgs/JointState.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <new>
 #include <set>
 #include <utility>
 
-#include "text/cancel.h"
+#include "ros/bag_contents.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
 #include "text/unknown_name.h"
 
 namespace codesign {
 namespace {
+
+/// A message of type sensor_msgs/JointState.
+struct JointStates {
+  std::int64_t received = 0, stamp = 0;  ///< [ns]
+  std::vector<std::string> name;
+  std::vector<double> position, velocity, effort;
+};
+
+JointStates joint_states_of(const BagMessage& message) {
+  ByteReader content = message.content;
+  content.number<std::uint32_t>("a header's sequence number");
+  JointStates states;
+  states.received = message.received;
+  states.stamp = content.time("a stamp");
+  content.block("a frame's name");
+  states.name = content.strings("a joint's name");
+  states.position = content.doubles("positions");
+  states.velocity = content.doubles("velocities");
+  states.effort = content.doubles("efforts");
+  if (!content.at_end()) content.fail("a message that is longer than its arrays");
+  return states;
+}
+
+/// Nanoseconds in seconds, as ros::Duration rounds them.
+double seconds(std::int64_t nanoseconds) {
+  constexpr std::int64_t kSecond = 1000000000;
+  const std::int64_t rest = ((nanoseconds % kSecond) + kSecond) % kSecond;
+  return static_cast<double>((nanoseconds - rest) / kSecond) + 1e-9 * static_cast<double>(rest);
+}
 
 /// The messages that name the same joints of the model.
 struct Group {
@@ -60,20 +88,16 @@ class RecordingBag {
   std::set<std::string> known_;
   Warnings* warnings_;
   const std::atomic<bool>* cancel_;
-  rosbag::Bag bag_;
+  BagContents bag_;
   std::string topic_;
-  ros::Time begin_;
-  std::vector<sensor_msgs::JointState::ConstPtr> messages_;
-  std::vector<ros::Time> received_;
+  std::vector<JointStates> messages_;  ///< in the order in which they were received
 };
 
 /// The topic as it stands in the bag, with or without the leading slash.
 void RecordingBag::find_topic() {
-  rosbag::View all(bag_);
-  if (all.size() == 0) fail(".bag", "the bag is empty", "", "");
-  begin_ = all.getBeginTime();
+  if (bag_.empty()) fail(".bag", "the bag is empty", "", "");
   std::map<std::string, std::string> types;
-  for (const rosbag::ConnectionInfo* connection : all.getConnections()) types.emplace(connection->topic, connection->datatype);
+  for (const BagConnection& connection : bag_.connections()) types.emplace(connection.topic, connection.type);
   const std::string& asked = description_.topic;
   for (const std::string& name : {asked, "/" + asked, asked.substr(asked.empty() || asked.front() != '/' ? 0 : 1)}) {
     const auto found = types.find(name);
@@ -92,24 +116,22 @@ void RecordingBag::find_topic() {
 }
 
 void RecordingBag::read_messages() {
-  rosbag::View view(bag_, rosbag::TopicQuery(topic_));
-  for (const rosbag::MessageInstance& instance : view) {
-    if (is_set(cancel_)) throw ReadingCancelled();
-    messages_.push_back(instance.instantiate<sensor_msgs::JointState>());
-    received_.push_back(instance.getTime());
-    const sensor_msgs::JointState::ConstPtr& message = messages_.back();
-    if (!message) fail_at(messages_.size() - 1, "the message has another definition of sensor_msgs/JointState", "");
-    for (const std::vector<double>* array : {&message->position, &message->velocity, &message->effort})
-      if (!array->empty() && array->size() != message->name.size())
-        fail_at(messages_.size() - 1,
-                std::to_string(message->name.size()) + " names, and an array of " + std::to_string(array->size()) + " numbers",
+  bag_.visit(topic_, cancel_, [this](const BagMessage& message) {
+    if (message.connection.md5sum != ros::message_traits::md5sum<sensor_msgs::JointState>())
+      fail_at(messages_.size(), "the message has another definition of sensor_msgs/JointState", "");
+    messages_.push_back(joint_states_of(message));
+  });
+  std::stable_sort(messages_.begin(), messages_.end(), [](const JointStates& a, const JointStates& b) { return a.received < b.received; });
+  for (std::size_t k = 0; k < messages_.size(); ++k)
+    for (const std::vector<double>* array : {&messages_[k].position, &messages_[k].velocity, &messages_[k].effort})
+      if (!array->empty() && array->size() != messages_[k].name.size())
+        fail_at(k, std::to_string(messages_[k].name.size()) + " names, and an array of " + std::to_string(array->size()) + " numbers",
                 "one number per name, or an empty array");
-  }
 }
 
 void RecordingBag::refuse_other_robot() const {
   std::set<std::string> names;
-  for (const auto& message : messages_) names.insert(message->name.begin(), message->name.end());
+  for (const JointStates& message : messages_) names.insert(message.name.begin(), message.name.end());
   const std::vector<std::string> found(names.begin(), names.end()), known(known_.begin(), known_.end());
   fail(".topic", "the messages name no joint of the model, but " + list_names(found) + "; a bag of another robot?", description_.topic,
        list_names(known));
@@ -120,7 +142,7 @@ Group RecordingBag::largest_group() {
   std::map<std::vector<std::string>, Group> groups;
   for (std::size_t k = 0; k < messages_.size(); ++k) {
     std::vector<std::string> joints;
-    for (const std::string& name : messages_[k]->name)
+    for (const std::string& name : messages_[k].name)
       if (known_.count(name) > 0) joints.push_back(name);
     if (joints.empty()) continue;
     std::sort(joints.begin(), joints.end());
@@ -147,7 +169,7 @@ Group RecordingBag::largest_group() {
 std::vector<double> RecordingBag::column_of(const std::string& joint, const Group& group, MeasuredQuantity quantity) const {
   std::vector<double> column;
   for (const std::size_t k : group.messages) {
-    const sensor_msgs::JointState& message = *messages_[k];
+    const JointStates& message = messages_[k];
     const std::vector<double>& array = quantity == MeasuredQuantity::kPosition   ? message.position
                                        : quantity == MeasuredQuantity::kVelocity ? message.velocity
                                                                                  : message.effort;
@@ -188,9 +210,10 @@ void RecordingBag::check_clock(const Group& group) {
   constexpr double kOff = 0.5;
   double before = 0.0;
   for (const std::size_t k : group.messages) {
-    const ros::Time& stamp = messages_[k]->header.stamp;
-    if (stamp.isZero()) fail_at(k, "the stamp of the header is zero", "a publisher that sets it; or `stamp: receive`, if the load was low");
-    const double late = (received_[k] - stamp).toSec();
+    const JointStates& message = messages_[k];
+    if (message.stamp == 0)
+      fail_at(k, "the stamp of the header is zero", "a publisher that sets it; or `stamp: receive`, if the load was low");
+    const double late = seconds(message.received - message.stamp);
     if (k == group.messages.front() ? std::abs(late) <= kOff : std::abs(late - before) <= kOff) {
       before = late;
       continue;
@@ -205,12 +228,12 @@ void RecordingBag::check_clock(const Group& group) {
 
 void RecordingBag::set_times(const Group& group, JointRecording* recording) {
   const std::size_t first = group.messages.front();
-  const double start = (received_[first] - begin_).toSec();
+  const double start = seconds(messages_[first].received - bag_.begin());
   const bool by_header = description_.stamp == StampKind::kHeader;
   if (by_header) check_clock(group);
-  const auto time_of = [&](std::size_t k) { return by_header ? messages_[k]->header.stamp : received_[k]; };
+  const auto time_of = [&](std::size_t k) { return by_header ? messages_[k].stamp : messages_[k].received; };
   for (const std::size_t k : group.messages) {
-    recording->times.push_back(start + (time_of(k) - time_of(first)).toSec());
+    recording->times.push_back(start + seconds(time_of(k) - time_of(first)));
     recording->places.push_back(k + 1);
   }
 }
@@ -236,14 +259,14 @@ JointRecording read(const RecordingDescription& description, const std::string& 
   };
   try {
     return RecordingBag(description, path, joints, warnings, cancel).read();
-  } catch (const rosbag::BagUnindexedException& error) {
+  } catch (const UnindexedBag& error) {
     throw refuse(error.what(), "a bag that was closed; `rosbag reindex` repairs one of a recorder that was killed");
-  } catch (const rosbag::BagException& error) {
+  } catch (const BagFault& error) {
     const bool is_recorded = access(path.c_str(), F_OK) != 0 && access((path + ".active").c_str(), F_OK) == 0;
     throw refuse(error.what(), is_recorded ? "a bag that is complete; " + path + ".active is there: its recorder still runs, or was killed"
                                            : "a whole bag; `rosbag reindex` repairs what there is of one that was cut");
-  } catch (const ros::Exception& error) {
-    throw refuse(error.what(), "");
+  } catch (const std::bad_alloc&) {
+    throw refuse("its messages on " + description.topic + " do not fit into the memory", "a shorter recording; `rosbag filter` writes one");
   }
 }
 

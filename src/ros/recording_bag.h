@@ -3,11 +3,11 @@
 #define MECHANISM_CODESIGN_ROS_RECORDING_BAG_H_
 
 #include <atomic>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "recordings/bag_reader.h"
+#include "ros/bag_contents.h"
 
 namespace codesign {
 
@@ -22,14 +22,8 @@ namespace codesign {
 JointRecording read_recording_bag(const RecordingDescription& description, const std::string& path, const std::vector<std::string>& joints,
                                   Warnings* warnings);
 
-/// Thrown if a cancel ends the reading.
-class ReadingCancelled : public std::runtime_error {
- public:
-  ReadingCancelled() : std::runtime_error("cancelled") {}
-};
-
-/// A reader that calls read_recording_bag() and throws ReadingCancelled soon after `cancel` is set, from any thread. `cancel` must outlive
-/// the reader.
+/// A reader that calls read_recording_bag() and throws ReadingCancelled (ros/bag_contents.h) soon after `cancel` is set, from any thread.
+/// `cancel` must outlive the reader.
 BagReader cancellable_bag_reader(const std::atomic<bool>& cancel);
 
 }  // namespace codesign

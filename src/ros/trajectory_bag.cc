@@ -1,15 +1,16 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/trajectory_bag.h"
 
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 #include <trajectory_msgs/JointTrajectory.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <new>
+#include <utility>
 #include <vector>
 
 #include "description/named_file.h"
+#include "ros/bag_contents.h"
 
 namespace codesign {
 namespace {
@@ -19,49 +20,73 @@ namespace {
   throw InputError({address.where, address.element + "." + key, message, value, allowed});
 }
 
-std::size_t index_of(const trajectory_msgs::JointTrajectory& message, const std::string& joint) {
-  const auto& names = message.joint_names;
-  return static_cast<std::size_t>(std::find(names.begin(), names.end(), joint) - names.begin());
+struct Point {
+  std::vector<double> positions, velocities, accelerations, effort;
+  double time = 0.0;  ///< [s]
+};
+
+/// A message of type trajectory_msgs/JointTrajectory.
+struct Trajectory {
+  std::vector<std::string> joints;
+  std::vector<Point> points;
+};
+
+Trajectory trajectory_of(ByteReader content) {
+  Trajectory message;
+  content.number<std::uint32_t>("a header's sequence number");
+  content.time("a stamp");
+  content.block("a frame's name");
+  message.joints = content.strings("a joint's name");
+  for (std::uint64_t left = content.number<std::uint32_t>("points"); left > 0; --left) {
+    Point point;
+    for (std::vector<double>* numbers : {&point.positions, &point.velocities, &point.accelerations, &point.effort})
+      *numbers = content.doubles("a point's numbers");
+    const double seconds = content.number<std::int32_t>("a point's time");
+    point.time = seconds + 1e-9 * content.number<std::int32_t>("a point's time");
+    message.points.push_back(std::move(point));
+  }
+  if (!content.at_end()) content.fail("a message that is longer than its arrays");
+  return message;
 }
 
-trajectory_msgs::JointTrajectory find_message(const TrajectoryAddress& address, const std::string& path) {
-  std::vector<trajectory_msgs::JointTrajectory::ConstPtr> found;
+std::size_t index_of(const Trajectory& message, const std::string& joint) {
+  return static_cast<std::size_t>(std::find(message.joints.begin(), message.joints.end(), joint) - message.joints.begin());
+}
+
+Trajectory find_message(const TrajectoryAddress& address, const std::string& path) {
+  std::vector<Trajectory> found;
   bool any = false;
-  rosbag::Bag bag(path);
-  rosbag::View view(bag, rosbag::TopicQuery(address.topic));
-  for (const rosbag::MessageInstance& instance : view) {
+  BagContents(path).visit(address.topic, nullptr, [&](const BagMessage& message) {
     any = true;
-    const auto message = instance.instantiate<trajectory_msgs::JointTrajectory>();
-    if (!message)
-      fail(address, "topic", "the topic does not hold trajectories but " + instance.getDataType(), address.topic,
+    if (message.connection.md5sum != ros::message_traits::md5sum<trajectory_msgs::JointTrajectory>())
+      fail(address, "topic", "the topic does not hold trajectories but " + message.connection.type, address.topic,
            "trajectory_msgs/JointTrajectory");
-    if (index_of(*message, address.joint) < message->joint_names.size()) found.push_back(message);
-  }
+    Trajectory trajectory = trajectory_of(message.content);
+    if (index_of(trajectory, address.joint) < trajectory.joints.size()) found.push_back(std::move(trajectory));
+  });
   if (!any) fail(address, "topic", "the bag holds no message on this topic", address.topic, "");
   if (found.empty()) fail(address, "joint", "no trajectory on this topic names the joint", address.joint, "");
   if (found.size() > 1)
     fail(address, "topic", std::to_string(found.size()) + " trajectories name the joint", address.topic, "one; rosbag filter keeps one");
-  return *found.front();
+  return std::move(found.front());
 }
 
 /// The entries of one joint at all points; empty if the points do not have this field.
-std::vector<double> column(const trajectory_msgs::JointTrajectory& message, std::size_t joint,
-                           std::vector<double> trajectory_msgs::JointTrajectoryPoint::*member) {
+std::vector<double> column(const Trajectory& message, std::size_t joint, std::vector<double> Point::*member) {
   std::vector<double> values;
-  for (const trajectory_msgs::JointTrajectoryPoint& point : message.points)
+  for (const Point& point : message.points)
     if (joint < (point.*member).size()) values.push_back((point.*member)[joint]);
   return values.size() == message.points.size() ? values : std::vector<double>();
 }
 
 RecordedTrajectory load(const TrajectoryAddress& address, const std::string& path) {
-  using Point = trajectory_msgs::JointTrajectoryPoint;
-  const trajectory_msgs::JointTrajectory message = find_message(address, path);
+  const Trajectory message = find_message(address, path);
   const std::size_t joint = index_of(message, address.joint);
   RecordedTrajectory trajectory{{},
                                 column(message, joint, &Point::positions),
                                 column(message, joint, &Point::velocities),
                                 column(message, joint, &Point::accelerations)};
-  for (const Point& point : message.points) trajectory.times.push_back(point.time_from_start.toSec());
+  for (const Point& point : message.points) trajectory.times.push_back(point.time);
   if (trajectory.positions.empty()) fail(address, "topic", "the trajectory has no positions", address.topic, "one in each point");
   return trajectory;
 }
@@ -73,8 +98,10 @@ TrajectoryLoader bag_trajectory_loader(const std::string& folder) {
     const std::string path = path_of({address.bag, address.where, address.element + ".bag"}, folder);
     try {
       return load(address, path);
-    } catch (const rosbag::BagException& error) {
+    } catch (const BagFault& error) {
       fail(address, "bag", std::string("the bag cannot be read: ") + error.what(), path, "");
+    } catch (const std::bad_alloc&) {
+      fail(address, "bag", "the bag cannot be read: its trajectories do not fit into the memory", path, "");
     }
   };
 }

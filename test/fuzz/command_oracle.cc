@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "cli/commands.h"
+#include "jobs/bag_files.h"
 #include "paths.h"
 
 namespace codesign::fuzz {
@@ -97,7 +98,9 @@ std::string run_command(const Input& input, const Limits& limits) {
     std::filesystem::current_path(folder);
     std::ostringstream out, err;
     Outcome outcome;
-    outcome.code = cli::run(words_of(input), {out, err, cancel});
+    cli::Console console{out, err, cancel};
+    console.bags = bag_files().read;
+    outcome.code = cli::run(words_of(input), console);
     outcome.out = out.str();
     outcome.err = err.str();
     return judge(outcome, input);

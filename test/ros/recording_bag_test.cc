@@ -8,9 +8,12 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <limits>
+#include <sstream>
 
+#include "fuzz/damage.h"
 #include "temporary_directory.h"
 
 namespace codesign {
@@ -32,8 +35,11 @@ class RecordedStates : public testing::Test {
   std::string path() const { return (directory_.path() / "states.bag").string(); }
 
   /// @param change of message k before it is written
-  void write(const Change& change = {}, const std::string& topic = "/joint_states") {
+  void write(const Change& change = {}, const std::string& topic = "/joint_states",
+             rosbag::CompressionType compression = rosbag::compression::Uncompressed) {
     rosbag::Bag bag(path(), rosbag::bagmode::Write);
+    bag.setCompression(compression);
+    bag.setChunkThreshold(2000);
     bag.write("/words", ros::Time(100.0), std_msgs::String());
     for (int k = 0; k < 30; ++k) {
       const ros::Time received = ros::Time(101.0) + ros::Duration(0.01 * k);
@@ -47,6 +53,13 @@ class RecordedStates : public testing::Test {
     }
     bag.close();
   }
+  /// The bytes of the bag.
+  std::string bytes() const {
+    std::ostringstream all;
+    all << std::ifstream(path(), std::ios::binary).rdbuf();
+    return all.str();
+  }
+  void set_bytes(const std::string& bytes) const { std::ofstream(path(), std::ios::binary) << bytes; }
   JointRecording read() { return read_recording_bag(description_, path(), {"hinge", "elbow", "wrist"}, &warnings_); }
   InputFault fault() {
     try {
@@ -180,6 +193,58 @@ TEST_F(RecordedStates, StampsAreCheckedAgainstTheTimesOfReception) {
   EXPECT_NEAR(read().times[0], 1.0, 1e-9);
   write([](int, sensor_msgs::JointState* message) { message->header.stamp = ros::Time(); });
   expect_message("the stamp of the header is zero, message 1");
+}
+
+TEST_F(RecordedStates, CompressionMakesNoDifference) {
+  write();
+  const JointRecording plain = read();
+  for (const auto compression : {rosbag::compression::BZ2, rosbag::compression::LZ4}) {
+    write({}, "/joint_states", compression);
+    const JointRecording packed = read();
+    EXPECT_EQ(packed.times, plain.times);
+    EXPECT_EQ(packed.find("elbow")->position, plain.find("elbow")->position);
+  }
+}
+
+TEST_F(RecordedStates, AWrongLengthIsNamedWithItsPlace) {
+  write();
+  const std::string whole = bytes();
+  std::string damaged = whole;
+  // The header of a message begins with its kind: a length of 4, then op=2. One changed byte makes the length 262148.
+  const std::string kind("\4\0\0\0op=\2", 8);
+  const std::size_t place = whole.find(kind);
+  ASSERT_NE(place, std::string::npos);
+  damaged[place + 2] = 4;
+  set_bytes(damaged);
+  expect_message("a header's field of 262148 bytes");
+  expect_message("at byte " + std::to_string(place + 4));
+  set_bytes(whole.substr(0, whole.size() / 2));
+  expect_message("it is cut: its index is at byte ");
+  EXPECT_NE(fault().allowed.find("rosbag reindex"), std::string::npos);
+  set_bytes("no bag");
+  expect_message("it is not a bag");
+  set_bytes("#ROSBAG V1.2\n");
+  expect_message("`rosbag fix`");
+}
+
+// rosbag_storage crashes, hangs or asks for gigabytes at some of these.
+TEST_F(RecordedStates, OfAnyBytesAreReadOrRefused) {
+  fuzz::Dice dice(24);
+  int refused = 0;
+  for (const auto compression : {rosbag::compression::Uncompressed, rosbag::compression::BZ2, rosbag::compression::LZ4}) {
+    write({}, "/joint_states", compression);
+    const std::string whole = bytes();
+    for (int k = 0; k < 120; ++k) {
+      set_bytes(fuzz::damage(whole, &dice));
+      try {
+        read();
+      } catch (const InputError& error) {
+        EXPECT_EQ(error.fault().element.rfind("identify.data[0]", 0), 0U);
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(refused, 200);
 }
 
 }  // namespace

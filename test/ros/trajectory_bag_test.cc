@@ -6,6 +6,10 @@
 #include <std_msgs/String.h>
 #include <trajectory_msgs/JointTrajectory.h>
 
+#include <fstream>
+#include <sstream>
+
+#include "fuzz/damage.h"
 #include "mechanism_codesign/simulation.h"
 #include "ros/pendulum.h"
 #include "temporary_directory.h"
@@ -72,6 +76,21 @@ TEST_F(TrajectoryBag, WhatIsNotThereIsSaid) {
   EXPECT_NE(fault("twice", "hinge").message.find("2 trajectories name the joint"), std::string::npos);
   EXPECT_NE(fault("empty", "hinge").message.find("no positions"), std::string::npos);
   EXPECT_NE(fault("arm", "hinge", "lost.bag").message.find("cannot be read"), std::string::npos);
+}
+
+TEST_F(TrajectoryBag, OfAnyBytesIsReadOrRefused) {
+  const std::string path = (directory_.path() / "moves.bag").string();
+  std::ostringstream whole;
+  whole << std::ifstream(path, std::ios::binary).rdbuf();
+  fuzz::Dice dice(24);
+  for (int k = 0; k < 120; ++k) {
+    std::ofstream(path, std::ios::binary) << fuzz::damage(whole.str(), &dice);
+    try {
+      load("arm", "hinge");
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.fault().element.rfind("setpoint", 0), 0U);
+    }
+  }
 }
 
 TEST_F(TrajectoryBag, ARelativePathNeedsAFolder) {
