@@ -2,6 +2,7 @@
 #include "recordings/load_recordings.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "description/named_file.h"
@@ -25,11 +26,17 @@ struct Context {
 };
 
 JointRecording read(const RecordingDescription& description, const Context& context) {
-  const std::string path =
-      path_of({description.file, description.where, description.element + (description.is_bag ? ".bag" : ".csv")}, context.folder);
+  const std::string element = description.element + (description.is_bag ? ".bag" : ".csv");
+  const std::string path = path_of({description.file, description.where, element}, context.folder);
+  std::error_code unknown;
+  if (!description.is_bag && !std::filesystem::exists(path, unknown) && !unknown)
+    throw InputError(
+        {description.where, element, "there is no such recording", path,
+         "a recording of the robot, in the folder of the study or with its absolute path; doc/case_studies.md has the commands "
+         "that make those of the shipped cases by simulation, beside a copy of the study"});
   if (!description.is_bag) return read_table_recording(description, path, context.joints);
   if (!context.reader)
-    throw InputError({description.where, description.element + ".bag", "this program was built without ROS, which reads bags", path,
+    throw InputError({description.where, element, "this program was built without ROS, which reads bags", path,
                       "csv: FILE; `rostopic echo -b BAG -p TOPIC` writes such a table where ROS is there"});
   return context.reader(description, path, context.joints, context.warnings);
 }

@@ -13,6 +13,7 @@ std_msgs::Header header_of(const MessageContext& context) {
   return header;
 }
 
+/// The pose of a link relative to another one, without the names of the frames.
 geometry_msgs::TransformStamped transform_of(const LinkSample& parent, const LinkSample& child) {
   const Eigen::Quaterniond to_parent = parent.orientation.conjugate();
   const Eigen::Vector3d position = to_parent * (child.position - parent.position);
@@ -97,9 +98,24 @@ tf2_msgs::TFMessage free_link_transforms(const FrameNames& names, const Frame& f
   return message;
 }
 
-tf2_msgs::TFMessage link_transforms(const FrameNames& names, const Frame& frame, const ros::Time& stamp, const std::string& prefix) {
-  tf2_msgs::TFMessage message = all_link_transforms(names, frame, stamp, prefix);
-  message.transforms.erase(message.transforms.begin());
+std::vector<std::size_t> link_parents(const RobotDescription& robot) {
+  std::vector<std::size_t> parents(robot.links.size(), static_cast<std::size_t>(robot.root));
+  for (const JointDescription& joint : robot.joints)
+    if (!joint.is_loop) parents[static_cast<std::size_t>(joint.child)] = static_cast<std::size_t>(joint.parent);
+  return parents;
+}
+
+tf2_msgs::TFMessage link_transforms(const FrameNames& names, const std::vector<std::size_t>& parents, const Frame& frame,
+                                    const ros::Time& stamp, const std::string& prefix) {
+  tf2_msgs::TFMessage message;
+  for (std::size_t i = 0; i < names.links.size(); ++i) {
+    if (parents[i] == i) continue;
+    geometry_msgs::TransformStamped transform = transform_of(frame.links[parents[i]], frame.links[i]);
+    transform.header.stamp = stamp;
+    transform.header.frame_id = prefix + names.links[parents[i]];
+    transform.child_frame_id = prefix + names.links[i];
+    message.transforms.push_back(transform);
+  }
   return message;
 }
 

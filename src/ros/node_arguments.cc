@@ -36,6 +36,8 @@ void serve_callbacks(const RunningNode& node) {
 
 }  // namespace
 
+bool is_ending() { return must_end || ros::isShuttingDown(); }
+
 int run_node(int argc, char** argv, const std::string& name, const std::string& help, const std::function<RunningNode()>& make) {
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];

@@ -13,9 +13,12 @@ class Dispatcher;
 /// A node, with the action to take when it is asked to end.
 struct RunningNode {
   std::shared_ptr<void> node;
-  /// Called in a thread of its own before the shutdown, while ROS is still up; empty: no action.
+  /// Called in a thread of its own before the shutdown, while ROS is still up and serves callbacks; empty: no action.
   std::function<void()> before_shutdown;
 };
+
+/// Whether the node of this process has been asked to end; ROS may still be up, see RunningNode::before_shutdown.
+bool is_ending();
 
 /// Runs a ROS node until it is shut down: initializes ROS, makes the node, and serves callbacks. SIGTERM, SIGHUP and `rosnode kill` end it
 /// in the same way as SIGINT, so that results are kept.

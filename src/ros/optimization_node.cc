@@ -63,12 +63,18 @@ OptimizationNode::OptimizationNode(Dispatcher* ranks) : state_("optimization"), 
   identification_->open();
 }
 
-OptimizationNode::~OptimizationNode() {
+OptimizationNode::~OptimizationNode() { finish(); }
+
+void OptimizationNode::finish() {
+  const bool was_optimizing = optimizer_.cancel(), was_identifying = identification_->cancel();
   application_->finish();
   identification_->finish();
   optimizer_.finish();
   evaluator_.finish();
+  // Returns when the callbacks of services have returned and their answers are sent.
   spinner_.stop();
+  // The answers of actions are messages, which ROS sends in a thread of its own.
+  if ((was_optimizing || was_identifying) && ros::ok()) ros::WallDuration(0.3).sleep();
 }
 
 void OptimizationNode::load() {
@@ -241,7 +247,7 @@ bool OptimizationNode::on_cancel_request(std_srvs::Trigger::Request& /*request*/
 
 RunningNode make_optimization_node(Dispatcher* ranks) {
   const auto node = std::make_shared<OptimizationNode>(ranks);
-  return {node, [node] { node->take_back(); }};
+  return {node, [node] { node->finish(); }};
 }
 
 }  // namespace codesign

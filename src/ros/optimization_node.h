@@ -35,8 +35,9 @@ class OptimizationNode {
   explicit OptimizationNode(Dispatcher* ranks);
   ~OptimizationNode();
 
-  /// Ends a running `apply` with a rollback to the robot's previous values, and waits for it. Only possible while ROS is up.
-  void take_back() { application_->finish(); }
+  /// Cancels all jobs and returns when their clients have the answers, a running `apply` with a rollback to the robot's previous values.
+  /// Only possible while ROS is up. Requests that come later are refused.
+  void finish();
 
  private:
   using ActionServer = actionlib::ActionServer<mechanism_codesign::OptimizeAction>;

@@ -6,12 +6,15 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <limits>
+#include <optional>
 #include <set>
 #include <sstream>
 
 #include "text/decimal.h"
 #include "text/nearest_name.h"
+#include "text/number_text.h"
 #include "text/unknown_name.h"
 
 namespace codesign {
@@ -85,6 +88,8 @@ bool is_number(const XmlRpcValue& value, double* number) {
     *number = content<int>(value);
   else if (value.getType() == XmlRpcValue::TypeDouble)
     *number = content<double>(value);
+  else if (const auto spelled = value.getType() == XmlRpcValue::TypeString ? parse_number(text_of(value)) : std::nullopt)
+    *number = *spelled;
   else
     return false;
   return true;
@@ -98,7 +103,7 @@ double read_positive(const ros::NodeHandle& private_node, const std::string& key
 
 double read_positive(const ros::NodeHandle& private_node, const std::string& key, double fallback, double largest) {
   XmlRpcValue value;
-  if (!private_node.getParam(key, value)) return fallback;
+  if (!find_parameter(private_node, key, &value)) return fallback;
   double number = 0.0;
   if (!is_number(value, &number) || !std::isfinite(number) || number <= 0.0)
     refuse_parameter(private_node, key, "not a number above zero", value, "a finite number above zero");
@@ -108,7 +113,9 @@ double read_positive(const ros::NodeHandle& private_node, const std::string& key
 
 bool read_flag(const ros::NodeHandle& private_node, const std::string& key, bool fallback) {
   XmlRpcValue value;
-  if (!private_node.getParam(key, value)) return fallback;
+  if (!find_parameter(private_node, key, &value)) return fallback;
+  if (value.getType() == XmlRpcValue::TypeString && (text_of(value) == "true" || text_of(value) == "false"))
+    return text_of(value) == "true";
   if (value.getType() != XmlRpcValue::TypeBoolean) refuse_parameter(private_node, key, "neither true nor false", value, "true, false");
   return content<bool>(value);
 }
@@ -121,7 +128,8 @@ std::string read_text(const ros::NodeHandle& private_node, const std::string& ke
 }
 
 std::string read_path(const ros::NodeHandle& private_node, const std::string& key, const std::string& fallback) {
-  return expand_home(read_text(private_node, key, fallback));
+  const std::string path = expand_home(read_text(private_node, key, fallback));
+  return path.empty() ? path : std::filesystem::absolute(path).lexically_normal().string();
 }
 
 std::vector<std::string> read_texts(const ros::NodeHandle& private_node, const std::string& key) {

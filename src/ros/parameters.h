@@ -24,13 +24,14 @@ double read_positive(const ros::NodeHandle& private_node, const std::string& key
 /// As above, with an upper limit `largest`.
 double read_positive(const ros::NodeHandle& private_node, const std::string& key, double fallback, double largest);
 
-/// A truth value, or `fallback` if the parameter is not set. @throws InputError for any other type.
+/// A truth value, also as the text `true` or `false`, or `fallback` if the parameter is not set. @throws InputError for any other value.
 bool read_flag(const ros::NodeHandle& private_node, const std::string& key, bool fallback);
 
 /// A text, or `fallback` if the parameter is not set. @throws InputError for any other type.
 std::string read_text(const ros::NodeHandle& private_node, const std::string& key, const std::string& fallback);
 
-/// A path, with the home directory for a leading `~`, or `fallback`. @throws InputError if it is not a text.
+/// A path, or `fallback`, with the home directory for a leading `~` and made absolute: a relative one begins at the folder in which the
+/// node was started, which a client does not know. Empty stays empty. @throws InputError if it is not a text.
 std::string read_path(const ros::NodeHandle& private_node, const std::string& key, const std::string& fallback);
 
 /// A text or a list of texts; empty if the parameter is not set. @throws InputError for any other type.
@@ -55,7 +56,8 @@ std::string expand_home(const std::string& path);
 [[noreturn]] void refuse_parameter(const ros::NodeHandle& node, const std::string& key, const std::string& message,
                                    const XmlRpc::XmlRpcValue& value, const std::string& allowed);
 
-/// Reads an integer or a floating-point number. False if the value is of another type.
+/// Reads a number: an integer, a floating-point number, or a text that spells one, since launch files and YAML pass `1e6` on as text. False
+/// for any other value.
 bool is_number(const XmlRpc::XmlRpcValue& value, double* number);
 
 /// The content of a value that is a text.

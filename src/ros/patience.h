@@ -2,23 +2,24 @@
 #ifndef MECHANISM_CODESIGN_ROS_PATIENCE_H_
 #define MECHANISM_CODESIGN_ROS_PATIENCE_H_
 
-#include <ros/init.h>
 #include <ros/time.h>
 
 #include <atomic>
 
+#include "ros/node_arguments.h"
+
 namespace codesign {
 
 /// Limits the time for recording the motion of a job after it was cancelled (half a second, so that a cancel is answered within one) or the
-/// node is shutting down (8 s: roslaunch kills a node after 15 s).
+/// node is asked to end (8 s: roslaunch kills a node after 15 s).
 class Patience {
  public:
   explicit Patience(const std::atomic<bool>& cancel) : cancel_(cancel) {}
 
   bool operator()() {
     const ros::WallTime now = ros::WallTime::now();
-    // A shutdown cancels the job, too, but no client waits for the answer then.
-    if (ros::isShuttingDown()) return is_over(true, 8.0, now, &shutdown_);
+    // The end of the node cancels the job, too; a bag that is whole is then worth more than a quick answer.
+    if (is_ending()) return is_over(true, 8.0, now, &shutdown_);
     return is_over(cancel_, 0.5, now, &cancelled_);
   }
 

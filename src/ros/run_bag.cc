@@ -19,8 +19,10 @@ void RunBag::guard(const Write& write) {
   }
 }
 
-void RunBag::open(const std::string& description, const std::string& root_frame, const SimulationScene& scene) {
+void RunBag::open(const std::string& description, const std::string& root_frame, const std::vector<std::size_t>& link_parents,
+                  const SimulationScene& scene) {
   if (options_.bag.empty()) return;
+  link_parents_ = link_parents;
   guard([&] {
     lock_ = lock();
     bag_ = std::make_unique<BagWriter>(options_.bag);
@@ -45,7 +47,7 @@ void RunBag::record(const FrameNames& names, const Frame& frame, const Simulatio
   guard([&] {
     bag_->write_frame("", options_.frame_prefix + names.links[0], names, frame, options_.style);
     bag_->write("caption", frame.time, scene.text(frame, {BagWriter::stamp(frame.time), options_.frame_prefix + names.links[0]}));
-    bag_->write("tf", frame.time, link_transforms(names, frame, BagWriter::stamp(frame.time), options_.frame_prefix));
+    bag_->write("tf", frame.time, link_transforms(names, link_parents_, frame, BagWriter::stamp(frame.time), options_.frame_prefix));
   });
 }
 

@@ -26,7 +26,9 @@ class RunBag {
 
   /// Begins the bag; the unfinished bag of a killed node is removed. @param description URDF of the mechanism. @param root_frame TF frame
   /// of the root link
-  void open(const std::string& description, const std::string& root_frame, const SimulationScene& scene);
+  /// @param link_parents as link_parents() finds them.
+  void open(const std::string& description, const std::string& root_frame, const std::vector<std::size_t>& link_parents,
+            const SimulationScene& scene);
   void record(const FrameNames& names, const Frame& frame, const SimulationScene& scene);
   /// @param time [s] of the run from which the commands are in effect
   void record(const mechanism_codesign::Commands& commands, double time);
@@ -41,6 +43,7 @@ class RunBag {
   const SimulationOptions& options_;
   NodeState* state_;
   std::optional<LockFile> lock_;
+  std::vector<std::size_t> link_parents_;
   std::unique_ptr<BagWriter> bag_;  ///< null unless the bag is being written
 };
 

@@ -41,7 +41,7 @@ void RunControl::configure(bool paused, std::int64_t step_frames) {
 void RunControl::begin_run() {
   const std::lock_guard<std::mutex> lock(mutex_);
   begun_ = running_ = true;
-  restart_ = false;
+  restart_ = stands_ = false;
   leaving_ = stopped_;
   steps_left_ = 0;
   changed_.notify_all();
@@ -51,6 +51,7 @@ void RunControl::note_frame(double time) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (time == 0.0) ++runs_;
   time_ = time;
+  stands_ = false;
   if (steps_left_ > 0) --steps_left_;
   changed_.notify_all();
 }
@@ -74,6 +75,13 @@ bool RunControl::is_paused() const {
   return paused_ && steps_left_ == 0;
 }
 
+bool RunControl::stand_if_paused() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  stands_ = paused_ && steps_left_ == 0;
+  if (stands_) changed_.notify_all();
+  return stands_;
+}
+
 bool RunControl::wants_restart() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return restart_;
@@ -81,20 +89,24 @@ bool RunControl::wants_restart() const {
 
 std_srvs::TriggerResponse RunControl::refusal() const { return trigger_reply(false, stopped_ ? why_ : why_ + "; ~restart begins anew"); }
 
+// Answered when the run stands: the frame that is computed meanwhile is still published.
 std_srvs::TriggerResponse RunControl::pause() {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  std::unique_lock<std::mutex> lock(mutex_);
   if (stopped_ || !running_) return refusal();
   paused_ = true;
   steps_left_ = 0;
   changed_.notify_all();
   bell_->ring();
-  return trigger_reply(true, "paused after t = " + to_decimal(time_) + " s");
+  changed_.wait(lock, [this] { return stands_ || !paused_ || !running_ || stopped_; });
+  if (stopped_ || !running_) return refusal();
+  const std::string time = "t = " + to_decimal(time_) + " s";
+  return paused_ ? trigger_reply(true, "paused after " + time) : trigger_reply(false, "another request has resumed the run at " + time);
 }
 
 std_srvs::TriggerResponse RunControl::resume() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (stopped_ || !running_) return refusal();
-  paused_ = false;
+  paused_ = stands_ = false;
   steps_left_ = 0;
   changed_.notify_all();
   bell_->ring();
@@ -107,6 +119,7 @@ std_srvs::TriggerResponse RunControl::step() {
   if (!paused_) return trigger_reply(false, "the run is not paused; call ~pause first");
   if (steps_left_ > 0) return trigger_reply(false, "another ~step has not ended");
   steps_left_ = step_frames_;
+  stands_ = false;
   const std::uint64_t run = runs_;
   bell_->ring();
   changed_.wait(lock, [&] { return steps_left_ == 0 || !paused_ || !running_ || stopped_ || restart_ || runs_ != run; });

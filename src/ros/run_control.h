@@ -42,6 +42,8 @@ class RunControl {
 
   /// Whether the run is paused after the last frame.
   bool is_paused() const;
+  /// As is_paused(), to be called by the thread of the run, which then does not go on: answers a waiting ~pause.
+  bool stand_if_paused();
   /// Whether ~restart waits for a new run.
   bool wants_restart() const;
   /// Set while the run is to end early, for Simulation::obey().
@@ -63,6 +65,7 @@ class RunControl {
   std::condition_variable changed_;
   std::atomic<bool> leaving_{false};
   bool begun_ = false, running_ = false, paused_ = false, stopped_ = false, restart_ = false;
+  bool stands_ = false;  ///< whether the thread of the run has seen that it is paused
   std::int64_t step_frames_ = 1, steps_left_ = 0;
   std::uint64_t runs_ = 0;
   double time_ = 0.0;  ///< [s] of the last frame

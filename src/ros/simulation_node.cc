@@ -1,12 +1,15 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/simulation_node.h"
 
+#include <ros/master.h>
+#include <ros/this_node.h>
 #include <rosgraph_msgs/Clock.h>
 #include <std_msgs/Float64.h>
 #include <std_msgs/String.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <set>
 
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/error.h"
@@ -25,6 +28,8 @@ namespace {
 constexpr std::uint32_t kQueueSize = 100;
 /// In the mode as_fast_as_possible, a subscriber that is slow for a second must not lose frames.
 constexpr std::uint32_t kLongQueueSize = 1000;
+/// [s] A recorder subscribes to its topics one after the other; the run begins when no connection has been made for so long.
+constexpr double kSettling = 0.5;
 /// Threads for services that wait for the run: one for ~step, one for a change of parameters, and one for a request that interrupts them.
 constexpr std::uint32_t kServiceThreads = 3;
 
@@ -33,6 +38,26 @@ std::vector<std::string> all_parameters() {
   names.insert(names.end(), input_parameters().begin(), input_parameters().end());
   names.emplace_back("diagnostic_period");
   return names;
+}
+
+/// The nodes below a topic in an answer of the master: a list of pairs of a topic and its nodes.
+std::set<std::string> nodes_of(XmlRpc::XmlRpcValue& topics, const std::vector<std::string>& names) {
+  std::set<std::string> nodes;
+  for (int i = 0; i < topics.size(); ++i)
+    if (std::count(names.begin(), names.end(), text_of(topics[i][0])) > 0)
+      for (int k = 0; k < topics[i][1].size(); ++k) nodes.insert(text_of(topics[i][1][k]));
+  return nodes;
+}
+
+/// The number of nodes that subscribe to a topic and publish TF, as robot_state_publisher does: they show the run, and do not record it.
+std::uint32_t transformers_of(const std::string& topic) {
+  XmlRpc::XmlRpcValue request, response, state;
+  request[0] = ros::this_node::getName();
+  if (!ros::master::execute("getSystemState", request, response, state, false)) return 0;
+  const std::set<std::string> transformers = nodes_of(state[0], {"/tf", "/tf_static"});
+  const std::set<std::string> subscribers = nodes_of(state[1], {topic});
+  return static_cast<std::uint32_t>(
+      std::count_if(subscribers.begin(), subscribers.end(), [&](const std::string& node) { return transformers.count(node) > 0; }));
 }
 
 ros::NodeHandle with_queue(ros::NodeHandle node, ros::CallbackQueue* queue) {
@@ -85,6 +110,7 @@ void SimulationNode::load() {
   problem_ = codesign::load(inputs, bag_trajectory_loader(study_folder(inputs)));
   simulation_ = std::make_unique<InteractiveSimulation>(*problem_->system(), command_options(options_), signals_of(problem_->study()));
   check_duration(private_node_, options_, simulation_->duration());
+  link_parents_ = link_parents(problem_->robot());
   commanded_.emplace(simulation_.get(), options_.command_timeout);
   state_.show("robot", problem_->robot().name);
   state_.show("joints of ~command/efforts", list_names(simulation_->inputs().joints));
@@ -146,15 +172,32 @@ void SimulationNode::place_root() {
 
 void SimulationNode::wait_for_subscribers() {
   if (options_.wait_for_subscribers.empty()) return;
-  const auto is_missing = [this](const std::string& topic) { return publishers_.at(topic).getNumSubscribers() == 0; };
+  const auto is_heard = [this](const std::string& topic) {
+    const ros::Publisher& publisher = publishers_.at(topic);
+    return publisher.getNumSubscribers() > 0 && publisher.getNumSubscribers() > transformers_of(publisher.getTopic());
+  };
   const std::vector<std::string>& topics = options_.wait_for_subscribers;
-  state_.set(NodeState::Level::kOk, "waiting for subscribers of " + list_names(topics));
-  while (!stopping() && std::any_of(topics.begin(), topics.end(), is_missing)) {
+  state_.set(NodeState::Level::kOk, "waiting for subscribers of " + list_names(topics) + ", robot_state_publisher not counted");
+  std::uint32_t connections = 0;
+  ros::WallTime since;
+  while (!stopping()) {
+    const bool all_heard = std::all_of(topics.begin(), topics.end(), is_heard);
+    const std::uint32_t now = subscriptions();
+    if (!all_heard || now != connections) since = ros::WallTime::now();
+    connections = now;
+    if (all_heard && ros::WallTime::now() - since > ros::WallDuration(kSettling)) return;
     // Some programs, such as rosbag record, wait for a first message on /clock.
     if (clock_.is_free_running()) publish_clock(0.0);
     serve_idle();
     bell_.wait(0.05);
   }
+}
+
+std::uint32_t SimulationNode::subscriptions() const {
+  std::uint32_t count = caption_publisher_.getNumSubscribers() + commands_publisher_.getNumSubscribers();
+  if (clock_.is_free_running()) count += clock_publisher_.getNumSubscribers();
+  for (const auto& [topic, publisher] : publishers_) count += publisher.getNumSubscribers();
+  return count;
 }
 
 bool SimulationNode::is_watched() const {
@@ -178,8 +221,9 @@ void SimulationNode::publish(const FrameNames& names, const Frame& frame) {
   });
   if (floats_) floats_->publish(frame);
   caption_publisher_.publish(scene_->text(frame, context));
-  const tf2_msgs::TFMessage poses = options_.frame_prefix.empty() ? free_link_transforms(names, frame, context)
-                                                                  : link_transforms(names, frame, context.stamp, options_.frame_prefix);
+  const tf2_msgs::TFMessage poses = options_.frame_prefix.empty()
+                                        ? free_link_transforms(names, frame, context)
+                                        : link_transforms(names, link_parents_, frame, context.stamp, options_.frame_prefix);
   if (!poses.transforms.empty()) transforms_.sendTransform(poses.transforms);
 }
 

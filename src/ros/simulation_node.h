@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "integration/interactive_simulation.h"
+#include "jobs/limit_watch.h"
 #include "problem/load_problem.h"
 #include "ros/bell.h"
 #include "ros/command_inbox.h"
@@ -51,6 +52,8 @@ class SimulationNode {
   void place_root();
   void wait_for_subscribers();
   bool is_watched() const;
+  /// The number of subscribers of all topics.
+  std::uint32_t subscriptions() const;
 
   // The thread of the run, simulation_run.cc.
   void run();
@@ -66,6 +69,9 @@ class SimulationNode {
   /// No further run is possible.
   void end_for_good(const std::string& why);
   void show_frame(bool record);
+  /// Looks for joints beyond their limits at the present parameters; forgets those found before.
+  void watch_limits();
+  void note_limits();
   void tell_commands();
   void publish(const FrameNames& names, const Frame& frame);
   void publish_clock(double time);
@@ -92,6 +98,9 @@ class SimulationNode {
   Pace pace_;
   RealTimeFactor factor_;
   Frame frame_;  ///< the last frame
+  std::optional<LimitWatch> limits_;
+  std::size_t limits_told_ = 0;            ///< number of its crossings that are warned of
+  std::vector<std::size_t> link_parents_;  ///< as link_parents() finds them
   std::map<std::string, ros::Publisher> publishers_;
   ros::Publisher clock_publisher_, description_publisher_, commands_publisher_, factor_publisher_, caption_publisher_, scene_publisher_;
   tf2_ros::TransformBroadcaster transforms_;

@@ -13,6 +13,12 @@ namespace {
 
 constexpr double kLook = 0.1;  // [s] between two checks whether a wait must end
 
+/// How a study enforces a limit of the URDF; that of a velocity it cannot enforce.
+std::string remedy(const std::string& limit) {
+  if (limit == "velocity") return "";
+  return "; the study enforces it with limits: {" + std::string(limit == "effort" ? "effort" : "position") + ": true}";
+}
+
 }  // namespace
 
 void SimulationNode::run() {
@@ -35,7 +41,7 @@ void SimulationNode::run_all() {
   double previous_duration = 0.0;
   set_scene();
   wait_for_subscribers();
-  bag_.open(description_, context(0.0).root_frame, *scene_);
+  bag_.open(description_, context(0.0).root_frame, link_parents_, *scene_);
   while (!stopping()) {
     if (!clock_.has_room_for(previous_duration + simulation_->duration())) {
       const std::string why = "finished: /clock has reached the end of ROS time";
@@ -82,6 +88,7 @@ Status SimulationNode::run_once() {
   inbox_->clear();
   commanded_->clear();
   state_.warn("command timeout", {});
+  watch_limits();
   control_.begin_run();
   const Status status = run_frames();
   state_.show("real-time factor of the run", std::to_string(factor_.mean(frame_.time, ros::WallTime::now())));
@@ -108,6 +115,7 @@ Status SimulationNode::run_frames() {
     if (!clock_.wait(time, [this] { return leaving_run(); })) break;
     inbox_->await_answer(clock_.stamp(time));
     show_frame(true);
+    note_limits();
     control_.note_frame(time);
     tell_progress(simulation_->statistics());
     if (time >= duration) break;
@@ -122,12 +130,13 @@ Status SimulationNode::serve() {
   bool has_waited = false;
   for (;;) {
     // Read before commands are taken: a command that arrives in between is taken in the next round.
-    const bool goes_on = !control_.is_paused() && (!options_.lock_step || inbox_->is_answered());
+    const bool goes_on = !control_.stand_if_paused() && (!options_.lock_step || inbox_->is_answered());
     const CommandedRun::Outcome outcome = commanded_->apply(inbox_->take(), frame_, clock_);
     if (!outcome.status.ok()) return outcome.status;
     const bool other_values = live_->serve([this](const std::vector<double>& values) { return simulation_->change(frame_.time, values); });
     if (outcome.changed) tell_commands();
     if (other_values) tell_description();
+    if (other_values) watch_limits();
     if (leaving_run()) return {};
     if (goes_on) break;
     if (control_.is_paused() && (outcome.changed || other_values)) {
@@ -148,6 +157,29 @@ Status SimulationNode::serve() {
 void SimulationNode::show_frame(bool record) {
   publish(simulation_->names(), frame_);
   if (record) bag_.record(simulation_->names(), frame_, *scene_);
+}
+
+void SimulationNode::watch_limits() {
+  limits_.emplace(*problem_, simulation_->parameters(), simulation_->names());
+  limits_told_ = 0;
+  state_.warn("limits", {});
+}
+
+// Without time and worst value, with which the log would have another sentence in each run.
+void SimulationNode::note_limits() {
+  limits_->observe(frame_);
+  const std::vector<LimitCrossing>& crossings = limits_->crossings();
+  for (const LimitCrossing& crossing : crossings)
+    state_.show(crossing.joint + " beyond its " + crossing.limit + " limit", describe(crossing));
+  if (crossings.size() == limits_told_) return;
+  limits_told_ = crossings.size();
+  Warnings warnings;
+  for (const LimitCrossing& crossing : crossings)
+    warnings.push_back({"limits_exceeded",
+                        "joint '" + crossing.joint + "' exceeds its " + crossing.limit + " limit " + to_decimal(crossing.bound) +
+                            "; /diagnostics shows since when and how far" + remedy(crossing.limit),
+                        {}});
+  state_.warn("limits", warnings);
 }
 
 void SimulationNode::tell_commands() {

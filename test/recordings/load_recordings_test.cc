@@ -65,6 +65,17 @@ TEST_F(LoadRecordings, SamplesThatAreUsedTwiceAreTold) {
   EXPECT_EQ(warnings_.size(), 2U);
 }
 
+// The study of a shipped case names a recording that its reader has to make.
+TEST_F(LoadRecordings, AMissingRecordingSaysHowToGetOne) {
+  identification_.data = {entry("arm.csv", "identify.data[0]")};
+  const InputFault fault = refusal_of([this] { load(); });
+  EXPECT_EQ(fault.element, "identify.data[0].csv");
+  EXPECT_EQ(fault.where.line, 4);
+  expect_word(fault.message, "there is no such recording");
+  expect_word(fault.value, "arm.csv");
+  expect_word(fault.allowed, "doc/case_studies.md");
+}
+
 TEST_F(LoadRecordings, ARelativePathNeedsAFolder) {
   const InputFault fault = refusal_of([this] { load(""); });
   EXPECT_EQ(fault.element, "identify.data[0].csv");

@@ -79,6 +79,27 @@ TEST(Conversions, AllLinksArePlacedRelativeToThePrefixedRoot) {
   expect_transform(message.transforms[2], "tuned/ground", "tuned/plate", {1.0, 2.0, 0.0}, kPi);
 }
 
+TEST(Conversions, WithAPrefixLinksHangOnTheirParents) {
+  const auto message = link_transforms(sample_names(), {0, 0, 1}, sample_frame(0.0), kContext.stamp, "left/");
+  ASSERT_EQ(message.transforms.size(), 2U);
+  expect_transform(message.transforms[0], "left/ground", "left/cart", {1.0, 0.0, 0.0}, kPi / 2);
+  expect_transform(message.transforms[1], "left/cart", "left/plate", {2.0, 0.0, 0.0}, kPi / 2);
+}
+
+TEST(Conversions, TheParentOfALinkIsThatOfItsJointAndOfNoLoop) {
+  RobotDescription robot;
+  robot.links.resize(3);
+  robot.root = 0;
+  robot.joints.resize(3);
+  const int ends[][2] = {{1, 2}, {0, 1}, {0, 2}};  // parent, child
+  for (std::size_t k = 0; k < 3; ++k) {
+    robot.joints[k].parent = ends[k][0];
+    robot.joints[k].child = ends[k][1];
+  }
+  robot.joints[2].is_loop = true;
+  EXPECT_EQ(link_parents(robot), (std::vector<std::size_t>{0, 0, 1}));
+}
+
 TEST(Conversions, ProgressOfAFailedTrialSaysWhy) {
   Trial trial;
   trial.evaluation = 7;

@@ -17,6 +17,18 @@ TEST(Parameters, ACommandLineGivesListsAsText) {
   for (const char* text : {"", "[]", " , "}) EXPECT_EQ(names_in(text), Names()) << text;
 }
 
+TEST(Parameters, LaunchFilesPassNumbersAsTextToo) {
+  double number = 0.0;
+  for (const char* text : {"1e6", "1000000", "+1e6", "1.0E6"}) {
+    EXPECT_TRUE(is_number(XmlRpc::XmlRpcValue(text), &number)) << text;
+    EXPECT_EQ(number, 1e6) << text;
+  }
+  EXPECT_TRUE(is_number(XmlRpc::XmlRpcValue(3), &number));
+  EXPECT_EQ(number, 3.0);
+  for (const char* text : {"", "fast", "1e6 s", "0x10", "1,5", "true"}) EXPECT_FALSE(is_number(XmlRpc::XmlRpcValue(text), &number)) << text;
+  EXPECT_FALSE(is_number(XmlRpc::XmlRpcValue(true), &number));
+}
+
 TEST(Parameters, ACommandLineGivesADictionaryAsText) {
   XmlRpc::XmlRpcValue numbers = dictionary_in("{Kp: 80, crank_length: 0.07}");
   ASSERT_EQ(numbers.getType(), XmlRpc::XmlRpcValue::TypeStruct);

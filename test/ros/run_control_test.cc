@@ -40,12 +40,13 @@ TEST(RunControl, StepsOnlyWhilePausedAndAsManyFramesAsAskedFor) {
   control.begin_run();
   control.note_frame(0.0);
   EXPECT_FALSE(control.step().success);
-  EXPECT_TRUE(control.pause().success);
-  EXPECT_TRUE(control.is_paused());
   std::thread run([&] {
+    while (!control.stand_if_paused()) bell.wait(0.01);
     while (control.is_paused()) bell.wait(0.01);
     for (int k = 1; !control.is_paused(); ++k) control.note_frame(0.1 * k);
   });
+  EXPECT_TRUE(control.pause().success);
+  EXPECT_TRUE(control.is_paused());
   const std_srvs::TriggerResponse response = control.step();
   run.join();
   EXPECT_TRUE(response.success);
@@ -53,6 +54,25 @@ TEST(RunControl, StepsOnlyWhilePausedAndAsManyFramesAsAskedFor) {
   EXPECT_TRUE(control.is_paused());
   EXPECT_TRUE(control.resume().success);
   EXPECT_FALSE(control.is_paused());
+}
+
+// A frame is being computed when the request comes.
+TEST(RunControl, APauseIsAnsweredWithTheLastFrameThatIsPublished) {
+  Bell bell;
+  RunControl control(&bell);
+  control.begin_run();
+  control.note_frame(0.0);
+  EXPECT_FALSE(control.stand_if_paused());
+  std::thread run([&] {
+    while (!control.is_paused()) bell.wait(0.01);
+    control.note_frame(0.1);
+    EXPECT_TRUE(control.stand_if_paused());
+  });
+  const std_srvs::TriggerResponse response = control.pause();
+  run.join();
+  EXPECT_TRUE(response.success);
+  EXPECT_EQ(response.message, "paused after t = 0.1 s");
+  EXPECT_EQ(control.pause().message, response.message) << "a run that stands is paused at once";
 }
 
 TEST(RunControl, ARestartIsAnsweredByTheFirstFrameOfTheNewRun) {

@@ -49,15 +49,28 @@ double mass_of(const XMLElement* link) {
   return inertial != nullptr ? plain_number(inertial->FirstChildElement("mass"), "value") : 0.0;
 }
 
-/// Whether a viewer sees the link.
-bool is_seen(const XMLElement* link, MeshFinder* meshes) {
-  for (const XMLElement* visual = link->FirstChildElement("visual"); visual != nullptr; visual = visual->NextSiblingElement("visual")) {
-    const XMLElement* geometry = visual->FirstChildElement("geometry");
-    const XMLElement* mesh = geometry != nullptr ? geometry->FirstChildElement("mesh") : nullptr;
-    if (mesh == nullptr || meshes->is_there(text_of(mesh, "filename"))) return true;
-  }
-  return false;
+/// Whether a viewer can load a visual or a collision.
+bool is_loadable(const XMLElement* shape, MeshFinder* meshes) {
+  const XMLElement* geometry = shape->FirstChildElement("geometry");
+  const XMLElement* mesh = geometry != nullptr ? geometry->FirstChildElement("mesh") : nullptr;
+  return mesh == nullptr || meshes->is_there(text_of(mesh, "filename"));
 }
+
+/// Removes the visuals and collisions that a viewer cannot load, since rviz shows the whole robot as faulty for one of them. Returns
+/// whether there were any.
+bool remove_missing(XMLElement* link, MeshFinder* meshes) {
+  bool has_removed = false;
+  for (const char* kind : {"visual", "collision"})
+    for (XMLElement *shape = link->FirstChildElement(kind), *next = nullptr; shape != nullptr; shape = next) {
+      next = shape->NextSiblingElement(kind);
+      if (is_loadable(shape, meshes)) continue;
+      link->DeleteChild(shape);
+      has_removed = true;
+    }
+  return has_removed;
+}
+
+bool is_seen(const XMLElement* link) { return link->FirstChildElement("visual") != nullptr; }
 
 std::string numbers(const Eigen::Vector3d& v) { return to_decimal(v.x()) + ' ' + to_decimal(v.y()) + ' ' + to_decimal(v.z()); }
 
@@ -146,13 +159,14 @@ std::string with_sticks(const std::string& urdf) {
   bool has_changed = false;
   MeshFinder meshes;
   for (XMLElement* link = robot->FirstChildElement("link"); link != nullptr; link = link->NextSiblingElement("link")) {
+    has_changed = remove_missing(link, &meshes) || has_changed;
     const auto found = skeletons.find(text_of(link, "name"));
-    if (found == skeletons.end() || is_seen(link, &meshes)) continue;
+    if (found == skeletons.end() || is_seen(link)) continue;
     if (found->second.is_root)
       draw_root(found->second, radius, link);
     else
       draw_link(found->second, radius, link);
-    has_changed = has_changed || is_seen(link, &meshes);
+    has_changed = has_changed || is_seen(link);
   }
   if (!has_changed) return urdf;
   tinyxml2::XMLPrinter printer;

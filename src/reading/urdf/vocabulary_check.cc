@@ -29,32 +29,57 @@ std::string forgotten_prefix(const std::string& tag, const ElementRule* rule) {
 
 class Check {
  public:
-  explicit Check(Warnings* warnings) : warnings_(warnings) {}
-
-  void visit(const XmlElement& element, const std::string& path) const {
+  void visit(const XmlElement& element, const std::string& path) {
     const ElementRule* rule = find_rule(path);
     const Vocabulary* words = find_vocabulary(path);
     check_repeats(element, rule, words);
     if (words != nullptr) {
-      for (const std::string& attribute : element.attributes()) check_attribute(element, attribute, *words);
-      for (const XmlElement& child : element.children()) check_child(child, rule, *words);
+      for (const std::string& attribute : element.attributes()) check_attribute(element, attribute, path, *words);
+      for (const XmlElement& child : element.children()) check_child(child, path, rule, *words);
     }
     for (const XmlElement& child : element.children()) visit(child, path + "/" + child.tag());
   }
 
+  /// One warning for each name at each place of the language, in the order of lines.
+  Warnings warnings() const {
+    Warnings all;
+    for (const Noted& noted : noted_) {
+      all.push_back(noted.first);
+      if (noted.further == 0) continue;
+      all.back().message += "; the same at " + std::to_string(noted.further) + (noted.further == 1 ? " further place" : " further places") +
+                            " of this file, the last in line " + std::to_string(noted.last_line);
+    }
+    return all;
+  }
+
  private:
-  void check_attribute(const XmlElement& element, const std::string& attribute, const Vocabulary& words) const {
+  /// A warning, and how often the same name stands in the same kind of element.
+  struct Noted {
+    std::string kind;
+    Warning first;
+    int further = 0, last_line = 0;
+  };
+
+  void note(const std::string& kind, const Warning& warning) {
+    const auto found = std::find_if(noted_.begin(), noted_.end(), [&](const Noted& noted) { return noted.kind == kind; });
+    if (found == noted_.end()) return noted_.push_back({kind, warning});
+    ++found->further;
+    found->last_line = warning.where.line;
+  }
+
+  void check_attribute(const XmlElement& element, const std::string& attribute, const std::string& path, const Vocabulary& words) {
     if (contains(words.attributes, attribute) || has_prefix(attribute)) return;
     if (element.in_overlay(attribute))
       throw unknown_name(element.where(attribute), element.label(), "attribute " + attribute, attribute, words.attributes);
     if (contains(words.other_attributes, attribute)) return;
     const std::string near = nearest_name(attribute, words.attributes);
-    warnings_->push_back(element.warning_at(
-        "unknown_attribute", attribute, "the attribute " + attribute + " is ignored, since no reader of URDF knows it" + did_you_mean(near),
-        near.empty() ? "remove it" : "write " + near + ", or remove it"));
+    note(path + " " + attribute,
+         element.warning_at("unknown_attribute", attribute,
+                            "the attribute " + attribute + " is ignored, since no reader of URDF knows it" + did_you_mean(near),
+                            near.empty() ? "remove it" : "write " + near + ", or remove it"));
   }
 
-  void check_child(const XmlElement& child, const ElementRule* rule, const Vocabulary& words) const {
+  void check_child(const XmlElement& child, const std::string& path, const ElementRule* rule, const Vocabulary& words) {
     const std::string tag = child.tag();
     if (contains(words.children, tag) || is_ours(tag)) return;
     Names known = words.children;
@@ -65,17 +90,17 @@ class Check {
       throw InputError({child.where(), child.label(), "unknown element <" + tag + ">" + did_you_mean(near), tag, list_names(known)});
     if (has_prefix(tag) || contains(words.other_children, tag)) return;
     if (const Names places = elements_with(tag); !places.empty()) {
-      warnings_->push_back(child.warning("unknown_element", "the element does not belong here and is ignored", "<" + tag + ">",
-                                         "move it into " + list_names(places) + ", or remove it"));
+      note(path + "/" + tag, child.warning("unknown_element", "the element does not belong here and is ignored", "<" + tag + ">",
+                                           "move it into " + list_names(places) + ", or remove it"));
       return;
     }
     if (near.empty()) return;
-    warnings_->push_back(child.warning("unknown_element",
-                                       "the element is ignored, since no reader of URDF knows it, did you mean \"" + near + "\"?",
-                                       "<" + tag + ">", "write <" + near + ">, or remove it"));
+    note(path + "/" + tag,
+         child.warning("unknown_element", "the element is ignored, since no reader of URDF knows it, did you mean \"" + near + "\"?",
+                       "<" + tag + ">", "write <" + near + ">, or remove it"));
   }
 
-  void check_repeats(const XmlElement& element, const ElementRule* rule, const Vocabulary* words) const {
+  void check_repeats(const XmlElement& element, const ElementRule* rule, const Vocabulary* words) {
     std::map<std::string, int> count;
     for (const XmlElement& child : element.children()) {
       const std::string tag = child.tag();
@@ -85,12 +110,12 @@ class Check {
       const bool inertial = tag == "inertial" && element.tag() == "link";
       if (strict || ((single || inertial) && child.in_overlay())) child.fail("a second <" + tag + ">", "", "one at most");
       if (single || inertial)
-        warnings_->push_back(
-            child.warning("repeated_element", "a second <" + tag + ">; the first one is used, as other readers do", "", "remove one"));
+        noted_.push_back({"", child.warning("repeated_element", "a second <" + tag + ">; the first one is used, as other readers do", "",
+                                            "remove one")});
     }
   }
 
-  Warnings* warnings_;
+  std::vector<Noted> noted_;
 };
 
 /// The prefix of a name: the part before the colon; of a declaration `xmlns:x` the part after it.
@@ -140,7 +165,10 @@ void refuse_text_in(const tinyxml2::XMLElement& element, const XmlDocument& docu
 void refuse_text(const XmlDocument& overlay) { refuse_text_in(*overlay.robot(), overlay); }
 
 void check_vocabulary(const XmlDocument& document, Warnings* warnings) {
-  Check(warnings).visit(XmlElement(document.robot(), &document), "robot");
+  Check check;
+  check.visit(XmlElement(document.robot(), &document), "robot");
+  const Warnings found = check.warnings();
+  warnings->insert(warnings->end(), found.begin(), found.end());
 }
 
 void check_prefixes(const XmlDocument& document) { check_prefixes_in(XmlElement(document.robot(), &document)); }

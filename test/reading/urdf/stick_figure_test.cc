@@ -72,6 +72,21 @@ TEST(Sticks, StandForMeshesThatAreNotThere) {
   EXPECT_EQ(sticks("package://no_such_package_at_all/rod.stl"), 2U);
   const std::string missing = with_sticks(with_mesh("package://no_such_package_at_all/rod.stl"));
   EXPECT_EQ(with_sticks(missing), missing);
+  EXPECT_EQ(missing.find("<mesh"), std::string::npos) << "rviz shows a robot with a mesh that it cannot load as faulty";
+}
+
+// Collisions are not drawn, but rviz loads them.
+TEST(Sticks, CollisionsWithMissingMeshesAreLeftOutForViewers) {
+  const auto with_collision = [](const std::string& shape) {
+    std::string text = kBare;
+    const std::string rod = "<link name=\"rod\">";
+    return text.replace(text.find(rod), rod.size(),
+                        rod + "<visual><geometry><sphere radius=\"0.1\"/></geometry></visual>" + "<collision><geometry>" + shape +
+                            "</geometry></collision>");
+  };
+  EXPECT_EQ(with_sticks(with_collision("<mesh filename=\"package://no_such_package_at_all/rod.stl\"/>")).find("<collision"),
+            std::string::npos);
+  EXPECT_NE(with_sticks(with_collision("<sphere radius=\"0.1\"/>")).find("<collision"), std::string::npos);
 }
 
 TEST(Sticks, ChangeNothingButTheLook) {

@@ -30,6 +30,23 @@ TEST(VocabularyCheck, AllOfAFileAreToldInTheOrderOfItsLines) {
   for (int k = 0; k < 3; ++k) EXPECT_EQ(robot.warnings[static_cast<std::size_t>(k)].where.line, k + 2);
 }
 
+TEST(VocabularyCheck, TheSameNameInTheSameKindOfElementIsToldOnceWithACount) {
+  const std::string inertia =
+      "<inertial><origin xyz=\"0 0 0\"/><mass value=\"1\"/><inertia ixx=\"1\" iyx=\"0\" iyy=\"1\" izz=\"1\"/></inertial>\n";
+  std::string links;
+  for (const char* name : {"a", "b", "c"})
+    links += "<link name=\"" + std::string(name) + "\">" + inertia + "</link>\n" +
+             joint_with("j" + std::string(name), "fixed", "arm", name, "") + "\n";
+  const RobotDescription robot =
+      read_urdf(pendulum("", links + "<link name=\"d\" iyx=\"2\"/>" + joint_with("jd", "fixed", "arm", "d", "")));
+  std::vector<std::string> messages;
+  for (const Warning& warning : robot.warnings)
+    if (warning.code == "unknown_attribute") messages.push_back(warning.message);
+  ASSERT_EQ(messages.size(), 2U) << "one of <inertia>, one of <link>";
+  EXPECT_NE(messages[0].find("; the same at 2 further places of this file, the last in line"), std::string::npos) << messages[0];
+  EXPECT_EQ(messages[1].find("further"), std::string::npos) << messages[1];
+}
+
 TEST(VocabularyCheck, InAnOverlayEverythingIsMeantForUs) {
   const auto refused = [](const std::string& body, const std::vector<std::string>& parts) {
     expect_error(pendulum(""), parts, {overlay_text(body)});
