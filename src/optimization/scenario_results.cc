@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "optimization/scenario_results.h"
 
+#include <cmath>
+
 #include "optimization/local_search.h"
 #include "optimization/search_trials.h"
 #include "sampling/measure.h"
@@ -25,9 +27,9 @@ double share_within(double bound, const std::vector<double>& values, const std::
 }
 
 /// Evaluates the design on fresh samples. Unlike in the search, a failed sample does not make the design fail; it is only counted.
-/// @returns std::nullopt if the validation was interrupted. @param interruption receives the status of the interrupted run.
+/// @returns std::nullopt if the validation was interrupted, or if its measure overflows. @param failure receives the status of that.
 std::optional<Validation> validate(const Problem& problem, const Ensemble& ensemble, const OptimizationResult& design,
-                                   const std::atomic<bool>* cancel, ProgressMeter* meter, Status* interruption) {
+                                   const std::atomic<bool>* cancel, ProgressMeter* meter, Status* failure) {
   const RobustOptions& options = ensemble.options();
   const std::vector<Scenario> scenarios = make_validation_scenarios(problem, options.validate);
   meter->begin(SearchStage::kValidating, 1, scenarios.size());
@@ -38,7 +40,7 @@ std::optional<Validation> validate(const Problem& problem, const Ensemble& ensem
   std::vector<double> values, weights;
   for (std::size_t k = 0; k < members.size(); ++k) {
     if (members[k].status.is_interrupted()) {
-      *interruption = members[k].status;
+      *failure = members[k].status;
       return std::nullopt;
     }
     if (!members[k].status.ok()) {
@@ -53,6 +55,10 @@ std::optional<Validation> validate(const Problem& problem, const Ensemble& ensem
   Eigen::VectorXd w = Eigen::Map<Eigen::VectorXd>(weights.data(), psi.size());
   w /= w.sum();
   const Measured measured = measure(options, psi, w);
+  if (!std::isfinite(measured.value)) {
+    *failure = {StatusCode::kNonFinite, problem.study().duration, "the measure over the fresh samples of robust.validate is not finite"};
+    return std::nullopt;
+  }
   validation.objective = measured.value;
   if (design.value_at_risk) {
     validation.value_at_risk = measured.threshold;
@@ -80,11 +86,11 @@ void describe_scenarios(const Problem& problem, const Ensemble& ensemble, const 
   if (ensemble.options().measure == RobustMeasure::kCvar)
     result->value_at_risk = measure(ensemble.options(), result->values, ensemble.weights()).threshold;
   if (ensemble.options().validate == 0 || is_set(cancel)) return;
-  Status interruption;
-  result->validation = validate(problem, ensemble, *result, cancel, meter, &interruption);
-  if (interruption.ok()) return;
-  result->status = with_best_kept(interruption);
-  result->termination = name_of(interruption.code);
+  Status failure;
+  result->validation = validate(problem, ensemble, *result, cancel, meter, &failure);
+  if (failure.ok()) return;
+  result->status = with_best_kept(failure);
+  result->termination = name_of(failure.code);
 }
 
 }  // namespace codesign

@@ -26,7 +26,8 @@ void choose_samples(const JointRecording& recording, const FilterOptions& filter
   double edge = kDifferences;
   for (const double cutoff : {filter.cutoff, filter.residual_cutoff})
     if (cutoff > 0.0) edge += kSettling * rate / cutoff;
-  motion->first = static_cast<Eigen::Index>(std::ceil(edge));
+  // A very low cutoff would leave out more samples than an index counts.
+  motion->first = static_cast<Eigen::Index>(std::ceil(std::min(edge, static_cast<double>(motion->times.count))));
   motion->end = motion->times.count - motion->first;
   motion->every = filter.decimate;
   const Eigen::Index padding = 3 * (filter.order + 1) + 1;

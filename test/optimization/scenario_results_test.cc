@@ -52,6 +52,19 @@ TEST(ScenarioResults, TellTheValueAtRisk) {
   EXPECT_NEAR(result.validation->within, 0.75, 0.15);
 }
 
+// With one sample there is no deviation; among the fresh samples its square overflows.
+TEST(ScenarioResults, AValidationThatIsNotFiniteIsAFailure) {
+  Problem problem = block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: mean_plus_deviation, samples: 1, validate: 4}\n",
+                          "{algorithm: slsqp, max_evaluations: 2}");
+  Study study = problem.study();
+  study.terminal.at(0).weight = 1e200;
+  problem = with_study(problem, study);
+  const OptimizationResult result = optimize(problem);
+  EXPECT_EQ(result.status.code, StatusCode::kNonFinite) << result.status.cause;
+  EXPECT_FALSE(result.validation);
+  EXPECT_GT(result.objective, 0.0) << "the best point is kept";
+}
+
 TEST(ScenarioResults, OtherMeasuresHaveNoValueAtRisk) {
   EXPECT_FALSE(optimize(block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {samples: 4}\n")).value_at_risk);
 }

@@ -99,6 +99,10 @@ TEST(MeasuredMotion, RefusesCutoffsAndLengthsThatCannotBe) {
   const InputFault length = refusal_of([&] { measured_motion(swing(60), filter_of(10.0), &warnings); });
   EXPECT_EQ(length.element, "identify.data[0]");
   expect_word(length.message, "60 samples leave 0 to fit");
+  for (const double low : {1e-9, 1e-300}) {
+    const InputFault none = refusal_of([&] { measured_motion(swing(400), filter_of(low), &warnings); });
+    expect_word(none.message, "400 samples leave 0 to fit");
+  }
 }
 
 TEST(MeasuredMotion, APositionThatWasNotMeasuredIsTheIntegralOfTheVelocity) {

@@ -47,7 +47,8 @@ TEST(StudyRealization, RefusesImpossibleNumbers) {
   expect_fault(realization_text("sample_time: 0.01, delay: -1"), "controllers.speed.delay", "must not be negative", 5);
   expect_fault(realization_text("sample_time: 0.01, delay: 1.01"), "controllers.speed.delay", "too many outputs wait at a time: 101", 5);
   // More than an int counts.
-  expect_fault(realization_text("sample_time: 1.0e-9, delay: 3.0"), "controllers.speed.delay", "too many outputs wait at a time: 3000000000", 5);
+  expect_fault(realization_text("sample_time: 1.0e-9, delay: 3.0"), "controllers.speed.delay",
+               "too many outputs wait at a time: 3000000000", 5);
   expect_fault(realization_text("sample_time: 1.0e-300, delay: 1.0e+300"), "controllers.speed.delay", "too many outputs wait", 5);
   expect_fault(realization_text("sample_time: 0.01, quantization: -1"), "controllers.speed.quantization", "must not be negative", 5);
   expect_fault(realization_text("antiwindup: 3, i_clamp: 1"), "controllers.speed.antiwindup", "", 5);
