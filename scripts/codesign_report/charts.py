@@ -3,10 +3,11 @@
 import collections
 import math
 
-from .numbers import Markup, escape, log_ticks, short, ticks
+from .numbers import Markup, escape, log_ticks, short, tick_labels, ticks
 
 WIDTH, HEIGHT = 420, 210
 LEFT, RIGHT, TOP, BOTTOM = 58, 10, 10, 34
+LETTER = 7.8  # width of a letter of a tick, at most: letters are larger on a narrow page
 ROUNDING = 1e-9  # smaller variations are drawn as a flat line, in any SI unit
 
 # kind: initial, tuned or another class of the style; style: line, dots or steps.
@@ -45,15 +46,32 @@ class Axis:
             self.ticks = [t for t in log_ticks(10 ** self.low, 10 ** self.high) if self.low <= math.log10(t) <= self.high]
             if len(self.ticks) < 2:
                 self.ticks = ticks(10 ** self.low, 10 ** self.high)
+                self.labels, self.offset = tick_labels(self.ticks)
+            else:
+                self.labels, self.offset = [short(value, 4) for value in self.ticks], ""
             return
         size = max(abs(low), abs(high))
         if size < ROUNDING:
-            low, high = -ROUNDING, ROUNDING
+            low, high, size = -1.0, 1.0, 1.0
         if high - low <= 1e-12 * size:  # a constant with rounding errors is drawn as a constant
             low, high = low - (0.5 * size or 0.5), high + (0.5 * size or 0.5)
         pad = margin * (high - low)
         self.low, self.high = low - pad, high + pad
         self.ticks = ticks(self.low, self.high)
+        if all(isinstance(v, int) for v in values):
+            self.ticks = [t for t in self.ticks if abs(t - round(t)) < 1e-9]
+        self.labels, self.offset = tick_labels(self.ticks)
+
+    def widest(self):
+        """Width of the widest label."""
+        return LETTER * max((len(label) for label in self.labels), default=0)
+
+    def spaced(self):
+        """[(tick, label)] along a horizontal axis: as many as stand apart from each other."""
+        if len(self.ticks) < 2:
+            return list(zip(self.ticks, self.labels))
+        distance = min(self.place(b) - self.place(a) for a, b in zip(self.ticks, self.ticks[1:]))
+        return list(zip(self.ticks, self.labels))[::max(1, math.ceil((self.widest() + 6) / distance))]
 
     def place(self, value):
         if self.log:
@@ -72,19 +90,29 @@ def path_of(points, x, y, steps=False):
     return "".join(text)
 
 
+def x_ticks(x, top, bottom, below):
+    """Lines and labels of a horizontal axis; a label does not leave the picture."""
+    parts = []
+    for value, label in x.spaced():
+        at, half = x.place(value), 0.5 * LETTER * len(label)
+        text_at = min(max(at, half + 1), WIDTH - half - 1)
+        parts.append(f'<path class="grid" d="M{at:.1f} {top}V{bottom}"/><text class="tick" x="{text_at:.1f}" y="{below}" text-anchor="middle">'
+                     f"{label}</text>")
+    return parts
+
+
 def grid(x, y, x_label, y_label):
     """Lines, ticks and the names of both axes."""
-    right, bottom = WIDTH - RIGHT, HEIGHT - BOTTOM
-    parts = []
-    for value in y.ticks:
+    left, right, bottom = x.start, WIDTH - RIGHT, HEIGHT - BOTTOM
+    parts = x_ticks(x, TOP, bottom, bottom + 14)
+    for value, label in zip(y.ticks, y.labels):
         at = y.place(value)
-        parts.append(f'<path class="grid" d="M{LEFT} {at:.1f}H{right}"/><text class="tick" x="{LEFT - 5}" y="{at + 4:.1f}" text-anchor="end">'
-                     f"{short(value, 4)}</text>")
-    for value in x.ticks:
-        at = x.place(value)
-        parts.append(f'<path class="grid" d="M{at:.1f} {TOP}V{bottom}"/><text class="tick" x="{at:.1f}" y="{bottom + 14}" text-anchor="middle">'
-                     f"{short(value, 4)}</text>")
-    parts.append(f'<path class="frame" d="M{LEFT} {TOP}V{bottom}H{right}"/>')
+        parts.append(f'<path class="grid" d="M{left:.0f} {at:.1f}H{right}"/><text class="tick" x="{left - 5:.0f}" y="{at + 4:.1f}" text-anchor="end">'
+                     f"{label}</text>")
+    if y.offset:
+        parts.append(f'<text class="tick" x="{left + 5:.0f}" y="{TOP + 11}">from {y.offset}</text>')
+    x_label += f", from {x.offset}" if x.offset else ""
+    parts.append(f'<path class="frame" d="M{left:.0f} {TOP}V{bottom}H{right}"/>')
     parts.append(f'<text class="axis" x="{right}" y="{HEIGHT - 4}" text-anchor="end">{escape(x_label)}</text>')
     parts.append(f'<text class="axis" x="12" y="{(TOP + bottom) / 2:.0f}" text-anchor="middle" '
                  f'transform="rotate(-90 12 {(TOP + bottom) / 2:.0f})">{escape(y_label)}</text>')
@@ -100,11 +128,12 @@ def line_chart(title, series, x_label, y_label, limits=(), log=False, most=240):
     values = [v for s in series for v in finite(s.ys)]
     span = max(values) - min(values) if values else 1.0
     near = [v for v in limits if values and min(values) - 0.6 * span <= v <= max(values) + 0.6 * span]
-    x = Axis([v for s in series for v in s.xs], LEFT, WIDTH - RIGHT, margin=0.0 if all(s.style == "line" for s in series) else 0.03)
     y = Axis(values + near, HEIGHT - BOTTOM, TOP, log and any(v > 0.0 for v in values))
+    left = max(LEFT, 24 + y.widest())
+    x = Axis([v for s in series for v in s.xs], left, WIDTH - RIGHT, margin=0.0 if all(s.style == "line" for s in series) else 0.03)
     body = [grid(x, y, x_label, y_label)]
     for value in near:
-        body.append(f'<path class="limit" d="M{LEFT} {y.place(value):.1f}H{WIDTH - RIGHT}"/>')
+        body.append(f'<path class="limit" d="M{left:.0f} {y.place(value):.1f}H{WIDTH - RIGHT}"/>')
     for s in series:
         points = [(px, py) for px, py in thin(s.xs, s.ys, most) if not y.log or py > 0.0]
         if s.style == "dots":
@@ -117,13 +146,9 @@ def line_chart(title, series, x_label, y_label, limits=(), log=False, most=240):
 def bar_chart(title, names, pairs, unit):
     """Horizontal bars, two per name: before and after. @param pairs (initial, tuned) for each name; None: no bar."""
     row, left, top = 38, 12, 6
-    height = top + row * len(names) + 30
+    height = top + row * len(names) + 32
     x = Axis([0.0] + [v for pair in pairs for v in pair if v is not None], left, WIDTH - 14)
-    body = []
-    for value in x.ticks:
-        at = x.place(value)
-        body.append(f'<path class="grid" d="M{at:.1f} {top}V{height - 30}"/><text class="tick" x="{at:.1f}" y="{height - 17}" text-anchor="middle">'
-                    f"{short(value, 4)}</text>")
+    body = x_ticks(x, top, height - 30, height - 17)
     zero = x.place(0.0)
     for k, (name, pair) in enumerate(zip(names, pairs)):
         y = top + row * k

@@ -48,6 +48,19 @@ def ticks(low, high, count=6):
     return [k * step for k in range(first, last + 1)]
 
 
+def tick_labels(values):
+    """(labels, offset) of ticks: as many digits as tell neighbours apart. Where these would be too many, the labels count from `offset`,
+    whose text has them all; else the offset is empty."""
+    if len(values) < 2:
+        return [short(value, 4) for value in values], ""
+    step = min(b - a for a, b in zip(values, values[1:]))
+    digits = 1 + math.floor(math.log10(max(abs(v) for v in values))) - math.floor(math.log10(1.000001 * step))
+    if digits <= 6:
+        # A tick at zero is a rounding error where zero is among many steps.
+        return [short(0.0 if abs(v) < 1e-6 * step else v, max(4, digits)) for v in values], ""
+    return ["+" + short(k * step, 3) if k else "0" for k in range(len(values))], short(values[0], min(digits, 17))
+
+
 def log_ticks(low, high, count=5):
     """Powers of ten from `low` to `high`, both positive; of many every second, every third, ..."""
     first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))

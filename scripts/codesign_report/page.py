@@ -2,6 +2,7 @@
 """Puts the page together."""
 import json
 import os
+import re
 import shlex
 import xml.etree.ElementTree as ElementTree
 
@@ -88,10 +89,22 @@ def context(job, scale):
     }
 
 
+def labelled(rows):
+    """The rows of a table with the name of its column at each cell, which a narrow page shows in place of the head."""
+    labels = [re.sub(r"<[^>]*>", "", text) for text in re.findall(r'<th scope="col"[^>]*>(.*?)</th>', rows)]
+
+    def row(match):
+        cells = iter(labels[1:])
+        return re.sub(r"<td\b([^>]*)>", lambda td: f'<td{td[1]} data-label="{next(cells, "")}">', match[0])
+
+    return Markup(re.sub(r'<tr><th scope="row">.*?</tr>', row, rows, flags=re.DOTALL))
+
+
 def environment():
     env = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True,
                              undefined=jinja2.ChainableUndefined)
     env.filters["num"] = lambda value, digits=6: "" if isinstance(value, jinja2.Undefined) else numbers.number(value, digits)
+    env.filters["labelled"] = labelled
     env.filters["on_bound"] = words.on_bound
     env.globals["style"] = Markup(read_text(os.path.join(HERE, "style.css")))
     return env

@@ -27,7 +27,9 @@ std_msgs::ColorRGBA measured_color(float alpha) { return rgba(0.3F, 0.3F, 0.35F,
 Eigen::Vector3d outside(const Eigen::Vector3d& from, const Eigen::Vector3d& axis, double length, const Frame& frame,
                         const MarkerStyle& style) {
   const Eigen::Vector3d way = axis.dot(style.towards_viewer) >= 0.0 ? axis : Eigen::Vector3d(-axis);
-  const double out = way_out(from, way, frame, *style.solids, style.shaft_diameter);
+  // A gap between two solids that is shorter than the arrow does not hold it.
+  const double clearance = std::isfinite(length) ? std::max(style.shaft_diameter, std::abs(length)) : style.shaft_diameter;
+  const double out = way_out(from, way, frame, *style.solids, clearance);
   const bool points_away = std::isfinite(length) && length * axis.dot(way) < 0.0;
   return out * way - (points_away ? Eigen::Vector3d(length * axis) : Eigen::Vector3d::Zero());
 }

@@ -38,12 +38,14 @@ std_msgs::ColorRGBA friction_color(bool is_torque) {
 }
 
 ArrowEnds friction_arrow(const FrictionSample& sample, bool is_torque, const Frame& frame, const MarkerStyle& style) {
-  const Eigen::Vector3d along = is_torque ? style.metres_per_newton_metre * sample.torque : style.metres_per_newton * sample.force;
+  Eigen::Vector3d along = is_torque ? style.metres_per_newton_metre * sample.torque : style.metres_per_newton * sample.force;
+  if (std::isfinite(along.norm()) && along.norm() > style.longest) along *= style.longest / along.norm();
   Eigen::Vector3d from = sample.position;
   const double length = along.norm();
   if (!style.solids || !std::isfinite(length) || length <= style.shaft_diameter) return {from, from + along};
   const Eigen::Vector3d way = way_of(along, is_torque, style.towards_viewer);
-  const double out = way_out(from, way, frame, *style.solids, style.shaft_diameter);
+  // A torque takes its length along the way: a gap between two solids does not hold it.
+  const double out = way_out(from, way, frame, *style.solids, is_torque ? length : style.shaft_diameter);
   // Half of the arrow's head beside the solid.
   if (out > 0.0) from += (out + (is_torque ? 0.0 : 1.5 * style.shaft_diameter)) * way;
   if (is_torque && along.dot(way) < 0.0) from -= along;

@@ -4,6 +4,7 @@
 
 #include <visualization_msgs/MarkerArray.h>
 
+#include <limits>
 #include <memory>
 
 #include "mechanism_codesign/frame.h"
@@ -20,6 +21,7 @@ struct MarkerStyle {
   Eigen::Vector3d towards_viewer =
       Eigen::Vector3d::Zero();                        ///< unit vector in the root's axes from the mechanism to the viewer; zero: none
   std::shared_ptr<const LinkBoxes> solids = nullptr;  ///< in the order of the frame's links; null: arrows begin at their joints
+  double longest = std::numeric_limits<double>::infinity();  ///< longer arrows are cut [m]
 };
 
 /// Where an arrow begins and ends, in world axes [m].
@@ -30,7 +32,7 @@ struct ArrowEnds {
 /// The arrow of one friction, as long as the style says and not hidden in the solids of the style.
 ///
 /// A force moves sideways, at a right angle to itself towards the viewer, until it is outside. A torque moves along its axis towards the
-/// viewer; it begins there if it points to the viewer, else it ends there.
+/// viewer until all of it is outside; it begins at the solid if it points to the viewer, else it ends there, with its head in sight.
 ArrowEnds friction_arrow(const FrictionSample& sample, bool is_torque, const Frame& frame, const MarkerStyle& style);
 
 /// An arrow without frame, name and color. An arrow that is shorter than its shaft diameter, or not finite, is removed instead of drawn.

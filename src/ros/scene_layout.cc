@@ -7,29 +7,32 @@
 namespace codesign {
 namespace {
 
+/// Longest arrow, as a share of the size of the mechanism; longer ones are cut.
+constexpr double kLongest = 0.4;
+
 /// Determines the scale of arrows from the loads that they show.
 class ArrowScale {
  public:
   void include(double load) {
-    if (load == 0.0 || !std::isfinite(load)) return;
-    ++count_;
-    sum_of_squares_ += load * load;
-    largest_ = std::max(largest_, load);
+    if (load != 0.0 && std::isfinite(load)) loads_.push_back(load);
   }
 
-  bool is_used() const { return count_ > 0; }
+  bool is_used() const { return !loads_.empty(); }
 
-  /// Arrow length per unit of load: a sixth of `size` for the root mean square of the loads, and at most 0.4 times it for the largest one.
-  double metres_per_unit(double size, double fallback) const {
-    if (count_ == 0) return fallback;
-    const double scale = std::min(size / (6.0 * std::sqrt(sum_of_squares_ / count_)), 0.4 * size / largest_);
+  /// Arrow length per unit of load: a sixth of `size` for the median of the loads, so that a short peak, such as at the start of a run,
+  /// does not make all others invisible. Loads below a thousandth of the largest one do not count.
+  double metres_per_unit(double size, double fallback) {
+    if (loads_.empty()) return fallback;
+    std::sort(loads_.begin(), loads_.end());
+    const auto first = std::lower_bound(loads_.begin(), loads_.end(), 1e-3 * loads_.back());
+    const double median = *(first + (loads_.end() - first) / 2);
+    const double scale = size / (6.0 * median);
     const double digits = std::pow(10.0, std::floor(std::log10(scale)) - 1.0);
     return std::floor(scale / digits) * digits;
   }
 
  private:
-  int count_ = 0;
-  double sum_of_squares_ = 0.0, largest_ = 0.0;
+  std::vector<double> loads_;
 };
 
 /// About a hundred frames of a run, chosen evenly, which determine the layout.
@@ -94,6 +97,7 @@ void scale_arrows(const std::vector<ShownRun>& runs, SceneLayout* layout) {
   layout->has_forces = force.is_used();
   layout->has_torques = torque.is_used();
   layout->style.shaft_diameter = 0.015 * layout->size;
+  layout->style.longest = kLongest * layout->size;
   layout->style.metres_per_newton = force.metres_per_unit(layout->size, layout->style.metres_per_newton);
   layout->style.metres_per_newton_metre = torque.metres_per_unit(layout->size, layout->style.metres_per_newton_metre);
 }

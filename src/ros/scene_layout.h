@@ -32,9 +32,9 @@ struct SceneLayout {
   bool has_forces = false, has_torques = false;     ///< whether friction arrows of that kind are drawn
 };
 
-/// The layout of runs of the same mechanism. An arrow of the root-mean-square friction is a sixth as long as the mechanism, the largest
-/// arrow at most 0.4 times as long, both rounded down to two digits of metres per newton. Solids of the root, such as a floor, count as far
-/// as half a size around the links that move.
+/// The layout of runs of the same mechanism. An arrow of the median friction is a sixth as long as the mechanism, rounded down to two
+/// digits of metres per newton; arrows longer than 0.4 times the mechanism are cut. Solids of the root, such as a floor, count as far as
+/// half a size around the links that move.
 SceneLayout lay_out(const std::vector<ShownRun>& runs);
 
 /// A view of mechanisms, with room for a text above them.

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/scene_text.h"
 
+#include <cmath>
 #include <cstdint>
 
 #include "text/number_text.h"
@@ -25,10 +26,11 @@ visualization_msgs::Marker text_marker(const std::string& text, const Eigen::Vec
 
 std::vector<CaptionLine> arrow_legend(const SceneLayout& layout) {
   std::vector<CaptionLine> lines;
+  const std::string cut = std::isfinite(layout.style.longest) ? ", at most " + readable(layout.style.longest, 2) + " m" : "";
   if (layout.has_forces)
-    lines.push_back({"friction force, " + readable(layout.style.metres_per_newton, 2) + " m per N", friction_color(false)});
+    lines.push_back({"friction force, " + readable(layout.style.metres_per_newton, 2) + " m per N" + cut, friction_color(false)});
   if (layout.has_torques)
-    lines.push_back({"friction torque, " + readable(layout.style.metres_per_newton_metre, 2) + " m per N m", friction_color(true)});
+    lines.push_back({"friction torque, " + readable(layout.style.metres_per_newton_metre, 2) + " m per N m" + cut, friction_color(true)});
   return lines;
 }
 

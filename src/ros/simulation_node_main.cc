@@ -21,7 +21,7 @@ parameters
   ~mode MODE               real_time (the default) or as_fast_as_possible, with /clock
   ~time_scale NUMBER       seconds of the run in one second, by default 1
   ~loop true               start again when the duration is over
-  ~wait_for_subscribers [TOPIC, ...]   topics that must have a subscriber before the run begins
+  ~wait_for_subscribers [TOPIC, ...]   topics that must have a subscriber, other than robot_state_publisher
   ~publish_limit NUMBER    frames per second, as fast as possible and while somebody listens, by default 500
   ~command_joints [JOINT, ...]   joints that take efforts, in order, by default all that can be driven
   ~command_timeout SECONDS after which efforts end if no new ones come, by default never

@@ -28,6 +28,8 @@ SimulationScene::SimulationScene(const Problem& problem, const std::string& urdf
   const auto solids = std::make_shared<LinkBoxes>(link_boxes(urdf, run.names.links));
   layout_ = lay_out({{run.names, run.frames, solids}});
   layout_.style.solids = solids;
+  // With a scale of the user's own, lengths are what the user has chosen.
+  if (given.metres_per_newton > 0.0 || given.metres_per_newton_metre > 0.0) layout_.style.longest = MarkerStyle().longest;
   replace_if_given(given.metres_per_newton, &layout_.style.metres_per_newton);
   replace_if_given(given.metres_per_newton_metre, &layout_.style.metres_per_newton_metre);
   replace_if_given(given.shaft_diameter, &layout_.style.shaft_diameter);

@@ -79,6 +79,25 @@ TEST_F(HiddenArrows, ATorqueIsDrawnAlongItsAxisOnTheViewersSide) {
   EXPECT_TRUE(away.to.isApprox(towards.from, 1e-12));
 }
 
+// The plate's cube stands before the cart's, with a gap that is wider than the shaft and shorter than the arrow.
+TEST_F(HiddenArrows, ATorqueDoesNotEndInAGapBetweenSolids) {
+  LinkBoxes boxes = *style_.solids;
+  boxes[0].push_back({Eigen::Isometry3d(Eigen::Translation3d(1.0, -1.5, 0.0)), {0.3, 0.3, 0.3}});
+  style_.solids = std::make_shared<LinkBoxes>(boxes);
+  FrictionSample& sample = frame_.frictions[1];
+  sample.torque = {0.0, 2.0, 0.0};
+  const ArrowEnds away = friction_arrow(sample, true, frame_, style_);
+  EXPECT_TRUE(away.to.isApprox(Eigen::Vector3d(1.0, -1.8, 0.0), 1e-12)) << "the tip stands before both: " << away.to.transpose();
+}
+
+TEST(FrictionMarkers, ALongArrowIsCut) {
+  MarkerStyle style = kStyle;
+  style.longest = 0.1;
+  const Frame frame = sample_frame(0.0);
+  const ArrowEnds ends = friction_arrow(frame.frictions[0], false, frame, style);
+  EXPECT_TRUE((ends.to - ends.from).isApprox(Eigen::Vector3d(0.1, 0.0, 0.0), 1e-12));
+}
+
 TEST_F(HiddenArrows, NothingMovesWhereNothingHides) {
   frame_.frictions[0].position = {5.0, 5.0, 5.0};
   EXPECT_EQ(friction_arrow(frame_.frictions[0], false, frame_, style_).from, frame_.frictions[0].position);

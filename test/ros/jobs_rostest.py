@@ -36,7 +36,7 @@ def study_of(seconds):
 
 class JobsTest(NodesTestCase):
     def start_job_node(self, name, **parameters):
-        return self.start("optimization", name, output_directory=self.folder, **parameters)
+        return self.start("optimization", name, **{"output_directory": self.folder, **parameters})
 
     def result_of(self, bag):
         with rosbag.Bag(bag) as opened:
@@ -86,11 +86,14 @@ class JobsTest(NodesTestCase):
 
     def test_an_interrupted_node_leaves_the_bag_of_a_job_of_the_service(self):
         for kind in (signal.SIGINT, signal.SIGTERM):
-            node = self.start_job_node("interrupted", study=study_of(8.0))
-            thread, _ = self.in_background(node, LONG)
+            node = self.start_job_node("interrupted", study=study_of(8.0), output_directory=os.path.relpath(self.folder))
+            thread, answers = self.in_background(node, LONG)
             self.assertLess(node.end(kind), 10.0)
             thread.join()
             (bag,) = files(self.folder, ".bag")
+            self.assertEqual(getattr(answers[0], "code", answers[0]), "cancelled", "the client has its answer")
+            self.assertEqual(answers[0].bag, bag, "an absolute path, though the parameter is relative")
+            self.assertLessEqual(answers[0].objective, answers[0].initial_objective)
             result, frames = self.result_of(bag)
             self.assertEqual(result.code, "cancelled")
             self.assertEqual(frames, 401)

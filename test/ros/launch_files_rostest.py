@@ -10,10 +10,12 @@ import subprocess
 import sys
 import tempfile
 
+import rosbag
+import rosgraph
 import rospy
 import rostest
 import yaml
-from mechanism_codesign.srv import OptimizeRequest
+from mechanism_codesign.srv import Identify, OptimizeRequest
 from std_msgs.msg import String
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -244,6 +246,54 @@ class LaunchFilesTest(NodesTestCase):
         self.assertEqual(values_of(state)["output directory"], f"{self.folder}/bags")
         self.assertEqual(rospy.get_param("/optimization/model"), f"{self.folder}/my.urdf")
         self.assertEqual(rospy.get_param("/optimization/set", {}), {})
+
+    def test_numbers_arrive_as_roslaunch_passes_them(self):
+        launch = self.launch("simulate.launch", "rviz:=false", "duration:=1e6", "rate:=1e2", "step_frames:=1e1", "set:={crank_length: 9e-2}",
+                             "loop:=false")
+        state_of("simulation", "running slider_crank")
+        self.assertIn('name="crank_length" value="0.09"', rospy.get_param("/robot_description"))
+        self.end(launch)
+        launch = self.launch("simulate.launch", "rviz:=false", "duration:=long")
+        self.assertIn('duration: not a number above zero (value: "long"', state_of("simulation", "bad input").message)
+
+    def test_cases_find_their_overlays_and_a_model_needs_its_study(self):
+        overlays = self.set_by("simulate.launch", "rviz:=false", "case:=vendor_arm", home=self.folder)["/simulation/overlays"]
+        self.assertEqual([os.path.realpath(path) for path in overlays], [os.path.realpath(f"{SHARE}/urdf/overlays/vendor_arm.urdf")])
+        for file in ("simulate.launch", "optimize.launch"):
+            self.assertIn("the model my.urdf is given without a study", Launch(file, "model:=my.urdf").output())
+            self.assertIn("the study my.yaml is given without a model", Launch(file, "study:=my.yaml").output())
+        self.launch("optimize.launch", "case:=vendor_arm", f"output_directory:={self.folder}")
+        rospy.wait_for_service("/identify", 60.0)
+        answer = rospy.ServiceProxy("/identify", Identify)()
+        self.assertEqual(answer.code, "bad_input")
+        self.assertIn("there is no such recording", answer.message)
+        self.assertIn("doc/case_studies.md", answer.message)
+
+    def test_a_recorder_gets_every_frame_beside_robot_state_publisher(self):
+        self.launch("simulate.launch", "rviz:=false", "mode:=as_fast_as_possible", "loop:=false", "wait_for_subscribers:=joint_states")
+        state_of("simulation", "waiting for subscribers of joint_states")
+        wait_until(lambda: any(topic == "/joint_states" for topic, _ in rosgraph.Master("/test").getSystemState()[1]), "no robot_state_publisher")
+        rospy.sleep(1.5)
+        state_of("simulation", "waiting for subscribers of joint_states")
+        path = f"{self.folder}/recorded.bag"
+        recorder = subprocess.Popen(["rosbag", "record", "-q", "-O", path, "/clock", "joint_states", "caption", "__name:=recorder"])
+        try:
+            state_of("simulation", "finished slider_crank")
+            rospy.sleep(1.0)
+        finally:
+            subprocess.run(["rosnode", "kill", "/recorder"], check=False, stdout=subprocess.DEVNULL)
+            recorder.wait(30)
+        with rosbag.Bag(path) as bag:
+            self.assertEqual(bag.get_message_count("joint_states"), 101, "2 s at 50 frames per second")
+            self.assertEqual(bag.get_message_count("caption"), 101)
+            self.assertGreaterEqual(bag.get_message_count("/clock"), 101)
+
+    def test_joints_beyond_their_limits_are_told(self):
+        launch = self.launch("simulate.launch", "rviz:=false", "case:=gantry", "loop:=false")
+        values = values_of(state_of("simulation", "finished gantry .*warning"))
+        self.assertIn("exceeds its upper limit 2 from t =", values["travel beyond its upper limit"])
+        self.end(launch)
+        self.assertEqual(launch.output().count("exceeds its upper limit"), 1, "once in the log")
 
     def test_a_result_is_taken_back(self):
         with open(f"{self.folder}/result.json", "w", encoding="utf-8") as file:

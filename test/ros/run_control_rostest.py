@@ -29,13 +29,16 @@ class RunControlTest(unittest.TestCase):
 
     def test_pause_step_and_resume(self):
         self.assertTrue(self.robot.call("restart").success)
-        self.assertTrue(self.robot.call("pause").success)
+        rospy.sleep(0.2)
+        paused = self.robot.call("pause")
+        self.assertTrue(paused.success)
         frames = settled(self.robot.joints.messages)
         rospy.sleep(0.3)
         self.assertEqual(len(self.robot.joints.messages), frames, "a paused run stands still")
         first, second = self.robot.call("step"), self.robot.call("step")
         self.assertTrue(first.success and second.success, second.message)
         self.assertAlmostEqual(time_in(second.message) - time_in(first.message), 2 / 50.0, delta=1e-9)
+        self.assertAlmostEqual(time_in(first.message) - time_in(paused.message), 2 / 50.0, delta=1e-9, msg="a pause names the last frame")
         wait_until(lambda: len(self.robot.joints.messages) >= frames + 4, "two steps of two frames")
         self.assertEqual(settled(self.robot.joints.messages), frames + 4)
         self.assertTrue(self.robot.call("resume").success)

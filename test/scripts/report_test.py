@@ -198,6 +198,27 @@ class Report(unittest.TestCase):
             objective = json.load(file)["objective"]
         self.assertLessEqual(abs(json.loads(done.stdout)["objective"] - objective), 1e-12 * objective)
 
+    def test_the_commands_name_the_folder_wherever_the_page_was_made(self):
+        done = run("report", "job", "-o", "relative.html", cwd=self.path())
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path("relative.html"), encoding="utf-8") as file:
+            commands = re.findall(r"<pre>(cd [^<]*?) &amp;&amp;", file.read())
+        self.assertEqual(set(commands), {"cd " + os.path.realpath(self.path("job"))})
+
+    def test_parameters_that_are_tuned_come_first(self):
+        text, _ = self.page_of("job")
+        rows = re.findall(r'<tr><th scope="row">(length|grip|Kp)</th>', text)
+        self.assertEqual(rows[:3], ["length", "Kp", "grip"])
+
+    def test_each_cell_has_the_name_of_its_column_for_narrow_pages(self):
+        text, _ = self.page_of("job")
+        tables = [table for table in re.findall(r"<table>.*?</table>", text, flags=re.DOTALL) if "<td" in table]
+        self.assertGreater(len(tables), 4)
+        for table in tables:
+            heads = re.findall(r'<th scope="col"[^>]*>(.*?)</th>', table)
+            for row in re.findall(r'<tr><th scope="row">.*?</tr>', table, flags=re.DOTALL):
+                self.assertEqual(re.findall(r'<td[^>]* data-label="([^"]*)"', row), heads[1:])
+
     def test_starts_and_samples(self):
         _, page = self.page_of("many")
         self.assertIn("starts", page.ids)
@@ -327,6 +348,25 @@ class Parts(unittest.TestCase):
         self.assertIn('value="0.1"', numbers.number(0.1))
         self.assertEqual(numbers.ticks(0.0, 2.0), [0.0, 0.5, 1.0, 1.5, 2.0])
         self.assertLessEqual(len(numbers.ticks(-1.57e-5, 0.0)), 7)
+
+    def test_ticks_of_a_small_range_differ(self):
+        for low, high in ((58.0001, 58.0004), (1e-12, 1.0), (-2e-5, 1e-5), (1e6, 1e6 + 3), (0.1, 0.1000000001)):
+            axis = charts.Axis([low, high], 0.0, 300.0)
+            self.assertEqual(len(set(axis.labels)), len(axis.ticks), axis.labels)
+            self.assertLessEqual(max(map(len, axis.labels)), 10, axis.labels)
+        self.assertEqual(numbers.tick_labels([58.0001, 58.0002, 58.0003]), (["58.0001", "58.0002", "58.0003"], ""))
+        self.assertEqual(numbers.tick_labels([0.1, 0.1 + 1e-9]), (["0", "+1e\u22129"], "0.1"))
+        self.assertEqual(charts.Axis([1, 2, 3], 0.0, 300.0).labels, ["1", "2", "3"], "there is no trial point 1.5")
+
+    def test_labels_neither_touch_nor_leave_the_picture(self):
+        svg = charts.line_chart("t", [charts.Series("a", "tuned", [0.0, 1.23456e-5], [-1.23456e-7, -1.2345e-7])], "time [s]", "[N]")
+        at = [(float(x), len(text)) for x, text in re.findall(r'class="tick" x="([0-9.]+)" y="190" text-anchor="middle">([^<]*)<', svg)]
+        self.assertGreater(len(at), 1)
+        for (x, length), (following, other) in zip(at, at[1:]):
+            self.assertGreater(following - x, 0.5 * charts.LETTER * (length + other) - 1e-9)
+        self.assertLessEqual(at[-1][0] + 0.5 * charts.LETTER * at[-1][1], charts.WIDTH)
+        for x, text in re.findall(r'class="tick" x="([0-9.]+)" y="[0-9.]+" text-anchor="end">([^<]*)<', svg):
+            self.assertGreater(float(x) - charts.LETTER * len(text), 18.0, "beside the name of the axis")
 
     def test_a_thinned_curve_keeps_its_peaks(self):
         ys = [0.0] * 5000
