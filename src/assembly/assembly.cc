@@ -14,8 +14,6 @@ namespace {
 // Relative rank tolerances of the scaled Jacobian of the loops. Parts below kRank come from rounded angles and lengths or from an almost
 // singular position and are ignored; if the loops do not close without them, kSingularRank is tried.
 constexpr double kRank = 1e-3, kSingularRank = 1e-9;
-constexpr double kClosed = 1e-12;    // a loop error below this times the mechanism's size counts as closed
-constexpr double kAtRest = 1e-13;    // a Newton step [rad or m] below this times the mechanism's size counts as zero
 constexpr double kSamePlace = 0.05;  // [rad or m] two positions that differ by less are taken as the same
 constexpr int kNewtonIterations = 200;
 constexpr double kLargestTurn =
@@ -62,6 +60,7 @@ void Assembly::set_start(const std::vector<double>& parameters) {
     if (joint >= 0 && initial.guess) theta_[tree_.offset[static_cast<std::size_t>(joint)]] = *initial.guess;
   }
   if (guess_.size() > 0) theta_ = guess_;
+  if (guess_.size() == 0 && origin_.nudge.size() > 0) theta_ += origin_.nudge;
   set_given_start(system_, tree_, parameters, &theta_, &theta_rate_);
 }
 
@@ -136,32 +135,49 @@ const Eigen::MatrixXd& Assembly::Dependents::solve(const Eigen::MatrixXd& rows, 
   return x;
 }
 
+/// Sets work_.rows to the errors of the loops and couplings at theta_, and worst_miss_ from them. @returns the largest error.
+double Assembly::find_errors(const std::vector<double>& parameters, Equations<double>* equations) {
+  work_.state.resize(system_.layout());
+  place(parameters, equations, &work_.state);
+  equations->constraint_errors(work_.state, &work_.errors, &work_.rates);
+  take_loop_rows();
+  const double error = work_.rows.size() == 0 ? 0.0 : work_.rows.cwiseAbs().maxCoeff();
+  if (std::isfinite(error)) note_miss(work_.errors, *equations);
+  return error;
+}
+
+/// Newton's change of the `free` coordinates for work_.rows at theta_, to be subtracted; valid until the next call.
+const Eigen::MatrixXd& Assembly::newton_step(const std::vector<double>& parameters, const Equations<double>& equations,
+                                             const std::vector<int>& free, double rank_tolerance) {
+  scale_loops(parameters, equations);
+  factor(free, rank_tolerance, &work_.newton);
+  return work_.newton.solve(work_.rows, &work_.scaled, &work_.solution);
+}
+
+/// The largest change but those of followers of couplings: a coupling is linear and has no branches.
+double Assembly::largest_turn(const std::vector<int>& free, const Eigen::MatrixXd& step) const {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < free.size(); ++k)
+    if (!follows_[static_cast<std::size_t>(free[k])]) largest = std::max(largest, std::abs(step(static_cast<Eigen::Index>(k), 0)));
+  return largest;
+}
+
 Assembly::Rest Assembly::newton(const std::vector<double>& parameters, Equations<double>* equations, const std::vector<int>& free,
                                 double rank_tolerance) {
-  work_.state.resize(system_.layout());
   double previous = std::numeric_limits<double>::infinity(), closed = kClosed;
   LoopMiss nearest{"", previous, previous};
   for (int iteration = 0; iteration < kNewtonIterations; ++iteration) {
     if (cancelled()) return Rest::kApart;
-    place(parameters, equations, &work_.state);
-    equations->constraint_errors(work_.state, &work_.errors, &work_.rates);
-    take_loop_rows();
-    const double error = work_.rows.size() == 0 ? 0.0 : work_.rows.cwiseAbs().maxCoeff();
+    const double error = find_errors(parameters, equations);
     if (!std::isfinite(error)) return Rest::kApart;
-    note_miss(work_.errors, *equations);
     if (size_of(worst_miss_) < size_of(nearest)) nearest = worst_miss_;
     // Converged when rounding stops the quadratic decrease.
     const double size = 1.0 + theta_.cwiseAbs().maxCoeff();
     closed = kClosed * size;
     if (error == 0.0 || (error < closed && error >= 0.5 * previous)) return Rest::kClosed;
     previous = error;
-    scale_loops(parameters, *equations);
-    factor(free, rank_tolerance, &work_.newton);
-    const Eigen::MatrixXd& step = work_.newton.solve(work_.rows, &work_.scaled, &work_.solution);
-    double largest = 0.0;  // without followers of couplings: a coupling is linear and has no branches
-    for (std::size_t k = 0; k < free.size(); ++k)
-      if (!follows_[static_cast<std::size_t>(free[k])]) largest = std::max(largest, std::abs(step(static_cast<Eigen::Index>(k), 0)));
-    const double shortened = largest > kLargestTurn ? kLargestTurn / largest : 1.0;
+    const Eigen::MatrixXd& step = newton_step(parameters, *equations, free, rank_tolerance);
+    const double largest = largest_turn(free, step), shortened = largest > kLargestTurn ? kLargestTurn / largest : 1.0;
     for (std::size_t k = 0; k < free.size(); ++k) theta_[free[k]] -= shortened * step(static_cast<Eigen::Index>(k), 0);
     if (step.size() == 0 || (error >= closed && step.cwiseAbs().maxCoeff() < kAtRest * size)) break;
   }
@@ -195,9 +211,11 @@ Assembly::Rest Assembly::close(const std::vector<double>& parameters, Equations<
   scale_loops(parameters, *equations);
   work_.free = choose_columns(preferences);
   const Rest rest = newton(parameters, equations, work_.free, rank_tolerance);
+  work_.moved = work_.free;
   if (rest != Rest::kApart) return rest;
   const LoopMiss miss = worst_miss_;
   theta_ = work_.first;
+  work_.moved = work_.open;
   const Rest second = newton(parameters, equations, work_.open, rank_tolerance);
   if (second == Rest::kApart && size_of(miss) < size_of(worst_miss_)) worst_miss_ = miss;
   return second;
@@ -220,18 +238,21 @@ Status Assembly::closure_failed() const {
           "loop or coupling '" + std::string(worst_miss_.owner) + "' cannot be closed from the given initial state"};
 }
 
-Status Assembly::solve_positions(const std::vector<double>& parameters, Equations<double>* equations) {
+Assembly::Rest Assembly::close_from_start(const std::vector<double>& parameters, Equations<double>* equations) {
   work_.start = theta_;
-  all_rows_count_ = true;
   Rest rest = close(parameters, equations, kRank);
   if (rest == Rest::kNear) refine(parameters, equations);
-  if (rest == Rest::kApart) {
-    const LoopMiss miss = worst_miss_;
-    theta_ = work_.start;
-    rest = close(parameters, equations, kSingularRank);
-    if (rest == Rest::kApart && size_of(miss) < size_of(worst_miss_)) worst_miss_ = miss;
-  }
-  if (rest == Rest::kApart) return closure_failed();
+  if (rest != Rest::kApart) return rest;
+  const LoopMiss miss = worst_miss_;
+  theta_ = work_.start;
+  rest = close(parameters, equations, kSingularRank);
+  if (rest == Rest::kApart && size_of(miss) < size_of(worst_miss_)) worst_miss_ = miss;
+  return rest;
+}
+
+Status Assembly::solve_positions(const std::vector<double>& parameters, Equations<double>* equations) {
+  all_rows_count_ = true;
+  if (close_or_nudge(parameters, equations) == Rest::kApart) return closure_failed();
   all_rows_count_ = !system_.sharing().drops();
   if (all_rows_count_) return {};
   // Now the enforced rows alone, to rounding: the integrators start from Phi = 0 in these rows.
@@ -255,6 +276,11 @@ Status Assembly::solve_positions(const std::vector<double>& parameters, Equation
   set_start(parameters);
   follow_couplings(equations->constants());
   Status status = solve_positions(parameters, equations);
+  if (is_own_design(parameters)) {
+    if (status.ok()) note_origin();
+  } else if (origin_.is_known && guess_.size() == 0) {
+    status = keep_branch(status, parameters, equations);
+  }
   if (status.ok()) place(parameters, equations, state);
   return status;
 }

@@ -32,6 +32,11 @@ struct ExtensionWorkspace {
 /// a given position are held. Of the others, Newton's method changes as many as the loops and couplings determine (the dependent
 /// coordinates); the rest keep their start values. The follower of a coupling starts at the value that the coupling implies and is chosen
 /// as a dependent coordinate first.
+/// If the loops do not close at the study's own design, and joints along them have neither position nor guess, small guesses are tried: a
+/// linkage that is stretched out in a line cannot bend by Newton's method alone.
+/// Branch: the solution at the study's own design is kept, and that of every other design is compared with its continuation along the
+/// straight line between the two designs, doc/theory.md (19b). Where they differ, the continuation counts, so that positions are
+/// continuous in the design and do not depend on the designs solved before.
 /// Velocities: the same choice of dependent coordinates for the rates, with one linear solve.
 /// Accelerations and multipliers: Newton's method on G(z) = 0 from z = 0, where the multipliers, and with them friction, are zero.
 ///
@@ -84,7 +89,7 @@ class Assembly {
   /// Tree joint coordinates of the last solution [rad or m], in the order of TreeLayout.
   const VectorX<double>& theta() const { return theta_; }
   const TreeLayout& tree() const { return tree_; }
-  /// Warnings about the last start: `singular_start`, or none.
+  /// Warnings about the last start: `singular_start`, `branch_continued`, `branch_lost`, `guessed_start`, or none.
   const Warnings& warnings() const { return warnings_; }
   /// Indices of the entries of Study::initial_state whose velocities contradict each other; empty unless kInitialVelocityFailed.
   const std::vector<std::size_t>& contradicting() const { return contradicting_; }
@@ -109,6 +114,9 @@ class Assembly {
   const LoopJacobian& loops() const { return loops_; }
 
  private:
+  static constexpr double kClosed = 1e-12;  // a loop error below this times the mechanism's size counts as closed
+  static constexpr double kAtRest = 1e-13;  // a Newton step [rad or m] below this times the mechanism's size counts as zero
+
   struct ScaledLoops {
     SparseMatrix matrix, unscaled;  ///< loops_.rows() x tree_.size; in `matrix` the rows that do not count are zero
     LoopScales scales;
@@ -131,20 +139,44 @@ class Assembly {
     SparseMatrix enforced;  ///< the unscaled Jacobian, dropped rows zero
     State<double> state;
     VectorX<double> errors, rates, left;
-    VectorX<double> start, first, near;  ///< tree coordinates to return to, of solve_positions(), close() and refine()
+    VectorX<double> start, first, near;     ///< tree coordinates to return to, of solve_positions(), close() and refine()
+    VectorX<double> plain, followed, rate;  ///< tree coordinates and rates to return to, of keep_branch() and follow()
+    std::vector<double> between;            ///< a design on the way, of follow()
     Eigen::MatrixXd rows, scaled;
     ColumnPreferences positions, velocities;
-    std::vector<int> free, open;
+    std::vector<int> free, open, moved;  ///< `moved`: the coordinates that the last close() changed
     std::vector<bool> not_open;
   };
   /// Result of Newton's method: closed to rounding, within the closure tolerance, or neither.
   enum class Rest { kClosed, kNear, kApart };
+  /// The solution at the study's own design, from which other designs are continued.
+  struct Origin {
+    bool is_known = false;
+    VectorX<double> theta;
+    std::vector<int> free;  ///< the dependent coordinates
+    double rank_tolerance = 0.0;
+    VectorX<double> nudge;  ///< small guesses that every start needs [rad or m]; empty: none
+  };
 
   Status solve_positions(const std::vector<double>& parameters, Equations<double>* equations);
   Status solve_velocities(const std::vector<double>& parameters, Equations<double>* equations);
   Status close_from(const TreeCoordinates& from, const std::vector<double>& parameters, Equations<double>* equations);
   Rest close(const std::vector<double>& parameters, Equations<double>* equations, double rank_tolerance);
   Rest newton(const std::vector<double>& parameters, Equations<double>* equations, const std::vector<int>& free, double rank_tolerance);
+  double find_errors(const std::vector<double>& parameters, Equations<double>* equations);
+  const Eigen::MatrixXd& newton_step(const std::vector<double>& parameters, const Equations<double>& equations,
+                                     const std::vector<int>& free, double rank_tolerance);
+  double largest_turn(const std::vector<int>& free, const Eigen::MatrixXd& step) const;
+  Rest close_or_nudge(const std::vector<double>& parameters, Equations<double>* equations);
+  Rest close_from_start(const std::vector<double>& parameters, Equations<double>* equations);
+  Status keep_branch(const Status& plain, const std::vector<double>& parameters, Equations<double>* equations);
+  bool follow(const std::vector<double>& parameters, Equations<double>* equations);
+  bool converges_at_once(const std::vector<double>& parameters, Equations<double>* equations);
+  void note_origin();
+  std::string guesses_for(const VectorX<double>& theta, const std::vector<int>& coordinates) const;
+  void warn_of_branch(const char* code, const std::string& message, const VectorX<double>& theta, const VectorX<double>& other,
+                      const std::vector<double>& parameters);
+  bool is_own_design(const std::vector<double>& parameters) const { return guess_.size() == 0 && parameters == system_.parameters(); }
   void refine(const std::vector<double>& parameters, Equations<double>* equations);
   bool cancelled() const { return is_set(cancel_); }
   Status closure_failed() const;
@@ -185,6 +217,7 @@ class Assembly {
   VectorX<double> theta_, theta_rate_;
   double start_time_ = 0.0;  ///< [s]
   VectorX<double> guess_;    ///< of theta_, instead of the study's; empty: none
+  Origin origin_;
   Dependents positions_, velocities_;
   Linearization<double> derivatives_;
   IterationMatrix matrix_;

@@ -1,8 +1,37 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// The part of Assembly that starts from a position of a run, not from the study's start.
+// The parts of Assembly that start from known positions: of a run, or of the study's own design.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "assembly/assembly.h"
+#include "assembly/given_start.h"
+#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
+namespace {
+
+constexpr double kSameBranch = 1e-6;   // relative; tree coordinates that differ by less belong to one branch
+constexpr double kFirstTurn = 0.5;     // [rad or m] limit of the first Newton step per coordinate on the way between two designs
+constexpr double kContraction = 0.25;  // of Newton steps; with less, the solution nearest to the start of the iteration is found
+constexpr int kMostCorrections = 12;
+constexpr double kShortest = 1.0 / 1024;  // part of the way between two designs
+
+double to_four_digits(double value) { return std::round(value * 1e4) / 1e4 + 0.0; }
+
+/// The tuned parameters with their values: a = 0.1, b = 0.2.
+std::string design_text(const Study& study, const std::vector<double>& parameters) {
+  constexpr std::size_t kMost = 12;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(kMost, study.tuned.size()); ++k) {
+    const auto index = static_cast<std::size_t>(study.tuned[k]);
+    text += (k > 0 ? ", " : "") + study.parameters[index].name + " = " + readable(parameters[index], 6);
+  }
+  return text + (study.tuned.size() > kMost ? ", ..." : "");
+}
+
+}  // namespace
 
 Status Assembly::close_from(const TreeCoordinates& from, const std::vector<double>& parameters, Equations<double>* equations) {
   warnings_.clear();
@@ -47,6 +76,161 @@ Status Assembly::solve_from(const TreeCoordinates& from, const std::vector<doubl
     }
   }
   return {};
+}
+
+void Assembly::note_origin() {
+  // If all open coordinates had to move, the position has no dependent coordinates that other designs could share.
+  origin_.is_known = loops_.rows() > 0 && work_.moved.size() <= work_.free.size();
+  origin_.theta = theta_;
+  origin_.free = work_.moved;
+  origin_.rank_tolerance = rank_tolerance_;
+}
+
+// The solution from the study's guesses is kept to the last bit where it is the continued one.
+Status Assembly::keep_branch(const Status& plain, const std::vector<double>& parameters, Equations<double>* equations) {
+  if (cancelled()) return plain;
+  work_.plain = theta_;
+  work_.rate = theta_rate_;
+  const LoopMiss miss = worst_miss_;
+  const double rank_tolerance = rank_tolerance_;
+  const bool all_rows_count = all_rows_count_, reached = follow(parameters, equations);
+  theta_rate_ = work_.rate;
+  const bool same = plain.ok() && (theta_ - work_.plain).cwiseAbs().maxCoeff() <= kSameBranch * (1.0 + theta_.cwiseAbs().maxCoeff());
+  if (reached && !same) {
+    warn_of_branch("branch_continued",
+                   "the guesses of the study lead to another position of the loop than its position at the study's own values, "
+                   "continued to this design; the continued position is used, so that the objective does not jump; to find it where "
+                   "this design is simulated by itself",
+                   theta_, work_.plain, parameters);
+    return {};
+  }
+  theta_ = work_.plain;
+  worst_miss_ = miss;
+  rank_tolerance_ = rank_tolerance;
+  all_rows_count_ = all_rows_count;
+  if (!reached && plain.ok() && !cancelled())
+    warn_of_branch("branch_lost",
+                   "the position of the loop at the study's own values cannot be continued to this design, since the loop cannot be closed "
+                   "or is in a singular position on the way; the position found from the study's guesses is used, and the objective may "
+                   "jump here; to stay near the position reached on the way",
+                   work_.followed, theta_, parameters);
+  return plain;
+}
+
+/// Continues the position at the study's own design along the straight line to `parameters`, which `equations` must hold, with steps that
+/// are halved where Newton's method does not converge at once. True if theta_ is the solution at `parameters`; else work_.followed is the
+/// last solution on the way.
+bool Assembly::follow(const std::vector<double>& parameters, Equations<double>* equations) {
+  const std::vector<double>& own = system_.parameters();
+  rank_tolerance_ = origin_.rank_tolerance;
+  all_rows_count_ = !system_.sharing().drops();
+  work_.followed = origin_.theta;
+  bool is_held = true;  // whether `equations` hold the design at `parameters`
+  double reached = 0.0;
+  for (double step = 1.0; reached < 1.0 && step >= kShortest && !cancelled();) {
+    const double next = std::min(1.0, reached + step);
+    work_.between = parameters;
+    if (next < 1.0)
+      for (std::size_t k = 0; k < own.size(); ++k) work_.between[k] = own[k] + next * (parameters[k] - own[k]);
+    if (next < 1.0 || !is_held) equations->set_design(work_.between);
+    is_held = next == 1.0;
+    theta_ = work_.followed;
+    set_given_start(system_, tree_, work_.between, &theta_, &theta_rate_);
+    follow_couplings(equations->constants());
+    if (converges_at_once(work_.between, equations)) {
+      work_.followed = theta_;
+      reached = next;
+      step *= 2.0;
+    } else {
+      step *= 0.5;
+    }
+  }
+  if (!is_held) equations->set_design(parameters);
+  return reached == 1.0;
+}
+
+/// Newton's method for the dependent coordinates of the origin, from theta_. True if it converges with contracting steps from the first
+/// one on, as it does in the neighbourhood of a regular solution only.
+bool Assembly::converges_at_once(const std::vector<double>& parameters, Equations<double>* equations) {
+  double previous = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < kMostCorrections && !cancelled(); ++iteration) {
+    const double error = find_errors(parameters, equations), size = 1.0 + theta_.cwiseAbs().maxCoeff();
+    if (!std::isfinite(error)) return false;
+    if (error == 0.0) return true;
+    const Eigen::MatrixXd& step = newton_step(parameters, *equations, origin_.free, rank_tolerance_);
+    const double turn = largest_turn(origin_.free, step), change = step.size() > 0 ? step.cwiseAbs().maxCoeff() : 0.0;
+    if (!(turn <= kFirstTurn)) return false;
+    if (change <= kAtRest * size || change > kContraction * previous) return error < kClosed * size;
+    for (std::size_t k = 0; k < origin_.free.size(); ++k) theta_[origin_.free[k]] -= step(static_cast<Eigen::Index>(k), 0);
+    previous = change;
+  }
+  return false;
+}
+
+/// The study's own start is tried again with small guesses for the joints along the loops that have neither position nor guess.
+Assembly::Rest Assembly::close_or_nudge(const std::vector<double>& parameters, Equations<double>* equations) {
+  const Rest plain = close_from_start(parameters, equations);
+  if (plain != Rest::kApart || !is_own_design(parameters) || origin_.nudge.size() > 0) return plain;
+  constexpr double kNudge = 0.01;  // [rad], or this part of the loop's longest lever
+  const VectorX<double> start = work_.start, apart = theta_;
+  const LoopMiss miss = worst_miss_;
+  theta_ = start;
+  scale_loops(parameters, *equations);
+  const Eigen::VectorXd columns = work_.loops.scales.columns;
+  std::vector<int> open;
+  for (int c : loops_.coordinates())
+    if (const auto k = static_cast<std::size_t>(c); !position_given_[k] && !guess_given_[k] && !follows_[k]) open.push_back(c);
+  // All joints in one direction, every other one in the opposite direction, every other pair.
+  for (unsigned period = 0; period < 3 && !open.empty() && !cancelled(); ++period) {
+    VectorX<double> nudge = VectorX<double>::Zero(tree_.size);
+    for (std::size_t k = 0; k < open.size(); ++k) nudge[open[k]] = kNudge * columns[open[k]] * ((k * period / 2) % 2 == 0 ? 1.0 : -1.0);
+    theta_ = start + nudge;
+    follow_couplings(equations->constants());
+    const Rest rest = close_from_start(parameters, equations);
+    if (rest == Rest::kApart) continue;
+    warnings_.push_back(
+        {"guessed_start",
+         "loop or coupling '" + std::string(miss.owner) + "' cannot be closed from the start values, where its joints may be stretched " +
+             "out in a line: small guesses were tried, and in which direction it bends is arbitrary; to choose it, write initial_state: {" +
+             guesses_for(nudge, open) + "}, with other signs for another direction",
+         {}});
+    origin_.nudge = nudge;
+    return rest;
+  }
+  theta_ = apart;
+  worst_miss_ = miss;
+  return plain;
+}
+
+/// Guesses for a study's initial_state, of joints with one coordinate: a: {guess: 0.1}, b: {guess: 0.2}.
+std::string Assembly::guesses_for(const VectorX<double>& theta, const std::vector<int>& coordinates) const {
+  std::string text;
+  for (int j : tree_.joint_order) {
+    const JointDescription& joint = system_.robot().joints[static_cast<std::size_t>(j)];
+    const int c = tree_.offset[static_cast<std::size_t>(j)];
+    if (coordinates_of(joint.type) == 1 && std::find(coordinates.begin(), coordinates.end(), c) != coordinates.end())
+      text += (text.empty() ? "" : ", ") + joint.name + ": {guess: " + to_decimal(to_four_digits(theta[c])) + "}";
+  }
+  return text;
+}
+
+/// Warns of a start at a design whose position is not the one that the study leads to. @param message what was done, and why to write
+/// guesses. @param theta the guesses. @param other the coordinates that these are to replace.
+void Assembly::warn_of_branch(const char* code, const std::string& message, const VectorX<double>& theta, const VectorX<double>& other,
+                              const std::vector<double>& parameters) {
+  const double most = (theta - other).cwiseAbs().maxCoeff();
+  std::vector<int> moved;
+  std::string loop;
+  for (int c : origin_.free) {
+    if (follows_[static_cast<std::size_t>(c)] || !(std::abs(theta[c] - other[c]) >= 0.01 * most)) continue;
+    moved.push_back(c);
+    const SparseMatrix::InnerIterator entry(work_.loops.unscaled, c);
+    if (loop.empty() && entry) loop = loops_.owner(static_cast<int>(entry.row()));
+  }
+  const std::vector<InitialJointState>& given = system_.study().initial_state;
+  warnings_.push_back(
+      warn(code, {given.empty() ? SourceLocation{system_.study().file, 1} : given.front().where, "initial_state, loop '" + loop + "'",
+                  message + ", write initial_state: {" + guesses_for(theta, moved) + "}", design_text(system_.study(), parameters), ""}));
 }
 
 }  // namespace codesign

@@ -118,6 +118,7 @@ std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot,
   const auto system = std::make_shared<const CompiledSystem>(robot, study);
   StartWorkspace start(*system, system->parameters());
   require_start(*system, start.assembly, start.solve_positions());
+  append(start.assembly.warnings(), &found);
   require_determined_motion(*system, start.parameters, start.assembly, &start.equations);
   const std::optional<ReactionSharing> sharing = find_sharing(*system, &start, &found);
   std::shared_ptr<const CompiledSystem> result = system;

@@ -19,11 +19,13 @@ Scenario own_run(std::shared_ptr<const CompiledSystem> system) {
   return scenario;
 }
 
-/// Adds the warnings whose code is new: scenarios differ in the numbers of their messages.
+/// Adds the warnings whose code is new at their place: scenarios differ in the numbers of their messages.
 void add_new_codes(const Warnings& warnings, Warnings* all) {
+  const auto same = [](const Warning& a, const Warning& b) {
+    return a.code == b.code && a.where.file == b.where.file && a.where.line == b.where.line;
+  };
   for (const Warning& warning : warnings)
-    if (std::none_of(all->begin(), all->end(), [&warning](const Warning& known) { return known.code == warning.code; }))
-      all->push_back(warning);
+    if (std::none_of(all->begin(), all->end(), [&](const Warning& known) { return same(known, warning); })) all->push_back(warning);
 }
 
 /// The index of the largest objective among the evaluations that did not fail.

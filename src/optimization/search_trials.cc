@@ -43,6 +43,7 @@ void SearchTrials::conclude(const std::string& failure) {
   for (std::size_t k = 0; k < study_.tuned.size(); ++k)
     if (program_.bounds_read(study_.tuned[k])) result_.influences[k] = true;
   if (have_best_) append(search_warnings(study_, options_, result_), &result_.warnings);
+  append(lost_branches_, &result_.warnings);
   result_.status = {StatusCode::kSuccess, study_.duration, ""};
   if (interrupted()) {
     result_.termination = name_of(interruption_.code);
@@ -77,6 +78,9 @@ Trial SearchTrials::note(const EnsembleEvaluation& all, const Eigen::VectorXd& r
   trial.status = evaluation.status;
   trial.rho = rho;
   result_.statistics += evaluation.statistics;
+  // At any trial point, since a jump of the objective there may end the search elsewhere.
+  for (const Warning& warning : evaluation.warnings)
+    if (warning.code == "branch_lost" && lost_branches_.empty()) lost_branches_.push_back(warning);
   if (evaluation.status.ok()) {
     trial.objective = evaluation.objective;
     trial.gradient = evaluation.gradient;

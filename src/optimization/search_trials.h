@@ -65,6 +65,7 @@ class SearchTrials {
   EnsembleEvaluation last_, best_;
   std::vector<Extremes> initial_extremes_;
   OptimizationResult result_;
+  Warnings lost_branches_;  ///< the first `branch_lost` of all trial points
   Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"}, interruption_;
   bool have_best_ = false;
   double best_violation_ = 0.0;

@@ -44,11 +44,20 @@ LinkDescription read_link(const XmlElement& element, const ParameterTable& table
   return link;
 }
 
-CouplingDescription read_coupling(const XmlElement& element, const ReadContext& context) {
+CouplingDescription read_coupling(const XmlElement& element, const ReadContext& context, const RobotDescription& robot) {
   CouplingDescription coupling;
   coupling.where = element.where();
   coupling.name = element.text("name");
   std::tie(coupling.predecessor, coupling.successor) = context.ends(element);
+  const bool rolls = element.has("type");
+  if (rolls && element.text("type") != "rolling") element.fail_at("type", "the type of the coupling is unknown", "rolling, or no type");
+  for (const char* end : {"predecessor", "successor"})
+    if (const auto origin = element.only(end).child("origin"); origin && !rolls)
+      origin->fail("only a coupling of type rolling has points, and a ratio without them", "", "<ratio value=\"...\"/> alone");
+  if (rolls && !element.child("ratio")) {
+    coupling.ratio = rolling_ratio(element, coupling, robot, context.table);
+    return coupling;
+  }
   const XmlElement ratio = element.only("ratio");
   coupling.ratio = read_quantity(ratio, "value", Range::kAny, context.table);
   if (coupling.ratio.nominal() == 0.0) ratio.fail_at("value", "the ratio is zero", "any other number");
@@ -127,7 +136,7 @@ RobotDescription read_robot(const XmlDocument& document) {
   for (const XmlElement& joint : element.children("joint")) robot.joints.push_back(read_joint(joint, context));
   close_with_second_parents(&robot);
   for (const XmlElement& loop : element.children("loop")) robot.joints.push_back(read_loop(loop, context));
-  for (const XmlElement& coupling : element.children("coupling")) robot.couplings.push_back(read_coupling(coupling, context));
+  for (const XmlElement& coupling : element.children("coupling")) robot.couplings.push_back(read_coupling(coupling, context, robot));
   read_constraints(element, context, &robot);
   for (const XmlElement& spring : element.children("codesign:spring_damper"))
     robot.spring_dampers.push_back(read_spring_damper(spring, context));

@@ -18,11 +18,11 @@ void add_shapes(const std::string& path, std::vector<ElementRule>* rules) {
   rules->push_back({path + "/geometry/sphere", false, {}, {"radius"}, {}, {}});
 }
 
-/// `<predecessor link>` and `<successor link>`, with or without an `<origin>`.
-void add_ends(const std::string& path, bool with_origin, std::vector<ElementRule>* rules) {
+/// `<predecessor link>` and `<successor link>` with an `<origin>`.
+void add_ends(const std::string& path, std::vector<ElementRule>* rules) {
   for (const char* end : {"/predecessor", "/successor"}) {
-    rules->push_back({path + end, true, {"link"}, {}, {}, with_origin ? Names{"origin"} : Names{}});
-    if (with_origin) rules->push_back({path + end + "/origin", true, {}, {"xyz", "rpy"}, {}, {}});
+    rules->push_back({path + end, true, {"link"}, {}, {}, {"origin"}});
+    rules->push_back({path + end + "/origin", true, {}, {"xyz", "rpy"}, {}, {}});
   }
 }
 
@@ -48,7 +48,7 @@ std::vector<ElementRule> make_rules() {
   rules.push_back({"robot/codesign:set", true, {"name", "value", "lower", "upper"}, {}, {}, {}});
   rules.push_back(
       {"robot/codesign:spring_damper", true, {"name"}, {"stiffness", "damping", "free_length"}, {}, {"predecessor", "successor"}});
-  add_ends("robot/codesign:spring_damper", true, &rules);
+  add_ends("robot/codesign:spring_damper", &rules);
 
   rules.push_back({"robot/link/inertial", false, {}, {}, {"density", "from", "inertia"}, {}});
   rules.push_back({"robot/link/inertial/origin", false, {}, {"xyz", "rpy"}, {}, {}});
@@ -70,13 +70,13 @@ std::vector<ElementRule> make_rules() {
                    {},
                    {"predecessor", "successor", "axis", "dynamics", "codesign:second_axis", "codesign:length", "codesign:friction",
                     "codesign:torsion_spring", "codesign:actuator"}});
-  add_ends("robot/loop", true, &rules);
+  add_ends("robot/loop", &rules);
   add_joint_parts("robot/loop", true, &rules);
   rules.push_back({"robot/loop/codesign:second_axis", true, {}, {"xyz"}, {}, {}});
   rules.push_back({"robot/loop/codesign:length", true, {}, {"value"}, {}, {}});
 
-  rules.push_back({"robot/coupling", true, {"name"}, {}, {}, {"predecessor", "successor", "ratio"}});
-  add_ends("robot/coupling", false, &rules);
+  rules.push_back({"robot/coupling", true, {"name", "type"}, {}, {}, {"predecessor", "successor", "ratio"}});
+  add_ends("robot/coupling", &rules);
   rules.push_back({"robot/coupling/ratio", true, {}, {"value"}, {}, {}});
   return rules;
 }

@@ -46,12 +46,15 @@ double radius_of(const XmlElement& end, int link, const RobotDescription& robot,
   return 0.0;
 }
 
-double rolling_ratio(const XmlElement& element, const CouplingDescription& coupling, const RobotDescription& robot,
-                     const ParameterTable& table) {
-  if (const std::optional<XmlElement> ratio = element.child("ratio")) return read_number(*ratio, "value", Range::kAny);
-  const double predecessor = radius_of(element.only("predecessor"), coupling.predecessor, robot, table);
-  const double successor = radius_of(element.only("successor"), coupling.successor, robot, table);
-  return predecessor > 0.0 && successor > 0.0 ? predecessor / successor : 1.0;
+/// The link that an end of the constraint names; SDF's and URDF's joints call the ends parent and child.
+std::string end_link(const XmlElement& element, const char* tag, const char* other) {
+  const std::optional<XmlElement> end = element.child(tag) ? element.child(tag) : element.child(other);
+  return end ? end->find("link").value_or("") : "";
+}
+
+/// Whether a `<loop>` between the constraint's two links takes its place.
+bool has_loop(const XmlElement& element, const RobotDescription& robot) {
+  return has_loop_between(robot, end_link(element, "predecessor", "parent"), end_link(element, "successor", "child"));
 }
 
 CouplingDescription read_rolling(const XmlElement& element, const ReadContext& context, const RobotDescription& robot) {
@@ -67,18 +70,35 @@ CouplingDescription read_rolling(const XmlElement& element, const ReadContext& c
 
 }  // namespace
 
+bool has_loop_between(const RobotDescription& robot, const std::string& a, const std::string& b) {
+  const auto name = [&robot](int link) { return robot.links[static_cast<std::size_t>(link)].name; };
+  return std::any_of(robot.joints.begin(), robot.joints.end(), [&](const JointDescription& joint) {
+    return joint.is_loop && ((name(joint.parent) == a && name(joint.child) == b) || (name(joint.parent) == b && name(joint.child) == a));
+  });
+}
+
+double rolling_ratio(const XmlElement& element, const CouplingDescription& coupling, const RobotDescription& robot,
+                     const ParameterTable& table) {
+  if (const std::optional<XmlElement> ratio = element.child("ratio")) return read_number(*ratio, "value", Range::kAny);
+  const double predecessor = radius_of(element.only("predecessor"), coupling.predecessor, robot, table);
+  const double successor = radius_of(element.only("successor"), coupling.successor, robot, table);
+  return predecessor > 0.0 && successor > 0.0 ? predecessor / successor : 1.0;
+}
+
 void read_constraints(const XmlElement& robot, const ReadContext& context, RobotDescription* description) {
   for (const XmlElement& element : robot.children("constraint")) {
     const std::string type = element.find("type").value_or("");
     try {
-      if (type == "position") {
+      if (type == "position" || type == "spherical_joint") {
         description->joints.push_back(read_position(element, context, *description));
       } else if (type == "rolling") {
         description->couplings.push_back(read_rolling(element, context, *description));
       } else {
-        context.warnings->push_back(element.warning("loop_ignored", "a <constraint> of an unknown type is ignored", type, kRemedy));
+        if (!has_loop(element, *description))
+          context.warnings->push_back(element.warning("loop_ignored", "a <constraint> of an unknown type is ignored", type, kRemedy));
       }
     } catch (const InputError& error) {
+      if (has_loop(element, *description)) continue;
       InputFault fault = error.fault();
       fault.message = std::string("a <constraint> that cannot be read is ignored: ") + fault.message + "; to silence this: " + kRemedy;
       context.warnings->push_back(warn("loop_ignored", fault));

@@ -87,13 +87,14 @@ class Finder {
 
   void visit(const XmlElement& element, bool in_gazebo, bool in_equality) {
     const std::string tag = element.tag();
-    if (tag == "loop_joint") return report(element, loop_text(of_loop_joint(element)));
+    if (tag == "loop_joint") return report(element, of_loop_joint(element));
+    if (tag == "plugin" && in_gazebo && is_detachable(element)) return report_detachable_joint(element);
     if (tag == "plugin" && in_gazebo) return report_mimic_plugin(element);
-    if (tag == "joint" && in_gazebo) return report(element, loop_text(of_gazebo(element)));
-    if (tag == "drake:joint") return report(element, loop_text(of_drake_joint(element)));
+    if (tag == "joint" && in_gazebo) return report(element, of_gazebo(element));
+    if (tag == "drake:joint") return report(element, of_drake_joint(element));
     const bool constraint = tag.rfind("drake:", 0) == 0 && ends_with(tag, "_constraint");
-    if (constraint || tag == "drake:linear_bushing_rpy") return report(element, loop_text(of_drake_constraint(element)));
-    if (in_equality) return report(element, of_equality(element));
+    if (constraint || tag == "drake:linear_bushing_rpy") return report(element, of_drake_constraint(element));
+    if (in_equality) return report_equality(element);
     for (const XmlElement& child : element.children()) visit(child, in_gazebo || tag == "gazebo", tag == "equality");
   }
 
@@ -103,12 +104,44 @@ class Finder {
                                          "<" + element.tag() + ">", "write, in an overlay, " + remedy + ", or remove the element"));
   }
 
+  void report(const XmlElement& element, const Suggestion& s) {
+    if (!has_loop_between(robot_, s.predecessor.link, s.successor.link)) report(element, loop_text(s));
+  }
+
+  /// Whether the joint follows another one already, or is coupled.
+  bool follows(const std::string& follower) const {
+    for (const JointDescription& joint : robot_.joints)
+      if (joint.name == follower) return joint.mimic || joint.type == JointType::kFixed || is_coupled(joint.child);
+    return false;
+  }
+  bool is_coupled(int link) const {
+    return std::any_of(robot_.couplings.begin(), robot_.couplings.end(),
+                       [link](const CouplingDescription& coupling) { return coupling.predecessor == link || coupling.successor == link; });
+  }
+
+  static bool is_detachable(const XmlElement& plugin) {
+    const std::string name = plugin.find("name").value_or(""), file = plugin.find("filename").value_or("");
+    return ends_with(name, "DetachableJoint") || file.find("detachable-joint") != std::string::npos;
+  }
+
+  // Gazebo's plugin fixes the child to the parent where both are when it begins. A child of another model, such as an object that a gripper
+  // takes, is no part of this mechanism.
+  void report_detachable_joint(const XmlElement& plugin) {
+    Suggestion s{"", "fixed", {}, {}, ""};
+    s.predecessor.link = child_text(plugin, "parent_link");
+    s.successor.link = child_text(plugin, "child_link");
+    const auto pose = relative_at_zero(s.predecessor.link, s.successor.link);
+    if (!pose) return;
+    place(*pose, &s.predecessor);
+    s.successor.placed = true;
+    report(plugin, s);
+  }
+
   // Gazebo does not read <mimic> and couples joints by plugins. Usually the file has the same <mimic> too; then there is no warning.
   void report_mimic_plugin(const XmlElement& plugin) {
     const std::string follower = child_text(plugin, "mimicJoint"), leader = child_text(plugin, "joint");
     if (follower.empty() || leader.empty()) return;
-    for (const JointDescription& joint : robot_.joints)
-      if (joint.name == follower && (joint.mimic || joint.type == JointType::kFixed)) return;
+    if (follows(follower)) return;
     const std::string multiplier = child_text(plugin, "multiplier"), offset = child_text(plugin, "offset");
     report(plugin, mimic_text(follower, leader, multiplier.empty() ? "1" : multiplier, offset.empty() ? "0" : offset));
   }
@@ -174,12 +207,15 @@ class Finder {
     return s;
   }
 
-  std::string of_equality(const XmlElement& element) const {
-    if (element.tag() == "joint") {
-      std::vector<std::string> polynomial = split_words(element.find("polycoef").value_or("0 1"));
-      polynomial.resize(2, "0");
-      return mimic_text(element.find("joint1").value_or("..."), element.find("joint2").value_or("..."), polynomial[1], polynomial[0]);
-    }
+  void report_equality(const XmlElement& element) {
+    if (element.tag() != "joint") return report(element, of_equality(element));
+    const std::string follower = element.find("joint1").value_or("...");
+    std::vector<std::string> polynomial = split_words(element.find("polycoef").value_or("0 1"));
+    polynomial.resize(2, "0");
+    if (!follows(follower)) report(element, mimic_text(follower, element.find("joint2").value_or("..."), polynomial[1], polynomial[0]));
+  }
+
+  Suggestion of_equality(const XmlElement& element) const {
     Suggestion s{element.find("name").value_or(""), element.tag() == "weld" ? "fixed" : "codesign:spherical", {}, {}, ""};
     s.predecessor.link = element.find("body1").value_or("...");
     s.successor.link = element.find("body2").value_or(robot_.links[static_cast<std::size_t>(robot_.root)].name);
@@ -189,7 +225,7 @@ class Finder {
     place(X_1F, &s.predecessor);
     if (const auto X_21 = relative_at_zero(s.successor.link, s.predecessor.link)) place(*X_21 * X_1F, &s.successor);
     if (element.tag() != "weld") s.predecessor.rpy = s.successor.rpy = "";
-    return loop_text(s);
+    return s;
   }
 
   static void place(const Pose<double>& X, End* end) {

@@ -12,13 +12,14 @@ namespace {
 JointType read_tree_type(const XmlElement& element) { return read_joint_type(element, &JointTypeName::of_joints, "joint type"); }
 
 /// A number that must not be negative. A negative one is an error in an overlay; in a vendor's file it is taken as zero with a warning,
-/// since exporters write it for unknown values.
-Quantity read_magnitude(const XmlElement& element, const std::string& attribute, const ReadContext& context) {
+/// since exporters write it for unknown values. @param meaning what zero means there.
+Quantity read_magnitude(const XmlElement& element, const std::string& attribute, const ReadContext& context,
+                        const char* meaning = "is taken as zero") {
   const Quantity value =
       read_quantity(element, attribute, element.in_overlay(attribute) ? Range::kNonNegative : Range::kAny, context.table);
   if (value.nominal() >= 0.0) return value;
   context.warnings->push_back(
-      element.warning_at("negative_value", attribute, attribute + " is negative and is taken as zero", "write 0 or a positive number"));
+      element.warning_at("negative_value", attribute, attribute + " is negative and " + meaning, "write 0 or a positive number"));
   return 0.0;
 }
 
@@ -48,8 +49,10 @@ LimitDescription read_limit(const XmlElement& element, JointType type, const Rea
   LimitDescription limit;
   limit.lower = read_quantity_or(0.0, element, "lower", Range::kAny, context.table);
   limit.upper = read_quantity_or(0.0, element, "upper", Range::kAny, context.table);
-  limit.effort = read_magnitude(element, "effort", context);
-  limit.velocity = read_magnitude(element, "velocity", context);
+  // In SDF, and in files converted from it, a negative limit is not enforced; its default is -1.
+  const char* const no_limit = "means, as in SDF, that there is no limit";
+  limit.effort = read_magnitude(element, "effort", context, no_limit);
+  limit.velocity = read_magnitude(element, "velocity", context, no_limit);
   check_bounds(element, type, context, &limit);
   return limit;
 }

@@ -35,10 +35,41 @@ std::string parse_fault(tinyxml2::XMLError error) {
   }
 }
 
+/// Replaces an XML declaration before the root element by spaces, unless the text begins with it. @returns its line; 0 if there is none.
+int blank_late_declaration(std::string* text) {
+  std::size_t at = 0;
+  while (true) {
+    at = text->find_first_not_of(" \t\r\n", at);
+    if (at == std::string::npos || text->compare(at, 4, "<!--") != 0) break;
+    at = text->find("-->", at);
+    if (at == std::string::npos) break;
+    at += 3;
+  }
+  if (at == std::string::npos || at == 0 || text->compare(at, 6, "<?xml ") != 0) return 0;
+  const std::size_t end = text->find("?>", at);
+  if (end == std::string::npos) return 0;
+  for (std::size_t k = at; k < end + 2; ++k)
+    if ((*text)[k] != '\n') (*text)[k] = ' ';
+  return 1 + static_cast<int>(std::count(text->begin(), text->begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+}
+
 }  // namespace
 
 XmlDocument::XmlDocument(const SourceText& source) : file_(source.name), dom_(std::make_unique<tinyxml2::XMLDocument>()) {
-  if (dom_->Parse(source.text.c_str(), source.text.size()) != tinyxml2::XML_SUCCESS)
+  tinyxml2::XMLError fault = dom_->Parse(source.text.c_str(), source.text.size());
+  if (fault == tinyxml2::XML_ERROR_PARSING_DECLARATION) {
+    std::string text = source.text;
+    if (const int line = blank_late_declaration(&text); line > 0) {
+      fault = dom_->Parse(text.c_str(), text.size());
+      warnings_.push_back(warn("late_declaration", {{file_, line},
+                                                    "",
+                                                    "the XML declaration stands after a comment; it is ignored, and other readers may "
+                                                    "refuse the file; to silence this: move it to the beginning of the file",
+                                                    "<?xml",
+                                                    ""}));
+    }
+  }
+  if (fault != tinyxml2::XML_SUCCESS)
     throw InputError({{file_, std::max(1, dom_->ErrorLineNum())}, "", "the text is not XML: " + parse_fault(dom_->ErrorID()), "", ""});
   if (robot() == nullptr) throw InputError({{file_, 1}, "", "the text contains no XML element", "", "<robot>"});
   if (std::string(robot()->Name()) != "robot")

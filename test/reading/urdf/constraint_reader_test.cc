@@ -29,6 +29,32 @@ TEST(ConstraintReader, APositionIsASphericalLoop) {
   EXPECT_EQ(loop.child_origin.xyz[1].nominal(), 0.2);
 }
 
+TEST(ConstraintReader, ASphericalJointIsTheSame) {
+  const RobotDescription robot = read_urdf(arms(between("name=\"close\" type=\"spherical_joint\"", "<origin xyz=\"0.3 0 0\"/>", "")));
+  EXPECT_TRUE(robot.warnings.empty());
+  ASSERT_EQ(robot.joints.size(), 3U);
+  EXPECT_EQ(robot.joints[2].type, JointType::kSpherical);
+}
+
+TEST(ConstraintReader, ALoopInItsPlaceSilencesTheWarning) {
+  const std::string loop = "<loop name=\"x\" type=\"continuous\"><predecessor link=\"b\"/><successor link=\"a\"/></loop>";
+  expect_no_warning(arms(between("name=\"x\" type=\"magnetic\"", "", "") + loop));
+  expect_no_warning(arms("<constraint type=\"spherical_joint\"><parent link=\"a\"/><child link=\"b\"/></constraint>" + loop));
+}
+
+TEST(ConstraintReader, ACouplingMayRoll) {
+  const auto coupling = [](const std::string& attributes, const std::string& a, const std::string& b, const std::string& more) {
+    return arms("<coupling name=\"gear\"" + attributes + "><predecessor link=\"a\">" + a + "</predecessor><successor link=\"b\">" + b +
+                "</successor>" + more + "</coupling>");
+  };
+  const std::string on_a = "<origin xyz=\"0.3 0 0\"/>", on_b = "<origin xyz=\"-0.1 0 0\"/>", rolling = " type=\"rolling\"";
+  EXPECT_DOUBLE_EQ(read_urdf(coupling(rolling, on_a, on_b, "")).couplings.at(0).ratio.nominal(), 3.0);
+  EXPECT_EQ(read_urdf(coupling(rolling, "", "", "<ratio value=\"6\"/>")).couplings.at(0).ratio.nominal(), 6.0);
+  EXPECT_THROW(read_urdf(coupling(" type=\"slipping\"", "", "", "<ratio value=\"6\"/>")), InputError);
+  EXPECT_THROW(read_urdf(coupling("", on_a, "", "<ratio value=\"6\"/>")), InputError);
+  EXPECT_THROW(read_urdf(coupling("", "", "", "")), InputError);
+}
+
 TEST(ConstraintReader, ANameOfItsOwnWhereItHasNone) {
   const RobotDescription robot = read_urdf(arms(between("type=\"position\"", "", "") + between("name=\"ja\" type=\"position\"", "", "")));
   EXPECT_EQ(robot.joints.at(2).name, "constraint");

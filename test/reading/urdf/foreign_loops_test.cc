@@ -41,6 +41,29 @@ TEST(ForeignLoops, GazeboMimicPluginsThatURDFDoesNotKnow) {
   expect_no_warning(two_links("<gazebo><plugin name=\"control\"><joint>hinge</joint></plugin></gazebo>"));
 }
 
+TEST(ForeignLoops, DetachableJointsWithinTheRobot) {
+  const auto plugin = [](const std::string& parent, const std::string& child) {
+    return "<gazebo><plugin filename=\"gz-sim-detachable-joint-system\" name=\"gz::sim::systems::DetachableJoint\"><parent_link>" + parent +
+           "</parent_link><child_model>test</child_model><child_link>" + child + "</child_link></plugin></gazebo>";
+  };
+  expect_loop(plugin("ground", "tip"),
+              "type=\"fixed\"><predecessor link=\"ground\"><origin xyz=\"0.5 0 0\"/></predecessor><successor link=\"tip\"/></loop>");
+  expect_no_warning(two_links(plugin("tip", "parcel")));  // a link of another model, which a gripper takes
+}
+
+TEST(ForeignLoops, WhatTheMessageShowsSilencesIt) {
+  const std::string element =
+      "<gazebo><joint name=\"close\" type=\"ball\"><parent>ground</parent><child>tip</child><pose>0.1 0 0 0 0 0</pose></joint></gazebo>";
+  const std::string loop =
+      "<loop name=\"close\" type=\"codesign:spherical\"><predecessor link=\"ground\"><origin xyz=\"0.6 0 0\"/></predecessor>"
+      "<successor link=\"tip\"><origin xyz=\"0.1 0 0\"/></successor></loop>";
+  expect_no_warning(two_links(element + loop));
+  const std::string equality = "<equality><joint joint1=\"wrist\" joint2=\"hinge\" polycoef=\"0.1 -2 0 0 0\"/></equality>";
+  expect_no_warning(pendulum(
+      "", link_with("tip") + joint_with("wrist", "continuous", "arm", "tip", "<mimic joint=\"hinge\" multiplier=\"-2\" offset=\"0.1\"/>") +
+              equality));
+}
+
 TEST(ForeignLoops, Drake) {
   expect_loop(
       "<drake:ball_constraint><drake:ball_constraint_body_A name=\"ground\"/><drake:ball_constraint_body_B name=\"tip\"/>"

@@ -65,7 +65,8 @@ TEST(JointReader, Limits) {
   EXPECT_FALSE(has_stops(read_urdf(reversed).joints[0]));
   expect_warning(pendulum(R"(<limit lower="-1" upper="1" effort="1" velocity="1"/>)"), "limit_ignored", {"turns without end", "-1 ... 1"});
   expect_error(pendulum(R"(<limit velocity="1"/>)"), {"the attribute effort is missing"});
-  expect_warning(pendulum(R"(<limit effort="-1" velocity="1"/>)"), "negative_value", {"<limit>: effort is negative", "(value: -1)"});
+  expect_warning(pendulum(R"(<limit effort="-1" velocity="1"/>)"), "negative_value",
+                 {"<limit>: effort is negative and means, as in SDF, that there is no limit", "(value: -1)"});
 }
 
 TEST(JointReader, LimitsThatDependOnTheDesign) {

@@ -15,6 +15,17 @@ TEST(XmlDocument, WhatIsNoRobotIsRefusedWithItsLine) {
   expect_error({"a.urdf", "\n<model/>"}, {"a.urdf:2: the root element is not a robot", "value: <model>, allowed: <robot>"});
 }
 
+TEST(XmlDocument, ADeclarationAfterACommentIsReadWithAWarning) {
+  const XmlDocument late({"a.urdf", "<!-- by\n us -->\n<?xml version=\"1.0\"?>\n<robot name=\"x\">\n<link/>\n</robot>"});
+  ASSERT_EQ(late.warnings().size(), 1U);
+  EXPECT_EQ(late.warnings()[0].code, "late_declaration");
+  EXPECT_EQ(late.warnings()[0].where.line, 3);
+  EXPECT_EQ(late.location(late.robot()->FirstChildElement()).line, 5);
+  const XmlDocument usual({"a.urdf", "<?xml version=\"1.0\"?><!-- by us --><robot name=\"x\"/>"});
+  EXPECT_TRUE(usual.warnings().empty());
+  expect_error({"a.urdf", "<robot name=\"x\"/><?xml version=\"1.0\"?>"}, {"declaration is malformed or not at the beginning"});
+}
+
 TEST(XmlDocument, CopiesKeepTheirPlaceOfOrigin) {
   XmlDocument base({"base.urdf", "<robot>\n<link/>\n</robot>"});
   const XmlDocument other({"other.urdf", "<robot>\n\n<link\n a=\"1\"><mass\n b=\"2\"/></link>\n</robot>"});
