@@ -28,9 +28,9 @@ std::vector<CaptionLine> arrow_legend(const SceneLayout& layout) {
   std::vector<CaptionLine> lines;
   const std::string cut = std::isfinite(layout.style.longest) ? ", at most " + readable(layout.style.longest, 2) + " m" : "";
   if (layout.has_forces)
-    lines.push_back({"friction force, " + readable(layout.style.metres_per_newton, 2) + " m per N" + cut, friction_color(false)});
+    lines.push_back({"friction force, " + readable(layout.style.metres_per_newton, 6) + " m per N" + cut, friction_color(false)});
   if (layout.has_torques)
-    lines.push_back({"friction torque, " + readable(layout.style.metres_per_newton_metre, 2) + " m per N m" + cut, friction_color(true)});
+    lines.push_back({"friction torque, " + readable(layout.style.metres_per_newton_metre, 6) + " m per N m" + cut, friction_color(true)});
   return lines;
 }
 

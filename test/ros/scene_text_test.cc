@@ -18,6 +18,8 @@ TEST(ArrowLegend, TellsScaleAndColorOfTheArrowsThatAreDrawn) {
   EXPECT_EQ(lines[0].color, friction_color(false));
   EXPECT_EQ(lines[1].text, "friction torque, 0.5 m per N m");
   EXPECT_EQ(lines[1].color, friction_color(true));
+  layout.style.metres_per_newton_metre = 840.0;
+  EXPECT_EQ(arrow_legend(layout)[1].text, "friction torque, 840 m per N m");
   layout.style.longest = 0.25;
   EXPECT_EQ(arrow_legend(layout)[0].text, "friction force, 0.021 m per N, at most 0.25 m");
 }
