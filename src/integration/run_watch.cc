@@ -65,7 +65,19 @@ double RunWatch::smallest_scale(const Constants<double>& constants, const State<
   return unresolved / energy_limit_.warning;
 }
 
+// Of a motion of n error tolerances only one part in n is known, and its energies no better: a mechanism at rest within its tolerances has
+// none that could be checked.
+void RunWatch::note_reach(const VectorX<double>& change, const VectorX<double>& of) {
+  for (Eigen::Index k = 0; k < change.size() && reach_ < 1.0; ++k) {
+    const double tolerance = options_.absolute_tolerance + options_.relative_tolerance * std::abs(of[k]);
+    reach_ = std::min(1.0, std::max(reach_, energy_limit_.warning * std::abs(change[k]) / tolerance));
+  }
+}
+
 void RunWatch::start(const Constants<double>& constants, const State<double>& initial) {
+  start_q_ = initial.q;
+  reach_ = 0.0;
+  note_reach(initial.v, initial.v);
   motion_.set_design(constants);
   const BodyEnergy energy = motion_.energy(initial.q, initial.v);
   start_potential_ = potential_ = energy.potential;
@@ -115,12 +127,16 @@ Status RunWatch::check(const State<double>& state, double drift, double work, St
     worst_error_ = error;
     worst_error_time_ = state.t;
   }
-  statistics->energy_error = scale_ > 0.0 ? worst_error_ / scale_ : 0.0;
+  if (reach_ < 1.0) {
+    moved_ = state.q - start_q_;
+    note_reach(moved_, state.q);
+  }
+  statistics->energy_error = scale_ > 0.0 ? reach_ * worst_error_ / scale_ : 0.0;
   if (drift > drift_limit_.failure)
     return {StatusCode::kConstraintDrift, state.t, drift_sentence(drift, state.t) + ". " + advice(options_)};
-  unbalanced_steps_ = error > energy_limit_.failure * scale_ ? unbalanced_steps_ + 1 : 0;
+  unbalanced_steps_ = reach_ * error > energy_limit_.failure * scale_ ? unbalanced_steps_ + 1 : 0;
   if (unbalanced_steps_ > kPatience || (unbalanced_steps_ > 0 && state.t >= system_.study().duration))
-    return {StatusCode::kEnergyError, state.t, energy_sentence(error / scale_, state.t) + ". " + advice(options_)};
+    return {StatusCode::kEnergyError, state.t, energy_sentence(reach_ * error / scale_, state.t) + ". " + advice(options_)};
   return {};
 }
 

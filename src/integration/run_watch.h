@@ -42,6 +42,7 @@ class RunWatch {
 
  private:
   double smallest_scale(const Constants<double>& constants, const State<double>& initial) const;
+  void note_reach(const VectorX<double>& change, const VectorX<double>& of);
 
   const CompiledSystem& system_;
   const SolverOptions& options_;
@@ -52,6 +53,8 @@ class RunWatch {
   double imbalance_ = 0.0;                                                ///< energy not explained by work, at the last step [J]
   double work_ = 0.0, turnover_ = 0.0, scale_ = 0.0, worst_error_ = 0.0;  ///< [J]
   double worst_drift_time_ = 0.0, worst_error_time_ = 0.0;                ///< [s]
+  VectorX<double> start_q_, moved_;                                       ///< q at the start, and what it has changed by
+  double reach_ = 0.0;        ///< r of (17a), at most 1: how far the motion has come, relative to what its tolerances resolve
   int unbalanced_steps_ = 0;  ///< consecutive steps with an energy error above RunLimit::failure
 };
 

@@ -118,13 +118,15 @@ void SingularityWatch::search(Equations<double>* equations) {
     return;
   }
   place(0.5 * (a + b));
-  std::string ranks;
-  if (system_.layout().n <= kLargestRanked)
-    ranks = ", where its constraints have rank " + std::to_string(rank(equations, between_)) + " instead of " +
-            std::to_string(rank(equations, initial_));
+  std::string how = ", where its constraints come close to losing rank";
+  if (system_.layout().n <= kLargestRanked) {
+    // Beside the position, rather than on it, the smallest singular value may be above the tolerance of the rank.
+    const int here = rank(equations, between_), usual = rank(equations, initial_);
+    if (here < usual) how = ", where its constraints have rank " + std::to_string(here) + " instead of " + std::to_string(usual);
+  }
   warnings_.push_back(
       {"singular_position_passed",
-       "the mechanism passes a singular position at t = " + to_decimal(1e-6 * std::round(1e6 * between_.t)) + " s" + ranks +
+       "the mechanism passes a singular position at t = " + to_decimal(std::round(1e6 * between_.t) / 1e6) + " s" + how +
            ": sensitivities lose digits there, whatever the tolerance. Compare the gradient with differences (codesign gradient "
            "--verify=ridders), or end the study before that time",
        {}});

@@ -50,6 +50,18 @@ TEST(SingularityWatch, TellsTimeAndRankWhereParallelogramsAreFlat) {
   }
 }
 
+// A coupler that is slightly too short: the linkage passes close to its flat position, where all constraints are still independent.
+TEST(SingularityWatch, NamesNoRankThatIsNotLower) {
+  std::string linkage = upright_row(1);
+  const std::size_t hinge = linkage.find("xyz='1 0 0'", linkage.find("'hinge1'"));
+  ASSERT_NE(hinge, std::string::npos);
+  linkage.replace(hinge + 5, 1, "1.00001");
+  const Warnings warnings = warnings_of(linkage, "{hinge0: {position: 0.0, velocity: 1.0}}", "hinge0/velocity", 1.5,
+                                        "{relative_tolerance: 1.0e-6, absolute_tolerance: 1.0e-7}");
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].message.find(", where its constraints come close to losing rank: "), std::string::npos) << warnings[0].message;
+}
+
 TEST(SingularityWatch, IsSilentWhereNothingIsSingularOrNobodyAsks) {
   const char* const solver = "{integrator: rosenbrock, relative_tolerance: 1.0e-6, absolute_tolerance: 1.0e-7}";
   EXPECT_TRUE(
