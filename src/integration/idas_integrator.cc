@@ -13,6 +13,7 @@
 #include "integration/idas_status.h"
 #include "integration/motion_watch.h"
 #include "integration/projection.h"
+#include "integration/restart_pace.h"
 #include "integration/run_watch.h"
 #include "integration/settled_start.h"
 #include "integration/singularity_watch.h"
@@ -131,6 +132,7 @@ class IdasIntegrator::Implementation {
   Statistics before_restart_;
   bool watch_singularities_ = false;
   bool has_stepped_ = false;  ///< since the last start() or go_on()
+  RestartPace pace_;
   SettledStart settled_start_;
   Warnings restart_warnings_;
   std::string message_;
@@ -167,6 +169,7 @@ Status IdasIntegrator::Implementation::start(const std::vector<double>& paramete
   run_watch_.start(equations().constants(), initial_);
   singularity_.start(watch_singularities_, initial_);
   work_ = 0.0;
+  pace_.start(initial_.t);
   return {};
 }
 
@@ -265,6 +268,7 @@ Status IdasIntegrator::Implementation::project() {
   const auto project = [this] { return carried_->project(state_, &equations(), &directions_); };
   if (Status status = begin_anew(project); !status.ok()) return status;
   drift_size_ = 0.0;
+  pace_.count_restart();
   return {};
 }
 
@@ -296,6 +300,7 @@ Status IdasIntegrator::Implementation::take_step(double limit) {
   if (flag < 0) return idas_status(flag, state_.t, newton_.singular(), equations_.failure().empty() ? message_ : equations_.failure());
   take_over(time);
   if (Status status = check_run(); !status.ok()) return status;
+  if (Status status = pace_.check(state_.t, statistics_.steps); !status.ok()) return status;
   return watch_.check(state_, statistics_.steps + statistics_.rejected_steps);
 }
 

@@ -68,10 +68,12 @@ void check_bodies(const RobotDescription& robot, Warnings* warnings) {
   for (std::size_t link = 0; link < robot.links.size(); ++link)
     if (groups.link_base[link] != groups.link_base[static_cast<std::size_t>(robot.root)])
       bodies[groups.link_base[link]].push_back(static_cast<int>(link));
+  MassWorkspace<double> workspace;
+  workspace.poses.start(robot.links.size());
   for (const auto& [base, links] : bodies) {
     const std::string names = names_of(robot, links);
     if (names.empty()) continue;
-    const MassProperties<double> body = merged_mass(robot, groups.link_base, groups.link_parent_joint, links, values);
+    const MassProperties<double> body = merged_mass(robot, groups.link_base, groups.link_parent_joint, links, values, &workspace);
     check_cancelled_mass(robot, body, base, links, values);
     const MassFault fault = find_mass_fault(body);
     if (fault.code.empty()) continue;

@@ -55,11 +55,12 @@ void set_coupling(const Coupling& coupling, const std::vector<T>& parameters, Co
 
 /// Sets Constants::links and Constants::joint_frames; the bodies' centres must be set before.
 template <class T>
-void set_frames(const RobotDescription& robot, const Topology& topology, const std::vector<T>& parameters, Constants<T>* constants) {
+void set_frames(const RobotDescription& robot, const Topology& topology, const std::vector<T>& parameters, LinkPoses<T>* poses,
+                Constants<T>* constants) {
   constants->links.resize(robot.links.size());
   for (std::size_t link = 0; link < robot.links.size(); ++link) {
     if (topology.link_body[link] == Topology::kMassless) continue;
-    const Pose<T> X = link_in_base(robot, topology.link_base, topology.link_parent_joint, static_cast<int>(link), parameters);
+    const Pose<T>& X = poses->of(robot, topology.link_base, topology.link_parent_joint, static_cast<int>(link), parameters);
     constants->links[link] = {X.t - centre_of(*constants, topology.link_body[link]), X.R};
   }
   constants->joint_frames.clear();
@@ -85,6 +86,7 @@ std::string body_fault(const RobotDescription& robot, const Topology& topology, 
   const MassFault fault = body_fault(constants.bodies[k]);
   if (fault.code.empty()) return "";
   MassWorkspace<double> workspace;
+  workspace.poses.start(robot.links.size());
   const MassFault known = body_fault(body_constants(robot, topology, topology.bodies[k], default_values(robot), &workspace));
   if (known.code == fault.code) return "";
   return "body '" + topology.bodies[k].name + "': " + fault.message + (fault.value.empty() ? "" : " (" + fault.value + ")");
@@ -121,9 +123,10 @@ std::string joint_fault(const RobotDescription& robot, const Pair& pair, const P
 template <class T>
 void evaluate_constants(const RobotDescription& robot, const Topology& topology, const std::vector<T>& parameters,
                         MassWorkspace<T>* workspace, Constants<T>* constants) {
+  workspace->poses.start(robot.links.size());
   constants->bodies.clear();
   for (const Body& body : topology.bodies) constants->bodies.push_back(body_constants(robot, topology, body, parameters, workspace));
-  set_frames(robot, topology, parameters, constants);
+  set_frames(robot, topology, parameters, &workspace->poses, constants);
   constants->pairs.resize(topology.pairs.size());
   for (std::size_t k = 0; k < topology.pairs.size(); ++k) {
     const Pair& pair = topology.pairs[k];

@@ -22,6 +22,13 @@ namespace codesign {
 namespace {
 
 constexpr std::uint32_t kRounds = 10;  // of screening, after which unusable points are no longer replaced
+constexpr int kPart = 1024;            // points that are in memory at the same time while screening, and at least 16 per worker
+
+/// A point that may become the start of a search.
+struct Candidate {
+  Eigen::VectorXd rho;
+  double objective;
+};
 
 /// One search over starts: the state that its stages share.
 class Multistart {
@@ -45,7 +52,7 @@ class Multistart {
     screen();
     std::vector<OptimizationResult> found = search();
     OptimizationResult result = combine(&found);
-    result.screened = static_cast<int>(objectives_.size()) + unusable_;
+    result.screened = usable_ + unusable_;
     result.unusable = unusable_;
     result.failed_evaluations += unusable_;
     if (is_set(cancel_) || observer_.is_stopped()) {
@@ -63,22 +70,24 @@ class Multistart {
  private:
   /// Draws points until `screen` of them are usable: each round replaces the unusable points of the round before.
   void screen() {
-    const int dimension = static_cast<int>(study_.tuned.size());
+    const int dimension = static_cast<int>(study_.tuned.size()), part = std::max(kPart, 16 * ensemble_.engine().workers());
     meter_.begin(SearchStage::kScreening, asked_.screen, ensemble_.scenarios().size());
-    for (std::uint32_t round = 0; round < kRounds && missing() > 0 && !is_set(cancel_) && lost_.ok(); ++round) {
-      const Eigen::MatrixXd unit = unit_points(asked_.sampler, missing(), dimension, asked_.seed + round);
-      std::vector<Eigen::VectorXd> points;
-      for (Eigen::Index k = 0; k < unit.rows(); ++k)
-        points.push_back(k == 0 && round == 0 ? problem_.start() : at(unit.row(k).transpose()));
-      evaluate(points);
+    for (std::uint32_t round = 0; round < kRounds && missing() > 0 && goes_on(); ++round) {
+      const int count = missing();
+      const PointSequence fill = point_sequence(asked_.sampler, count, dimension, asked_.seed + round);
+      for (int drawn = 0; drawn < count && goes_on(); drawn += part) {
+        Eigen::MatrixXd unit(std::min(part, count - drawn), dimension);
+        fill(&unit);
+        std::vector<Eigen::VectorXd> points;
+        for (Eigen::Index k = 0; k < unit.rows(); ++k)
+          points.push_back(k + drawn == 0 && round == 0 ? problem_.start() : at(unit.row(k).transpose()));
+        evaluate(points);
+      }
     }
-    order_.resize(points_.size());
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    std::stable_sort(order_.begin(), order_.end(), [this](std::size_t a, std::size_t b) { return objectives_[a] < objectives_[b]; });
-    order_.resize(std::min(order_.size(), static_cast<std::size_t>(asked_.starts)));
   }
 
-  int missing() const { return asked_.screen - static_cast<int>(points_.size()); }
+  bool goes_on() const { return !is_set(cancel_) && lost_.ok(); }
+  int missing() const { return asked_.screen - usable_; }
 
   /// A point of the unit cube within the bounds.
   Eigen::VectorXd at(const Eigen::VectorXd& u) const {
@@ -90,10 +99,14 @@ class Multistart {
     return rho;
   }
 
-  /// Evaluates points and keeps the usable ones.
+  /// Evaluates points, counts the usable ones and keeps the best of all so far, of equal ones those drawn first.
   void evaluate(const std::vector<Eigen::VectorXd>& round) {
     std::vector<EnsembleEvaluation> results(round.size());
     side_by_side(round.size(), ensemble_.engine().workers(), [&](std::size_t k) {
+      if (is_set(cancel_)) {
+        results[k].total.status.code = StatusCode::kCancelled;
+        return;
+      }
       if (all_met(parameter_rows_.margins(round[k]))) results[k] = ensemble_.evaluate(round[k], false, cancel_);
       if (results[k].values.size() > 0) meter_.count_point();
     });
@@ -107,17 +120,19 @@ class Multistart {
         if (first_failure_.ok() && !total.status.ok()) first_failure_ = total.status;
         continue;
       }
-      points_.push_back(round[k]);
-      objectives_.push_back(total.objective);
+      ++usable_;
+      starts_.push_back({round[k], total.objective});
     }
+    std::stable_sort(starts_.begin(), starts_.end(), [](const Candidate& a, const Candidate& b) { return a.objective < b.objective; });
+    if (starts_.size() > static_cast<std::size_t>(asked_.starts)) starts_.resize(static_cast<std::size_t>(asked_.starts));
   }
 
   std::vector<OptimizationResult> search() {
-    std::vector<OptimizationResult> found(order_.size());
-    meter_.begin(SearchStage::kSearching, static_cast<std::int64_t>(order_.size()), ensemble_.scenarios().size());
-    side_by_side(order_.size(), ensemble_.engine().workers(), [&](std::size_t k) {
+    std::vector<OptimizationResult> found(starts_.size());
+    meter_.begin(SearchStage::kSearching, static_cast<std::int64_t>(starts_.size()), ensemble_.scenarios().size());
+    side_by_side(starts_.size(), ensemble_.engine().workers(), [&](std::size_t k) {
       if (is_set(cancel_) || observer_.is_stopped()) return;
-      found[k] = search_locally(study_, options_, points_[order_[k]], ensemble_, observer_.of(static_cast<int>(k) + 1), cancel_);
+      found[k] = search_locally(study_, options_, starts_[k].rho, ensemble_, observer_.of(static_cast<int>(k) + 1), cancel_);
       meter_.end_search(found[k].evaluations);
     });
     for (const OptimizationResult& one : found)
@@ -130,7 +145,7 @@ class Multistart {
     std::vector<StartResult> starts;
     std::vector<std::vector<double>> scaled;
     for (std::size_t k = 0; k < found->size(); ++k) {
-      starts.push_back(describe(points_[order_[k]], objectives_[order_[k]], (*found)[k]));
+      starts.push_back(describe(starts_[k].rho, starts_[k].objective, (*found)[k]));
       scaled.push_back(scaling_.to_scaled(starts.back().rho));
     }
     std::vector<Optimum> optima = cluster_optima(scaled, asked_.cluster, &starts);
@@ -170,9 +185,9 @@ class Multistart {
                                       : first_failure_;
     none.termination = "start_failed";
     none.initial_rho = none.rho = problem_.start();
-    if (!order_.empty()) {
-      none.rho = points_[order_.front()];
-      none.objective = objectives_[order_.front()];
+    if (!starts_.empty()) {
+      none.rho = starts_.front().rho;
+      none.objective = starts_.front().objective;
     }
     none.margins = parameter_rows_.margins(none.rho);
     none.influences.assign(study_.tuned.size(), false);
@@ -180,7 +195,7 @@ class Multistart {
   }
 
   void add_sums(const std::vector<OptimizationResult>& found, OptimizationResult* best) const {
-    best->evaluations = static_cast<int>(objectives_.size()) + unusable_;
+    best->evaluations = usable_ + unusable_;
     best->failed_evaluations = 0;
     best->statistics = statistics_;
     for (const OptimizationResult& result : found) {
@@ -214,10 +229,8 @@ class Multistart {
   const Ensemble ensemble_;
   const ParameterRows parameter_rows_;
   const Scaling scaling_;
-  std::vector<Eigen::VectorXd> points_;  // usable points in the order drawn, and their objectives
-  std::vector<double> objectives_;
-  std::vector<std::size_t> order_;  // the starts: indices of points, best first
-  int unusable_ = 0;
+  std::vector<Candidate> starts_;  // the best usable points, best first
+  int usable_ = 0, unusable_ = 0;
   Status first_failure_;
   Status lost_;  // kWorkerLost if an evaluation ended with this status
   Statistics statistics_;

@@ -29,13 +29,12 @@ std::size_t draw_below(std::size_t size, std::mt19937* generator) {
   return static_cast<std::size_t>((std::uint64_t{draw_bits(generator)} * size) >> 32);
 }
 
-Eigen::MatrixXd random_points(int count, int dimension, std::uint32_t seed) {
-  std::mt19937 generator(seed);
-  Eigen::MatrixXd points(count, dimension);
-  for (int i = 0; i < count; ++i) {
-    for (int j = 0; j < dimension; ++j) points(i, j) = draw_unit(&generator);
-  }
-  return points;
+PointSequence random_sequence(std::uint32_t seed) {
+  return [generator = std::mt19937(seed)](Eigen::MatrixXd* points) mutable {
+    for (Eigen::Index i = 0; i < points->rows(); ++i) {
+      for (Eigen::Index j = 0; j < points->cols(); ++j) (*points)(i, j) = draw_unit(&generator);
+    }
+  };
 }
 
 // Each column has the intervals in a random order (Fisher and Yates) and a random place in each interval.
@@ -54,18 +53,32 @@ Eigen::MatrixXd latin_hypercube(int count, int dimension, std::uint32_t seed) {
   return points;
 }
 
+// The columns are drawn one after the other, so that all points must be there before the first one is taken.
+PointSequence latin_sequence(int count, int dimension, std::uint32_t seed) {
+  return [all = latin_hypercube(count, dimension, seed), taken = Eigen::Index{0}](Eigen::MatrixXd* points) mutable {
+    *points = all.middleRows(taken, points->rows());
+    taken += points->rows();
+  };
+}
+
 }  // namespace
 
-Eigen::MatrixXd unit_points(SamplerKind kind, int count, int dimension, std::uint32_t seed) {
+PointSequence point_sequence(SamplerKind kind, int count, int dimension, std::uint32_t seed) {
   switch (kind) {
     case SamplerKind::kSobol:
-      return sobol_points(count, dimension, seed);
+      return sobol_sequence(dimension, seed);
     case SamplerKind::kLatinHypercube:
-      return latin_hypercube(count, dimension, seed);
+      return latin_sequence(count, dimension, seed);
     case SamplerKind::kRandom:
       break;
   }
-  return random_points(count, dimension, seed);
+  return random_sequence(seed);
+}
+
+Eigen::MatrixXd unit_points(SamplerKind kind, int count, int dimension, std::uint32_t seed) {
+  Eigen::MatrixXd points(count, dimension);
+  point_sequence(kind, count, dimension, seed)(&points);
+  return points;
 }
 
 }  // namespace codesign

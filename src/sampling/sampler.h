@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "description/ensemble.h"
+#include "sampling/sobol.h"
 
 namespace codesign {
 
@@ -18,6 +19,10 @@ namespace codesign {
 /// @param dimension 0 or more, with kSobol at most kMaxSobolDimension (sobol.h), otherwise std::invalid_argument
 /// @return count x dimension
 Eigen::MatrixXd unit_points(SamplerKind kind, int count, int dimension, std::uint32_t seed);
+
+/// The same points, part by part. Only kLatinHypercube keeps all of them in memory.
+/// @param count number of rows that will be filled altogether.
+PointSequence point_sequence(SamplerKind kind, int count, int dimension, std::uint32_t seed);
 
 }  // namespace codesign
 

@@ -31,21 +31,26 @@ std::uint32_t scramble(std::uint32_t x, std::uint32_t key) {
 
 }  // namespace
 
+PointSequence sobol_sequence(int dimension, std::uint32_t seed) {
+  if (dimension == 0) return [](Eigen::MatrixXd*) {};
+  const auto size = static_cast<std::size_t>(dimension);
+  std::mt19937 generator(seed);  // the standard defines its raw numbers, but not the algorithms of <random>'s distributions
+  std::vector<std::uint32_t> keys(size);
+  for (std::uint32_t& key : keys) key = static_cast<std::uint32_t>(generator());
+  return [engine = Engine(size), keys, bits = std::vector<std::uint32_t>(size, 0u), is_first = true](Eigen::MatrixXd* points) mutable {
+    for (Eigen::Index i = 0; i < points->rows(); ++i) {
+      // Boost leaves out the first point, zero, without which the first 2^k points are no net.
+      if (!is_first) engine.generate(bits.begin(), bits.end());
+      is_first = false;
+      for (std::size_t j = 0; j < keys.size(); ++j)
+        (*points)(i, static_cast<Eigen::Index>(j)) = (scramble(bits[j], keys[j]) + 0.5) * 0x1p-32;
+    }
+  };
+}
+
 Eigen::MatrixXd sobol_points(int count, int dimension, std::uint32_t seed) {
   Eigen::MatrixXd points(count, dimension);
-  if (dimension == 0) return points;
-  const auto size = static_cast<std::size_t>(dimension);
-  Engine engine(size);
-  std::mt19937 generator(seed);  // the standard defines its raw numbers, but not the algorithms of <random>'s distributions
-  std::vector<std::uint32_t> keys(size), bits(size, 0u);
-  for (std::uint32_t& key : keys) key = static_cast<std::uint32_t>(generator());
-  for (int i = 0; i < count; ++i) {
-    // Boost leaves out the first point, zero, without which the first 2^k points are no net.
-    if (i > 0) engine.generate(bits.begin(), bits.end());
-    for (std::size_t j = 0; j < size; ++j) {
-      points(i, static_cast<Eigen::Index>(j)) = (scramble(bits[j], keys[j]) + 0.5) * 0x1p-32;
-    }
-  }
+  sobol_sequence(dimension, seed)(&points);
   return points;
 }
 

@@ -50,6 +50,20 @@ TEST(Multistart, AnyNumberOfWorkersGivesTheSameBits) {
   }
 }
 
+// A part has 1024 points, or 16 per worker: here two parts, and one.
+TEST(Multistart, PartsOfTheScreeningMakeNoDifference) {
+  const auto screen = [](const std::string& engine) {
+    const std::string ensemble = "multistart: {starts: 3, screen: 1200, seed: 3, sampler: latin_hypercube}\nengine: {" + engine + "}\n";
+    return optimize(block(ensemble, "{algorithm: lbfgs, max_evaluations: 1}"));
+  };
+  const OptimizationResult two = screen("type: serial"), one = screen("workers: 80");
+  EXPECT_EQ(two.screened, 1200);
+  ASSERT_EQ(two.starts.size(), 3u);
+  ASSERT_EQ(one.starts.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(one.starts[k].start, two.starts[k].start);
+  EXPECT_EQ(one.objective, two.objective);
+}
+
 TEST(Multistart, TheObserverSeesOneSequenceAndCanEndIt) {
   const Problem problem = block("multistart: {starts: 3, screen: 6}\nengine: {workers: 3}\n", "{algorithm: lbfgs}");
   int expected = 0;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "sampling/sobol.h"
@@ -32,6 +33,19 @@ TEST(UnitPoints, MayBeNoneOrWithoutCoordinates) {
   for (const SamplerKind kind : kAll) {
     EXPECT_EQ(unit_points(kind, 0, 2, 1).rows(), 0);
     EXPECT_EQ(unit_points(kind, 5, 0, 1).rows(), 5);
+  }
+}
+
+TEST(UnitPoints, ComeInPartsAsTheSameNumbers) {
+  for (const SamplerKind kind : kAll) {
+    const PointSequence fill = point_sequence(kind, 10, 3, 5);
+    MatrixXd parts(10, 3);
+    for (const auto& [first, count] : {std::pair<Index, Index>{0, 1}, {1, 6}, {7, 0}, {7, 3}}) {
+      MatrixXd part(count, 3);
+      fill(&part);
+      parts.middleRows(first, count) = part;
+    }
+    EXPECT_EQ(parts, unit_points(kind, 10, 3, 5));
   }
 }
 

@@ -103,10 +103,14 @@ int find_root(const RobotDescription& robot) {
                         robot.links[static_cast<std::size_t>(root)].name + ", " + robot.links[k].name, "one root link"});
     root = static_cast<int>(k);
   }
+  // Each link is passed twice at most: a walk ends at a link from which the root has been reached.
+  std::vector<bool> reaches_root(robot.links.size(), false);
   for (std::size_t k = 0; k < robot.links.size(); ++k) {
     std::size_t link = k, steps = 0;
-    while (above[link] != nullptr && steps++ <= robot.links.size()) link = static_cast<std::size_t>(above[link]->parent);
-    if (above[link] != nullptr)
+    const auto goes_on = [&](std::size_t at) { return above[at] != nullptr && !reaches_root[at]; };
+    while (goes_on(link) && steps++ <= robot.links.size()) link = static_cast<std::size_t>(above[link]->parent);
+    for (std::size_t at = k; !goes_on(link) && goes_on(at); at = static_cast<std::size_t>(above[at]->parent)) reaches_root[at] = true;
+    if (goes_on(link))
       throw InputError({above[k]->where, above[k]->element(), "the joints form a ring that is not connected to the root",
                         robot.links[k].name, "a tree from one root link; close rings with <loop>"});
   }
