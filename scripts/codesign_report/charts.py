@@ -45,6 +45,9 @@ class Axis:
             self.low, self.high = low - pad, high + pad
             self.ticks = [t for t in log_ticks(10 ** self.low, 10 ** self.high) if self.low <= math.log10(t) <= self.high]
             if len(self.ticks) < 2:
+                powers = [10.0 ** k for k in range(math.floor(self.low), math.ceil(self.high))]
+                self.ticks = [f * p for p in powers for f in (1, 2, 5) if self.low <= math.log10(f * p) <= self.high]
+            if len(self.ticks) < 2:
                 self.ticks = ticks(10 ** self.low, 10 ** self.high)
                 self.labels, self.offset = tick_labels(self.ticks)
             else:
@@ -66,12 +69,13 @@ class Axis:
         """Width of the widest label."""
         return LETTER * max((len(label) for label in self.labels), default=0)
 
-    def spaced(self):
-        """[(tick, label)] along a horizontal axis: as many as stand apart from each other."""
-        if len(self.ticks) < 2:
-            return list(zip(self.ticks, self.labels))
-        distance = min(self.place(b) - self.place(a) for a, b in zip(self.ticks, self.ticks[1:]))
-        return list(zip(self.ticks, self.labels))[::max(1, math.ceil((self.widest() + 6) / distance))]
+    def spaced(self, distance):
+        """[(tick, label)] of those ticks that stand so far apart in the picture."""
+        kept = []
+        for tick, label in zip(self.ticks, self.labels):
+            if not kept or abs(self.place(tick) - self.place(kept[-1][0])) >= distance:
+                kept.append((tick, label))
+        return kept
 
     def place(self, value):
         if self.log:
@@ -93,7 +97,7 @@ def path_of(points, x, y, steps=False):
 def x_ticks(x, top, bottom, below):
     """Lines and labels of a horizontal axis; a label does not leave the picture."""
     parts = []
-    for value, label in x.spaced():
+    for value, label in x.spaced(x.widest() + 6):
         at, half = x.place(value), 0.5 * LETTER * len(label)
         text_at = min(max(at, half + 1), WIDTH - half - 1)
         parts.append(f'<path class="grid" d="M{at:.1f} {top}V{bottom}"/><text class="tick" x="{text_at:.1f}" y="{below}" text-anchor="middle">'
@@ -105,7 +109,7 @@ def grid(x, y, x_label, y_label):
     """Lines, ticks and the names of both axes."""
     left, right, bottom = x.start, WIDTH - RIGHT, HEIGHT - BOTTOM
     parts = x_ticks(x, TOP, bottom, bottom + 14)
-    for value, label in zip(y.ticks, y.labels):
+    for value, label in y.spaced(14):
         at = y.place(value)
         parts.append(f'<path class="grid" d="M{left:.0f} {at:.1f}H{right}"/><text class="tick" x="{left - 5:.0f}" y="{at + 4:.1f}" text-anchor="end">'
                      f"{label}</text>")
@@ -165,13 +169,13 @@ def bar_chart(title, names, pairs, unit):
 
 def matrix_chart(title, names, rows):
     """Correlations from -1 to 1 as shades; None: not known. Names are numbers where they are many, as in the table beside it."""
-    count = len(names)
-    cell = max(8, min(34, (WIDTH - 120) // max(count, 1)))
-    left, top = 112, 6
+    count, most = len(names), 32  # letters of a name
+    top, left = 6, 12 + 7 * min(most, max(map(len, names), default=0))
+    cell = max(8, min(34, (WIDTH - left - 8) // max(count, 1)))
     width, height = max(WIDTH, left + cell * count + 10), top + cell * count + 26
     body = []
     for i, (name, row) in enumerate(zip(names, rows)):
-        label = name if len(name) <= 17 else name[:16] + "\u2026"
+        label = name if len(name) <= most else name[:most - 1] + "\u2026"
         body.append(f'<text class="tick" x="{left - 5}" y="{top + cell * (i + 0.5) + 4:.0f}" text-anchor="end">{escape(label)}</text>')
         body.append(f'<text class="tick" x="{left + cell * (i + 0.5):.0f}" y="{top + cell * count + 14}" text-anchor="middle">{i + 1}</text>')
         for j, value in enumerate(row):

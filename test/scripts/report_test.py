@@ -365,8 +365,18 @@ class Parts(unittest.TestCase):
         for (x, length), (following, other) in zip(at, at[1:]):
             self.assertGreater(following - x, 0.5 * charts.LETTER * (length + other) - 1e-9)
         self.assertLessEqual(at[-1][0] + 0.5 * charts.LETTER * at[-1][1], charts.WIDTH)
+        log = charts.line_chart("t", [charts.Series("a", "tuned", [1, 2], [1.9, 75.5])], "trial point", "objective", log=True)
+        heights = [float(y) for y in re.findall(r'class="tick" x="[0-9.]+" y="([0-9.]+)" text-anchor="end">', log)]
+        self.assertGreater(len(heights), 1)
+        self.assertTrue(all(a - b >= 13.9 for a, b in zip(heights, heights[1:])), heights)
         for x, text in re.findall(r'class="tick" x="([0-9.]+)" y="[0-9.]+" text-anchor="end">([^<]*)<', svg):
             self.assertGreater(float(x) - charts.LETTER * len(text), 18.0, "beside the name of the axis")
+
+    def test_names_of_correlations_are_whole(self):
+        name = "data[0].start.crank_joint"
+        svg = charts.matrix_chart("t", [name, "b"], [[1.0, 0.5], [0.5, 1.0]])
+        x = float(re.search(r'class="tick" x="([0-9.]+)"[^>]*>' + re.escape(name) + "<", svg)[1])
+        self.assertGreater(x, 6.5 * len(name))
 
     def test_a_thinned_curve_keeps_its_peaks(self):
         ys = [0.0] * 5000
