@@ -35,9 +35,21 @@ void print_numbers(const IdentificationResult& result, double level, std::ostrea
   table.print(out);
 }
 
+/// What is known of numbers that are not identifiable each, one line for each combination.
+void print_combinations(const IdentificationResult& result, double level, std::ostream& out) {
+  if (result.combinations.empty()) return;
+  Table table;
+  table.add({"value", "deviation", readable(100.0 * level) + " % from", "to", "known combination"});
+  for (const BaseParameter& known : result.combinations)
+    table.add({readable(known.value), readable(known.deviation), readable(known.low), readable(known.high), known.expression});
+  table.print(out);
+}
+
 void print_result(const Problem& problem, const IdentificationResult& result, std::ostream& out) {
   for (const std::string& sentence : identification_sentences(result)) out << sentence << '\n';
-  print_numbers(result, problem.study().identification->intervals.level, out);
+  const double level = problem.study().identification->intervals.level;
+  print_numbers(result, level, out);
+  print_combinations(result, level, out);
   out << result.termination << " after " << result.iterations << " iterations, " << result.evaluations << " evaluations ("
       << result.failed_evaluations << " failed), " << readable(result.cpu_seconds) << " s of processor time\n";
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "cli/table.h"
+#include "identification/effort_doubts.h"
 #include "text/number_text.h"
 #include "text/unknown_name.h"
 
@@ -22,6 +23,8 @@ std::vector<RecordingSummary> check_recordings(const Problem& problem, const Con
   for (const std::vector<JointRecording>* list : {&recordings.data, &recordings.holdout})
     for (const JointRecording& recording : *list)
       summaries.push_back(summary_of(recording, measured_motion(recording, identification->filter, warnings)));
+  if (identification->residual == ResidualKind::kEffort)
+    append(warnings_of(*identification, find_effort_doubts(problem, recordings.data)), warnings);
   return summaries;
 }
 

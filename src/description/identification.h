@@ -76,6 +76,22 @@ struct StartPosition {
   FittedNumber position;
 };
 
+/// A parameter with a value of its own in one recording: `set: {payload: 2.8}`.
+struct RecordedSetting {
+  int parameter = 0;  ///< index in Study::parameters
+  double value = 0.0;
+};
+
+/// What priors of free inertias are about: `prior: {mass: 0.3}`.
+constexpr std::array<const char*, 3> kFreeInertiaParts{"mass", "centre", "inertia"};
+
+/// What is known of a tuned parameter before the fit: a normal distribution about its start; doc/theory.md (39b).
+struct PriorDescription {
+  std::string parameter;   ///< its name, or one of kFreeInertiaParts for all free inertias
+  double deviation = 0.0;  ///< standard deviation, relative to the start
+  SourceLocation where;
+};
+
 /// One entry of `identify.data` or `identify.holdout`: a topic of a bag, or a table of numbers as text.
 struct RecordingDescription {
   std::string file;  ///< as written; relative to the folder of the study
@@ -88,8 +104,9 @@ struct RecordingDescription {
   double from = -std::numeric_limits<double>::infinity();  ///< part to use [s]: of the time column, or from the bag's first message
   double to = std::numeric_limits<double>::infinity();
   GapRule gaps = GapRule::kRefuse;
-  std::vector<StartPosition> starts;  ///< of joints whose positions are integrated
-  std::string element;                ///< `identify.data[0]`
+  std::vector<StartPosition> starts;      ///< of joints whose positions are integrated
+  std::vector<RecordedSetting> settings;  ///< values of parameters in this recording
+  std::string element;                    ///< `identify.data[0]`
   SourceLocation where;
 };
 
@@ -155,6 +172,7 @@ struct IdentificationDescription {
   std::vector<JointCalibration> joints;  ///< the joints that the study names
   LossOptions loss;
   IntervalOptions intervals;
+  std::vector<PriorDescription> priors;
   SourceLocation where;
 };
 

@@ -150,12 +150,12 @@ std::vector<Instant> instants_of(const MeasuredMotion& motion, const FittedSerie
 /// Shows the recordings of one result, one after the other.
 class MotionComparison {
  public:
-  MotionComparison(const Problem& problem, const IdentificationResult& result, const std::vector<MeasuredJoint>& joints,
+  MotionComparison(const Problem& problem, const std::vector<double>& parameters, const std::vector<MeasuredJoint>& joints,
                    const MeasuredMotion& first, const std::function<bool()>& stop)
       : stop_(stop),
         is_simulated_(problem.study().identification->residual == ResidualKind::kMotion),
-        model_(*problem.system(), joints, some_positions(first, joints), result.parameters) {
-    if (is_simulated_) measured_.emplace(*problem.system(), joints, some_positions(first, joints), result.parameters);
+        model_(*problem.system(), joints, some_positions(first, joints), parameters) {
+    if (is_simulated_) measured_.emplace(*problem.system(), joints, some_positions(first, joints), parameters);
   }
 
   const FrameNames& names() const { return model_.names(); }
@@ -242,7 +242,7 @@ void compare_all(const Problem& problem, const StudyRecordings& recordings, cons
   }
   const FitVariables variables(problem.study());
   for (MeasuredMotion& motion : motions) shift_to_fitted_starts(variables, result.x, &motion);
-  MotionComparison comparison(problem, result, joints, motions.front(), stop);
+  MotionComparison comparison(problem, result.parameters, joints, motions.front(), stop);
   compared->names = comparison.names();
   compared->joints = compared_joints(problem.robot(), joints, result.parameters, compared->names);
   const double shown_rate = std::min(rate, kMostMemory / (bytes_of_both(compared->names) * std::max(seconds, 1e-3)));
@@ -256,7 +256,13 @@ void compare_all(const Problem& problem, const StudyRecordings& recordings, cons
       instants = instants_of(motions[k], shown_rate);
     else if (of_series + 1 < begins.size())
       instants = instants_of(motions[k], series, begins[of_series], begins[of_series + 1], shown_rate);
-    comparison.compare(shown_joints(motions[k], joints, variables, result, compared->names), instants, series, &compared->recordings[k]);
+    std::optional<MotionComparison> with_settings;
+    if (!all[k].settings.empty()) {
+      const FitVariables own(problem.study(), nullptr, all[k].settings);
+      with_settings.emplace(problem, own.parameters(result.x), joints, motions[k], stop);
+    }
+    (with_settings ? *with_settings : comparison)
+        .compare(shown_joints(motions[k], joints, variables, result, compared->names), instants, series, &compared->recordings[k]);
   }
 }
 

@@ -248,6 +248,15 @@ Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* resi
   return {};
 }
 
+void EffortResiduals::motion_of_outputs(Eigen::MatrixXd* velocity, Eigen::MatrixXd* acceleration) const {
+  velocity->resize(model_->samples(), static_cast<Eigen::Index>(outputs_.size()));
+  acceleration->resizeLike(*velocity);
+  for (std::size_t o = 0; o < outputs_.size(); ++o) {
+    velocity->col(static_cast<Eigen::Index>(o)) = model_->velocity().row(drives_[o]);
+    acceleration->col(static_cast<Eigen::Index>(o)) = model_->acceleration().row(drives_[o]);
+  }
+}
+
 // The slope of the computed effort serves as a column without noise: it is independent of the noise in the recorded effort.
 std::vector<DelaySignal> EffortResiduals::delay_signals(const Eigen::VectorXd& x) {
   constexpr double kLeastShare = 0.01;

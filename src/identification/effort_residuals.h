@@ -49,6 +49,9 @@ class EffortResiduals final : public RecordingResiduals {
   /// @param residuals resized to rows() x outputs [N m or N]. @param jacobian may be null; else resized to (rows() outputs) x variables,
   /// the rows of output 0 first.
   Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) override;
+  /// Velocities and accelerations of the joints of the outputs at the rows, not filtered like residuals; rows() x outputs. Without a
+  /// residual_cutoff only.
+  void motion_of_outputs(Eigen::MatrixXd* velocity, Eigen::MatrixXd* acceleration) const;
   /// Once set, evaluations end soon with kCancelled; nullptr: never.
   void obey(const std::atomic<bool>* cancel) override { model_->obey(cancel); }
 

@@ -1,7 +1,14 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "identification/fit_variables.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
 #include "description/tuned_parameters.h"
+#include "mechanism/log_cholesky.h"
 
 namespace codesign {
 namespace {
@@ -19,12 +26,26 @@ std::string unit_of(const RobotDescription* robot, const std::string& joint, con
   return "";
 }
 
+/// Deviations of the ten numbers of a free inertia from relative deviations of its mass, centre and moments, to first order.
+template <class Find>
+void set_weak_prior(const Eigen::VectorXd& start, const std::array<int, 10>& columns, const Find& find, Eigen::VectorXd* deviations) {
+  constexpr double kWeak = 1.0;
+  const double mass = find(kFreeInertiaParts[0], kWeak), centre = find(kFreeInertiaParts[1], kWeak),
+               moments = find(kFreeInertiaParts[2], kWeak);
+  double square = 0.0;  // of the radius of gyration
+  for (int k = 1; k <= 3; ++k) square += std::exp(2.0 * start[columns[static_cast<std::size_t>(k)]]);
+  const double radius = std::sqrt(square);
+  const std::array<double, 10> of_columns{0.5 * mass,       0.5 * moments,    0.5 * moments,   0.5 * moments,   moments * radius,
+                                          moments * radius, moments * radius, centre * radius, centre * radius, centre * radius};
+  for (std::size_t k = 0; k < columns.size(); ++k) (*deviations)[columns[k]] = of_columns[k];
+}
+
 double at(const Eigen::VectorXd& x, int column, double known) { return column < 0 ? known : x[column]; }
 
 }  // namespace
 
-FitVariables::FitVariables(const Study& study, const RobotDescription* robot)
-    : study_(study), names_(tuned_names(study)), start_(start_of(study)) {
+FitVariables::FitVariables(const Study& study, const RobotDescription* robot, std::vector<RecordedSetting> settings)
+    : study_(study), settings_(std::move(settings)), names_(tuned_names(study)), start_(start_of(study)) {
   for (int k : study.tuned) {
     const Parameter& parameter = study.parameters[static_cast<std::size_t>(k)];
     units_.push_back(parameter.unit);
@@ -68,7 +89,26 @@ int FitVariables::find(const std::string& joint) const {
   return -1;
 }
 
-std::vector<double> FitVariables::parameters(const Eigen::VectorXd& x) const { return parameters_at(study_, x.head(tuned())); }
+std::vector<double> FitVariables::parameters(const Eigen::VectorXd& x) const {
+  std::vector<double> parameters = parameters_at(study_, x.head(tuned()));
+  for (const RecordedSetting& setting : settings_) parameters[static_cast<std::size_t>(setting.parameter)] = setting.value;
+  return parameters;
+}
+
+Eigen::VectorXd FitVariables::prior_deviations() const {
+  const std::vector<PriorDescription>& priors = study_.identification->priors;
+  const auto find = [&priors](const std::string& name, double usual) {
+    const auto found =
+        std::find_if(priors.begin(), priors.end(), [&name](const PriorDescription& prior) { return prior.parameter == name; });
+    return found == priors.end() ? usual : found->deviation;
+  };
+  Eigen::VectorXd deviations = Eigen::VectorXd::Constant(size(), std::numeric_limits<double>::infinity());
+  for (const auto& [link, columns] : free_inertias(names_)) set_weak_prior(start_, columns, find, &deviations);
+  for (Eigen::Index k = 0; k < tuned(); ++k)
+    if (const double relative = find(names_[static_cast<std::size_t>(k)], 0.0); relative > 0.0 && start_[k] != 0.0)
+      deviations[k] = relative * std::abs(start_[k]);
+  return deviations;
+}
 
 FitVariables::SensorColumns FitVariables::columns(const std::string& joint) const {
   const int k = find(joint);
@@ -86,6 +126,24 @@ EffortSensor FitVariables::sensor(const std::string& joint, const Eigen::VectorX
   sensor.offset = at(x, columns.offset, calibration.offset.value);
   sensor.start_scale = calibration.effort_scale.value;
   return sensor;
+}
+
+std::vector<std::pair<std::string, std::array<int, 10>>> free_inertias(const std::vector<std::string>& names) {
+  std::vector<std::pair<std::string, std::array<int, 10>>> found;
+  const std::string first = std::string("_") + kLogCholeskyNames[0];
+  for (const std::string& name : names) {
+    if (name.size() <= first.size() || name.compare(name.size() - first.size(), first.size(), first) != 0) continue;
+    const std::string link = name.substr(0, name.size() - first.size());
+    std::array<int, 10> columns{};
+    bool is_whole = true;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const auto place = std::find(names.begin(), names.end(), link + "_" + kLogCholeskyNames[k]);
+      is_whole = is_whole && place != names.end();
+      columns[k] = static_cast<int>(place - names.begin());
+    }
+    if (is_whole) found.emplace_back(link, columns);
+  }
+  return found;
 }
 
 }  // namespace codesign

@@ -3,7 +3,9 @@
 #define MECHANISM_CODESIGN_IDENTIFICATION_FIT_VARIABLES_H_
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "description/robot.h"
@@ -22,8 +24,8 @@ class FitVariables {
   };
 
   /// @param study with a block `identify`; must outlive this. @param robot its joints determine the units of starts and offsets; null: no
-  /// units
-  explicit FitVariables(const Study& study, const RobotDescription* robot = nullptr);
+  /// units. @param settings values of parameters in the recordings that the variables are for
+  explicit FitVariables(const Study& study, const RobotDescription* robot = nullptr, std::vector<RecordedSetting> settings = {});
 
   Eigen::Index size() const { return start_.size(); }
   Eigen::Index tuned() const { return static_cast<Eigen::Index>(study_.tuned.size()); }
@@ -33,6 +35,10 @@ class FitVariables {
   const Eigen::VectorXd& start() const { return start_; }
   const Eigen::VectorXd& lower() const { return lower_; }  ///< -infinity: none
   const Eigen::VectorXd& upper() const { return upper_; }
+
+  /// The standard deviation of each variable about its start before the fit, doc/theory.md (39b); infinite: nothing is known. Free inertias
+  /// have one of a weak prior.
+  Eigen::VectorXd prior_deviations() const;
 
   /// All named parameters, in the order of Study::parameters.
   std::vector<double> parameters(const Eigen::VectorXd& x) const;
@@ -47,6 +53,7 @@ class FitVariables {
   int find(const std::string& joint) const;
 
   const Study& study_;
+  const std::vector<RecordedSetting> settings_;
   std::vector<std::string> names_, units_;
   std::vector<SensorColumns> columns_;  ///< one per entry of IdentificationDescription::joints
   struct StartColumn {
@@ -56,6 +63,9 @@ class FitVariables {
   std::vector<StartColumn> start_columns_;
   Eigen::VectorXd start_, lower_, upper_;
 };
+
+/// The free inertias of which all ten numbers are among `names`: link and indices in the order of kLogCholeskyNames.
+std::vector<std::pair<std::string, std::array<int, 10>>> free_inertias(const std::vector<std::string>& names);
 
 }  // namespace codesign
 

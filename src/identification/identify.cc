@@ -8,6 +8,7 @@
 #include "engine/side_by_side.h"
 #include "identification/judgement.h"
 #include "identification/motion_residuals.h"
+#include "identification/stacked_residuals.h"
 #include "math/cpu_timer.h"
 #include "problem/load_problem.h"
 #include "problem/margins.h"
@@ -17,9 +18,9 @@
 namespace codesign {
 namespace {
 
-std::unique_ptr<RecordingResiduals> make_residuals(const Problem& problem, const FitVariables& variables,
-                                                   const std::vector<MeasuredJoint>& joints, const std::vector<JointRecording>& recordings,
-                                                   Warnings* warnings) {
+std::unique_ptr<RecordingResiduals> residuals_alike(const Problem& problem, const FitVariables& variables,
+                                                    const std::vector<MeasuredJoint>& joints, const std::vector<JointRecording>& recordings,
+                                                    Warnings* warnings) {
   const IdentificationDescription& options = *problem.study().identification;
   const int threads = worker_threads(problem.study().ensemble.engine);
   if (options.residual == ResidualKind::kMotion)
@@ -32,11 +33,33 @@ std::unique_ptr<RecordingResiduals> make_residuals(const Problem& problem, const
   return std::make_unique<EffortResiduals>(*problem.system(), variables, joints, std::move(motions), filter, threads);
 }
 
+/// Recordings with the same values of parameters have one model.
+std::unique_ptr<RecordingResiduals> make_residuals(const Problem& problem, const FitVariables& variables,
+                                                   const std::vector<MeasuredJoint>& joints, const std::vector<JointRecording>& recordings,
+                                                   Warnings* warnings) {
+  const auto has_settings = [](const JointRecording& recording) { return !recording.settings.empty(); };
+  if (std::none_of(recordings.begin(), recordings.end(), has_settings))
+    return residuals_alike(problem, variables, joints, recordings, warnings);
+  std::vector<StackedResiduals::Part> parts;
+  for (auto begin = recordings.begin(); begin != recordings.end();) {
+    const auto end = std::find_if(begin, recordings.end(), [&](const JointRecording& other) { return !has_same_settings(other, *begin); });
+    auto variables_of = std::make_unique<FitVariables>(problem.study(), &problem.robot(), begin->settings);
+    auto residuals = residuals_alike(problem, *variables_of, joints, {begin, end}, warnings);
+    parts.push_back({std::move(variables_of), std::move(residuals)});
+    begin = end;
+  }
+  return std::make_unique<StackedResiduals>(std::move(parts));
+}
+
 FitProblem fit_problem(const Problem& problem, const FitVariables& variables) {
   FitProblem fit;
   fit.start = variables.start();
   fit.lower = variables.lower();
   fit.upper = variables.upper();
+  if (const Eigen::VectorXd prior = variables.prior_deviations(); prior.array().isFinite().any()) {
+    fit.prior = prior;
+    fit.known = fit.start;
+  }
   fit.loss = problem.study().identification->loss;
   fit.max_evaluations = problem.optimizer_options().max_evaluations;
   fit.relative_tolerance = problem.optimizer_options().relative_tolerance;
@@ -68,6 +91,17 @@ Status not_identifiable(const std::vector<std::string>& sentences) {
   for (std::size_t k = 0; k < std::min(kTold, sentences.size()); ++k) status.cause += (k == 0 ? ": " : "; ") + sentences[k];
   if (sentences.size() > kTold) status.cause += "; and " + std::to_string(sentences.size() - kTold) + " more (\"undetermined\")";
   return status;
+}
+
+/// Warnings about efforts that the fit does not explain; only then mistakes in the recordings are looked for.
+Warnings told_of_unexplained(const Problem& problem, const std::vector<JointRecording>& recordings, const IdentificationResult& result,
+                             const std::atomic<bool>* cancel, Status* failure) {
+  const IdentificationDescription& options = *problem.study().identification;
+  const bool is_doubtful =
+      std::any_of(result.data.begin(), result.data.end(), [](const OutputFit& fit) { return fit.explained < kExplainedHalf; });
+  std::vector<EffortDoubt> doubts;
+  if (is_doubtful && options.residual == ResidualKind::kEffort && !is_set(cancel)) doubts = find_effort_doubts(problem, recordings);
+  return unexplained_outputs(options, result, doubts, failure);
 }
 
 /// The fit knows bounds alone, so that constraints among parameters are looked at behind it.
@@ -105,8 +139,7 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
   RecordingResiduals& residuals = *data;
   std::unique_ptr<RecordingResiduals> holdout;
   if (!recordings.holdout.empty()) holdout = make_residuals(problem, variables, joints, recordings.holdout, &result.warnings);
-  residuals.obey(cancel);
-  if (holdout) holdout->obey(cancel);
+  residuals.obey(cancel);  // The holdout does not: it is judged after a cancel, too, which takes two evaluations.
 
   const FitProblem limits = fit_problem(problem, variables);
   result.status = residuals.begin(limits.start);
@@ -136,10 +169,13 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
     const Status status = judge_holdout(variables, fit, options.loss, holdout.get(), &result);
     if (result.status.ok()) result.status = status;
   }
-  Warnings found = warnings_of(options, result);
+  Status unexplained;
+  Warnings found = told_of_unexplained(problem, recordings.data, result, cancel, &unexplained);
+  append(warnings_of(options, result), &found);
   append(unmet_constraints(problem.study(), result.parameters), &found);
   append(result.warnings, &found);
   result.warnings = std::move(found);
+  if (result.status.ok()) result.status = unexplained;
   if (result.status.ok() && !result.undetermined.empty()) result.status = not_identifiable(result.undetermined);
   result.cpu_seconds = timer.seconds();
   return result;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "identification/inertial_numbers.h"
 #include "statistics/parameter_covariance.h"
 #include "text/cancel.h"
 #include "text/number_text.h"
@@ -13,10 +14,11 @@
 namespace codesign {
 namespace {
 
-constexpr double kNearBound = 1e-9;     // of the range, or of the magnitude: a number nearer to its bound than this is on the bound
-constexpr double kHoldoutFactor = 1.5;  // times the residuals of the fitted data: a holdout with larger residuals is not explained
-constexpr double kSlopeSignal = 0.8;    // share of signal in the slope of a recorded effort below which a warning is given
-constexpr double kWhiteBelow = 0.01;    // probability below which residuals do not count as white
+constexpr double kNearBound = 1e-9;       // of the range, or of the magnitude: a number nearer to its bound than this is on the bound
+constexpr double kHoldoutFactor = 1.5;    // times the residuals of the fitted data: a holdout with larger residuals is not explained
+constexpr double kSlopeSignal = 0.8;      // share of signal in the slope of a recorded effort below which a warning is given
+constexpr double kExplainsNothing = 0.1;  // share of an output below which a fit has failed
+constexpr double kWhiteBelow = 0.01;      // probability below which residuals do not count as white
 
 double rms_of(const Eigen::VectorXd& column) { return std::sqrt(column.squaredNorm() / static_cast<double>(column.size())); }
 
@@ -24,25 +26,52 @@ bool is_at(double x, double bound, double range) {
   return std::isfinite(bound) && std::abs(x - bound) <= kNearBound * (std::isfinite(range) ? range : std::abs(bound));
 }
 
-/// The columns of the numbers that are not on a bound.
+/// The columns of the numbers that the data do not hold on a bound.
 std::vector<int> free_columns(const IdentificationResult& result) {
   std::vector<int> columns;
   for (std::size_t k = 0; k < result.numbers.size(); ++k)
-    if (!result.numbers[k].is_on_bound) columns.push_back(static_cast<int>(k));
+    if (!result.numbers[k].is_on_bound || !result.numbers[k].is_determined) columns.push_back(static_cast<int>(k));
   return columns;
+}
+
+/// Weighted residuals with the columns of the free numbers.
+WeightedResiduals weighted_columns(const ResidualFit& fit, const LossOptions& loss, const std::vector<DelaySignal>& delays,
+                                   const std::vector<int>& columns) {
+  Eigen::MatrixXd by_x = fit.jacobian;
+  for (const DelaySignal& delay : delays)
+    if (delay.slopes.size() > 0) by_x.col(delay.column).segment(delay.output * fit.residuals.rows(), delay.slopes.size()) = delay.slopes;
+  WeightedResiduals weighted = weigh(fit.residuals, &by_x, fit.spreads, loss);
+  weighted.jacobian = Eigen::MatrixXd(weighted.jacobian(Eigen::all, columns));
+  return weighted;
 }
 
 /// The covariance of the free numbers, by the noise model of `intervals`.
 ParameterCovariance covariance_of(const ResidualFit& fit, const LossOptions& loss, const SeriesLengths& lengths,
                                   const IntervalOptions& intervals, const std::vector<DelaySignal>& delays,
                                   const std::vector<int>& columns) {
-  Eigen::MatrixXd by_x = fit.jacobian;
-  for (const DelaySignal& delay : delays)
-    if (delay.slopes.size() > 0) by_x.col(delay.column).segment(delay.output * fit.residuals.rows(), delay.slopes.size()) = delay.slopes;
-  const WeightedResiduals weighted = weigh(fit.residuals, &by_x, fit.spreads, loss);
-  Eigen::MatrixXd jacobian(weighted.jacobian.rows(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k) jacobian.col(static_cast<Eigen::Index>(k)) = weighted.jacobian.col(columns[k]);
-  return parameter_covariance(weighted.residuals, jacobian, lengths, intervals, fit.own_unknowns);
+  const WeightedResiduals weighted = weighted_columns(fit, loss, delays, columns);
+  return parameter_covariance(weighted.residuals, weighted.jacobian, lengths, intervals, fit.own_unknowns);
+}
+
+/// What the data determine of numbers that they do not determine each, and the sentences about those. Free inertias appear by the numbers
+/// in which efforts are linear: combinations of these are the same for all values.
+void judge_combinations(const WeightedResiduals& weighted, const ResidualFit& fit, const SeriesLengths& lengths,
+                        const IntervalOptions& intervals, const std::vector<int>& columns, const std::vector<std::string>& names,
+                        const ParameterCovariance& plain, IdentificationResult* result) {
+  const LinearNumbers numbers = with_inertial_numbers(names, fit.x(columns), weighted.jacobian);
+  const ParameterCovariance changed =
+      numbers.is_changed ? parameter_covariance(weighted.residuals, numbers.jacobian, lengths, intervals, fit.own_unknowns) : plain;
+  const Identifiability& found = changed.identifiability;
+  result->undetermined = describe_undetermined(found, numbers.names);
+  for (Eigen::Index i = 0; i < numbers.x.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const bool is_dependent = std::find(found.dependent.begin(), found.dependent.end(), static_cast<int>(i)) != found.dependent.end();
+    const bool is_told_alone = found.is_determined[k] && numbers.names[k] == names[k];
+    if (is_dependent || is_told_alone || plain.identifiability.dependent.empty()) continue;
+    const double value = combination_value(found, numbers.x, i);
+    result->combinations.push_back({combination_of(found, numbers.names, i), value, changed.combination_deviation[i],
+                                    value - changed.combination_below[i], value + changed.combination_above[i]});
+  }
 }
 
 void begin_numbers(const FitVariables& variables, const ResidualFit& fit, IdentificationResult* result) {
@@ -60,11 +89,10 @@ void begin_numbers(const FitVariables& variables, const ResidualFit& fit, Identi
   }
 }
 
-/// If other numbers can compensate a number on a bound, the data do not hold it there: it counts as undetermined instead of known.
+/// If other numbers can compensate a number on a bound, the data do not hold it there: it is not determined.
 void release_undetermined(const ResidualFit& fit, const LossOptions& loss, IdentificationResult* result) {
   const Identifiability all = find_identifiable(weigh(fit.residuals, &fit.jacobian, fit.spreads, loss).jacobian);
-  for (std::size_t k = 0; k < result->numbers.size(); ++k)
-    if (!all.is_determined[k]) result->numbers[k].is_on_bound = false;
+  for (std::size_t k = 0; k < result->numbers.size(); ++k) result->numbers[k].is_determined = all.is_determined[k];
 }
 
 }  // namespace
@@ -79,6 +107,7 @@ std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::
     fit.start = rms_of(start.col(k));
     fit.rms = rms_of(residuals.col(k));
     fit.worst = residuals.col(k).cwiseAbs().maxCoeff();
+    fit.explained = explained_share(recorded.col(k), residuals.col(k));
     fit.whiteness = ljung_box(residuals.col(k), source.lengths());
     fits.push_back(std::move(fit));
   }
@@ -93,7 +122,9 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
   const std::vector<int> columns = free_columns(*result);
   result->covariance.setZero(variables.size(), variables.size());
   if (columns.empty()) return;
-  const ParameterCovariance known = covariance_of(fit, options.loss, lengths, options.intervals, delays, columns);
+  const WeightedResiduals weighted = weighted_columns(fit, options.loss, delays, columns);
+  const ParameterCovariance known =
+      parameter_covariance(weighted.residuals, weighted.jacobian, lengths, options.intervals, fit.own_unknowns);
   std::vector<std::string> names;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
@@ -108,7 +139,7 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
   }
   result->rank = known.identifiability.rank;
   result->lag = known.lag;
-  result->undetermined = describe_undetermined(known.identifiability, names);
+  judge_combinations(weighted, fit, lengths, options.intervals, columns, names, known, result);
 }
 
 void add_profiles(const FitProblem& problem, const IdentificationDescription& options, const ResidualFit& fit, ResidualSource* source,
@@ -148,6 +179,22 @@ void add_profiles(const FitProblem& problem, const IdentificationDescription& op
   }
 }
 
+Warnings unexplained_outputs(const IdentificationDescription& options, const IdentificationResult& result,
+                             const std::vector<EffortDoubt>& doubts, Status* failure) {
+  Warnings warnings;
+  for (const OutputFit& fit : result.data) {
+    if (!(fit.explained < kExplainedHalf)) continue;
+    const auto doubt = std::find_if(doubts.begin(), doubts.end(), [&fit](const EffortDoubt& of) { return of.joint == fit.joint; });
+    const std::string mistake = doubt == doubts.end() ? "" : sentence_of(*doubt);
+    const std::string sentence = "the fit explains " + readable(100.0 * std::max(0.0, fit.explained), 2) + " % of " + fit.joint +
+                                 ": sign, unit, order?" + (mistake.empty() ? "" : " " + mistake);
+    warnings.push_back(warn("effort_not_explained", {options.where, "identify.data", sentence, "",
+                                                     "at least half; a recording in N m or N on the child, along the axis of its joint"}));
+    if (failure->ok() && (fit.explained < kExplainsNothing || !mistake.empty())) *failure = {StatusCode::kNotIdentifiable, 0.0, sentence};
+  }
+  return warnings;
+}
+
 Warnings warnings_of(const IdentificationDescription& options, const IdentificationResult& result) {
   Warnings warnings;
   for (std::size_t k = 0; k < result.holdout.size(); ++k) {
@@ -158,6 +205,11 @@ Warnings warnings_of(const IdentificationDescription& options, const Identificat
                                                    result.holdout[k].joint + ", " + readable(there) + " on the fitted data",
                                                readable(here), "at most " + readable(kHoldoutFactor * there)}));
   }
+  if (result.termination == "max_evaluations_reached")
+    warnings.push_back(warn(
+        "max_evaluations_reached",
+        {options.where, "optimizer.max_evaluations", "the fit ended before it reached an optimum; its numbers are those of the best point",
+         std::to_string(result.evaluations), "more evaluations, or a larger relative_tolerance"}));
   if (2 * result.failed_evaluations > result.evaluations)
     warnings.push_back(warn("fit_hindered", {options.where, "identify",
                                              std::to_string(result.failed_evaluations) + " of " + std::to_string(result.evaluations) +

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "identification/effort_doubts.h"
 #include "identification/effort_residuals.h"
 #include "identification/identification_result.h"
 #include "identification/residual_fit.h"
@@ -26,7 +27,13 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
 void add_profiles(const FitProblem& problem, const IdentificationDescription& options, const ResidualFit& fit, ResidualSource* source,
                   const FitObserver& observer, const std::atomic<bool>* cancel, IdentificationResult* result);
 
-/// Warnings about the result: `holdout_failed` first, `fit_hindered`, `identified_on_bound`, `correlated_residuals`, `delay_in_noise`.
+/// Warnings `effort_not_explained` for the outputs of which the fit explains less than half. @param doubts about the recordings as the
+/// model stands. @param failure set if the fit explains less than a tenth of an output, or if a mistake in the recording explains more
+Warnings unexplained_outputs(const IdentificationDescription& options, const IdentificationResult& result,
+                             const std::vector<EffortDoubt>& doubts, Status* failure);
+
+/// Warnings about the result: `holdout_failed` first, `max_evaluations_reached`, `fit_hindered`, `identified_on_bound`,
+/// `correlated_residuals`, `delay_in_noise`.
 Warnings warnings_of(const IdentificationDescription& options, const IdentificationResult& result);
 
 }  // namespace codesign

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace codesign {
 namespace {
 
 constexpr int kMostPasses = 10;
+constexpr double kWorthOfPrior = 0.1;      // of one residual: the least gain of a step of a fit with a prior
 constexpr double kSpreadTolerance = 1e-3;  // relative change of all spreads at which they count as settled
 constexpr double kLeastSpread = 1e-9;      // of the root mean square at the start: the lower limit of a spread, for exact data
 
@@ -38,12 +40,27 @@ Eigen::VectorXd spreads_above(const Eigen::MatrixXd& residuals, const LossOption
   return spreads.unaryExpr([](double spread) { return spread > 0.0 ? spread : 1.0; });
 }
 
+/// Deviations from what is known before, each over its standard deviation; zero where nothing is known.
+Eigen::VectorXd surprises(const FitProblem& problem, const Eigen::VectorXd& x) {
+  if (problem.prior.size() == 0) return {};
+  return (x - problem.known).cwiseQuotient(problem.prior);
+}
+
+/// R of the rows of residuals and of the prior.
+Eigen::MatrixXd root_with_prior(const FitProblem& problem, const Eigen::MatrixXd& jacobian) {
+  if (problem.prior.size() == 0) return triangular_root(jacobian);
+  Eigen::MatrixXd rows(jacobian.rows() + jacobian.cols(), jacobian.cols());
+  rows.topRows(jacobian.rows()) = jacobian;
+  rows.bottomRows(jacobian.cols()) = problem.prior.cwiseInverse().asDiagonal();
+  return triangular_root(rows);
+}
+
 /// The cost with fixed spreads. Keeps residuals and Jacobian of the best point, and the counts.
 class WeightedCost final : public LeastSquaresModel {
  public:
-  WeightedCost(const LossOptions& loss, const Eigen::VectorXd& spreads, ResidualSource* source, const FitObserver& observer,
+  WeightedCost(const FitProblem& problem, const Eigen::VectorXd& spreads, ResidualSource* source, const FitObserver& observer,
                ResidualFit* fit)
-      : loss_(loss), spreads_(spreads), source_(*source), observer_(observer), fit_(*fit) {}
+      : problem_(problem), spreads_(spreads), source_(*source), observer_(observer), fit_(*fit) {}
 
   Outcome evaluate(const Eigen::VectorXd& x, LeastSquaresPoint* point) override {
     const Status status = source_.evaluate(x, &residuals_, &jacobian_);
@@ -57,13 +74,15 @@ class WeightedCost final : public LeastSquaresModel {
       return tell(trial) ? Outcome::kFailed : stop({StatusCode::kCancelled, 0.0, "cancelled"});
     }
     clear_rounding(x, &jacobian_);
-    const WeightedResiduals weighted = weigh(residuals_, &jacobian_, spreads_, loss_);
-    point->value = weighted.value;
+    const WeightedResiduals weighted = weigh(residuals_, &jacobian_, spreads_, problem_.loss);
+    const Eigen::VectorXd surprise = surprises(problem_, x);
+    point->value = weighted.value + surprise.squaredNorm();
     point->gradient = 2.0 * (weighted.jacobian.transpose() * weighted.residuals.reshaped());
-    point->root = triangular_root(weighted.jacobian);
+    if (surprise.size() > 0) point->gradient += 2.0 * surprise.cwiseQuotient(problem_.prior);
+    point->root = root_with_prior(problem_, weighted.jacobian);
     point->owed = source_.own_promise();
-    keep(x, weighted.value);
-    trial.cost = weighted.value;
+    keep(x, point->value);
+    trial.cost = point->value;
     trial.iteration = fit_.iterations;
     trial.rms = rms_of(residuals_);
     return tell(trial) ? Outcome::kUsable : stop({StatusCode::kCancelled, 0.0, "cancelled"});
@@ -86,7 +105,7 @@ class WeightedCost final : public LeastSquaresModel {
     fit_.jacobian = jacobian_;
   }
 
-  const LossOptions& loss_;
+  const FitProblem& problem_;
   const Eigen::VectorXd& spreads_;
   ResidualSource& source_;
   const FitObserver& observer_;
@@ -96,12 +115,16 @@ class WeightedCost final : public LeastSquaresModel {
 };
 
 void search(const FitProblem& problem, ResidualSource* source, const FitObserver& observer, ResidualFit* fit) {
+  const Eigen::Index rows = std::accumulate(source->lengths().begin(), source->lengths().end(), Eigen::Index{0});
   source->count_by(fit->spreads, problem.loss);
   fit->own_unknowns = source->own_unknowns();
-  WeightedCost cost(problem.loss, fit->spreads, source, observer, fit);
+  WeightedCost cost(problem, fit->spreads, source, observer, fit);
   LevenbergMarquardtOptions options;
   options.max_evaluations = std::max(1, problem.max_evaluations - fit->evaluations);
   options.relative_tolerance = problem.relative_tolerance;
+  // Along directions that only a prior determines steps gain little; less than a tenth of one residual of the size of the noise is nothing.
+  if (problem.prior.size() > 0)
+    options.relative_tolerance = std::max(options.relative_tolerance, kWorthOfPrior / static_cast<double>(std::max<Eigen::Index>(1, rows)));
   options.largest_first_step = std::numeric_limits<double>::infinity();
   Eigen::VectorXd x = fit->x;
   LeastSquaresPoint best;
@@ -161,7 +184,7 @@ ResidualFit fit_residuals(const FitProblem& problem, ResidualSource* source, con
     const Eigen::VectorXd spreads = spreads_above(fit.residuals, problem.loss, at_start);
     const bool is_settled = ((spreads - fit.spreads).array().abs() <= kSpreadTolerance * spreads.array()).all();
     const bool has_one_scale = spreads.size() == 1 && problem.loss.kind == LossKind::kNone;
-    fit.cost = weigh(fit.residuals, nullptr, spreads, problem.loss).value;
+    fit.cost = weigh(fit.residuals, nullptr, spreads, problem.loss).value + surprises(problem, fit.x).squaredNorm();
     fit.spreads = spreads;
     if (is_settled || has_one_scale) break;
   }

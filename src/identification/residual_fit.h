@@ -48,6 +48,9 @@ struct FitProblem {
   LossOptions loss;
   int max_evaluations = 200;
   double relative_tolerance = 1e-6;  ///< of the cost
+  /// What is known before: normal distributions about `known` with these standard deviations, which add ((x - known) / prior)^2 to the
+  /// cost; doc/theory.md (39b). Infinite: nothing. Empty: nothing of any variable.
+  Eigen::VectorXd prior, known;
 };
 
 /// The best point of a fit.
@@ -56,7 +59,7 @@ struct ResidualFit {
   std::string termination;  ///< as OptimizationResult::termination
   Eigen::VectorXd x;
   Eigen::VectorXd spreads;              ///< s_k: root mean square of the residuals; with a robust loss 1.4826 times the median of |r|
-  double cost = 0.0;                    ///< sum of rho(r / s) at x
+  double cost = 0.0;                    ///< sum of rho(r / s) at x, and of the prior
   Eigen::MatrixXd residuals, jacobian;  ///< at x, not weighted
   Eigen::MatrixXd start_residuals;
   Eigen::Index own_unknowns = 0;  ///< number of unknowns of the source's own

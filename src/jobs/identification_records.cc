@@ -11,7 +11,8 @@
 namespace codesign {
 namespace {
 
-constexpr std::size_t kShownOptima = 10;
+constexpr double kWhiteBelow = 0.01;  // probability below which residuals do not count as white
+constexpr std::size_t kShownOptima = 10, kToldSentences = 5;
 
 const char* name_of(ProfileEnd end) {
   switch (end) {
@@ -63,6 +64,7 @@ Json outputs_json(const std::vector<OutputFit>& fits, Eigen::Index samples) {
                          {"start_rms", fit.start},
                          {"rms", fit.rms},
                          {"worst", fit.worst},
+                         {"explained", fit.explained},
                          {"whiteness",
                           {{"ljung_box", fit.whiteness.statistic},
                            {"lags", fit.whiteness.lags},
@@ -86,7 +88,9 @@ void add_rows(const std::string& set, const FittedSeries& series, std::vector<st
 
 std::string sentence_of(const std::string& set, const OutputFit& fit) {
   return set + ", " + fit.joint + ": root mean square of the residuals " + readable(fit.start) + " -> " + readable(fit.rms) + " of " +
-         readable(fit.recorded) + " recorded";
+         readable(fit.recorded) + " recorded, " + readable(100.0 * std::max(0.0, fit.explained), 3) + " % explained" +
+         (fit.whiteness.probability < kWhiteBelow ? "; not white, correlation of neighbours " + readable(fit.whiteness.first_correlation, 2)
+                                                  : "");
 }
 
 Json searches_json(const FitSearches& searches, const std::vector<IdentifiedNumber>& numbers) {
@@ -122,6 +126,10 @@ Json identification_json(const Problem& problem, const IdentificationResult& res
   object["lag"] = result.lag;
   object["rank"] = result.rank;
   object["undetermined"] = result.undetermined;
+  object["combinations"] = Json::array();
+  for (const BaseParameter& of : result.combinations)
+    object["combinations"].push_back(
+        {{"expression", of.expression}, {"value", of.value}, {"deviation", of.deviation}, {"interval", {of.low, of.high}}});
   object["names"] = std::move(names);
   object["covariance"] = rows_json(result.covariance);
   object["correlation"] = rows_json(correlation_of(result.covariance));
@@ -135,7 +143,10 @@ std::vector<std::string> identification_sentences(const IdentificationResult& re
   std::vector<std::string> sentences;
   for (const OutputFit& fit : result.holdout) sentences.push_back(sentence_of("holdout", fit));
   for (const OutputFit& fit : result.data) sentences.push_back(sentence_of("fitted data", fit));
-  for (const std::string& sentence : result.undetermined) sentences.push_back("not identifiable: " + sentence);
+  for (std::size_t k = 0; k < std::min(kToldSentences, result.undetermined.size()); ++k)
+    sentences.push_back("not identifiable: " + result.undetermined[k]);
+  if (result.undetermined.size() > kToldSentences)
+    sentences.push_back("and " + std::to_string(result.undetermined.size() - kToldSentences) + " more; what is known stands below");
   const std::vector<Optimum>& optima = result.searches.optima;
   for (std::size_t k = 0; k < std::min(kShownOptima, optima.size()); ++k)
     sentences.push_back("optimum " + std::to_string(k + 1) + ": mean spread of the residuals " + readable(optima[k].objective) +

@@ -18,6 +18,11 @@ std::string JointRecording::place_of(std::size_t k) const {
 
 SourceLocation JointRecording::location_of(std::size_t k) const { return {file, topic.empty() ? static_cast<int>(places[k]) : 0}; }
 
+bool has_same_settings(const JointRecording& one, const JointRecording& other) {
+  return std::equal(one.settings.begin(), one.settings.end(), other.settings.begin(), other.settings.end(),
+                    [](const RecordedSetting& a, const RecordedSetting& b) { return a.parameter == b.parameter && a.value == b.value; });
+}
+
 JointRecording part_of(const JointRecording& recording, std::size_t begin, std::size_t end) {
   const auto cut = [begin, end](const auto& column) {
     auto part = column;
@@ -28,6 +33,7 @@ JointRecording part_of(const JointRecording& recording, std::size_t begin, std::
   JointRecording part;
   part.file = recording.file;
   part.topic = recording.topic;
+  part.settings = recording.settings;
   part.element = recording.element;
   part.where = recording.where;
   part.times = cut(recording.times);

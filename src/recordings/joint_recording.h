@@ -30,8 +30,9 @@ struct JointRecording {
   std::vector<double> times;        ///< [s], from the column of a table, or counted from the begin of the bag
   std::vector<std::size_t> places;  ///< one per time: the line of the file, or the number of the topic's message, from 1
   std::vector<JointSamples> joints;
-  std::string element;   ///< the entry of the study, for messages: `identify.data[0]`
-  SourceLocation where;  ///< place of this entry, for messages
+  std::vector<RecordedSetting> settings;  ///< values of parameters in this recording
+  std::string element;                    ///< the entry of the study, for messages: `identify.data[0]`
+  SourceLocation where;                   ///< place of this entry, for messages
 
   /// The samples of a joint; null if it was not recorded.
   const JointSamples* find(const std::string& joint) const;
@@ -40,6 +41,9 @@ struct JointRecording {
   /// The file and, for a table, the line of sample k.
   SourceLocation location_of(std::size_t k) const;
 };
+
+/// Whether both recordings give the same parameters the same values, in the same order.
+bool has_same_settings(const JointRecording& one, const JointRecording& other);
 
 /// Samples `begin` to `end` - 1. @param begin at most `end`, which is at most the number of samples
 JointRecording part_of(const JointRecording& recording, std::size_t begin, std::size_t end);

@@ -7,6 +7,7 @@
 
 #include "description/named_file.h"
 #include "recordings/even_stamps.h"
+#include "recordings/measured_motion.h"
 #include "recordings/recording_check.h"
 #include "recordings/table_recording.h"
 #include "recordings/unit_check.h"
@@ -84,23 +85,42 @@ void require_one_piece(const RecordingDescription& description, const std::vecto
                     "one entry for each piece, with `from`, `to` and `start`"});
 }
 
+/// Pieces between gaps that the filters shorten too much are left out, unless all are.
+std::vector<JointRecording> long_enough(std::vector<JointRecording> pieces, const Context& context) {
+  const IdentificationDescription& options = context.identification;
+  const auto is_short = [&options](const JointRecording& piece) {
+    return samples_to_fit(piece, options.filter) < static_cast<Eigen::Index>(kLeastSamples);
+  };
+  if (options.residual != ResidualKind::kEffort || std::all_of(pieces.begin(), pieces.end(), is_short)) return pieces;
+  const auto short_ones = std::stable_partition(pieces.begin(), pieces.end(), [&](const auto& piece) { return !is_short(piece); });
+  for (auto piece = short_ones; piece != pieces.end(); ++piece)
+    context.warnings->push_back(
+        warn("recording_piece_dropped",
+             {piece->location_of(0), piece->element,
+              "a piece of " + std::to_string(piece->times.size()) + " samples between gaps is left out (" + piece->place_of(0) +
+                  "): the filters leave " + std::to_string(samples_to_fit(*piece, options.filter)) + " to fit",
+              "", "at least " + std::to_string(kLeastSamples)}));
+  pieces.erase(short_ones, pieces.end());
+  return pieces;
+}
+
 std::vector<JointRecording> load(const std::vector<RecordingDescription>& descriptions, const Context& context) {
   std::vector<JointRecording> recordings;
   for (const RecordingDescription& description : descriptions) {
-    const JointRecording whole = read(description, context);
+    JointRecording whole = read(description, context);
+    whole.settings = description.settings;
     require_calibrated_joints(whole, context.identification);
     JointRecording part = checked_part(whole, description.from, description.to);
     add_starts(description, &part);
+    check_spikes(part, context.warnings);
     unwrap_turns(context.robot, &part, context.warnings);
     check_units(context.robot, part, context.warnings);
     // Before gaps are looked for, since late stamps look like missing samples; and again, since a clock may go on differently behind a gap.
     even_stamps(&part, context.warnings);
     std::vector<JointRecording> pieces = without_gaps(part, description.gaps, context.warnings);
     require_one_piece(description, pieces);
-    for (JointRecording& piece : pieces) {
-      even_stamps(&piece, context.warnings);
-      recordings.push_back(std::move(piece));
-    }
+    for (JointRecording& piece : pieces) even_stamps(&piece, context.warnings);
+    for (JointRecording& piece : long_enough(std::move(pieces), context)) recordings.push_back(std::move(piece));
   }
   return recordings;
 }

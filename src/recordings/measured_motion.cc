@@ -20,7 +20,8 @@ void require_below_half_rate(const std::string& key, double cutoff, const Filter
                     readable(cutoff), "less than " + readable(0.5 * rate, 6) + " Hz, or 0 for no filter"});
 }
 
-void choose_samples(const JointRecording& recording, const FilterOptions& filter, MeasuredMotion* motion) {
+/// Sets the range of the samples to fit. @return whether the filter can run
+bool choose_samples(const FilterOptions& filter, MeasuredMotion* motion) {
   constexpr double kDifferences = 4.0, kSettling = 2.0;
   const double rate = motion->times.rate();
   double edge = kDifferences;
@@ -31,7 +32,11 @@ void choose_samples(const JointRecording& recording, const FilterOptions& filter
   motion->end = motion->times.count - motion->first;
   motion->every = filter.decimate;
   const Eigen::Index padding = 3 * (filter.order + 1) + 1;
-  if (motion->times.count >= padding && motion->fitted() >= static_cast<Eigen::Index>(kLeastSamples)) return;
+  return motion->times.count >= padding;
+}
+
+void require_samples(const JointRecording& recording, const FilterOptions& filter, MeasuredMotion* motion) {
+  if (choose_samples(filter, motion) && motion->fitted() >= static_cast<Eigen::Index>(kLeastSamples)) return;
   throw InputError({recording.where, recording.element,
                     std::to_string(motion->times.count) + " samples leave " + std::to_string(motion->fitted()) +
                         " to fit, without the ends where filters know one side only: " + recording.file,
@@ -81,13 +86,19 @@ JointMotion motion_of(const JointSamples& samples, const std::vector<double>& ti
 
 }  // namespace
 
+Eigen::Index samples_to_fit(const JointRecording& recording, const FilterOptions& filter) {
+  MeasuredMotion motion;
+  motion.times = uniform_times(recording.times);
+  return choose_samples(filter, &motion) ? motion.fitted() : 0;
+}
+
 MeasuredMotion measured_motion(const JointRecording& recording, const FilterOptions& filter, Warnings* warnings) {
   MeasuredMotion motion;
   motion.element = recording.element;
   motion.times = uniform_times(recording.times);
   require_below_half_rate("cutoff", filter.cutoff, filter, recording, motion.times.rate());
   require_below_half_rate("residual_cutoff", filter.residual_cutoff, filter, recording, motion.times.rate());
-  choose_samples(recording, filter, &motion);
+  require_samples(recording, filter, &motion);
   warn_of_samples(recording, filter, motion, warnings);
   std::optional<ZeroPhaseFilter> smoothing;
   if (filter.cutoff > 0.0) smoothing.emplace(filter.order, filter.cutoff, motion.times.rate());

@@ -34,6 +34,9 @@ struct MeasuredMotion {
   Eigen::Index fitted() const { return end > first ? (end - first + every - 1) / every : 0; }
 };
 
+/// Number of samples of a recording that a filter leaves to fit, MeasuredMotion::fitted(); 0 if it is too short for the filter.
+Eigen::Index samples_to_fit(const JointRecording& recording, const FilterOptions& filter);
+
 /// Positions and measured velocities are resampled by cubics, efforts by lines; positions and velocities are filtered at `cutoff`; a
 /// velocity that was not measured is the derivative of the position, and the acceleration is always the derivative of the velocity. A
 /// position that was not measured is the integral of the filtered velocity from the joint's start in the study; without a start it is

@@ -25,6 +25,9 @@ JointRecording checked_part(const JointRecording& recording, double from, double
 /// @throws InputError with the place of the first gap for GapRule::kRefuse, or if nothing is left.
 std::vector<JointRecording> without_gaps(const JointRecording& recording, GapRule rule, Warnings* warnings);
 
+/// Warns of single samples, three in a row at most, far outside the range of all others: `recording_spike`, with the first one's place.
+void check_spikes(const JointRecording& recording, Warnings* warnings);
+
 /// Adds whole turns to the positions of turning joints where they jump by more than half a turn between two samples, as encoders that count
 /// from -pi to pi do; warning `recording_unwrapped`.
 void unwrap_turns(const RobotDescription& robot, JointRecording* recording, Warnings* warnings);

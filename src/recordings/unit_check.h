@@ -8,8 +8,9 @@
 
 namespace codesign {
 
-/// Warns of values that seem to have other units: `recording_units` if a measured velocity is not the derivative of the position but nearly
-/// proportional to it, and `recording_beyond_limits` if positions lie far outside the joint's `<limit>`.
+/// Warns of values that seem to have other units or to stand in other columns: `recording_units` if a measured velocity is not the
+/// derivative of the position but nearly proportional to it, `recording_velocity` if it has little to do with it, and
+/// `recording_beyond_limits` if positions lie far outside the joint's `<limit>`.
 void check_units(const RobotDescription& robot, const JointRecording& recording, Warnings* warnings);
 
 }  // namespace codesign

@@ -81,20 +81,30 @@ Identifiability find_identifiable(const Eigen::MatrixXd& R, double threshold) {
   return found;
 }
 
+std::string combination_of(const Identifiability& found, const std::vector<std::string>& names, Eigen::Index i) {
+  std::string sum = names[static_cast<std::size_t>(i)];
+  for (Eigen::Index k = 0; k < found.null_directions.cols(); ++k)
+    if (const double factor = -found.null_directions(i, k); factor != 0.0)
+      sum += term(factor, names[static_cast<std::size_t>(found.dependent[static_cast<std::size_t>(k)])]);
+  return sum;
+}
+
+double combination_value(const Identifiability& found, const Eigen::VectorXd& x, Eigen::Index i) {
+  double sum = x[i];
+  for (Eigen::Index k = 0; k < found.null_directions.cols(); ++k)
+    sum -= found.null_directions(i, k) * x[found.dependent[static_cast<std::size_t>(k)]];
+  return sum;
+}
+
 std::vector<std::string> describe_undetermined(const Identifiability& found, const std::vector<std::string>& names) {
   std::vector<std::string> sentences;
   const auto name = [&names](Eigen::Index index) { return names[static_cast<std::size_t>(index)]; };
   for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(names.size()); ++i) {
     std::vector<std::string> involved = {name(i)};
-    std::string sum = name(i);
-    for (Eigen::Index k = 0; k < found.null_directions.cols(); ++k) {
-      const int d = found.dependent[static_cast<std::size_t>(k)];
-      const double factor = -found.null_directions(i, k);
-      if (d == i || factor == 0.0) continue;
-      involved.push_back(name(d));
-      sum += term(factor, name(d));
-    }
-    if (involved.size() > 1) sentences.push_back(joined(involved) + " appear only as " + sum);
+    if (std::find(found.dependent.begin(), found.dependent.end(), static_cast<int>(i)) != found.dependent.end()) continue;
+    for (Eigen::Index k = 0; k < found.null_directions.cols(); ++k)
+      if (found.null_directions(i, k) != 0.0) involved.push_back(name(found.dependent[static_cast<std::size_t>(k)]));
+    if (involved.size() > 1) sentences.push_back(joined(involved) + " appear only as " + combination_of(found, names, i));
   }
   for (Eigen::Index k = 0; k < found.null_directions.cols(); ++k)
     if ((found.null_directions.col(k).array() != 0.0).count() == 1)

@@ -38,6 +38,12 @@ constexpr double kRankThreshold = 1e-9;
 /// hardly determine
 Identifiability find_identifiable(const Eigen::MatrixXd& R, double threshold = kRankThreshold);
 
+/// `mass_2 + 0.98 mass_3`: what the data determine of independent parameter `i` and the dependent ones, (32); the name alone if it is
+/// determined.
+std::string combination_of(const Identifiability& found, const std::vector<std::string>& names, Eigen::Index i);
+/// Its value at x.
+double combination_value(const Identifiability& found, const Eigen::VectorXd& x, Eigen::Index i);
+
 /// Sentences about parameters that the data do not determine: `mass_2 and mass_3 appear only as mass_2 + 0.98 mass_3`, `preload has no
 /// effect`. Empty at full rank. @param names of the parameters
 std::vector<std::string> describe_undetermined(const Identifiability& found, const std::vector<std::string>& names);

@@ -77,7 +77,11 @@ void use_bootstrap(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, d
   }
 }
 
+/// With the dependent parameters held, an independent one stands for its combination with them.
 void mark_undetermined(ParameterCovariance* result) {
+  result->combination_deviation = result->covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  result->combination_below = result->below;
+  result->combination_above = result->above;
   for (Eigen::Index k = 0; k < result->below.size(); ++k) {
     if (result->identifiability.is_determined[static_cast<std::size_t>(k)]) continue;
     result->covariance.row(k).setConstant(kUnknown);

@@ -16,7 +16,10 @@ struct ParameterCovariance {
   Identifiability identifiability;
   /// p x p. A parameter that the data do not determine has an infinite variance, and its covariances are NaN.
   Eigen::MatrixXd covariance;
-  Eigen::VectorXd below, above;    ///< the interval at the level is [x - below, x + above]; infinite where the data do not determine x
+  Eigen::VectorXd below, above;  ///< the interval at the level is [x - below, x + above]; infinite where the data do not determine x
+  /// Deviation of combination_of() each parameter with the dependent ones, and its interval; of a determined parameter its own. Zero for
+  /// the dependent parameters.
+  Eigen::VectorXd combination_deviation, combination_below, combination_above;
   double residual_variance = 0.0;  ///< sum of squares divided by (rows - rank), in squared units of the residuals
   double degrees = 0.0;            ///< degrees of freedom of Student's t in the intervals
   int lag = 0;                     ///< lag of the kernel, or number of neighbours in a block; 0 for white noise

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <random>
 
@@ -166,12 +168,88 @@ TEST(Identify, ABoundDoesNotMakeKnownWhatOthersMakeUpFor) {
   // Only 0.25 mass + inertia is known, 0.8: with the mass on its bound, any inertia near 0.55 fits exactly.
   const IdentificationResult result = run(problem_of("mass: {upper: 2.0}, inertia: {}, viscous: {}"), Rig());
   EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable);
-  for (std::size_t k : {0U, 1U}) {
-    EXPECT_FALSE(result.numbers[k].is_on_bound);
-    EXPECT_FALSE(result.numbers[k].is_determined);
-  }
+  for (std::size_t k : {0U, 1U}) EXPECT_FALSE(result.numbers[k].is_determined);
+  EXPECT_TRUE(result.numbers[0].is_on_bound) << "a number on its bound is on it, whatever the data tell";
+  EXPECT_FALSE(result.numbers[1].is_on_bound);
   EXPECT_TRUE(result.numbers[2].is_determined);
   EXPECT_EQ(result.rank, 2);
+}
+
+TEST(Identify, WhatIsKnownOfNumbersThatAreNotKnownEachIsReported) {
+  Rig rig;
+  rig.noise = 0.05;
+  const IdentificationResult result = run(problem_of("mass: {}, inertia: {}, viscous: {}"), rig);
+  ASSERT_EQ(result.combinations.size(), 1U) << "the damping is known alone";
+  const BaseParameter& known = result.combinations[0];
+  const bool by_mass = known.expression == "mass + 4 inertia";
+  EXPECT_TRUE(by_mass || known.expression == "inertia + 0.25 mass") << known.expression;
+  const double truth = by_mass ? 3.2 : 0.8;
+  EXPECT_GT(known.deviation, 0.0);
+  EXPECT_NEAR(known.value, truth, 4.0 * known.deviation);
+  EXPECT_LT(known.deviation, 0.02 * truth);
+  EXPECT_LT(known.low, known.value);
+  EXPECT_GT(known.high, known.value);
+}
+
+TEST(Identify, APriorChoosesAmongWhatTheDataLeaveOpen) {
+  const std::string parameters = "mass: {}, inertia: {}, viscous: {}";
+  const IdentificationResult of_mass = run(problem_of(parameters, "  prior: {mass: 1.0e-4}\n"), Rig());
+  EXPECT_NEAR(of_mass.numbers[0].value, 2.0, 1e-3);
+  EXPECT_NEAR(of_mass.numbers[1].value, 0.3, 1e-3);
+  const IdentificationResult of_inertia = run(problem_of(parameters, "  prior: {inertia: 1.0e-4}\n"), Rig());
+  EXPECT_NEAR(of_inertia.numbers[1].value, 0.1, 1e-3);
+  EXPECT_NEAR(of_inertia.numbers[0].value, 2.8, 1e-3);
+  EXPECT_EQ(of_inertia.status.code, StatusCode::kNotIdentifiable) << "a prior is not what the data tell";
+  EXPECT_THROW(problem_of(parameters, "  prior: {masss: 0.3}\n"), InputError);
+  EXPECT_THROW(problem_of(parameters, "  prior: {viscous: 0}\n"), InputError);
+}
+
+TEST(Identify, ADriveGainComesFromMotionsWithAndWithoutAPayload) {
+  // A payload of the other motion is the only known inertia: efforts without it determine inertia and damping per drive gain.
+  const Problem problem = problem_of("mass: {tune: false}, inertia: {}, viscous: {}",
+                                     "  holdout: [{csv: data.csv, set: {mass: 3.0}}]\n  joints: {hinge: {effort_scale: {initial: 5.0}}}\n");
+  Rig without, with;
+  without.scale = with.scale = 11.0;
+  with.total = without.total + 0.25;
+  StudyRecordings recordings;
+  recordings.data = {without.record("identify.data[0]"), with.record("identify.data[1]")};
+  EXPECT_NE(identify(problem, recordings, {}, nullptr).data[0].rms, 0.0);
+  recordings.data[1].settings = problem.study().identification->holdout.at(0).settings;
+  ASSERT_EQ(recordings.data[1].settings.size(), 1U);
+  const IdentificationResult result = identify(problem, recordings, {}, nullptr);
+  ASSERT_TRUE(result.status.ok()) << result.status.cause;
+  EXPECT_NEAR(result.numbers[0].value, 0.3, 1e-4);
+  EXPECT_NEAR(result.numbers[2].value, 11.0, 1e-3);
+  EXPECT_EQ(result.data_series.lengths.size(), 2U);
+  EXPECT_LT(result.data[0].rms, 1e-4 * result.data[0].recorded);
+  EXPECT_THROW(problem_of("inertia: {}", "  holdout: [{csv: data.csv, set: {inertia: 3.0}}]\n"), InputError) << "it is tuned";
+}
+
+TEST(Identify, ACancelledFitStillJudgesItsHoldout) {
+  const Rig rig;
+  StudyRecordings recordings;
+  recordings.data = {rig.record("identify.data[0]")};
+  recordings.holdout = {rig.record("identify.holdout[0]")};
+  std::atomic<bool> cancel{false};
+  const auto stop = [&cancel](const FitTrial&) {
+    cancel = true;
+    return false;
+  };
+  const IdentificationResult result = identify(problem_of("inertia: {}, viscous: {}"), recordings, stop, &cancel);
+  EXPECT_EQ(result.status.code, StatusCode::kCancelled);
+  ASSERT_EQ(result.holdout.size(), 1U);
+  EXPECT_GT(result.holdout[0].rms, 0.0);
+}
+
+TEST(Identify, AFitThatMeetsItsLimitIsUsableAndSaysSo) {
+  std::string study = study_of("inertia: {}, viscous: {}");
+  study.replace(study.find("relative_tolerance"), 0, "max_evaluations: 1, ");
+  StudyRecordings recordings;
+  recordings.data = {Rig().record("identify.data[0]")};
+  const IdentificationResult result = identify(load_problem({"arm.urdf", kArm}, {}, {"study.yaml", study}), recordings, {}, nullptr);
+  EXPECT_TRUE(result.status.ok()) << "its numbers are those of the best point";
+  EXPECT_TRUE(std::any_of(result.warnings.begin(), result.warnings.end(),
+                          [](const Warning& warning) { return warning.code == "max_evaluations_reached"; }));
 }
 
 TEST(Identify, ASpeedAloneIsIntegratedFromAStartThatIsFitted) {

@@ -168,5 +168,24 @@ TEST_F(RecordedSpeed, IsNotFollowedOverAGap) {
   EXPECT_EQ(load().data.size(), 2U);
 }
 
+TEST_F(LoadRecordings, APieceTooShortForTheFilterIsLeftOut) {
+  std::ofstream file(directory_.path() / "gap.csv");
+  const JointRecording recording = swing(400);
+  file << "time,hinge/position,hinge/effort\n";
+  for (std::size_t k = 0; k < 400; ++k)
+    if (k < 350 || k >= 370)
+      file << recording.times[k] << "," << recording.joints[0].position[k] << "," << recording.joints[0].effort[k] << "\n";
+  file.close();
+  identification_.data = {entry("gap.csv", "identify.data[0]")};
+  identification_.data[0].gaps = GapRule::kSplit;
+  EXPECT_EQ(load().data.size(), 2U) << "without a filter 30 samples are enough";
+  EXPECT_TRUE(warnings_.empty());
+  identification_.filter.cutoff = identification_.filter.residual_cutoff = 10.0;
+  EXPECT_EQ(load().data.size(), 1U);
+  ASSERT_EQ(warnings_.size(), 1U);
+  EXPECT_EQ(warnings_[0].code, "recording_piece_dropped");
+  expect_word(warnings_[0].message, "the filters leave");
+}
+
 }  // namespace
 }  // namespace codesign

@@ -30,6 +30,33 @@ TEST(UnitCheck, NoticesAVelocityInOtherUnits) {
   expect_word(warnings_of(recording).at(0).message, "is -57.3");
 }
 
+/// As swing(), with a second wave, so that derivatives are no longer proportional.
+JointRecording two_waves() {
+  JointRecording recording = swing(300);
+  for (std::size_t k = 0; k < 300; ++k) {
+    const double t = recording.times[k];
+    recording.joints[0].position[k] = 0.4 * std::sin(2.0 * t) + 0.2 * std::sin(5.0 * t);
+    recording.joints[0].velocity[k] = 0.8 * std::cos(2.0 * t) + 1.0 * std::cos(5.0 * t);
+  }
+  return recording;
+}
+
+TEST(UnitCheck, NoticesExchangedColumns) {
+  JointRecording recording = two_waves();
+  EXPECT_TRUE(warnings_of(recording).empty());
+  std::swap(recording.joints[0].position, recording.joints[0].velocity);
+  const Warnings exchanged = warnings_of(recording);
+  ASSERT_FALSE(exchanged.empty());
+  EXPECT_EQ(exchanged[0].code, "recording_velocity");
+  expect_word(exchanged[0].message, "the two columns are exchanged");
+  recording = two_waves();
+  recording.joints.push_back({"wheel", {}, recording.joints[0].velocity, {}});
+  for (std::size_t k = 0; k < 300; ++k) recording.joints[0].velocity[k] = std::sin(3.3 * recording.times[k]);
+  expect_word(warnings_of(recording).at(0).message, "the velocity of wheel is: columns are exchanged");
+  recording.joints.pop_back();
+  expect_word(warnings_of(recording).at(0).message, "is not the derivative of its position (correlation");
+}
+
 TEST(UnitCheck, AVelocityOfNoiseTellsNothingAboutUnits) {
   JointRecording recording = swing(300);
   for (std::size_t k = 0; k < 300; ++k) recording.joints[0].velocity[k] = k % 2 == 0 ? 1.0 : -1.0;

@@ -9,6 +9,7 @@
 #include "reading/study/study_fitted_number.h"
 #include "reading/study/study_recordings.h"
 #include "reading/study/study_values.h"
+#include "text/unknown_name.h"
 
 namespace codesign {
 namespace {
@@ -95,6 +96,24 @@ IntervalOptions read_intervals(const YamlValue& intervals) {
   return options;
 }
 
+/// `prior: {payload: 0.3, mass: 0.5}`: relative deviations of tuned parameters, and of what a free inertia is made of.
+std::vector<PriorDescription> read_priors(const YamlValue& prior, const Study& study) {
+  std::vector<std::string> known(kFreeInertiaParts.begin(), kFreeInertiaParts.end());
+  for (const int index : study.tuned) known.push_back(study.parameters[static_cast<std::size_t>(index)].name);
+  std::vector<PriorDescription> priors;
+  for (const auto& [name, value] : prior.entries()) {
+    const auto place = std::find(known.begin(), known.end(), name) - known.begin();
+    if (place == static_cast<std::ptrdiff_t>(known.size())) throw unknown_name(value.where(), value.path(), "tuned parameter", name, known);
+    const double deviation = read_positive_number(value, ", relative to the start of the fit");
+    const std::size_t tuned = static_cast<std::size_t>(place) - std::min(static_cast<std::size_t>(place), kFreeInertiaParts.size());
+    const bool is_named = place >= static_cast<std::ptrdiff_t>(kFreeInertiaParts.size());
+    if (is_named && study.parameters[static_cast<std::size_t>(study.tuned[tuned])].value == 0.0)
+      value.fail("a deviation relative to a start of zero is zero", "a parameter whose start is not 0, or bounds instead");
+    priors.push_back({name, deviation, value.where()});
+  }
+  return priors;
+}
+
 }  // namespace
 
 double segment_of(const YamlValue& identify) {
@@ -106,12 +125,12 @@ IdentificationDescription read_identification(const YamlValue& identify, const R
                                               bool is_planned) {
   std::vector<std::string> required;
   if (!is_planned) required.emplace_back("data");
-  identify.require_keys(required, {"data", "holdout", "residual", "segment", "filter", "joints", "loss", "intervals"});
+  identify.require_keys(required, {"data", "holdout", "residual", "segment", "filter", "joints", "loss", "intervals", "prior"});
   IdentificationDescription description;
   description.where = identify.where();
-  if (const auto data = identify.find("data")) description.data = read_recording_list(*data, robot);
+  if (const auto data = identify.find("data")) description.data = read_recording_list(*data, robot, study);
   if (const auto holdout = identify.find("holdout")) {
-    description.holdout = read_recording_list(*holdout, robot);
+    description.holdout = read_recording_list(*holdout, robot, study);
     refuse_fitted_starts(description.holdout);
   }
   read_choice(identify, "residual", kResidualNames, &description.residual);
@@ -121,6 +140,7 @@ IdentificationDescription read_identification(const YamlValue& identify, const R
     for (const auto& [name, value] : joints->entries()) description.joints.push_back(read_calibration(name, value, robot));
   if (const auto loss = identify.find("loss")) description.loss = read_loss(*loss);
   if (const auto intervals = identify.find("intervals")) description.intervals = read_intervals(*intervals);
+  if (const auto prior = identify.find("prior")) description.priors = read_priors(*prior, study);
   const bool fits_a_joint =
       std::any_of(description.joints.begin(), description.joints.end(), [](const auto& of) { return has_fitted(of); });
   const bool fits_a_start = std::any_of(description.data.begin(), description.data.end(), [](const auto& of) { return has_fitted(of); });

@@ -75,7 +75,7 @@ void read_columns(const YamlValue& columns, const RobotDescription& robot, Recor
 }
 
 void read_bag(const YamlValue& value, RecordingDescription* recording) {
-  value.require_keys({"bag", "topic"}, {"from", "to", "gaps", "start", "stamp"});
+  value.require_keys({"bag", "topic"}, {"from", "to", "gaps", "start", "set", "stamp"});
   recording->is_bag = true;
   recording->file = value.at("bag").text();
   recording->topic = value.at("topic").text();
@@ -83,7 +83,7 @@ void read_bag(const YamlValue& value, RecordingDescription* recording) {
 }
 
 void read_table(const YamlValue& value, const RobotDescription& robot, RecordingDescription* recording) {
-  value.require_keys({"csv"}, {"columns", "delimiter", "from", "to", "gaps", "start"});
+  value.require_keys({"csv"}, {"columns", "delimiter", "from", "to", "gaps", "start", "set"});
   recording->file = value.at("csv").text();
   read_choice(value, "delimiter", kCellDelimiterNames, &recording->delimiter);
   if (const auto columns = value.find("columns")) read_columns(*columns, robot, recording);
@@ -98,7 +98,17 @@ void read_start_positions(const YamlValue& starts, const RobotDescription& robot
   }
 }
 
-RecordingDescription read_recording(const YamlValue& value, const RobotDescription& robot) {
+/// Values of parameters in this recording, which the study does not tune.
+std::vector<RecordedSetting> read_settings(const YamlValue& set, const Study& study) {
+  std::vector<RecordedSetting> settings;
+  for (const auto& [name, value] : set.entries()) {
+    const int index = untuned_parameter(name, study, value);
+    settings.push_back({index, read_within_bounds(value, study.parameters[static_cast<std::size_t>(index)])});
+  }
+  return settings;
+}
+
+RecordingDescription read_recording(const YamlValue& value, const RobotDescription& robot, const Study& study) {
   if (!value.is_map()) value.fail("not a recording", "{bag: FILE, topic: NAME} or {csv: FILE, columns: {time: COLUMN, ...}}");
   RecordingDescription recording;
   recording.element = value.path();
@@ -115,14 +125,15 @@ RecordingDescription read_recording(const YamlValue& value, const RobotDescripti
   if (!(recording.from < recording.to)) (to ? *to : *from).fail("the part to use ends before it begins", "from < to");
   read_choice(value, "gaps", kGapRuleNames, &recording.gaps);
   if (const auto starts = value.find("start")) read_start_positions(*starts, robot, &recording);
+  if (const auto set = value.find("set")) recording.settings = read_settings(*set, study);
   return recording;
 }
 
 }  // namespace
 
-std::vector<RecordingDescription> read_recording_list(const YamlValue& list, const RobotDescription& robot) {
+std::vector<RecordingDescription> read_recording_list(const YamlValue& list, const RobotDescription& robot, const Study& study) {
   std::vector<RecordingDescription> recordings;
-  for (const YamlValue& item : list.items()) recordings.push_back(read_recording(item, robot));
+  for (const YamlValue& item : list.items()) recordings.push_back(read_recording(item, robot, study));
   if (recordings.empty()) list.fail("no recording", "at least one {bag: FILE, topic: NAME} or {csv: FILE}");
   return recordings;
 }

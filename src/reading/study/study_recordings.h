@@ -11,7 +11,7 @@
 namespace codesign {
 
 /// Reads a list of recordings, `identify.data` or `identify.holdout`; at least one. @throws InputError
-std::vector<RecordingDescription> read_recording_list(const YamlValue& list, const RobotDescription& robot);
+std::vector<RecordingDescription> read_recording_list(const YamlValue& list, const RobotDescription& robot, const Study& study);
 
 }  // namespace codesign
 
