@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "assembly/determined_motion.h"
+#include "assembly/friction_advice.h"
 #include "assembly/redundancy.h"
 #include "assembly/signal_warnings.h"
 #include "assembly/start_workspace.h"
@@ -68,18 +69,6 @@ void warn_of_miss(const CompiledSystem& system, const LoopMiss& miss, Warnings* 
   append({warn("inexact_loop", fault)}, warnings);
 }
 
-void warn_of_friction(const CompiledSystem& system, const Redundancy& redundancy, Warnings* warnings) {
-  for (int joint : redundancy.chosen_joints) {
-    const JointDescription& description = system.robot().joints[static_cast<std::size_t>(joint)];
-    append({warn("undetermined_friction", {description.where, description.element(),
-                                           "friction depends on a reaction that is not unique, because the loop has redundant constraints; "
-                                           "the reactions of least norm are used; to remove the warning, give one joint of the loop the "
-                                           "freedom that it has in reality, as codesign:spherical or codesign:cylindrical",
-                                           "", ""})},
-           warnings);
-  }
-}
-
 /// Compliance epsilon of the redundant rows [1/kg], doc/theory.md (23): 1e-9 over the mean mass of the bodies. Far above rounding, and its
 /// effect on a motion is far below any tolerance.
 double compliance_of(const Equations<double>& equations) {
@@ -97,17 +86,59 @@ bool must_drop(const LoopMiss& miss, const Redundancy& redundancy) {
   return std::max(miss.length, miss.angle) > kExact || !redundancy.friction_chosen.empty();
 }
 
-/// How redundant constraints are handled, doc/theory.md (23); nothing if there are none. @param start positions at which they are found.
-std::optional<ReactionSharing> find_sharing(const CompiledSystem& system, StartWorkspace* start, Warnings* warnings) {
+std::string name_list(const RobotDescription& robot, const std::vector<int>& joints) {
+  std::string text;
+  for (int joint : joints) text += (text.empty() ? "'" : ", '") + robot.joints[static_cast<std::size_t>(joint)].name + "'";
+  return text;
+}
+
+/// What removes the warning below, checked by the rank of the constraints that remain.
+std::string advice_text(const RobotDescription& robot, const std::vector<Release>& releases) {
+  if (releases.empty())
+    return "no freedoms as codesign:spherical or codesign:cylindrical in place of hinges and slides determine all of it; give the loops "
+           "joints of other types";
+  std::string text;
+  bool in_tree = false;
+  for (const Release& release : releases) {
+    const JointDescription& joint = robot.joints[static_cast<std::size_t>(release.joint)];
+    in_tree = in_tree || !joint.is_loop;
+    text += (text.empty() ? "'" : " and '") + joint.name +
+            "' as codesign:" + (release.type == JointType::kSpherical ? "spherical" : "cylindrical");
+  }
+  return "to remove the warning, give the freedom that bearings have in reality to " + text +
+         ": this determines all of it, and none of them can be left out" +
+         (in_tree ? " (a joint of the tree gets it by massless links, doc/annotations.md, Compound joint)" : "");
+}
+
+/// Warns of friction that depends on reactions that rigid bodies do not determine. @param system with the sharing that was chosen.
+Warning undetermined_friction(const CompiledSystem& system, const Redundancy& redundancy) {
+  constexpr double kNoEffect = 1e-3;
+  StartWorkspace start(system, system.parameters());
+  const bool starts = start.solve().ok();
+  const double effect = starts ? effect_of_sharing(system, redundancy, start.state, &start.equations) : -1.0;
+  const std::vector<Release> releases = releases_for_friction(system, redundancy, start.state, &start.equations);
+  const RobotDescription& robot = system.robot();
+  const JointDescription& first = robot.joints[static_cast<std::size_t>(redundancy.chosen_joints.front())];
+  std::string message = "friction of " + name_list(robot, redundancy.chosen_joints) +
+                        " depends on reactions that are not unique, because their loops have redundant constraints; ";
+  message += effect >= 0.0 && effect < kNoEffect
+                 ? "under the loads at the start the part that is not unique changes friction by less than 1e-3 of the largest, however "
+                   "bearings share it, so that nothing needs to be done unless loads across the mechanism's plane come later; "
+                 : "the reactions of least norm are used; ";
+  return warn("undetermined_friction", {first.where, first.element(), message + advice_text(robot, releases), "", ""});
+}
+
+/// How redundant constraints are handled, Redundancy::sharing, doc/theory.md (23); nothing if there are none. @param start positions at
+/// which they are found.
+std::optional<Redundancy> find_sharing(const CompiledSystem& system, StartWorkspace* start, Warnings* warnings) {
   const LoopMiss& miss = start->assembly.worst_miss();
   warn_of_miss(system, miss, warnings);
   Redundancy redundancy = analyse_redundancy(system, &start->equations, start->assembly, start->parameters, start->state);
   if (redundancy.rows.empty()) return std::nullopt;
-  warn_of_friction(system, redundancy, warnings);
   append(warn_of_open_reactions(system, redundancy, start->state, signals_of(system.study()), &start->equations), warnings);
   if (!must_drop(miss, redundancy)) redundancy.sharing = ReactionSharing();
   redundancy.sharing.compliance = compliance_of(start->equations);
-  return redundancy.sharing;
+  return redundancy;
 }
 
 }  // namespace
@@ -120,9 +151,9 @@ std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot,
   require_start(*system, start.assembly, start.solve_positions());
   append(start.assembly.warnings(), &found);
   require_determined_motion(*system, start.parameters, start.assembly, &start.equations);
-  const std::optional<ReactionSharing> sharing = find_sharing(*system, &start, &found);
+  const std::optional<Redundancy> redundancy = find_sharing(*system, &start, &found);
   std::shared_ptr<const CompiledSystem> result = system;
-  if (sharing) result = std::make_shared<const CompiledSystem>(system->robot(), system->study(), *sharing);
+  if (redundancy) result = std::make_shared<const CompiledSystem>(system->robot(), system->study(), redundancy->sharing);
   if (result->sharing().drops()) {
     // With fewer rows enforced, other positions can start, and other velocities contradict.
     StartWorkspace enforced(*result, result->parameters());
@@ -130,6 +161,7 @@ std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot,
   } else {
     require_start(*system, start.assembly, start.solve_velocities());
   }
+  if (redundancy && !redundancy->chosen_joints.empty()) append({undetermined_friction(*result, *redundancy)}, &found);
   if (warnings) append(found, warnings);
   return result;
 }

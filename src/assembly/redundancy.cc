@@ -19,7 +19,8 @@ constexpr double kLoaded = 1e-7;  // smaller components of a self-stress, relati
 constexpr double kTestMotion = 0.2;  // [rad], or this fraction of a loop's longest lever
 // Allowed error of a redundant row after the test motion; a row that is redundant at a singular start only misses ten times as much.
 constexpr double kTestMiss = 2e-3;
-constexpr int kTrials = 3;  // number of test motions, and of random self-stresses
+constexpr int kTrials = 3;                  // number of test motions, and of random self-stresses
+constexpr Eigen::Index kLargestBasis = 30;  // redundant rows up to which a basis of the self-stresses is kept
 
 std::string vector_name(const PairVector<double>& x) {
   if (x.terms == 2) return "d";
@@ -215,6 +216,16 @@ SparseMatrix loads_of_rows(const CompiledSystem& system, const SparseMatrix& Phi
   return result;
 }
 
+/// An orthonormal basis of the columns of A, which are independent: Gram and Schmidt's, repeated against rounding.
+Eigen::MatrixXd orthonormal(Eigen::MatrixXd A) {
+  for (int pass = 0; pass < 2; ++pass)
+    for (Eigen::Index k = 0; k < A.cols(); ++k) {
+      for (Eigen::Index other = 0; other < k; ++other) A.col(k) -= A.col(other).dot(A.col(k)) * A.col(other);
+      A.col(k).normalize();
+    }
+  return A;
+}
+
 /// Finds self-stresses: random loads of the redundant rows, with the loads of the other rows that balance them.
 void find_undetermined(const CompiledSystem& system, Equations<double>* equations, const State<double>& state, const Analysis& analysis,
                        const std::vector<int>& redundant, const ReactionSharing& sharing, Redundancy* result) {
@@ -228,14 +239,19 @@ void find_undetermined(const CompiledSystem& system, Equations<double>* equation
   for (int coupling : sharing.couplings) add(layout.coupling_row(coupling), layout.coupling_row(coupling) + 1);
   const SparseMatrix Phi_q = constraint_jacobian(system, equations, state);
   const SparseMatrix kept = loads_of_rows(system, Phi_q, state.q, others), open = loads_of_rows(system, Phi_q, state.q, redundant);
-  const Eigen::MatrixXd chosen = mixed_numbers(open.cols(), kTrials);
+  // Random loads of the redundant rows, then, for a basis, a unit load of each.
+  const Eigen::Index units = open.cols() <= kLargestBasis ? open.cols() : 0;
+  Eigen::MatrixXd chosen(open.cols(), kTrials + units);
+  chosen << mixed_numbers(open.cols(), kTrials), Eigen::MatrixXd::Identity(open.cols(), units);
   LeastSquares balance;
   balance.factor(kept, 1e-9);
   const Eigen::MatrixXd answer = balance.solve(Eigen::MatrixXd(-(open * chosen)));
-  const double left = (kept * answer + open * chosen).cwiseAbs().maxCoeff();
-  Eigen::MatrixXd stress = Eigen::MatrixXd::Zero(layout.constraints(), kTrials);
-  for (std::size_t k = 0; k < redundant.size(); ++k) stress.row(redundant[k]) = chosen.row(static_cast<Eigen::Index>(k));
-  for (std::size_t k = 0; k < others.size(); ++k) stress.row(others[k]) = answer.row(static_cast<Eigen::Index>(k));
+  const double left = (kept * answer + open * chosen).leftCols(kTrials).cwiseAbs().maxCoeff();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(layout.constraints(), chosen.cols());
+  for (std::size_t k = 0; k < redundant.size(); ++k) all.row(redundant[k]) = chosen.row(static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < others.size(); ++k) all.row(others[k]) = answer.row(static_cast<Eigen::Index>(k));
+  Eigen::MatrixXd stress = all.leftCols(kTrials);
+  if (units > 0) result->basis = orthonormal(all.rightCols(units));
   result->stress_threshold = kLoaded * stress.cwiseAbs().maxCoeff() + 100.0 * left;
   analysis.note_loaded(stress, result->stress_threshold, result);
   result->self_stress = std::move(stress);

@@ -17,7 +17,8 @@ struct Redundancy {
   std::vector<std::string> undetermined;  ///< joints, loops and couplings whose multipliers are not unique
   std::vector<std::string> friction_chosen;  ///< the ones of `undetermined` whose friction depends on such a multiplier
   std::vector<int> chosen_joints;            ///< the joints of friction_chosen, as indices in the description
-  Eigen::MatrixXd self_stress;    ///< constraints x trials: multipliers s with Phi_q^T s = 0, up to the loads of unit Euler parameters
+  Eigen::MatrixXd self_stress;  ///< constraints x trials: multipliers s with Phi_q^T s = 0, up to the loads of unit Euler parameters
+  Eigen::MatrixXd basis;        ///< constraints x redundant rows: an orthonormal basis of the self-stresses; empty beyond 30 redundant rows
   double stress_threshold = 0.0;  ///< smaller entries of self_stress count as zero
   ReactionSharing sharing;        ///< compliance not set; `dropped` lacks rows that are redundant only at this very position
 };

@@ -33,6 +33,58 @@ std::string loop_at(double x) {
 
 const std::string kApart = "{left_hinge: {guess: -0.5}, right_hinge: {guess: 0.5}}";
 
+Warnings warnings_of(const std::string& urdf, const std::string& study) {
+  const RobotDescription robot = read_urdf({"test.urdf", urdf});
+  Warnings warnings;
+  make_system(robot, read_study({"test.yaml", study}, robot), &warnings);
+  return warnings;
+}
+
+/// A planar linkage across gravity or in it, whose four bearings have friction. @param mass_at where the mass of the coupler sits, across
+/// the plane. @param right, pin the types of two loops' and a joint's freedoms in place of hinges.
+std::string rubbing_four_bar(const std::string& mass_at, const std::string& loop = "continuous", bool slides = false) {
+  std::string text = four_bar(pin_friction());
+  const auto replace = [&text](const std::string& from, const std::string& to) { text.replace(text.find(from), from.size(), to); };
+  replace("<loop name='right_pin' type='continuous'>", "<loop name='right_pin' type='" + loop + "'>" + pin_friction());
+  replace("<axis xyz='0 1 0'/></joint><loop", std::string("<axis xyz='0 1 0'/>") + pin_friction() + "</joint><loop");
+  if (mass_at != "0") {
+    const std::size_t coupler = text.find("<link name='coupler'>");
+    text.replace(text.find("0 0 -0.5", coupler), 8, "0 " + mass_at + " -0.5");
+  }
+  if (slides) {  // the right hinge gets an axial play, by a massless link
+    replace("<joint name='right_hinge' type='continuous'><parent link='ground'/>",
+            "<link name='sleeve'/><joint name='play' type='prismatic'><parent link='ground'/><child link='sleeve'/><axis xyz='0 1 0'/>"
+            "<limit effort='0' velocity='0'/></joint><joint name='right_hinge' type='continuous'><parent link='sleeve'/>");
+  }
+  return text;
+}
+
+std::string only_friction_warning(const std::string& urdf) {
+  const Warnings warnings = warnings_of(urdf, let_go("{left_hinge: {position: 0.6}}", "left_hinge/velocity"));
+  EXPECT_EQ(warnings.size(), 1U);
+  if (warnings.empty()) return "";
+  EXPECT_EQ(warnings[0].code, "undetermined_friction");
+  return warnings[0].message;
+}
+
+TEST(MakeSystem, TheAdviceOfUndeterminedFrictionDeterminesIt) {
+  const std::string message = only_friction_warning(rubbing_four_bar("0.2"));
+  for (const char* part : {"'left_hinge', 'left_pin', 'right_pin' depends", "least norm", "'right_pin' as codesign:spherical and '",
+                           "' as codesign:cylindrical"})
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  // One joint is not enough, two are.
+  EXPECT_NE(only_friction_warning(rubbing_four_bar("0.2", "codesign:spherical")), "");
+  EXPECT_TRUE(
+      warnings_of(rubbing_four_bar("0.2", "codesign:spherical", true), let_go("{left_hinge: {position: 0.6}}", "left_hinge/velocity"))
+          .empty());
+}
+
+TEST(MakeSystem, UndeterminedFrictionWithoutEffectSaysSo) {
+  const std::string message = only_friction_warning(rubbing_four_bar("0"));
+  EXPECT_NE(message.find("changes friction by less than 1e-3"), std::string::npos) << message;
+  EXPECT_EQ(only_friction_warning(rubbing_four_bar("0.2")).find("changes friction by less"), std::string::npos);
+}
+
 TEST(MakeSystem, OnlyRedundantConstraintsMakeItCompliant) {
   EXPECT_EQ(make(double_pendulum(), let_go("{}", "elbow/velocity"))->compliance(), 0.0);
   EXPECT_GT(make(four_bar(), let_go("{left_hinge: {position: 0.6}}", "left_hinge/velocity"))->compliance(), 0.0);
