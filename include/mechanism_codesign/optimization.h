@@ -83,6 +83,8 @@ struct WatchedResult {
   /// the objective.
   double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
   double after = 0.0, before = 0.0;  ///< the interval in which the signal is watched [s]; for `final` the end of the run
+  /// The violation up to which the bounds count as met: the study's, or 1e-5 of the range of the signal and its bounds, at least 1e-8.
+  double tolerance = 1e-8;
 };
 
 /// The best point of an optimization and how the search ended.

@@ -26,6 +26,7 @@ struct WatchedSignal {
   SignalDescription signal;
   ReferenceDescription reference;        ///< 0 unless given
   std::optional<Quantity> lower, upper;  ///< of kPath and kFinal, at least one of them; in the unit of the signal
+  std::optional<double> tolerance;       ///< violation of a bound that counts as met, positive; empty: from the range of the signal
   double weight = 1.0;                   ///< of kPeak, positive
   double after = 0.0, before = 0.0;      ///< the interval [s]; for kFinal both are the duration
   std::string element;                   ///< its place in the study, for messages: `path[0]`

@@ -33,7 +33,8 @@ void add_watched(const OptimizationResult& result, Json* object) {
                 {"largest", watched.largest},
                 {"smallest_time", watched.smallest_time},
                 {"largest_time", watched.largest_time},
-                {"violation", watched.violation}};
+                {"violation", watched.violation},
+                {"tolerance", watched.tolerance}};
     if (!result.scenarios.empty()) {
       one["smallest_in"] = place(result.scenarios[static_cast<std::size_t>(watched.smallest_scenario)]);
       one["largest_in"] = place(result.scenarios[static_cast<std::size_t>(watched.largest_scenario)]);

@@ -2,7 +2,9 @@
 #include "optimization/local_search.h"
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "optimization/algorithm.h"
@@ -18,6 +20,7 @@ namespace {
 
 constexpr double kRowTolerance = 1e-9;  // violation of a constraint row that NLopt accepts, in the unit of the row
 constexpr int kMostRestarts = 8;
+constexpr std::int64_t kCallsPerEvaluation = 100;
 constexpr const char* kInsideFinder = "mma";
 constexpr double kSlopeLeft = 1e-2;  // a failed line search has converged if the scaled gradient fell below this fraction of the first one
 
@@ -61,7 +64,9 @@ class Minimization {
     optimizer->set_upper_bounds(upper);
     optimizer->set_min_objective(&Minimization::objective_callback, this);
     optimizer->set_ftol_rel(options_.relative_tolerance);
-    optimizer->set_maxeval(options_.max_evaluations);
+    // NLopt counts calls, and asks for some points several times: evaluate() keeps to the limit of evaluations, and this one ends an
+    // algorithm that asks for the same points only.
+    optimizer->set_maxeval(static_cast<int>(std::min<std::int64_t>(kCallsPerEvaluation * options_.max_evaluations + 1000, INT_MAX)));
     for (Constraint& constraint : constraints_)
       optimizer->add_inequality_constraint(&Minimization::constraint_callback, &constraint, kRowTolerance);
     const auto tolerances = [](int rows) { return std::vector<double>(static_cast<std::size_t>(rows), kRowTolerance); };
@@ -109,7 +114,6 @@ class Minimization {
 
   void run_from(const Eigen::VectorXd& rho, nlopt::opt* optimizer) {
     if (trials_.interrupted() || result_.evaluations >= options_.max_evaluations) return;
-    optimizer->set_maxeval(options_.max_evaluations - result_.evaluations);
     std::vector<double> x = scaling_.to_scaled(rho);
     minimize(optimizer, &x);
   }
@@ -121,6 +125,7 @@ class Minimization {
     try {
       add_slack(x);
       result_.termination = termination_name(optimizer->optimize(*x, value));
+      if (result_.termination == "max_evaluations_reached") result_.termination = "roundoff_limited";
     } catch (const nlopt::forced_stop&) {
     } catch (const nlopt::roundoff_limited&) {
       // SLSQP ends like this also where the gradients of the constraints depend on each other.
@@ -130,6 +135,8 @@ class Minimization {
       result_.termination = "algorithm_failed";
       failure_ = error.what();
     }
+    // Some algorithms of NLopt call a forced stop a failure.
+    if (is_at_limit_) result_.termination = "max_evaluations_reached";
     if (result_.termination == "algorithm_failed" && trials_.have_best() && has_converged()) result_.termination = "roundoff_limited";
   }
 
@@ -142,7 +149,7 @@ class Minimization {
     if ((margins.array() < 1e-6).any()) return all_met(margins);
     const double start = scaling_.gradient_norm(result_.initial_gradient);
     if (program_.has_signals())
-      return trials_.best_violation() == 0.0 &&
+      return trials_.best_keeps_bounds() &&
              lagrangian_residual(trials_.best(), result_.rho, scaling_, unit_, &program_) <= kSlopeLeft * start / unit_;
     return scaling_.free_gradient_norm(result_.rho, result_.gradient) <= kSlopeLeft * start;
   }
@@ -233,6 +240,8 @@ class Minimization {
   }
 
   void evaluate(const Eigen::VectorXd& rho) {
+    is_at_limit_ = result_.evaluations >= options_.max_evaluations;
+    if (is_at_limit_) throw nlopt::forced_stop();
     if (!trials_.evaluate(rho, Derivatives::kGradient)) throw nlopt::forced_stop();
     if (moves_inside_ && trials_.best_violation() == 0.0) throw nlopt::forced_stop();
     // The first step of a quasi-Newton method is as long as the gradient; divided by unit_, it is at most 1 in scaled variables, (24).
@@ -270,6 +279,7 @@ class Minimization {
   std::string failure_;
   double worst_ = 0.0, unit_ = 1.0;  ///< worst objective so far; NLopt gets objectives divided by `unit_`
   bool moves_inside_ = false;
+  bool is_at_limit_ = false;       ///< whether the search asked for more evaluations than it may have
   double violation_before_ = 0.0;  ///< best_violation() when the search was last restarted
   int restarts_ = 0;
 };

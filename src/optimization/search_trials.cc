@@ -56,11 +56,19 @@ void SearchTrials::conclude(const std::string& failure) {
   }
 }
 
+bool SearchTrials::best_keeps_bounds() const {
+  if (best_violation_ == 0.0) return true;
+  OptimizationResult best;
+  best.margins = parameter_rows_.margins(result_.rho);
+  best.watched = program_.describe(best_.extremes, initial_extremes_, result_.rho);
+  return !best.watched.empty() && meets_constraints(best);
+}
+
 // If no point meets the constraints, rounding decides in which way an algorithm ends. The status is then kInfeasible even if the algorithm
 // failed. Only an algorithm that gave up at its start, for example at equalities that depend on each other, has tried nothing and gets
 // kAlgorithmFailed.
 void SearchTrials::judge_end(const std::string& failure) {
-  const bool has_failed = result_.termination == "algorithm_failed", is_outside = best_violation_ > 0.0;
+  const bool has_failed = result_.termination == "algorithm_failed", is_outside = !best_keeps_bounds();
   std::string cause;
   if (is_outside) cause = all_met(result_.margins) ? describe_violated(result_.watched) : describe_unmet(study_, result_.margins);
   if (has_failed)

@@ -42,6 +42,8 @@ class SearchTrials {
   const EnsembleEvaluation& best() const { return best_; }
   /// Largest violation of a constraint at the best point, beyond its tolerance; 0 if all constraints are met.
   double best_violation() const { return best_violation_; }
+  /// Whether the best point keeps all constraints, each within its tolerance.
+  bool best_keeps_bounds() const;
   const ParameterRows& parameter_rows() const { return parameter_rows_; }
   /// Whether the search was cancelled, or an evaluation was lost with its worker.
   bool interrupted() const { return !interruption_.ok(); }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "equations/compiled_system.h"
+#include "optimization/violated_bounds.h"
 #include "sampling/measure.h"
 #include "sensitivity/peaks.h"
 
@@ -191,6 +192,8 @@ std::vector<WatchedResult> SmoothProgram::describe(const std::vector<Extremes>& 
       widen(rows_[i].layout().entries()[k], extremes[i], initial[i], static_cast<int>(i), &results[k]);
       results[k].violation = std::max(results[k].violation, rows_[i].violation(k, extremes[i], ensemble_.scenarios()[i].parameters(rho)));
     }
+  const std::vector<WatchedSignal>& watched = nominal.system->study().watched;
+  for (std::size_t k = 0; k < results.size(); ++k) results[k].tolerance = watched[k].tolerance.value_or(tolerance_of_range(results[k]));
   return results;
 }
 

@@ -9,8 +9,14 @@
 
 namespace codesign {
 
-/// Largest violation of a bound on a signal at which the bound still counts as met, in the unit of the signal.
+/// The violation of a bound on a signal that a search aims at, in the unit of the signal: smaller ones do not make a point worse.
 constexpr double kMostViolation = 1e-8;
+/// The violation at which a bound counts as met at the end of a search, where the study gives no `tolerance`: this share of the largest
+/// magnitude of the signal, at the start and at the end, and of its bounds; at least kMostViolation.
+constexpr double kShareOfRange = 1e-5;
+
+/// The default of WatchedResult::tolerance.
+double tolerance_of_range(const WatchedResult& watched);
 
 /// Whether the best point of a search meets all constraints, on parameters and on signals.
 bool meets_constraints(const OptimizationResult& result);

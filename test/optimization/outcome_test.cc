@@ -52,6 +52,43 @@ TEST(Outcome, OutsideTheConstraintsIsNoSuccess) {
   EXPECT_EQ(result.gradient.size(), 1) << "the best point is kept";
 }
 
+// The tolerance only decides how the end is called: the search is the same.
+TEST(Outcome, ABoundIsMetWithinItsTolerance) {
+  const std::string slsqp = "\noptimizer: {algorithm: slsqp}\n", bound = "{signal: hinge/position, between: [-2.0, -2.0]";
+  const OptimizationResult strict = search(problem_of("final: [" + bound + "}]" + slsqp));
+  EXPECT_EQ(strict.status.code, StatusCode::kInfeasible);
+  ASSERT_EQ(strict.watched.size(), 1U);
+  EXPECT_DOUBLE_EQ(strict.watched[0].tolerance, 2e-5);
+  const OptimizationResult loose = search(problem_of("final: [" + bound + ", tolerance: 5.0}]" + slsqp));
+  EXPECT_TRUE(loose.status.ok()) << loose.status.cause;
+  EXPECT_EQ(loose.rho, strict.rho);
+  EXPECT_GT(loose.watched[0].violation, 1.0);
+  EXPECT_THROW(problem_of("final: [" + bound + ", tolerance: 0.0}]" + slsqp), InputError);
+}
+
+// A point that is asked for twice is one evaluation, and constraints of a point that the objective never saw are evaluations, too.
+TEST(Outcome, EveryAlgorithmKeepsToTheLimitOfEvaluations) {
+  const std::string path = "path: [{signal: hinge/velocity, at_least: -1.0, before: 0.3}]\n";
+  for (const char* algorithm :
+       {"lbfgs", "var1", "var2", "tnewton", "mma", "ccsaq", "slsqp", "cobyla", "bobyqa", "auglag_lbfgs", "levenberg_marquardt"}) {
+    const std::string name = algorithm;
+    const bool takes_paths = name == "mma" || name == "ccsaq" || name == "slsqp" || name == "cobyla" || name == "auglag_lbfgs";
+    for (const bool with_path : {false, true}) {
+      if (with_path && !takes_paths) continue;
+      for (const int most : {1, 2, 5}) {
+        const OptimizationResult result =
+            search(problem_of((with_path ? path : "") + "optimizer: {relative_tolerance: 1.0e-15, algorithm: " + name +
+                                  ", max_evaluations: " + std::to_string(most) + "}\n",
+                              "1", "length: {}, idle: {}"));
+        EXPECT_LE(result.evaluations, most) << name;
+        const bool at_limit = result.termination == "max_evaluations_reached";
+        EXPECT_TRUE(result.evaluations == most || !at_limit) << name << ": " << result.evaluations;
+        EXPECT_TRUE(most > 1 || at_limit) << name << ": " << result.termination;
+      }
+    }
+  }
+}
+
 TEST(Outcome, MarginsAreToldOfASuccessToo) {
   const OptimizationResult result =
       search(problem_of("constraints: [\"length >= 0.9\", \"length <= 1.1\"]\noptimizer: {algorithm: slsqp}\n"));

@@ -17,7 +17,17 @@ TEST(ViolatedBounds, AreThoseBeyondTheTolerance) {
   violated.violation = 1.5;
   EXPECT_EQ(
       describe_violated({met, violated}),
-      "no point was found that keeps the bounds of all signals: constraints[1] (slide/effort) goes from -3 to 2, beyond its bounds by 1.5");
+      "no point was found that keeps the bounds of all signals: constraints[1] (slide/effort) goes from -3 to 2, beyond its bounds by 1.5 "
+      "(tolerance: 1e-08)");
+}
+
+TEST(ViolatedBounds, TheToleranceFollowsTheRangeOfSignalAndBounds) {
+  WatchedResult swing;
+  EXPECT_EQ(tolerance_of_range(swing), kMostViolation);
+  swing.initial_largest = 2.0;
+  swing.smallest = -1.0;
+  swing.lower = -3.0;
+  EXPECT_DOUBLE_EQ(tolerance_of_range(swing), 3e-5) << "an infinite bound has no magnitude";
 }
 
 TEST(ViolatedBounds, ARestIsNoViolation) {

@@ -26,6 +26,13 @@ struct Reader {
     require_ordered_bounds(*watched, table.values);
   }
 
+  static void read_tolerance(const YamlValue& value, WatchedSignal* watched) {
+    const auto tolerance = value.find("tolerance");
+    if (!tolerance) return;
+    watched->tolerance = tolerance->number();
+    if (!(*watched->tolerance > 0.0)) tolerance->fail("a bound cannot be kept without any error", "more than 0, in the unit of the signal");
+  }
+
   void read_interval(const YamlValue& value, WatchedSignal* watched) const {
     watched->before = study.duration;
     if (const auto after = value.find("after")) watched->after = after->number();
@@ -57,8 +64,9 @@ struct Reader {
   }
 
   WatchedSignal read_bounded(const YamlValue& value, Role role) const {
-    WatchedSignal watched = read_signal(value, "signal", role, {"between", "at_least", "at_most"});
+    WatchedSignal watched = read_signal(value, "signal", role, {"between", "at_least", "at_most", "tolerance"});
     read_bounds(value, &watched);
+    read_tolerance(value, &watched);
     return watched;
   }
 
@@ -73,7 +81,8 @@ struct Reader {
 
   /// `{peak: signal, at_most: bound}` is |signal - reference| <= bound at all times, which is a bound on both sides.
   WatchedSignal read_bounded_peak(const YamlValue& value) const {
-    WatchedSignal watched = read_signal(value, "peak", Role::kPath, {"at_most"});
+    WatchedSignal watched = read_signal(value, "peak", Role::kPath, {"at_most", "tolerance"});
+    read_tolerance(value, &watched);
     const YamlValue at_most = value.at("at_most");
     const Quantity bound = read_quantity(at_most, table);
     if (!(bound.nominal() > 0.0)) at_most.fail("a peak is the largest magnitude of a signal, so its bound must be positive", "more than 0");
