@@ -21,6 +21,7 @@ constexpr Part kParts[] = {{"kernels", measure_kernels},
                            {"work_precision", measure_work_precision},
                            {"parameters", measure_parameters},
                            {"optimization", measure_optimization},
+                           {"stops", measure_stops},
                            {"scaling", measure_scaling},
                            {"setup", measure_setup},
                            {"ensembles", measure_ensembles},
@@ -30,8 +31,8 @@ constexpr Part kParts[] = {{"kernels", measure_kernels},
 
 constexpr const char* kUsage =
     "usage: benchmarks [--markdown] [PART...]\n"
-    "Run it where urdf/ and config/ are. PART: kernels, steps, work_precision, parameters, optimization, scaling, setup, ensembles, "
-    "identification, ranks, simbody; all by default.\n";
+    "Run it where urdf/ and config/ are. PART: kernels, steps, work_precision, parameters, optimization, stops, scaling, setup, "
+    "ensembles, identification, ranks, simbody; all by default.\n";
 
 Table summary(const std::vector<Finding>& findings) {
   Table table{"summary", "What the package sets out to reach, and what was measured", {"figure", "measured", "target", "reached"}, {}};

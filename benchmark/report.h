@@ -31,6 +31,7 @@ void measure_steps(Report* report);
 void measure_work_precision(Report* report);
 void measure_parameters(Report* report);
 void measure_optimization(Report* report);
+void measure_stops(Report* report);
 void measure_scaling(Report* report);
 void measure_setup(Report* report);
 void measure_ensembles(Report* report);

@@ -92,8 +92,17 @@ struct OptimizationResult {
   /// Ok; kCancelled; kAlgorithmFailed; kInfeasible if no point that meets the constraints was found; or, if the start value could not be
   /// evaluated, the status of that evaluation. Only in the last case the members below hold no point.
   Status status;
-  std::string
-      termination;  ///< why the search ended, in snake case: "objective_tolerance_reached", "max_evaluations_reached", "cancelled", ...
+  std::string termination;  ///< why the search ended, in snake case: "objective_tolerance_reached", "max_evaluations_reached", "cancelled",
+                            ///< ...; "stopped_early" if its algorithms ended at a point that is not stationary
+  std::string algorithm;  ///< that searched; of `auto` all that went on with the search, in their order, with commas
+  /// The residual of the optimality conditions, theory (24h), at `initial_rho` and `rho` in the unit of psi, and at `rho` relative to psi;
+  /// not a number without a point.
+  double initial_slope = std::numeric_limits<double>::quiet_NaN(), slope = std::numeric_limits<double>::quiet_NaN();
+  double stationarity = std::numeric_limits<double>::quiet_NaN();
+  /// Per tuned parameter: by how much psi falls, to first order, if the bound on which it lies is moved outwards by the range of the
+  /// parameter; positive at the lower, negative at the upper bound, 0 off the bounds.
+  Eigen::VectorXd bound_multipliers;
+  Eigen::MatrixXd flat_directions;  ///< in which psi does not change at `rho`, by rho, one per column; theory (24i)
   double initial_objective = 0.0;
   double objective = 0.0;  ///< at `rho`, the best feasible point seen
   Eigen::VectorXd initial_gradient;

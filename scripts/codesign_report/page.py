@@ -76,7 +76,7 @@ def context(job, scale):
     friction_rows, friction_chart = results.friction(job)
     return {
         "job": job, "result": job.result, "details": job.details, "embedded": embedded(job),
-        "verdict": words.termination(job.result.get("termination", "")),
+        "verdict": " ".join(filter(None, (words.termination(job.result.get("termination", "")), words.stationarity(job.result)))),
         "terms": asked.objective_terms(job.study), "bounds": asked.bounds(job.study), "controllers": asked.controllers(job.study),
         "fitted": asked.identification(job.study) if job.kind == "identification" else [],
         "over": asked.settings(job.study, asked.OVER), "settings": asked.settings(job.study, asked.SOLVED),

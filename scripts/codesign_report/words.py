@@ -8,6 +8,8 @@ TERMINATIONS = {
     "parameter_tolerance_reached": "The search converged: the last steps changed the parameters by less than their tolerance.",
     "max_evaluations_reached": "The search used all its evaluations before it converged; the best point so far is shown. "
                                "A larger optimizer.max_evaluations, or going on from this result, may improve it.",
+    "stopped_early": "The search stopped on a slope: its algorithms gained nothing more, but the point is not an optimum. "
+                     "Another start or another algorithm may help.",
     "max_time_reached": "The search used all its time before it converged; the best point so far is shown.",
     "cancelled": "The search was cancelled; the best point so far is shown.",
     "roundoff_limited": "The search ended where rounding hides further progress; the point is usually as good as it gets.",
@@ -17,10 +19,24 @@ TERMINATIONS = {
     "worker_lost": "A process that computed for the search was lost; the best point so far is shown, and --resume goes on.",
 }
 
+# Terminations of a search that converged.
+SUCCESSES = ("success", "objective_tolerance_reached", "parameter_tolerance_reached", "roundoff_limited")
+
 
 def termination(code):
     """A sentence for a termination; that of an unknown one is its name."""
     return TERMINATIONS.get(code, "The search ended: " + code.replace("_", " ") + ".")
+
+
+def stationarity(result):
+    """How near the point is to an optimum, in words; empty if the result does not say it."""
+    value, slope, start = (result.get(key) for key in ("stationarity", "slope", "initial_slope"))
+    if value is None:
+        return ""
+    if result.get("termination") in SUCCESSES:
+        return f"Stationary to {value:.2g}."
+    share = f"the slope is {slope / start:.2g} of the start's, " if slope is not None and start else ""
+    return f"Stopped early: {share}stationary to {value:.2g} only."
 
 
 def on_bound(row):

@@ -14,6 +14,7 @@
 #include "jobs/trial_lines.h"
 #include "jobs/watched_records.h"
 #include "optimization/search_hooks.h"
+#include "optimization/search_warnings.h"
 #include "text/number_text.h"
 
 namespace codesign::cli {
@@ -45,6 +46,7 @@ void print_result(const Problem& problem, const OptimizationResult& result, std:
   out << result.termination << " after " << result.iterations << " iterations, " << result.evaluations << " evaluations ("
       << result.failed_evaluations << " failed), " << result.statistics.steps << " steps, " << readable(result.statistics.cpu_seconds)
       << " s of processor time\n";
+  if (const std::string stop = stop_sentence(result); !stop.empty()) out << stop << '\n';
 }
 
 void tell(const std::vector<std::string>& sentences, const Console& console) {

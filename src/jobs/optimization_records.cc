@@ -1,6 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/optimization_records.h"
 
+#include <cmath>
+#include <utility>
+
 #include "jobs/ensemble_records.h"
 #include "jobs/json_records.h"
 #include "jobs/watched_records.h"
@@ -43,6 +46,17 @@ Json constraints_json(const Problem& problem, const OptimizationResult& result) 
   return list;
 }
 
+/// How near the point is to an optimum, which bounds hold it, and where the optimum is not one point.
+void add_optimality(const std::vector<std::string>& names, const OptimizationResult& result, Json* object) {
+  (*object)["stationarity"] = result.stationarity;
+  (*object)["slope"] = result.slope;
+  (*object)["initial_slope"] = result.initial_slope;
+  (*object)["bound_multipliers"] = by_name(names, result.bound_multipliers);
+  Json directions = Json::array();
+  for (Eigen::Index d = 0; d < result.flat_directions.cols(); ++d) directions.push_back(by_name(names, result.flat_directions.col(d)));
+  (*object)["flat_directions"] = std::move(directions);
+}
+
 }  // namespace
 
 Json optimization_json(const Problem& problem, const OptimizationResult& result) {
@@ -62,6 +76,8 @@ Json optimization_json(const Problem& problem, const OptimizationResult& result)
   object["evaluations"] = result.evaluations;
   object["failed_evaluations"] = result.failed_evaluations;
   object["termination"] = result.termination;
+  if (!result.algorithm.empty()) object["algorithm"] = result.algorithm;
+  if (std::isfinite(result.stationarity)) add_optimality(names, result, &object);
   add_statistics(result.statistics, &object);
   add_watched(result, &object);
   add_ensemble(problem, result, &object);

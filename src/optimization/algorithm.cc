@@ -11,20 +11,21 @@ namespace codesign {
 namespace {
 
 struct Algorithm {
-  std::optional<nlopt::algorithm> id;  ///< std::nullopt: Levenberg-Marquardt, which NLopt does not have
+  std::optional<nlopt::algorithm> id;  ///< std::nullopt: Levenberg-Marquardt, which NLopt does not have, and `auto`
   bool takes_constraints, takes_equalities;
 };
 
 constexpr const char* kLeastSquares = "levenberg_marquardt";
+constexpr const char* kAuto = "auto";
 
 const std::map<std::string, Algorithm>& algorithms() {
   static const std::map<std::string, Algorithm> table{
-      {"lbfgs", {nlopt::LD_LBFGS, false, false}},   {"var1", {nlopt::LD_VAR1, false, false}},
-      {"var2", {nlopt::LD_VAR2, false, false}},     {"tnewton", {nlopt::LD_TNEWTON_PRECOND_RESTART, false, false}},
-      {"mma", {nlopt::LD_MMA, true, false}},        {"ccsaq", {nlopt::LD_CCSAQ, true, false}},
-      {"slsqp", {nlopt::LD_SLSQP, true, true}},     {"cobyla", {nlopt::LN_COBYLA, true, true}},
-      {"bobyqa", {nlopt::LN_BOBYQA, false, false}}, {"auglag_lbfgs", {nlopt::LD_AUGLAG, true, true}},
-      {kLeastSquares, {std::nullopt, false, false}}};
+      {"lbfgs", {nlopt::LD_LBFGS, false, false}},    {"var1", {nlopt::LD_VAR1, false, false}},
+      {"var2", {nlopt::LD_VAR2, false, false}},      {"tnewton", {nlopt::LD_TNEWTON_PRECOND_RESTART, false, false}},
+      {"mma", {nlopt::LD_MMA, true, false}},         {"ccsaq", {nlopt::LD_CCSAQ, true, false}},
+      {"slsqp", {nlopt::LD_SLSQP, true, true}},      {"cobyla", {nlopt::LN_COBYLA, true, true}},
+      {"bobyqa", {nlopt::LN_BOBYQA, false, false}},  {"auglag_lbfgs", {nlopt::LD_AUGLAG, true, true}},
+      {kLeastSquares, {std::nullopt, false, false}}, {kAuto, {std::nullopt, true, true}}};
   return table;
 }
 
@@ -95,6 +96,30 @@ void check_squares(const Study& study, const OptimizerOptions& options, RobustMe
                           to_decimal(term.weight.nominal()), "0 or more, or one of the algorithms " + fault.allowed});
 }
 
+std::vector<std::string> algorithms_for(const Study& study, const OptimizerOptions& options, RobustMeasure measure, bool with_slack) {
+  if (options.algorithm != kAuto) return {options.algorithm};
+  std::vector<std::string> list;
+  for (const char* name : {kLeastSquares, "slsqp", "lbfgs", "mma"}) {
+    OptimizerOptions candidate = options;
+    candidate.algorithm = name;
+    try {
+      check_algorithm(study, candidate, with_slack);
+      if (is_least_squares(name)) check_squares(study, candidate, measure);
+      list.push_back(name);
+    } catch (const InputError&) {  // this one does not take the problem
+    }
+  }
+  return list;
+}
+
+bool uses_gradients(const std::string& algorithm) { return algorithm != "cobyla" && algorithm != "bobyqa"; }
+
+bool is_sum_of_squares(const Study& study) {
+  const auto is_negative = [](const ObjectiveTerm& term) { return term.weight.is_constant() && term.weight.nominal() < 0.0; };
+  return std::none_of(study.integral.begin(), study.integral.end(), is_negative) &&
+         std::none_of(study.terminal.begin(), study.terminal.end(), is_negative);
+}
+
 nlopt::opt make_optimizer(const OptimizerOptions& options, unsigned dimension) {
   const nlopt::algorithm id = algorithms().at(options.algorithm).id.value();
   nlopt::opt optimizer(id, dimension);
@@ -107,6 +132,11 @@ nlopt::opt make_optimizer(const OptimizerOptions& options, unsigned dimension) {
     optimizer.set_xtol_abs(0.0);
   }
   return optimizer;
+}
+
+bool is_success(const std::string& termination) {
+  return termination == "success" || termination == "objective_tolerance_reached" || termination == "parameter_tolerance_reached" ||
+         termination == "roundoff_limited";
 }
 
 std::string termination_name(nlopt::result result) {

@@ -4,6 +4,7 @@
 
 #include <nlopt.hpp>
 #include <string>
+#include <vector>
 
 #include "description/study.h"
 
@@ -22,9 +23,20 @@ void check_algorithm(const Study& study, const OptimizerOptions& options, bool w
 /// @throws InputError if the objective is no sum of squares, or its residuals have no derivatives.
 void check_squares(const Study& study, const OptimizerOptions& options, RobustMeasure measure);
 
-/// The NLopt optimizer that `options.algorithm` names. @param options checked, and not for least squares. @param dimension number of tuned
-/// parameters and slack variables.
+/// The algorithms with which a search goes on in turn, until one ends at an optimum: the one that is named, or for `auto` those that prove
+/// best (doc/performance.md) and take the problem. @param with_slack, measure as above.
+std::vector<std::string> algorithms_for(const Study& study, const OptimizerOptions& options, RobustMeasure measure, bool with_slack);
+/// Whether the algorithm reads gradients; one that does not has no use for conditions on them.
+bool uses_gradients(const std::string& algorithm);
+/// Whether the objective is a sum of squares beside its peaks: no weight is a negative number.
+bool is_sum_of_squares(const Study& study);
+
+/// The NLopt optimizer that `options.algorithm` names. @param options checked, and neither `auto` nor for least squares. @param dimension
+/// number of tuned parameters and slack variables.
 nlopt::opt make_optimizer(const OptimizerOptions& options, unsigned dimension);
+
+/// Whether a termination says that the search converged.
+bool is_success(const std::string& termination);
 
 /// Snake-case name of the reason for which NLopt stopped, e.g. objective_tolerance_reached.
 std::string termination_name(nlopt::result result);

@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_OPTIMIZATION_LAGRANGIAN_H_
 #define MECHANISM_CODESIGN_OPTIMIZATION_LAGRANGIAN_H_
 
+#include "ensemble/parameter_rows.h"
 #include "optimization/scaling.h"
 #include "optimization/smooth_program.h"
 
@@ -10,10 +11,16 @@ namespace codesign {
 /// Writes the derivatives of a number by the optimizer's variables: the scaled parameters, then the slack variables.
 void spread(const SmoothProgram::Value& value, const Scaling& scaling, double* by_x);
 
-/// Norm of the gradient of the Lagrangian at a design by the optimizer's variables, with the multipliers of the active rows and bounds that
-/// make it least; zero at an optimum. @param at the evaluation of the design. @param unit of the scaled objective.
-double lagrangian_residual(const EnsembleEvaluation& at, const Eigen::VectorXd& rho, const Scaling& scaling, double unit,
-                           SmoothProgram* program);
+/// The optimality conditions of a design in the smooth form of the problem, doc/theory.md (24h).
+struct Optimality {
+  double slope = 0.0;      ///< residual of the conditions, in the unit of psi; 0 at an optimum
+  Eigen::VectorXd bounds;  ///< multipliers of the bounds of the scaled parameters: positive at the lower one, negative at the upper one
+  Eigen::MatrixXd active;  ///< gradients by the scaled parameters of the rows with a multiplier, one per column
+};
+
+/// With the multipliers, of the sign that their rows require, which make the residual least. @param at the evaluation of the design.
+Optimality optimality(const EnsembleEvaluation& at, const Eigen::VectorXd& rho, const Scaling& scaling, const ParameterRows& parameters,
+                      SmoothProgram* program);
 
 }  // namespace codesign
 

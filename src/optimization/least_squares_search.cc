@@ -5,10 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "optimization/algorithm.h"
 #include "optimization/levenberg_marquardt.h"
-#include "optimization/scaling.h"
-#include "optimization/search_trials.h"
 
 namespace codesign {
 namespace {
@@ -20,7 +17,9 @@ class EnsembleSquares final : public LeastSquaresModel {
 
   Outcome evaluate(const Eigen::VectorXd& x, LeastSquaresPoint* point) override {
     const Eigen::VectorXd rho = scaling_.from_scaled({x.begin(), x.end()});
-    if (!trials_.evaluate(rho, Derivatives::kGaussNewton)) return Outcome::kStop;
+    const bool is_known = trials_.last_rho().size() == rho.size() && trials_.last_rho() == rho && trials_.last().total.status.ok() &&
+                          trials_.last().total.jacobian_root.size() > 0;
+    if (!is_known && !trials_.evaluate(rho, Derivatives::kGaussNewton)) return Outcome::kStop;
     const Evaluation& evaluation = trials_.last().total;
     if (!evaluation.status.ok()) return Outcome::kFailed;
     const std::vector<double> gradient = scaling_.scale_gradient(evaluation.gradient);
@@ -42,22 +41,15 @@ Eigen::VectorXd as_vector(const std::vector<double>& numbers) {
 
 }  // namespace
 
-OptimizationResult search_squares(const Study& study, const OptimizerOptions& options, const Eigen::VectorXd& start,
-                                  const Ensemble& ensemble, const TrialObserver& observer, const std::atomic<bool>* cancel) {
-  const Scaling scaling(study);
-  SmoothProgram program(ensemble);
-  SearchTrials trials(study, options, ensemble, observer, cancel, scaling, &program);
-  EnsembleSquares squares(&trials, scaling);
-  trials.start(start);
+void search_squares(const OptimizerOptions& options, const Eigen::VectorXd& start, const Scaling& scaling, SearchTrials* trials) {
+  EnsembleSquares squares(trials, scaling);
   const Eigen::VectorXd lower = as_vector(scaling.lower()), upper = as_vector(scaling.upper());
   Eigen::VectorXd x = as_vector(scaling.to_scaled(start)).cwiseMax(lower).cwiseMin(upper);
   LeastSquaresPoint best;
   LevenbergMarquardtOptions search;
-  search.max_evaluations = options.max_evaluations;
+  search.max_evaluations = options.max_evaluations - trials->result().evaluations;
   search.relative_tolerance = options.relative_tolerance;
-  trials.result().termination = name_of(minimize_squares(search, lower, upper, &squares, &x, &best));
-  trials.conclude("");
-  return std::move(trials.result());
+  trials->result().termination = name_of(minimize_squares(search, lower, upper, &squares, &x, &best));
 }
 
 }  // namespace codesign

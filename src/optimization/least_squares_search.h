@@ -2,15 +2,13 @@
 #ifndef MECHANISM_CODESIGN_OPTIMIZATION_LEAST_SQUARES_SEARCH_H_
 #define MECHANISM_CODESIGN_OPTIMIZATION_LEAST_SQUARES_SEARCH_H_
 
-#include "ensemble/ensemble.h"
-#include "mechanism_codesign/optimization.h"
+#include "optimization/search_trials.h"
 
 namespace codesign {
 
-/// search_locally() by Levenberg-Marquardt, doc/theory.md (24g): the mean over the scenarios, as a sum of squares, within bounds.
-/// The study must have passed check_search().
-OptimizationResult search_squares(const Study& study, const OptimizerOptions& options, const Eigen::VectorXd& start,
-                                  const Ensemble& ensemble, const TrialObserver& observer, const std::atomic<bool>* cancel);
+/// One attempt of a search by Levenberg-Marquardt, doc/theory.md (24g): the mean over the scenarios, as a sum of squares, within bounds.
+/// The study must have passed check_search(). Sets the termination. @param options its limit counts all evaluations of `trials`.
+void search_squares(const OptimizerOptions& options, const Eigen::VectorXd& start, const Scaling& scaling, SearchTrials* trials);
 
 }  // namespace codesign
 

@@ -8,12 +8,10 @@
 #include <limits>
 
 #include "optimization/algorithm.h"
-#include "optimization/lagrangian.h"
 #include "optimization/least_squares_search.h"
 #include "optimization/scaling.h"
 #include "optimization/search_trials.h"
 #include "optimization/smooth_program.h"
-#include "problem/margins.h"
 
 namespace codesign {
 namespace {
@@ -22,30 +20,28 @@ constexpr double kRowTolerance = 1e-9;  // violation of a constraint row that NL
 constexpr int kMostRestarts = 8;
 constexpr std::int64_t kCallsPerEvaluation = 100;
 constexpr const char* kInsideFinder = "mma";
+constexpr int kMostAttempts = 12;
+constexpr double kLeastTolerance = 1e-15, kTighten = 1e-3;  // the tolerance of a restart over that of the attempt before
 constexpr double kSlopeLeft = 1e-2;  // a failed line search has converged if the scaled gradient fell below this fraction of the first one
 
-/// One optimization: the state that NLopt's callbacks share.
+/// One attempt of a search by an algorithm of NLopt: the state that its callbacks share.
 class Minimization {
  public:
-  Minimization(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble, const TrialObserver& observer,
-               const std::atomic<bool>* cancel)
-      : study_(study),
-        options_(options),
-        scaling_(study),
-        program_(ensemble),
-        trials_(study, options_, ensemble, observer, cancel, scaling_, &program_) {
+  /// @param options its limit counts all evaluations of `trials`.
+  Minimization(const Study& study, const OptimizerOptions& options, const Scaling& scaling, SmoothProgram* program, SearchTrials* trials)
+      : study_(study), options_(options), scaling_(scaling), program_(*program), trials_(*trials) {
     for (const ParameterRows::Row& row : trials_.parameter_rows().rows()) constraints_.push_back({this, row});
   }
 
-  OptimizationResult run(const Eigen::VectorXd& start) {
+  /// Sets the termination. @returns why the algorithm failed, if it did.
+  std::string run(const Eigen::VectorXd& start) {
     nlopt::opt optimizer = make_optimizer(options_, dimension());
     configure(&optimizer);
-    trials_.start(start);
+    take_unit();
     std::vector<double> x = scaling_.to_scaled(start);
     minimize(&optimizer, &x);
     while (should_restart()) restart(&optimizer);
-    trials_.conclude(failure_);
-    return std::move(result_);
+    return failure_;
   }
 
  private:
@@ -140,18 +136,11 @@ class Minimization {
     if (result_.termination == "algorithm_failed" && trials_.have_best() && has_converged()) result_.termination = "roundoff_limited";
   }
 
-  /// Whether a failed line search ended at an optimum: its points are equal within the relative tolerance, and the gradient is small, or a
-  /// constraint is active.
+  /// Whether a failed line search ended at an optimum: its points are equal within the relative tolerance, and the slope is small.
   bool has_converged() {
     const double difference = std::abs(last_.total.objective - result_.objective);
     if (!last_.total.status.ok() || difference > options_.relative_tolerance * std::abs(result_.objective)) return false;
-    const Eigen::VectorXd margins = trials_.parameter_rows().margins(result_.rho);
-    if ((margins.array() < 1e-6).any()) return all_met(margins);
-    const double start = scaling_.gradient_norm(result_.initial_gradient);
-    if (program_.has_signals())
-      return trials_.best_keeps_bounds() &&
-             lagrangian_residual(trials_.best(), result_.rho, scaling_, unit_, &program_) <= kSlopeLeft * start / unit_;
-    return scaling_.free_gradient_norm(result_.rho, result_.gradient) <= kSlopeLeft * start;
+    return trials_.best_keeps_bounds() && trials_.slope_left() <= kSlopeLeft;
   }
 
   static double objective_callback(const std::vector<double>& x, std::vector<double>& gradient, void* self) {
@@ -244,8 +233,12 @@ class Minimization {
     if (is_at_limit_) throw nlopt::forced_stop();
     if (!trials_.evaluate(rho, Derivatives::kGradient)) throw nlopt::forced_stop();
     if (moves_inside_ && trials_.best_violation() == 0.0) throw nlopt::forced_stop();
-    // The first step of a quasi-Newton method is as long as the gradient; divided by unit_, it is at most 1 in scaled variables, (24).
-    if (result_.evaluations == 1 && last_.total.status.ok()) unit_ = std::max(1.0, scaling_.gradient_norm(last_.total.gradient));
+    if (result_.evaluations == 1) take_unit();
+  }
+
+  // The first step of a quasi-Newton method is as long as the gradient; divided by unit_, it is at most 1 in scaled variables, (24).
+  void take_unit() {
+    if (trials_.have_best()) unit_ = std::max(1.0, scaling_.gradient_norm(result_.initial_gradient));
   }
 
   // The value (24) of a point that cannot be evaluated: worse than all values so far, and larger with growing distance from the best point,
@@ -270,9 +263,9 @@ class Minimization {
 
   const Study& study_;
   const OptimizerOptions options_;
-  Scaling scaling_;
-  SmoothProgram program_;
-  SearchTrials trials_;
+  const Scaling& scaling_;
+  SmoothProgram& program_;
+  SearchTrials& trials_;
   const EnsembleEvaluation& last_ = trials_.last();
   OptimizationResult& result_ = trials_.result();
   std::vector<Constraint> constraints_;
@@ -284,19 +277,89 @@ class Minimization {
   int restarts_ = 0;
 };
 
+RobustMeasure measure_of(const Ensemble& ensemble) {
+  return ensemble.scenarios().size() > 1 ? ensemble.options().measure : RobustMeasure::kMean;
+}
+
+bool has_slack(RobustMeasure measure) { return measure == RobustMeasure::kWorst || measure == RobustMeasure::kCvar; }
+
+/// A search from its start to a stop that can be trusted: where an algorithm stops on a slope, it begins anew from there, with fresh memory
+/// and a tighter tolerance; where that gains nothing, the next algorithm goes on; doc/theory.md (24h).
+class Search {
+ public:
+  Search(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble, const TrialObserver& observer,
+         const std::atomic<bool>* cancel)
+      : study_(study),
+        options_(options),
+        scaling_(study),
+        program_(ensemble),
+        trials_(study, options, ensemble, observer, cancel, scaling_, &program_),
+        algorithms_(algorithms_for(study, options, measure_of(ensemble), has_slack(measure_of(ensemble)))) {}
+
+  OptimizationResult run(const Eigen::VectorXd& start) {
+    trials_.start(start);
+    OptimizerOptions attempt = options_;
+    std::size_t algorithm = 0;
+    for (int k = 0; k < kMostAttempts; ++k) {
+      const double before = result_.objective, outside = trials_.best_violation();
+      const bool had_best = trials_.have_best();
+      try_from(had_best ? result_.rho : start, algorithms_[algorithm], &attempt);
+      if (!goes_on()) break;
+      const bool has_gained = had_best && (before - result_.objective > options_.relative_tolerance * std::abs(result_.objective) ||
+                                           trials_.best_violation() < 0.9 * outside);
+      const bool begins_anew = trials_.have_best() && (k == 0 || has_gained);
+      if (!begins_anew && ++algorithm == algorithms_.size()) break;
+      attempt.relative_tolerance =
+          begins_anew ? std::max(kLeastTolerance, kTighten * attempt.relative_tolerance) : options_.relative_tolerance;
+    }
+    trials_.conclude(failure_);
+    return std::move(result_);
+  }
+
+ private:
+  void try_from(const Eigen::VectorXd& rho, const std::string& algorithm, OptimizerOptions* attempt) {
+    attempt->algorithm = algorithm;
+    if (last_ != algorithm) result_.algorithm += (result_.algorithm.empty() ? "" : ", ") + algorithm;
+    last_ = algorithm;
+    failure_.clear();
+    if (is_least_squares(algorithm))
+      search_squares(*attempt, rho, scaling_, &trials_);
+    else
+      failure_ = Minimization(study_, *attempt, scaling_, &program_, &trials_).run(rho);
+  }
+
+  /// Whether the search may not end at the stop of the attempt, and has evaluations left.
+  bool goes_on() {
+    if (trials_.interrupted() || result_.evaluations >= options_.max_evaluations) return false;
+    if (result_.termination == "max_evaluations_reached" || !uses_gradients(last_)) return false;
+    // A weight of this start is negative, so that the objective is no sum of squares.
+    if (!trials_.have_best()) return trials_.first_failure().code == StatusCode::kInvalidDesign;
+    if (trials_.best_violation() > 0.0) return algorithms_.size() > 1;
+    return !trials_.is_stationary();
+  }
+
+  const Study& study_;
+  const OptimizerOptions& options_;
+  const Scaling scaling_;
+  SmoothProgram program_;
+  SearchTrials trials_;
+  OptimizationResult& result_ = trials_.result();
+  const std::vector<std::string> algorithms_;
+  std::string last_, failure_;
+};
+
 }  // namespace
 
 void check_search(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble) {
-  const RobustMeasure measure = ensemble.scenarios().size() > 1 ? ensemble.options().measure : RobustMeasure::kMean;
-  check_algorithm(study, options, measure == RobustMeasure::kWorst || measure == RobustMeasure::kCvar);
+  const RobustMeasure measure = measure_of(ensemble);
+  check_algorithm(study, options, has_slack(measure));
   if (is_least_squares(options.algorithm)) check_squares(study, options, measure);
 }
 
 OptimizationResult search_locally(const Study& study, const OptimizerOptions& options, const Eigen::VectorXd& start,
                                   const Ensemble& ensemble, const TrialObserver& observer, const std::atomic<bool>* cancel) {
   check_search(study, options, ensemble);
-  if (is_least_squares(options.algorithm)) return search_squares(study, options, start, ensemble, observer, cancel);
-  return Minimization(study, options, ensemble, observer, cancel).run(start);
+  return Search(study, options, ensemble, observer, cancel).run(start);
 }
 
 }  // namespace codesign

@@ -1,14 +1,26 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "optimization/search_trials.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "equations/compiled_system.h"
+#include "optimization/algorithm.h"
+#include "optimization/flat_directions.h"
 #include "optimization/search_warnings.h"
 #include "optimization/violated_bounds.h"
 #include "problem/margins.h"
+#include "sensitivity/gradient_engine.h"
 
 namespace codesign {
+namespace {
+
+constexpr double kStartCounts = 1e-3;      // the share of the slope at the start in the scale of (24h)
+constexpr double kLeastMultiplier = 1e-4;  // of that scale, so that to widen a bound by 1 % is worth a millionth
+
+}  // namespace
+
 SearchTrials::SearchTrials(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble, const TrialObserver& observer,
                            const std::atomic<bool>* cancel, const Scaling& scaling, SmoothProgram* program)
     : study_(study),
@@ -42,6 +54,7 @@ void SearchTrials::conclude(const std::string& failure) {
   result_.watched = program_.describe(best_.extremes, initial_extremes_, result_.rho);
   for (std::size_t k = 0; k < study_.tuned.size(); ++k)
     if (program_.bounds_read(study_.tuned[k])) result_.influences[k] = true;
+  if (have_best_) judge_stop();
   if (have_best_) append(search_warnings(study_, options_, result_), &result_.warnings);
   append(lost_branches_, &result_.warnings);
   result_.status = {StatusCode::kSuccess, study_.duration, ""};
@@ -72,11 +85,72 @@ void SearchTrials::judge_end(const std::string& failure) {
   std::string cause;
   if (is_outside) cause = all_met(result_.margins) ? describe_violated(result_.watched) : describe_unmet(study_, result_.margins);
   if (has_failed)
-    cause += (cause.empty() ? "" : "; ") + ("the algorithm \"" + options_.algorithm + "\" failed (" + failure) +
+    cause += (cause.empty() ? "" : "; ") + ("the algorithm \"" + result_.algorithm + "\" failed (" + failure) +
              "); the best point so far is kept; try another algorithm or another start";
   if (cause.empty()) return;
   const bool has_tried = !has_failed || result_.evaluations > 1;
   result_.status = {is_outside && has_tried ? StatusCode::kInfeasible : StatusCode::kAlgorithmFailed, study_.duration, cause};
+}
+
+Optimality SearchTrials::optimality_at(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
+  Optimality result = optimality(all, rho, scaling_, parameter_rows_, &program_);
+  // The algorithms read the program at the last point.
+  if (last_.total.status.ok()) program_.take(last_, last_rho_);
+  return result;
+}
+
+const Optimality& SearchTrials::best_optimality() {
+  if (!best_optimality_) best_optimality_ = optimality_at(best_, result_.rho);
+  return *best_optimality_;
+}
+
+double SearchTrials::slope_left() {
+  const double slope = best_optimality().slope;
+  return slope > 0.0 ? slope / result_.initial_slope : 0.0;
+}
+
+double SearchTrials::stationarity() {
+  const double slope = best_optimality().slope;
+  return slope > 0.0 ? slope / scale() : 0.0;
+}
+
+double SearchTrials::scale() const { return std::max(std::abs(result_.objective), kStartCounts * result_.initial_slope); }
+
+// Near an optimum the objective falls with the square of the slope.
+double SearchTrials::most_slope() const { return std::sqrt(options_.relative_tolerance); }
+
+/// Describes the best point as an optimum, or takes the word of success from a search that ended elsewhere.
+void SearchTrials::judge_stop() {
+  const Optimality& at_best = best_optimality();
+  result_.slope = at_best.slope;
+  result_.stationarity = stationarity();
+  // A multiplier far below the objective is what rounding leaves.
+  result_.bound_multipliers = (at_best.bounds.array().abs() > kLeastMultiplier * scale()).select(at_best.bounds, 0.0);
+  if (interrupted()) return;
+  if (is_success(result_.termination) && best_violation_ == 0.0 && !is_stationary()) result_.termination = "stopped_early";
+  find_flat_directions();
+}
+
+void SearchTrials::find_flat_directions() {
+  const auto size = static_cast<Eigen::Index>(study_.tuned.size());
+  if (size < 2 || !is_sum_of_squares(study_)) return;
+  Eigen::MatrixXd root = best_.total.jacobian_root;
+  if (root.size() == 0) {
+    // The adjoint was chosen because the Jacobian of so many parameters costs too much.
+    if (prefers_adjoint(*ensemble_.scenarios().front().system)) return;
+    const EnsembleEvaluation again = ensemble_.evaluate(result_.rho, Derivatives::kGaussNewton, cancel_);
+    result_.statistics += again.total.statistics;
+    if (!again.total.status.ok()) return;
+    root = again.total.jacobian_root;
+  }
+  std::vector<bool> held(study_.tuned.size());
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    root.col(i) *= scaling_.range(k);
+    held[k] = !result_.influences[k] || result_.bound_multipliers[i] != 0.0;
+  }
+  result_.flat_directions = flat_directions(root, best_optimality().active, held);
+  for (Eigen::Index k = 0; k < size; ++k) result_.flat_directions.row(k) *= scaling_.range(static_cast<std::size_t>(k));
 }
 
 Trial SearchTrials::note(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
@@ -130,6 +204,7 @@ void SearchTrials::take_best(const EnsembleEvaluation& all, const Eigen::VectorX
     result_.initial_values = all.values;
     result_.initial_failed = all.failed;
     result_.initial_gradient = evaluation.gradient;
+    result_.initial_slope = optimality_at(all, rho).slope;
   }
   const bool better = first || outside < best_violation_ || (outside == best_violation_ && evaluation.objective < result_.objective);
   if (!better) return;
@@ -138,7 +213,8 @@ void SearchTrials::take_best(const EnsembleEvaluation& all, const Eigen::VectorX
   best_violation_ = outside;
   result_.objective = evaluation.objective;
   result_.values = all.values;
-  if (program_.has_signals()) best_ = all;
+  best_ = all;
+  best_optimality_.reset();
   result_.failed = all.failed;
   result_.gradient = evaluation.gradient;
   result_.warnings = evaluation.warnings;

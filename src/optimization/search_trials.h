@@ -2,12 +2,14 @@
 #ifndef MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_TRIALS_H_
 #define MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_TRIALS_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "ensemble/ensemble.h"
 #include "ensemble/parameter_rows.h"
 #include "mechanism_codesign/optimization.h"
+#include "optimization/lagrangian.h"
 #include "optimization/scaling.h"
 #include "optimization/smooth_program.h"
 
@@ -38,8 +40,13 @@ class SearchTrials {
   const Eigen::VectorXd& last_rho() const { return last_rho_; }
   OptimizationResult& result() { return result_; }
   bool have_best() const { return have_best_; }
-  /// The evaluation at the best point, for a study with watched signals.
-  const EnsembleEvaluation& best() const { return best_; }
+  /// Why the first trial point could not be evaluated, if none could.
+  const Status& first_failure() const { return first_failure_; }
+  /// The residual of the optimality conditions at the best point over the same at the start, and over the scale of (24h).
+  double slope_left();
+  double stationarity();
+  /// Whether the search may end here: stationarity() is at most the root of the relative tolerance of the objective.
+  bool is_stationary() { return stationarity() <= most_slope(); }
   /// Largest violation of a constraint at the best point, beyond its tolerance; 0 if all constraints are met.
   double best_violation() const { return best_violation_; }
   /// Whether the best point keeps all constraints, each within its tolerance.
@@ -54,6 +61,12 @@ class SearchTrials {
   double violation(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) const;
   void judge_end(const std::string& failure);
   void take_best(const EnsembleEvaluation& all, const Eigen::VectorXd& rho);
+  double most_slope() const;
+  double scale() const;
+  const Optimality& best_optimality();
+  Optimality optimality_at(const EnsembleEvaluation& all, const Eigen::VectorXd& rho);
+  void judge_stop();
+  void find_flat_directions();
 
   const Study& study_;
   const OptimizerOptions& options_;
@@ -65,6 +78,7 @@ class SearchTrials {
   const ParameterRows parameter_rows_;
   Eigen::VectorXd last_rho_;
   EnsembleEvaluation last_, best_;
+  std::optional<Optimality> best_optimality_;  ///< of `best_`, once it was asked for
   std::vector<Extremes> initial_extremes_;
   OptimizationResult result_;
   Warnings lost_branches_;  ///< the first `branch_lost` of all trial points

@@ -40,6 +40,8 @@ TEST(Governor, TunesIntoItsFlatValley) {
   shipped.study.solver.relative_tolerance = 1e-6;
   shipped.study.solver.absolute_tolerance = 1e-7;
   shipped.study.solver.sensitivity_tolerance = 0.0;
+  // The search goes on from its first stop, which is not stationary.
+  shipped.study.optimizer.max_evaluations = 40;
   const OptimizationResult result = optimize(make_system(shipped.robot, shipped.study), shipped.study.optimizer);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   EXPECT_LE(result.objective, 0.6198);

@@ -90,6 +90,24 @@ TEST(Algorithm, LeastSquaresAreForSumsOfSquares) {
   EXPECT_EQ(fault_of(loose).element, "optimizer.relative_tolerance");
 }
 
+TEST(Algorithm, AutoTakesWhatTheProblemAllows) {
+  const auto first = [](const Study& study, RobustMeasure measure = RobustMeasure::kMean, bool with_slack = false) {
+    EXPECT_NO_THROW(check_algorithm(study, study.optimizer, with_slack));
+    return algorithms_for(study, study.optimizer, measure, with_slack).front();
+  };
+  EXPECT_EQ(first(study("auto")), "levenberg_marquardt");
+  EXPECT_EQ(first(study("auto", true)), "slsqp");
+  EXPECT_EQ(first(study("auto"), RobustMeasure::kWorst, true), "slsqp");
+  EXPECT_EQ(first(study("auto"), RobustMeasure::kMeanPlusDeviation), "slsqp");
+  Study negative = study("auto");
+  negative.integral.resize(1);
+  negative.integral[0].weight = Quantity(-0.5);
+  EXPECT_EQ(first(negative), "slsqp");
+  EXPECT_FALSE(is_sum_of_squares(negative));
+  const Study named = study("mma", true);
+  EXPECT_EQ(algorithms_for(named, named.optimizer, RobustMeasure::kMean, false), std::vector<std::string>{"mma"}) << "a name is kept";
+}
+
 TEST(Algorithm, AnUnknownNameIsAnsweredWithThoseKnown) {
   try {
     check_algorithm(study("newton"), study("newton").optimizer, false);

@@ -3,26 +3,74 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "ensemble/ensemble_fixture.h"
+#include "mechanism_codesign/optimization.h"
 
 namespace codesign {
 namespace {
 
+struct Conditions {
+  explicit Conditions(const Problem& of)
+      : problem(of), ensemble(problem), scaling(problem.study()), parameters(problem.study(), ensemble.scenarios()), program(ensemble) {}
+  Optimality at(const Eigen::VectorXd& rho) { return optimality(ensemble.evaluate(rho, true), rho, scaling, parameters, &program); }
+
+  const Problem problem;
+  const Ensemble ensemble;
+  const Scaling scaling;
+  const ParameterRows parameters;
+  SmoothProgram program;
+};
+
+const std::string kTight = "{algorithm: slsqp, relative_tolerance: 1.0e-11, max_evaluations: 400}";
+const std::string kThreeRuns =
+    "runs: {near: {}, far: {controllers: {hold: {setpoint: 0.7}}}, slow: {initial_state: {slide: {velocity: 0.2}}}}\n";
+
 TEST(Lagrangian, HasNoGradientAtABoundedOptimum) {
-  const Problem problem =
-      block("path: [{signal: hold/output, between: [-6, 6]}]\n", "{algorithm: slsqp, relative_tolerance: 1.0e-11, max_evaluations: 400}");
-  const Ensemble ensemble(problem);
-  const Scaling scaling(problem.study());
-  SmoothProgram program(ensemble);
-  const auto residual = [&](const Eigen::VectorXd& rho) {
-    return lagrangian_residual(ensemble.evaluate(rho, true), rho, scaling, 1.0, &program);
-  };
-  const OptimizationResult result = optimize(problem);
+  Conditions conditions(block("path: [{signal: hold/output, between: [-6, 6]}]\n", kTight));
+  const OptimizationResult result = optimize(conditions.problem);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  const double free = scaling.gradient_norm(result.gradient);
+  const double free = conditions.scaling.gradient_norm(result.gradient);
   EXPECT_GT(free, 0.0);
-  EXPECT_LT(residual(result.rho), 1e-3 * free) << "the bound holds the gradient";
-  EXPECT_NEAR(residual(problem.start()), scaling.gradient_norm(result.initial_gradient), 1e-9) << "nothing is active at the start";
+  const Optimality optimum = conditions.at(result.rho);
+  EXPECT_LT(optimum.slope, 1e-3 * free) << "the bound holds the gradient";
+  EXPECT_GT(optimum.active.cols(), 0);
+  EXPECT_EQ(result.slope, optimum.slope);
+  // At the start the bound is not reached; a row may hold as much of the gradient as its distance permits.
+  const double start = conditions.at(conditions.problem.start()).slope;
+  EXPECT_LE(start, conditions.scaling.gradient_norm(result.initial_gradient));
+  EXPECT_GT(start, 100.0 * optimum.slope);
+}
+
+TEST(Lagrangian, WorstCaseAndTailAreStationaryInTheirSmoothForm) {
+  for (const char* measure : {"worst", "cvar, level: 0.5"}) {
+    Conditions conditions(block(kThreeRuns + "robust: {measure: " + measure + "}\n", kTight));
+    const OptimizationResult result = optimize(conditions.problem);
+    ASSERT_TRUE(result.status.ok()) << result.status.cause;
+    EXPECT_LT(result.stationarity, 1e-3) << measure;
+    EXPECT_LT(result.slope, 1e-3 * result.initial_slope) << measure;
+    Eigen::VectorXd beside = result.rho;
+    beside[0] *= 1.1;
+    EXPECT_GT(conditions.at(beside).slope, 10.0 * result.slope) << measure;
+  }
+}
+
+// Widening by 1 % of the range is worth what the multiplier says, also where a constraint holds the optimum.
+TEST(Lagrangian, ABoundIsWorthItsMultiplier) {
+  const auto tune = [](const std::string& constraint, double upper) {
+    const Problem problem = block(constraint, kTight);
+    Study study = problem.study();
+    study.parameters[static_cast<std::size_t>(study.tuned[0])].upper = upper;
+    return optimize(with_study(problem, study));
+  };
+  for (const char* constraint : {"", "constraints: [\"Kp + 10*Kd <= 60\"]\n"}) {
+    const OptimizationResult result = tune(constraint, 30.0), wider = tune(constraint, 30.3);
+    ASSERT_NEAR(result.rho[0], 30.0, 1e-9) << constraint;
+    ASSERT_LT(result.bound_multipliers[0], 0.0) << constraint;
+    const double worth = -0.01 * result.bound_multipliers[0];
+    EXPECT_NEAR(result.objective - wider.objective, worth, 0.05 * worth) << constraint;
+  }
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 
 #include "assembly/make_system.h"
 #include "mechanism_codesign/optimization.h"
+#include "optimization/search_warnings.h"
+#include "paths.h"
 #include "problem/load_problem.h"
 
 namespace codesign {
@@ -148,6 +150,48 @@ TEST(Outcome, WarnsOfParametersOnTheirBound) {
   EXPECT_EQ(result.rho[0] == 0.5 || result.rho[0] == 2.0, has_warning(result.warnings, "parameter_on_bound", "length")) << result.rho[0];
   const OptimizationResult narrow = search(problem_of("", "1", "length: {lower: 0.9, upper: 1.1}"));
   EXPECT_TRUE(has_warning(narrow.warnings, "parameter_on_bound", "length")) << narrow.rho[0];
+}
+
+Problem stop_problem(const std::string& model, const std::string& study, const std::string& more = "") {
+  const std::string folder = source_dir() + "/benchmark/stops/";
+  SourceText text = read_source(folder + study + ".yaml");
+  text.text += more;
+  return load_problem(read_source(folder + model + ".urdf"), {}, text);
+}
+
+TEST(Outcome, NamesTheParametersOfAFlatOptimum) {
+  for (const char* algorithm : {"auto", "lbfgs", "slsqp"}) {
+    const Problem problem = stop_problem("arm", "spring_balance", std::string("optimizer: {algorithm: ") + algorithm + "}\n");
+    const OptimizationResult result = search(problem);
+    ASSERT_TRUE(result.status.ok()) << result.status.cause;
+    EXPECT_LT(result.objective, 1e-9 * result.initial_objective);
+    ASSERT_EQ(result.flat_directions.cols(), 2) << algorithm << ": only the product of stiffness, post and hook counts";
+    for (const char* name : {"stiffness", "post", "hook"}) EXPECT_TRUE(has_warning(result.warnings, "flat_direction", name)) << algorithm;
+    EXPECT_FALSE(has_warning(result.warnings, "parameter_on_bound")) << algorithm;
+    // d log k + d log a + d log b = 0 along each of them.
+    for (int d = 0; d < 2; ++d)
+      EXPECT_NEAR(result.flat_directions.col(d).cwiseQuotient(result.rho).sum(), 0.0,
+                  1e-5 * result.flat_directions.col(d).cwiseQuotient(result.rho).norm());
+  }
+  EXPECT_EQ(search(problem_of("")).flat_directions.cols(), 0);
+}
+
+TEST(Outcome, SaysHowStationaryItsPointIs) {
+  const OptimizationResult result = search(stop_problem("arm", "arm_pid"));
+  ASSERT_TRUE(result.status.ok()) << result.status.cause;
+  EXPECT_EQ(result.algorithm, "levenberg_marquardt") << "of a sum of squares";
+  EXPECT_LE(result.stationarity, 1e-3);
+  EXPECT_LT(result.slope, 1e-3 * result.initial_slope);
+  EXPECT_EQ(stop_sentence(result).find("stationary to "), 0U) << stop_sentence(result);
+  OptimizationResult early = result;
+  early.termination = "stopped_early";
+  early.slope = 0.4 * early.initial_slope;
+  early.stationarity = 0.4;
+  EXPECT_EQ(stop_sentence(early).find("stopped early: the slope is 0.4 of the start's"), 0U) << stop_sentence(early);
+  const Problem problem = problem_of("");
+  const Study& study = problem.study();
+  early.rho = early.bound_multipliers = Eigen::VectorXd::Constant(1, 0.0);
+  EXPECT_TRUE(has_warning(search_warnings(study, study.optimizer, early), "not_stationary", "no algorithm gains"));
 }
 
 TEST(Outcome, WarnsOfParametersThatDoNothing) {

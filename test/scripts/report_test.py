@@ -339,6 +339,14 @@ class Report(unittest.TestCase):
         self.assertEqual(found - set(words.TERMINATIONS), set())
         self.assertIn("moon phase", words.termination("moon_phase"))
 
+    def test_how_stationary_the_point_is(self):
+        result = {"termination": "success", "stationarity": 3e-6, "slope": 1e-6, "initial_slope": 10.0}
+        self.assertEqual(words.stationarity(result), "Stationary to 3e-06.")
+        result.update(termination="stopped_early", slope=4.0, stationarity=0.5)
+        self.assertEqual(words.stationarity(result), "Stopped early: the slope is 0.4 of the start's, stationary to 0.5 only.")
+        self.assertEqual(words.stationarity({}), "", "of an older result")
+        self.assertIn("stopped_early", words.TERMINATIONS)
+
 
 class Parts(unittest.TestCase):
     def test_numbers(self):

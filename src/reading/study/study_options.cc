@@ -90,11 +90,12 @@ SolverOptions read_solver_options(const YamlValue& solver) {
 OptimizerOptions read_optimizer_options(const YamlValue& optimizer) {
   optimizer.require_keys({}, {"algorithm", "max_evaluations", "relative_tolerance"});
   OptimizerOptions options;
+  options.algorithm = "auto";
   options.where = optimizer.where();
   if (const auto algorithm = optimizer.find("algorithm")) {
     options.where = algorithm->where();
-    options.algorithm = algorithm->choice("algorithm", {"lbfgs", "var1", "var2", "tnewton", "mma", "ccsaq", "slsqp", "cobyla", "bobyqa",
-                                                        "auglag_lbfgs", "levenberg_marquardt"});
+    options.algorithm = algorithm->choice("algorithm", {"auto", "lbfgs", "var1", "var2", "tnewton", "mma", "ccsaq", "slsqp", "cobyla",
+                                                        "bobyqa", "auglag_lbfgs", "levenberg_marquardt"});
   }
   read_count(optimizer, "max_evaluations", &options.max_evaluations);
   read_tolerance(optimizer, "relative_tolerance", kLeastOfObjective, &options.relative_tolerance);

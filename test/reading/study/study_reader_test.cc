@@ -54,7 +54,7 @@ TEST(StudyReader, TheRestHasDefaults) {
   ASSERT_EQ(study.parameters.size(), 2U);
   EXPECT_EQ(study.parameters[1].name, "rod_length");
   EXPECT_EQ(study.solver.integrator, IntegratorKind::kRosenbrock);
-  EXPECT_EQ(study.optimizer.algorithm, "lbfgs");
+  EXPECT_EQ(study.optimizer.algorithm, "auto");
 }
 
 TEST(StudyReader, RefusesUnknownMissingAndRepeatedKeys) {
