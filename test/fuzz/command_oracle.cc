@@ -41,9 +41,12 @@ std::vector<std::string> words_of(const Input& input) {
   return words;
 }
 
-/// Whether a number is missing; numbers that are not finite are printed as null.
+/// Whether a number is missing; numbers that are not finite are printed as null. A bound on one side has null on the other.
 bool has_null(const Json& json) {
   if (json.is_null()) return true;
+  if (json.is_object())
+    return std::any_of(json.items().begin(), json.items().end(),
+                       [](const auto& item) { return item.key() != "lower" && item.key() != "upper" && has_null(item.value()); });
   if (!json.is_structured()) return false;
   return std::any_of(json.begin(), json.end(), has_null);
 }
