@@ -12,6 +12,7 @@ using Kind = LimitedSignal::Kind;
 constexpr Eigen::Index kScanPerWave = 64;
 constexpr int kRounds = 14;            // each round halves the intervals beside a peak, and reduces the error of the peak to a quarter
 constexpr double kMissed = 1e-11;      // peaks between the times that rise less do not count
+constexpr double kFarOutside = 1e6;    // beyond it a peak's exact height does not matter, and differences of heights may be no numbers
 constexpr double kKept = 1.0 - 1e-8;   // target of fit(): the errors of peaks are smaller than the remainder
 constexpr double kLeastFactor = 1e-6;  // smallest factor of fit(): smaller motions determine nothing
 constexpr int kMostFits = 100;
@@ -108,6 +109,7 @@ LimitScan::Extremes LimitScan::scan(const Eigen::VectorXd& x) {
     if (!extremes.status.ok()) return extremes;
     for (const ScanPoint& point : points)
       for (std::size_t s = 0; s < limits_.signals.size(); ++s) extremes.worst = std::max(extremes.worst, std::abs(relative(point, s)));
+    if (extremes.worst > kFarOutside) break;
     times = finer_times(points);
   }
   extremes.signals.resize(limits_.signals.size());

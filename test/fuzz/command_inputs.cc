@@ -7,6 +7,8 @@
 #include <regex>
 #include <sstream>
 
+#include "fuzz/damage.h"
+#include "fuzz/language_seeds.h"
 #include "fuzz/mutation.h"
 #include "paths.h"
 
@@ -108,10 +110,10 @@ const std::vector<std::string>& odd_words() {
   return kWords;
 }
 
-std::vector<std::string> random_command(Dice* dice, bool with_overlay) {
+std::vector<std::string> random_command(const Seed& seed, Dice* dice, bool with_overlay) {
   static const std::vector<std::vector<std::string>> kCommands = {
       {"check"}, {"simulate", "--samples", "5"}, {"gradient"}, {"gradient", "--verify"}, {"optimize"}, {"optimize", "--output", "out"}};
-  std::vector<std::string> words = dice->pick(kCommands);
+  std::vector<std::string> words = dice->pick(seed.commands.empty() || dice->one_in(4) ? kCommands : seed.commands);
   words.insert(words.end(), {"model.urdf", "study.yaml", "--json"});
   if (with_overlay) words.insert(words.end(), {"--overlay", "overlay.urdf"});
   if (dice->one_in(8)) words.insert(words.end(), {"--csv", "run.csv"});
@@ -131,6 +133,11 @@ void change_words(std::vector<std::string>* words, Dice* dice) {
       if (at < words->size()) (*words)[at] = dice->pick(odd_words());
   }
   if (words->empty()) words->emplace_back("check");
+}
+
+/// A table is changed as text, a bag as bytes.
+void change_recording(std::string* content, Dice* dice) {
+  *content = content->rfind("#ROSBAG", 0) == 0 ? damage(*content, dice) : mutate_text(*content, dice);
 }
 
 /// Replaces one of the expressions by a random one.
@@ -157,6 +164,7 @@ std::vector<Seed> shipped_seeds() {
     seeds.push_back(std::move(seed));
   }
   std::sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) { return a.name < b.name; });
+  for (Seed& seed : language_seeds()) seeds.push_back(std::move(seed));
   return seeds;
 }
 
@@ -164,9 +172,10 @@ Input random_input(const std::vector<Seed>& seeds, Dice* dice) {
   const Seed& seed = dice->pick(seeds);
   const bool with_overlay = !seed.overlay.empty() && dice->one_in(4);
   Input input;
-  input.arguments = random_command(dice, with_overlay);
+  input.arguments = random_command(seed, dice, with_overlay);
   input.files = {{"model.urdf", seed.urdf}, {"study.yaml", seed.study}};
   if (with_overlay) input.files["overlay.urdf"] = seed.overlay;
+  input.files.insert(seed.files.begin(), seed.files.end());
   if (dice->one_in(5)) input.files["study.yaml"] += dice->pick(ensembles());
   for (std::size_t changes = 1 + dice->below(3); changes > 0; --changes) {
     const std::string name = with_overlay && dice->one_in(2) ? "overlay.urdf" : dice->one_in(2) ? "model.urdf" : "study.yaml";
@@ -183,6 +192,7 @@ Input random_input(const std::vector<Seed>& seeds, Dice* dice) {
     input.files["result.json"] = mutate_text(dice->pick(results()), dice);
     input.arguments.insert(input.arguments.end(), {"--result", "result.json"});
   }
+  if (!seed.files.empty() && dice->one_in(2)) change_recording(&input.files[seed.files.begin()->first], dice);
   if (dice->one_in(25)) input.disk = static_cast<long>(dice->below(20000));
   return input;
 }

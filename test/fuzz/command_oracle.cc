@@ -41,9 +41,12 @@ std::vector<std::string> words_of(const Input& input) {
   return words;
 }
 
-/// Whether a number is missing; numbers that are not finite are printed as null.
+/// Whether a number is missing; numbers that are not finite are printed as null. A bound on one side has null on the other.
 bool has_null(const Json& json) {
   if (json.is_null()) return true;
+  if (json.is_object())
+    return std::any_of(json.items().begin(), json.items().end(),
+                       [](const auto& item) { return item.key() != "lower" && item.key() != "upper" && has_null(item.value()); });
   if (!json.is_structured()) return false;
   return std::any_of(json.begin(), json.end(), has_null);
 }
@@ -66,7 +69,9 @@ std::string judge_json(const Outcome& outcome, const Input& input) {
   const Json json = Json::parse(outcome.out, nullptr, false);
   if (json.is_discarded()) return "no JSON: " + outcome.out.substr(0, 300);
   if (outcome.code == 0) {
-    if (has_null(json)) return "success with a number that is not finite";
+    // An identified number without an interval has null there.
+    const bool identifies = input.arguments.front() == "identify" && json.contains("parameters");
+    if (has_null(identifies ? json["parameters"] : json)) return "success with a number that is not finite";
     return json.contains("error") ? "success with an error" : "";
   }
   if (!json.contains("error")) return "failure without an error";

@@ -19,12 +19,19 @@ Input governor(const std::string& study) {
 
 TEST(CommandOracle, HasNothingAgainstShippedCases) {
   for (const Seed& seed : shipped_seeds()) {
-    if (seed.study.find("identify:") != std::string::npos) continue;  // its recording is made by a script
+    if (seed.name == "slider_crank_identify") continue;  // its recording is made by a script
     Input input;
     input.arguments = {"check", "model.urdf", "study.yaml", "--json"};
     input.files = {{"model.urdf", seed.urdf}, {"study.yaml", seed.study}};
+    input.files.insert(seed.files.begin(), seed.files.end());
     input.exit = 0;
     EXPECT_EQ(run_command(input, default_limits()), "") << seed.name;
+    for (const std::vector<std::string>& command : seed.commands) {
+      input.arguments = command;
+      input.arguments.insert(input.arguments.end(), {"model.urdf", "study.yaml", "--json"});
+      input.exit.reset();  // few evaluations need not be enough
+      EXPECT_EQ(run_command(input, default_limits()), "") << seed.name;
+    }
   }
 }
 
