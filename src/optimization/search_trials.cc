@@ -128,7 +128,7 @@ void SearchTrials::judge_stop() {
   result_.bound_multipliers = (at_best.bounds.array().abs() > kLeastMultiplier * scale()).select(at_best.bounds, 0.0);
   if (interrupted()) return;
   if (is_success(result_.termination) && best_violation_ == 0.0 && !is_stationary()) result_.termination = "stopped_early";
-  find_flat_directions();
+  if (is_stationary()) find_flat_directions();
 }
 
 void SearchTrials::find_flat_directions() {
