@@ -13,6 +13,7 @@
 #include "problem/portable_problem.h"
 #include "problem/unused_parameters.h"
 #include "problem/variants.h"
+#include "problem/waypoint_overshoot.h"
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"
 #include "text/decimal.h"
@@ -67,6 +68,7 @@ Problem compile(const RobotDescription& robot, Study study, const ParameterSetti
   require_compatible(study);
   append(unused_parameters(study), &contents.warnings);
   append(differing_nominals(study), &contents.warnings);
+  append(waypoint_overshoots(study), &contents.warnings);
   if (!study.tuned.empty()) append(unsatisfiable_constraints(study), &contents.warnings);
   for (RunDescription& run : study.ensemble.runs)
     if (run.study) {
