@@ -2,13 +2,15 @@
 #ifndef MECHANISM_CODESIGN_JOBS_SAVED_RESULT_H_
 #define MECHANISM_CODESIGN_JOBS_SAVED_RESULT_H_
 
-#include "mechanism_codesign/problem.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 
 /// The design in a result.json, best.json or identification.json: every entry of its `parameters`, to the last bit.
 /// @throws InputError naming the file, and line or entry, if it is not JSON or has no object `parameters` of numbers.
 ParameterSettings read_result(const SourceText& json);
+/// The same, with the name of the file.
+inline SavedDesign read_design(const SourceText& json) { return {json.name, read_result(json)}; }
 
 }  // namespace codesign
 
