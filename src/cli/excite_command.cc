@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/output_file.h"
+#include "cli/progress_line.h"
 #include "cli/report.h"
 #include "cli/table.h"
 #include "excitation/excite.h"
@@ -93,8 +94,9 @@ std::vector<Failure> write_excitation(const std::string& folder, const Excitatio
 int excite(const Arguments& arguments, const Console& console) {
   const Problem problem = load_excitable(arguments, console);
   if (!arguments.output.empty()) make_folder(arguments.output, "--output");
-  const auto observer = [&console](const ExcitationTrial& trial) {
-    print_excitation_trial(trial, console.err);
+  LinePace pace;
+  const auto observer = [&](const ExcitationTrial& trial) {
+    if (pace.admits_now()) print_excitation_trial(trial, progress_of(arguments, console));
     return !console.cancel;
   };
   const ExcitationResult result = codesign::excite(problem, observer, &console.cancel);
