@@ -56,8 +56,8 @@ class Simulation {
   /// step.
   void sample(double time, Frame* frame);
 
-  /// The study's objective at the end of the last step, in the units of its terms: the integral and the terminal terms there, without peaks,
-  /// doc/theory.md (21). It is that of the study if the last step ends at the study's duration.
+  /// The study's objective at the end of the last step, in the units of its terms: the integral and the terminal terms there, without
+  /// peaks, doc/theory.md (21). It is that of the study if the last step ends at the study's duration.
   double objective();
   /// The end of the last step [s].
   double time() const;
