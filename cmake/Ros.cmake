@@ -28,6 +28,14 @@ catkin_package(
   DEPENDS EIGEN3
   CFG_EXTRAS mechanism_codesign-targets.cmake)
 
+# catkin's configuration finds messages with all their packages, which a program that links the library alone does not need, and looks for
+# the library in the prefix for which this project is configured. So our configuration has its name, and includes it for catkin packages.
+foreach(space ${CATKIN_DEVEL_PREFIX}/share/${PROJECT_NAME}/cmake ${PROJECT_BINARY_DIR}/catkin_generated/installspace)
+  file(RENAME ${space}/mechanism_codesignConfig.cmake ${space}/mechanism_codesign-catkin.cmake)
+  configure_file(cmake/mechanism_codesignConfig.cmake.in ${space}/mechanism_codesignConfig.cmake COPYONLY)
+endforeach()
+install(FILES ${PROJECT_BINARY_DIR}/catkin_generated/installspace/mechanism_codesign-catkin.cmake DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
+
 # What decompresses the chunks of a bag; development packages of rosbag_storage bring both.
 find_package(BZip2 REQUIRED)
 find_library(CODESIGN_LZ4 lz4 REQUIRED)

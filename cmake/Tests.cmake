@@ -134,9 +134,9 @@ endif()
 
 # What doc/api.md prints builds outside the project. The configuration is where catkin, or WithoutRos.cmake, writes it.
 if(TARGET codesign_ros)
-  set(codesign_api_place ${CATKIN_DEVEL_PREFIX}/share/${PROJECT_NAME}/cmake $<TARGET_FILE:codesign> --catkin)
+  set(codesign_api_place ${CATKIN_DEVEL_PREFIX}/share/${PROJECT_NAME}/cmake $<TARGET_FILE:codesign> ${PROJECT_BINARY_DIR} --catkin)
 else()
-  set(codesign_api_place ${PROJECT_BINARY_DIR} $<TARGET_FILE:codesign>)
+  set(codesign_api_place ${PROJECT_BINARY_DIR} $<TARGET_FILE:codesign> ${PROJECT_BINARY_DIR})
 endif()
 add_test(NAME api_page COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/api/api_page_test.py ${PROJECT_SOURCE_DIR} ${codesign_api_place})
 

@@ -26,13 +26,17 @@ _codesign() {
     _codesign_value "${COMP_WORDS[COMP_CWORD - 2]}" "$word"
     return
   fi
+  if [ "$command" = help ]; then
+    mapfile -t COMPREPLY < <(compgen -W "check urdf simulate gradient optimize identify excite report apply" -- "$word")
+    return
+  fi
   case $previous in
     --overlay | --result | --csv | --output | --resume | --set | --signals | --samples | -o | --server | --ramp | --hold | --limit | --deviation | --joint-states | --max-age)
       _codesign_value "$previous" "$word"
       return
       ;;
   esac
-  options="--overlay --result --set --json --help"
+  options="--overlay --result --set --json --quiet --help"
   case $command in
     urdf) options+=" --sticks" ;;
     simulate) options+=" --signals --csv --samples" ;;

@@ -6,7 +6,7 @@ _codesign() {
   shared=('*--overlay[annotations to merge into the model]:overlay:_files -g "*.(urdf|xml)"'
           '--result[take the design of a result.json]:result:_files -g "*.json"'
           '*--set[replace the value of a parameter]:PARAMETER=VALUE:'
-          '--json[one JSON object on standard output]' '--help[the options]')
+          '--json[one JSON object on standard output]' '--quiet[no progress]' '--help[the options]')
   if (( CURRENT == 2 )); then
     _values 'command' 'check[equations and redundant constraints]' 'urdf[the URDF that is simulated]' 'simulate[one run as CSV]' \
       'gradient[objective and gradient]' 'optimize[tune the parameters of the study]' 'identify[fit parameters to recordings]' 'excite[find the motion to record]' \
@@ -19,6 +19,10 @@ _codesign() {
     gradient) options=('--verify=-[compare with a reference]::method:(complex_step ridders)') ;;
     optimize) options=('--output[folder of the results]:folder:_files -/' '--resume[go on with the job of a folder]:folder:_files -/') ;;
     identify|excite) options=('--output[folder of the results]:folder:_files -/') ;;
+    help)
+      _arguments '1:command:' '2:command:(check urdf simulate gradient optimize identify excite report apply)'
+      return
+      ;;
     report)
       _arguments '1:command:' '2:job:_files -g "*.bag(-.) *(-/)"' '(-o --output)'{-o,--output}'[the page]:file:_files' '--help[the options]'
       return

@@ -78,7 +78,10 @@ struct GradientCheck {
   Eigen::VectorXd reference;                       ///< the reference gradient r
   Eigen::VectorXd reference_error;                 ///< error estimate of the reference; zero for the complex step
   Eigen::MatrixXd extreme_reference;               ///< reference for the gradients in Evaluation::extremes; only for kComplexStep
-  double largest_relative_difference = 0;          ///< max_k |g_k - r_k| / max(|r_k|, 1e-3 max_j |r_j|), also over the extremes
+  /// max_k |g_k - r_k| / max(|r_k|, 1e-3 max_j |r_j|), also over the extremes. Along a direction d: |d^T g - r| / max_k |d_k g_k|.
+  double largest_relative_difference = 0;
+  /// If not empty, the reference has one entry per column: the derivative along this direction in the space of the tuned parameters.
+  Eigen::MatrixXd directions;
 };
 
 /// Computes the gradient at `rho` and a reference for it. With `idas` the method is always kRidders, and its differences come from runs

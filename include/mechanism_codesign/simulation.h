@@ -56,6 +56,12 @@ class Simulation {
   /// step.
   void sample(double time, Frame* frame);
 
+  /// The study's objective at the end of the last step, in the units of its terms: the integral and the terminal terms there, without
+  /// peaks, doc/theory.md (21). It is that of the study if the last step ends at the study's duration.
+  double objective();
+  /// The end of the last step [s].
+  double time() const;
+
   /// Makes start() and advance() end with kCancelled soon after `cancel` is set, from any thread; null makes them ignore it. The flag must
   /// outlive the simulation or the next call of obey().
   void obey(const std::atomic<bool>* cancel);

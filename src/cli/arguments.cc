@@ -53,6 +53,7 @@ void set_samples(const std::string& text, Arguments* arguments) {
 
 void set_method(const std::string& text, Arguments* arguments) {
   arguments->verify = true;
+  arguments->each_parameter = !text.empty();
   if (text == "ridders")
     arguments->method = CheckMethod::kRidders;
   else if (!text.empty() && text != "complex_step")
@@ -73,6 +74,7 @@ const std::map<std::string, Option>& options() {
       {"--set", {Value::kRequired, {}, add_setting}},
       {"--result", {Value::kRequired, {}, [](const std::string& text, Arguments* to) { to->result = text; }}},
       {"--json", {Value::kNone, {}, [](const std::string&, Arguments* to) { to->json = true; }}},
+      {"--quiet", {Value::kNone, {}, [](const std::string&, Arguments* to) { to->quiet = true; }}},
       {"--sticks", {Value::kNone, {"urdf"}, [](const std::string&, Arguments* to) { to->sticks = true; }}},
       {"--signals", {Value::kRequired, {"simulate"}, add_signals}},
       {"--csv", {Value::kRequired, {"simulate"}, [](const std::string& text, Arguments* to) { to->csv = text; }}},
@@ -138,7 +140,14 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
   Arguments arguments;
   if (words.empty()) throw UsageError("no command given");
   arguments.command = asks_for_help(words) ? "help" : words[0];
-  if (arguments.command == "help") return arguments;
+  if (arguments.command == "help") {
+    // The command before `--help`, or the word after `help`.
+    arguments.topic = words[0] == "help" && words.size() > 1 ? words[1] : words[0];
+    if (arguments.topic.rfind('-', 0) == 0 || arguments.topic == "help") arguments.topic.clear();
+    if (!arguments.topic.empty() && std::count(commands.begin(), commands.end(), arguments.topic) == 0)
+      fail_unknown("command", arguments.topic, commands);
+    return arguments;
+  }
   if (words[0] == "--version") {
     arguments.command = "version";
     return arguments;

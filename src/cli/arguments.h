@@ -19,6 +19,7 @@ class UsageError : public std::runtime_error {
 
 /// The parts of the command line `codesign COMMAND MODEL [STUDY] [OPTIONS]`. Members of options name their command.
 struct Arguments {
+  std::string topic;    ///< help; the command that it is about, empty: all
   std::string command;  ///< check, urdf, simulate, gradient, optimize, identify, excite, help or version
   std::string model;
   std::string study;                  ///< path; empty: none given
@@ -26,11 +27,13 @@ struct Arguments {
   std::string result;                 ///< path of the result.json with the design to use; empty: none
   ParameterSettings settings;         ///< --set NAME=VALUE, in order; they replace the values of `result`
   bool json = false;
+  bool quiet = false;                ///< no progress on the error stream
   bool sticks = false;               ///< urdf; with_sticks()
   std::vector<std::string> signals;  ///< simulate
   std::string csv;                   ///< simulate; empty: standard output
   int samples = 101;                 ///< simulate; number of equally spaced instants, at least 2
   bool verify = false;               ///< gradient
+  bool each_parameter = false;       ///< gradient; verify each parameter, instead of a few directions
   CheckMethod method = CheckMethod::kComplexStep;
   std::string output;   ///< optimize, identify, excite; empty: no files
   bool resume = false;  ///< optimize; continue with the journal in `output`

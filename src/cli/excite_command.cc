@@ -7,6 +7,7 @@
 #include "cli/inputs.h"
 #include "cli/job_folder.h"
 #include "cli/output_file.h"
+#include "cli/progress_line.h"
 #include "cli/report.h"
 #include "cli/table.h"
 #include "excitation/excite.h"
@@ -101,8 +102,9 @@ int excite(const Arguments& arguments, const Console& console) {
     make_folder(arguments.output, "--output");
     require_other_files(arguments.output, {kResultFile, kTrajectoryFile, kPlainFile, kBagFile}, problem);
   }
-  const auto observer = [&console](const ExcitationTrial& trial) {
-    print_excitation_trial(trial, console.err);
+  LinePace pace;
+  const auto observer = [&](const ExcitationTrial& trial) {
+    if (pace.admits_now()) print_excitation_trial(trial, progress_of(arguments, console));
     return !console.cancel;
   };
   const ExcitationResult result = codesign::excite(problem, observer, &console.cancel);

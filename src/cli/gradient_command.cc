@@ -13,7 +13,14 @@ const char* name_of(CheckMethod method) { return method == CheckMethod::kComplex
 
 GradientCheck compute(const Arguments& arguments, const Problem& problem, const Console& console) {
   const Ensemble ensemble(problem, 1, {nullptr, nullptr, console.ranks});
-  if (arguments.verify) return check_gradient(ensemble, problem.start(), arguments.method, &console.cancel);
+  if (arguments.verify) {
+    GradientCheck check;
+    if (!arguments.each_parameter) check = check_along(ensemble, problem.start(), arguments.method, &console.cancel);
+    // A disagreement is shown parameter by parameter.
+    if (arguments.each_parameter || (check.status.ok() && check.directions.size() > 0 && disagrees(check)))
+      check = check_gradient(ensemble, problem.start(), arguments.method, &console.cancel);
+    return check;
+  }
   GradientCheck result;
   result.evaluation = ensemble.evaluate(problem.start(), true, &console.cancel).total;
   result.status = result.evaluation.status;
@@ -23,7 +30,7 @@ GradientCheck compute(const Arguments& arguments, const Problem& problem, const 
 void print_table(const Problem& problem, const GradientCheck& result, std::ostream& out) {
   const std::vector<std::string> names = problem.tuned_names();
   const Eigen::VectorXd rho = problem.start();
-  const bool verified = result.reference.size() == rho.size();
+  const bool along = result.directions.size() > 0, verified = !along && result.reference.size() == rho.size();
   Table table;
   std::vector<std::string> header = {"parameter", "value", "gradient"};
   if (verified) header.insert(header.end(), {name_of(result.method), "difference"});
@@ -36,7 +43,10 @@ void print_table(const Problem& problem, const GradientCheck& result, std::ostre
   }
   out << "objective " << readable(result.evaluation.objective) << '\n';
   table.print(out);
-  if (verified) out << "largest relative difference " << readable(result.largest_relative_difference) << '\n';
+  if (along)
+    out << "verified with " << name_of(result.method)
+        << " along a direction in which every parameter has its part; --verify=" << name_of(result.method) << " verifies each parameter\n";
+  if (verified || along) out << "largest relative difference " << readable(result.largest_relative_difference) << '\n';
 }
 
 Json result_json(const Arguments& arguments, const Problem& problem, const GradientCheck& result, const Json& counts) {
@@ -48,10 +58,15 @@ Json result_json(const Arguments& arguments, const Problem& problem, const Gradi
   add_statistics(result.evaluation.statistics, &object);
   object.update(counts);
   if (!arguments.verify || !result.status.ok()) return object;
-  object["verification"] = {{"method", name_of(result.method)},
-                            {"reference", by_name(names, result.reference)},
-                            {"reference_error", by_name(names, result.reference_error)},
-                            {"largest_relative_difference", result.largest_relative_difference}};
+  Json& verification = object["verification"];
+  verification["method"] = name_of(result.method);
+  if (result.directions.size() > 0) {
+    verification["directions"] = result.directions.cols();
+  } else {
+    verification["reference"] = by_name(names, result.reference);
+    verification["reference_error"] = by_name(names, result.reference_error);
+  }
+  verification["largest_relative_difference"] = result.largest_relative_difference;
   return object;
 }
 

@@ -8,6 +8,7 @@
 #include "cli/inputs.h"
 #include "cli/job_folder.h"
 #include "cli/output_file.h"
+#include "cli/progress_line.h"
 #include "cli/recordings_table.h"
 #include "cli/report.h"
 #include "cli/table.h"
@@ -118,10 +119,11 @@ int identify(const Arguments& arguments, const Console& console) {
   const StudyRecordings recordings = read_recordings(problem, console, &warnings);
   // Until here there are no results to lose, and an interrupt ends the program at once.
   if (console.loaded) console.loaded();
+  LinePace pace;
   FitLines lines(problem.optimizer_options().max_evaluations);
   const auto observer = [&](const FitTrial& trial) {
     const std::string line = lines.line(trial);
-    if (!line.empty()) console.err << line << std::endl;
+    if (!line.empty() && pace.admits_now()) progress_of(arguments, console) << line << std::endl;
     return !console.cancel;
   };
   IdentificationResult result = codesign::identify(problem, recordings, observer, &console.cancel);

@@ -16,8 +16,8 @@ Problem load(const Arguments& arguments, const Console* console) {
   inputs.urdf = read_source(arguments.model);
   for (const std::string& path : arguments.overlays) inputs.overlays.push_back(read_source(path));
   if (!arguments.study.empty()) inputs.study = read_source(arguments.study);
-  if (!arguments.result.empty()) inputs.settings = read_result(read_source(arguments.result));
-  inputs.settings.insert(inputs.settings.end(), arguments.settings.begin(), arguments.settings.end());
+  if (!arguments.result.empty()) inputs.design = read_design(read_source(arguments.result));
+  inputs.settings = arguments.settings;
   Problem problem = codesign::load(inputs);
   if (console != nullptr && console->loaded != nullptr) console->loaded();
   return problem;

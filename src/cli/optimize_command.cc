@@ -73,16 +73,19 @@ int optimize(const Arguments& arguments, const Console& console) {
     tell(folder->notes(), console);
   }
   std::mutex printing;  // progress comes from the workers
+  LinePace stages, trials;
+  std::ostream& shown = progress_of(arguments, console);
   const auto progress = [&](const Progress& so_far) {
     const std::lock_guard<std::mutex> lock(printing);
-    console.err << progress_line(so_far) << std::endl;
+    if (stages.admits_now()) shown << progress_line(so_far) << std::endl;
   };
   ProgressMeter meter(problem.optimizer_options().max_evaluations, progress);
   TrialLines lines(problem.study());
   const auto observer = [&](const Trial& trial) {
     const Progress now = meter.now();  // before the lock: the meter calls `progress`, which takes it
     const std::lock_guard<std::mutex> lock(printing);
-    console.err << lines.line(trial, now) << std::endl;
+    const std::string line = lines.line(trial, now);
+    if (trials.admits_now()) shown << line << std::endl;
     if (folder) folder->add(trial);
     return !console.cancel;
   };

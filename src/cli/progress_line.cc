@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/progress_line.h"
 
+#include <algorithm>
+
 #include "jobs/trial_lines.h"
 #include "text/number_text.h"
 
@@ -17,6 +19,13 @@ std::string counted(const Progress& progress) {
 }
 
 }  // namespace
+
+bool LinePace::admits(double seconds) {
+  if (lines_ >= kLines && seconds - last_ < std::max(1.0, 0.01 * seconds)) return false;
+  lines_ = std::min(lines_ + 1, kLines);
+  last_ = seconds;
+  return true;
+}
 
 std::string progress_line(const Progress& progress) {
   std::string line = counted(progress) + ", " + std::to_string(progress.runs) + " runs";

@@ -3,10 +3,16 @@
 
 namespace codesign::cli {
 
+std::ostream& progress_of(const Arguments& arguments, const Console& console) {
+  static std::ostream nothing(nullptr);
+  return arguments.quiet ? nothing : console.err;
+}
+
 void add_warnings(const Arguments& arguments, const Problem& problem, const Warnings& of_run, Json* object, const Console& console) {
   Warnings warnings = problem.warnings();
   append(of_run, &warnings);
-  for (const Warning& warning : warnings) console.err << "codesign " << arguments.command << ": warning: " << warning.message << '\n';
+  for (const Warning& warning : warnings)
+    console.err << "codesign " << arguments.command << ": warning [" << warning.code << "]: " << warning.message << '\n';
   console.err.flush();
   (*object)["setup_seconds"] = problem.setup_seconds();
   (*object)["warnings"] = to_json(warnings);

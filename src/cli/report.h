@@ -14,7 +14,11 @@
 
 namespace codesign::cli {
 
-/// Writes each warning as a line to the error stream and all of them to `warnings` of `object`; also sets its `setup_seconds`.
+/// The stream for progress: the error stream, or with --quiet one that drops everything.
+std::ostream& progress_of(const Arguments& arguments, const Console& console);
+
+/// Writes each warning with its code as a line to the error stream and all of them to `warnings` of `object`; also sets its
+/// `setup_seconds`.
 /// @param of_run warnings of the run, in addition to the warnings of the input files.
 void add_warnings(const Arguments& arguments, const Problem& problem, const Warnings& of_run, Json* object, const Console& console);
 

@@ -26,7 +26,7 @@ int dispatch(const Arguments& arguments, const Console& console) {
   if (arguments.command == "version")
     console.out << "codesign " << version() << '\n';
   else
-    console.out << usage();
+    console.out << usage(arguments.topic);
   return kDone;
 }
 
@@ -45,7 +45,7 @@ int run_command(const std::vector<std::string>& words, const Console& console) {
     if (!words.empty() && words[0] == "apply") become("apply", {words.begin() + 1, words.end()});
     return dispatch(parse_arguments(words), console);
   } catch (const UsageError& error) {
-    console.err << usage() << '\n';
+    console.err << usage(words.empty() ? "" : words[0]) << '\n';
     return report(json, {{"code", "bad_usage"}, {"message", error.what()}}, console, kBadInput);
   } catch (const InputError& error) {
     return report(json, to_json(error), console, kBadInput);

@@ -1,4 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
 #include <fstream>
 #include <optional>
 
@@ -42,13 +43,20 @@ void open_csv(const Arguments& arguments, const Problem& problem, std::ofstream*
   open_output(arguments.csv, "--csv", file);
 }
 
-/// Adds the objective. The objective needs a separate run with the quadrature and is computed only for output that shows it. If that run
-/// fails, `status` becomes its status.
+/// Adds the objective. It is that of the run, unless it has peaks, which need a separate run that follows them. If that run fails, `status`
+/// becomes its status.
 /// @param as_searched integrates as a search does, so that the objective of a result is reproduced: if sensitivities take part in the error
 /// test, a search has other steps.
-void add_objective(const Problem& problem, bool as_searched, const Console& console, Status* status, Json* object) {
+void add_objective(const Problem& problem, bool as_searched, const std::optional<double>& of_run, const Console& console, Status* status,
+                   Json* object) {
   if (!status->ok() || !has_objective(problem.study())) return;
-  const bool with_gradient = as_searched && !problem.study().tuned.empty();
+  const SolverOptions& solver = problem.study().solver;
+  const bool has_other_steps = solver.integrator == IntegratorKind::kIdas || solver.sensitivity_tolerance > 0.0;
+  const bool with_gradient = as_searched && has_other_steps && !problem.study().tuned.empty();
+  if (of_run && std::isfinite(*of_run) && !with_gradient) {
+    (*object)["objective"] = *of_run;
+    return;
+  }
   const Evaluation evaluation = Evaluator(problem.system()).evaluate(problem.start(), with_gradient, &console.cancel);
   if (evaluation.status.ok())
     (*object)["objective"] = evaluation.objective;
@@ -84,10 +92,10 @@ int simulate(const Arguments& arguments, const Console& console) {
   Json counts = Json::object();
   if (arguments.json) add_counts(problem, problem.parameters(), &counts);
   RunSummary run = record_run(problem, problem.parameters(), signals, arguments.samples, sink, &console.cancel);
-  if (run.status.ok()) summarize(run, problem.study().duration, problem.setup_seconds(), console.err);
+  if (run.status.ok()) summarize(run, problem.study().duration, problem.setup_seconds(), progress_of(arguments, console));
   Json object;
   if (arguments.json) {
-    add_objective(problem, !arguments.result.empty(), console, &run.status, &object);
+    add_objective(problem, !arguments.result.empty(), run.objective, console, &run.status, &object);
     add_run(problem, run, counts, series_json(names, rows), &object);
   }
   Warnings warnings = run.warnings;

@@ -6,8 +6,8 @@
 
 namespace codesign::cli {
 
-/// The text of `codesign --help`.
-std::string usage();
+/// The help text of a command; of all commands if there is none with this name.
+std::string usage(const std::string& command = "");
 
 }  // namespace codesign::cli
 

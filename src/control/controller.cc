@@ -129,6 +129,7 @@ class Resolver {
         case SignalKind::kPotentialEnergy:
         case SignalKind::kTotalEnergy:
         case SignalKind::kControllerError:
+        case SignalKind::kControllerSetpoint:
         case SignalKind::kControllerIntegral:
         case SignalKind::kControllerOutput:
           return false;

@@ -34,6 +34,38 @@ void choose_accelerations(const std::vector<double>& times, std::vector<Knot<T>>
   }
 }
 
+/// x, or the end of the smallest interval with zero, a and b that is nearest to x.
+template <class T>
+T limited(const T& x, const T& a, const T& b) {
+  const auto less = [](const T& y, const T& z) { return value_of(y) < value_of(z); };
+  const auto [low, high] = std::minmax({T(0.0), a, b}, less);
+  return less(x, low) ? low : less(high, x) ? high : x;
+}
+
+/// Calls limit(knot, duration h to a neighbour, negative for the earlier one, slope d of the chord) for both neighbours of each inner
+/// way-point.
+template <class T, class Limit>
+void limit_by_neighbours(const std::vector<double>& times, std::vector<Knot<T>>* knots, const Limit& limit) {
+  for (std::size_t k = 1; k + 1 < knots->size(); ++k)
+    for (const std::size_t other : {k - 1, k + 1}) {
+      const T h(times[other] - times[k]);
+      limit(&(*knots)[k], h, T(((*knots)[other].position - (*knots)[k].position) / h));
+    }
+}
+
+// The limits of theory (C2), within which no polynomial leaves the values of its two way-points.
+template <class T>
+void limit_velocities(const std::vector<double>& times, std::vector<Knot<T>>* knots) {
+  limit_by_neighbours(times, knots,
+                      [](Knot<T>* knot, const T&, const T& d) { knot->velocity = limited(knot->velocity, T(0.0), T(T(1.25) * d)); });
+}
+template <class T>
+void limit_accelerations(const std::vector<double>& times, std::vector<Knot<T>>* knots) {
+  limit_by_neighbours(times, knots, [](Knot<T>* knot, const T& h, const T& d) {
+    knot->acceleration = limited(knot->acceleration, T(T(-4.0) * knot->velocity / h), T((T(10.0) * d - T(8.0) * knot->velocity) / h));
+  });
+}
+
 }  // namespace
 
 template <class T>
@@ -83,9 +115,12 @@ void Reference<T>::set_waypoints(const WaypointsDescription& description, const 
     for (std::size_t k = 0; k < quantities.size(); ++k) knots[k].*member = quantities[k].at(parameters);
   };
   take(description.positions, &Knot<T>::position);
+  const bool is_monotone = description.interpolation == Interpolation::kMonotone;
   if (description.velocities.empty()) choose_velocities(times, &knots);
+  if (description.velocities.empty() && is_monotone) limit_velocities(times, &knots);
   take(description.velocities, &Knot<T>::velocity);
   if (description.accelerations.empty()) choose_accelerations(times, &knots);
+  if (description.accelerations.empty() && is_monotone) limit_accelerations(times, &knots);
   take(description.accelerations, &Knot<T>::acceleration);
   pieces_.clear();
   pieces_.push_back(hold(-std::numeric_limits<double>::infinity(), knots.front().position));

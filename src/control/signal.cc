@@ -94,6 +94,7 @@ SignalReference resolve_controller(const SignalTerm& term, int controller) {
   SignalReference reference;
   reference.controller = controller;
   reference.kind = term.quantity == "error"      ? SignalKind::kControllerError
+                   : term.quantity == "setpoint" ? SignalKind::kControllerSetpoint
                    : term.quantity == "integral" ? SignalKind::kControllerIntegral
                                                  : SignalKind::kControllerOutput;
   return reference;
@@ -114,6 +115,8 @@ std::optional<SignalKind> derivative_kind(SignalKind kind) {
       return SignalKind::kControllerError;
     case SignalKind::kControllerError:
       return SignalKind::kControllerErrorRate;
+    case SignalKind::kControllerSetpoint:
+      return SignalKind::kControllerSetpointRate;
     default:
       return std::nullopt;
   }

@@ -41,7 +41,9 @@ enum class SignalKind {
   kControllerError,
   kControllerErrorRate,
   kControllerIntegral,
-  kControllerOutput
+  kControllerOutput,
+  kControllerSetpoint,
+  kControllerSetpointRate
 };
 
 /// One term of a signal with its names resolved to indices.

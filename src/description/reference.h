@@ -15,8 +15,9 @@
 
 namespace codesign {
 
-/// Degree of the polynomials between way-points: fifth, third or first.
-enum class Interpolation { kQuintic, kCubic, kLinear };
+/// The polynomials between way-points: of fifth, third or first degree; kMonotone: of fifth degree, between the values of each two
+/// neighbours; theory (C2).
+enum class Interpolation { kQuintic, kCubic, kLinear, kMonotone };
 
 /// offset + amplitude sin(2 pi f t + phase); theory (C1).
 struct SineDescription {

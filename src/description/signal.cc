@@ -19,9 +19,9 @@ std::string trimmed(const std::string& text) {
 
 bool is_quantity(const std::string& word) {
   static const std::set<std::string> kQuantities{
-      "position",         "velocity",        "acceleration",   "effort",        "friction",         "normal_force",
-      "sliding_velocity", "error",           "integral",       "output",        "angular_velocity", "orientation",
-      "reaction_force",   "reaction_torque", "friction_power", "damping_power", "actuator_power",   "load_power"};
+      "position",        "velocity",       "acceleration",  "effort",         "friction",         "normal_force", "sliding_velocity",
+      "error",           "setpoint",       "integral",      "output",         "angular_velocity", "orientation",  "reaction_force",
+      "reaction_torque", "friction_power", "damping_power", "actuator_power", "load_power"};
   return kQuantities.count(word) != 0;
 }
 

@@ -39,6 +39,14 @@ T controller_error_rate(const StateView<T>& view, int controller, const T& facto
   return factor * setpoint.rate + signal_value(view, view.system.controllers()[c].input_rate, T(-factor), gradient);
 }
 
+/// factor times the setpoint r of a controller, in the unit of its input; with `order` 1 factor times r'. Appends its derivative by time.
+template <class T>
+T controller_setpoint(const StateView<T>& view, int controller, int order, const T& factor, OptionalGradient<T> gradient) {
+  const ReferenceMotion<T> setpoint = view.design.controllers[static_cast<std::size_t>(controller)].setpoint.at(view.state->t);
+  if (gradient) gradient->time += factor * (order == 0 ? setpoint.rate : setpoint.acceleration);
+  return factor * (order == 0 ? setpoint.value : setpoint.rate);
+}
+
 /// How a robot runs a controller.
 template <class T>
 const ControlRealization& realization_of(const StateView<T>& view, int controller) {

@@ -159,18 +159,19 @@ T term_value(const StateView<T>& view, const SignalReference& term, const T& fac
     case SignalKind::kLinkAcceleration:
     case SignalKind::kLinkAngularVelocity:
       return link_term(view, term, factor, gradient);
-    case SignalKind::kControllerError: {
-      const T value = controller_error(view, term.controller, gradient);
+    case SignalKind::kControllerError:
+    case SignalKind::kControllerOutput: {
+      const bool is_error = term.kind == SignalKind::kControllerError;
+      const T value = is_error ? controller_error(view, term.controller, gradient) : controller_output(view, term.controller, gradient);
       if (gradient) gradient->scale_from(before, factor);
       return factor * value;
     }
     case SignalKind::kControllerErrorRate:
       return controller_error_rate(view, term.controller, factor, gradient);
-    case SignalKind::kControllerOutput: {
-      const T value = controller_output(view, term.controller, gradient);
-      if (gradient) gradient->scale_from(before, factor);
-      return factor * value;
-    }
+    case SignalKind::kControllerSetpoint:
+      return controller_setpoint(view, term.controller, 0, factor, gradient);
+    case SignalKind::kControllerSetpointRate:
+      return controller_setpoint(view, term.controller, 1, factor, gradient);
     case SignalKind::kControllerIntegral: {
       const int s = view.system.controllers()[static_cast<std::size_t>(term.controller)].state;
       if (gradient) gradient->position.push_back({view.layout.position_column(s), factor});

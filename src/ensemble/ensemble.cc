@@ -177,20 +177,25 @@ bool Ensemble::fill_tail(const std::vector<std::size_t>& failed, const std::vect
   return true;
 }
 
-GradientCheck check_gradient(const Ensemble& ensemble, const Eigen::VectorXd& rho, CheckMethod method, const std::atomic<bool>* cancel) {
+namespace {
+
+/// @param directions how many; 0: by each parameter.
+GradientCheck checked(const Ensemble& ensemble, const Eigen::VectorXd& rho, CheckMethod method, int directions,
+                      const std::atomic<bool>* cancel) {
   EnsembleEvaluation all = ensemble.evaluate(rho, true, cancel);
   GradientCheck check;
   check.evaluation = std::move(all.total);
   check.status = check.evaluation.status;
   if (!check.status.ok()) return check;
-  check.reference.setZero(rho.size());
-  check.reference_error.setZero(rho.size());
+  if (directions > 0) check.directions = check_directions(check.evaluation.gradient, directions);
+  check.reference.setZero(directions > 0 ? directions : rho.size());
+  check.reference_error.setZero(check.reference.size());
   double worst_of_one = 0.0;
   for (std::size_t k = 0; k < ensemble.scenarios().size(); ++k) {
     const double factor = all.by_value[static_cast<Eigen::Index>(k)];
     const Scenario& scenario = ensemble.scenarios()[k];
     if (factor == 0.0) continue;
-    const GradientCheck one = check_design(scenario.system, scenario.parameters(rho), method, cancel);
+    const GradientCheck one = check_design(scenario.system, scenario.parameters(rho), method, cancel, check.directions);
     check.method = one.method;
     check.status = one.status;
     if (!check.status.ok()) return check;
@@ -202,6 +207,20 @@ GradientCheck check_gradient(const Ensemble& ensemble, const Eigen::VectorXd& rh
   // The check of each scenario has compared the extremes with their references.
   check.largest_relative_difference = std::max(check.largest_relative_difference, worst_of_one);
   return check;
+}
+
+}  // namespace
+
+GradientCheck check_gradient(const Ensemble& ensemble, const Eigen::VectorXd& rho, CheckMethod method, const std::atomic<bool>* cancel) {
+  return checked(ensemble, rho, method, 0, cancel);
+}
+
+GradientCheck check_along(const Ensemble& ensemble, const Eigen::VectorXd& rho, CheckMethod method, const std::atomic<bool>* cancel) {
+  return checked(ensemble, rho, method, rho.size() > kCheckedDirections ? kCheckedDirections : 0, cancel);
+}
+
+bool disagrees(const GradientCheck& check) {
+  return check.largest_relative_difference > (check.method == CheckMethod::kComplexStep ? 1e-6 : 1e-4);
 }
 
 }  // namespace codesign

@@ -66,6 +66,17 @@ class Ensemble {
 GradientCheck check_gradient(const Ensemble& ensemble, const Eigen::VectorXd& rho, CheckMethod method,
                              const std::atomic<bool>* cancel = nullptr);
 
+/// The number of directions of check_along().
+constexpr int kCheckedDirections = 1;
+
+/// A check that costs the same for any number of parameters: along kCheckedDirections of check_directions(), or by each parameter if they
+/// are not more.
+GradientCheck check_along(const Ensemble& ensemble, const Eigen::VectorXd& rho, CheckMethod method,
+                          const std::atomic<bool>* cancel = nullptr);
+
+/// Whether a gradient and its reference differ by more than rounding, or the error of differences, explains.
+bool disagrees(const GradientCheck& check);
+
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_ENSEMBLE_ENSEMBLE_H_

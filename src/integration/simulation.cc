@@ -79,6 +79,15 @@ class Simulation::Implementation {
     observer_.observe(sample_, psi, integrator_->assembly().theta(), &integrator_->equations(), frame);
   }
 
+  double objective() {
+    sample_ = integrator_->state();
+    // The rates of a multistep method do not fulfil the equations.
+    if (system_->study().solver.integrator == IntegratorKind::kIdas)
+      integrator_->assembly().solve_rates(&integrator_->equations(), &sample_);
+    return integrator_->psi() + integrator_->equations().formulas().terminal(sample_, nullptr);
+  }
+  double time() const { return integrator_->state().t; }
+
   void obey(const std::atomic<bool>* cancel) { integrator_->obey(cancel); }
   const FrameNames& names() const { return observer_.names(); }
   const Statistics& statistics() const { return statistics_; }
@@ -116,6 +125,8 @@ Status Simulation::advance(double time) { return implementation_->advance(time);
 Status Simulation::advance_to(double time) { return implementation_->advance_to(time); }
 Status Simulation::go_on(double time, const std::vector<double>& parameters) { return implementation_->go_on(time, parameters); }
 void Simulation::sample(double time, Frame* frame) { implementation_->sample(time, frame); }
+double Simulation::objective() { return implementation_->objective(); }
+double Simulation::time() const { return implementation_->time(); }
 void Simulation::obey(const std::atomic<bool>* cancel) { implementation_->obey(cancel); }
 const FrameNames& Simulation::names() const { return implementation_->names(); }
 const Statistics& Simulation::statistics() const { return implementation_->statistics(); }

@@ -4,9 +4,9 @@
 namespace codesign {
 
 Problem load(const Inputs& inputs, const TrajectoryLoader& loader) {
-  if (inputs.study.name.empty()) return load_mechanism(inputs.urdf, inputs.overlays, inputs.settings);
-  return load_problem(inputs.urdf, inputs.overlays, inputs.study, inputs.settings, loader,
-                      inputs.study_is_tree ? files_in("") : FileLoader());
+  if (inputs.study.name.empty()) return load_mechanism_at(inputs.design, inputs.urdf, inputs.overlays, inputs.settings);
+  return load_problem_at(inputs.design, inputs.urdf, inputs.overlays, inputs.study, inputs.settings, loader,
+                         inputs.study_is_tree ? files_in("") : FileLoader());
 }
 
 }  // namespace codesign

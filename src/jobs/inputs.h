@@ -14,7 +14,8 @@ struct Inputs {
   std::vector<SourceText> overlays;
   SourceText study;            ///< an empty name: no study, the mechanism alone
   bool study_is_tree = false;  ///< whether the study is from the parameter server instead of a file
-  ParameterSettings settings;
+  SavedDesign design;          ///< of a saved result, as read_design() reads it
+  ParameterSettings settings;  ///< they replace the values of `design`
 };
 
 /// Reads and compiles the inputs. @param loader reads trajectories that the study names in a bag; without one they are refused.

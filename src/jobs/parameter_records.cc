@@ -12,8 +12,9 @@
 namespace codesign {
 namespace {
 
-/// The check belongs to writing files, so it must not make a job noticeably longer [s].
-constexpr double kLongestCheck = 3.0;
+/// The check belongs to writing files, so it must not make a job noticeably longer: this share of the search's processor time, or these
+/// seconds.
+constexpr double kShare = 0.1, kUnnoticed = 0.5;
 
 Json bound_json(double bound) { return std::isfinite(bound) ? Json(bound) : Json(nullptr); }
 
@@ -25,12 +26,13 @@ const char* bound_of(const Parameter& parameter, double value) {
   return is_on(parameter.lower) ? "lower" : is_on(parameter.upper) ? "upper" : "";
 }
 
-/// The time that the reference takes [s]: a complex run takes about four times as long as a real run, Ridders' extrapolation about twenty
-/// times.
+/// The time that the check takes [s]: two gradients, and along each direction a complex run, which is not compiled and takes about as long
+/// as forty gradients, or Ridders' extrapolation, about as long as twenty.
 double expected_seconds(const Problem& problem, const OptimizationResult& result) {
   const double evaluations = std::max(1, result.evaluations);
-  const double runs = problem.study().solver.integrator == IntegratorKind::kIdas ? 20.0 : 4.0;
-  return runs * static_cast<double>(result.rho.size()) * result.statistics.cpu_seconds / evaluations;
+  const double runs = problem.study().solver.integrator == IntegratorKind::kIdas ? 20.0 : 40.0;
+  const auto directions = static_cast<double>(std::min<Eigen::Index>(result.rho.size(), kCheckedDirections));
+  return (2.0 + runs * directions) * result.statistics.cpu_seconds / evaluations;
 }
 
 Json skipped(const std::string& why) { return {{"skipped", why}}; }
@@ -58,22 +60,27 @@ Json parameter_table(const Problem& problem, const OptimizationResult& result) {
 
 Json gradient_check_json(const Problem& problem, const OptimizationResult& result, const std::atomic<bool>* cancel) {
   if (!is_evaluated(problem, result) || result.status.is_interrupted()) return skipped("the search was interrupted");
-  if (const double seconds = expected_seconds(problem, result); seconds > kLongestCheck)
-    return skipped("it would take about " + readable(seconds, 2) + " s; codesign gradient --verify does it");
+  if (const double seconds = expected_seconds(problem, result); seconds > std::max(kUnnoticed, kShare * result.statistics.cpu_seconds))
+    return skipped("it would take about " + readable(std::ceil(seconds)) +
+                   " s, more than a tenth of the search; codesign gradient --verify does it");
   const bool by_differences = problem.study().solver.integrator == IntegratorKind::kIdas;
   const CheckMethod method = by_differences ? CheckMethod::kRidders : CheckMethod::kComplexStep;
   GradientCheck check;
   try {
-    check = check_gradient(Ensemble(problem), result.rho, method, cancel);
+    check = check_along(Ensemble(problem), result.rho, method, cancel);
   } catch (const InputError& error) {
     return skipped(error.what());  // the gradient cannot be checked, for example because the processes of the engine are missing
   }
   if (!check.status.ok()) return skipped(describe(check.status));
   const std::vector<std::string> names = problem.tuned_names();
-  return {{"method", by_differences ? "ridders" : "complex_step"},
-          {"gradient", by_name(names, check.evaluation.gradient)},
-          {"reference", by_name(names, check.reference)},
-          {"largest_relative_difference", check.largest_relative_difference}};
+  Json object = {{"method", by_differences ? "ridders" : "complex_step"},
+                 {"gradient", by_name(names, check.evaluation.gradient)},
+                 {"largest_relative_difference", check.largest_relative_difference}};
+  if (check.directions.size() > 0)
+    object["directions"] = check.directions.cols();
+  else
+    object["reference"] = by_name(names, check.reference);
+  return object;
 }
 
 }  // namespace codesign

@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/run_recorder.h"
 
+#include <algorithm>
+
 namespace codesign {
 
 RunSummary record_run(const Problem& problem, const std::vector<double>& parameters, const std::vector<SignalDescription>& signals,
@@ -19,6 +21,11 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
   summary.status = codesign::simulate(&simulation, problem.study().duration, samples, observer, cancel);
   summary.statistics = simulation.statistics();
   summary.warnings = simulation.warnings();
+  const Study& study = problem.study();
+  const bool has_peak = std::any_of(study.watched.begin(), study.watched.end(),
+                                    [](const WatchedSignal& watched) { return watched.role == WatchedSignal::Role::kPeak; });
+  if (summary.status.ok() && has_objective(study) && !has_peak && simulation.time() == study.duration)
+    summary.objective = simulation.objective();
   summary.crossings = watch.crossings();
   return summary;
 }

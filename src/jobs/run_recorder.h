@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct RunSummary {
   Statistics statistics;
   std::vector<LimitCrossing> crossings;  ///< found at the sampled instants
   Warnings warnings;                     ///< Simulation::warnings()
+  /// The study's objective; empty if the study has none or a peak, or if the run does not end at the study's duration.
+  std::optional<double> objective;
 };
 
 /// Receives the row `time, signal, ...` of each instant.

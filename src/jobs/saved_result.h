@@ -2,7 +2,7 @@
 #ifndef MECHANISM_CODESIGN_JOBS_SAVED_RESULT_H_
 #define MECHANISM_CODESIGN_JOBS_SAVED_RESULT_H_
 
-#include "mechanism_codesign/problem.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 
@@ -10,6 +10,8 @@ namespace codesign {
 /// @throws InputError naming file and line if it is not JSON, has a number beyond the range of double, or no object `parameters` of
 /// numbers.
 ParameterSettings read_result(const SourceText& json);
+/// The same, with the name of the file.
+inline SavedDesign read_design(const SourceText& json) { return {json.name, read_result(json)}; }
 
 }  // namespace codesign
 

@@ -60,7 +60,8 @@ std::vector<std::string> further_signals(const RobotDescription& robot, const st
   std::vector<std::string> texts;
   for (const ControllerDescription& controller : controllers) {
     if (!controller.output.empty()) texts.push_back(controller.output + "/effort");
-    if (has_error(controller.kind)) texts.push_back(controller.name + "/error");
+    if (!has_error(controller.kind)) continue;
+    for (const char* quantity : {"/setpoint", "/error"}) texts.push_back(controller.name + quantity);
   }
   for (const JointDescription& joint : robot.joints)
     if (has_friction(joint) && has_one_coordinate(joint.type)) texts.push_back(joint.name + "/friction_power");

@@ -38,6 +38,20 @@ struct Problem::Contents {
   std::vector<LoadedFile> files;               ///< likewise
 };
 
+/// The design of a saved result, which may be of another study.
+struct SavedDesign {
+  std::string file;  ///< for messages; empty: there is no such design
+  ParameterSettings values;
+};
+
+/// load_problem() from a saved design: the parameters that the model or the study has, within their bounds, begin with its values, before
+/// `settings` apply. What does not fit is named in the warning `result_of_another_study`. @throws InputError also if nothing fits.
+Problem load_problem_at(const SavedDesign& design, const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
+                        const ParameterSettings& settings, const TrajectoryLoader& loader = {}, const FileLoader& files = {});
+/// The same without a study.
+Problem load_mechanism_at(const SavedDesign& design, const SourceText& urdf, const std::vector<SourceText>& overlays,
+                          const ParameterSettings& settings);
+
 /// load_problem() for studies that may read trajectories from bags. @param loader reads such a trajectory; if it is empty, a study that
 /// names a bag is refused. @param files reads other files that the study names; if it is empty, they are looked for in the study's folder.
 Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,

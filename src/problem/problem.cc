@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mechanism_codesign/problem.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "assembly/make_system.h"
@@ -13,6 +14,7 @@
 #include "problem/portable_problem.h"
 #include "problem/unused_parameters.h"
 #include "problem/variants.h"
+#include "problem/waypoint_overshoot.h"
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"
 #include "text/decimal.h"
@@ -40,6 +42,44 @@ void apply_settings(const ParameterSettings& settings, Study* study) {
   }
 }
 
+/// Why the value of a saved design is not for this study; empty if it is. Sets the parameter in this case.
+std::string set_saved(const std::string& name, double value, Study* study) {
+  const auto found = std::find_if(study->parameters.begin(), study->parameters.end(), [&](const Parameter& p) { return p.name == name; });
+  if (found == study->parameters.end()) return name + " is no parameter here";
+  if (!std::isfinite(value) || value < found->lower || value > found->upper)
+    return name + " = " + to_decimal(value) + " is outside its bounds " + range_of(*found);
+  found->value = value;
+  return "";
+}
+
+/// Sets what fits of a saved design, and warns of all that does not.
+void apply_design(const SavedDesign& design, Study* study, Warnings* warnings) {
+  std::string misfits;
+  const auto note = [&misfits](const std::string& misfit) { misfits += (misfits.empty() ? "" : "; ") + misfit; };
+  std::size_t fitting = 0;
+  for (const auto& [name, value] : design.values) {
+    const std::string misfit = set_saved(name, value, study);
+    misfit.empty() ? static_cast<void>(++fitting) : note(misfit);
+  }
+  if (fitting == 0 && !design.values.empty())
+    throw InputError({{design.file, 0},
+                      "result",
+                      "no value of this result fits the model and the study: " + misfits,
+                      "",
+                      "the result of this study, or of one with some of its parameters"});
+  for (const std::string& tuned : tuned_names(*study))
+    if (std::none_of(design.values.begin(), design.values.end(), [&](const auto& setting) { return setting.first == tuned; }))
+      note(tuned + ", which is tuned here, keeps its start value, since the result does not have it");
+  if (misfits.empty()) return;
+  append({warn("result_of_another_study", {{design.file, 0},
+                                           "result",
+                                           "the result is of another model or study; " + std::to_string(fitting) + " of its " +
+                                               std::to_string(design.values.size()) + " values are used: " + misfits,
+                                           "",
+                                           "the result of this study"})},
+         warnings);
+}
+
 /// `loader`, extended to keep all trajectories that it reads in `loaded`; an empty loader stays empty.
 TrajectoryLoader keeping(const TrajectoryLoader& loader, std::vector<LoadedTrajectory>* loaded) {
   if (!loader) return {};
@@ -57,8 +97,11 @@ FileLoader keeping(const FileLoader& files, std::vector<LoadedFile>* loaded) {
   };
 }
 
-/// Compiles the equations of motion of a model and a study with settings applied, and completes `contents`: system, warnings, time.
-Problem compile(const RobotDescription& robot, Study study, const ParameterSettings& settings, Problem::Contents contents) {
+/// Compiles the equations of motion of a model and a study with design and settings applied, and completes `contents`: system, warnings,
+/// time.
+Problem compile(const RobotDescription& robot, Study study, const SavedDesign& design, const ParameterSettings& settings,
+                Problem::Contents contents) {
+  if (!design.file.empty()) apply_design(design, &study, &contents.warnings);
   apply_settings(settings, &study);
   const CpuTimer timer;
   require_numbers_at_start(study, start_parameters(study));
@@ -67,6 +110,7 @@ Problem compile(const RobotDescription& robot, Study study, const ParameterSetti
   require_compatible(study);
   append(unused_parameters(study), &contents.warnings);
   append(differing_nominals(study), &contents.warnings);
+  append(waypoint_overshoots(study), &contents.warnings);
   if (!study.tuned.empty()) append(unsatisfiable_constraints(study), &contents.warnings);
   for (RunDescription& run : study.ensemble.runs)
     if (run.study) {
@@ -107,30 +151,40 @@ Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& over
 
 Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
                      const ParameterSettings& settings, const TrajectoryLoader& loader, const FileLoader& files) {
+  return load_problem_at(SavedDesign(), urdf, overlays, study, settings, loader, files);
+}
+
+Problem load_problem_at(const SavedDesign& design, const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
+                        const ParameterSettings& settings, const TrajectoryLoader& loader, const FileLoader& files) {
   const CpuTimer timer;
   const RobotDescription robot = read_urdf(urdf, overlays);
   std::vector<LoadedTrajectory> loaded;
   std::vector<LoadedFile> loaded_files;
   const FileLoader read_file = files ? files : files_beside(study.name);
   Study read = read_study(study, robot, keeping(loader, &loaded), keeping(read_file, &loaded_files));
-  return compile(robot, std::move(read), settings,
+  return compile(robot, std::move(read), design, settings,
                  {urdf, overlays, study, nullptr, {}, timer.seconds(), robot.warnings, std::move(loaded), std::move(loaded_files)});
 }
 
 Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& overlays, const ParameterSettings& settings) {
+  return load_mechanism_at(SavedDesign(), urdf, overlays, settings);
+}
+
+Problem load_mechanism_at(const SavedDesign& design, const SourceText& urdf, const std::vector<SourceText>& overlays,
+                          const ParameterSettings& settings) {
   const CpuTimer timer;
   const RobotDescription robot = read_urdf(urdf, overlays);
   Study study;
   study.parameters = robot.parameters;
   study.used_parameters = robot.used_parameters;
   study.file = urdf.name;
-  return compile(robot, std::move(study), settings, {urdf, overlays, {}, nullptr, {}, timer.seconds(), robot.warnings, {}, {}});
+  return compile(robot, std::move(study), design, settings, {urdf, overlays, {}, nullptr, {}, timer.seconds(), robot.warnings, {}, {}});
 }
 
 Problem with_settings(const Problem& problem, const ParameterSettings& settings) { return with_study(problem, problem.study(), settings); }
 
 Problem with_study(const Problem& problem, Study study, const ParameterSettings& settings) {
-  return compile(problem.robot(), std::move(study), settings,
+  return compile(problem.robot(), std::move(study), {}, settings,
                  {problem.urdf(),
                   problem.overlays(),
                   problem.study_text(),
@@ -169,7 +223,7 @@ Problem load_portable(const PortableProblem& portable) {
   study.tuned.clear();
   for (const std::string& name : portable.tuned)
     study.tuned.push_back(static_cast<int>(&find_parameter(&study, name) - study.parameters.data()));
-  return compile(robot, std::move(study), {},
+  return compile(robot, std::move(study), {}, {},
                  {portable.urdf,
                   portable.overlays,
                   portable.study,

@@ -45,11 +45,9 @@ void read_study_source(const ros::NodeHandle& private_node, Inputs* inputs) {
     refuse_parameter(private_node, "study", "neither a path nor a tree", value, "a path, or the study as a tree of parameters");
 }
 
-/// The design of `~result`, then the values of `~set`.
+/// The values of `~set`.
 ParameterSettings read_settings(const ros::NodeHandle& private_node) {
   ParameterSettings settings;
-  const std::string result = read_path(private_node, "result", "");
-  if (!result.empty()) settings = read_result(read_source(result));
   XmlRpcValue value;
   if (!find_parameter(private_node, "set", &value)) return settings;
   XmlRpcValue numbers = value.getType() == XmlRpcValue::TypeString ? dictionary_in(value) : value;
@@ -75,6 +73,8 @@ Inputs read_inputs(const ros::NodeHandle& node, const ros::NodeHandle& private_n
   inputs.urdf = read_model(node, private_node);
   inputs.overlays = read_overlays(private_node);
   read_study_source(private_node, &inputs);
+  const std::string result = read_path(private_node, "result", "");
+  if (!result.empty()) inputs.design = read_design(read_source(result));
   inputs.settings = read_settings(private_node);
   return inputs;
 }

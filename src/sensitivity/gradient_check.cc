@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <random>
 
 #include "control/control_clock.h"
 #include "equations/compiled_system.h"
@@ -107,13 +109,41 @@ Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parame
   return result;
 }
 
+/// The directions along which a reference is computed.
+Eigen::MatrixXd directions_of(const GradientCheck& check) {
+  const auto count = check.evaluation.gradient.size();
+  return check.directions.size() > 0 ? check.directions : Eigen::MatrixXd::Identity(count, count);
+}
+
+/// parameters + step * direction, with the tuned parameters in the direction.
+template <class T>
+std::vector<T> moved(const Study& study, const std::vector<double>& parameters, const Eigen::VectorXd& direction, const T& step) {
+  std::vector<T> result(parameters.begin(), parameters.end());
+  for (std::size_t k = 0; k < study.tuned.size(); ++k)
+    result[static_cast<std::size_t>(study.tuned[k])] += step * direction[static_cast<Eigen::Index>(k)];
+  return result;
+}
+
+/// The largest step along a direction that changes no tuned parameter by more than its `size`.
+template <class Size>
+double step_along(const Study& study, const std::vector<double>& parameters, const Eigen::VectorXd& direction, const Size& size) {
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < study.tuned.size(); ++k)
+    if (const double component = std::abs(direction[static_cast<Eigen::Index>(k)]); component > 0.0)
+      step = std::min(step, size(parameters[static_cast<std::size_t>(study.tuned[k])]) / component);
+  return step;
+}
+
 /// Sets a failure if a component of the reference is not finite.
 void refuse_non_finite(const CompiledSystem& system, GradientCheck* check) {
   for (Eigen::Index k = 0; k < check->reference.size(); ++k) {
     if (std::isfinite(check->reference[k]) && std::isfinite(check->reference_error[k])) continue;
     const Study& study = system.study();
-    const std::string& name = study.parameters[static_cast<std::size_t>(study.tuned[static_cast<std::size_t>(k)])].name;
-    check->status = {StatusCode::kNonFiniteGradient, study.duration, "the reference for the gradient by \"" + name + "\" is not finite"};
+    const bool along = check->directions.size() > 0;
+    const std::string name =
+        along ? "along direction " + std::to_string(k + 1)
+              : "by \"" + study.parameters[static_cast<std::size_t>(study.tuned[static_cast<std::size_t>(k)])].name + "\"";
+    check->status = {StatusCode::kNonFiniteGradient, study.duration, "the reference for the gradient " + name + " is not finite"};
     return;
   }
 }
@@ -124,11 +154,11 @@ void check_by_complex_step(const CompiledSystem& system, const std::vector<doubl
   std::vector<double> steps;
   check->extreme_reference.setZero(check->reference.size(), check->evaluation.extremes.values.size());
   check->status = record_steps(system, parameters, cancel, &steps);
+  const Eigen::MatrixXd directions = directions_of(*check);
   for (Eigen::Index k = 0; check->status.ok() && k < check->reference.size(); ++k) {
-    std::vector<Complex> perturbed(parameters.begin(), parameters.end());
-    const auto index = static_cast<std::size_t>(system.study().tuned[static_cast<std::size_t>(k)]);
-    const double h = kComplexStep * std::max(1.0, std::abs(parameters[index]));
-    perturbed[index] += Complex(0.0, h);
+    const double h = step_along(system.study(), parameters, directions.col(k),
+                                [](double value) { return kComplexStep * std::max(1.0, std::abs(value)); });
+    const std::vector<Complex> perturbed = moved(system.study(), parameters, directions.col(k), Complex(0.0, h));
     const Replayed run = replay(system, perturbed, steps, check->evaluation.extremes, &integrator, parameters, cancel);
     check->reference[k] = run.objective.imag() / h;
     check->extreme_reference.row(k) = run.watched.imag().transpose() / h;
@@ -147,17 +177,16 @@ void check_by_differences(const CompiledSystem& system, const std::vector<double
   study.solver.method = RosenbrockMethod::kRodas5P;
   study.solver.maximum_steps = std::max(study.solver.maximum_steps, 2000000);
   Evaluator evaluator(std::make_shared<const CompiledSystem>(system.robot(), study, system.sharing()));
+  const Eigen::MatrixXd directions = directions_of(*check);
   for (Eigen::Index k = 0; check->status.ok() && k < check->reference.size(); ++k) {
-    const auto index = static_cast<std::size_t>(study.tuned[static_cast<std::size_t>(k)]);
-    const auto objective = [&](double value) {
-      std::vector<double> moved = parameters;
-      moved[index] = value;
-      const Evaluation evaluation = evaluator.evaluate_design(moved, false, cancel);
+    const auto objective = [&](double step) {
+      const Evaluation evaluation = evaluator.evaluate_design(moved(study, parameters, directions.col(k), step), false, cancel);
       if (!evaluation.status.ok()) check->status = evaluation.status;
       return evaluation.objective;
     };
-    const double start = parameters[index];
-    const RiddersDerivative derivative = ridders_derivative(objective, start, 1e-2 * std::max(std::abs(start), 1e-3));
+    const double largest =
+        step_along(study, parameters, directions.col(k), [](double value) { return 1e-2 * std::max(std::abs(value), 1e-3); });
+    const RiddersDerivative derivative = ridders_derivative(objective, 0.0, largest);
     check->reference[k] = derivative.value;
     check->reference_error[k] = derivative.error;
   }
@@ -174,27 +203,58 @@ GradientCheck check_gradient(const std::shared_ptr<const CompiledSystem>& system
   return check_design(system, system->parameters(rho), method, cancel);
 }
 
+namespace {
+
+/// The largest difference of a gradient from its reference along `directions`, relative to the sizes that gradient.h names.
+/// @param floor the smallest size.
+double largest_difference(const Eigen::MatrixXd& directions, const Eigen::VectorXd& gradient, const Eigen::VectorXd& reference,
+                          double floor) {
+  const Eigen::VectorXd along = directions.size() > 0 ? Eigen::VectorXd(directions.transpose() * gradient) : gradient;
+  double largest = 0.0;
+  for (Eigen::Index k = 0; k < reference.size(); ++k) {
+    const double difference = std::abs(along[k] - reference[k]);
+    const double size = directions.size() > 0 ? directions.col(k).cwiseProduct(gradient).cwiseAbs().maxCoeff() : std::abs(reference[k]);
+    if (difference > 0.0) largest = std::max(largest, difference / std::max(size, floor));
+  }
+  return largest;
+}
+
+}  // namespace
+
 void compare(GradientCheck* check) {
   if (check->reference.size() == 0) return;
-  const auto compare_with = [check](const auto& gradient, const auto& reference, double scale) {
-    for (Eigen::Index k = 0; k < reference.size(); ++k) {
-      const double difference = std::abs(gradient[k] - reference[k]), size = std::max(std::abs(reference[k]), scale);
-      if (difference > 0.0) check->largest_relative_difference = std::max(check->largest_relative_difference, difference / size);
-    }
+  const auto compare_with = [check](const auto& gradient, const auto& reference, double floor) {
+    check->largest_relative_difference =
+        std::max(check->largest_relative_difference, largest_difference(check->directions, gradient, reference, floor));
   };
   compare_with(check->evaluation.gradient, check->reference, 1e-3 * check->reference.cwiseAbs().maxCoeff());
   // Values at the start may have gradients that are zero within rounding, so that differences are compared with the largest gradient of
   // all.
   const Eigen::MatrixXd& references = check->extreme_reference;
   if (references.size() == 0) return;
-  const double scale = 1e-3 * references.cwiseAbs().maxCoeff();
-  for (Eigen::Index k = 0; k < references.cols(); ++k) compare_with(check->evaluation.extremes.gradients.col(k), references.col(k), scale);
+  const double floor = 1e-3 * references.cwiseAbs().maxCoeff();
+  for (Eigen::Index k = 0; k < references.cols(); ++k) compare_with(check->evaluation.extremes.gradients.col(k), references.col(k), floor);
+}
+
+Eigen::MatrixXd check_directions(const Eigen::VectorXd& gradient, int count) {
+  const double floor = gradient.size() > 0 ? 1e-3 * gradient.cwiseAbs().maxCoeff() : 0.0;
+  std::mt19937 bits(1);  // its sequence is the same everywhere
+  Eigen::MatrixXd directions(gradient.size(), count);
+  for (Eigen::Index column = 0; column < count; ++column)
+    for (Eigen::Index k = 0; k < gradient.size(); ++k) {
+      const double size = floor > 0.0 ? std::max(std::abs(gradient[k]), floor) : 1.0;
+      // Not all of one size, so that a common factor does not cancel.
+      const double part = 0.5 + static_cast<double>(bits()) / 4294967296.0;
+      directions(k, column) = (bits() % 2 == 0 ? part : -part) / size;
+    }
+  return directions;
 }
 
 GradientCheck check_design(const std::shared_ptr<const CompiledSystem>& system, const std::vector<double>& parameters, CheckMethod method,
-                           const std::atomic<bool>* cancel) {
-  const auto count = static_cast<Eigen::Index>(system->study().tuned.size());
+                           const std::atomic<bool>* cancel, const Eigen::MatrixXd& directions) {
+  const auto count = directions.size() > 0 ? directions.cols() : static_cast<Eigen::Index>(system->study().tuned.size());
   GradientCheck check;
+  check.directions = directions;
   check.method = system->study().solver.integrator == IntegratorKind::kIdas ? CheckMethod::kRidders : method;
   check.reference.setZero(count);
   check.reference_error.setZero(count);

@@ -2,18 +2,19 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """Builds the program that doc/api.md prints, outside the project, as a plain CMake project and as a catkin package, and runs it.
 
-Usage: api_page_test.py SOURCE_DIRECTORY CONFIG_DIRECTORY CODESIGN_PROGRAM [--catkin]
+Usage: api_page_test.py SOURCE_DIRECTORY CONFIG_DIRECTORY CODESIGN_PROGRAM BUILD_DIRECTORY [--catkin]
 """
 import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
 
-SOURCE, CONFIG, CODESIGN = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
+SOURCE, CONFIG, CODESIGN, BUILD = (pathlib.Path(word).resolve() for word in sys.argv[1:5])
 CATKIN = "--catkin" in sys.argv
 PACKAGE_XML = """<package format="2"><name>program_package</name><version>0.1.0</version><description>A test</description>
 <maintainer email="nobody@example.org">nobody</maintainer><license>BSD</license>
@@ -51,18 +52,48 @@ class ThePage(unittest.TestCase):
         self.assertEqual([float(word) for word in lines["gradient"].split()], list(expected["gradient"].values()))
         self.assertLess(float(lines["optimum"].split()[0]), 0.5 * expected["objective"])
 
-    def test_a_plain_cmake_project_builds_it(self):
+    def configure_plain(self, config):
         (self.folder / "CMakeLists.txt").write_text(blocks("cmake")[0])
-        run("cmake", "-S", self.folder, "-B", self.folder / "build", f"-Dmechanism_codesign_DIR={CONFIG}")
+        run("cmake", "-S", self.folder, "-B", self.folder / "build", f"-Dmechanism_codesign_DIR={config}")
+        found = re.findall(r"^(\w+)_DIR:PATH=", (self.folder / "build/CMakeCache.txt").read_text(encoding="utf-8"), re.MULTILINE)
+        self.assertEqual(set(found) - {"Eigen3", "mechanism_codesign"}, set(), "packages that the library alone does not need")
+
+    def configure_catkin(self, config):
+        (self.folder / "CMakeLists.txt").write_text(blocks("cmake")[1])
+        (self.folder / "package.xml").write_text(PACKAGE_XML)
+        run("cmake", "-S", self.folder, "-B", self.folder / "build", f"-Dmechanism_codesign_DIR={config}",
+            f"-DCATKIN_DEVEL_PREFIX={self.folder}/devel")
+
+    def expect_libraries_in(self, place):
+        """That what links the program takes the library from there."""
+        files = [self.folder / "build/CMakeFiles/program.dir/link.txt", self.folder / "build/build.ninja"]
+        text = "\n".join(file.read_text(encoding="utf-8") for file in files if file.exists())
+        self.assertEqual({str(pathlib.Path(path).resolve().parent) for path in re.findall(r"(/\S*/libcodesign_core\.\w+)", text)},
+                         {str(pathlib.Path(place).resolve())})
+
+    def test_a_plain_cmake_project_builds_it(self):
+        self.configure_plain(CONFIG)
         run("cmake", "--build", self.folder / "build")
         self.expect_what_codesign_says(self.folder / "build/program")
 
+    def test_an_installation_is_found_where_it_is(self):
+        """Not where the project was configured to be installed."""
+        prefix = self.folder / "elsewhere"
+        run("cmake", "--install", BUILD, "--prefix", prefix)
+        moved = self.folder / "moved"
+        prefix.rename(moved)
+        config = next(moved.glob("**/mechanism_codesignConfig.cmake")).parent
+        library = next(moved.glob("**/libcodesign_core.*")).parent
+        self.configure_plain(config)
+        self.expect_libraries_in(library)
+        if CATKIN:
+            shutil.rmtree(self.folder / "build")
+            self.configure_catkin(config)
+            self.expect_libraries_in(library)
+
     @unittest.skipUnless(CATKIN, "no catkin here")
     def test_a_catkin_package_builds_it(self):
-        (self.folder / "CMakeLists.txt").write_text(blocks("cmake")[1])
-        (self.folder / "package.xml").write_text(PACKAGE_XML)
-        run("cmake", "-S", self.folder, "-B", self.folder / "build", f"-Dmechanism_codesign_DIR={CONFIG}",
-            f"-DCATKIN_DEVEL_PREFIX={self.folder}/devel")
+        self.configure_catkin(CONFIG)
         run("cmake", "--build", self.folder / "build", "--target", "program")
         program = [path for path in self.folder.glob("**/program") if path.is_file()]
         self.expect_what_codesign_says(program[0])

@@ -41,9 +41,19 @@ TEST(GradientCommand, VerifySetsAReferenceBesideTheGradient) {
     expect_keys(verification["reference_error"], kTuned);
     EXPECT_LT(verification["largest_relative_difference"].get<double>(), method == "ridders" ? 1e-4 : 1e-8);
   }
-  const std::string table = run_words({"gradient", kModel, short_study(folder), "--verify"}).out;
+  const std::string table = run_words({"gradient", kModel, short_study(folder), "--verify=complex_step"}).out;
   EXPECT_NE(table.find("complex_step"), std::string::npos);
   EXPECT_NE(table.find("largest relative difference"), std::string::npos);
+}
+
+TEST(GradientCommand, VerifyAloneComparesAlongADirectionAndSaysSo) {
+  const ScratchFolder folder;
+  const Outcome outcome = run_words({"gradient", kModel, short_study(folder), "--verify", "--json"});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  const Json verification = json_of(outcome)["verification"];
+  EXPECT_EQ(verification["directions"], 1);
+  EXPECT_LT(verification["largest_relative_difference"].get<double>(), 1e-8);
+  EXPECT_NE(run_words({"gradient", kModel, short_study(folder), "--verify"}).out.find("along a direction"), std::string::npos);
 }
 
 }  // namespace

@@ -40,6 +40,28 @@ TEST(Inputs, ASettingCountsMoreThanAResult) {
   EXPECT_THROW(load(arguments), InputError) << "outside its bounds";
 }
 
+TEST(Inputs, OfAnotherStudysResultWhatFitsIsTaken) {
+  const ScratchFolder folder;
+  Arguments arguments = slider_crank();
+  arguments.result = folder.path("other.json");
+  std::ofstream(arguments.result) << R"({"parameters": {"crank_length": 0.07, "rod_length": 70.0, "elbow_gain": 3.0}})";
+  const Problem problem = load(arguments), plain = load(slider_crank());
+  EXPECT_EQ(problem.start()[0], 0.07);
+  EXPECT_EQ(problem.start()[1], plain.start()[1]);
+  ASSERT_EQ(problem.warnings().size(), plain.warnings().size() + 1U);
+  const Warning& warning = problem.warnings().front();
+  EXPECT_EQ(warning.code, "result_of_another_study");
+  for (const char* part : {"other.json", "1 of its 3", "rod_length = 70", "elbow_gain is no parameter", "Kp, which is tuned"})
+    EXPECT_NE(warning.message.find(part), std::string::npos) << warning.message;
+  std::ofstream(arguments.result) << R"({"parameters": {"elbow_gain": 3.0}})";
+  try {
+    load(arguments);
+    ADD_FAILURE() << "nothing fits";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.fault().where.file, arguments.result);
+  }
+}
+
 TEST(Inputs, ALoneModelHasNothingToTune) {
   Arguments arguments = slider_crank();
   arguments.study.clear();

@@ -94,7 +94,7 @@ TEST(OptimizeCommand, PrintsStartAndTunedDesign) {
   for (const std::string& name : kTuned) EXPECT_NE(outcome.out.find("\n" + name + " "), std::string::npos) << name;
   EXPECT_NE(outcome.out.find("max_evaluations_reached"), std::string::npos) << outcome.out;
   EXPECT_EQ(lines_of(outcome.err).size(), 5U) << outcome.err;
-  EXPECT_NE(outcome.err.find("warning: "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("warning [max_evaluations_reached]: "), std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.err.substr(0, 8), "trial 1:");
 }
 

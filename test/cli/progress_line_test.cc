@@ -28,6 +28,18 @@ TEST(ProgressLine, SaysWhatIsDoneHowFastAndHowLong) {
   EXPECT_EQ(progress_line(progress), "searching: 12 of at most 200 evaluations, 288 runs, 31.2 runs/s, at most 2.5 h left");
 }
 
+TEST(ProgressLine, ALongJobHasABoundedNumberOfLines) {
+  LinePace pace;
+  int lines = 0;
+  for (int trial = 0; trial < 1000000; ++trial) lines += pace.admits(0.01 * trial) ? 1 : 0;  // 10,000 s
+  EXPECT_GT(lines, LinePace::kLines + 200);
+  EXPECT_LT(lines, 900);
+  LinePace brief;
+  for (int trial = 0; trial < LinePace::kLines; ++trial) EXPECT_TRUE(brief.admits(0.0)) << trial;
+  EXPECT_FALSE(brief.admits(0.5));
+  EXPECT_TRUE(brief.admits(1.5));
+}
+
 TEST(ProgressLine, LeavesOutWhatIsNotKnown) {
   Progress progress;
   progress.stage = SearchStage::kValidating;

@@ -19,6 +19,31 @@ TEST(Run, HelpGoesToStandardOutput) {
   }
 }
 
+TEST(Run, HelpOfACommandIsItsOwn) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"help", "simulate"}, {"simulate", "--help"}}) {
+    const Outcome outcome = run_words(words);
+    EXPECT_EQ(outcome.code, kDone);
+    EXPECT_NE(outcome.out.find("--samples"), std::string::npos);
+    EXPECT_NE(outcome.out.find("--overlay"), std::string::npos) << "options of every command";
+    EXPECT_EQ(outcome.out.find("--verify"), std::string::npos);
+  }
+  const Outcome unknown = run_words({"help", "simulat"});
+  EXPECT_EQ(unknown.code, kBadInput);
+  EXPECT_NE(unknown.err.find("did you mean \"simulate\"?"), std::string::npos);
+}
+
+TEST(Run, WarningsShowTheirCodeAndQuietLeavesOutProgress) {
+  const ScratchFolder folder;
+  const std::string study =
+      folder.edited("study.yaml", read_text_file(kStudy), "parameters:", "parameters:\n  unused: {initial: 1.0, lower: 0.0, upper: 2.0}");
+  const std::string loud = run_words({"simulate", kModel, study, "--csv", folder.path("a.csv")}).err,
+                    quiet = run_words({"simulate", kModel, study, "--csv", folder.path("b.csv"), "--quiet"}).err;
+  EXPECT_NE(loud.find("codesign simulate: warning [unused_parameter]: "), std::string::npos) << loud;
+  EXPECT_NE(loud.find("of processor time"), std::string::npos);
+  EXPECT_NE(quiet.find("warning [unused_parameter]: "), std::string::npos) << quiet;
+  EXPECT_EQ(quiet.find("of processor time"), std::string::npos);
+}
+
 TEST(Run, PrintsItsVersion) {
   const Outcome outcome = run_words({"--version"});
   EXPECT_EQ(outcome.code, kDone);

@@ -64,6 +64,27 @@ TEST(SimulateCommand, AnObjectiveThatIsNotFiniteIsAFailure) {
   EXPECT_FALSE(object.contains("objective"));
 }
 
+// The objective is that of the run itself, to the last bit that of the evaluation, with terminal terms that read accelerations too.
+TEST(SimulateCommand, TheObjectiveIsThatOfTheRun) {
+  const ScratchFolder folder;
+  for (const char* integrator : {"rosenbrock", "idas"}) {
+    const std::string terminal = folder.edited("terminal.yaml", read_text_file(short_study(folder)), "integrator: rosenbrock",
+                                               std::string("integrator: ") + integrator);
+    const std::string study =
+        folder.edited("study.yaml", read_text_file(terminal), "terminal: []", "terminal: [{signal: slider_joint/acceleration}]");
+    const Json object = json_of(run_words({"simulate", kModel, study, "--json"}));
+    const Problem problem = load_problem(read_source(kModel), {}, read_source(study));
+    EXPECT_EQ(object["objective"].get<double>(), Evaluator(problem).evaluate(problem.start(), false).objective) << integrator;
+  }
+}
+
+TEST(SimulateCommand, TheSetpointIsASignal) {
+  const Json series = json_of(run_words({"simulate", kModel, kStudy, "--json", "--samples", "5", "--signals",
+                                         "crank_speed/setpoint,crank_speed/error + crank_joint/velocity"}))["series"];
+  for (const double value : series["crank_speed/setpoint"]) EXPECT_EQ(value, -10.0);
+  for (const double value : series["crank_speed/error + crank_joint/velocity"]) EXPECT_NEAR(value, -10.0, 1e-12);
+}
+
 TEST(SimulateCommand, ARunThatFailsNamesStatusTimeAndCause) {
   const ScratchFolder folder;
   const std::string study = folder.edited("study.yaml", read_text_file(kStudy), "solver: {", "solver: {maximum_steps: 20, ");

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
+#include <random>
 
 #include "math/ridders.h"
 
@@ -140,6 +143,77 @@ TEST(Reference, ChosenVelocitiesAndAccelerationsAreThoseOfAParabola) {
   EXPECT_NEAR(reference.at(1.2).rate, 2.4, 1e-12);
   EXPECT_NEAR(reference.at(1.2).acceleration, 2.0, 1e-11);
   EXPECT_NEAR(reference.at(1.3).value, 1.69, 1e-12) << "between two inner way-points";
+}
+
+/// Way-points at random distances, with rises, plateaus and turns.
+WaypointsDescription random_points(unsigned seed) {
+  std::mt19937 bits(seed);
+  const auto number = [&bits] { return static_cast<double>(bits()) / 4294967296.0; };
+  WaypointsDescription points;
+  points.interpolation = Interpolation::kMonotone;
+  double time = 0.0;
+  for (int k = 0; k < 12; ++k) {
+    points.times.push_back(time);
+    points.positions.emplace_back(std::round(6.0 * number()) * (number() < 0.2 ? 20.0 : 1.0));
+    time += std::pow(10.0, -3.0 * number());
+  }
+  return points;
+}
+
+// Each piece stays between its own two way-points, up to rounding, so that the curve has no extremum but at them.
+TEST(Reference, AMonotoneCurveStaysBetweenNeighboursAndHasContinuousAccelerations) {
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    const WaypointsDescription points = random_points(seed);
+    const Reference<double> reference = through(points);
+    for (std::size_t k = 0; k + 1 < points.times.size(); ++k) {
+      const auto [low, high] = std::minmax({points.positions[k].nominal(), points.positions[k + 1].nominal()});
+      for (int i = 0; i <= 50; ++i) {
+        const double time = points.times[k] + (points.times[k + 1] - points.times[k]) * i / 50, value = reference.at(time).value;
+        ASSERT_TRUE(value >= low - 1e-9 && value <= high + 1e-9) << value << " at " << time << ", seed " << seed;
+      }
+      const ReferenceMotion<double> before = reference.at(points.times[k] - 1e-11), after = reference.at(points.times[k]);
+      EXPECT_NEAR(before.rate, after.rate, 1e-6 * (1.0 + std::abs(after.acceleration)));
+      EXPECT_NEAR(before.acceleration, after.acceleration, 1e-7 * (1.0 + std::abs(before.jerk) + std::abs(after.jerk)));
+    }
+  }
+}
+
+TEST(Reference, ShortIntervalsDoNotThrowAMonotoneCurveAside) {
+  const std::vector<double> times{0.0, 2.0, 2.05, 2.1};
+  const std::vector<Quantity> positions{0.0, 0.0, 0.05, 0.0};
+  EXPECT_GT(through({Interpolation::kQuintic, times, positions, {}, {}}).at(1.2).value, 1.0);
+  EXPECT_EQ(through({Interpolation::kMonotone, times, positions, {}, {}}).at(1.2).value, 0.0);
+}
+
+// Where no limit applies, nothing changes.
+TEST(Reference, AMonotoneCurveThroughAGentleCourseIsTheQuintic) {
+  const std::vector<double> times{0.0, 1.0, 2.1, 3.0, 4.0};
+  const std::vector<Quantity> positions{0.0, 1.0, 2.15, 3.1, 4.0};
+  const Reference<double> quintic = through({Interpolation::kQuintic, times, positions, {}, {}}),
+                          monotone = through({Interpolation::kMonotone, times, positions, {}, {}});
+  for (const double t : {0.5, 1.5, 2.5, 3.5}) EXPECT_EQ(monotone.at(t).value, quintic.at(t).value);
+}
+
+TEST(Reference, AMonotoneCurveHasExactDerivativesByItsWayPoints) {
+  const std::vector<std::string> names{"a", "b", "c"};
+  ReferenceDescription description;
+  description.kind = ReferenceDescription::Kind::kWaypoints;
+  description.waypoints = {Interpolation::kMonotone, {0.0, 0.3, 1.0, 1.2, 2.0}, {0.0}, {}, {}};
+  for (const std::string& name : names) description.waypoints.positions.emplace_back(1.0, std::make_shared<const Expression>(name, names));
+  description.waypoints.positions.emplace_back(3.0);
+  const std::vector<double> at{1.0, 1.2, 2.9};  // limited velocities and accelerations among them
+  for (const double t : {0.1, 0.5, 1.1, 1.6})
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const auto moved = [&](auto step) {
+        std::vector<decltype(step)> parameters(at.begin(), at.end());
+        parameters[k] += step;
+        return Reference<decltype(step)>(description, parameters).at(t);
+      };
+      const ReferenceMotion<std::complex<double>> m = moved(std::complex<double>(0.0, 1e-30));
+      const auto difference = [&](const auto& f) { return ridders_derivative(f, 0.0, 1e-2).value; };
+      EXPECT_NEAR(m.value.imag() / 1e-30, difference([&](double x) { return moved(x).value; }), 1e-9) << t << ", " << k;
+      EXPECT_NEAR(m.acceleration.imag() / 1e-30, difference([&](double x) { return moved(x).acceleration; }), 1e-6) << t << ", " << k;
+    }
 }
 
 TEST(Reference, CubicAndLinearPieces) {

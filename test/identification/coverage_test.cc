@@ -27,7 +27,7 @@ controllers:
   servo:
     type: pid
     input: hinge/position
-    setpoint: {type: waypoints, times: [0.0, 1.5, 2.5, 4.5, 5.5, 7.0, 9.5, 10.5, 12.0, 14.5, 16.0, 17.0, 20.0],
+    setpoint: {type: waypoints, interpolation: quintic, times: [0.0, 1.5, 2.5, 4.5, 5.5, 7.0, 9.5, 10.5, 12.0, 14.5, 16.0, 17.0, 20.0],
                positions: [0.0, 0.9, 0.2, -0.8, 0.5, 1.1, -0.4, 0.3, -1.0, 0.6, -0.2, 0.4, 0.0]}
     output: hinge
     gains: {p: 60.0, d: 6.0}

@@ -36,7 +36,8 @@ TEST(ParameterRecords, TheGradientAgreesWithItsReference) {
   const Problem problem = pendulum();
   const Json check = gradient_check_json(problem, result_at(problem, 0.5, 1.0), nullptr);
   EXPECT_EQ(check["method"], "complex_step");
-  EXPECT_EQ(check["reference"].size(), 2U);
+  EXPECT_EQ(check["gradient"].size(), 2U);
+  EXPECT_EQ(check["directions"], 1);
   EXPECT_LT(check["largest_relative_difference"].get<double>(), 1e-8);
 }
 
@@ -44,7 +45,7 @@ TEST(ParameterRecords, ALongCheckIsLeftOut) {
   const Problem problem = pendulum();
   OptimizationResult result = result_at(problem, 0.5, 1.0);
   result.statistics.cpu_seconds = 10.0;
-  EXPECT_NE(gradient_check_json(problem, result, nullptr)["skipped"].get<std::string>().find("80 s"), std::string::npos);
+  EXPECT_NE(gradient_check_json(problem, result, nullptr)["skipped"].get<std::string>().find("420 s"), std::string::npos);
   result.status.code = StatusCode::kCancelled;
   EXPECT_EQ(gradient_check_json(problem, result, nullptr)["skipped"], "the search was interrupted");
 }

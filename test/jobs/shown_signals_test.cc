@@ -18,11 +18,17 @@ const ShownSignal* find_shown(const std::vector<ShownSignal>& shown, const std::
 TEST(ShownSignals, HaveUnitsAndLimits) {
   const Problem problem = pendulum_on_hardware();
   const std::vector<ShownSignal> shown = shown_signals(problem, problem.parameters());
-  const std::pair<const char*, const char*> units[] = {{"hinge/position", "rad"},     {"hinge/velocity", "rad/s"},
-                                                       {"hinge/effort", "N m"},       {"hinge/friction", "N m"},
-                                                       {"hinge/normal_force", "N"},   {"hold/error", "rad"},
-                                                       {"hold/output", "N m"},        {"hinge/friction_power", "W"},
-                                                       {"mechanism/load_power", "W"}, {"hinge/sliding_velocity", "rad/s"}};
+  const std::pair<const char*, const char*> units[] = {{"hinge/position", "rad"},
+                                                       {"hinge/velocity", "rad/s"},
+                                                       {"hinge/effort", "N m"},
+                                                       {"hinge/friction", "N m"},
+                                                       {"hinge/normal_force", "N"},
+                                                       {"hold/error", "rad"},
+                                                       {"hold/setpoint", "rad"},
+                                                       {"hold/output", "N m"},
+                                                       {"hinge/friction_power", "W"},
+                                                       {"mechanism/load_power", "W"},
+                                                       {"hinge/sliding_velocity", "rad/s"}};
   for (const auto& [name, unit] : units) {
     const ShownSignal* signal = find_shown(shown, name);
     ASSERT_NE(signal, nullptr) << name;

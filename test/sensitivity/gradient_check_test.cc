@@ -6,6 +6,7 @@
 #include "assembly/make_system.h"
 #include "integration/mechanisms.h"
 #include "mechanism_codesign/gradient.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {
@@ -41,6 +42,35 @@ TEST(GradientCheck, AGradientOfZeroIsNoDivisionByIt) {
   ASSERT_TRUE(check.status.ok());
   EXPECT_EQ(check.evaluation.gradient[0], 0.0);
   EXPECT_EQ(check.largest_relative_difference, 0.0);
+}
+
+TEST(GradientCheck, AWrongComponentShowsAlongEachDirection) {
+  const Eigen::VectorXd right = (Eigen::VectorXd(5) << 3.0, -1e4, 0.02, 0.0, 7.0).finished();
+  GradientCheck check;
+  check.directions = check_directions(right, 2);
+  check.reference = check.directions.transpose() * right;
+  check.evaluation.gradient = right;
+  compare(&check);
+  EXPECT_LT(check.largest_relative_difference, 1e-12);
+  for (Eigen::Index k = 0; k < right.size(); ++k) {
+    check.evaluation.gradient = right;
+    check.evaluation.gradient[k] += 1e-3 * std::max(std::abs(right[k]), 1e-3 * 1e4);
+    check.largest_relative_difference = 0.0;
+    compare(&check);
+    EXPECT_GT(check.largest_relative_difference, 3e-4) << k;
+    EXPECT_LT(check.largest_relative_difference, 3.1e-3) << k;
+  }
+}
+
+TEST(GradientCheck, BothReferencesAlongADirectionMeetItsDerivative) {
+  const Eigen::MatrixXd half = Eigen::MatrixXd::Constant(1, 1, 0.5);
+  const auto system = make("{position: 0.5}");
+  const Eigen::VectorXd gradient = Evaluator(system).evaluate(kGain, true).gradient;
+  for (CheckMethod method : {CheckMethod::kComplexStep, CheckMethod::kRidders}) {
+    const GradientCheck check = check_design(system, {3.0}, method, nullptr, half);
+    ASSERT_TRUE(check.status.ok()) << check.status.cause;
+    EXPECT_NEAR(check.reference[0], 0.5 * gradient[0], 1e-6 * std::abs(gradient[0]));
+  }
 }
 
 TEST(GradientCheck, ACancelledOneSaysSo) {

@@ -25,8 +25,12 @@ ReferenceDescription read_sine(const YamlValue& value, const ParameterTable& tab
 
 Interpolation read_interpolation(const YamlValue& value) {
   const auto interpolation = value.find("interpolation");
-  const std::string name = interpolation ? interpolation->choice("interpolation", {"quintic", "cubic", "linear"}) : "quintic";
-  return name == "linear" ? Interpolation::kLinear : name == "cubic" ? Interpolation::kCubic : Interpolation::kQuintic;
+  if (!interpolation) return Interpolation::kMonotone;
+  const std::string name = interpolation->choice("interpolation", {"monotone", "quintic", "cubic", "linear"});
+  return name == "linear"    ? Interpolation::kLinear
+         : name == "cubic"   ? Interpolation::kCubic
+         : name == "quintic" ? Interpolation::kQuintic
+                             : Interpolation::kMonotone;
 }
 
 void check_times(const std::vector<double>& times, const YamlValue& value) {
@@ -45,13 +49,17 @@ std::vector<Quantity> read_list(const YamlValue& value, const std::string& key, 
   return list;
 }
 
+bool is_of_fifth_degree(Interpolation interpolation) {
+  return interpolation == Interpolation::kQuintic || interpolation == Interpolation::kMonotone;
+}
+
 /// Velocities or accelerations that the interpolation does not use are an error.
 void refuse_unused(const YamlValue& value, Interpolation interpolation) {
   const auto velocities = value.find("velocities"), accelerations = value.find("accelerations");
   if (velocities && interpolation == Interpolation::kLinear)
-    velocities->fail("linear interpolation does not use velocities", "quintic, cubic");
-  if (accelerations && interpolation != Interpolation::kQuintic)
-    accelerations->fail("only quintic interpolation uses accelerations", "quintic");
+    velocities->fail("linear interpolation does not use velocities", "monotone, quintic, cubic");
+  if (accelerations && !is_of_fifth_degree(interpolation))
+    accelerations->fail("only monotone and quintic interpolation use accelerations", "monotone, quintic");
 }
 
 ReferenceDescription read_waypoints(const YamlValue& value, const ParameterTable& table) {
@@ -86,8 +94,7 @@ ReferenceDescription read_trajectory(const YamlValue& value, const TrajectoryLoa
   check_times(points.times, value);
   points.positions.assign(recorded.positions.begin(), recorded.positions.end());
   if (points.interpolation != Interpolation::kLinear) points.velocities.assign(recorded.velocities.begin(), recorded.velocities.end());
-  if (points.interpolation == Interpolation::kQuintic)
-    points.accelerations.assign(recorded.accelerations.begin(), recorded.accelerations.end());
+  if (is_of_fifth_degree(points.interpolation)) points.accelerations.assign(recorded.accelerations.begin(), recorded.accelerations.end());
   return reference;
 }
 

@@ -49,7 +49,9 @@ TEST(StudyReferences, Waypoints) {
   EXPECT_EQ(points.waypoints.positions.at(1).nominal(), 2.0);
   EXPECT_EQ(points.waypoints.velocities.size(), 3U);
   EXPECT_TRUE(points.waypoints.accelerations.empty());
-  EXPECT_EQ(read_reference_text("{type: waypoints, times: [0, 1], positions: [0, 1]}").waypoints.interpolation, Interpolation::kQuintic);
+  EXPECT_EQ(read_reference_text("{type: waypoints, times: [0, 1], positions: [0, 1]}").waypoints.interpolation, Interpolation::kMonotone);
+  EXPECT_EQ(read_reference_text("{type: waypoints, times: [0, 1], positions: [0, 1], interpolation: quintic}").waypoints.interpolation,
+            Interpolation::kQuintic);
   expect_bad_reference("{type: waypoints, times: [0.0], positions: [0.0]}", ".times", "at least two");
   expect_bad_reference("{type: waypoints, times: [0, 1, 1], positions: [0, 1, 2]}", ".times", "must ascend");
   expect_bad_reference("{type: waypoints, times: [0, 1], positions: [0, 1, 2]}", ".positions", "found 3 values for 2 times");
@@ -57,7 +59,7 @@ TEST(StudyReferences, Waypoints) {
   expect_bad_reference("{type: waypoints, times: [0, 1], positions: [0, 1], velocities: [1, 1], interpolation: linear}", ".velocities",
                        "does not use velocities");
   expect_bad_reference("{type: waypoints, times: [0, 1], positions: [0, 1], accelerations: [1, 1], interpolation: cubic}", ".accelerations",
-                       "only quintic");
+                       "only monotone and quintic");
   expect_bad_reference("{type: waypoints, times: [0, 1], positions: [0, 1], interpolation: cubik}", ".interpolation",
                        "did you mean \"cubic\"");
 }

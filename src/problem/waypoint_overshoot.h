@@ -1,0 +1,16 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_PROBLEM_WAYPOINT_OVERSHOOT_H_
+#define MECHANISM_CODESIGN_PROBLEM_WAYPOINT_OVERSHOOT_H_
+
+#include "description/study.h"
+#include "mechanism_codesign/warning.h"
+
+namespace codesign {
+
+/// A warning `waypoint_overshoot` for each function of time of the study and its runs that leaves the range of its way-points by more than
+/// a tenth of this range, at the start values of the parameters.
+Warnings waypoint_overshoots(const Study& study);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_PROBLEM_WAYPOINT_OVERSHOOT_H_
