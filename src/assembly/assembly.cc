@@ -29,6 +29,7 @@ Assembly::Assembly(const CompiledSystem& system)
       loops_(system, tree_),
       rank_tolerance_(kRank),
       singular_start_(system, tree_, loops_),
+      own_design_(system.parameters()),
       matrix_(system) {
   const Topology& topology = system.topology();
   for (int row : loops_.constraint_rows())

@@ -176,7 +176,7 @@ class Assembly {
   std::string guesses_for(const VectorX<double>& theta, const std::vector<int>& coordinates) const;
   void warn_of_branch(const char* code, const std::string& message, const VectorX<double>& theta, const VectorX<double>& other,
                       const std::vector<double>& parameters);
-  bool is_own_design(const std::vector<double>& parameters) const { return guess_.size() == 0 && parameters == system_.parameters(); }
+  bool is_own_design(const std::vector<double>& parameters) const { return guess_.size() == 0 && parameters == own_design_; }
   void refine(const std::vector<double>& parameters, Equations<double>* equations);
   bool cancelled() const { return is_set(cancel_); }
   Status closure_failed() const;
@@ -215,8 +215,9 @@ class Assembly {
   std::vector<bool> follows_;   ///< per coordinate: whether it is in followers_
   std::vector<bool> position_given_, guess_given_, velocity_given_;
   VectorX<double> theta_, theta_rate_;
-  double start_time_ = 0.0;  ///< [s]
-  VectorX<double> guess_;    ///< of theta_, instead of the study's; empty: none
+  double start_time_ = 0.0;               ///< [s]
+  VectorX<double> guess_;                 ///< of theta_, instead of the study's; empty: none
+  const std::vector<double> own_design_;  ///< the start values of the study's parameters
   Origin origin_;
   Dependents positions_, velocities_;
   Linearization<double> derivatives_;

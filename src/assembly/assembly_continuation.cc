@@ -84,6 +84,8 @@ void Assembly::note_origin() {
   origin_.theta = theta_;
   origin_.free = work_.moved;
   origin_.rank_tolerance = rank_tolerance_;
+  work_.between = own_design_;
+  work_.plain = work_.followed = work_.rate = theta_;  // of their size already, so that later designs ask for no memory
 }
 
 // The solution from the study's guesses is kept to the last bit where it is the continued one.
@@ -121,7 +123,6 @@ Status Assembly::keep_branch(const Status& plain, const std::vector<double>& par
 /// are halved where Newton's method does not converge at once. True if theta_ is the solution at `parameters`; else work_.followed is the
 /// last solution on the way.
 bool Assembly::follow(const std::vector<double>& parameters, Equations<double>* equations) {
-  const std::vector<double>& own = system_.parameters();
   rank_tolerance_ = origin_.rank_tolerance;
   all_rows_count_ = !system_.sharing().drops();
   work_.followed = origin_.theta;
@@ -131,7 +132,7 @@ bool Assembly::follow(const std::vector<double>& parameters, Equations<double>* 
     const double next = std::min(1.0, reached + step);
     work_.between = parameters;
     if (next < 1.0)
-      for (std::size_t k = 0; k < own.size(); ++k) work_.between[k] = own[k] + next * (parameters[k] - own[k]);
+      for (std::size_t k = 0; k < own_design_.size(); ++k) work_.between[k] = own_design_[k] + next * (parameters[k] - own_design_[k]);
     if (next < 1.0 || !is_held) equations->set_design(work_.between);
     is_held = next == 1.0;
     theta_ = work_.followed;

@@ -40,8 +40,8 @@ Warnings warnings_of(const std::string& urdf, const std::string& study) {
   return warnings;
 }
 
-/// A planar linkage across gravity or in it, whose four bearings have friction. @param mass_at where the mass of the coupler sits, across
-/// the plane. @param right, pin the types of two loops' and a joint's freedoms in place of hinges.
+/// A parallelogram with friction in three of its hinges. @param mass_at where the mass of the coupler is, across the plane [m].
+/// @param loop the type of the loop. @param slides whether the right hinge can slide along its axis.
 std::string rubbing_four_bar(const std::string& mass_at, const std::string& loop = "continuous", bool slides = false) {
   std::string text = four_bar(pin_friction());
   const auto replace = [&text](const std::string& from, const std::string& to) { text.replace(text.find(from), from.size(), to); };
