@@ -76,7 +76,7 @@ void SimulationNode::serve_idle() {
   const std::vector<double> before = simulation_->parameters();
   simulation_->obey(nullptr);
   const bool changed = live_->serve([&](const std::vector<double>& values) {
-    const Status status = simulation_->start(values);
+    Status status = simulation_->start(values);
     if (!status.ok()) simulation_->start(before);
     return status;
   });
@@ -90,7 +90,7 @@ Status SimulationNode::run_once() {
   state_.warn("command timeout", {});
   watch_limits();
   control_.begin_run();
-  const Status status = run_frames();
+  Status status = run_frames();
   state_.show("real-time factor of the run", std::to_string(factor_.mean(frame_.time, ros::WallTime::now())));
   tell_figures(simulation_->statistics());
   state_.warn("run", simulation_->warnings());
