@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kAtBound = 1e-9;    // a variable nearer to its bound, in its unit, is on it
+constexpr double kAtBound = 1e-9;  // a variable nearer to its bound, in its unit, is on it
 constexpr double kNoGain = 1e-12;  // a multiplier that would reduce the residual by less is left out
 
 /// A row or bound with a multiplier c: the residual contains c times its direction, and c times its distance from being active.
