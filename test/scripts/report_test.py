@@ -17,7 +17,7 @@ import unittest
 sys.dont_write_bytecode = True
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
-from codesign_report import charts, drawing, geometry, numbers, words  # noqa: E402
+from codesign_report import numbers, words  # noqa: E402
 
 PENDULUM = """<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
 <codesign:parameter name="length" value="0.5" lower="0.3" upper="0.8" unit="m"/>
@@ -346,67 +346,6 @@ class Report(unittest.TestCase):
         self.assertEqual(words.stationarity(result), "Stopped early: the slope is 0.4 of the start's, stationary to 0.5 only.")
         self.assertEqual(words.stationarity({}), "", "of an older result")
         self.assertIn("stopped_early", words.TERMINATIONS)
-
-
-class Parts(unittest.TestCase):
-    def test_numbers(self):
-        self.assertEqual(numbers.short(-0.223582684817), "\u22120.223583")
-        self.assertEqual(numbers.short(1.25e-8), "1.25e\u22128")
-        self.assertEqual(numbers.short(None), "\u2013")
-        self.assertIn('value="0.1"', numbers.number(0.1))
-        self.assertEqual(numbers.ticks(0.0, 2.0), [0.0, 0.5, 1.0, 1.5, 2.0])
-        self.assertLessEqual(len(numbers.ticks(-1.57e-5, 0.0)), 7)
-
-    def test_ticks_of_a_small_range_differ(self):
-        for low, high in ((58.0001, 58.0004), (1e-12, 1.0), (-2e-5, 1e-5), (1e6, 1e6 + 3), (0.1, 0.1000000001)):
-            axis = charts.Axis([low, high], 0.0, 300.0)
-            self.assertEqual(len(set(axis.labels)), len(axis.ticks), axis.labels)
-            self.assertLessEqual(max(map(len, axis.labels)), 10, axis.labels)
-        self.assertEqual(numbers.tick_labels([58.0001, 58.0002, 58.0003]), (["58.0001", "58.0002", "58.0003"], ""))
-        self.assertEqual(numbers.tick_labels([0.1, 0.1 + 1e-9]), (["0", "+1e\u22129"], "0.1"))
-        self.assertEqual(charts.Axis([1, 2, 3], 0.0, 300.0).labels, ["1", "2", "3"], "there is no trial point 1.5")
-
-    def test_labels_neither_touch_nor_leave_the_picture(self):
-        svg = charts.line_chart("t", [charts.Series("a", "tuned", [0.0, 1.23456e-5], [-1.23456e-7, -1.2345e-7])], "time [s]", "[N]")
-        at = [(float(x), len(text)) for x, text in re.findall(r'class="tick" x="([0-9.]+)" y="190" text-anchor="middle">([^<]*)<', svg)]
-        self.assertGreater(len(at), 1)
-        for (x, length), (following, other) in zip(at, at[1:]):
-            self.assertGreater(following - x, 0.5 * charts.LETTER * (length + other) - 1e-9)
-        self.assertLessEqual(at[-1][0] + 0.5 * charts.LETTER * at[-1][1], charts.WIDTH)
-        log = charts.line_chart("t", [charts.Series("a", "tuned", [1, 2], [1.9, 75.5])], "trial point", "objective", log=True)
-        heights = [float(y) for y in re.findall(r'class="tick" x="[0-9.]+" y="([0-9.]+)" text-anchor="end">', log)]
-        self.assertGreater(len(heights), 1)
-        self.assertTrue(all(a - b >= 13.9 for a, b in zip(heights, heights[1:])), heights)
-        for x, text in re.findall(r'class="tick" x="([0-9.]+)" y="[0-9.]+" text-anchor="end">([^<]*)<', svg):
-            self.assertGreater(float(x) - charts.LETTER * len(text), 18.0, "beside the name of the axis")
-
-    def test_names_of_correlations_are_whole(self):
-        name = "data[0].start.crank_joint"
-        svg = charts.matrix_chart("t", [name, "b"], [[1.0, 0.5], [0.5, 1.0]])
-        x = float(re.search(r'class="tick" x="([0-9.]+)"[^>]*>' + re.escape(name) + "<", svg)[1])
-        self.assertGreater(x, 6.5 * len(name))
-
-    def test_a_thinned_curve_keeps_its_peaks(self):
-        ys = [0.0] * 5000
-        ys[1234], ys[4001] = 7.0, -3.0
-        points = charts.thin(list(range(5000)), ys, 200)
-        self.assertLessEqual(len(points), 210)
-        self.assertIn((1234, 7.0), points)
-        self.assertIn((4001, -3.0), points)
-        self.assertEqual([points[0][0], points[-1][0]], [0, 4999])
-
-    def test_rotations(self):
-        quarter = geometry.from_rpy(0.0, 0.0, math.pi / 2)
-        self.assertEqual([round(x, 12) for x in geometry.apply(quarter, (1.0, 0.0, 0.0), (1.0, 0.0, 0.0))], [1.0, 1.0, 0.0])
-        same = geometry.from_quaternion(math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))
-        self.assertLess(max(abs(a - b) for r, s in zip(quarter, same) for a, b in zip(r, s)), 1e-12)
-
-    def test_a_plane_mechanism_is_seen_from_its_side(self):
-        right, up, towards = drawing.view_of([(x, 0.0, z) for x in (0.0, 1.0) for z in (0.0, 2.0)])
-        self.assertEqual([tuple(map(abs, v)) for v in (right, up, towards)], [(1, 0, 0), (0, 0, 1), (0, 1, 0)])
-
-    def test_the_outline_of_a_square(self):
-        self.assertEqual(len(drawing.hull([(0, 0), (1, 0), (1, 1), (0, 1), (0.5, 0.5)])), 4)
 
 
 if __name__ == "__main__":
