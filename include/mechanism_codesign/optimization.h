@@ -95,7 +95,7 @@ struct OptimizationResult {
   std::string termination;  ///< why the search ended, in snake case: "objective_tolerance_reached", "max_evaluations_reached", "cancelled",
                             ///< ...; "stopped_early" if its algorithms ended at a point that is not stationary
   std::string algorithm;    ///< that searched; of `auto` all that went on with the search, in their order, with commas
-  /// The residual of the optimality conditions, theory (24h), at `initial_rho` and `rho` in the unit of psi, and at `rho` relative to psi;
+  /// The residual of the optimality conditions, theory (24j), at `initial_rho` and `rho` in the unit of psi, and at `rho` relative to psi;
   /// not a number without a point.
   double initial_slope = std::numeric_limits<double>::quiet_NaN(), slope = std::numeric_limits<double>::quiet_NaN();
   double stationarity = std::numeric_limits<double>::quiet_NaN();

@@ -11,7 +11,7 @@ namespace codesign {
 /// Writes the derivatives of a number by the optimizer's variables: the scaled parameters, then the slack variables.
 void spread(const SmoothProgram::Value& value, const Scaling& scaling, double* by_x);
 
-/// The optimality conditions of a design in the smooth form of the problem, doc/theory.md (24h).
+/// The optimality conditions of a design in the smooth form of the problem, doc/theory.md (24j).
 struct Optimality {
   double slope = 0.0;      ///< residual of the conditions, in the unit of psi; 0 at an optimum
   Eigen::VectorXd bounds;  ///< multipliers of the bounds of the scaled parameters: positive at the lower one, negative at the upper one

@@ -284,7 +284,7 @@ RobustMeasure measure_of(const Ensemble& ensemble) {
 bool has_slack(RobustMeasure measure) { return measure == RobustMeasure::kWorst || measure == RobustMeasure::kCvar; }
 
 /// A search from its start to a stop that can be trusted: where an algorithm stops on a slope, it begins anew from there, with fresh memory
-/// and a tighter tolerance; where that gains nothing, the next algorithm goes on; doc/theory.md (24h).
+/// and a tighter tolerance; where that gains nothing, the next algorithm goes on; doc/theory.md (24j).
 class Search {
  public:
   Search(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble, const TrialObserver& observer,

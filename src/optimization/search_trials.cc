@@ -16,7 +16,7 @@
 namespace codesign {
 namespace {
 
-constexpr double kStartCounts = 1e-3;      // the share of the slope at the start in the scale of (24h)
+constexpr double kStartCounts = 1e-3;      // the share of the slope at the start in the scale of (24j)
 constexpr double kLeastMultiplier = 1e-4;  // of that scale, so that to widen a bound by 1 % is worth a millionth
 
 }  // namespace

@@ -42,7 +42,7 @@ class SearchTrials {
   bool have_best() const { return have_best_; }
   /// Why the first trial point could not be evaluated, if none could.
   const Status& first_failure() const { return first_failure_; }
-  /// The residual of the optimality conditions at the best point over the same at the start, and over the scale of (24h).
+  /// The residual of the optimality conditions at the best point over the same at the start, and over the scale of (24j).
   double slope_left();
   double stationarity();
   /// Whether the search may end here: stationarity() is at most the root of the relative tolerance of the objective.
