@@ -178,7 +178,9 @@ DriveLineFit fit_drive_line(const Eigen::VectorXd& computed, const Eigen::Vector
     const double explained = factors.dot(Eigen::VectorXd(products(chosen)));
     if (!(factors.minCoeff() > 0.0) || !(explained > most)) continue;
     most = explained;
-    best.scale = chosen.front() == 0 ? factors[0] / lengths[0] : 0.0;
+    // Beside friction and rotor that explain more, the scale of the computed effort is not known.
+    const bool is_main_part = chosen.front() == 0 && factors[0] * products[0] >= kExplainedHalf * explained;
+    best.scale = is_main_part ? factors[0] / lengths[0] : 0.0;
   }
   const double reference = reference_of(recorded);
   best.share = reference > 0.0 ? 1.0 - std::max(0.0, about_mean.squaredNorm() - most) / reference : 1.0;
@@ -186,6 +188,7 @@ DriveLineFit fit_drive_line(const Eigen::VectorXd& computed, const Eigen::Vector
 }
 
 std::vector<EffortDoubt> find_effort_doubts(const Problem& problem, const std::vector<JointRecording>& recordings) {
+  if (recordings.empty()) return {};
   const FitVariables variables(problem.study(), &problem.robot());
   const std::optional<EffortEvidence> evidence = evidence_of(problem, variables, recordings);
   std::vector<EffortDoubt> doubts;

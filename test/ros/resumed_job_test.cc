@@ -97,7 +97,8 @@ TEST_F(ResumedJob, AKilledOneEndsAsIfItHadNotBeenAndComputesNothingTwice) {
     const std::string job = killed_at(at);
     ASSERT_NE(job, "");
     const std::size_t before = lines(job) - 1;
-    EXPECT_EQ(before, at);
+    // After its last trial point a search looks for flat directions, by one more evaluation.
+    EXPECT_EQ(before, at == whole.evaluations ? at + 1 : at);
     const OptimizeResult result = run(resuming(job));
     EXPECT_EQ(without_circumstances(result), without_circumstances(whole));
     EXPECT_EQ(result.remembered_runs, before);

@@ -29,7 +29,8 @@ class CiTest(unittest.TestCase):
     def test_tests_in_a_fresh_debian(self):
         status, output = ci_run(fresh_exit=0)
         self.assertEqual(status, 0)
-        self.assertIn("fresh called: --copy build/test_results/ctest.xml bookworm env CI=true ./tools/ci", output)
+        self.assertIn("fresh called: trixie env CI=true ./tools/test", output)
+        self.assertRegex(output, r"fresh called: --copy build/test_results/ctest.xml bookworm env CI=true CODESIGN_CI_SECONDS=\d+ ./tools/ci")
         self.assertNotIn("ci called", output)
 
     def test_a_failure_stays_one(self):

@@ -11,7 +11,7 @@ import xml.etree.ElementTree
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 # Keys of rosdep that are spelled otherwise than Debian's packages.
-ODD_KEYS = {"dynamic_reconfigure": "libdynamic-reconfigure-config-init-mutex-dev", "eigen": "libeigen3-dev", "nlohmann-json-dev": "nlohmann-json3-dev"}
+ODD_KEYS = {"bzip2": "libbz2-dev", "dynamic_reconfigure": "libdynamic-reconfigure-config-init-mutex-dev", "eigen": "libeigen3-dev", "nlohmann-json-dev": "nlohmann-json3-dev"}
 # Packages for building and for taking pictures, and packages without a key of rosdep on every distribution.
 NOT_IN_PACKAGE_XML = {
     "g++", "make", "ninja-build", "ccache", "cmake", "python3", "xvfb", "imagemagick", "libbenchmark-dev", "libsimbody-dev",
