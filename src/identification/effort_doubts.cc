@@ -158,7 +158,7 @@ double explained_share(const Eigen::VectorXd& recorded, const Eigen::VectorXd& r
 DriveLineFit fit_drive_line(const Eigen::VectorXd& computed, const Eigen::VectorXd& velocity, const Eigen::VectorXd& acceleration,
                             const Eigen::VectorXd& recorded) {
   constexpr int kColumns = 4;
-  constexpr double kSlow = 0.1;
+  constexpr double kSlow = 0.1, kLeastPart = 0.1;
   Eigen::MatrixXd columns(computed.size(), kColumns);
   const double slow = std::max(kSlow * std::sqrt(velocity.squaredNorm() / static_cast<double>(velocity.size())), 1e-300);
   columns << computed, velocity, (velocity.array() / slow).tanh().matrix(), acceleration;
@@ -178,9 +178,9 @@ DriveLineFit fit_drive_line(const Eigen::VectorXd& computed, const Eigen::Vector
     const double explained = factors.dot(Eigen::VectorXd(products(chosen)));
     if (!(factors.minCoeff() > 0.0) || !(explained > most)) continue;
     most = explained;
-    // Beside friction and rotor that explain more, the scale of the computed effort is not known.
-    const bool is_main_part = chosen.front() == 0 && factors[0] * products[0] >= kExplainedHalf * explained;
-    best.scale = is_main_part ? factors[0] / lengths[0] : 0.0;
+    // Beside friction and rotor that explain nearly all, the scale of the computed effort is not known.
+    const bool has_part = chosen.front() == 0 && factors[0] * products[0] >= kLeastPart * explained;
+    best.scale = has_part ? factors[0] / lengths[0] : 0.0;
   }
   const double reference = reference_of(recorded);
   best.share = reference > 0.0 ? 1.0 - std::max(0.0, about_mean.squaredNorm() - most) / reference : 1.0;

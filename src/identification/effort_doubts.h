@@ -23,7 +23,7 @@ double explained_share(const Eigen::VectorXd& recorded, const Eigen::VectorXd& r
 /// What the efforts of a joint, inverse dynamics and a drive's friction and inertia, say about a recorded column; doc/theory.md (39c).
 struct DriveLineFit {
   double share = 0.0;  ///< explained_share() of the column, at least 0
-  double scale = 0.0;  ///< factor of the computed effort, at least 0; 0 where friction and rotor explain more
+  double scale = 0.0;  ///< factor of the computed effort, at least 0; 0 where friction and rotor explain nearly all
 };
 
 /// @param computed, velocity, acceleration of the joint. @param recorded any column at the same times

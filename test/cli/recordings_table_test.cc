@@ -36,12 +36,6 @@ class RecordingsTable : public testing::Test {
   ScratchFolder folder_;
 };
 
-TEST_F(RecordingsTable, AStudyWithoutRecordingsIsChecked) {
-  std::ofstream(folder_.path("study.yaml")) << "identify: {}\n";
-  const Outcome outcome = run_words({"check", folder_.path("model.urdf"), folder_.path("study.yaml")});
-  EXPECT_EQ(outcome.code, kDone) << outcome.err;
-}
-
 TEST_F(RecordingsTable, CheckShowsTheRecordingsOfAStudy) {
   const std::string columns = "time: t, hinge/position: {column: angle, scale: 0.0174532925}, hinge/effort: current";
   const Outcome outcome = check(columns);

@@ -90,7 +90,10 @@ std::string run_resumed(const std::vector<Seed>& seeds, const Limits& limits, Di
     std::ofstream("study.yaml", std::ios::binary) << seed.study;
     return damage_and_resume(cancel, dice);
   };
-  const std::string fault = run_isolated(body, limits);
+  // A cancelled job with a folder still writes its first and its best run.
+  Limits with_runs = limits;
+  with_runs.obey_within *= 2.0;
+  const std::string fault = run_isolated(body, with_runs);
   std::filesystem::remove_all(folder);
   return fault.empty() ? fault : seed.name + ", damaged journal: " + fault;
 }
