@@ -6,6 +6,7 @@
 
 #include "description/identification.h"
 #include "description/robot.h"
+#include "description/study.h"
 #include "reading/yaml/yaml_reader.h"
 
 namespace codesign {
