@@ -9,6 +9,7 @@
 
 #include "identification/driven_replay.h"
 #include "identification/effort_residuals.h"
+#include "observation/observer.h"
 #include "problem/load_problem.h"
 #include "recordings/measured_motion.h"
 
@@ -244,6 +245,7 @@ void compare_all(const Problem& problem, const StudyRecordings& recordings, cons
   for (MeasuredMotion& motion : motions) shift_to_fitted_starts(variables, result.x, &motion);
   MotionComparison comparison(problem, result.parameters, joints, motions.front(), stop);
   compared->names = comparison.names();
+  compared->link_parents = link_parents(problem.robot());
   compared->joints = compared_joints(problem.robot(), joints, result.parameters, compared->names);
   const double shown_rate = std::min(rate, kMostMemory / (bytes_of_both(compared->names) * std::max(seconds, 1e-3)));
   for (std::size_t k = 0; k < all.size(); ++k) {

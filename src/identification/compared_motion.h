@@ -36,6 +36,7 @@ struct ComparedJoint {
 /// The measured motion beside the motion of the model, for showing both.
 struct ComparedMotion {
   FrameNames names;                           ///< of all frames
+  std::vector<std::size_t> link_parents;      ///< as link_parents() finds them
   std::vector<ComparedJoint> joints;          ///< joints whose efforts were recorded
   std::vector<ComparedRecording> recordings;  ///< data, then holdout, in the order of FittedSeries::lengths
 };

@@ -74,6 +74,13 @@ void Observer::name_links() {
   }
 }
 
+std::vector<std::size_t> link_parents(const RobotDescription& robot) {
+  std::vector<std::size_t> parents(robot.links.size(), static_cast<std::size_t>(robot.root));
+  for (const JointDescription& joint : robot.joints)
+    if (!joint.is_loop) parents[static_cast<std::size_t>(joint.child)] = static_cast<std::size_t>(joint.parent);
+  return parents;
+}
+
 void Observer::observe(const State<double>& state, double objective, const VectorX<double>& theta, Equations<double>* equations,
                        Frame* frame) {
   frame->time = state.t;

@@ -10,6 +10,9 @@
 
 namespace codesign {
 
+/// For each link the index of the link that it hangs on, in the order of FrameNames::links; the root hangs on itself.
+std::vector<std::size_t> link_parents(const RobotDescription& robot);
+
 /// Fills a Frame from a state: URDF joint positions (massless joints included), link poses, friction, controllers, loop errors, signals.
 /// Not thread-safe.
 class Observer {

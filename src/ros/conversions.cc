@@ -98,13 +98,6 @@ tf2_msgs::TFMessage free_link_transforms(const FrameNames& names, const Frame& f
   return message;
 }
 
-std::vector<std::size_t> link_parents(const RobotDescription& robot) {
-  std::vector<std::size_t> parents(robot.links.size(), static_cast<std::size_t>(robot.root));
-  for (const JointDescription& joint : robot.joints)
-    if (!joint.is_loop) parents[static_cast<std::size_t>(joint.child)] = static_cast<std::size_t>(joint.parent);
-  return parents;
-}
-
 tf2_msgs::TFMessage link_transforms(const FrameNames& names, const std::vector<std::size_t>& parents, const Frame& frame,
                                     const ros::Time& stamp, const std::string& prefix) {
   tf2_msgs::TFMessage message;
@@ -119,15 +112,16 @@ tf2_msgs::TFMessage link_transforms(const FrameNames& names, const std::vector<s
   return message;
 }
 
-tf2_msgs::TFMessage all_link_transforms(const FrameNames& names, const Frame& frame, const ros::Time& stamp, const std::string& prefix) {
+tf2_msgs::TFMessage placed_link_transforms(const FrameNames& names, const std::vector<std::size_t>& parents, const Frame& frame,
+                                           const ros::Time& stamp, const std::string& prefix) {
   tf2_msgs::TFMessage message;
-  for (std::size_t i = 0; i < names.links.size(); ++i) {
-    geometry_msgs::TransformStamped transform = transform_of(frame.links[0], frame.links[i]);
-    transform.header.stamp = stamp;
-    transform.header.frame_id = i == 0 ? prefix.substr(0, prefix.size() - 1) : prefix + names.links[0];
-    transform.child_frame_id = prefix + names.links[i];
-    message.transforms.push_back(transform);
-  }
+  geometry_msgs::TransformStamped root = transform_of(frame.links[0], frame.links[0]);
+  root.header.stamp = stamp;
+  root.header.frame_id = prefix.substr(0, prefix.size() - 1);
+  root.child_frame_id = prefix + names.links[0];
+  message.transforms.push_back(root);
+  const tf2_msgs::TFMessage links = link_transforms(names, parents, frame, stamp, prefix);
+  message.transforms.insert(message.transforms.end(), links.transforms.begin(), links.transforms.end());
   return message;
 }
 

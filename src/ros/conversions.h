@@ -43,17 +43,14 @@ mechanism_codesign::Signals signals(const FrameNames& names, const Frame& frame,
 /// Poses of the links that robot_state_publisher cannot place, each relative to its parent link.
 tf2_msgs::TFMessage free_link_transforms(const FrameNames& names, const Frame& frame, const MessageContext& context);
 
-/// For each link the index of the link that it hangs on, in the order of FrameNames::links; the root hangs on itself.
-std::vector<std::size_t> link_parents(const RobotDescription& robot);
-
 /// Poses of all links but the root, each relative to its parent link, as robot_state_publisher does it, with `prefix` before each frame's
 /// name. @param parents as link_parents() finds them.
 tf2_msgs::TFMessage link_transforms(const FrameNames& names, const std::vector<std::size_t>& parents, const Frame& frame,
                                     const ros::Time& stamp, const std::string& prefix);
 
-/// Poses of all links relative to the root link, so that loops need no chain of frames. The root link is at the origin of a frame with the
-/// name `prefix` without its trailing slash.
-tf2_msgs::TFMessage all_link_transforms(const FrameNames& names, const Frame& frame, const ros::Time& stamp, const std::string& prefix);
+/// link_transforms(), and before them the root link at the origin of a frame with the name `prefix` without its trailing slash.
+tf2_msgs::TFMessage placed_link_transforms(const FrameNames& names, const std::vector<std::size_t>& parents, const Frame& frame,
+                                           const ros::Time& stamp, const std::string& prefix);
 
 mechanism_codesign::OptimizationProgress optimization_progress(const Trial& trial, const std::vector<std::string>& parameters,
                                                                const ros::Time& stamp);

@@ -121,14 +121,14 @@ class ShowWriter {
     const FrameNames& names = show_.motion.names;
     const ros::Time stamp = BagWriter::stamp(time);
     writer_.write("measured/joint_states", time, joint_states(names, frame, {stamp, "measured/" + names.links[0]}));
-    writer_.write("tf", time, all_link_transforms(names, frame, stamp, "measured/"));
+    writer_.write("tf", time, placed_link_transforms(names, show_.motion.link_parents, frame, stamp, "measured/"));
   }
 
   void write_model(Frame frame, double time) {
     const FrameNames& names = show_.motion.names;
     frame.time = time;
     writer_.write_frame("identified/", "identified/" + names.links[0], names, frame, layout_.style);
-    writer_.write("tf", time, all_link_transforms(names, frame, BagWriter::stamp(time), "identified/"));
+    writer_.write("tf", time, placed_link_transforms(names, show_.motion.link_parents, frame, BagWriter::stamp(time), "identified/"));
   }
 
   void write_residuals(const SeriesPart& part, const std::string& recording, double begin) {

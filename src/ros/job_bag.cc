@@ -58,7 +58,7 @@ void write_frame(const std::string& place, const std::string& side, const Record
   const Frame& frame = run.frames[index];
   const std::string prefix = side + "/";
   writer->write_frame(place + prefix, prefix + run.names.links[0], run.names, frame, style);
-  writer->write(place + "tf", frame.time, all_link_transforms(run.names, frame, BagWriter::stamp(frame.time), prefix));
+  writer->write(place + "tf", frame.time, placed_link_transforms(run.names, run.link_parents, frame, BagWriter::stamp(frame.time), prefix));
 }
 
 std::string with_objective(const std::string& name, double objective) {

@@ -8,6 +8,7 @@
 #include "equations/compiled_system.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/simulation.h"
+#include "observation/observer.h"
 #include "ros/advance.h"
 #include "ros/run_clock.h"
 #include "text/decimal.h"
@@ -50,6 +51,7 @@ RecordedRun record_run(const std::shared_ptr<const CompiledSystem>& system, cons
   RecordedRun run;
   Simulation simulation(system, parameters, signals_of(system->study()));
   run.names = simulation.names();
+  run.link_parents = link_parents(system->robot());
   const double duration = system->study().duration;
   const auto count = std::max<std::int64_t>(std::llround(duration * rate), 1);
   const auto stopped = [&stop] { return stop && stop(); };

@@ -16,7 +16,8 @@ namespace codesign {
 struct RecordedRun {
   FrameNames names;
   std::vector<Frame> frames;
-  Status status;  ///< if not ok, the frames end where the run failed or was stopped
+  Status status;                            ///< if not ok, the frames end where the run failed or was stopped
+  std::vector<std::size_t> link_parents{};  ///< as link_parents() finds them
 };
 
 /// Checks that the runs of a job (nominal and worst scenario of both designs) fit into memory (256 MB) and into the range of ROS time.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "observation/observer.h"
 #include "ros/sample_frame.h"
 
 namespace codesign {
@@ -71,12 +72,12 @@ TEST(Conversions, AFreeLinkIsPlacedRelativeToItsParent) {
   expect_transform(message.transforms[0], "cart", "plate", {2.0, 0.0, 0.0}, kPi / 2);
 }
 
-TEST(Conversions, AllLinksArePlacedRelativeToThePrefixedRoot) {
-  const auto message = all_link_transforms(sample_names(), sample_frame(0.0), kContext.stamp, "tuned/");
+TEST(Conversions, InTheBagOfAJobTheRootOfTheTreeHangsOnTheFrameOfItsSide) {
+  const auto message = placed_link_transforms(sample_names(), sample_parents(), sample_frame(0.0), kContext.stamp, "tuned/");
   ASSERT_EQ(message.transforms.size(), 3U);
   expect_transform(message.transforms[0], "tuned", "tuned/ground", {0.0, 0.0, 0.0}, 0.0);
   expect_transform(message.transforms[1], "tuned/ground", "tuned/cart", {1.0, 0.0, 0.0}, kPi / 2);
-  expect_transform(message.transforms[2], "tuned/ground", "tuned/plate", {1.0, 2.0, 0.0}, kPi);
+  expect_transform(message.transforms[2], "tuned/cart", "tuned/plate", {2.0, 0.0, 0.0}, kPi / 2);
 }
 
 TEST(Conversions, WithAPrefixLinksHangOnTheirParents) {

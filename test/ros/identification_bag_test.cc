@@ -10,7 +10,6 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <map>
-#include <set>
 
 #include "jobs/output_error.h"
 #include "ros/sample_frame.h"
@@ -27,6 +26,7 @@ IdentificationShow sample_show() {
   show.urdf = "<robot name='identified'/>";
   show.joints = {"hinge"};
   show.motion.names = sample_names();
+  show.motion.link_parents = sample_parents();
   show.motion.joints = {{1, 1, Eigen::Vector3d::UnitX(), true}};
   for (const double start : {7.0, 0.0}) {
     const std::vector<Frame> frames{sample_frame(start), sample_frame(start + 1.0)};
@@ -103,13 +103,15 @@ TEST_F(IdentificationBag, RecordingsFollowOneAnother) {
 
 TEST_F(IdentificationBag, BothSidesHaveFramesOfTheirOwn) {
   write();
-  std::set<std::string> children;
+  std::map<std::string, std::string> parents;
   for (const char* topic : {"tf", "tf_static"})
     for (const auto& message : read<tf2_msgs::TFMessage>(topic))
-      for (const auto& transform : message->transforms) children.insert(transform.child_frame_id);
-  for (const char* side : {"measured", "identified"}) {
-    EXPECT_EQ(children.count(side), 1U);
-    for (const std::string& link : sample_names().links) EXPECT_EQ(children.count(std::string(side) + "/" + link), 1U) << link;
+      for (const auto& transform : message->transforms) parents[transform.child_frame_id] = transform.header.frame_id;
+  for (const std::string side : {"measured", "identified"}) {
+    EXPECT_EQ(parents.at(side), "world");
+    EXPECT_EQ(parents.at(side + "/ground"), side);
+    EXPECT_EQ(parents.at(side + "/cart"), side + "/ground");
+    EXPECT_EQ(parents.at(side + "/plate"), side + "/cart") << "a tree, as the node publishes it";
   }
 }
 

@@ -23,7 +23,7 @@ namespace {
 
 JobRecord sample_record() {
   JobRecord record;
-  RecordedRun run{sample_names(), {sample_frame(0.0), sample_frame(0.5), sample_frame(1.0)}, {}};
+  RecordedRun run{sample_names(), {sample_frame(0.0), sample_frame(0.5), sample_frame(1.0)}, {}, sample_parents()};
   run.frames[1].objective = 1.5;
   record.nominal = {{"<robot name='before'/>", run}, {"<robot name='after'/>", run}};
   record.progress.resize(5);
@@ -79,6 +79,17 @@ TEST_F(JobBag, ContentsSurvive) {
   EXPECT_EQ(read<std_msgs::String>("study_files").at(1)->data, "second");
   EXPECT_EQ(read<mechanism_codesign::OptimizeGoal>("request").at(0)->max_evaluations, 9U);
   EXPECT_EQ(read<mechanism_codesign::OptimizeResult>("result").at(0)->objective, 0.25);
+}
+
+TEST_F(JobBag, LinksHangOnTheirParentsAsInTheNode) {
+  for (const std::string side : {"initial", "tuned"}) {
+    std::map<std::string, std::string> parents;
+    for (const auto& message : read<tf2_msgs::TFMessage>("tf"))
+      for (const auto& transform : message->transforms) parents[transform.child_frame_id] = transform.header.frame_id;
+    EXPECT_EQ(parents.at(side + "/ground"), side);
+    EXPECT_EQ(parents.at(side + "/cart"), side + "/ground");
+    EXPECT_EQ(parents.at(side + "/plate"), side + "/cart");
+  }
 }
 
 TEST_F(JobBag, RecordedTimeStartsAtOneSecondAndAgreesWithTheStamps) {
