@@ -23,8 +23,7 @@ std::vector<RecordingSummary> check_recordings(const Problem& problem, const Con
   for (const std::vector<JointRecording>* list : {&recordings.data, &recordings.holdout})
     for (const JointRecording& recording : *list)
       summaries.push_back(summary_of(recording, measured_motion(recording, identification->filter, warnings)));
-  if (identification->residual == ResidualKind::kEffort)
-    append(warnings_of(*identification, find_effort_doubts(problem, recordings.data)), warnings);
+  append(warnings_of(*identification, find_effort_doubts(problem, recordings.data)), warnings);
   return summaries;
 }
 

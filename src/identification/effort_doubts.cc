@@ -189,6 +189,8 @@ DriveLineFit fit_drive_line(const Eigen::VectorXd& computed, const Eigen::Vector
 
 std::vector<EffortDoubt> find_effort_doubts(const Problem& problem, const std::vector<JointRecording>& recordings) {
   if (recordings.empty()) return {};
+  const std::vector<MeasuredJoint> joints = require_same_joints(recordings);
+  if (std::none_of(joints.begin(), joints.end(), [](const MeasuredJoint& joint) { return joint.with_effort; })) return {};
   const FitVariables variables(problem.study(), &problem.robot());
   const std::optional<EffortEvidence> evidence = evidence_of(problem, variables, recordings);
   std::vector<EffortDoubt> doubts;

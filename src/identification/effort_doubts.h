@@ -40,7 +40,7 @@ struct EffortDoubt {
 
 /// Compares recorded efforts with inverse dynamics of the model as it stands and looks for the mistake that explains a contradiction:
 /// another sign, another unit, exchanged columns, exchanged or reversed joints. About 400 samples of each recording are used. Empty if
-/// nothing contradicts, or if the model cannot follow the recorded motion.
+/// nothing contradicts, if no joint has efforts in all recordings, or if the model cannot follow the recorded motion.
 /// @throws InputError as identify()
 std::vector<EffortDoubt> find_effort_doubts(const Problem& problem, const std::vector<JointRecording>& recordings);
 

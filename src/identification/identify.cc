@@ -93,14 +93,14 @@ Status not_identifiable(const std::vector<std::string>& sentences) {
   return status;
 }
 
-/// Warnings about efforts that the fit does not explain; only then mistakes in the recordings are looked for.
+/// Warnings about efforts or motions that the fit does not explain; only then mistakes in the recordings are looked for.
 Warnings told_of_unexplained(const Problem& problem, const std::vector<JointRecording>& recordings, const IdentificationResult& result,
                              const std::atomic<bool>* cancel, Status* failure) {
   const IdentificationDescription& options = *problem.study().identification;
   const bool is_doubtful =
       std::any_of(result.data.begin(), result.data.end(), [](const OutputFit& fit) { return fit.explained < kExplainedHalf; });
   std::vector<EffortDoubt> doubts;
-  if (is_doubtful && options.residual == ResidualKind::kEffort && !is_set(cancel)) doubts = find_effort_doubts(problem, recordings);
+  if (is_doubtful && !is_set(cancel)) doubts = find_effort_doubts(problem, recordings);
   return unexplained_outputs(options, result, doubts, failure);
 }
 

@@ -184,12 +184,21 @@ Warnings unexplained_outputs(const IdentificationDescription& options, const Ide
   Warnings warnings;
   for (const OutputFit& fit : result.data) {
     if (!(fit.explained < kExplainedHalf)) continue;
-    const auto doubt = std::find_if(doubts.begin(), doubts.end(), [&fit](const EffortDoubt& of) { return of.joint == fit.joint; });
+    // A motion is driven by the recorded efforts of its joint; its output is `JOINT/position`.
+    const bool is_motion = options.residual == ResidualKind::kMotion;
+    const std::string joint = is_motion ? fit.joint.substr(0, fit.joint.rfind('/')) : fit.joint;
+    const auto doubt = std::find_if(doubts.begin(), doubts.end(), [&joint](const EffortDoubt& of) { return of.joint == joint; });
     const std::string mistake = doubt == doubts.end() ? "" : sentence_of(*doubt);
     const std::string sentence = "the fit explains " + readable(100.0 * std::max(0.0, fit.explained), 2) + " % of " + fit.joint +
-                                 ": sign, unit, order?" + (mistake.empty() ? "" : " " + mistake);
-    warnings.push_back(warn("effort_not_explained", {options.where, "identify.data", sentence, "",
-                                                     "at least half; a recording in N m or N on the child, along the axis of its joint"}));
+                                 ": sign, unit, order?" + (is_motion && !mistake.empty() ? " the recorded effort of " + joint + ":" : "") +
+                                 (mistake.empty() ? "" : " " + mistake);
+    const std::string allowed =
+        is_motion
+            ? "at least half; positions in rad or m along the axis of the joint, efforts on the child in N m or N along the same axis, "
+              "and the controllers and loads that drove the recording"
+            : "at least half; a recording in N m or N on the child, along the axis of its joint";
+    warnings.push_back(
+        warn(is_motion ? "motion_not_explained" : "effort_not_explained", {options.where, "identify.data", sentence, "", allowed}));
     if (failure->ok() && (fit.explained < kExplainsNothing || !mistake.empty())) *failure = {StatusCode::kNotIdentifiable, 0.0, sentence};
   }
   return warnings;

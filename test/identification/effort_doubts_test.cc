@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "identification/identify.h"
+#include "identification/motion_rig.h"
 #include "identification/swinging_arm.h"
 
 namespace codesign {
@@ -131,6 +132,22 @@ TEST(EffortDoubts, TheShareIsCountedAboutTheMean) {
   EXPECT_DOUBLE_EQ(explained_share(recorded, recorded), 0.0);
   EXPECT_DOUBLE_EQ(explained_share(recorded.array() + 1.0, recorded), 0.0);
   EXPECT_NEAR(explained_share(Eigen::Vector4d::Constant(100.0), Eigen::Vector4d::Constant(1.0)), 0.99, 1e-12);
+}
+
+TEST(EffortDoubts, InMotionTheMistakeOfTheRecordedEffortIsNamed) {
+  MotionRig rig;
+  rig.duration = 3.0;
+  StudyRecordings recordings;
+  recordings.data = {record_pendulum(rig)};
+  for (double& effort : recordings.data[0].joints[0].effort) effort = -effort;
+  const Problem problem = motion_problem("", "  segment: 3.0\n  filter: {cutoff: 20.0}\n", "inertia: {}");
+  const IdentificationResult result = identify(problem, recordings, {}, nullptr);
+  EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable) << result.status.cause;
+  const auto found = std::find_if(result.warnings.begin(), result.warnings.end(),
+                                  [](const Warning& warning) { return warning.code == "motion_not_explained"; });
+  ASSERT_NE(found, result.warnings.end());
+  const std::string words = " % of hinge/position: sign, unit, order? the recorded effort of hinge: with the other sign";
+  EXPECT_NE(found->message.find(words), std::string::npos) << found->message;
 }
 
 }  // namespace
