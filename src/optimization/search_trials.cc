@@ -51,7 +51,7 @@ bool SearchTrials::evaluate(const Eigen::VectorXd& rho, Derivatives derivatives)
 
 void SearchTrials::conclude(const std::string& failure) {
   result_.margins = parameter_rows_.margins(result_.rho);
-  result_.watched = program_.describe(best_.extremes, initial_extremes_, result_.rho);
+  result_.watched = watched_at_best();
   for (std::size_t k = 0; k < study_.tuned.size(); ++k)
     if (program_.bounds_read(study_.tuned[k])) result_.influences[k] = true;
   if (have_best_) judge_stop();
@@ -69,11 +69,17 @@ void SearchTrials::conclude(const std::string& failure) {
   }
 }
 
+std::vector<WatchedResult> SearchTrials::watched_at_best() const {
+  std::vector<WatchedResult> watched = program_.describe(best_.extremes, initial_extremes_, result_.rho);
+  count_range_of_run(ensemble_.scenarios().front(), result_.rho, cancel_, &watched);
+  return watched;
+}
+
 bool SearchTrials::best_keeps_bounds() const {
   if (best_violation_ == 0.0) return true;
   OptimizationResult best;
   best.margins = parameter_rows_.margins(result_.rho);
-  best.watched = program_.describe(best_.extremes, initial_extremes_, result_.rho);
+  best.watched = watched_at_best();
   return !best.watched.empty() && meets_constraints(best);
 }
 

@@ -51,6 +51,8 @@ class SearchTrials {
   double best_violation() const { return best_violation_; }
   /// Whether the best point keeps all constraints, each within its tolerance.
   bool best_keeps_bounds() const;
+  /// The watched signals of the best point; empty without one.
+  std::vector<WatchedResult> watched_at_best() const;
   const ParameterRows& parameter_rows() const { return parameter_rows_; }
   /// Whether the search was cancelled, or an evaluation was lost with its worker.
   bool interrupted() const { return !interruption_.ok(); }

@@ -87,8 +87,10 @@ void add_flat_warning(const Study& study, const OptimizerOptions& options, const
 std::string stop_sentence(const OptimizationResult& result) {
   if (!std::isfinite(result.stationarity)) return "";
   if (is_success(result.termination)) return "stationary to " + readable(result.stationarity, 2);
-  return "stopped early: the slope is " + readable(result.slope / result.initial_slope, 2) + " of the start's, stationary to " +
-         readable(result.stationarity, 2) + " only";
+  // A start at which nothing has an effect on the objective has no slope.
+  const std::string slope =
+      result.initial_slope > 0.0 ? "the slope is " + readable(result.slope / result.initial_slope, 2) + " of the start's, " : "";
+  return "stopped early: " + slope + "stationary to " + readable(result.stationarity, 2) + " only";
 }
 
 Warnings search_warnings(const Study& study, const OptimizerOptions& options, const OptimizationResult& result) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "equations/compiled_system.h"
+#include "mechanism_codesign/simulation.h"
 #include "problem/margins.h"
 #include "text/decimal.h"
 
@@ -15,6 +17,30 @@ double tolerance_of_range(const WatchedResult& watched) {
        {watched.initial_smallest, watched.initial_largest, watched.smallest, watched.largest, watched.lower, watched.upper})
     if (std::isfinite(value)) range = std::max(range, std::abs(value));
   return std::max(kMostViolation, kShareOfRange * range);
+}
+
+void count_range_of_run(const Scenario& scenario, const Eigen::VectorXd& rho, const std::atomic<bool>* cancel,
+                        std::vector<WatchedResult>* watched) {
+  constexpr int kInstants = 201;
+  const std::vector<WatchedSignal>& bounds = scenario.system->study().watched;
+  std::vector<SignalDescription> signals;
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < watched->size(); ++k) {
+    if (bounds[k].role != WatchedSignal::Role::kFinal || bounds[k].tolerance) continue;
+    signals.push_back(bounds[k].signal);
+    places.push_back(k);
+  }
+  if (places.empty()) return;
+  Simulation simulation(scenario.system, scenario.parameters(rho), signals);
+  // The status does not matter: a run that fails was long enough for what it has shown.
+  const auto widen = [&](const Frame& frame) {
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      double* tolerance = &(*watched)[places[k]].tolerance;
+      *tolerance = std::max(*tolerance, kShareOfRange * std::abs(frame.signals[k]));
+    }
+    return true;
+  };
+  simulate(&simulation, scenario.system->study().duration, kInstants, widen, cancel);
 }
 
 bool meets_constraints(const OptimizationResult& result) {

@@ -2,9 +2,12 @@
 #ifndef MECHANISM_CODESIGN_OPTIMIZATION_VIOLATED_BOUNDS_H_
 #define MECHANISM_CODESIGN_OPTIMIZATION_VIOLATED_BOUNDS_H_
 
+#include <Eigen/Core>
+#include <atomic>
 #include <string>
 #include <vector>
 
+#include "ensemble/scenario.h"
 #include "mechanism_codesign/optimization.h"
 
 namespace codesign {
@@ -12,11 +15,17 @@ namespace codesign {
 /// The violation of a bound on a signal that a search aims at, in the unit of the signal: smaller ones do not make a point worse.
 constexpr double kMostViolation = 1e-8;
 /// The violation at which a bound counts as met at the end of a search, where the study gives no `tolerance`: this share of the largest
-/// magnitude of the signal, at the start and at the end, and of its bounds; at least kMostViolation.
+/// magnitude of the signal, at the start and at the end of the search, and of its bounds; at least kMostViolation.
 constexpr double kShareOfRange = 1e-5;
 
-/// The default of WatchedResult::tolerance.
+/// The default of WatchedResult::tolerance, from the values at the instants at which the signal is watched.
 double tolerance_of_range(const WatchedResult& watched);
+
+/// Widens the default tolerances of `final`: it watches one instant, at which a signal that has to end at zero tells nothing of its
+/// range, so that the magnitude of the signal in a whole run of the scenario counts, too.
+/// @param cancel if set, the run ends early, and the range is that of the run so far.
+void count_range_of_run(const Scenario& scenario, const Eigen::VectorXd& rho, const std::atomic<bool>* cancel,
+                        std::vector<WatchedResult>* watched);
 
 /// Whether the best point of a search meets all constraints, on parameters and on signals.
 bool meets_constraints(const OptimizationResult& result);

@@ -146,5 +146,27 @@ optimizer: {algorithm: slsqp, relative_tolerance: 1.0e-10}
   for (const WatchedResult& watched : result.watched) EXPECT_LE(watched.violation, 1e-8);
 }
 
+// A speed that has to end at zero tells nothing of its range at the end: the default tolerance counts the speed of the whole run.
+TEST(SmoothProgram, SwingsUpToRestWithinTheDefaultTolerance) {
+  const SourceText urdf{"swing.urdf", R"(<robot name="swing"><link name="base"/>
+  <link name="bar"><inertial><origin xyz="0 0 -0.5"/><mass value="1"/>
+    <inertia ixx="0.02" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.02"/></inertial></link>
+  <joint name="hinge" type="continuous"><parent link="base"/><child link="bar"/><axis xyz="0 1 0"/>
+    <dynamics damping="0.02" friction="0"/></joint></robot>)"};
+  const SourceText study{"swing.yaml", R"(
+duration: 1.5
+controllers: {motor: {type: basis, shape: cubic, output: hinge, coefficients: {count: 8, initial: 0.0, lower: -20.0, upper: 20.0}}}
+objective: {integral: [{signal: hinge/effort}]}
+final: [{signal: hinge/position, between: [3.141592653589793, 3.141592653589793]}, {signal: hinge/velocity, between: [0.0, 0.0]}]
+optimizer: {max_evaluations: 200}
+)"};
+  const OptimizationResult result = optimize(load_problem(urdf, {}, study));
+  ASSERT_TRUE(result.status.ok()) << result.status.cause;
+  ASSERT_EQ(result.watched.size(), 2U);
+  EXPECT_NEAR(result.watched[0].tolerance, 3.14e-5, 1e-6);
+  EXPECT_NEAR(result.watched[1].tolerance, 6.1e-5, 1e-5) << "of 6.1 rad/s on the way";
+  for (const WatchedResult& watched : result.watched) EXPECT_LE(watched.violation, watched.tolerance);
+}
+
 }  // namespace
 }  // namespace codesign
