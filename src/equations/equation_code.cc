@@ -2,10 +2,9 @@
 #include "equations/equation_code.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "codegen/traced.h"
-#include "equations/formulas.h"
+#include "equations/recorded_equations.h"
 #include "math/to_index.h"
 
 namespace codesign {
@@ -17,11 +16,7 @@ using Arrays = EquationArrays;
 constexpr int kMostColumns = 4000;
 constexpr std::size_t kMostBytes = 16 * 1024 * 1024;
 
-constexpr int kTurns = Recording::kTimed + 1;  // array of the leaves that are turn references
-
-void leaves(int array, Recording* recording, VectorX<Traced>* x) {
-  for (int k = 0; k < x->size(); ++k) (*x)[k] = Traced(recording, recording->leaf(array, k, true));
-}
+constexpr int kTurns = RecordedEquations::kTurns;
 
 /// The place of an entry in an array of Lanes, as an index of doubles: each entry takes lanes + 1 of them. The code's own workspaces are
 /// counted in doubles already.
@@ -53,40 +48,25 @@ EquationCode::EquationCode(const System& system, const AssemblyPlan& plan) {
 }
 
 void EquationCode::record(const System& system, const AssemblyPlan& plan) {
-  Recording* const recording = &values_.recording;
-  Formulas<Traced> formulas(system);
-  // One parameter more than there are: with a model without parameters nothing else would refer to the recording.
-  const int parameter = recording->leaf(Recording::kSupplied, -1, false);
-  std::vector<Traced> parameters;
-  for (double value : system.parameters()) parameters.emplace_back(recording, parameter, value);
-  parameters.emplace_back(recording, parameter, 0.0);
-  formulas.set_design(parameters);
-  State<Traced> state;
-  state.resize(system.layout());
-  for (std::size_t k = 0; k < state.turns.size(); ++k)
-    state.turns[k] = Traced(recording, recording->leaf(kTurns, static_cast<int>(k), true));
-  state.t = std::numeric_limits<double>::quiet_NaN();  // results must depend on time through functions of time alone: a NaN that is used
-                                                       // refuses the recording
-  leaves(Arrays::kQ, recording, &state.q), leaves(Arrays::kV, recording, &state.v);
-  leaves(Arrays::kS, recording, &state.s), leaves(Arrays::kZ, recording, &state.z);
-
+  RecordedEquations equations(system, &values_.recording);
   Recorded design;
   take_guards(0, &design);
 
-  std::size_t guards = recording->guards().size();
-  VectorX<Traced> G, Phi, Phi_rate, g(1);
-  formulas.residual(state, &G, g.data());
-  take(EquationFunction::kResidual, {&G, &g}, &guards);
+  std::size_t guards = values_.recording.guards().size();
+  equations.record_residual();
+  VectorX<Traced> Phi, Phi_rate, g(1);
+  g[0] = equations.g;
+  take(EquationFunction::kResidual, {&equations.G, &g}, &guards);
   Linearization<Traced> derivatives;
   derivatives.resize(plan.patterns);
-  formulas.linearize(state, plan, &derivatives);
+  equations.formulas.linearize(equations.state, plan, &derivatives);
   const auto vector = [](const std::vector<Traced>& x) -> VectorX<Traced> {
     return Eigen::Map<const VectorX<Traced>>(x.data(), static_cast<Eigen::Index>(x.size()));
   };
   const VectorX<Traced> by_position = vector(derivatives.position), by_velocity = vector(derivatives.velocity),
                         by_rate = vector(derivatives.rate);
   take(EquationFunction::kLinearization, {&by_position, &by_velocity, &by_rate, &derivatives.time}, &guards);
-  formulas.constraint_errors(state, &Phi, &Phi_rate);
+  equations.formulas.constraint_errors(equations.state, &Phi, &Phi_rate);
   take(EquationFunction::kConstraintErrors, {&Phi, &Phi_rate}, &guards);
 }
 

@@ -3,14 +3,59 @@
 
 #include <cmath>
 
+#include "codegen/operate.h"
 #include "codegen/value_code.h"
+#include "control/reference.h"
+#include "control/shaped_input.h"
 #include "equations/compiled_equations.h"
+#include "equations/equation_code.h"
+#include "equations/recorded_equations.h"
 #include "math/derivative_check.h"
 #include "math/ridders.h"
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"
 
 namespace codesign {
+namespace {
+
+ReferenceMotion<double> motion_at(const SourceId& source, double t, const std::vector<double>& parameters) {
+  if (const auto* basis = source.as<BasisDescription>()) {
+    ShapedInput<double> input;
+    input.set(*basis, parameters);
+    return input.at(t);
+  }
+  Reference<double> reference;
+  reference.set(*source.as<ReferenceDescription>(), parameters);
+  return reference.at(t);
+}
+
+/// The values of all nodes at a state of one design, one after the other.
+std::vector<double> node_values(const Recording& recording, const State<double>& state, const std::vector<double>& parameters) {
+  std::vector<double> values;
+  const auto leaf = [&](const Recording::Node& node) {
+    const VectorX<double>* const vectors[] = {&state.q, &state.v, &state.s, &state.z};
+    if (node.a <= EquationArrays::kZ) return (*vectors[node.a])[node.b];
+    if (node.a == RecordedEquations::kTurns) return state.turns[static_cast<std::size_t>(node.b)];
+    if (node.a == Recording::kSupplied)
+      return node.b < 0 ? 0.0 : value_at(*recording.supplied_sources()[static_cast<std::size_t>(node.b)].as<Expression>(), parameters);
+    const SourceId& source = recording.timed_sources()[static_cast<std::size_t>(node.b / Recording::kFunctionOrders)];
+    const ReferenceMotion<double> motion = motion_at(source, state.t, parameters);
+    const double orders[] = {motion.value, motion.rate, motion.acceleration, motion.jerk};
+    return orders[node.b % Recording::kFunctionOrders];
+  };
+  for (int n = 0; n < recording.size(); ++n) {
+    const Recording::Node& node = recording.node(n);
+    const bool is_input = node.operation == Operation::kLeaf || node.operation == Operation::kLiteral;
+    const double a = is_input || node.a < 0 ? 0.0 : values[static_cast<std::size_t>(node.a)];
+    const double b = is_input || node.b < 0 ? 0.0 : values[static_cast<std::size_t>(node.b)];
+    values.push_back(node.operation == Operation::kLeaf      ? leaf(node)
+                     : node.operation == Operation::kLiteral ? node.literal
+                                                             : operate(node.operation, a, b));
+  }
+  return values;
+}
+
+}  // namespace
 
 EquationsFixture::EquationsFixture(const std::string& urdf, const std::string& study, const ReactionSharing& sharing)
     : robot(read_urdf({"all.urdf", urdf})), system(robot, read_study({"all.yaml", study}, robot), sharing), real(system), complex(system) {
@@ -71,6 +116,7 @@ Eigen::MatrixXd EquationsFixture::dense(const Sparsity& pattern, const std::vect
 void EquationsFixture::expect_exact_derivatives(double tolerance, bool recorded) {
   expect_code(recorded);
   expect_same_lanes();
+  if (recorded) expect_same_derived(tolerance);
   for (bool compiled : {true, false}) {
     SCOPED_TRACE(compiled ? "compiled" : "not compiled");
     real.compiled().allow(compiled);
@@ -102,6 +148,32 @@ void EquationsFixture::expect_code(bool recorded) {
   VectorX<double> G;
   double g = 0.0;
   EXPECT_EQ(real.compiled().residual(state, &G, &g), recorded);
+}
+
+void EquationsFixture::expect_same_derived(double tolerance) {
+  Linearization<double> formulas;
+  formulas.resize(system.patterns());
+  real.formulas().linearize(state, system.plan(), &formulas);
+  for (const EliminationOrder order : {EliminationOrder::kForward, EliminationOrder::kReverse, EliminationOrder::kMarkowitz}) {
+    Recording recording;
+    RecordedEquations recorded(system, &recording);
+    recorded.record_residual();
+    const Linearization<Traced> derived = derive_linearization(system.patterns(), order, &recorded);
+    const std::vector<double> values = node_values(recording, state, system.parameters());
+    const auto numbers = [&values](const auto& of) {
+      std::vector<double> result;
+      for (const Traced& x : of) result.push_back(x.is_literal() ? x.value() : values[static_cast<std::size_t>(x.node())]);
+      return result;
+    };
+    const auto compare = [&](const Sparsity& pattern, const std::vector<Traced>& by, const std::vector<double>& expected) {
+      EXPECT_LT(compare_jacobians(dense(pattern, numbers(by)), dense(pattern, expected)).largest, tolerance);
+    };
+    compare(system.patterns().position, derived.position, formulas.position);
+    compare(system.patterns().velocity, derived.velocity, formulas.velocity);
+    compare(system.patterns().rate, derived.rate, formulas.rate);
+    const std::vector<double> time = numbers(derived.time);
+    EXPECT_LT(compare_jacobians(Eigen::Map<const Eigen::VectorXd>(time.data(), formulas.time.size()), formulas.time).largest, tolerance);
+  }
 }
 
 void EquationsFixture::expect_same_lanes() {

@@ -34,6 +34,10 @@ class EquationsFixture {
 
   void expect_exact_derivatives_of_real(double tolerance);
 
+  /// Expects the derivatives that are derived from the recorded residual, in each order of elimination, to be those of the formulas. Only where
+  /// the recorded branches apply at `state`.
+  void expect_same_derived(double tolerance);
+
   /// Expects that the equations have code, and that it runs at `state` if `recorded`, else not.
   void expect_code(bool recorded);
 
