@@ -57,15 +57,16 @@ void EquationCode::record(const System& system, const AssemblyPlan& plan) {
   VectorX<Traced> Phi, Phi_rate, g(1);
   g[0] = equations.g;
   take(EquationFunction::kResidual, {&equations.G, &g}, &guards);
-  Linearization<Traced> derivatives;
-  derivatives.resize(plan.patterns);
-  equations.formulas.linearize(equations.state, plan, &derivatives);
+  // The derivatives add no decisions: they hold where the residual's hold.
+  const Linearization<Traced> derivatives = derive_linearization(plan.patterns, EliminationOrder::kForward, &equations);
   const auto vector = [](const std::vector<Traced>& x) -> VectorX<Traced> {
     return Eigen::Map<const VectorX<Traced>>(x.data(), static_cast<Eigen::Index>(x.size()));
   };
   const VectorX<Traced> by_position = vector(derivatives.position), by_velocity = vector(derivatives.velocity),
                         by_rate = vector(derivatives.rate);
   take(EquationFunction::kLinearization, {&by_position, &by_velocity, &by_rate, &derivatives.time}, &guards);
+  functions_[static_cast<std::size_t>(EquationFunction::kLinearization)].guards =
+      functions_[static_cast<std::size_t>(EquationFunction::kResidual)].guards;
   equations.formulas.constraint_errors(equations.state, &Phi, &Phi_rate);
   take(EquationFunction::kConstraintErrors, {&Phi, &Phi_rate}, &guards);
 }
