@@ -128,8 +128,8 @@ class Elimination {
 
 }  // namespace
 
-std::vector<JacobianEntry> derive_jacobian(Recording* recording, const std::vector<int>& outputs,
-                                           const std::vector<JacobianInput>& inputs, EliminationOrder order) {
+std::vector<JacobianEntry> derive_jacobian(Recording* recording, const std::vector<int>& outputs, const std::vector<JacobianInput>& inputs,
+                                           EliminationOrder order) {
   Elimination elimination(recording, outputs, inputs);
   elimination.run(order);
   std::map<int, const JacobianInput*> input_of;

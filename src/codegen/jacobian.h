@@ -11,9 +11,9 @@ namespace codesign {
 /// A leaf x_c by which a recording is differentiated. Several leaves may belong to one column: the derivative of an output by column c is
 /// the sum over these leaves of (partial derivative by the leaf) * seed, so that functions of time make one column.
 struct JacobianInput {
-  int leaf;            ///< a node
-  int column;          ///< c
-  Traced seed{1.0};    ///< derivative of the leaf by the column's variable
+  int leaf;          ///< a node
+  int column;        ///< c
+  Traced seed{1.0};  ///< derivative of the leaf by the column's variable
 };
 
 /// One nonzero entry of a Jacobian matrix.
@@ -35,8 +35,7 @@ enum class EliminationOrder {
 /// c_kj c_ji to c_ki for all its users k and operands i. What remains are edges from the leaves to the outputs.
 /// @param recording nodes for the derivatives are appended to it; nodes that it already has are used again.
 /// @param outputs nodes of the recording. @returns the entries in order of rows, then columns: together they are the pattern of the matrix.
-std::vector<JacobianEntry> derive_jacobian(Recording* recording, const std::vector<int>& outputs,
-                                           const std::vector<JacobianInput>& inputs,
+std::vector<JacobianEntry> derive_jacobian(Recording* recording, const std::vector<int>& outputs, const std::vector<JacobianInput>& inputs,
                                            EliminationOrder order = EliminationOrder::kMarkowitz);
 
 }  // namespace codesign

@@ -47,6 +47,7 @@ class Recording {
   struct Guard {
     int a, b;
     bool outcome;
+    int decision = -1;  ///< index among guards()
   };
 
   // The next five functions return the index of a node.
@@ -62,8 +63,13 @@ class Recording {
   /// @param b -1 for operations with one operand.
   int operate(Operation operation, int a, int b = -1);
 
-  /// Adds a guard on nodes a and b.
-  void guard(int a, int b, bool outcome) { guards_.push_back({a, b, outcome}); }
+  /// The outcome of a < b, which a guard keeps: as it was decided before, else the next of the outcomes to follow(), else `expected`.
+  bool decide(int a, int b, bool expected);
+  /// Later decisions have these outcomes in turn, and the expected outcomes after them. The guards of two recordings of one computation
+  /// with the same outcomes are the same, and so are their nodes.
+  void follow(std::vector<bool> outcomes) { followed_ = std::move(outcomes); }
+  /// Every later decision has the outcome that is not expected, for a second look at what the results can depend on.
+  void follow_unexpected() { unexpected_ = true; }
   /// Makes the recording refused(): the computation branched in a way that no guard can check.
   void refuse() { refused_ = true; }
 
@@ -85,7 +91,9 @@ class Recording {
   std::vector<Node> nodes_;
   std::vector<Guard> guards_;
   std::vector<SourceId> supplied_, timed_;
-  bool refused_ = false;
+  std::map<std::pair<int, int>, bool> decided_;
+  std::vector<bool> followed_;
+  bool refused_ = false, unexpected_ = false;
   std::unordered_map<std::uint64_t, int> operations_;  ///< the node of each operation recorded so far, by operation and operands
   std::map<std::pair<int, int>, int> leaves_;
   std::unordered_map<std::uint64_t, int> literals_;  ///< by their bits

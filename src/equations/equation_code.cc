@@ -2,6 +2,8 @@
 #include "equations/equation_code.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <utility>
 
 #include "codegen/traced.h"
 #include "equations/recorded_equations.h"
@@ -38,47 +40,53 @@ bool is_tangent_leaf(const Recording::Node& node) {
 
 }  // namespace
 
-EquationCode::EquationCode(const System& system, const AssemblyPlan& plan) {
-  if (!ValueCode::is_available() || system.layout().columns() > kMostColumns) {
-    values_.recording.refuse();
-    return;
-  }
-  record(system, plan);
-  if (usable()) values_.number_nodes();
+EquationCode::EquationCode(const System& system, const ByVariable<Sparsity>& patterns, std::vector<bool> outcomes)
+    : long_(system.layout().columns() > kMostColumns) {
+  record(system, patterns, std::move(outcomes));
+  if (values_.recording.refused()) throw std::logic_error("the formulas decide something without is_less()");
+  for (const Recording::Guard& guard : values_.recording.guards()) outcomes_.push_back(guard.outcome);
+  values_.number_nodes();
 }
 
-void EquationCode::record(const System& system, const AssemblyPlan& plan) {
+void EquationCode::record(const System& system, const ByVariable<Sparsity>& patterns, std::vector<bool> outcomes) {
+  const auto at = [this](EquationFunction function) { return &functions_[static_cast<std::size_t>(function)]; };
+  values_.recording.follow(std::move(outcomes));
   RecordedEquations equations(system, &values_.recording);
   Recorded design;
   take_guards(0, &design);
 
+  // The constraint errors come first, since their decisions must not depend on z.
   std::size_t guards = values_.recording.guards().size();
+  VectorX<Traced> Phi, Phi_rate;
+  equations.formulas.constraint_errors(equations.state, &Phi, &Phi_rate);
+  take_guards(guards, at(EquationFunction::kConstraintErrors));
+  take_outputs(EquationFunction::kConstraintErrors, {&Phi, &Phi_rate});
+
+  guards = values_.recording.guards().size();
   equations.record_residual();
-  VectorX<Traced> Phi, Phi_rate, g(1);
-  g[0] = equations.g;
-  take(EquationFunction::kResidual, {&equations.G, &g}, &guards);
-  // The derivatives add no decisions: they hold where the residual's hold.
-  const Linearization<Traced> derivatives = derive_linearization(plan.patterns, EliminationOrder::kForward, &equations);
+  // A decision that was made before is not recorded again, and the residual needs it too.
+  at(EquationFunction::kResidual)->guards = at(EquationFunction::kConstraintErrors)->guards;
+  take_guards(guards, at(EquationFunction::kResidual));
+  const VectorX<Traced> g = VectorX<Traced>::Constant(1, equations.g);
+  take_outputs(EquationFunction::kResidual, {&equations.G, &g});
+
+  const Linearization<Traced> derivatives = derive_linearization(patterns, EliminationOrder::kForward, &equations);
   const auto vector = [](const std::vector<Traced>& x) -> VectorX<Traced> {
     return Eigen::Map<const VectorX<Traced>>(x.data(), static_cast<Eigen::Index>(x.size()));
   };
   const VectorX<Traced> by_position = vector(derivatives.position), by_velocity = vector(derivatives.velocity),
                         by_rate = vector(derivatives.rate);
-  take(EquationFunction::kLinearization, {&by_position, &by_velocity, &by_rate, &derivatives.time}, &guards);
-  functions_[static_cast<std::size_t>(EquationFunction::kLinearization)].guards =
-      functions_[static_cast<std::size_t>(EquationFunction::kResidual)].guards;
-  equations.formulas.constraint_errors(equations.state, &Phi, &Phi_rate);
-  take(EquationFunction::kConstraintErrors, {&Phi, &Phi_rate}, &guards);
+  // The derivatives decide nothing: they hold where the residual holds.
+  at(EquationFunction::kLinearization)->guards = at(EquationFunction::kResidual)->guards;
+  take_outputs(EquationFunction::kLinearization, {&by_position, &by_velocity, &by_rate, &derivatives.time});
 }
 
-void EquationCode::take(EquationFunction function, const std::vector<const VectorX<Traced>*>& results, std::size_t* guards) {
+void EquationCode::take_outputs(EquationFunction function, const std::vector<const VectorX<Traced>*>& results) {
   Recording* const recording = &values_.recording;
-  Recorded& recorded = functions_[static_cast<std::size_t>(function)];
-  take_guards(*guards, &recorded);
-  *guards = recording->guards().size();
   for (std::size_t k = 0; k < results.size(); ++k)
     for (Eigen::Index i = 0; i < results[k]->size(); ++i)
-      recorded.outputs.push_back({(*results[k])[i].node_in(recording), {Arrays::kResults + static_cast<int>(k), static_cast<int>(i)}});
+      functions_[static_cast<std::size_t>(function)].outputs.push_back(
+          {(*results[k])[i].node_in(recording), {Arrays::kResults + static_cast<int>(k), static_cast<int>(i)}});
 }
 
 void EquationCode::take_guards(std::size_t first, Recorded* function) {
@@ -134,15 +142,15 @@ void NumberedRecording::number_nodes() {
   }
 }
 
-const CompiledFunction* EquationCode::function(EquationFunction function, const Scalar& scalar) const {
+const CompiledFunction& EquationCode::function(EquationFunction function, const Scalar& scalar) const {
   const auto f = static_cast<std::size_t>(function);
-  Known& known = known_[f][to_index(scalar.lanes / 4 + (scalar.split ? 2 : 0))];
-  if (!known.tried.load(std::memory_order_acquire)) {
+  Known& known = known_[f][to_index(scalar.lanes / 4 + (scalar.split ? 2 : 0) + (scalar.interpreted ? 5 : 0))];
+  if (!known.made.load(std::memory_order_acquire)) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!known.tried.load(std::memory_order_relaxed)) known.code = compile(f, scalar);
-    known.tried.store(true, std::memory_order_release);
+    if (!known.made.load(std::memory_order_relaxed)) known.code = compile(f, scalar);
+    known.made.store(true, std::memory_order_release);
   }
-  return known.code.get();
+  return *known.code;
 }
 
 // Tangents are sums of products, factor times derivative. With a split scalar the state's arrays hold directions while the tangents run, so
@@ -193,8 +201,13 @@ std::unique_ptr<CompiledFunction> EquationCode::compile(std::size_t function, co
   const ValueProgram program(from.recording, task);
   auto compiled = std::make_unique<CompiledFunction>();
   compiled->slots = to_index(program.slots);
-  compiled->values = ValueCode::compile(from.recording, task, program, Arrays::kSlots);
-  if (!compiled->values) return nullptr;
+  const bool interpreted = scalar.interpreted || long_;
+  if (!interpreted) compiled->values = ValueCode::compile(from.recording, task, program, Arrays::kSlots);
+  if (!compiled->values) {
+    auto interpreter = std::make_unique<Interpreter>(from.recording, task, program, Arrays::kSlots);
+    compiled->interpreter = interpreter.get();
+    compiled->values = std::move(interpreter);
+  }
   if (scalar.lanes == 0) return compiled;
   for (int n : task.kept) value_places[to_index(n)] = {Arrays::kSlots, program.slot[to_index(n)]};
   StraightLine::RowLayouts layouts;
@@ -202,8 +215,10 @@ std::unique_ptr<CompiledFunction> EquationCode::compile(std::size_t function, co
   layouts[to_index(Arrays::kNumbers)] = {scalar.lanes + 1, 1};
   layouts[to_index(Arrays::kRows)] = {scalar.lanes, 0};
   compiled->rows = to_index(from.tangents[function]->rows * scalar.lanes);
-  compiled->tangents = StraightLine::compile(tangent_sums(function, value_places), scalar.lanes, layouts, kMostBytes);
-  return compiled->tangents ? std::move(compiled) : nullptr;
+  const std::vector<Sum> sums = tangent_sums(function, value_places);
+  if (!interpreted) compiled->tangents = StraightLine::compile(sums, scalar.lanes, layouts, kMostBytes);
+  if (!compiled->tangents) compiled->tangents = interpret_sums(sums, scalar.lanes, layouts);
+  return compiled;
 }
 
 }  // namespace codesign

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <vector>
 
+#include "codegen/interpreter.h"
 #include "codegen/straight_line.h"
 #include "codegen/tangent_program.h"
 #include "codegen/traced.h"
@@ -25,11 +26,12 @@ struct EquationArrays {
   static constexpr int kQ = 0, kV = 1, kS = 2, kZ = 3, kNumbers = 4, kResults = 5, kSlots = 9, kRows = 10;
 };
 
-/// One function compiled for one scalar: code for the values and, for Lanes, code for the derivatives, which runs after it.
+/// One function for one scalar: code for the values and, for Lanes, code for the derivatives, which runs after it.
 struct CompiledFunction {
   std::unique_ptr<ValueCode> values;
   std::unique_ptr<StraightLine> tangents;
-  std::size_t slots = 0, rows = 0;  ///< sizes of the workspaces kSlots and kRows [doubles]
+  const Interpreter* interpreter = nullptr;  ///< `values` if they are interpreted
+  std::size_t slots = 0, rows = 0;           ///< sizes of the workspaces kSlots and kRows [doubles]
 };
 
 /// A recording, and the array and index of each of its nodes that the code reads as an input: entries of the state, and numbers that depend
@@ -48,30 +50,35 @@ struct NumberedRecording {
   void number_nodes();
 };
 
-/// The machine code of the equations of one mechanism and study, shared by all designs. The constructor records the formulas once, with the
-/// scalar Traced; the derivatives of the recording, and the code for each scalar, are made when they are first needed. Thread-safe.
+/// One variant of the equations of one mechanism and study, shared by all designs: the formulas, recorded with given outcomes of their
+/// decisions. The constructor records the residual and the constraint errors once, with the scalar Traced, and derives the linearization
+/// from the recorded residual; the tangents of the recording, and the code for each scalar, are made when they are first needed.
+/// Thread-safe.
 class EquationCode {
  public:
-  /// The scalar that code is compiled for.
+  /// The scalar that a function is wanted for.
   struct Scalar {
-    int lanes;   ///< 0 for double
-    bool split;  ///< only derivatives are computed, from values and directions of the state in separate arrays
+    int lanes;         ///< 0 for double and for complex numbers, which are always interpreted
+    bool split;        ///< only derivatives are computed, from values and directions of the state in separate arrays
+    bool interpreted;  ///< without machine code
   };
 
-  /// Records the equations. @param plan of record_assembly() for the same system.
-  EquationCode(const System& system, const AssemblyPlan& plan);
+  /// Records the equations. @param patterns of record_patterns() for the same system. @param outcomes of the first decisions; the later
+  /// ones have their expected outcomes.
+  /// @throws std::logic_error if the formulas decide something without is_less().
+  EquationCode(const System& system, const ByVariable<Sparsity>& patterns, std::vector<bool> outcomes = {});
 
-  /// Whether the equations could be recorded: code can be made for this processor, the system is not too
-  /// large, and every decision of the formulas could be recorded as a guard.
-  bool usable() const { return !values_.recording.refused(); }
-  /// The code of one function, compiled by the first call; null if that fails. For a split scalar the arrays kQ to kZ hold the state's
-  /// values while CompiledFunction::values runs, and the directions while `tangents` runs.
-  const CompiledFunction* function(EquationFunction function, const Scalar& scalar) const;
+  /// One function, made by the first call. It is interpreted also where machine code cannot be made: on other processors than x86-64 and
+  /// for very long programs. For a split scalar the arrays kQ to kZ hold the state's values while CompiledFunction::values runs, and the
+  /// directions while `tangents` runs.
+  const CompiledFunction& function(EquationFunction function, const Scalar& scalar) const;
 
   /// The recording from which the code for values, or for values and derivatives, is made.
   const NumberedRecording& numbered(bool with_derivatives) const;
   /// The recorded decisions that depend on the design alone; the code may run only for designs with the same outcomes.
   const std::vector<Recording::Guard>& design_guards() const { return design_guards_; }
+  /// The outcomes of all decisions in turn, of which a variant is known.
+  const std::vector<bool>& outcomes() const { return outcomes_; }
 
  private:
   /// The results of one function, and the decisions that they depend on.
@@ -79,44 +86,31 @@ class EquationCode {
     std::vector<ValueTask::Output> outputs;
     std::vector<Recording::Guard> guards;
   };
-  void record(const System& system, const AssemblyPlan& plan);
+  void record(const System& system, const ByVariable<Sparsity>& patterns, std::vector<bool> outcomes);
   /// Sorts the guards of the recording from index `first` on: those that vary with the state to `function`, the others to design_guards_.
   void take_guards(std::size_t first, Recorded* function);
-  /// Keeps the results of a function and its guards. @param guards index of its first guard; on return, the index after its last guard.
-  void take(EquationFunction function, const std::vector<const VectorX<Traced>*>& results, std::size_t* guards);
+  void take_outputs(EquationFunction function, const std::vector<const VectorX<Traced>*>& results);
   /// Makes derivatives_ from values_.
   void differentiate() const;
   std::unique_ptr<CompiledFunction> compile(std::size_t function, const Scalar& scalar) const;
   ValueTask value_task(std::size_t function, const Scalar& scalar, std::vector<Place>* value_places) const;
   std::vector<Sum> tangent_sums(std::size_t function, const std::vector<Place>& value_places) const;
 
+  bool long_ = false;  ///< too long for machine code
   NumberedRecording values_;
   std::array<Recorded, kEquationFunctions> functions_;
   std::vector<Recording::Guard> design_guards_;
+  std::vector<bool> outcomes_;
 
   mutable std::once_flag differentiated_;
   mutable NumberedRecording derivatives_;  ///< the nodes of values_, then the nodes that derivatives need
   struct Known {
-    std::atomic<bool> tried{false};  ///< compiled, or failed to compile
+    std::atomic<bool> made{false};
     std::unique_ptr<CompiledFunction> code;
   };
   mutable std::mutex mutex_;
-  mutable std::array<std::array<Known, 5>, kEquationFunctions>
-      known_;  ///< per function: double, Lanes<4>, Lanes<8>, then the two split ones
-};
-
-/// An EquationCode that is recorded by the first call of get(), since many systems are only checked.
-class LazyEquationCode {
- public:
-  /// Null if the equations cannot be recorded. Thread-safe.
-  const EquationCode* get(const System& system, const AssemblyPlan& plan) {
-    std::call_once(once_, [&] { code_ = std::make_unique<EquationCode>(system, plan); });
-    return code_->usable() ? code_.get() : nullptr;
-  }
-
- private:
-  std::once_flag once_;
-  std::unique_ptr<EquationCode> code_;
+  /// Per function: double, Lanes<4>, Lanes<8>, the two split ones; then the same without machine code.
+  mutable std::array<std::array<Known, 10>, kEquationFunctions> known_;
 };
 
 }  // namespace codesign

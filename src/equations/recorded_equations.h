@@ -28,7 +28,8 @@ struct RecordedEquations {
 };
 
 /// G_q and G_s, G_v, G_z and G_t, and in one more row the same derivatives of g, derived from the recorded residual alone; theory (14).
-/// @param patterns of the result, of record_assembly(). @param order of the elimination. @param recorded nodes are appended to its recording.
+/// @param patterns of the result, of record_assembly(). @param order of the elimination. @param recorded nodes are appended to its
+/// recording.
 /// @throws std::logic_error for a derivative that is not in the patterns.
 Linearization<Traced> derive_linearization(const ByVariable<Sparsity>& patterns, EliminationOrder order, RecordedEquations* recorded);
 

@@ -45,11 +45,23 @@ TEST(Recording, OriginsAreNumberedAsTheyCome) {
 TEST(Recording, RemembersDecisions) {
   Recording r;
   EXPECT_FALSE(r.refused());
-  r.guard(1, 2, true);
+  EXPECT_TRUE(r.decide(1, 2, true));
+  EXPECT_TRUE(r.decide(1, 2, false)) << "as it was decided before";
   ASSERT_EQ(r.guards().size(), 1u);
   EXPECT_TRUE(r.guards()[0].outcome);
   r.refuse();
   EXPECT_TRUE(r.refused());
+}
+
+TEST(Recording, FollowsOutcomes) {
+  Recording r, unexpected;
+  r.follow({false, true});
+  EXPECT_FALSE(r.decide(1, 2, true));
+  EXPECT_TRUE(r.decide(2, 3, false));
+  EXPECT_TRUE(r.decide(3, 4, true)) << "as expected, since no more outcomes are given";
+  EXPECT_EQ(r.guards()[2].decision, 2);
+  unexpected.follow_unexpected();
+  EXPECT_FALSE(unexpected.decide(1, 2, true));
 }
 
 }  // namespace

@@ -3,59 +3,15 @@
 
 #include <cmath>
 
-#include "codegen/operate.h"
 #include "codegen/value_code.h"
-#include "control/reference.h"
-#include "control/shaped_input.h"
 #include "equations/compiled_equations.h"
 #include "equations/equation_code.h"
-#include "equations/recorded_equations.h"
 #include "math/derivative_check.h"
 #include "math/ridders.h"
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"
 
 namespace codesign {
-namespace {
-
-ReferenceMotion<double> motion_at(const SourceId& source, double t, const std::vector<double>& parameters) {
-  if (const auto* basis = source.as<BasisDescription>()) {
-    ShapedInput<double> input;
-    input.set(*basis, parameters);
-    return input.at(t);
-  }
-  Reference<double> reference;
-  reference.set(*source.as<ReferenceDescription>(), parameters);
-  return reference.at(t);
-}
-
-/// The values of all nodes at a state of one design, one after the other.
-std::vector<double> node_values(const Recording& recording, const State<double>& state, const std::vector<double>& parameters) {
-  std::vector<double> values;
-  const auto leaf = [&](const Recording::Node& node) {
-    const VectorX<double>* const vectors[] = {&state.q, &state.v, &state.s, &state.z};
-    if (node.a <= EquationArrays::kZ) return (*vectors[node.a])[node.b];
-    if (node.a == RecordedEquations::kTurns) return state.turns[static_cast<std::size_t>(node.b)];
-    if (node.a == Recording::kSupplied)
-      return node.b < 0 ? 0.0 : value_at(*recording.supplied_sources()[static_cast<std::size_t>(node.b)].as<Expression>(), parameters);
-    const SourceId& source = recording.timed_sources()[static_cast<std::size_t>(node.b / Recording::kFunctionOrders)];
-    const ReferenceMotion<double> motion = motion_at(source, state.t, parameters);
-    const double orders[] = {motion.value, motion.rate, motion.acceleration, motion.jerk};
-    return orders[node.b % Recording::kFunctionOrders];
-  };
-  for (int n = 0; n < recording.size(); ++n) {
-    const Recording::Node& node = recording.node(n);
-    const bool is_input = node.operation == Operation::kLeaf || node.operation == Operation::kLiteral;
-    const double a = is_input || node.a < 0 ? 0.0 : values[static_cast<std::size_t>(node.a)];
-    const double b = is_input || node.b < 0 ? 0.0 : values[static_cast<std::size_t>(node.b)];
-    values.push_back(node.operation == Operation::kLeaf      ? leaf(node)
-                     : node.operation == Operation::kLiteral ? node.literal
-                                                             : operate(node.operation, a, b));
-  }
-  return values;
-}
-
-}  // namespace
 
 EquationsFixture::EquationsFixture(const std::string& urdf, const std::string& study, const ReactionSharing& sharing)
     : robot(read_urdf({"all.urdf", urdf})), system(robot, read_study({"all.yaml", study}, robot), sharing), real(system), complex(system) {
@@ -113,16 +69,10 @@ Eigen::MatrixXd EquationsFixture::dense(const Sparsity& pattern, const std::vect
   return matrix;
 }
 
-void EquationsFixture::expect_exact_derivatives(double tolerance, bool recorded) {
-  expect_code(recorded);
-  expect_same_lanes();
-  if (recorded) expect_same_derived(tolerance);
-  for (bool compiled : {true, false}) {
-    SCOPED_TRACE(compiled ? "compiled" : "not compiled");
-    real.compiled().allow(compiled);
-    expect_exact_derivatives_of_real(tolerance);
-  }
-  real.compiled().allow(true);
+void EquationsFixture::expect_exact_derivatives(double tolerance) {
+  expect_same_bits();
+  expect_exact_lanes();
+  expect_exact_derivatives_of_real(tolerance);
 }
 
 void EquationsFixture::expect_exact_derivatives_of_real(double tolerance) {
@@ -142,49 +92,12 @@ void EquationsFixture::expect_exact_derivatives_of_real(double tolerance) {
   EXPECT_LT(compare_jacobians(d.time, time_reference()).largest, 1e-8);
 }
 
-void EquationsFixture::expect_code(bool recorded) {
-  if (!ValueCode::is_available()) return;
-  ASSERT_NE(system.equation_code(), nullptr) << "the equations decide something without is_less()";
-  VectorX<double> G;
-  double g = 0.0;
-  EXPECT_EQ(real.compiled().residual(state, &G, &g), recorded);
-}
+namespace {
 
-void EquationsFixture::expect_same_derived(double tolerance) {
-  Linearization<double> formulas;
-  formulas.resize(system.patterns());
-  real.formulas().linearize(state, system.plan(), &formulas);
-  for (const EliminationOrder order : {EliminationOrder::kForward, EliminationOrder::kReverse, EliminationOrder::kMarkowitz}) {
-    Recording recording;
-    RecordedEquations recorded(system, &recording);
-    recorded.record_residual();
-    const Linearization<Traced> derived = derive_linearization(system.patterns(), order, &recorded);
-    const std::vector<double> values = node_values(recording, state, system.parameters());
-    const auto numbers = [&values](const auto& of) {
-      std::vector<double> result;
-      for (const Traced& x : of) result.push_back(x.is_literal() ? x.value() : values[static_cast<std::size_t>(x.node())]);
-      return result;
-    };
-    const auto compare = [&](const Sparsity& pattern, const std::vector<Traced>& by, const std::vector<double>& expected) {
-      EXPECT_LT(compare_jacobians(dense(pattern, numbers(by)), dense(pattern, expected)).largest, tolerance);
-    };
-    compare(system.patterns().position, derived.position, formulas.position);
-    compare(system.patterns().velocity, derived.velocity, formulas.velocity);
-    compare(system.patterns().rate, derived.rate, formulas.rate);
-    const std::vector<double> time = numbers(derived.time);
-    EXPECT_LT(compare_jacobians(Eigen::Map<const Eigen::VectorXd>(time.data(), formulas.time.size()), formulas.time).largest, tolerance);
-  }
-}
+using L = Lanes<4>;
 
-void EquationsFixture::expect_same_lanes() {
-  using L = Lanes<4>;
-  Equations<L> compiled(system), formulas(system);
-  formulas.compiled().allow(false);
-  std::vector<L> parameters;
-  for (double value : system.parameters()) {
-    parameters.emplace_back(value);
-    parameters.back().v[static_cast<int>(parameters.size()) % 4] = 1.0;
-  }
+/// The state with some directions.
+State<L> directed(const State<double>& state) {
   State<L> point;
   point.t = state.t;
   point.turns = state.turns;
@@ -194,26 +107,74 @@ void EquationsFixture::expect_same_lanes() {
       for (int lane = 0; lane < 4; ++lane) (*lanes)[k].v[lane] = std::sin(0.9 * static_cast<double>(k) + lane);
   };
   direct(state.q, &point.q), direct(state.v, &point.v), direct(state.s, &point.s), direct(state.z, &point.z);
-  VectorX<L> G[2];
-  L g[2];
-  Linearization<L> d[2];
-  for (int k = 0; k < 2; ++k) {
-    Equations<L>& equations = k == 0 ? compiled : formulas;
-    equations.set_design(parameters);
-    equations.residual(point, &G[k], &g[k]);
-    d[k].resize(system.patterns());
-    equations.linearize(point, &d[k]);
+  return point;
+}
+
+std::vector<L> directed(const std::vector<double>& values) {
+  std::vector<L> parameters;
+  for (double value : values) {
+    parameters.emplace_back(value);
+    parameters.back().v[static_cast<int>(parameters.size()) % 4] = 1.0;
   }
+  return parameters;
+}
+
+/// All numbers that the recorded equations give at a state, side by side.
+template <class T>
+std::vector<double> all_numbers(const CompiledSystem& system, const std::vector<T>& parameters, const State<T>& state, bool machine_code) {
+  Equations<T> equations(system);
+  equations.compiled().allow(machine_code);
+  equations.set_design(parameters);
+  VectorX<T> G, Phi, Phi_rate;
+  T g;
+  Linearization<T> d;
+  d.resize(system.patterns());
+  equations.residual(state, &G, &g);
+  equations.linearize(state, &d);
+  equations.constraint_errors(state, &Phi, &Phi_rate);
+  std::vector<double> numbers;
+  const auto append = [&numbers](const auto& from) {
+    const auto* const first = reinterpret_cast<const double*>(from.data());
+    numbers.insert(numbers.end(), first, first + static_cast<std::size_t>(from.size()) * sizeof(T) / sizeof(double));
+  };
+  append(G), append(Phi), append(Phi_rate), append(d.position), append(d.velocity), append(d.rate), append(d.time);
+  append(std::vector<T>{g});
+  return numbers;
+}
+
+void expect_equal(const std::vector<double>& x, const std::vector<double>& y) {
+  ASSERT_EQ(x.size(), y.size());
+  int different = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) different += x[k] == y[k] || (std::isnan(x[k]) && std::isnan(y[k])) ? 0 : 1;
+  EXPECT_EQ(different, 0) << "of " << x.size();
+}
+
+}  // namespace
+
+void EquationsFixture::expect_same_bits() {
+  expect_equal(all_numbers(system, system.parameters(), state, true), all_numbers(system, system.parameters(), state, false));
+  const std::vector<L> parameters = directed(system.parameters());
+  const State<L> point = directed(state);
+  expect_equal(all_numbers(system, parameters, point, true), all_numbers(system, parameters, point, false));
+}
+
+void EquationsFixture::expect_exact_lanes() {
+  Equations<L> recorded(system);
+  Formulas<L> formulas(system);
+  const std::vector<L> parameters = directed(system.parameters());
+  recorded.set_design(parameters);
+  formulas.set_design(parameters);
+  const State<L> point = directed(state);
+  VectorX<L> G, expected_G;
+  L g, expected_g;
+  recorded.residual(point, &G, &g);
+  formulas.residual(point, &expected_G, &expected_g);
   const auto compare = [](const L& x, const L& y) {
     const double size = 1.0 + std::abs(y.a) + y.directions().norm();
     EXPECT_LT(std::max(std::abs(x.a - y.a), (x.directions() - y.directions()).norm()), 1e-11 * size);
   };
-  compare(g[0], g[1]);
-  for (Eigen::Index k = 0; k < G[0].size(); ++k) compare(G[0][k], G[1][k]);
-  for (std::size_t k = 0; k < d[0].position.size(); ++k) compare(d[0].position[k], d[1].position[k]);
-  for (std::size_t k = 0; k < d[0].velocity.size(); ++k) compare(d[0].velocity[k], d[1].velocity[k]);
-  for (std::size_t k = 0; k < d[0].rate.size(); ++k) compare(d[0].rate[k], d[1].rate[k]);
-  for (Eigen::Index k = 0; k < d[0].time.size(); ++k) compare(d[0].time[k], d[1].time[k]);
+  compare(g, expected_g);
+  for (Eigen::Index k = 0; k < G.size(); ++k) compare(G[k], expected_G[k]);
 }
 
 void EquationsFixture::expect_exact_residual() {
