@@ -51,11 +51,13 @@ int Recording::operate(Operation operation, int a, int b) {
   return append({operation, a, b, 0.0, node(a).varies || (b >= 0 && node(b).varies)});
 }
 
-bool Recording::decide(int a, int b, bool expected) {
-  const auto [known, is_new] = decided_.try_emplace({a, b}, expected != unexpected_);
+bool Recording::decide(int a, int b, bool expected, unsigned place) {
+  const auto [known, is_new] = decided_.try_emplace({a, b}, expected);
   if (!is_new) return known->second;
+  if (std::find(places_.begin(), places_.end(), place) == places_.end()) places_.push_back(place);
   const std::size_t decision = guards_.size();
   if (decision < followed_.size()) known->second = followed_[decision];
+  if (turned_ && turned_(place)) known->second = !known->second;
   guards_.push_back({a, b, known->second, static_cast<int>(decision)});
   return known->second;
 }

@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_CODEGEN_RECORDING_H_
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <unordered_map>
 #include <utility>
@@ -64,12 +65,15 @@ class Recording {
   int operate(Operation operation, int a, int b = -1);
 
   /// The outcome of a < b, which a guard keeps: as it was decided before, else the next of the outcomes to follow(), else `expected`.
-  bool decide(int a, int b, bool expected);
+  /// @param place place_in_source() of the decision.
+  bool decide(int a, int b, bool expected, unsigned place);
   /// Later decisions have these outcomes in turn, and the expected outcomes after them. The guards of two recordings of one computation
   /// with the same outcomes are the same, and so are their nodes.
   void follow(std::vector<bool> outcomes) { followed_ = std::move(outcomes); }
-  /// Every later decision has the outcome that is not expected, for a second look at what the results can depend on.
-  void follow_unexpected() { unexpected_ = true; }
+  /// Later decisions at the places where `turned` is true have the outcome that is not expected, to see what else results can depend on.
+  void turn(std::function<bool(unsigned place)> turned) { turned_ = std::move(turned); }
+  /// The places of all decisions, each once, in the order of their first occurrence.
+  const std::vector<unsigned>& places() const { return places_; }
   /// Makes the recording refused(): the computation branched in a way that no guard can check.
   void refuse() { refused_ = true; }
 
@@ -93,7 +97,9 @@ class Recording {
   std::vector<SourceId> supplied_, timed_;
   std::map<std::pair<int, int>, bool> decided_;
   std::vector<bool> followed_;
-  bool refused_ = false, unexpected_ = false;
+  std::function<bool(unsigned)> turned_;
+  std::vector<unsigned> places_;
+  bool refused_ = false;
   std::unordered_map<std::uint64_t, int> operations_;  ///< the node of each operation recorded so far, by operation and operands
   std::map<std::pair<int, int>, int> leaves_;
   std::unordered_map<std::uint64_t, int> literals_;  ///< by their bits

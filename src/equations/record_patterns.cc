@@ -2,6 +2,7 @@
 #include "equations/record_patterns.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -40,9 +41,12 @@ std::vector<ColumnSet> dependencies(const Recording& recording, const Layout& la
   return columns;
 }
 
-void add_rows(const System& system, bool expected, std::vector<ColumnSet>* rows) {
+using Turned = std::function<bool(unsigned)>;
+
+/// Adds the columns that each row depends on if the decisions at some places are turned round. @return the places of all decisions.
+std::vector<unsigned> add_rows(const System& system, Turned turned, std::vector<ColumnSet>* rows) {
   Recording recording;
-  if (!expected) recording.follow_unexpected();
+  recording.turn(std::move(turned));
   RecordedEquations equations(system, &recording);
   equations.record_residual();
   const std::vector<ColumnSet> columns = dependencies(recording, system.layout());
@@ -51,6 +55,24 @@ void add_rows(const System& system, bool expected, std::vector<ColumnSet>* rows)
   };
   for (Eigen::Index row = 0; row < equations.G.size(); ++row) add(static_cast<std::size_t>(row), equations.G[row]);
   add(rows->size() - 1, equations.g);
+  return recording.places();
+}
+
+// Turned round: none, all, each place alone, all but each place. So every combination of up to three places that follow one another in one
+// law is seen, and every joint takes part at once.
+void add_all_branches(const System& system, std::vector<ColumnSet>* rows) {
+  std::vector<unsigned> places = add_rows(system, nullptr, rows);
+  if (places.empty()) return;
+  const auto find_more = [&](Turned turned) {
+    for (unsigned place : add_rows(system, std::move(turned), rows))
+      if (std::find(places.begin(), places.end(), place) == places.end()) places.push_back(place);
+  };
+  find_more([](unsigned) { return true; });
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const unsigned place = places[k];
+    find_more([place](unsigned other) { return other == place; });
+    find_more([place](unsigned other) { return other != place; });
+  }
 }
 
 Sparsity part_of(const std::vector<ColumnSet>& rows, int first, int count) {
@@ -68,7 +90,7 @@ Sparsity part_of(const std::vector<ColumnSet>& rows, int first, int count) {
 ByVariable<Sparsity> record_patterns(const System& system) {
   const Layout& layout = system.layout();
   std::vector<ColumnSet> rows(to_index(layout.columns()) + 1);
-  for (bool expected : {true, false}) add_rows(system, expected, &rows);
+  add_all_branches(system, &rows);
   const int positions = layout.positions();
   return {part_of(rows, 0, positions), part_of(rows, positions, layout.n), part_of(rows, positions + layout.n, layout.columns())};
 }

@@ -8,7 +8,7 @@
 namespace codesign {
 
 /// The patterns of the derivatives of G and, in one more row, of the integrand g: entry (row, column) is there if the recorded row depends
-/// on the column's variable, with the expected or with the other outcome of each decision. Columns: Layout::positions() of (q, s),
+/// on the column's variable in some branch. Columns: Layout::positions() of (q, s),
 /// Layout::n of v, Layout::columns() of z.
 ByVariable<Sparsity> record_patterns(const System& system);
 
