@@ -80,6 +80,8 @@ class Recording {
   int size() const { return static_cast<int>(nodes_.size()); }
   const Node& node(int k) const { return nodes_[static_cast<std::size_t>(k)]; }
   const std::vector<Guard>& guards() const { return guards_; }
+  /// The index among guards() of each decision, also of those that were made before, in turn.
+  const std::vector<int>& decisions() const { return decisions_; }
   /// Whether the recording must not be compiled.
   bool refused() const { return refused_; }
   /// The source of each entry of array kSupplied.
@@ -95,7 +97,8 @@ class Recording {
   std::vector<Node> nodes_;
   std::vector<Guard> guards_;
   std::vector<SourceId> supplied_, timed_;
-  std::map<std::pair<int, int>, bool> decided_;
+  std::map<std::pair<int, int>, int> decided_;  ///< index among guards_, by the nodes that are compared
+  std::vector<int> decisions_;
   std::vector<bool> followed_;
   std::function<bool(unsigned)> turned_;
   std::vector<unsigned> places_;

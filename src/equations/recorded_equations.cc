@@ -69,6 +69,14 @@ RecordedEquations::RecordedEquations(const System& system, Recording* to) : reco
   make_leaves(Arrays::kS, recording, &state.s), make_leaves(Arrays::kZ, recording, &state.z);
 }
 
+std::vector<JacobianEntry> derive_gradients(const System& system, const std::vector<Traced>& values, EliminationOrder order,
+                                            Recording* recording) {
+  std::vector<int> outputs;
+  for (const Traced& value : values) outputs.push_back(value.node_in(recording));
+  const Layout& layout = system.layout();
+  return derive_jacobian(recording, outputs, inputs_of(recording, {layout.positions(), layout.n, layout.columns()}), order);
+}
+
 Linearization<Traced> derive_linearization(const ByVariable<Sparsity>& patterns, EliminationOrder order, RecordedEquations* recorded) {
   Recording* const recording = recorded->recording;
   const Columns columns{patterns.position.columns, patterns.velocity.columns, patterns.rate.columns};

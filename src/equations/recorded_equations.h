@@ -2,6 +2,8 @@
 #ifndef MECHANISM_CODESIGN_EQUATIONS_RECORDED_EQUATIONS_H_
 #define MECHANISM_CODESIGN_EQUATIONS_RECORDED_EQUATIONS_H_
 
+#include <vector>
+
 #include "codegen/jacobian.h"
 #include "equations/formulas.h"
 #include "sparse/sparsity.h"
@@ -26,6 +28,10 @@ struct RecordedEquations {
   VectorX<Traced> G;  ///< after record_residual()
   Traced g;           ///< after record_residual()
 };
+
+/// The gradients of recorded numbers by the state and the time; JacobianEntry::column counts (q, s), v, z and t side by side.
+std::vector<JacobianEntry> derive_gradients(const System& system, const std::vector<Traced>& values, EliminationOrder order,
+                                            Recording* recording);
 
 /// G_q and G_s, G_v, G_z and G_t, and in one more row the same derivatives of g, derived from the recorded residual alone; theory (14).
 /// @param patterns of the result, of record_assembly(). @param order of the elimination. @param recorded nodes are appended to its
