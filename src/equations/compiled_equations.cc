@@ -123,7 +123,7 @@ void CompiledEquations<T>::set_instant(const Instant& instant, Variant* variant)
 
 template <class T>
 bool CompiledEquations<T>::adopt() {
-  const EquationCode* const code = system_.equation_code(variants_.size());
+  const EquationCode* const code = system_.equation_code(variants_.size(), part_);
   if (code) variants_.emplace_back().code = code;
   return code != nullptr;
 }
@@ -160,13 +160,13 @@ template <class Run>
 void CompiledEquations<T>::add_variant(const Instant& instant, const Run& run) {
   std::vector<bool> outcomes;
   for (;;) {
-    std::unique_ptr<EquationCode> code = system_.record_variant(outcomes);
+    std::unique_ptr<EquationCode> code = system_.record_variant(outcomes, part_);
     Variant variant;
     variant.code = code.get();
     const int failed = attempt(instant, true, run, &variant);
     // A decision within rounding that fails again stays as it is: both branches give the same there.
     if (failed < static_cast<int>(outcomes.size())) {
-      current_ = system_.keep_variant(std::move(code));
+      current_ = system_.keep_variant(std::move(code), part_);
       while (variants_.size() <= current_) adopt();
       return;
     }
@@ -225,6 +225,29 @@ void CompiledEquations<T>::constraint_errors(const State<T>& state, VectorX<T>* 
   Phi->resize(system_.layout().m);
   Phi_rate->resize(system_.layout().m);
   run(EquationFunction::kConstraintErrors, 0.0, state.turns, {state.q, state.v, {}, {}}, {*Phi, *Phi_rate, {}, {}});
+}
+
+template <class T>
+T CompiledEquations<T>::signal(EquationFunction function, const State<T>& state, SparseGradient<T>* gradient) {
+  const Layout& layout = system_.layout();
+  const int velocity = layout.positions(), rate = velocity + layout.n, time = rate + layout.columns();
+  entries_.resize(to_index(time) + 1);
+  T value(0.0);
+  run(function, state.t, state.turns, {state.q, state.v, state.s, state.z}, {{&value, 1}, entries_, {}, {}});
+  gradient->clear();
+  const std::vector<int>& columns = variants_[current_].code->gradient_columns(function);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const int c = columns[k];
+    if (c < velocity)
+      gradient->position.push_back({c, entries_[k]});
+    else if (c < rate)
+      gradient->velocity.push_back({c - velocity, entries_[k]});
+    else if (c < time)
+      gradient->rate.push_back({c - rate, entries_[k]});
+    else
+      gradient->time = entries_[k];
+  }
+  return value;
 }
 
 template class CompiledEquations<double>;

@@ -30,7 +30,7 @@ struct CompiledFunction;
 template <class T>
 class CompiledEquations {
  public:
-  explicit CompiledEquations(const CompiledSystem& system) : system_(system) {}
+  explicit CompiledEquations(const CompiledSystem& system, EquationPart part = EquationPart::kMotion) : system_(system), part_(part) {}
 
   /// Takes the values of all named parameters; the constants are evaluated when a function is first called.
   void set_design(const std::vector<T>& parameters);
@@ -43,6 +43,9 @@ class CompiledEquations {
   void residual(const State<T>& state, VectorX<T>* G, T* g);
   void linearize(const State<T>& state, Linearization<T>* derivatives);
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
+
+  /// The value of kTerminal or of a watched signal, and its gradient. @param gradient overwritten.
+  T signal(EquationFunction function, const State<T>& state, SparseGradient<T>* gradient);
 
   /// The derivatives of one function along N directions of state and design, for T = Lanes<N> only. The directions of the design are the
   /// directions of the parameters given to set_design().
@@ -85,10 +88,12 @@ class CompiledEquations {
   void run(EquationFunction function, double t, const std::vector<double>& turns, const In<T> (&state)[4], const Out<T> (&results)[4]);
 
   const CompiledSystem& system_;
+  EquationPart part_;
   std::vector<T> parameters_;
   bool interpreted_ = false;
   std::vector<Variant> variants_;  ///< the first ones that the system knows, in its order
   std::size_t current_ = 0;        ///< the variant that served last
+  std::vector<T> entries_;         ///< workspace of signal()
   std::vector<T> nodes_;           ///< workspace of fill_numbers(): values of the recording's nodes
   LineVector slots_, rows_;        ///< workspace of the code
 };

@@ -11,16 +11,20 @@ namespace codesign {
 CompiledSystem::CompiledSystem(const RobotDescription& robot, const Study& study, ReactionSharing sharing, const std::vector<int>& drives)
     : System(robot, study, std::move(sharing), drives),
       patterns_(record_patterns(*this)),
-      variants_(std::make_unique<EquationVariants>()) {}
+      variants_{std::make_unique<EquationVariants>(), std::make_unique<EquationVariants>()} {}
 
 CompiledSystem::~CompiledSystem() = default;
 
-const EquationCode* CompiledSystem::equation_code(std::size_t k) const { return variants_->at(k, *this, patterns_); }
-
-std::unique_ptr<EquationCode> CompiledSystem::record_variant(std::vector<bool> outcomes) const {
-  return std::make_unique<EquationCode>(*this, patterns_, std::move(outcomes));
+const EquationCode* CompiledSystem::equation_code(std::size_t k, EquationPart part) const {
+  return variants_[static_cast<std::size_t>(part)]->at(k, *this, patterns_, part);
 }
 
-std::size_t CompiledSystem::keep_variant(std::unique_ptr<EquationCode> variant) const { return variants_->keep(std::move(variant)); }
+std::unique_ptr<EquationCode> CompiledSystem::record_variant(std::vector<bool> outcomes, EquationPart part) const {
+  return std::make_unique<EquationCode>(*this, patterns_, part, std::move(outcomes));
+}
+
+std::size_t CompiledSystem::keep_variant(std::unique_ptr<EquationCode> variant, EquationPart part) const {
+  return variants_[static_cast<std::size_t>(part)]->keep(std::move(variant));
+}
 
 }  // namespace codesign

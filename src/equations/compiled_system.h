@@ -2,10 +2,12 @@
 #ifndef MECHANISM_CODESIGN_EQUATIONS_COMPILED_SYSTEM_H_
 #define MECHANISM_CODESIGN_EQUATIONS_COMPILED_SYSTEM_H_
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <vector>
 
+#include "equations/equation_function.h"
 #include "sparse/sparsity.h"
 #include "system/system.h"
 
@@ -28,15 +30,15 @@ class CompiledSystem final : public System {
   const ByVariable<Sparsity>& patterns() const { return patterns_; }
 
   /// The k-th variant of the equations' code; null if fewer are known. The first one is recorded by the first call. Thread-safe.
-  const EquationCode* equation_code(std::size_t k = 0) const;
+  const EquationCode* equation_code(std::size_t k = 0, EquationPart part = EquationPart::kMotion) const;
   /// The variant for given outcomes of the first decisions, not yet among those known.
-  std::unique_ptr<EquationCode> record_variant(std::vector<bool> outcomes) const;
+  std::unique_ptr<EquationCode> record_variant(std::vector<bool> outcomes, EquationPart part = EquationPart::kMotion) const;
   /// Adds a variant to those known, unless it is one of them. @return its index. Thread-safe.
-  std::size_t keep_variant(std::unique_ptr<EquationCode> variant) const;
+  std::size_t keep_variant(std::unique_ptr<EquationCode> variant, EquationPart part = EquationPart::kMotion) const;
 
  private:
   const ByVariable<Sparsity> patterns_;
-  const std::unique_ptr<EquationVariants> variants_;
+  const std::array<std::unique_ptr<EquationVariants>, 2> variants_;  ///< per EquationPart
 };
 
 }  // namespace codesign

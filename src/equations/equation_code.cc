@@ -40,37 +40,35 @@ bool is_tangent_leaf(const Recording::Node& node) {
 
 }  // namespace
 
-EquationCode::EquationCode(const System& system, const ByVariable<Sparsity>& patterns, std::vector<bool> outcomes)
-    : long_(system.layout().columns() > kMostColumns) {
-  record(system, patterns, std::move(outcomes));
+EquationCode::EquationCode(const System& system, const ByVariable<Sparsity>& patterns, EquationPart part, std::vector<bool> outcomes)
+    : long_(system.layout().columns() > kMostColumns),
+      functions_(static_cast<std::size_t>(watched_function(part == EquationPart::kMotion ? 0 : system.watched().size()))),
+      known_(functions_.size()) {
+  values_.recording.follow(std::move(outcomes));
+  RecordedEquations equations(system, &values_.recording);
+  std::vector<Recording::Guard> none;
+  take_guards(0, &none);
+  part == EquationPart::kMotion ? record_motion(patterns, &equations) : record_signals(system, &equations);
   if (values_.recording.refused()) throw std::logic_error("the formulas decide something without is_less()");
   for (const Recording::Guard& guard : values_.recording.guards()) outcomes_.push_back(guard.outcome);
   values_.number_nodes();
 }
 
-void EquationCode::record(const System& system, const ByVariable<Sparsity>& patterns, std::vector<bool> outcomes) {
+void EquationCode::record_motion(const ByVariable<Sparsity>& patterns, RecordedEquations* equations) {
   const auto at = [this](EquationFunction function) { return &functions_[static_cast<std::size_t>(function)]; };
-  values_.recording.follow(std::move(outcomes));
-  RecordedEquations equations(system, &values_.recording);
-  Recorded design;
-  take_guards(0, &design);
+  std::size_t decisions = values_.recording.decisions().size();
+  equations->record_residual();
+  take_guards(decisions, &at(EquationFunction::kResidual)->guards);
+  const VectorX<Traced> g = VectorX<Traced>::Constant(1, equations->g);
+  take_outputs(EquationFunction::kResidual, {&equations->G, &g});
 
-  // The constraint errors come first, since their decisions must not depend on z.
-  std::size_t guards = values_.recording.guards().size();
+  decisions = values_.recording.decisions().size();
   VectorX<Traced> Phi, Phi_rate;
-  equations.formulas.constraint_errors(equations.state, &Phi, &Phi_rate);
-  take_guards(guards, at(EquationFunction::kConstraintErrors));
+  equations->formulas.constraint_errors(equations->state, &Phi, &Phi_rate);
+  take_guards(decisions, &at(EquationFunction::kConstraintErrors)->guards);
   take_outputs(EquationFunction::kConstraintErrors, {&Phi, &Phi_rate});
 
-  guards = values_.recording.guards().size();
-  equations.record_residual();
-  // A decision that was made before is not recorded again, and the residual needs it too.
-  at(EquationFunction::kResidual)->guards = at(EquationFunction::kConstraintErrors)->guards;
-  take_guards(guards, at(EquationFunction::kResidual));
-  const VectorX<Traced> g = VectorX<Traced>::Constant(1, equations.g);
-  take_outputs(EquationFunction::kResidual, {&equations.G, &g});
-
-  const Linearization<Traced> derivatives = derive_linearization(patterns, EliminationOrder::kForward, &equations);
+  const Linearization<Traced> derivatives = derive_linearization(patterns, EliminationOrder::kForward, equations);
   const auto vector = [](const std::vector<Traced>& x) -> VectorX<Traced> {
     return Eigen::Map<const VectorX<Traced>>(x.data(), static_cast<Eigen::Index>(x.size()));
   };
@@ -81,6 +79,30 @@ void EquationCode::record(const System& system, const ByVariable<Sparsity>& patt
   take_outputs(EquationFunction::kLinearization, {&by_position, &by_velocity, &by_rate, &derivatives.time});
 }
 
+void EquationCode::record_signals(const System& system, RecordedEquations* equations) {
+  std::vector<Traced> values;
+  const auto record = [&](auto&& signal) {
+    const std::size_t decisions = values_.recording.decisions().size();
+    values.push_back(signal());
+    Recorded& function = functions_[static_cast<std::size_t>(EquationFunction::kTerminal) + values.size() - 1];
+    take_guards(decisions, &function.guards);
+  };
+  record([&] { return equations->formulas.terminal(equations->state, nullptr); });
+  for (std::size_t k = 0; k < system.watched().size(); ++k)
+    record([&] { return equations->formulas.watched(k, equations->state, nullptr); });
+  const std::vector<JacobianEntry> entries = derive_gradients(system, values, EliminationOrder::kReverse, &values_.recording);
+  std::vector<std::vector<Traced>> rows(values.size());
+  for (const JacobianEntry& entry : entries) {
+    rows[to_index(entry.row)].push_back(entry.value);
+    functions_[static_cast<std::size_t>(EquationFunction::kTerminal) + to_index(entry.row)].columns.push_back(entry.column);
+  }
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const VectorX<Traced> value = VectorX<Traced>::Constant(1, values[k]);
+    const VectorX<Traced> gradient = Eigen::Map<const VectorX<Traced>>(rows[k].data(), static_cast<Eigen::Index>(rows[k].size()));
+    take_outputs(static_cast<EquationFunction>(static_cast<std::size_t>(EquationFunction::kTerminal) + k), {&value, &gradient});
+  }
+}
+
 void EquationCode::take_outputs(EquationFunction function, const std::vector<const VectorX<Traced>*>& results) {
   Recording* const recording = &values_.recording;
   for (std::size_t k = 0; k < results.size(); ++k)
@@ -89,19 +111,23 @@ void EquationCode::take_outputs(EquationFunction function, const std::vector<con
           {(*results[k])[i].node_in(recording), {Arrays::kResults + static_cast<int>(k), static_cast<int>(i)}});
 }
 
-void EquationCode::take_guards(std::size_t first, Recorded* function) {
+void EquationCode::take_guards(std::size_t first, std::vector<Recording::Guard>* guards) {
   const Recording& recording = values_.recording;
-  for (std::size_t k = first; k < recording.guards().size(); ++k) {
-    const Recording::Guard& guard = recording.guards()[k];
+  std::vector<int> decisions(recording.decisions().begin() + static_cast<std::ptrdiff_t>(first), recording.decisions().end());
+  std::sort(decisions.begin(), decisions.end());
+  decisions.erase(std::unique(decisions.begin(), decisions.end()), decisions.end());
+  for (int decision : decisions) {
+    const Recording::Guard& guard = recording.guards()[to_index(decision)];
     const bool varies = recording.node(guard.a).varies || recording.node(guard.b).varies;
-    (varies ? function->guards : design_guards_).push_back(guard);
+    (varies ? *guards : design_guards_).push_back(guard);
   }
 }
 
 void EquationCode::differentiate() const {
   Recording& recording = derivatives_.recording;
   recording = values_.recording;
-  for (std::size_t f = 0; f < kEquationFunctions; ++f) {
+  derivatives_.tangents.resize(functions_.size());
+  for (std::size_t f = 0; f < functions_.size(); ++f) {
     std::vector<bool> is_leaf(to_index(recording.size()));
     for (int n = 0; n < recording.size(); ++n) is_leaf[to_index(n)] = is_tangent_leaf(recording.node(n));
     derivatives_.tangents[f] = std::make_unique<TangentProgram>(&recording, functions_[f].outputs, is_leaf);

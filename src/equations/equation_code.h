@@ -20,6 +20,8 @@
 
 namespace codesign {
 
+struct RecordedEquations;
+
 /// The arrays that the compiled code reads and writes, by index: the state q, v, s, z; numbers that depend on design, time and turn
 /// references; up to four results (see EquationFunction); and two workspaces of the code.
 struct EquationArrays {
@@ -38,9 +40,9 @@ struct CompiledFunction {
 /// on the design, the time or a turn reference only.
 struct NumberedRecording {
   Recording recording;
-  std::array<std::unique_ptr<TangentProgram>, kEquationFunctions> tangents;  ///< per EquationFunction; null without derivatives
-  std::vector<int> numbers;                                                  ///< the nodes of array kNumbers, in its order
-  std::vector<Place> homes;  ///< per node: its array and index; array -1 if the code computes it
+  std::vector<std::unique_ptr<TangentProgram>> tangents;  ///< per EquationFunction; empty without derivatives
+  std::vector<int> numbers;                               ///< the nodes of array kNumbers, in its order
+  std::vector<Place> homes;                               ///< per node: its array and index; array -1 if the code computes it
 
   /// Per function of time, the entry of kNumbers of its value and of each of its derivatives; -1 if it is not used.
   std::vector<std::array<int, Recording::kFunctionOrders>> functions;
@@ -51,9 +53,9 @@ struct NumberedRecording {
 };
 
 /// One variant of the equations of one mechanism and study, shared by all designs: the formulas, recorded with given outcomes of their
-/// decisions. The constructor records the residual and the constraint errors once, with the scalar Traced, and derives the linearization
-/// from the recorded residual; the tangents of the recording, and the code for each scalar, are made when they are first needed.
-/// Thread-safe.
+/// decisions. The constructor records one part of them with the scalar Traced, and derives the linearization from the recorded residual and
+/// the gradients of signals from their recorded values; the tangents of the recording, and the code for each scalar, are made when they are
+/// first needed. Thread-safe.
 class EquationCode {
  public:
   /// The scalar that a function is wanted for.
@@ -66,12 +68,17 @@ class EquationCode {
   /// Records the equations. @param patterns of record_patterns() for the same system. @param outcomes of the first decisions; the later
   /// ones have their expected outcomes.
   /// @throws std::logic_error if the formulas decide something without is_less().
-  EquationCode(const System& system, const ByVariable<Sparsity>& patterns, std::vector<bool> outcomes = {});
+  EquationCode(const System& system, const ByVariable<Sparsity>& patterns, EquationPart part, std::vector<bool> outcomes = {});
 
   /// One function, made by the first call. It is interpreted also where machine code cannot be made: on other processors than x86-64 and
   /// for very long programs. For a split scalar the arrays kQ to kZ hold the state's values while CompiledFunction::values runs, and the
   /// directions while `tangents` runs.
   const CompiledFunction& function(EquationFunction function, const Scalar& scalar) const;
+
+  /// The columns of a signal's gradient, its second result: (q, s), v, z and t side by side.
+  const std::vector<int>& gradient_columns(EquationFunction function) const {
+    return functions_[static_cast<std::size_t>(function)].columns;
+  }
 
   /// The recording from which the code for values, or for values and derivatives, is made.
   const NumberedRecording& numbered(bool with_derivatives) const;
@@ -85,10 +92,13 @@ class EquationCode {
   struct Recorded {
     std::vector<ValueTask::Output> outputs;
     std::vector<Recording::Guard> guards;
+    std::vector<int> columns;  ///< of the gradient of a signal
   };
-  void record(const System& system, const ByVariable<Sparsity>& patterns, std::vector<bool> outcomes);
-  /// Sorts the guards of the recording from index `first` on: those that vary with the state to `function`, the others to design_guards_.
-  void take_guards(std::size_t first, Recorded* function);
+  void record_motion(const ByVariable<Sparsity>& patterns, RecordedEquations* equations);
+  void record_signals(const System& system, RecordedEquations* equations);
+  /// Gives the decisions that were made from index `first` of Recording::decisions() on to a function if they vary with the state, else to
+  /// design_guards_.
+  void take_guards(std::size_t first, std::vector<Recording::Guard>* guards);
   void take_outputs(EquationFunction function, const std::vector<const VectorX<Traced>*>& results);
   /// Makes derivatives_ from values_.
   void differentiate() const;
@@ -98,7 +108,7 @@ class EquationCode {
 
   bool long_ = false;  ///< too long for machine code
   NumberedRecording values_;
-  std::array<Recorded, kEquationFunctions> functions_;
+  std::vector<Recorded> functions_;  ///< per EquationFunction; empty for those of the other part
   std::vector<Recording::Guard> design_guards_;
   std::vector<bool> outcomes_;
 
@@ -110,7 +120,7 @@ class EquationCode {
   };
   mutable std::mutex mutex_;
   /// Per function: double, Lanes<4>, Lanes<8>, the two split ones; then the same without machine code.
-  mutable std::array<std::array<Known, 10>, kEquationFunctions> known_;
+  mutable std::vector<std::array<Known, 10>> known_;
 };
 
 }  // namespace codesign

@@ -17,11 +17,12 @@ template <class T>
 class Equations {
  public:
   /// @param system must outlive the equations.
-  explicit Equations(const CompiledSystem& system) : formulas_(system), compiled_(system) {}
+  explicit Equations(const CompiledSystem& system) : formulas_(system), compiled_(system), signals_(system, EquationPart::kSignals) {}
 
   /// Evaluates all constants at `parameters` (all named parameters, order of Study::parameters). Allocates nothing but the first time.
   void set_design(const std::vector<T>& parameters) {
     compiled_.set_design(parameters);
+    signals_.set_design(parameters);
     formulas_.set_design(parameters);
   }
   /// The parameters, constants and constraint rows of the present design.
@@ -38,6 +39,15 @@ class Equations {
     compiled_.constraint_errors(state, Phi, Phi_rate);
   }
 
+  /// The sum w of the terminal terms, theory (21), and its gradient. @param gradient overwritten, here and below.
+  T terminal_gradient(const State<T>& state, SparseGradient<T>* gradient) {
+    return signals_.signal(EquationFunction::kTerminal, state, gradient);
+  }
+  /// Signal minus reference of the k-th watched signal, theory (21a), in SI units, and its gradient.
+  T watched_gradient(std::size_t k, const State<T>& state, SparseGradient<T>* gradient) {
+    return signals_.signal(watched_function(k), state, gradient);
+  }
+
   /// Sets State::turns to the joint positions of the state; integrators call it after each step.
   void track_turns(State<T>* state) { formulas_.track_turns(state); }
 
@@ -49,7 +59,7 @@ class Equations {
 
  private:
   Formulas<T> formulas_;
-  CompiledEquations<T> compiled_;
+  CompiledEquations<T> compiled_, signals_;
 };
 
 }  // namespace codesign
