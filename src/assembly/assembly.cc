@@ -142,7 +142,7 @@ double Assembly::find_errors(const std::vector<double>& parameters, Equations<do
   place(parameters, equations, &work_.state);
   equations->constraint_errors(work_.state, &work_.errors, &work_.rates);
   take_loop_rows();
-  const double error = work_.rows.size() == 0 ? 0.0 : work_.rows.cwiseAbs().maxCoeff();
+  const double error = work_.rows.size() == 0 ? 0.0 : work_.rows.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
   if (std::isfinite(error)) note_miss(work_.errors, *equations);
   return error;
 }
@@ -339,13 +339,13 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
   for (int iteration = 0; iteration < 100; ++iteration) {
     if (cancelled()) return {StatusCode::kCancelled, state->t, "cancelled"};
     equations->residual(*state, &residual_, &g);
-    const double error = residual_.cwiseAbs().maxCoeff();
+    const double error = residual_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     if (!std::isfinite(error)) return {StatusCode::kNonFinite, state->t, std::string("the equations of motion are not finite") + place};
     equations->linearize(*state, &derivatives_);
     if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0))
       return {StatusCode::kSingularMatrix, state->t, "the augmented matrix of the equations of motion is singular"};
     matrix_.lu().solve(residual_);
-    const double size = residual_.cwiseAbs().maxCoeff() / (1.0 + state->z.cwiseAbs().maxCoeff());
+    const double size = residual_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / (1.0 + state->z.cwiseAbs().maxCoeff());
     state->z -= residual_;
     if (size < 1e-15 || (size < converged && size >= 0.5 * previous)) return {};
     previous = size;

@@ -51,4 +51,16 @@ int Recording::operate(Operation operation, int a, int b) {
   return append({operation, a, b, 0.0, node(a).varies || (b >= 0 && node(b).varies)});
 }
 
+bool Recording::decide(int a, int b, bool expected, unsigned place) {
+  const auto [known, is_new] = decided_.try_emplace({a, b}, static_cast<int>(guards_.size()));
+  decisions_.push_back(known->second);
+  if (is_new) {
+    if (std::find(places_.begin(), places_.end(), place) == places_.end()) places_.push_back(place);
+    bool outcome = guards_.size() < followed_.size() ? followed_[guards_.size()] : expected;
+    if (turned_ && turned_(place)) outcome = !outcome;
+    guards_.push_back({a, b, outcome, known->second});
+  }
+  return guards_[static_cast<std::size_t>(known->second)].outcome;
+}
+
 }  // namespace codesign

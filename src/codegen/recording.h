@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_CODEGEN_RECORDING_H_
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <unordered_map>
 #include <utility>
@@ -47,6 +48,7 @@ class Recording {
   struct Guard {
     int a, b;
     bool outcome;
+    int decision = -1;  ///< index among guards()
   };
 
   // The next five functions return the index of a node.
@@ -62,14 +64,24 @@ class Recording {
   /// @param b -1 for operations with one operand.
   int operate(Operation operation, int a, int b = -1);
 
-  /// Adds a guard on nodes a and b.
-  void guard(int a, int b, bool outcome) { guards_.push_back({a, b, outcome}); }
+  /// The outcome of a < b, which a guard keeps: as it was decided before, else the next of the outcomes to follow(), else `expected`.
+  /// @param place place_in_source() of the decision.
+  bool decide(int a, int b, bool expected, unsigned place);
+  /// Later decisions have these outcomes in turn, and the expected outcomes after them. The guards of two recordings of one computation
+  /// with the same outcomes are the same, and so are their nodes.
+  void follow(std::vector<bool> outcomes) { followed_ = std::move(outcomes); }
+  /// Later decisions at the places where `turned` is true have the outcome that is not expected, to see what else results can depend on.
+  void turn(std::function<bool(unsigned place)> turned) { turned_ = std::move(turned); }
+  /// The places of all decisions, each once, in the order of their first occurrence.
+  const std::vector<unsigned>& places() const { return places_; }
   /// Makes the recording refused(): the computation branched in a way that no guard can check.
   void refuse() { refused_ = true; }
 
   int size() const { return static_cast<int>(nodes_.size()); }
   const Node& node(int k) const { return nodes_[static_cast<std::size_t>(k)]; }
   const std::vector<Guard>& guards() const { return guards_; }
+  /// The index among guards() of each decision, also of those that were made before, in turn.
+  const std::vector<int>& decisions() const { return decisions_; }
   /// Whether the recording must not be compiled.
   bool refused() const { return refused_; }
   /// The source of each entry of array kSupplied.
@@ -85,6 +97,11 @@ class Recording {
   std::vector<Node> nodes_;
   std::vector<Guard> guards_;
   std::vector<SourceId> supplied_, timed_;
+  std::map<std::pair<int, int>, int> decided_;  ///< index among guards_, by the nodes that are compared
+  std::vector<int> decisions_;
+  std::vector<bool> followed_;
+  std::function<bool(unsigned)> turned_;
+  std::vector<unsigned> places_;
   bool refused_ = false;
   std::unordered_map<std::uint64_t, int> operations_;  ///< the node of each operation recorded so far, by operation and operands
   std::map<std::pair<int, int>, int> leaves_;

@@ -1,8 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "codegen/straight_line.h"
 
-#ifdef CODESIGN_MACHINE_CODE
 #include <algorithm>
+
+#ifdef CODESIGN_MACHINE_CODE
 #include <cstdint>
 #include <limits>
 #include <unordered_map>
@@ -10,6 +11,17 @@
 #endif
 
 namespace codesign {
+
+std::vector<Sum> with_starts(std::vector<Sum> sums) {
+  for (Sum& sum : sums) {
+    const auto leading = std::find_if(sum.products.begin(), sum.products.end(), [](const Sum::Product& p) { return p.added; });
+    if (sum.start.array >= 0 || leading == sum.products.end()) continue;
+    sum.start = leading->row;
+    sum.start_scale = leading->factor;
+    sum.products.erase(leading);
+  }
+  return sums;
+}
 
 #ifdef CODESIGN_MACHINE_CODE
 namespace {
@@ -98,18 +110,6 @@ class RowRegisters {
   std::vector<Place> held_;
   int now_ = 0;
 };
-
-/// Uses the first added product of a sum without a start as its start, which saves setting the target to zero.
-std::vector<Sum> with_starts(std::vector<Sum> sums) {
-  for (Sum& sum : sums) {
-    const auto leading = std::find_if(sum.products.begin(), sum.products.end(), [](const Sum::Product& p) { return p.added; });
-    if (sum.start.array >= 0 || leading == sum.products.end()) continue;
-    sum.start = leading->row;
-    sum.start_scale = leading->factor;
-    sum.products.erase(leading);
-  }
-  return sums;
-}
 
 class SumsCode final : public StraightLine, private MachineCode {
  public:

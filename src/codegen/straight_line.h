@@ -26,6 +26,9 @@ struct Sum {
   std::vector<Product> products;
 };
 
+/// The sums as they are computed: the first added product of a sum without a start is its start, which saves setting the target to zero.
+std::vector<Sum> with_starts(std::vector<Sum> sums);
+
 /// Sums of products at fixed places, compiled into machine code without loops or branches. It serves sparse factorizations, whose sequence
 /// of operations is the same in every refactorization. Rows that are read again soon stay in registers.
 class StraightLine {

@@ -4,67 +4,16 @@
 #include <algorithm>
 #include <utility>
 
-#include "codegen/traced.h"
+#include "codegen/partials.h"
 #include "math/to_index.h"
 
 namespace codesign {
 namespace {
 
-/// One term of a derivative: the derivative of `node` times `factor`.
-struct Part {
-  int node;
-  Traced factor;
-};
-using Parts = std::vector<Part>;
-
-/// The partial derivatives of node n by its operands.
-Parts partials(Recording* recording, int n) {
-  const Recording::Node node = recording->node(n);
-  const auto value = [recording](int k) { return Traced(recording, k); };
-  const Traced self = value(n), one(1.0);
-  switch (node.operation) {
-    case Operation::kAdd:
-      return {{node.a, one}, {node.b, one}};
-    case Operation::kSubtract:
-      return {{node.a, one}, {node.b, -one}};
-    case Operation::kMultiply:
-      return {{node.a, value(node.b)}, {node.b, value(node.a)}};
-    case Operation::kDivide: {
-      const Traced inverse = one / value(node.b);
-      return {{node.a, inverse}, {node.b, -(self * inverse)}};
-    }
-    case Operation::kNegate:
-      return {{node.a, -one}};
-    case Operation::kSquareRoot:
-      return {{node.a, Traced(0.5) / self}};
-    case Operation::kTanh:
-      return {{node.a, one - self * self}};
-    case Operation::kExp:
-      return {{node.a, self}};
-    case Operation::kSin:
-      return {{node.a, cos(value(node.a))}};
-    case Operation::kCos:
-      return {{node.a, -sin(value(node.a))}};
-    case Operation::kArcSine:
-      return {{node.a, one / sqrt(one - value(node.a) * value(node.a))}};
-    case Operation::kArcTangent: {
-      const Traced y = value(node.a), x = value(node.b), inverse = one / (x * x + y * y);
-      return {{node.a, x * inverse}, {node.b, -(y * inverse)}};
-    }
-    default:
-      return {};
-  }
-}
+using Parts = std::vector<Partial>;
 
 bool only_adds(Operation operation) {
   return operation == Operation::kAdd || operation == Operation::kSubtract || operation == Operation::kNegate;
-}
-
-/// x, as a literal if its node is one, so that products with it are simplified.
-Traced folded(Recording* recording, const Traced& x) {
-  if (x.is_literal()) return x;
-  const Recording::Node& node = recording->node(x.node_in(recording));
-  return node.operation == Operation::kLiteral ? Traced(node.literal) : x;
 }
 
 class Accumulation {
@@ -120,14 +69,14 @@ class Accumulation {
     if (!active_[to_index(node)]) return {};
     if (is_leaf_[to_index(node)] || program_->row[to_index(node)] >= 0) return {{node, factor}};
     Parts parts = parts_[to_index(node)];
-    for (Part& part : parts) part.factor = folded(recording_, factor * part.factor);
+    for (Partial& part : parts) part.factor = folded(recording_, factor * part.factor);
     return parts;
   }
 
   void accumulate(int n) {
     Parts sum;
-    for (const Part& partial : partials(recording_, n))
-      for (const Part& part : of(partial.node, folded(recording_, partial.factor))) add(part, &sum);
+    for (const Partial& partial : partials_of(recording_, n))
+      for (const Partial& part : of(partial.node, folded(recording_, partial.factor))) add(part, &sum);
     const bool inlined = sum.size() <= 1 || (uses_[to_index(n)] == 1 && only_added_[to_index(n)]);
     if (!inlined) {
       append(n, {}, sum);
@@ -137,8 +86,8 @@ class Accumulation {
     }
   }
 
-  static void add(const Part& part, Parts* sum) {
-    for (Part& known : *sum) {
+  static void add(const Partial& part, Parts* sum) {
+    for (Partial& known : *sum) {
       if (known.node != part.node) continue;
       known.factor += part.factor;
       return;
@@ -148,7 +97,7 @@ class Accumulation {
 
   void append(int node, const ValueTask::Output& output, const Parts& parts) {
     TangentProgram::Sum sum{node, output, {}};
-    for (const Part& part : parts) {
+    for (const Partial& part : parts) {
       if (part.factor.is_literal() && part.factor.value() == 0.0) continue;
       Traced factor = part.factor;
       const bool negative =

@@ -87,13 +87,12 @@ double value_of(const Traced& x) {
   return 0.0;
 }
 
-bool is_less(const Traced& x, const Traced& y, bool likely) {
+bool is_less(const Traced& x, const Traced& y, bool likely, unsigned place) {
   if (x.is_literal() && y.is_literal()) return x.value() < y.value();
   Recording* const recording = x.is_literal() ? y.recording() : x.recording();
   const int a = x.node_in(recording), b = y.node_in(recording);
-  const bool varies = recording->node(a).varies || recording->node(b).varies, outcome = varies ? likely : x.value() < y.value();
-  recording->guard(a, b, outcome);
-  return outcome;
+  const bool varies = recording->node(a).varies || recording->node(b).varies;
+  return recording->decide(a, b, varies ? likely : x.value() < y.value(), place);
 }
 
 }  // namespace codesign

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "codegen/recording.h"
+#include "math/scalar.h"
 
 namespace codesign {
 
@@ -65,7 +66,7 @@ inline Traced nearest_turns(const Traced& reference, const Traced& angle) { retu
 double value_of(const Traced& x);
 
 /// x < y for literals. Otherwise records a guard and returns its outcome: x < y at the present design if neither varies, else `likely`.
-bool is_less(const Traced& x, const Traced& y, bool likely);
+bool is_less(const Traced& x, const Traced& y, bool likely, unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE()));
 
 }  // namespace codesign
 

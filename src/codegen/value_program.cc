@@ -110,8 +110,8 @@ class Compiler {
   void append_guards(int n, ValueProgram* program) const {
     const auto [first, last] = guards_.equal_range(n);
     for (auto guard = first; guard != last; ++guard)
-      append({guard->second.outcome ? ValueProgram::Kind::kGuardLess : ValueProgram::Kind::kGuardGreaterEqual, -1, guard->second.a,
-              guard->second.b, -1},
+      append({guard->second.outcome ? ValueProgram::Kind::kGuardLess : ValueProgram::Kind::kGuardGreaterEqual, guard->second.decision,
+              guard->second.a, guard->second.b, -1},
              {}, program);
   }
 

@@ -36,7 +36,8 @@ struct ValueProgram {
   };
   struct Instruction {
     Kind kind;
-    int node, a, b, c;  ///< the result and the operands, as nodes of the recording; -1 if unused
+    int node;     ///< the result, a node of the recording; of a guard its Guard::decision
+    int a, b, c;  ///< the operands, nodes of the recording; -1 if unused
   };
 
   ValueProgram(const Recording& recording, const ValueTask& task);

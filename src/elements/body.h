@@ -27,30 +27,6 @@ void body_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_
   (*G)[norm] = sum;
 }
 
-/// Adds the derivatives of body_residual() by p, p', the accelerations and lambda. The derivative K(W) needs the sum W of all loads, so
-/// every assemble_... function that adds to Workspace::loads must run before.
-template <class T, class Sink>
-void assemble_body(const StateView<T>& view, Workspace<T>* workspace, std::size_t b, Sink* sink) {
-  const BodyKinematics<T>& k = view.kinematics[b];
-  const int first = kBodySize * static_cast<int>(b), p = first + 3,
-            norm = view.layout.lambda_column(view.layout.norm_row(static_cast<int>(b)));
-  const InertiaGradient<T> inertia = inertia_gradient(view.design.constants.bodies[b], k);
-  Matrix4<T> by_p = inertia.by_p + rotation_hessian(workspace->loads[b].W);
-  for (int e = 0; e < 4; ++e) by_p(e, e) += view.state->z[norm];
-  for (int e = 0; e < 3; ++e) sink->rate(first + e, first + e, view.design.constants.bodies[b].mass);
-  for (int row = 0; row < 4; ++row) {
-    for (int c = 0; c < 4; ++c) {
-      sink->position(p + row, p + c, by_p(row, c));
-      sink->velocity(p + row, p + c, inertia.by_pd(row, c));
-      sink->rate(p + row, p + c, inertia.by_pdd(row, c));
-    }
-    sink->position(norm, p + row, k.pdd[row]);
-    sink->velocity(norm, p + row, T(2.0 * k.pd[row]));
-    sink->rate(norm, p + row, k.p[row]);
-    sink->rate(p + row, norm, k.p[row]);
-  }
-}
-
 /// Sets the row |p| = 1 of Phi to (p^T p - 1)/2 and its rate to p^T p'.
 template <class T>
 void norm_error(const StateView<T>& view, int b, VectorX<T>* Phi, VectorX<T>* Phi_rate) {

@@ -86,36 +86,6 @@ void bristle_residual(const StateView<T>& view, const BristleContact& contact, V
   if (contact.dwells()) set(contact.dwell_state(), law.dwell_rate);
 }
 
-/// Adds the derivatives of bristle_residual() by positions, velocities, states and sigma.
-template <class T, class Sink>
-void assemble_bristle(const StateView<T>& view, Workspace<T>* workspace, const BristleContact& contact, Sink* sink) {
-  const ContactSlip<T> slip = bristle_slip(view, contact, CoordinateDetail::kGradient);
-  const Bristle<T> law =
-      bristle_law<T>(contact, slip.u, view.state->s, view.design.constants.pairs[static_cast<std::size_t>(contact.pair)].friction);
-  const int carrier = bristle_carrier(view, contact);
-  Matrix3<T> by_zeta = law.rate_zeta, by_omega = Matrix3<T>::Zero();
-  if (carrier >= 0) {
-    const Vector3<T> omega = T(2.0) * (ground_rate_matrix(view.body(carrier).p) * view.body(carrier).pd);
-    const Vector3<T> zeta = view.state->s.template segment<3>(contact.first);
-    for (int k = 0; k < 3; ++k) {
-      by_zeta.col(k) += cross<T>(omega, Vector3<T>::Unit(k));
-      by_omega.col(k) = cross<T>(Vector3<T>::Unit(k), zeta);
-    }
-  }
-  const auto add = [&](int s, const Vector3<T>& by_u, const Vector3<T>& zeta, const T& by_dwell) {
-    const int row = view.layout.state_column(s);
-    workspace->gradient.clear();
-    append_bristle_slip(view, contact, slip, by_u, &workspace->gradient);
-    append_bristle_states(view, contact, zeta, by_dwell, &workspace->gradient);
-    if (carrier >= 0 && s != contact.dwell_state())
-      append_spin(view, carrier, Vector3<T>(by_omega.row(s - contact.first).transpose()), &workspace->gradient);
-    sink->rate(row, row, T(1.0));
-    add_row(row, T(-1.0), workspace->gradient, sink);
-  };
-  for (int k = 0; k < contact.size; ++k) add(contact.first + k, law.rate_u.row(k).transpose(), by_zeta.row(k).transpose(), T(0.0));
-  if (contact.dwells()) add(contact.dwell_state(), law.dwell_u, Vector3<T>(Vector3<T>::Zero()), law.dwell_dwell);
-}
-
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_ELEMENTS_BRISTLE_H_

@@ -5,7 +5,6 @@
 #include "elements/bristle.h"
 #include "elements/contact_friction.h"
 #include "elements/gradient_rows.h"
-#include "elements/load_curvature.h"
 #include "elements/normal_force.h"
 #include "elements/state_view.h"
 #include "elements/workspace.h"
@@ -52,23 +51,6 @@ void contact_residual(const StateView<T>& view, int pair, VectorX<T>* G) {
   for (std::size_t k = 0; k < c.size; ++k)
     for (int local = 0; local < kLocalSize; ++local)
       if (const int row = view.column(pair, local); row >= 0) (*G)[row] += c.motion[k].J[local] * c.load[static_cast<Eigen::Index>(k)];
-}
-
-/// Adds the derivatives of contact_residual().
-template <class T, class Sink>
-void assemble_contact(const StateView<T>& view, Workspace<T>* workspace, int pair, Sink* sink) {
-  const auto& slip = view.design.constants.pairs[static_cast<std::size_t>(pair)].slip.coordinates;
-  const ContactFriction<T> c = contact_at(view, pair);
-  for (std::size_t k = 0; k < c.size; ++k) {
-    workspace->gradient.clear();
-    append_contact_load(view, pair, c, k, T(1.0), &workspace->gradient);
-    for (int local = 0; local < kLocalSize; ++local) {
-      const int row = view.column(pair, local);
-      if (row >= 0 && (local % kBodySize >= 3 || slip_moves_r(view, pair, k)))
-        add_row(row, c.motion[k].J[local], workspace->gradient, sink);
-    }
-    assemble_load_curvature(view, pair, slip[k], c.load[static_cast<Eigen::Index>(k)], sink);
-  }
 }
 
 }  // namespace codesign

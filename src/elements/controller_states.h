@@ -68,18 +68,6 @@ void controller_residual(const StateView<T>& view, std::size_t c, VectorX<T>* G)
   });
 }
 
-/// Adds the derivatives of controller_residual().
-template <class T, class Sink>
-void assemble_controller(const StateView<T>& view, Workspace<T>* workspace, std::size_t c, Sink* sink) {
-  visit_controller_states(view, static_cast<int>(c), [&](int state, const auto& rate) {
-    const int row = view.layout.state_column(state);
-    sink->rate(row, row, T(1.0));
-    workspace->gradient.clear();
-    rate(&workspace->gradient);
-    add_row(row, T(-1.0), workspace->gradient, sink);
-  });
-}
-
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_ELEMENTS_CONTROLLER_STATES_H_

@@ -2,7 +2,6 @@
 #ifndef MECHANISM_CODESIGN_ELEMENTS_COUPLING_H_
 #define MECHANISM_CODESIGN_ELEMENTS_COUPLING_H_
 
-#include "elements/load_curvature.h"
 #include "elements/state_view.h"
 
 namespace codesign {
@@ -45,29 +44,6 @@ void coupling_residual(const StateView<T>& view, std::size_t k, VectorX<T>* G) {
     (*G)[row] += coefficient * motion.acceleration;
     for (int local = 0; local < kLocalSize; ++local)
       if (const int c = view.column(term.pair, local); c >= 0) (*G)[c] += motion.J[local] * coefficient * lambda;
-  }
-}
-
-/// Adds the derivatives of coupling_residual().
-template <class T, class Sink>
-void assemble_coupling(const StateView<T>& view, std::size_t k, Sink* sink) {
-  const Coupling& coupling = view.system.topology().couplings[k];
-  const int row = view.layout.lambda_column(view.layout.coupling_row(static_cast<int>(k)));
-  if (const double epsilon = compliance_in(view, coupling); epsilon != 0.0) sink->rate(row, row, T(-epsilon));
-  for (std::size_t t = 0; t < coupling.terms.size(); ++t) {
-    const CouplingTerm& term = coupling.terms[t];
-    const T coefficient = view.design.constants.couplings[k].coefficients[t];
-    const CoordinateMotion<T>& motion = view.coordinate(term.pair, term.element, CoordinateDetail::kGradient);
-    const bool with_r = view.coordinate_moves_r(term.pair, term.element);
-    for (int local = 0; local < kLocalSize; ++local) {
-      const int c = view.column(term.pair, local);
-      if (c < 0 || (local % kBodySize < 3 && !with_r)) continue;
-      sink->position(row, c, T(coefficient * motion.acceleration_q[local]));
-      sink->velocity(row, c, T(coefficient * motion.acceleration_v[local]));
-      sink->rate(row, c, T(coefficient * motion.J[local]));
-      sink->rate(c, row, T(coefficient * motion.J[local]));
-    }
-    assemble_load_curvature(view, term.pair, view.coordinate_constants(term.pair, term.element), coefficient * view.state->z[row], sink);
   }
 }
 

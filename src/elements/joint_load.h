@@ -6,7 +6,6 @@
 #include "elements/gradient_rows.h"
 #include "elements/joint_friction.h"
 #include "elements/joint_stop_load.h"
-#include "elements/load_curvature.h"
 #include "elements/state_view.h"
 #include "elements/workspace.h"
 #include "forces/brown_mcphee.h"
@@ -99,21 +98,6 @@ void load_residual(const StateView<T>& view, const JointLoad& load, VectorX<T>* 
   const T value = joint_load(view, load, motion, nullptr);
   for (int local = 0; local < kLocalSize; ++local)
     if (const int c = view.column(load.pair, local); c >= 0) (*G)[c] += motion.J[local] * value;
-}
-
-/// Adds the derivatives of load_residual(): J^T times the gradient of L, and L theta_qq of (8).
-template <class T, class Sink>
-void assemble_load(const StateView<T>& view, Workspace<T>* workspace, const JointLoad& load, Sink* sink) {
-  const CoordinateMotion<T>& motion =
-      view.coordinate(load.pair, load.element, load.needs_position() ? CoordinateDetail::kAll : CoordinateDetail::kGradient);
-  workspace->gradient.clear();
-  const T value = joint_load(view, load, motion, &workspace->gradient);
-  const bool with_r = view.coordinate_moves_r(load.pair, load.element);
-  for (int local = 0; local < kLocalSize; ++local) {
-    const int row = view.column(load.pair, local);
-    if (row >= 0 && (local % kBodySize >= 3 || with_r)) add_row(row, motion.J[local], workspace->gradient, sink);
-  }
-  assemble_load_curvature(view, load.pair, view.coordinate_constants(load.pair, load.element), value, sink);
 }
 
 /// Friction of a joint coordinate for observers: its rate, normal force and load L, of `<codesign:friction>` and `<dynamics friction>`.

@@ -11,7 +11,7 @@ namespace codesign {
 // with b = -F; torques, and loads that turn with their link, are added to the rows of motion directly.
 
 /// Adds the force in the root's axes to Workspace::loads, f = -F and W = -F s^T; nothing for a load that turns with its link. Must be
-/// called before body_residual() or assemble_body().
+/// called before body_residual().
 template <class T>
 void add_link_load(const StateView<T>& view, Workspace<T>* workspace, std::size_t k) {
   const LinkLoad& load = view.system.link_loads()[k];
@@ -35,22 +35,6 @@ void link_load_residual(const StateView<T>& view, std::size_t k, VectorX<T>* G) 
   } else {
     G->template segment<4>(c + 3) -= T(2.0) * (ground_rate_matrix(on.p).transpose() * wrench.torque);
   }
-}
-
-/// Adds the derivatives of link_load_residual() by positions; there are no others.
-template <class T, class Sink>
-void assemble_link_load(const StateView<T>& view, std::size_t k, Sink* sink) {
-  const LinkLoad& load = view.system.link_loads()[k];
-  const ConstantWrench<T>& wrench = view.design.wrenches[k];
-  const int c = kBodySize * load.body;
-  const Vector3<T> twice = T(-2.0) * wrench.torque;
-  const Matrix4<T> turning = load.turns ? body_rate_hessian<T>(twice) : ground_rate_hessian<T>(twice);
-  for (int row = 0; row < 4; ++row)
-    for (int e = 0; e < 4; ++e) sink->position(c + 3 + row, c + 3 + e, turning(row, e));
-  if (!load.turns) return;
-  const Matrix34<T> B = rotated_vector_jacobian(view.body(load.body).p, wrench.force);
-  for (int row = 0; row < 3; ++row)
-    for (int e = 0; e < 4; ++e) sink->position(c + row, c + 3 + e, T(-B(row, e)));
 }
 
 /// F . (r + A s)' + tau . omega [W], positive where the load drives the link; theory (14c). Appends its gradient.

@@ -36,14 +36,6 @@ T watched_value(const StateView<T>& view, std::size_t k, OptionalGradient<T> gra
   return signal_error(view, view.system.watched()[k], view.design.watched[k], gradient);
 }
 
-/// Adds the gradient of the integrand g to the row below the rows of G, Layout::columns().
-template <class T, class Sink>
-void assemble_objective(const StateView<T>& view, Workspace<T>* workspace, Sink* sink) {
-  workspace->gradient.clear();
-  objective_terms(view, view.system.integral(), view.design.integral, &workspace->gradient);
-  add_row(view.layout.columns(), T(1.0), workspace->gradient, sink);
-}
-
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_ELEMENTS_OBJECTIVE_H_

@@ -3,7 +3,6 @@
 #define MECHANISM_CODESIGN_ELEMENTS_ROTOR_H_
 
 #include "elements/gradient_rows.h"
-#include "elements/load_curvature.h"
 #include "elements/state_view.h"
 #include "elements/workspace.h"
 
@@ -81,47 +80,6 @@ void rotor_residual(const StateView<T>& view, const Rotor& rotor, VectorX<T>* G)
   if (rotor.body < 0) return;
   const Vector3<T> moment = m.coupling * (joint.acceleration * m.axis + joint.rate * m.swing);
   G->template segment<4>(kBodySize * rotor.body + 3) += T(2.0) * body_rate_transposed(view.body(rotor.body).p, moment);
-}
-
-/// Adds the derivatives of the moment on the carrier, the second part of rotor_residual(). The carrier must not be the ground.
-template <class T, class Sink>
-void assemble_rotor_moment(const StateView<T>& view, Workspace<T>* workspace, const Rotor& rotor, const RotorMotion<T>& m, Sink* sink) {
-  const BodyKinematics<T>& carrier = view.body(rotor.body);
-  const CoordinateMotion<T>& joint = view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kGradient);
-  const Matrix34<T> G = body_rate_matrix(carrier.p), Gd = body_rate_matrix(carrier.pd);
-  const int p = kBodySize * rotor.body + 3;
-  for (int k = 0; k < 3; ++k) {
-    workspace->gradient.clear();
-    append_acceleration(view, rotor.pair, rotor.element, joint, m.coupling * m.axis[k], &workspace->gradient);
-    append_rate(view, rotor.pair, rotor.element, joint, m.coupling * m.swing[k], &workspace->gradient);
-    // swing = -2 u x G p', and G(p) p' = -G(p') p.
-    const Vector3<T> across = (T(2.0) * m.coupling * joint.rate) * cross<T>(Vector3<T>(Vector3<T>::Unit(k)), m.axis);
-    for (int e = 0; e < 4; ++e) {
-      workspace->gradient.velocity.push_back({p + e, T(-dot<T>(across, G.col(e)))});
-      workspace->gradient.position.push_back({p + e, dot<T>(across, Gd.col(e))});
-    }
-    for (int e = 0; e < 4; ++e) add_row(p + e, T(2.0 * G(k, e)), workspace->gradient, sink);
-  }
-  const Vector3<T> moment = m.coupling * (joint.acceleration * m.axis + joint.rate * m.swing);
-  const Matrix4<T> Y = body_rate_hessian<T>(T(2.0) * moment);
-  for (int row = 0; row < 4; ++row)
-    for (int e = 0; e < 4; ++e) sink->position(p + row, p + e, Y(row, e));
-}
-
-/// Adds the derivatives of rotor_residual().
-template <class T, class Sink>
-void assemble_rotor(const StateView<T>& view, Workspace<T>* workspace, const Rotor& rotor, Sink* sink) {
-  const RotorMotion<T> m = rotor_motion(view, rotor);
-  const CoordinateMotion<T>& joint = view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kGradient);
-  const bool with_r = view.coordinate_moves_r(rotor.pair, rotor.element);
-  workspace->gradient.clear();
-  const T load = rotor_load(view, rotor, &workspace->gradient);
-  for (int local = 0; local < kLocalSize; ++local) {
-    const int row = view.column(rotor.pair, local);
-    if (row >= 0 && (local % kBodySize >= 3 || with_r)) add_row(row, joint.J[local], workspace->gradient, sink);
-  }
-  assemble_load_curvature(view, rotor.pair, view.coordinate_constants(rotor.pair, rotor.element), load, sink);
-  if (rotor.body >= 0) assemble_rotor_moment(view, workspace, rotor, m, sink);
 }
 
 }  // namespace codesign

@@ -36,29 +36,6 @@ std::array<internal::SpringEnd<T>, 2> spring_ends(const StateView<T>& view, std:
   return {internal::SpringEnd<T>{c.body_i, view.body(c.body_i), c.s_i, T(-1.0)}, {c.body_j, view.body(c.body_j), c.s_j, T(1.0)}};
 }
 
-/// Adds the force of a spring-damper to Workspace::loads, and its derivatives by d and d' to the rows of motion; assemble_body() must
-/// follow.
-template <class T, class Sink>
-void assemble_spring(const StateView<T>& view, Workspace<T>* workspace, std::size_t k, Sink* sink) {
-  const Quantity& damping = view.system.robot().spring_dampers[k].damping;
-  const bool damped = !damping.is_zero();
-  const SpringForce<T> force = spring_at(view, k);
-  add_spring_load(view, workspace, k, force);
-  const std::array<internal::SpringEnd<T>, 2> ends = spring_ends(view, k);
-  for (const internal::SpringEnd<T>& on : ends) {
-    for (const internal::SpringEnd<T>& by : ends) {
-      if (on.column < 0 || by.column < 0) continue;
-      const Eigen::Matrix<T, 3, kBodySize> pull_q = force.by_d * by.D + force.by_rate * by.Dd, pull_v = force.by_rate * by.D;
-      for (int row = 0; row < kBodySize; ++row) {
-        for (int column = 0; column < kBodySize; ++column) {
-          sink->position(on.column + row, by.column + column, dot<T>(on.D.col(row), pull_q.col(column)));
-          if (damped) sink->velocity(on.column + row, by.column + column, dot<T>(on.D.col(row), pull_v.col(column)));
-        }
-      }
-    }
-  }
-}
-
 /// The elastic energy k (l - l_0)^2/2 of a spring-damper [J]. Appends its gradient by positions.
 template <class T>
 T spring_energy_at(const StateView<T>& view, std::size_t k, OptionalGradient<T> gradient) {

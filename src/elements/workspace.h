@@ -5,16 +5,14 @@
 #include <vector>
 
 #include "joints/pair_rows.h"
-#include "sparse/sparsity.h"
 #include "system/system.h"
 
 namespace codesign {
 
-/// Memory that the elements write to during one evaluation of the equations: the loads on the bodies, which several elements add up, and
-/// the gradient of the current element.
+/// Memory that the elements write to during one evaluation of the equations: the loads on the bodies, which several elements add up.
 ///
 /// Order within one evaluation: clear_loads(); then every element that adds loads (pairs, spring-dampers, constant loads on links); then
-/// the bodies, which turn the sums into rows of the residual or of its derivatives, theory (7).
+/// the bodies, which turn the sums into rows of the residual, theory (7).
 template <class T>
 struct Workspace {
   explicit Workspace(const System& system) {
@@ -47,8 +45,6 @@ struct Workspace {
   std::vector<BodyLoad<T>> shared_loads;
   /// Per body, the ground last: its position without velocity, and the displacement w of (23b) in place of the acceleration.
   std::vector<BodyKinematics<T>> displaced;
-  /// Gradient of the scalar that the current element computes; each assemble_... function clears it before use.
-  SparseGradient<T> gradient;
 };
 
 }  // namespace codesign

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 #include <iterator>
+#include <memory>
+#include <utility>
 
 #include "codegen/operate.h"
 #include "equations/equation_code.h"
@@ -19,14 +21,32 @@ constexpr int kLanesOf = 0;
 template <int N>
 constexpr int kLanesOf<Lanes<N>> = N;
 
+template <class T>
+constexpr bool kIsComplex = std::is_same_v<T, std::complex<double>>;
+
+/// The entries of the code's arrays: a Lanes<N> is 1 + N doubles in a row, value first.
+template <class T>
+using CodeNumber = std::conditional_t<kIsComplex<T>, T, double>;
+template <class T>
+using CodeArrays = std::array<const CodeNumber<T>*, kCodeArrays>;
+
 /// The arrays that the equations own; the caller sets the arrays of the state and of results.
 template <class T>
-ValueCode::Arrays inner_arrays(const std::vector<T>& numbers, const LineVector& slots, const LineVector& rows) {
-  ValueCode::Arrays arrays{};
-  arrays[Arrays::kNumbers] = reinterpret_cast<const double*>(numbers.data());
-  arrays[Arrays::kSlots] = slots.data();
-  arrays[Arrays::kRows] = rows.data();
+CodeArrays<T> inner_arrays(const std::vector<T>& numbers, const LineVector& slots, const LineVector& rows) {
+  CodeArrays<T> arrays{};
+  arrays[Arrays::kNumbers] = reinterpret_cast<const CodeNumber<T>*>(numbers.data());
+  arrays[Arrays::kSlots] = reinterpret_cast<const CodeNumber<T>*>(slots.data());
+  arrays[Arrays::kRows] = reinterpret_cast<const CodeNumber<T>*>(rows.data());
   return arrays;
+}
+
+int run_values(const CompiledFunction& code, const CodeArrays<double>& arrays) {
+  if (code.interpreter) return code.interpreter->execute<double>(arrays);
+  return code.values->run(arrays) ? -1 : 0;
+}
+
+int run_values(const CompiledFunction& code, const CodeArrays<std::complex<double>>& arrays) {
+  return code.interpreter->execute<std::complex<double>>(arrays);
 }
 
 }  // namespace
@@ -34,65 +54,44 @@ ValueCode::Arrays inner_arrays(const std::vector<T>& numbers, const LineVector& 
 template <class T>
 void CompiledEquations<T>::set_design(const std::vector<T>& parameters) {
   parameters_ = parameters;
-  known_ = false;
-  misses_ = {};
+  for (Variant& variant : variants_) variant.ready = false;
+  current_ = 0;
 }
 
 template <class T>
-bool CompiledEquations<T>::is_worth_trying(EquationFunction function) {
-  Misses& misses = misses_[static_cast<std::size_t>(function)];
-  if (misses.pause == 0) return true;
-  --misses.pause;
-  return false;
+void CompiledEquations<T>::take_design(Variant* variant) {
+  if (variant->ready) return;
+  fill_numbers(variant);
+  set_functions(variant);
+  variant->ready = true;
 }
 
 template <class T>
-bool CompiledEquations<T>::note(EquationFunction function, bool recorded) {
-  constexpr int kMost = 4, kPause = 60;
-  Misses& misses = misses_[static_cast<std::size_t>(function)];
-  misses.in_a_row = recorded ? 0 : misses.in_a_row + 1;
-  if (misses.in_a_row >= kMost) misses.pause = kPause;
-  return recorded;
-}
-
-template <class T>
-bool CompiledEquations<T>::prepare() {
-  if (!allowed_) return false;
-  if (known_) return code_ != nullptr;
-  known_ = true;
-  code_ = system_.equation_code();
-  if (code_) numbered_ = &code_->numbered(kLanesOf<T> > 0);
-  if (code_ && !fill_numbers()) code_ = nullptr;
-  if (!code_) return false;
-  set_functions();
-  return true;
-}
-
-template <class T>
-void CompiledEquations<T>::set_functions() {
-  const auto& sources = numbered_->recording.timed_sources();
-  functions_.resize(sources.size());
-  const auto set = [this](auto* function, std::size_t k, const auto& description) {
+void CompiledEquations<T>::set_functions(Variant* variant) const {
+  const auto& sources = variant->code->numbered(kLanesOf<T> > 0).recording.timed_sources();
+  variant->functions.resize(sources.size());
+  const auto set = [&](auto* function, std::size_t k, const auto& description) {
     using Function = std::remove_pointer_t<decltype(function)>;
-    if (!function) function = &functions_[k].template emplace<Function>();
+    if (!function) function = &variant->functions[k].template emplace<Function>();
     function->set(description, parameters_);
   };
   for (std::size_t k = 0; k < sources.size(); ++k) {
     if (const auto* basis = sources[k].template as<BasisDescription>())
-      set(std::get_if<ShapedInput<T>>(&functions_[k]), k, *basis);
+      set(std::get_if<ShapedInput<T>>(&variant->functions[k]), k, *basis);
     else
-      set(std::get_if<Reference<T>>(&functions_[k]), k, *sources[k].template as<ReferenceDescription>());
+      set(std::get_if<Reference<T>>(&variant->functions[k]), k, *sources[k].template as<ReferenceDescription>());
   }
 }
 
 template <class T>
-bool CompiledEquations<T>::fill_numbers() {
-  const Recording& recording = numbered_->recording;
+void CompiledEquations<T>::fill_numbers(Variant* variant) {
+  const NumberedRecording& numbered = variant->code->numbered(kLanesOf<T> > 0);
+  const Recording& recording = numbered.recording;
   std::vector<T>& values = nodes_;
   values.assign(to_index(recording.size()), T(0.0));
-  numbers_.assign(numbered_->numbers.size(), T(0.0));
-  for (std::size_t k = 0; k < numbers_.size(); ++k) {
-    const int n = numbered_->numbers[k];
+  variant->numbers.assign(numbered.numbers.size(), T(0.0));
+  for (std::size_t k = 0; k < variant->numbers.size(); ++k) {
+    const int n = numbered.numbers[k];
     const Recording::Node& node = recording.node(n);
     T& value = values[to_index(n)];
     if (node.operation == Operation::kLiteral)
@@ -101,88 +100,158 @@ bool CompiledEquations<T>::fill_numbers() {
       value = operate<T>(node.operation, values[to_index(node.a)], node.b < 0 ? T(0.0) : values[to_index(node.b)]);
     else if (node.a == Recording::kSupplied && node.b >= 0)
       value = value_at(*recording.supplied_sources()[to_index(node.b)].as<Expression>(), parameters_);
-    numbers_[k] = value;
+    variant->numbers[k] = value;
   }
-  const std::vector<Recording::Guard>& guards = code_->design_guards();
-  return std::all_of(guards.begin(), guards.end(), [&values](const Recording::Guard& guard) {
-    return (value_of(values[to_index(guard.a)]) < value_of(values[to_index(guard.b)])) == guard.outcome;
+  variant->failed = -1;
+  for (const Recording::Guard& guard : variant->code->design_guards()) {
+    const bool outcome = value_of(values[to_index(guard.a)]) < value_of(values[to_index(guard.b)]);
+    if (outcome != guard.outcome && (variant->failed < 0 || guard.decision < variant->failed)) variant->failed = guard.decision;
+  }
+}
+
+template <class T>
+void CompiledEquations<T>::set_instant(const Instant& instant, Variant* variant) const {
+  const NumberedRecording& numbered = variant->code->numbered(kLanesOf<T> > 0);
+  for (std::size_t k = 0; k < variant->functions.size(); ++k) {
+    const ReferenceMotion<T> motion = std::visit([&](const auto& function) { return function.at(instant.t); }, variant->functions[k]);
+    const T* const orders[] = {&motion.value, &motion.rate, &motion.acceleration, &motion.jerk};
+    for (std::size_t order = 0; order < Recording::kFunctionOrders; ++order)
+      if (const int entry = numbered.functions[k][order]; entry >= 0) variant->numbers[to_index(entry)] = *orders[order];
+  }
+  for (const auto& [slot, entry] : numbered.turns) variant->numbers[to_index(entry)] = T(instant.turns[to_index(slot)]);
+}
+
+template <class T>
+bool CompiledEquations<T>::adopt() {
+  const EquationCode* const code = system_.equation_code(variants_.size(), part_);
+  if (code) variants_.emplace_back().code = code;
+  return code != nullptr;
+}
+
+template <class T>
+template <class Run>
+int CompiledEquations<T>::attempt(const Instant& instant, bool interpreted, const Run& run, Variant* variant) {
+  take_design(variant);
+  if (variant->failed >= 0) return variant->failed;
+  const CompiledFunction& code = variant->code->function(instant.function, {kLanesOf<T>, instant.split, interpreted || kIsComplex<T>});
+  const std::size_t slots = code.slots * sizeof(CodeNumber<T>) / sizeof(double);
+  if (slots_.size() < slots) slots_.resize(slots);
+  if (rows_.size() < code.rows) rows_.resize(code.rows);
+  set_instant(instant, variant);
+  return run(code, inner_arrays<T>(variant->numbers, slots_, rows_));
+}
+
+template <class T>
+template <class Run>
+void CompiledEquations<T>::evaluate(const Instant& instant, const Run& run) {
+  if (variants_.empty()) adopt();
+  if (attempt(instant, interpreted_, run, &variants_[current_]) < 0) return;
+  for (std::size_t k = 0; k < variants_.size() || adopt(); ++k) {
+    if (k == current_ || attempt(instant, interpreted_, run, &variants_[k]) >= 0) continue;
+    current_ = k;
+    return;
+  }
+  add_variant(instant, run);
+}
+
+// Each round keeps the outcomes up to the first one that the point decides otherwise. Only the loop over operations tells which one it is.
+template <class T>
+template <class Run>
+void CompiledEquations<T>::add_variant(const Instant& instant, const Run& run) {
+  std::vector<bool> outcomes;
+  for (;;) {
+    std::unique_ptr<EquationCode> code = system_.record_variant(outcomes, part_);
+    Variant variant;
+    variant.code = code.get();
+    const int failed = attempt(instant, true, run, &variant);
+    // A decision within rounding that fails again stays as it is: both branches give the same there.
+    if (failed < static_cast<int>(outcomes.size())) {
+      current_ = system_.keep_variant(std::move(code), part_);
+      while (variants_.size() <= current_) adopt();
+      return;
+    }
+    outcomes = code->outcomes();
+    outcomes.resize(to_index(failed) + 1);
+    outcomes.back() = !outcomes.back();
+  }
+}
+
+template <class T>
+void CompiledEquations<T>::run(EquationFunction function, double t, const std::vector<double>& turns, const In<T> (&state)[4],
+                               const Out<T> (&results)[4]) {
+  const auto numbers = [](In<T> array) { return reinterpret_cast<const CodeNumber<T>*>(array.data()); };
+  evaluate({function, false, t, turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays) {
+    std::transform(std::begin(state), std::end(state), arrays.begin(), numbers);
+    std::transform(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults, numbers);
+    const int failed = run_values(code, arrays);
+    if constexpr (kLanesOf < T >> 0)
+      if (failed < 0) code.tangents->run(arrays);
+    return failed;
   });
 }
 
 template <class T>
-void CompiledEquations<T>::set_instant(double t, const std::vector<double>& turns) {
-  for (std::size_t k = 0; k < functions_.size(); ++k) {
-    const ReferenceMotion<T> motion = std::visit([t](const auto& function) { return function.at(t); }, functions_[k]);
-    const T* const orders[] = {&motion.value, &motion.rate, &motion.acceleration, &motion.jerk};
-    for (std::size_t order = 0; order < Recording::kFunctionOrders; ++order)
-      if (const int entry = numbered_->functions[k][order]; entry >= 0) numbers_[to_index(entry)] = *orders[order];
-  }
-  for (const auto& [slot, entry] : numbered_->turns) numbers_[to_index(entry)] = T(turns[to_index(slot)]);
-}
-
-template <class T>
-const CompiledFunction* CompiledEquations<T>::begin(EquationFunction function, bool split, double t, const std::vector<double>& turns) {
-  if (!is_worth_trying(function) || !prepare()) return nullptr;
-  const CompiledFunction* const code = code_->function(function, {kLanesOf<T>, split});
-  if (!code) return nullptr;
-  if (slots_.size() < code->slots) slots_.resize(code->slots);
-  if (rows_.size() < code->rows) rows_.resize(code->rows);
-  set_instant(t, turns);
-  return code;
-}
-
-// A Lanes<N> is 1 + N doubles in a row, value first; the code reads arrays of them as arrays of doubles.
-template <class T>
-bool CompiledEquations<T>::run(EquationFunction function, double t, const std::vector<double>& turns, const In<T> (&state)[4],
-                               const Out<T> (&results)[4]) {
-  const CompiledFunction* const code = begin(function, false, t, turns);
-  if (!code) return false;
-  const auto numbers = [](In<T> array) { return reinterpret_cast<const double*>(array.data()); };
-  ValueCode::Arrays arrays = inner_arrays(numbers_, slots_, rows_);
-  std::transform(std::begin(state), std::end(state), arrays.begin(), numbers);
-  std::transform(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults, numbers);
-  if (!note(function, code->values->run(arrays))) return false;
-  if (code->tangents) code->tangents->run(arrays);
-  return true;
-}
-
-template <class T>
-bool CompiledEquations<T>::tangents(EquationFunction function, double t, const std::vector<double>& turns, const In<double> (&values)[4],
+void CompiledEquations<T>::tangents(EquationFunction function, double t, const std::vector<double>& turns, const In<double> (&values)[4],
                                     const In<double> (&directions)[4], const Out<double> (&results)[4]) {
-  const CompiledFunction* const code = kLanesOf<T> == 0 ? nullptr : begin(function, true, t, turns);
-  if (!code) return false;
   assert(std::equal(std::begin(values), std::end(values), std::begin(directions),
                     [](In<double> x, In<double> along) { return along.size() == kLanesOf<T> * x.size(); }));
-  const auto first = [](In<double> array) { return array.data(); };
-  ValueCode::Arrays arrays = inner_arrays(numbers_, slots_, rows_);
-  std::transform(std::begin(values), std::end(values), arrays.begin(), first);
-  if (!note(function, code->values->run(arrays))) return false;
-  std::transform(std::begin(directions), std::end(directions), arrays.begin(), first);
-  std::transform(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults, first);
-  code->tangents->run(arrays);
-  return true;
+  if constexpr (kLanesOf < T >> 0) {
+    const auto first = [](In<double> array) { return array.data(); };
+    evaluate({function, true, t, turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays) {
+      std::transform(std::begin(values), std::end(values), arrays.begin(), first);
+      if (const int failed = run_values(code, arrays); failed >= 0) return failed;
+      std::transform(std::begin(directions), std::end(directions), arrays.begin(), first);
+      std::transform(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults, first);
+      code.tangents->run(arrays);
+      return -1;
+    });
+  }
 }
 
 template <class T>
-bool CompiledEquations<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
+void CompiledEquations<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
   G->resize(system_.layout().columns());
-  return run(EquationFunction::kResidual, state.t, state.turns, {state.q, state.v, state.s, state.z}, {*G, {g, 1}, {}, {}});
+  run(EquationFunction::kResidual, state.t, state.turns, {state.q, state.v, state.s, state.z}, {*G, {g, 1}, {}, {}});
 }
 
 template <class T>
-bool CompiledEquations<T>::linearize(const State<T>& state, Linearization<T>* derivatives) {
-  return run(EquationFunction::kLinearization, state.t, state.turns, {state.q, state.v, state.s, state.z},
-             {derivatives->position, derivatives->velocity, derivatives->rate, derivatives->time});
+void CompiledEquations<T>::linearize(const State<T>& state, Linearization<T>* derivatives) {
+  run(EquationFunction::kLinearization, state.t, state.turns, {state.q, state.v, state.s, state.z},
+      {derivatives->position, derivatives->velocity, derivatives->rate, derivatives->time});
 }
 
 template <class T>
-bool CompiledEquations<T>::constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
+void CompiledEquations<T>::constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
   Phi->resize(system_.layout().m);
   Phi_rate->resize(system_.layout().m);
-  return run(EquationFunction::kConstraintErrors, 0.0, state.turns, {state.q, state.v, {}, {}}, {*Phi, *Phi_rate, {}, {}});
+  run(EquationFunction::kConstraintErrors, 0.0, state.turns, {state.q, state.v, {}, {}}, {*Phi, *Phi_rate, {}, {}});
+}
+
+template <class T>
+T CompiledEquations<T>::signal(EquationFunction function, const State<T>& state, SparseGradient<T>* gradient) {
+  const Layout& layout = system_.layout();
+  const int velocity = layout.positions(), rate = velocity + layout.n, time = rate + layout.columns();
+  entries_.resize(to_index(time) + 1);
+  T value(0.0);
+  run(function, state.t, state.turns, {state.q, state.v, state.s, state.z}, {{&value, 1}, entries_, {}, {}});
+  gradient->clear();
+  const std::vector<int>& columns = variants_[current_].code->gradient_columns(function);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const int c = columns[k];
+    if (c < velocity)
+      gradient->position.push_back({c, entries_[k]});
+    else if (c < rate)
+      gradient->velocity.push_back({c - velocity, entries_[k]});
+    else if (c < time)
+      gradient->rate.push_back({c - rate, entries_[k]});
+    else
+      gradient->time = entries_[k];
+  }
+  return value;
 }
 
 template class CompiledEquations<double>;
+template class CompiledEquations<std::complex<double>>;
 template class CompiledEquations<Lanes<4>>;
 template class CompiledEquations<Lanes<8>>;
 

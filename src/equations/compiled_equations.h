@@ -2,13 +2,11 @@
 #ifndef MECHANISM_CODESIGN_EQUATIONS_COMPILED_EQUATIONS_H_
 #define MECHANISM_CODESIGN_EQUATIONS_COMPILED_EQUATIONS_H_
 
-#include <array>
 #include <complex>
 #include <type_traits>
 #include <variant>
 #include <vector>
 
-#include "codegen/traced.h"
 #include "control/reference.h"
 #include "control/shaped_input.h"
 #include "equations/compiled_system.h"
@@ -22,101 +20,83 @@ namespace codesign {
 
 class EquationCode;
 struct CompiledFunction;
-struct NumberedRecording;
 
-/// The equations of one design, evaluated by machine code that was compiled for their mechanism (EquationCode). The results equal the
-/// results of Formulas within rounding. T: double or Lanes<N>. No allocation after the first evaluation; not thread-safe.
+/// The recorded equations of one design (EquationCode): machine code where it can be made, else a loop over the recorded operations. The
+/// results equal those of Formulas within rounding. T: double, std::complex<double> (always by the loop) or Lanes<N>. No allocation after
+/// the first evaluation of a variant; not thread-safe.
 ///
-/// The recording holds one branch of each decision. Every evaluation compares its decisions with the recorded ones and fails if one
-/// differs; Equations then evaluates the formulas.
+/// A recording holds one outcome of each decision. Every evaluation compares its decisions with those of the variant that served last, then
+/// with the others that are known; a variant that is missing is recorded.
 template <class T>
 class CompiledEquations {
  public:
-  explicit CompiledEquations(const CompiledSystem& system) : system_(system) {}
+  explicit CompiledEquations(const CompiledSystem& system, EquationPart part = EquationPart::kMotion) : system_(system), part_(part) {}
 
   /// Takes the values of all named parameters; the constants are evaluated when a function is first called.
   void set_design(const std::vector<T>& parameters);
-  /// With false every function returns false at once, so that the formulas are used.
-  void allow(bool allowed) { allowed_ = allowed; }
-  /// Forgets which evaluations failed before, so that the last bits of later results do not depend on them.
-  void forget() { misses_ = {}; }
+  /// With false machine code is neither made nor used: a few evaluations take less time than making it.
+  void allow(bool machine_code) { interpreted_ = !machine_code; }
+  /// Begins again with the first variant.
+  void forget() { current_ = 0; }
 
-  /// The functions of Equations of the same name. False if there is no code, or if the state needs a branch that was not recorded; the
-  /// results are then undefined.
-  bool residual(const State<T>& state, VectorX<T>* G, T* g);
-  bool linearize(const State<T>& state, Linearization<T>* derivatives);
-  bool constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
+  /// The functions of Equations of the same name.
+  void residual(const State<T>& state, VectorX<T>* G, T* g);
+  void linearize(const State<T>& state, Linearization<T>* derivatives);
+  void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
 
-  /// The derivatives of one function along N directions of state and design, for T = Lanes<N> only; false as above, and for T = double. The
-  /// directions of the design are the directions of the parameters given to set_design().
+  /// The value of kTerminal or of a watched signal, and its gradient. @param gradient overwritten.
+  T signal(EquationFunction function, const State<T>& state, SparseGradient<T>* gradient);
+
+  /// The derivatives of one function along N directions of state and design, for T = Lanes<N> only. The directions of the design are the
+  /// directions of the parameters given to set_design().
   /// @param turns State::turns. @param values of q, v, s and z. @param directions of the same vectors, N numbers side by side per entry.
   /// @param results one array per result in the order of EquationFunction, N numbers side by side per entry; then empty arrays.
-  bool tangents(EquationFunction function, double t, const std::vector<double>& turns, const In<double> (&values)[4],
+  void tangents(EquationFunction function, double t, const std::vector<double>& turns, const In<double> (&values)[4],
                 const In<double> (&directions)[4], const Out<double> (&results)[4]);
 
  private:
-  /// Fetches the code and evaluates the constants of a new design. False if the code cannot be used for it.
-  bool prepare();
-  /// Evaluates the recorded numbers that depend on the design alone; false if the design needs a branch that was not recorded.
-  bool fill_numbers();
-  /// Evaluates the functions of time for the design.
-  void set_functions();
-  /// Evaluates the functions of time at `t` and copies the turn references to the code's inputs.
-  void set_instant(double t, const std::vector<double>& turns);
-
-  /// Counts the evaluations of a function that failed because the state needed a branch that was not recorded. After a few failures in a
-  /// row the code is not tried for a while, since a failed evaluation costs time.
-  struct Misses {
-    int in_a_row = 0, pause = 0;
+  /// A variant with its inputs for the present design.
+  struct Variant {
+    const EquationCode* code = nullptr;
+    bool ready = false;                                                 ///< whether the members below belong to the present design
+    int failed = -1;                                                    ///< the first decision that the design makes otherwise, -1 if none
+    std::vector<T> numbers;                                             ///< array EquationArrays::kNumbers
+    std::vector<std::variant<Reference<T>, ShapedInput<T>>> functions;  ///< functions of time, order of the recording
   };
-  /// Whether the pause after failures is over; counts it down.
-  bool is_worth_trying(EquationFunction function);
-  /// Counts the outcome of an evaluation and returns it.
-  bool note(EquationFunction function, bool recorded);
+  /// Where a function is evaluated.
+  struct Instant {
+    EquationFunction function;
+    bool split;
+    double t;
+    const std::vector<double>& turns;
+  };
 
-  /// The code of a function with its inputs set for an instant; null if there is none or the pause is not over.
-  const CompiledFunction* begin(EquationFunction function, bool split, double t, const std::vector<double>& turns);
-  bool run(EquationFunction function, double t, const std::vector<double>& turns, const In<T> (&state)[4], const Out<T> (&results)[4]);
+  void take_design(Variant* variant);
+  void fill_numbers(Variant* variant);
+  void set_functions(Variant* variant) const;
+  /// Evaluates the functions of time and copies the turn references to the code's inputs.
+  void set_instant(const Instant& instant, Variant* variant) const;
+  /// Takes over one more of the variants that the system knows; false if there is none.
+  bool adopt();
+  /// The first decision of a variant that the point makes otherwise; -1 if the results are valid. Machine code does not tell which one, 0.
+  template <class Run>
+  int attempt(const Instant& instant, bool interpreted, const Run& run, Variant* variant);
+  template <class Run>
+  void evaluate(const Instant& instant, const Run& run);
+  template <class Run>
+  void add_variant(const Instant& instant, const Run& run);
+  void run(EquationFunction function, double t, const std::vector<double>& turns, const In<T> (&state)[4], const Out<T> (&results)[4]);
 
   const CompiledSystem& system_;
+  EquationPart part_;
   std::vector<T> parameters_;
-  bool allowed_ = true;
-  bool known_ = false;  ///< whether code_ and numbers_ belong to parameters_
-  const EquationCode* code_ = nullptr;
-  const NumberedRecording* numbered_ = nullptr;
-  std::vector<T> nodes_;                                               ///< workspace of fill_numbers(): values of the recording's nodes
-  std::vector<T> numbers_;                                             ///< array EquationArrays::kNumbers
-  std::vector<std::variant<Reference<T>, ShapedInput<T>>> functions_;  ///< functions of time, order of the recording
-  std::array<Misses, kEquationFunctions> misses_;                      ///< per EquationFunction
-  LineVector slots_, rows_;                                            ///< workspace of the code
+  bool interpreted_ = false;
+  std::vector<Variant> variants_;  ///< the first ones that the system knows, in its order
+  std::size_t current_ = 0;        ///< the variant that served last
+  std::vector<T> entries_;         ///< workspace of signal()
+  std::vector<T> nodes_;           ///< workspace of fill_numbers(): values of the recording's nodes
+  LineVector slots_, rows_;        ///< workspace of the code
 };
-
-/// The interface of CompiledEquations for scalars without code: complex numbers, which serve checks, and Traced, which records. Every
-/// function returns false.
-template <class T>
-class NoCompiledEquations {
- public:
-  explicit NoCompiledEquations(const CompiledSystem&) {}
-  void set_design(const std::vector<T>&) {}
-  void forget() {}
-  template <class... Arguments>
-  bool residual(const Arguments&...) {
-    return false;
-  }
-  template <class... Arguments>
-  bool linearize(const Arguments&...) {
-    return false;
-  }
-  template <class... Arguments>
-  bool constraint_errors(const Arguments&...) {
-    return false;
-  }
-};
-
-/// CompiledEquations where T has code, else NoCompiledEquations.
-template <class T>
-using CompiledEquationsOf =
-    std::conditional_t<std::is_same_v<T, std::complex<double>> || std::is_same_v<T, Traced>, NoCompiledEquations<T>, CompiledEquations<T>>;
 
 }  // namespace codesign
 

@@ -2,15 +2,19 @@
 #ifndef MECHANISM_CODESIGN_EQUATIONS_COMPILED_SYSTEM_H_
 #define MECHANISM_CODESIGN_EQUATIONS_COMPILED_SYSTEM_H_
 
+#include <array>
+#include <cstddef>
 #include <memory>
+#include <vector>
 
+#include "equations/equation_function.h"
 #include "sparse/sparsity.h"
 #include "system/system.h"
 
 namespace codesign {
 
 class EquationCode;
-class LazyEquationCode;
+class EquationVariants;
 
 /// A System with everything that is made once for its equations and shared by all designs and threads: the sparsity patterns of their
 /// derivatives, and their machine code. Immutable and thread-safe. make_system() builds one from a model and a study.
@@ -22,18 +26,19 @@ class CompiledSystem final : public System {
   CompiledSystem(const RobotDescription& robot, const Study& study, ReactionSharing sharing = {}, const std::vector<int>& drives = {});
   ~CompiledSystem();
 
-  /// The patterns, and the nonzero that each call of Formulas::assemble() adds to.
-  const AssemblyPlan& plan() const { return plan_; }
   /// The patterns of G_q and G_s (position), G_v (velocity) and G_z (rate), with one more row for the integrand g.
-  const ByVariable<Sparsity>& patterns() const { return plan_.patterns; }
+  const ByVariable<Sparsity>& patterns() const { return patterns_; }
 
-  /// The machine code of the equations, recorded by the first call. Null on processors for which no code can be made, for very large
-  /// systems, and for equations that could not be recorded. Thread-safe.
-  const EquationCode* equation_code() const;
+  /// The k-th variant of the equations' code; null if fewer are known. The first one is recorded by the first call. Thread-safe.
+  const EquationCode* equation_code(std::size_t k = 0, EquationPart part = EquationPart::kMotion) const;
+  /// The variant for given outcomes of the first decisions, not yet among those known.
+  std::unique_ptr<EquationCode> record_variant(std::vector<bool> outcomes, EquationPart part = EquationPart::kMotion) const;
+  /// Adds a variant to those known, unless it is one of them. @return its index. Thread-safe.
+  std::size_t keep_variant(std::unique_ptr<EquationCode> variant, EquationPart part = EquationPart::kMotion) const;
 
  private:
-  const AssemblyPlan plan_;
-  const std::unique_ptr<LazyEquationCode> code_;
+  const ByVariable<Sparsity> patterns_;
+  const std::array<std::unique_ptr<EquationVariants>, 2> variants_;  ///< per EquationPart
 };
 
 }  // namespace codesign

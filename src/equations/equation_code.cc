@@ -2,10 +2,11 @@
 #include "equations/equation_code.h"
 
 #include <algorithm>
-#include <limits>
+#include <stdexcept>
+#include <utility>
 
 #include "codegen/traced.h"
-#include "equations/formulas.h"
+#include "equations/recorded_equations.h"
 #include "math/to_index.h"
 
 namespace codesign {
@@ -17,11 +18,7 @@ using Arrays = EquationArrays;
 constexpr int kMostColumns = 4000;
 constexpr std::size_t kMostBytes = 16 * 1024 * 1024;
 
-constexpr int kTurns = Recording::kTimed + 1;  // array of the leaves that are turn references
-
-void leaves(int array, Recording* recording, VectorX<Traced>* x) {
-  for (int k = 0; k < x->size(); ++k) (*x)[k] = Traced(recording, recording->leaf(array, k, true));
-}
+constexpr int kTurns = RecordedEquations::kTurns;
 
 /// The place of an entry in an array of Lanes, as an index of doubles: each entry takes lanes + 1 of them. The code's own workspaces are
 /// counted in doubles already.
@@ -43,76 +40,94 @@ bool is_tangent_leaf(const Recording::Node& node) {
 
 }  // namespace
 
-EquationCode::EquationCode(const System& system, const AssemblyPlan& plan) {
-  if (!ValueCode::is_available() || system.layout().columns() > kMostColumns) {
-    values_.recording.refuse();
-    return;
-  }
-  record(system, plan);
-  if (usable()) values_.number_nodes();
+EquationCode::EquationCode(const System& system, const ByVariable<Sparsity>& patterns, EquationPart part, std::vector<bool> outcomes)
+    : long_(system.layout().columns() > kMostColumns),
+      functions_(static_cast<std::size_t>(watched_function(part == EquationPart::kMotion ? 0 : system.watched().size()))),
+      known_(functions_.size()) {
+  values_.recording.follow(std::move(outcomes));
+  RecordedEquations equations(system, &values_.recording);
+  std::vector<Recording::Guard> none;
+  take_guards(0, &none);
+  part == EquationPart::kMotion ? record_motion(patterns, &equations) : record_signals(system, &equations);
+  if (values_.recording.refused()) throw std::logic_error("the formulas decide something without is_less()");
+  for (const Recording::Guard& guard : values_.recording.guards()) outcomes_.push_back(guard.outcome);
+  values_.number_nodes();
 }
 
-void EquationCode::record(const System& system, const AssemblyPlan& plan) {
-  Recording* const recording = &values_.recording;
-  Formulas<Traced> formulas(system);
-  // One parameter more than there are: with a model without parameters nothing else would refer to the recording.
-  const int parameter = recording->leaf(Recording::kSupplied, -1, false);
-  std::vector<Traced> parameters;
-  for (double value : system.parameters()) parameters.emplace_back(recording, parameter, value);
-  parameters.emplace_back(recording, parameter, 0.0);
-  formulas.set_design(parameters);
-  State<Traced> state;
-  state.resize(system.layout());
-  for (std::size_t k = 0; k < state.turns.size(); ++k)
-    state.turns[k] = Traced(recording, recording->leaf(kTurns, static_cast<int>(k), true));
-  state.t = std::numeric_limits<double>::quiet_NaN();  // results must depend on time through functions of time alone: a NaN that is used
-                                                       // refuses the recording
-  leaves(Arrays::kQ, recording, &state.q), leaves(Arrays::kV, recording, &state.v);
-  leaves(Arrays::kS, recording, &state.s), leaves(Arrays::kZ, recording, &state.z);
+void EquationCode::record_motion(const ByVariable<Sparsity>& patterns, RecordedEquations* equations) {
+  const auto at = [this](EquationFunction function) { return &functions_[static_cast<std::size_t>(function)]; };
+  std::size_t decisions = values_.recording.decisions().size();
+  equations->record_residual();
+  take_guards(decisions, &at(EquationFunction::kResidual)->guards);
+  const VectorX<Traced> g = VectorX<Traced>::Constant(1, equations->g);
+  take_outputs(EquationFunction::kResidual, {&equations->G, &g});
 
-  Recorded design;
-  take_guards(0, &design);
+  decisions = values_.recording.decisions().size();
+  VectorX<Traced> Phi, Phi_rate;
+  equations->formulas.constraint_errors(equations->state, &Phi, &Phi_rate);
+  take_guards(decisions, &at(EquationFunction::kConstraintErrors)->guards);
+  take_outputs(EquationFunction::kConstraintErrors, {&Phi, &Phi_rate});
 
-  std::size_t guards = recording->guards().size();
-  VectorX<Traced> G, Phi, Phi_rate, g(1);
-  formulas.residual(state, &G, g.data());
-  take(EquationFunction::kResidual, {&G, &g}, &guards);
-  Linearization<Traced> derivatives;
-  derivatives.resize(plan.patterns);
-  formulas.linearize(state, plan, &derivatives);
+  const Linearization<Traced> derivatives = derive_linearization(patterns, EliminationOrder::kForward, equations);
   const auto vector = [](const std::vector<Traced>& x) -> VectorX<Traced> {
     return Eigen::Map<const VectorX<Traced>>(x.data(), static_cast<Eigen::Index>(x.size()));
   };
   const VectorX<Traced> by_position = vector(derivatives.position), by_velocity = vector(derivatives.velocity),
                         by_rate = vector(derivatives.rate);
-  take(EquationFunction::kLinearization, {&by_position, &by_velocity, &by_rate, &derivatives.time}, &guards);
-  formulas.constraint_errors(state, &Phi, &Phi_rate);
-  take(EquationFunction::kConstraintErrors, {&Phi, &Phi_rate}, &guards);
+  // The derivatives decide nothing: they hold where the residual holds.
+  at(EquationFunction::kLinearization)->guards = at(EquationFunction::kResidual)->guards;
+  take_outputs(EquationFunction::kLinearization, {&by_position, &by_velocity, &by_rate, &derivatives.time});
 }
 
-void EquationCode::take(EquationFunction function, const std::vector<const VectorX<Traced>*>& results, std::size_t* guards) {
+void EquationCode::record_signals(const System& system, RecordedEquations* equations) {
+  std::vector<Traced> values;
+  const auto record = [&](auto&& signal) {
+    const std::size_t decisions = values_.recording.decisions().size();
+    values.push_back(signal());
+    Recorded& function = functions_[static_cast<std::size_t>(EquationFunction::kTerminal) + values.size() - 1];
+    take_guards(decisions, &function.guards);
+  };
+  record([&] { return equations->formulas.terminal(equations->state, nullptr); });
+  for (std::size_t k = 0; k < system.watched().size(); ++k)
+    record([&] { return equations->formulas.watched(k, equations->state, nullptr); });
+  const std::vector<JacobianEntry> entries = derive_gradients(system, values, EliminationOrder::kReverse, &values_.recording);
+  std::vector<std::vector<Traced>> rows(values.size());
+  for (const JacobianEntry& entry : entries) {
+    rows[to_index(entry.row)].push_back(entry.value);
+    functions_[static_cast<std::size_t>(EquationFunction::kTerminal) + to_index(entry.row)].columns.push_back(entry.column);
+  }
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const VectorX<Traced> value = VectorX<Traced>::Constant(1, values[k]);
+    const VectorX<Traced> gradient = Eigen::Map<const VectorX<Traced>>(rows[k].data(), static_cast<Eigen::Index>(rows[k].size()));
+    take_outputs(static_cast<EquationFunction>(static_cast<std::size_t>(EquationFunction::kTerminal) + k), {&value, &gradient});
+  }
+}
+
+void EquationCode::take_outputs(EquationFunction function, const std::vector<const VectorX<Traced>*>& results) {
   Recording* const recording = &values_.recording;
-  Recorded& recorded = functions_[static_cast<std::size_t>(function)];
-  take_guards(*guards, &recorded);
-  *guards = recording->guards().size();
   for (std::size_t k = 0; k < results.size(); ++k)
     for (Eigen::Index i = 0; i < results[k]->size(); ++i)
-      recorded.outputs.push_back({(*results[k])[i].node_in(recording), {Arrays::kResults + static_cast<int>(k), static_cast<int>(i)}});
+      functions_[static_cast<std::size_t>(function)].outputs.push_back(
+          {(*results[k])[i].node_in(recording), {Arrays::kResults + static_cast<int>(k), static_cast<int>(i)}});
 }
 
-void EquationCode::take_guards(std::size_t first, Recorded* function) {
+void EquationCode::take_guards(std::size_t first, std::vector<Recording::Guard>* guards) {
   const Recording& recording = values_.recording;
-  for (std::size_t k = first; k < recording.guards().size(); ++k) {
-    const Recording::Guard& guard = recording.guards()[k];
+  std::vector<int> decisions(recording.decisions().begin() + static_cast<std::ptrdiff_t>(first), recording.decisions().end());
+  std::sort(decisions.begin(), decisions.end());
+  decisions.erase(std::unique(decisions.begin(), decisions.end()), decisions.end());
+  for (int decision : decisions) {
+    const Recording::Guard& guard = recording.guards()[to_index(decision)];
     const bool varies = recording.node(guard.a).varies || recording.node(guard.b).varies;
-    (varies ? function->guards : design_guards_).push_back(guard);
+    (varies ? *guards : design_guards_).push_back(guard);
   }
 }
 
 void EquationCode::differentiate() const {
   Recording& recording = derivatives_.recording;
   recording = values_.recording;
-  for (std::size_t f = 0; f < kEquationFunctions; ++f) {
+  derivatives_.tangents.resize(functions_.size());
+  for (std::size_t f = 0; f < functions_.size(); ++f) {
     std::vector<bool> is_leaf(to_index(recording.size()));
     for (int n = 0; n < recording.size(); ++n) is_leaf[to_index(n)] = is_tangent_leaf(recording.node(n));
     derivatives_.tangents[f] = std::make_unique<TangentProgram>(&recording, functions_[f].outputs, is_leaf);
@@ -153,15 +168,15 @@ void NumberedRecording::number_nodes() {
   }
 }
 
-const CompiledFunction* EquationCode::function(EquationFunction function, const Scalar& scalar) const {
+const CompiledFunction& EquationCode::function(EquationFunction function, const Scalar& scalar) const {
   const auto f = static_cast<std::size_t>(function);
-  Known& known = known_[f][to_index(scalar.lanes / 4 + (scalar.split ? 2 : 0))];
-  if (!known.tried.load(std::memory_order_acquire)) {
+  Known& known = known_[f][to_index(scalar.lanes / 4 + (scalar.split ? 2 : 0) + (scalar.interpreted ? 5 : 0))];
+  if (!known.made.load(std::memory_order_acquire)) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!known.tried.load(std::memory_order_relaxed)) known.code = compile(f, scalar);
-    known.tried.store(true, std::memory_order_release);
+    if (!known.made.load(std::memory_order_relaxed)) known.code = compile(f, scalar);
+    known.made.store(true, std::memory_order_release);
   }
-  return known.code.get();
+  return *known.code;
 }
 
 // Tangents are sums of products, factor times derivative. With a split scalar the state's arrays hold directions while the tangents run, so
@@ -212,8 +227,13 @@ std::unique_ptr<CompiledFunction> EquationCode::compile(std::size_t function, co
   const ValueProgram program(from.recording, task);
   auto compiled = std::make_unique<CompiledFunction>();
   compiled->slots = to_index(program.slots);
-  compiled->values = ValueCode::compile(from.recording, task, program, Arrays::kSlots);
-  if (!compiled->values) return nullptr;
+  const bool interpreted = scalar.interpreted || long_;
+  if (!interpreted) compiled->values = ValueCode::compile(from.recording, task, program, Arrays::kSlots);
+  if (!compiled->values) {
+    auto interpreter = std::make_unique<Interpreter>(from.recording, task, program, Arrays::kSlots);
+    compiled->interpreter = interpreter.get();
+    compiled->values = std::move(interpreter);
+  }
   if (scalar.lanes == 0) return compiled;
   for (int n : task.kept) value_places[to_index(n)] = {Arrays::kSlots, program.slot[to_index(n)]};
   StraightLine::RowLayouts layouts;
@@ -221,8 +241,10 @@ std::unique_ptr<CompiledFunction> EquationCode::compile(std::size_t function, co
   layouts[to_index(Arrays::kNumbers)] = {scalar.lanes + 1, 1};
   layouts[to_index(Arrays::kRows)] = {scalar.lanes, 0};
   compiled->rows = to_index(from.tangents[function]->rows * scalar.lanes);
-  compiled->tangents = StraightLine::compile(tangent_sums(function, value_places), scalar.lanes, layouts, kMostBytes);
-  return compiled->tangents ? std::move(compiled) : nullptr;
+  const std::vector<Sum> sums = tangent_sums(function, value_places);
+  if (!interpreted) compiled->tangents = StraightLine::compile(sums, scalar.lanes, layouts, kMostBytes);
+  if (!compiled->tangents) compiled->tangents = interpret_sums(sums, scalar.lanes, layouts);
+  return compiled;
 }
 
 }  // namespace codesign

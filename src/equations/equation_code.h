@@ -9,6 +9,7 @@
 #include <mutex>
 #include <vector>
 
+#include "codegen/interpreter.h"
 #include "codegen/straight_line.h"
 #include "codegen/tangent_program.h"
 #include "codegen/traced.h"
@@ -19,26 +20,29 @@
 
 namespace codesign {
 
+struct RecordedEquations;
+
 /// The arrays that the compiled code reads and writes, by index: the state q, v, s, z; numbers that depend on design, time and turn
 /// references; up to four results (see EquationFunction); and two workspaces of the code.
 struct EquationArrays {
   static constexpr int kQ = 0, kV = 1, kS = 2, kZ = 3, kNumbers = 4, kResults = 5, kSlots = 9, kRows = 10;
 };
 
-/// One function compiled for one scalar: code for the values and, for Lanes, code for the derivatives, which runs after it.
+/// One function for one scalar: code for the values and, for Lanes, code for the derivatives, which runs after it.
 struct CompiledFunction {
   std::unique_ptr<ValueCode> values;
   std::unique_ptr<StraightLine> tangents;
-  std::size_t slots = 0, rows = 0;  ///< sizes of the workspaces kSlots and kRows [doubles]
+  const Interpreter* interpreter = nullptr;  ///< `values` if they are interpreted
+  std::size_t slots = 0, rows = 0;           ///< sizes of the workspaces kSlots and kRows [doubles]
 };
 
 /// A recording, and the array and index of each of its nodes that the code reads as an input: entries of the state, and numbers that depend
 /// on the design, the time or a turn reference only.
 struct NumberedRecording {
   Recording recording;
-  std::array<std::unique_ptr<TangentProgram>, kEquationFunctions> tangents;  ///< per EquationFunction; null without derivatives
-  std::vector<int> numbers;                                                  ///< the nodes of array kNumbers, in its order
-  std::vector<Place> homes;  ///< per node: its array and index; array -1 if the code computes it
+  std::vector<std::unique_ptr<TangentProgram>> tangents;  ///< per EquationFunction; empty without derivatives
+  std::vector<int> numbers;                               ///< the nodes of array kNumbers, in its order
+  std::vector<Place> homes;                               ///< per node: its array and index; array -1 if the code computes it
 
   /// Per function of time, the entry of kNumbers of its value and of each of its derivatives; -1 if it is not used.
   std::vector<std::array<int, Recording::kFunctionOrders>> functions;
@@ -48,75 +52,75 @@ struct NumberedRecording {
   void number_nodes();
 };
 
-/// The machine code of the equations of one mechanism and study, shared by all designs. The constructor records the formulas once, with the
-/// scalar Traced; the derivatives of the recording, and the code for each scalar, are made when they are first needed. Thread-safe.
+/// One variant of the equations of one mechanism and study, shared by all designs: the formulas, recorded with given outcomes of their
+/// decisions. The constructor records one part of them with the scalar Traced, and derives the linearization from the recorded residual and
+/// the gradients of signals from their recorded values; the tangents of the recording, and the code for each scalar, are made when they are
+/// first needed. Thread-safe.
 class EquationCode {
  public:
-  /// The scalar that code is compiled for.
+  /// The scalar that a function is wanted for.
   struct Scalar {
-    int lanes;   ///< 0 for double
-    bool split;  ///< only derivatives are computed, from values and directions of the state in separate arrays
+    int lanes;         ///< 0 for double and for complex numbers, which are always interpreted
+    bool split;        ///< only derivatives are computed, from values and directions of the state in separate arrays
+    bool interpreted;  ///< without machine code
   };
 
-  /// Records the equations. @param plan of record_assembly() for the same system.
-  EquationCode(const System& system, const AssemblyPlan& plan);
+  /// Records the equations. @param patterns of record_patterns() for the same system. @param outcomes of the first decisions; the later
+  /// ones have their expected outcomes.
+  /// @throws std::logic_error if the formulas decide something without is_less().
+  EquationCode(const System& system, const ByVariable<Sparsity>& patterns, EquationPart part, std::vector<bool> outcomes = {});
 
-  /// Whether the equations could be recorded: code can be made for this processor, the system is not too
-  /// large, and every decision of the formulas could be recorded as a guard.
-  bool usable() const { return !values_.recording.refused(); }
-  /// The code of one function, compiled by the first call; null if that fails. For a split scalar the arrays kQ to kZ hold the state's
-  /// values while CompiledFunction::values runs, and the directions while `tangents` runs.
-  const CompiledFunction* function(EquationFunction function, const Scalar& scalar) const;
+  /// One function, made by the first call. It is interpreted also where machine code cannot be made: on other processors than x86-64 and
+  /// for very long programs. For a split scalar the arrays kQ to kZ hold the state's values while CompiledFunction::values runs, and the
+  /// directions while `tangents` runs.
+  const CompiledFunction& function(EquationFunction function, const Scalar& scalar) const;
+
+  /// The columns of a signal's gradient, its second result: (q, s), v, z and t side by side.
+  const std::vector<int>& gradient_columns(EquationFunction function) const {
+    return functions_[static_cast<std::size_t>(function)].columns;
+  }
 
   /// The recording from which the code for values, or for values and derivatives, is made.
   const NumberedRecording& numbered(bool with_derivatives) const;
   /// The recorded decisions that depend on the design alone; the code may run only for designs with the same outcomes.
   const std::vector<Recording::Guard>& design_guards() const { return design_guards_; }
+  /// The outcomes of all decisions in turn, of which a variant is known.
+  const std::vector<bool>& outcomes() const { return outcomes_; }
 
  private:
   /// The results of one function, and the decisions that they depend on.
   struct Recorded {
     std::vector<ValueTask::Output> outputs;
     std::vector<Recording::Guard> guards;
+    std::vector<int> columns;  ///< of the gradient of a signal
   };
-  void record(const System& system, const AssemblyPlan& plan);
-  /// Sorts the guards of the recording from index `first` on: those that vary with the state to `function`, the others to design_guards_.
-  void take_guards(std::size_t first, Recorded* function);
-  /// Keeps the results of a function and its guards. @param guards index of its first guard; on return, the index after its last guard.
-  void take(EquationFunction function, const std::vector<const VectorX<Traced>*>& results, std::size_t* guards);
+  void record_motion(const ByVariable<Sparsity>& patterns, RecordedEquations* equations);
+  void record_signals(const System& system, RecordedEquations* equations);
+  /// Gives the decisions that were made from index `first` of Recording::decisions() on to a function if they vary with the state, else to
+  /// design_guards_.
+  void take_guards(std::size_t first, std::vector<Recording::Guard>* guards);
+  void take_outputs(EquationFunction function, const std::vector<const VectorX<Traced>*>& results);
   /// Makes derivatives_ from values_.
   void differentiate() const;
   std::unique_ptr<CompiledFunction> compile(std::size_t function, const Scalar& scalar) const;
   ValueTask value_task(std::size_t function, const Scalar& scalar, std::vector<Place>* value_places) const;
   std::vector<Sum> tangent_sums(std::size_t function, const std::vector<Place>& value_places) const;
 
+  bool long_ = false;  ///< too long for machine code
   NumberedRecording values_;
-  std::array<Recorded, kEquationFunctions> functions_;
+  std::vector<Recorded> functions_;  ///< per EquationFunction; empty for those of the other part
   std::vector<Recording::Guard> design_guards_;
+  std::vector<bool> outcomes_;
 
   mutable std::once_flag differentiated_;
   mutable NumberedRecording derivatives_;  ///< the nodes of values_, then the nodes that derivatives need
   struct Known {
-    std::atomic<bool> tried{false};  ///< compiled, or failed to compile
+    std::atomic<bool> made{false};
     std::unique_ptr<CompiledFunction> code;
   };
   mutable std::mutex mutex_;
-  mutable std::array<std::array<Known, 5>, kEquationFunctions>
-      known_;  ///< per function: double, Lanes<4>, Lanes<8>, then the two split ones
-};
-
-/// An EquationCode that is recorded by the first call of get(), since many systems are only checked.
-class LazyEquationCode {
- public:
-  /// Null if the equations cannot be recorded. Thread-safe.
-  const EquationCode* get(const System& system, const AssemblyPlan& plan) {
-    std::call_once(once_, [&] { code_ = std::make_unique<EquationCode>(system, plan); });
-    return code_->usable() ? code_.get() : nullptr;
-  }
-
- private:
-  std::once_flag once_;
-  std::unique_ptr<EquationCode> code_;
+  /// Per function: double, Lanes<4>, Lanes<8>, the two split ones; then the same without machine code.
+  mutable std::vector<std::array<Known, 10>> known_;
 };
 
 }  // namespace codesign

@@ -11,18 +11,18 @@
 namespace codesign {
 
 /// The equations of motion of one design, doc/theory.md (14), as integrators and sensitivities use them. residual(), linearize() and
-/// constraint_errors() run the machine code compiled for this mechanism where they can, else the Formulas; both give the same numbers,
-/// except for rounding. T: double, std::complex<double> or Lanes<N>. Call set_design() first. No allocation after the first evaluation; not
-/// thread-safe: one per thread, while the CompiledSystem is shared.
+/// constraint_errors() run what was recorded of the formulas for this mechanism. T: double, std::complex<double> or Lanes<N>. Call
+/// set_design() first. No allocation after the first evaluation; not thread-safe: one per thread, while the CompiledSystem is shared.
 template <class T>
 class Equations {
  public:
   /// @param system must outlive the equations.
-  explicit Equations(const CompiledSystem& system) : system_(system), formulas_(system), compiled_(system) {}
+  explicit Equations(const CompiledSystem& system) : formulas_(system), compiled_(system), signals_(system, EquationPart::kSignals) {}
 
   /// Evaluates all constants at `parameters` (all named parameters, order of Study::parameters). Allocates nothing but the first time.
   void set_design(const std::vector<T>& parameters) {
     compiled_.set_design(parameters);
+    signals_.set_design(parameters);
     formulas_.set_design(parameters);
   }
   /// The parameters, constants and constraint rows of the present design.
@@ -31,16 +31,21 @@ class Equations {
   const PairRows<T>& rows(int pair) const { return formulas_.view().design.rows[static_cast<std::size_t>(pair)]; }
 
   /// The residual G (resized to Layout::columns()) and the objective's integrand g, theory (14), (21), at a state.
-  void residual(const State<T>& state, VectorX<T>* G, T* g) {
-    if (!compiled_.residual(state, G, g)) formulas_.residual(state, G, g);
-  }
+  void residual(const State<T>& state, VectorX<T>* G, T* g) { compiled_.residual(state, G, g); }
   /// The derivatives of G and g at a state. @param derivatives of the size of CompiledSystem::patterns(); overwritten.
-  void linearize(const State<T>& state, Linearization<T>* derivatives) {
-    if (!compiled_.linearize(state, derivatives)) formulas_.linearize(state, system_.plan(), derivatives);
-  }
+  void linearize(const State<T>& state, Linearization<T>* derivatives) { compiled_.linearize(state, derivatives); }
   /// Constraint values Phi(q) and rates Phi_q v, both resized to Layout::m. The state's z is not used.
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
-    if (!compiled_.constraint_errors(state, Phi, Phi_rate)) formulas_.constraint_errors(state, Phi, Phi_rate);
+    compiled_.constraint_errors(state, Phi, Phi_rate);
+  }
+
+  /// The sum w of the terminal terms, theory (21), and its gradient. @param gradient overwritten, here and below.
+  T terminal_gradient(const State<T>& state, SparseGradient<T>* gradient) {
+    return signals_.signal(EquationFunction::kTerminal, state, gradient);
+  }
+  /// Signal minus reference of the k-th watched signal, theory (21a), in SI units, and its gradient.
+  T watched_gradient(std::size_t k, const State<T>& state, SparseGradient<T>* gradient) {
+    return signals_.signal(watched_function(k), state, gradient);
   }
 
   /// Sets State::turns to the joint positions of the state; integrators call it after each step.
@@ -49,13 +54,12 @@ class Equations {
   /// The formulas, for everything that is not compiled: signals, energies, friction, reactions.
   Formulas<T>& formulas() { return formulas_; }
   const Formulas<T>& formulas() const { return formulas_; }
-  /// The compiled code, for instance to switch it off.
-  CompiledEquationsOf<T>& compiled() { return compiled_; }
+  /// The recorded equations, for instance to do without machine code.
+  CompiledEquations<T>& compiled() { return compiled_; }
 
  private:
-  const CompiledSystem& system_;
   Formulas<T> formulas_;
-  CompiledEquationsOf<T> compiled_;
+  CompiledEquations<T> compiled_, signals_;
 };
 
 }  // namespace codesign

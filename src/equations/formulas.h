@@ -39,13 +39,6 @@ class Formulas {
 
   /// The residual G (Layout::columns() rows) and the objective's integrand g, theory (21), at a state.
   void residual(const State<T>& state, VectorX<T>* G, T* g);
-  /// The derivatives of G and g (row Layout::columns()) by positions, velocities, rates and time. @param plan of record_assembly() for this
-  /// system. @param derivatives of the size of its patterns; overwritten.
-  void linearize(const State<T>& state, const AssemblyPlan& plan, Linearization<T>* derivatives);
-  /// Hands all derivatives at the loaded state to `sink->position(row, column, x)`, `velocity(...)`, `rate(...)` and `time(row, x)`; values
-  /// for the same entry add up. The sequence of calls depends on the system alone, never on state or design, so it is recorded once.
-  template <class Sink>
-  void assemble(Sink* sink);
   /// Constraint values Phi(q) and rates Phi_q v, Layout::m entries each; entries from Layout::constraints() on are zero. The state's z is
   /// not used, but must have its size.
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);

@@ -5,6 +5,5 @@
 namespace codesign {
 
 template class Formulas<double>;
-template void Formulas<double>::assemble(PatternRecorder*);
 
 }  // namespace codesign

@@ -8,14 +8,14 @@
 #include "elements/objective.h"
 #include "elements/pair.h"
 #include "elements/sampled_control.h"
-#include "elements/sharing_derivatives.h"
+#include "elements/sharing.h"
 #include "equations/formulas.h"
 
 namespace codesign {
 
 // The loop over the elements: the one place that lists them all. Pairs, spring-dampers and constant loads on links come before the bodies,
 // because they add to the loads that the bodies turn into rows; shared reactions come after the pairs and couplings, whose rows they
-// change. residual() and assemble() must list the same elements.
+// change.
 
 template <class T>
 Formulas<T>::Formulas(const System& system) : view_(system), workspace_(system) {}
@@ -53,27 +53,6 @@ void Formulas<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
 }
 
 template <class T>
-template <class Sink>
-void Formulas<T>::assemble(Sink* sink) {
-  const StateView<T>& view = view_;
-  const System& system = view.system;
-  workspace_.clear_loads();
-  for (std::size_t k = 0; k < view.design.rows.size(); ++k) assemble_pair(view, &workspace_, k, sink);
-  for (std::size_t k = 0; k < view.design.constants.springs.size(); ++k) assemble_spring(view, &workspace_, k, sink);
-  for (std::size_t k = 0; k < view.design.wrenches.size(); ++k) add_link_load(view, &workspace_, k);
-  for (int b = 0; b < view.layout.bodies; ++b) assemble_body(view, &workspace_, static_cast<std::size_t>(b), sink);
-  for (std::size_t k = 0; k < view.design.wrenches.size(); ++k) assemble_link_load(view, k, sink);
-  for (const Rotor& rotor : system.rotors()) assemble_rotor(view, &workspace_, rotor, sink);
-  for (std::size_t k = 0; k < view.design.constants.couplings.size(); ++k) assemble_coupling(view, k, sink);
-  for (const JointLoad& load : system.loads()) assemble_load(view, &workspace_, load, sink);
-  for (int pair : system.contacts()) assemble_contact(view, &workspace_, pair, sink);
-  for (const BristleContact& contact : system.bristles()) assemble_bristle(view, &workspace_, contact, sink);
-  for (std::size_t c = 0; c < system.controllers().size(); ++c) assemble_controller(view, &workspace_, c, sink);
-  if (system.sharing().drops()) assemble_sharing(view, &workspace_, sink);
-  assemble_objective(view, &workspace_, sink);
-}
-
-template <class T>
 void Formulas<T>::begin_controllers(State<T>* state) {
   load(*state);
   for (std::size_t c = 0; c < view_.system.controllers().size(); ++c) begin_controller(view_, static_cast<int>(c), &state->s);
@@ -83,14 +62,6 @@ template <class T>
 void Formulas<T>::jump(const std::vector<ControlEvent>& events, State<T>* state) {
   load(*state);
   for (const ControlEvent& event : events) jump_controller(view_, event, &state->s);
-}
-
-template <class T>
-void Formulas<T>::linearize(const State<T>& state, const AssemblyPlan& plan, Linearization<T>* derivatives) {
-  load(state);
-  AssemblySink<T> sink(plan, derivatives);
-  assemble(&sink);
-  sink.finish();
 }
 
 template <class T>

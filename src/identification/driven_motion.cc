@@ -89,7 +89,7 @@ Status DrivenMotion::solve_positions(In<double> given, State<double>* state) {
   Convergence convergence(kConverged);
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     find_correction(Part::kPositions, given, *state);
-    const double size = step_.head(layout.n).cwiseAbs().maxCoeff();
+    const double size = step_.head(layout.n).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     if (!std::isfinite(size) || largest_turn(step_, layout.bodies) > kFar) return not_closed();
     state->q -= step_.head(layout.n);
     if (convergence.done(size / (1.0 + state->q.cwiseAbs().maxCoeff()))) return {};
@@ -104,7 +104,7 @@ Status DrivenMotion::solve_velocities(In<double> given, State<double>* state) {
   Convergence convergence(kConverged);
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     find_correction(Part::kVelocities, given, *state);
-    const double size = step_.head(layout.n).cwiseAbs().maxCoeff();
+    const double size = step_.head(layout.n).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     if (!std::isfinite(size)) break;
     state->v -= step_.head(layout.n);
     if (convergence.done(size / (1.0 + state->v.cwiseAbs().maxCoeff()))) return {};
@@ -121,7 +121,7 @@ Status DrivenMotion::solve_rates(In<double> given, State<double>* state) {
     equations_.residual(*state, &step_, &g);
     for (int k = 0; k < drives_; ++k) step_[system_.layout().lambda_column(system_.drive_row(k))] -= given[k];
     matrix_.lu().solve(step_);
-    const double size = step_.cwiseAbs().maxCoeff();
+    const double size = step_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     if (!std::isfinite(size)) return {StatusCode::kNonFinite, 0.0, "the equations of the driven motion are not finite"};
     state->z -= step_;
     if (convergence.done(size / (1.0 + state->z.cwiseAbs().maxCoeff()))) return {};

@@ -35,9 +35,11 @@ Status SegmentRun::start(const std::vector<double>& parameters, const SegmentBeg
   if (Status status = integrator_.start(parameters); !status.ok()) return status;
   for_each_group(
       [&](auto* group) { group->step.start(group->range.seed(system_, parameters), integrator_.assembly(), integrator_.initial_state()); });
-  sparse_.clear();
-  for (std::size_t k = 0; k < system_.watched().size(); ++k) integrator_.equations().formulas().watched(k, integrator_.state(), &sparse_);
-  reads_rates_ = !sparse_.rate.empty();
+  reads_rates_ = false;
+  for (std::size_t k = 0; k < system_.watched().size(); ++k) {
+    integrator_.equations().watched_gradient(k, integrator_.state(), &sparse_);
+    reads_rates_ = reads_rates_ || !sparse_.rate.empty();
+  }
   return {};
 }
 

@@ -30,12 +30,19 @@ double value_of(const Lanes<N>& x) {
   return x.a;
 }
 
+/// The place of a decision in the source, for decisions that recordings turn round together.
+constexpr unsigned place_in_source(const char* file, unsigned line) {
+  unsigned hash = line;
+  for (; *file; ++file) hash = 31 * hash + static_cast<unsigned char>(*file);
+  return hash;
+}
+
 /// Whether value_of(x) < value_of(y). Formulas branch by this function only, so that they can be recorded for compilation
 /// (codegen/traced.h).
-/// @param likely the outcome that a recording follows where it depends on the state; for the other outcome compiled code is not used.
+/// @param likely the outcome that the first recording follows where it depends on the state; other outcomes are recorded when they occur.
 template <class T>
-bool is_less(const T& x, const T& y, bool likely) {
-  static_cast<void>(likely);
+bool is_less(const T& x, const T& y, bool likely, unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE())) {
+  static_cast<void>(likely), static_cast<void>(place);
   return value_of(x) < value_of(y);
 }
 

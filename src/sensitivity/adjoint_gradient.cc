@@ -48,8 +48,7 @@ void AdjointGradient::prepare() {
   const std::vector<double>& parameters = integrator_.equations().parameters();
   const IncrementLayout at(system_.layout());
   VectorX<double>& adjoint = back_->final_adjoint;
-  back_->terminal.clear();
-  integrator_.equations().formulas().terminal(integrator_.state(), &back_->terminal);
+  integrator_.equations().terminal_gradient(integrator_.state(), &back_->terminal);
   adjoint.setZero();
   adjoint[at.psi()] = 1.0;
   for (const auto& e : back_->terminal.position) adjoint[at.x() + e.column] += e.value;

@@ -41,9 +41,8 @@ Status SignalWatch::start(Integrator* integrator, Differentiate differentiate) {
   extremes_.gradients.setZero(parameters, layout_.size());
   for (std::size_t k = 0; k < curves_.size() && status_.ok(); ++k) {
     curves_[k] = {};
-    sparse_.clear();
     state_ = integrator->state();
-    integrator->equations().formulas().watched(k, state_, &sparse_);
+    integrator->equations().watched_gradient(k, state_, &sparse_);
     curves_[k].reads_rates = !sparse_.rate.empty();
     if (layout_.entries()[k].instants.front() <= time_) reach_instant(k, time_);
   }
@@ -84,8 +83,7 @@ SignalWatch::Sample SignalWatch::sample(std::size_t k, double time) {
   if (!status_.ok() || !go_to(k, time)) return result;
   integrator_->interpolate_rates(time, &rates_);
   if (curves_[k].reads_rates) integrator_->assembly().differentiate_rates(&rates_);
-  sparse_.clear();
-  result.value = integrator_->equations().formulas().watched(k, state_, &sparse_);
+  result.value = integrator_->equations().watched_gradient(k, state_, &sparse_);
   result.slope = sparse_.time;
   const Layout& layout = system_.layout();
   for (const auto& e : sparse_.position)

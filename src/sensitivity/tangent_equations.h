@@ -9,8 +9,8 @@
 
 namespace codesign {
 
-/// Directional derivatives of the equations along (y', e_k) for N parameters at once, (18), by compiled code where it exists, else by
-/// lanes. A prime denotes a directional derivative; only derivatives are returned, not values. No allocation once warm.
+/// Directional derivatives of the equations along (y', e_k) for N parameters at once, (18), by the recorded equations. A prime denotes a
+/// directional derivative; only derivatives are returned, not values. No allocation once warm.
 template <int N>
 class TangentEquations {
  public:
@@ -34,19 +34,14 @@ class TangentEquations {
   const State<Lanes<N>>& lanes(const State<double>& state, const Directions<N>& y);
 
  private:
-  bool run_compiled(EquationFunction function, const State<double>& state, const Directions<N>& y, const Out<double> (&results)[4]);
+  void run(EquationFunction function, const State<double>& state, const Directions<N>& y, const Out<double> (&results)[4]);
 
   const Layout& layout_;
-  const AssemblyPlan& plan_;
   const IncrementLayout at_;
   Equations<Lanes<N>> equations_;
   ByVariable<LineVector> changes_;
   Directions<N> time_changes_;
-
-  // Workspace for evaluation with lanes, without compiled code.
-  State<Lanes<N>> state_;
-  Linearization<Lanes<N>> derivatives_;
-  VectorX<Lanes<N>> residual_, errors_, rates_;
+  State<Lanes<N>> state_;  ///< of lanes()
 };
 
 }  // namespace codesign

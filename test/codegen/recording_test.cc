@@ -45,11 +45,30 @@ TEST(Recording, OriginsAreNumberedAsTheyCome) {
 TEST(Recording, RemembersDecisions) {
   Recording r;
   EXPECT_FALSE(r.refused());
-  r.guard(1, 2, true);
+  EXPECT_TRUE(r.decide(1, 2, true, 10));
+  EXPECT_TRUE(r.decide(1, 2, false, 11)) << "as it was decided before";
   ASSERT_EQ(r.guards().size(), 1u);
   EXPECT_TRUE(r.guards()[0].outcome);
   r.refuse();
   EXPECT_TRUE(r.refused());
+}
+
+TEST(Recording, FollowsOutcomes) {
+  Recording r;
+  r.follow({false, true});
+  EXPECT_FALSE(r.decide(1, 2, true, 10));
+  EXPECT_TRUE(r.decide(2, 3, false, 10));
+  EXPECT_TRUE(r.decide(3, 4, true, 12)) << "as expected, since no more outcomes are given";
+  EXPECT_EQ(r.guards()[2].decision, 2);
+}
+
+TEST(Recording, TurnsDecisionsByTheirPlace) {
+  Recording r;
+  r.turn([](unsigned place) { return place == 10; });
+  EXPECT_FALSE(r.decide(1, 2, true, 10));
+  EXPECT_TRUE(r.decide(2, 3, false, 10));
+  EXPECT_TRUE(r.decide(3, 4, true, 12));
+  EXPECT_EQ(r.places(), (std::vector<unsigned>{10, 12}));
 }
 
 }  // namespace

@@ -80,12 +80,12 @@ TEST_F(EquationsBristlesTest, StatesStandBehindTheControllers) {
 }
 
 TEST_F(EquationsBristlesTest, EveryDerivativeIsExact) {
-  expect_exact_derivatives(1e-9, false);
+  expect_exact_derivatives(1e-9);
   // Deflections so small that no friction reaches its bound F, theory (13e).
   for (Eigen::Index k = 0; k < state.s.size(); ++k) state.s[k] = 0.05 + 0.02 * static_cast<double>(k % 3);
   state.v *= 0.1;
-  expect_exact_derivatives(1e-9, false);
-  // Sliding with full dwell states: the recorded branches.
+  expect_exact_derivatives(1e-9);
+  // Sliding with full dwell states: the expected branches.
   state.v *= 50.0;
   for (const BristleContact& contact : system.bristles())
     if (contact.dwells()) state.s[contact.dwell_state()] = 0.999;

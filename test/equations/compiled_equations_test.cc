@@ -35,40 +35,33 @@ VectorX<T> as_vector(const std::vector<T>& x) {
   return Eigen::Map<const VectorX<T>>(x.data(), static_cast<Eigen::Index>(x.size()));
 }
 
-/// The same equations twice: with compiled code, and with the formulas alone.
+/// The recorded equations and the formulas.
 template <class T>
 struct Twins {
-  explicit Twins(const CompiledSystem& mechanism) : system(mechanism), with(system), without(system) { without.compiled().allow(false); }
+  explicit Twins(const CompiledSystem& mechanism) : system(mechanism), with(system), formulas(system) {}
 
   void set_design(const std::vector<T>& parameters) {
     with.set_design(parameters);
-    without.set_design(parameters);
+    formulas.set_design(parameters);
   }
 
   void expect_same(const State<T>& state) {
     VectorX<T> G, expected;
     T g(0.0), expected_g(0.0);
-    EXPECT_TRUE(with.compiled().residual(state, &G, &g));
-    without.residual(state, &expected, &expected_g);
+    with.residual(state, &G, &g);
+    formulas.residual(state, &expected, &expected_g);
     EXPECT_LT(largest_difference(G, expected), 1e-12);
     EXPECT_LT(largest_difference(VectorX<T>(VectorX<T>::Constant(1, g)), VectorX<T>(VectorX<T>::Constant(1, expected_g))), 1e-12);
-    Linearization<T> d, expected_d;
-    d.resize(system.patterns()), expected_d.resize(system.patterns());
-    EXPECT_TRUE(with.compiled().linearize(state, &d));
-    without.linearize(state, &expected_d);
-    EXPECT_LT(largest_difference(as_vector(d.position), as_vector(expected_d.position)), 1e-12);
-    EXPECT_LT(largest_difference(as_vector(d.velocity), as_vector(expected_d.velocity)), 1e-12);
-    EXPECT_LT(largest_difference(as_vector(d.rate), as_vector(expected_d.rate)), 1e-12);
-    EXPECT_LT(largest_difference(d.time, expected_d.time), 1e-12);
     VectorX<T> Phi, Phi_rate, expected_Phi, expected_rate;
-    EXPECT_TRUE(with.compiled().constraint_errors(state, &Phi, &Phi_rate));
-    without.constraint_errors(state, &expected_Phi, &expected_rate);
+    with.constraint_errors(state, &Phi, &Phi_rate);
+    formulas.constraint_errors(state, &expected_Phi, &expected_rate);
     EXPECT_LT(largest_difference(Phi, expected_Phi), 1e-12);
     EXPECT_LT(largest_difference(Phi_rate, expected_rate), 1e-12);
   }
 
   const CompiledSystem& system;
-  Equations<T> with, without;
+  Equations<T> with;
+  Formulas<T> formulas;
 };
 
 /// A generic state; for Lanes with generic directions.
@@ -148,7 +141,7 @@ TEST(CompiledEquations, FollowFunctionsOfTimeAndTheirParameters) {
   expect_same_at_all_times<Lanes<8>>(*system);
 }
 
-TEST(CompiledEquations, GoBackToTheFormulasForADesignThatDecidesOtherwise) {
+TEST(CompiledEquations, RecordAVariantForADesignThatDecidesOtherwise) {
   SKIP_WITHOUT_CODE();
   const std::string friction =
       "<codesign:friction mu_static='0.6' mu_dynamic='0.4' transition_velocity='0.1' joint_length='0.2' friction_arm='0.02' "
@@ -163,11 +156,12 @@ TEST(CompiledEquations, GoBackToTheFormulasForADesignThatDecidesOtherwise) {
   double g = 0.0;
   for (double radius : {0.05, 0.0, 0.03}) {
     twins.set_design({radius});
-    EXPECT_EQ(twins.with.compiled().residual(state, &G, &g), radius > 0.0);
     twins.with.residual(state, &G, &g);
-    twins.without.residual(state, &expected, &g);
+    twins.formulas.residual(state, &expected, &g);
     EXPECT_LT(largest_difference(G, expected), 1e-13) << radius;
   }
+  EXPECT_NE(system->equation_code(1), nullptr);
+  EXPECT_EQ(system->equation_code(2), nullptr) << "each design needs one of two variants";
 }
 
 /// A cylindrical loop has two coordinates although its chain has one element; both must have a turn reference.
@@ -220,8 +214,8 @@ TEST(CompiledEquations, CountTurns) {
   twins.expect_same(state);
 }
 
-TEST(CompiledEquations, LeaveABranchThatWasNotRecordedToTheFormulas) {
-  SKIP_WITHOUT_CODE();
+/// A narrow joint between its stops, in the smoothed beginning of one and deep in it.
+TEST(CompiledEquations, RecordAVariantForEachBranch) {
   const std::string narrow = "<limit lower='-0.05' upper='0.04' effort='2' velocity='1'/>";
   const std::shared_ptr<const CompiledSystem> system =
       compile(robot(bar("arm") + "<joint name='hinge' type='revolute'><parent link='ground'/><child link='arm'/><axis xyz='0 1 0'/>" +
@@ -229,21 +223,27 @@ TEST(CompiledEquations, LeaveABranchThatWasNotRecordedToTheFormulas) {
               motion_study(1.0, "{}", "hinge/velocity", "{}") + "limits: {position: true, stiffness: 20.0, width: 0.01}\n");
   Twins<double> twins(*system);
   twins.set_design(system->parameters());
+  for (int round = 0; round < 2; ++round)
+    for (double angle : {0.0, 0.045, 0.2, -0.2}) {
+      State<double> state = some_state<double>(system->layout());
+      state.q.setZero();
+      state.q[3] = std::cos(0.5 * angle), state.q[5] = std::sin(0.5 * angle);
+      twins.expect_same(state);
+    }
+  EXPECT_NE(system->equation_code(3), nullptr);
+  EXPECT_EQ(system->equation_code(4), nullptr) << "the second round needs no further variants";
+}
+
+TEST(CompiledEquations, RecordAVariantWhereAStateIsNotANumber) {
+  const std::shared_ptr<const CompiledSystem> system = compile(double_pendulum(pin_friction()), kDriven);
+  Equations<double> equations(*system);
+  equations.set_design(system->parameters());
   State<double> state = some_state<double>(system->layout());
-  VectorX<double> G, expected;
+  state.v.setConstant(std::nan(""));
+  VectorX<double> G;
   double g = 0.0;
-  state.q.setZero();
-  state.q[3] = 1.0;
-  EXPECT_TRUE(twins.with.compiled().residual(state, &G, &g)) << "between the stops";
-  state.q[3] = std::cos(0.05), state.q[5] = std::sin(0.05);
-  EXPECT_FALSE(twins.with.compiled().residual(state, &G, &g)) << "in the upper one";
-  twins.with.residual(state, &G, &g);
-  twins.without.residual(state, &expected, &g);
-  EXPECT_EQ(G, expected);
-  for (int k = 0; k < 10; ++k) EXPECT_FALSE(twins.with.compiled().residual(state, &G, &g));
-  twins.set_design(system->parameters());
-  state.q[3] = 1.0, state.q[5] = 0.0;
-  EXPECT_TRUE(twins.with.compiled().residual(state, &G, &g)) << "a new design begins anew";
+  equations.residual(state, &G, &g);
+  EXPECT_TRUE(G.hasNaN());
 }
 
 TEST(CompiledEquations, GiveDerivativesAloneFromArraysOfTheirOwn) {
@@ -261,31 +261,14 @@ TEST(CompiledEquations, GiveDerivativesAloneFromArraysOfTheirOwn) {
     }
   Eigen::Matrix<double, 4, Eigen::Dynamic> result(4, system->layout().columns());
   Eigen::Vector4d g_result;
-  ASSERT_TRUE(twins.with.compiled().tangents(EquationFunction::kResidual, state.t, state.turns,
-                                             {values[0], values[1], values[2], values[3]},
-                                             {directions[0], directions[1], directions[2], directions[3]}, {result, g_result, {}, {}}));
+  twins.with.compiled().tangents(EquationFunction::kResidual, state.t, state.turns, {values[0], values[1], values[2], values[3]},
+                                 {directions[0], directions[1], directions[2], directions[3]}, {result, g_result, {}, {}});
   VectorX<Lanes<4>> expected;
   Lanes<4> g;
-  twins.without.residual(state, &expected, &g);
+  twins.formulas.residual(state, &expected, &g);
   for (Eigen::Index row = 0; row < expected.size(); ++row)
     EXPECT_LT((result.col(row) - expected[row].directions()).norm(), 1e-11 * (1.0 + expected[row].directions().norm())) << row;
   EXPECT_LT((g_result - g.directions()).norm(), 1e-11 * (1.0 + g.directions().norm()));
-}
-
-TEST(CompiledEquations, OfDoublesHaveNoTangents) {
-  const std::shared_ptr<const CompiledSystem> system = servo("{}");
-  CompiledEquations<double> equations(*system);
-  equations.set_design(system->parameters());
-  EXPECT_FALSE(equations.tangents(EquationFunction::kResidual, 0.0, {}, {}, {}, {}));
-}
-
-TEST(CompiledEquations, DoNothingUnlessAllowed) {
-  const std::shared_ptr<const CompiledSystem> system = servo("{}");
-  Twins<double> twins(*system);
-  twins.set_design(system->parameters());
-  VectorX<double> G;
-  double g = 0.0;
-  EXPECT_FALSE(twins.without.compiled().residual(some_state<double>(system->layout()), &G, &g));
 }
 
 }  // namespace

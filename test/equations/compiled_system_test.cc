@@ -19,7 +19,7 @@ TEST(CompiledSystem, HasOneCodeForAllThreads) {
   for (const EquationCode*& code : found) threads.emplace_back([&code, &system] { code = system->equation_code(); });
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(std::set<const EquationCode*>(found.begin(), found.end()).size(), 1U);
-  EXPECT_EQ(found[0] != nullptr, ValueCode::is_available());
+  EXPECT_NE(found[0], nullptr);
 }
 
 TEST(CompiledSystem, IsTheSystemWithItsPatterns) {
@@ -27,7 +27,6 @@ TEST(CompiledSystem, IsTheSystemWithItsPatterns) {
   const System copy(system->robot(), system->study(), system->sharing());
   EXPECT_EQ(copy.layout().columns(), system->layout().columns());
   EXPECT_EQ(copy.layout().initial_turns, system->layout().initial_turns);
-  EXPECT_EQ(&system->patterns(), &system->plan().patterns);
   EXPECT_GT(system->patterns().rate.nonzeros(), system->layout().columns());
 }
 

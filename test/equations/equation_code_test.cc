@@ -28,13 +28,13 @@ TEST(EquationCode, IsRecordedOnceForASystem) {
   const CompiledFunction* functions[4] = {};
   threads.clear();
   for (const CompiledFunction*& function : functions)
-    threads.emplace_back([&] { function = codes[0]->function(EquationFunction::kResidual, {8, true}); });
+    threads.emplace_back([&] { function = &codes[0]->function(EquationFunction::kResidual, {8, true, false}); });
   for (std::thread& thread : threads) thread.join();
   for (const CompiledFunction* function : functions) EXPECT_EQ(function, functions[0]);
   const CompiledFunction* const residual = functions[0];
   ASSERT_NE(residual, nullptr);
-  EXPECT_EQ(codes[0]->function(EquationFunction::kResidual, {8, true}), residual) << "compiled once";
-  EXPECT_NE(codes[0]->function(EquationFunction::kResidual, {8, false}), residual);
+  EXPECT_EQ(&codes[0]->function(EquationFunction::kResidual, {8, true, false}), residual) << "compiled once";
+  EXPECT_NE(&codes[0]->function(EquationFunction::kResidual, {8, false, false}), residual);
 }
 
 TEST(EquationCode, OnlyWhatDependsOnTheDesignComesWithIt) {
@@ -74,7 +74,7 @@ TEST(EquationCode, DecisionsByTheDesignAloneAreApart) {
   const std::shared_ptr<const CompiledSystem> system = compile(
       robot("<codesign:parameter name='radius' value='0.05'/>" + bar("arm") + hinge("shoulder", "ground", "arm", "0 0 0", friction)),
       motion_study(1.0, "{}", "shoulder/velocity", "{}"));
-  EXPECT_EQ(system->equation_code()->design_guards().size(), 2U) << "whether the pin has a radius, for G and for its matrices";
+  EXPECT_EQ(system->equation_code()->design_guards().size(), 1U) << "whether the pin has a radius";
 }
 
 TEST(EquationCode, EveryShippedCaseIsCompiled) {
@@ -86,8 +86,9 @@ TEST(EquationCode, EveryShippedCaseIsCompiled) {
     const EquationCode* const code = system->equation_code();
     ASSERT_NE(code, nullptr) << name;
     for (EquationFunction function : {EquationFunction::kResidual, EquationFunction::kLinearization, EquationFunction::kConstraintErrors})
-      for (const EquationCode::Scalar& scalar : {EquationCode::Scalar{0, false}, {4, false}, {8, false}, {4, true}, {8, true}})
-        EXPECT_NE(code->function(function, scalar), nullptr) << name << ", lanes " << scalar.lanes;
+      for (const EquationCode::Scalar& scalar :
+           {EquationCode::Scalar{0, false, false}, {4, false, false}, {8, false, false}, {4, true, false}, {8, true, false}})
+        EXPECT_EQ(code->function(function, scalar).interpreter, nullptr) << name << ", lanes " << scalar.lanes;
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "codegen/value_code.h"
 #include "equations/compiled_equations.h"
+#include "equations/equation_code.h"
 #include "math/derivative_check.h"
 #include "math/ridders.h"
 #include "reading/study/study_reader.h"
@@ -68,15 +69,10 @@ Eigen::MatrixXd EquationsFixture::dense(const Sparsity& pattern, const std::vect
   return matrix;
 }
 
-void EquationsFixture::expect_exact_derivatives(double tolerance, bool recorded) {
-  expect_code(recorded);
-  expect_same_lanes();
-  for (bool compiled : {true, false}) {
-    SCOPED_TRACE(compiled ? "compiled" : "not compiled");
-    real.compiled().allow(compiled);
-    expect_exact_derivatives_of_real(tolerance);
-  }
-  real.compiled().allow(true);
+void EquationsFixture::expect_exact_derivatives(double tolerance) {
+  expect_same_bits();
+  expect_exact_lanes();
+  expect_exact_derivatives_of_real(tolerance);
 }
 
 void EquationsFixture::expect_exact_derivatives_of_real(double tolerance) {
@@ -96,23 +92,12 @@ void EquationsFixture::expect_exact_derivatives_of_real(double tolerance) {
   EXPECT_LT(compare_jacobians(d.time, time_reference()).largest, 1e-8);
 }
 
-void EquationsFixture::expect_code(bool recorded) {
-  if (!ValueCode::is_available()) return;
-  ASSERT_NE(system.equation_code(), nullptr) << "the equations decide something without is_less()";
-  VectorX<double> G;
-  double g = 0.0;
-  EXPECT_EQ(real.compiled().residual(state, &G, &g), recorded);
-}
+namespace {
 
-void EquationsFixture::expect_same_lanes() {
-  using L = Lanes<4>;
-  Equations<L> compiled(system), formulas(system);
-  formulas.compiled().allow(false);
-  std::vector<L> parameters;
-  for (double value : system.parameters()) {
-    parameters.emplace_back(value);
-    parameters.back().v[static_cast<int>(parameters.size()) % 4] = 1.0;
-  }
+using L = Lanes<4>;
+
+/// The state with some directions.
+State<L> directed(const State<double>& state) {
   State<L> point;
   point.t = state.t;
   point.turns = state.turns;
@@ -122,26 +107,74 @@ void EquationsFixture::expect_same_lanes() {
       for (int lane = 0; lane < 4; ++lane) (*lanes)[k].v[lane] = std::sin(0.9 * static_cast<double>(k) + lane);
   };
   direct(state.q, &point.q), direct(state.v, &point.v), direct(state.s, &point.s), direct(state.z, &point.z);
-  VectorX<L> G[2];
-  L g[2];
-  Linearization<L> d[2];
-  for (int k = 0; k < 2; ++k) {
-    Equations<L>& equations = k == 0 ? compiled : formulas;
-    equations.set_design(parameters);
-    equations.residual(point, &G[k], &g[k]);
-    d[k].resize(system.patterns());
-    equations.linearize(point, &d[k]);
+  return point;
+}
+
+std::vector<L> directed(const std::vector<double>& values) {
+  std::vector<L> parameters;
+  for (double value : values) {
+    parameters.emplace_back(value);
+    parameters.back().v[static_cast<int>(parameters.size()) % 4] = 1.0;
   }
+  return parameters;
+}
+
+/// All numbers that the recorded equations give at a state, side by side.
+template <class T>
+std::vector<double> all_numbers(const CompiledSystem& system, const std::vector<T>& parameters, const State<T>& state, bool machine_code) {
+  Equations<T> equations(system);
+  equations.compiled().allow(machine_code);
+  equations.set_design(parameters);
+  VectorX<T> G, Phi, Phi_rate;
+  T g;
+  Linearization<T> d;
+  d.resize(system.patterns());
+  equations.residual(state, &G, &g);
+  equations.linearize(state, &d);
+  equations.constraint_errors(state, &Phi, &Phi_rate);
+  std::vector<double> numbers;
+  const auto append = [&numbers](const auto& from) {
+    const auto* const first = reinterpret_cast<const double*>(from.data());
+    numbers.insert(numbers.end(), first, first + static_cast<std::size_t>(from.size()) * sizeof(T) / sizeof(double));
+  };
+  append(G), append(Phi), append(Phi_rate), append(d.position), append(d.velocity), append(d.rate), append(d.time);
+  append(std::vector<T>{g});
+  return numbers;
+}
+
+void expect_equal(const std::vector<double>& x, const std::vector<double>& y) {
+  ASSERT_EQ(x.size(), y.size());
+  int different = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) different += x[k] == y[k] || (std::isnan(x[k]) && std::isnan(y[k])) ? 0 : 1;
+  EXPECT_EQ(different, 0) << "of " << x.size();
+}
+
+}  // namespace
+
+void EquationsFixture::expect_same_bits() {
+  expect_equal(all_numbers(system, system.parameters(), state, true), all_numbers(system, system.parameters(), state, false));
+  const std::vector<L> parameters = directed(system.parameters());
+  const State<L> point = directed(state);
+  expect_equal(all_numbers(system, parameters, point, true), all_numbers(system, parameters, point, false));
+}
+
+void EquationsFixture::expect_exact_lanes() {
+  Equations<L> recorded(system);
+  Formulas<L> formulas(system);
+  const std::vector<L> parameters = directed(system.parameters());
+  recorded.set_design(parameters);
+  formulas.set_design(parameters);
+  const State<L> point = directed(state);
+  VectorX<L> G, expected_G;
+  L g, expected_g;
+  recorded.residual(point, &G, &g);
+  formulas.residual(point, &expected_G, &expected_g);
   const auto compare = [](const L& x, const L& y) {
     const double size = 1.0 + std::abs(y.a) + y.directions().norm();
     EXPECT_LT(std::max(std::abs(x.a - y.a), (x.directions() - y.directions()).norm()), 1e-11 * size);
   };
-  compare(g[0], g[1]);
-  for (Eigen::Index k = 0; k < G[0].size(); ++k) compare(G[0][k], G[1][k]);
-  for (std::size_t k = 0; k < d[0].position.size(); ++k) compare(d[0].position[k], d[1].position[k]);
-  for (std::size_t k = 0; k < d[0].velocity.size(); ++k) compare(d[0].velocity[k], d[1].velocity[k]);
-  for (std::size_t k = 0; k < d[0].rate.size(); ++k) compare(d[0].rate[k], d[1].rate[k]);
-  for (Eigen::Index k = 0; k < d[0].time.size(); ++k) compare(d[0].time[k], d[1].time[k]);
+  compare(g, expected_g);
+  for (Eigen::Index k = 0; k < G.size(); ++k) compare(G[k], expected_G[k]);
 }
 
 void EquationsFixture::expect_exact_residual() {

@@ -15,7 +15,7 @@
 
 namespace codesign {
 
-/// The equations of a mechanism at a generic state, and the same equations with complex numbers for derivatives by the complex step.
+/// The equations of a mechanism at a generic state, and the formulas with complex numbers for derivatives by the complex step.
 class EquationsFixture {
  public:
   EquationsFixture(const std::string& urdf, const std::string& study, const ReactionSharing& sharing = {});
@@ -28,25 +28,23 @@ class EquationsFixture {
 
   static Eigen::MatrixXd dense(const Sparsity& pattern, const std::vector<double>& values);
 
-  /// Expects all derivatives at `state` to agree with the complex step, from code and from the formulas, and with each other in lanes.
-  /// @param recorded whether the compiled code applies at `state`; else its branches differ from the recorded ones.
-  void expect_exact_derivatives(double tolerance, bool recorded = true);
-
+  /// Expects all derivatives at `state` to agree with the complex step of the formulas, and those along directions with lanes of them; the
+  /// same numbers with and without machine code.
+  void expect_exact_derivatives(double tolerance);
   void expect_exact_derivatives_of_real(double tolerance);
 
-  /// Expects that the equations have code, and that it runs at `state` if `recorded`, else not.
-  void expect_code(bool recorded);
+  /// Expects the same bits with and without machine code.
+  void expect_same_bits();
+  /// Expects the directional derivatives of [G; g] to be those of the formulas in lanes.
+  void expect_exact_lanes();
 
-  /// Expects the same derivatives along directions of state and design from code and from the formulas.
-  void expect_same_lanes();
-
-  /// Expects [G; g] to agree with the complex equations, which are never compiled.
+  /// Expects [G; g] to agree with the formulas in complex numbers.
   void expect_exact_residual();
 
   RobotDescription robot;
   CompiledSystem system;
   Equations<double> real;
-  Equations<std::complex<double>> complex;
+  Formulas<std::complex<double>> complex;
   State<double> state;
 };
 

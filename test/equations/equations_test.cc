@@ -94,7 +94,7 @@ TEST_F(EquationsTest, TerminalTermsHaveTheirGradient) {
   const Eigen::MatrixXd expected = complex_step_jacobian(
       [&](const Eigen::VectorXcd& q) {
         point.q = q;
-        return Eigen::VectorXcd::Constant(1, complex.formulas().terminal(point, nullptr));
+        return Eigen::VectorXcd::Constant(1, complex.terminal(point, nullptr));
       },
       state.q);
   EXPECT_LT(compare_jacobians(by_q.transpose(), expected).largest, 1e-12);

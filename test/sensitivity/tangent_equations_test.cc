@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-/// Compares results with and without compiled code with the results of Equations<Lanes>.
+/// Compares results with and without machine code with the results of Equations<Lanes>.
 class TangentEquationsTest : public ::testing::TestWithParam<bool> {
  protected:
   TangentEquationsTest() {
@@ -77,8 +77,8 @@ TEST_P(TangentEquationsTest, OfTheConstraintsAreOnePerRow) {
   expect_equal(Phi_rate, expected_rate);
 }
 
-/// A joint in its stop takes a branch that is not part of the recorded code.
-TEST(TangentEquations, ComeFromTheFormulasWhereNothingWasRecorded) {
+/// A joint in its stop needs another variant of the recorded equations.
+TEST(TangentEquations, FollowTheBranchOfTheState) {
   const std::string narrow = "<limit lower='-0.05' upper='0.04' effort='2' velocity='1'/>";
   const std::shared_ptr<const CompiledSystem> system =
       compile(robot(bar("arm") + "<joint name='hinge' type='revolute'><parent link='ground'/><child link='arm'/><axis xyz='0 1 0'/>" +
@@ -95,11 +95,11 @@ TEST(TangentEquations, ComeFromTheFormulasWhereNothingWasRecorded) {
   VectorX<Lanes<4>> G;
   Lanes<4> g;
   tangents.equations().formulas().residual(tangents.lanes(state, y), &G, &g);
-  for (Eigen::Index k = 0; k < G.size(); ++k) EXPECT_EQ((actual.col(k) - G[k].directions()).norm(), 0.0);
+  for (Eigen::Index k = 0; k < G.size(); ++k) EXPECT_LT((actual.col(k) - G[k].directions()).norm(), 1e-12 * (1.0 + G[k].directions().norm()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Code, TangentEquationsTest, ::testing::Values(true, false),
-                         [](const auto& code) { return code.param ? std::string("compiled") : std::string("formulas"); });
+                         [](const auto& code) { return code.param ? std::string("compiled") : std::string("interpreted"); });
 
 }  // namespace
 }  // namespace codesign

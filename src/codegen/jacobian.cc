@@ -1,0 +1,152 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "codegen/jacobian.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "codegen/partials.h"
+#include "math/to_index.h"
+
+namespace codesign {
+namespace {
+
+/// x * y, with the factors that do not vary multiplied first: such a product is computed once per design.
+Traced product(Recording* recording, const Traced& x, const Traced& y) {
+  const auto varies = [recording](const Traced& z) { return !z.is_literal() && recording->node(z.node()).varies; };
+  if (varies(x) == varies(y)) return folded(recording, x * y);
+  const Traced &fixed = varies(x) ? y : x, &moving = varies(x) ? x : y;
+  const Recording::Node node = recording->node(moving.node());
+  if (node.operation == Operation::kMultiply && recording->node(node.a).varies != recording->node(node.b).varies) {
+    const bool first = recording->node(node.a).varies;
+    const Traced inner(recording, first ? node.b : node.a), rest(recording, first ? node.a : node.b);
+    return folded(recording, (fixed * folded(recording, inner)) * rest);
+  }
+  return folded(recording, x * y);
+}
+
+/// The linearized graph. Vertices are the nodes of the recording, then one vertex per output; those between leaves and outputs are
+/// eliminated one after another.
+class Elimination {
+ public:
+  Elimination(Recording* recording, const std::vector<int>& outputs, const std::vector<JacobianInput>& inputs)
+      : recording_(recording), size_(recording->size()), in_(to_index(size_) + outputs.size()), out_(in_.size()), is_leaf_(in_.size()) {
+    for (const JacobianInput& input : inputs) is_leaf_[to_index(input.leaf)] = true;
+    for (std::size_t k = 0; k < outputs.size(); ++k) connect(outputs[k], size_ + static_cast<int>(k), Traced(1.0));
+    // From the outputs back: nodes that no output needs get no edges.
+    for (int n = size_ - 1; n >= 0; --n)
+      if (!out_[to_index(n)].empty() && !is_leaf_[to_index(n)])
+        for (const Partial& partial : partials_of(recording_, n)) connect(partial.node, n, folded(recording_, partial.factor));
+    // From the leaves on: what depends on none of them has no derivative.
+    for (int n = 0; n < size_; ++n)
+      if (in_[to_index(n)].empty() && !is_leaf_[to_index(n)]) remove(n);
+  }
+
+  void run(EliminationOrder order) {
+    if (order == EliminationOrder::kForward)
+      for (int n = 0; n < size_; ++n) eliminate(n);
+    if (order == EliminationOrder::kReverse)
+      for (int n = size_ - 1; n >= 0; --n) eliminate(n);
+    if (order == EliminationOrder::kMarkowitz) eliminate_by_degree();
+  }
+
+  /// The edges into output k, in order of their leaves.
+  std::vector<Partial> row(std::size_t k) const {
+    std::vector<Partial> edges = in_[to_index(size_) + k];
+    std::sort(edges.begin(), edges.end(), [](const Partial& x, const Partial& y) { return x.node < y.node; });
+    return edges;
+  }
+
+ private:
+  void connect(int from, int to, const Traced& value) {
+    std::vector<Partial>& edges = in_[to_index(to)];
+    const auto known = edge_from(from, &edges);
+    if (known != edges.end()) {
+      known->factor = folded(recording_, known->factor + value);
+      return;
+    }
+    edges.push_back({from, value});
+    out_[to_index(from)].push_back(to);
+  }
+
+  static std::vector<Partial>::iterator edge_from(int from, std::vector<Partial>* edges) {
+    return std::find_if(edges->begin(), edges->end(), [from](const Partial& edge) { return edge.node == from; });
+  }
+
+  void remove(int n) {
+    for (int user : out_[to_index(n)]) {
+      std::vector<Partial>& edges = in_[to_index(user)];
+      edges.erase(edge_from(n, &edges));
+    }
+    for (const Partial& edge : in_[to_index(n)]) {
+      std::vector<int>& users = out_[to_index(edge.node)];
+      users.erase(std::find(users.begin(), users.end(), n));
+    }
+    in_[to_index(n)].clear();
+    out_[to_index(n)].clear();
+  }
+
+  bool is_between(int n) const { return !is_leaf_[to_index(n)] && !out_[to_index(n)].empty(); }
+
+  void eliminate(int n) {
+    if (!is_between(n)) return;
+    for (int user : out_[to_index(n)]) {
+      const Traced factor = edge_from(n, &in_[to_index(user)])->factor;
+      for (const Partial& edge : in_[to_index(n)]) connect(edge.node, user, product(recording_, factor, edge.factor));
+    }
+    remove(n);
+  }
+
+  void eliminate_by_degree() {
+    const auto degree = [this](int n) { return in_[to_index(n)].size() * out_[to_index(n)].size(); };
+    std::set<std::pair<std::size_t, int>> waiting;
+    std::vector<std::size_t> known(to_index(size_), 0);
+    for (int n = 0; n < size_; ++n)
+      if (is_between(n)) waiting.emplace(known[to_index(n)] = degree(n), n);
+    const auto update = [&](int n) {
+      if (n >= size_ || !is_between(n)) return;
+      waiting.erase({known[to_index(n)], n});
+      waiting.emplace(known[to_index(n)] = degree(n), n);
+    };
+    while (!waiting.empty()) {
+      const int n = waiting.begin()->second;
+      waiting.erase(waiting.begin());
+      std::vector<int> neighbours(out_[to_index(n)].begin(), out_[to_index(n)].end());
+      for (const Partial& edge : in_[to_index(n)]) neighbours.push_back(edge.node);
+      eliminate(n);
+      for (int k : neighbours) update(k);
+    }
+  }
+
+  Recording* recording_;
+  int size_;                              ///< nodes of the recording before those for derivatives were appended
+  std::vector<std::vector<Partial>> in_;  ///< per vertex: its operands with the partial derivatives
+  std::vector<std::vector<int>> out_;     ///< per vertex: its users
+  std::vector<bool> is_leaf_;
+};
+
+}  // namespace
+
+std::vector<JacobianEntry> derive_jacobian(Recording* recording, const std::vector<int>& outputs, const std::vector<JacobianInput>& inputs,
+                                           EliminationOrder order) {
+  Elimination elimination(recording, outputs, inputs);
+  elimination.run(order);
+  std::map<int, const JacobianInput*> input_of;
+  for (const JacobianInput& input : inputs) input_of[input.leaf] = &input;
+  std::vector<JacobianEntry> entries;
+  for (std::size_t k = 0; k < outputs.size(); ++k) {
+    std::map<int, Traced> row;
+    for (const auto& [leaf, value] : elimination.row(k)) {
+      const JacobianInput& input = *input_of.at(leaf);
+      row[input.column] += product(recording, value, input.seed);
+    }
+    for (const auto& [column, value] : row) {
+      const Traced entry = folded(recording, value);
+      if (!entry.is_literal() || entry.value() != 0.0) entries.push_back({static_cast<int>(k), column, entry});
+    }
+  }
+  return entries;
+}
+
+}  // namespace codesign

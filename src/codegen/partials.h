@@ -1,0 +1,26 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_CODEGEN_PARTIALS_H_
+#define MECHANISM_CODESIGN_CODEGEN_PARTIALS_H_
+
+#include <vector>
+
+#include "codegen/traced.h"
+
+namespace codesign {
+
+/// One term of a derivative: the derivative of `node` times `factor`.
+struct Partial {
+  int node;
+  Traced factor;
+};
+
+/// The partial derivatives of an operation by its operands; none for leaves, literals and roundings. Nodes for the factors are appended to
+/// the recording.
+std::vector<Partial> partials_of(Recording* recording, int node);
+
+/// x, as a literal if its node is one, so that products with it are simplified.
+Traced folded(Recording* recording, const Traced& x);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_CODEGEN_PARTIALS_H_

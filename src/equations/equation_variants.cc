@@ -1,0 +1,24 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "equations/equation_variants.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace codesign {
+
+const EquationCode* EquationVariants::at(std::size_t k, const System& system, const ByVariable<Sparsity>& patterns, EquationPart part) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (variants_.empty()) variants_.push_back(std::make_unique<EquationCode>(system, patterns, part));
+  return k < variants_.size() ? variants_[k].get() : nullptr;
+}
+
+std::size_t EquationVariants::keep(std::unique_ptr<EquationCode> variant) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto known = std::find_if(variants_.begin(), variants_.end(),
+                                  [&](const std::unique_ptr<EquationCode>& other) { return other->outcomes() == variant->outcomes(); });
+  const auto index = static_cast<std::size_t>(known - variants_.begin());
+  if (known == variants_.end()) variants_.push_back(std::move(variant));
+  return index;
+}
+
+}  // namespace codesign

@@ -1,0 +1,32 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_EQUATIONS_EQUATION_VARIANTS_H_
+#define MECHANISM_CODESIGN_EQUATIONS_EQUATION_VARIANTS_H_
+
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "equations/equation_code.h"
+
+namespace codesign {
+
+/// The variants of one part of the equations of a system that states have needed so far. The first one has the expected outcome of every
+/// decision; the others are added when a state decides otherwise. A variant depends on its outcomes alone, so results do not depend on the
+/// order in which variants were added. Thread-safe.
+class EquationVariants {
+ public:
+  /// The k-th variant; null if fewer are known. The first one is recorded by the first call for it.
+  const EquationCode* at(std::size_t k, const System& system, const ByVariable<Sparsity>& patterns, EquationPart part);
+  /// Adds a variant, unless one with the same outcomes is known. @return its index.
+  std::size_t keep(std::unique_ptr<EquationCode> variant);
+
+ private:
+  std::mutex mutex_;
+  std::deque<std::unique_ptr<EquationCode>> variants_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_EQUATIONS_EQUATION_VARIANTS_H_

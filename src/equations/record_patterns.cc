@@ -1,0 +1,98 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "equations/record_patterns.h"
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <utility>
+
+#include "equations/equation_code.h"
+#include "equations/recorded_equations.h"
+#include "math/to_index.h"
+
+namespace codesign {
+namespace {
+
+using Arrays = EquationArrays;
+using ColumnSet = std::vector<int>;
+
+ColumnSet merged(const ColumnSet& x, const ColumnSet& y) {
+  ColumnSet both;
+  std::set_union(x.begin(), x.end(), y.begin(), y.end(), std::back_inserter(both));
+  return both;
+}
+
+/// Per node: the columns of (q, s), v and z side by side that it depends on.
+std::vector<ColumnSet> dependencies(const Recording& recording, const Layout& layout) {
+  std::vector<ColumnSet> columns(to_index(recording.size()));
+  const int positions = layout.positions();
+  for (int n = 0; n < recording.size(); ++n) {
+    const Recording::Node& node = recording.node(n);
+    ColumnSet& of = columns[to_index(n)];
+    if (node.operation == Operation::kLeaf) {
+      if (node.a == Arrays::kQ) of = {node.b};
+      if (node.a == Arrays::kS) of = {layout.n + node.b};
+      if (node.a == Arrays::kV) of = {positions + node.b};
+      if (node.a == Arrays::kZ) of = {positions + layout.n + node.b};
+    } else if (node.varies && node.operation != Operation::kRound) {
+      of = node.b < 0 ? columns[to_index(node.a)] : merged(columns[to_index(node.a)], columns[to_index(node.b)]);
+    }
+  }
+  return columns;
+}
+
+using Turned = std::function<bool(unsigned)>;
+
+/// Adds the columns that each row depends on if the decisions at some places are turned round. @return the places of all decisions.
+std::vector<unsigned> add_rows(const System& system, Turned turned, std::vector<ColumnSet>* rows) {
+  Recording recording;
+  recording.turn(std::move(turned));
+  RecordedEquations equations(system, &recording);
+  equations.record_residual();
+  const std::vector<ColumnSet> columns = dependencies(recording, system.layout());
+  const auto add = [&](std::size_t row, const Traced& value) {
+    if (!value.is_literal()) (*rows)[row] = merged((*rows)[row], columns[to_index(value.node())]);
+  };
+  for (Eigen::Index row = 0; row < equations.G.size(); ++row) add(static_cast<std::size_t>(row), equations.G[row]);
+  add(rows->size() - 1, equations.g);
+  return recording.places();
+}
+
+// Turned round: none, all, each place alone, all but each place. So every combination of up to three places that follow one another in one
+// law is seen, and every joint takes part at once.
+void add_all_branches(const System& system, std::vector<ColumnSet>* rows) {
+  std::vector<unsigned> places = add_rows(system, nullptr, rows);
+  if (places.empty()) return;
+  const auto find_more = [&](Turned turned) {
+    for (unsigned place : add_rows(system, std::move(turned), rows))
+      if (std::find(places.begin(), places.end(), place) == places.end()) places.push_back(place);
+  };
+  find_more([](unsigned) { return true; });
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const unsigned place = places[k];
+    find_more([place](unsigned other) { return other == place; });
+    find_more([place](unsigned other) { return other != place; });
+  }
+}
+
+Sparsity part_of(const std::vector<ColumnSet>& rows, int first, int count) {
+  Sparsity pattern{static_cast<int>(rows.size()), count, {0}, {}};
+  for (const ColumnSet& row : rows) {
+    for (int column : row)
+      if (column >= first && column < first + count) pattern.column_index.push_back(column - first);
+    pattern.row_start.push_back(pattern.nonzeros());
+  }
+  return pattern;
+}
+
+}  // namespace
+
+ByVariable<Sparsity> record_patterns(const System& system) {
+  const Layout& layout = system.layout();
+  std::vector<ColumnSet> rows(to_index(layout.columns()) + 1);
+  add_all_branches(system, &rows);
+  const int positions = layout.positions();
+  return {part_of(rows, 0, positions), part_of(rows, positions, layout.n), part_of(rows, positions + layout.n, layout.columns())};
+}
+
+}  // namespace codesign

@@ -1,0 +1,17 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_EQUATIONS_RECORD_PATTERNS_H_
+#define MECHANISM_CODESIGN_EQUATIONS_RECORD_PATTERNS_H_
+
+#include "sparse/sparsity.h"
+#include "system/system.h"
+
+namespace codesign {
+
+/// The patterns of the derivatives of G and, in one more row, of the integrand g: entry (row, column) is there if the recorded row depends
+/// on the column's variable in some branch. Columns: Layout::positions() of (q, s),
+/// Layout::n of v, Layout::columns() of z.
+ByVariable<Sparsity> record_patterns(const System& system);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_EQUATIONS_RECORD_PATTERNS_H_

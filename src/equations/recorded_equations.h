@@ -1,0 +1,44 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_EQUATIONS_RECORDED_EQUATIONS_H_
+#define MECHANISM_CODESIGN_EQUATIONS_RECORDED_EQUATIONS_H_
+
+#include <vector>
+
+#include "codegen/jacobian.h"
+#include "equations/formulas.h"
+#include "sparse/sparsity.h"
+#include "system/state.h"
+
+namespace codesign {
+
+/// The equations of one mechanism, evaluated with the scalar that records. The constructor makes the leaves: q, v, s and z (arrays
+/// EquationArrays::kQ to kZ), turn references (kTurns) and expressions of the design; functions of time follow where they are used.
+struct RecordedEquations {
+  static constexpr int kTurns = Recording::kTimed + 1;
+
+  /// @param system and `recording` must outlive this.
+  RecordedEquations(const System& system, Recording* recording);
+
+  /// Records G and g, theory (14), (21).
+  void record_residual() { formulas.residual(state, &G, &g); }
+
+  Recording* const recording;
+  Formulas<Traced> formulas;
+  State<Traced> state;
+  VectorX<Traced> G;  ///< after record_residual()
+  Traced g;           ///< after record_residual()
+};
+
+/// The gradients of recorded numbers by the state and the time; JacobianEntry::column counts (q, s), v, z and t side by side.
+std::vector<JacobianEntry> derive_gradients(const System& system, const std::vector<Traced>& values, EliminationOrder order,
+                                            Recording* recording);
+
+/// G_q and G_s, G_v, G_z and G_t, and in one more row the same derivatives of g, derived from the recorded residual alone; theory (14).
+/// @param patterns of the result, of record_assembly(). @param order of the elimination. @param recorded nodes are appended to its
+/// recording.
+/// @throws std::logic_error for a derivative that is not in the patterns.
+Linearization<Traced> derive_linearization(const ByVariable<Sparsity>& patterns, EliminationOrder order, RecordedEquations* recorded);
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_EQUATIONS_RECORDED_EQUATIONS_H_
