@@ -175,8 +175,7 @@ double effect_of_sharing(const CompiledSystem& system, const Redundancy& redunda
     for (int p : redundancy.sharing.pairs) {
       const int joint = system.topology().pairs[to_index(p)].friction_joint;
       const std::vector<int>& chosen = redundancy.chosen_joints;
-      if (std::find(chosen.begin(), chosen.end(), joint) != chosen.end())
-        forces.push_back(normal_force(equations->formulas().view(), p).value);
+      if (std::find(chosen.begin(), chosen.end(), joint) != chosen.end()) forces.push_back(normal_force(equations->formulas().view(), p));
     }
     return forces;
   };

@@ -3,7 +3,6 @@
 #define MECHANISM_CODESIGN_ELEMENTS_BRISTLE_H_
 
 #include "elements/contact_friction.h"
-#include "elements/gradient_rows.h"
 #include "elements/state_view.h"
 #include "elements/workspace.h"
 
@@ -12,22 +11,16 @@ namespace codesign {
 // The rows of the states of a friction law, theory (13e), (13f): sigma - zeta' = 0 [1/s] for each slip coordinate, then sigma - s_dw' = 0
 // if the law has a dwell state. A BristleContact with element -1 slips isotropically; else it belongs to one joint coordinate.
 
-/// Whether the k-th slip coordinate of a pair with isotropic friction depends on r of the bodies.
-template <class T>
-bool slip_moves_r(const StateView<T>& view, int pair, std::size_t k) {
-  return view.design.constants.pairs[static_cast<std::size_t>(pair)].slip.coordinates[k].kind == CoordinateConstants<T>::Kind::kSlide;
-}
-
 /// The slip of a contact: the motion of its coordinates and u [m/s], the rate times the arm (the pin radius for a turn, 1 for a slide).
 template <class T>
-ContactSlip<T> bristle_slip(const StateView<T>& view, const BristleContact& contact, CoordinateDetail detail) {
+ContactSlip<T> bristle_slip(const StateView<T>& view, const BristleContact& contact) {
   const auto p = static_cast<std::size_t>(contact.pair);
   const Pair& pair = view.system.topology().pairs[p];
-  if (contact.element < 0) return contact_slip(view.design.constants.pairs[p], view.body(pair.body_i), view.body(pair.body_j), detail);
+  if (contact.element < 0) return contact_slip(view.design.constants.pairs[p], view.body(pair.body_i), view.body(pair.body_j));
   const bool turning =
       view.design.constants.pairs[p].coordinates[static_cast<std::size_t>(contact.element)].kind == CoordinateConstants<T>::Kind::kTurn;
   ContactSlip<T> slip;
-  slip.motion[0] = view.coordinate(contact.pair, contact.element, detail);
+  slip.motion[0] = view.coordinate(contact.pair, contact.element, CoordinateDetail::kRate);
   slip.arm[0] = turning ? view.design.constants.pairs[p].friction.pin_radius : T(1.0);
   slip.u[0] = slip.arm[0] * slip.motion[0].rate;
   return slip;
@@ -42,29 +35,6 @@ int bristle_carrier(const StateView<T>& view, const BristleContact& contact) {
   return contact.element < 0 && pair.kind == PairKind::kSpherical ? pair.body_i : -1;
 }
 
-/// Appends by_u . du/dy, the gradient by positions and velocities of a scalar that depends on the slip velocity u. @param by_u its
-/// derivative by u.
-template <class T>
-void append_bristle_slip(const StateView<T>& view, const BristleContact& contact, const ContactSlip<T>& slip, const Vector3<T>& by_u,
-                         OptionalGradient<T> gradient) {
-  for (int k = 0; k < contact.size; ++k) {
-    const CoordinateMotion<T>& motion = slip.motion[static_cast<std::size_t>(k)];
-    const T factor = by_u[k] * slip.arm[k];
-    const bool with_r = contact.element < 0 ? slip_moves_r(view, contact.pair, static_cast<std::size_t>(k))
-                                            : view.coordinate_moves_r(contact.pair, contact.element);
-    append_local(view, contact.pair, motion.rate_q, factor, with_r, &gradient->position);
-    append_local(view, contact.pair, motion.J, factor, with_r, &gradient->velocity);
-  }
-}
-
-/// Appends the entries of a gradient by the contact's own states. @param by_zeta, by_dwell the derivatives by deflections and dwell state.
-template <class T>
-void append_bristle_states(const StateView<T>& view, const BristleContact& contact, const Vector3<T>& by_zeta, const T& by_dwell,
-                           OptionalGradient<T> gradient) {
-  for (int k = 0; k < contact.size; ++k) gradient->position.push_back({view.layout.position_column(contact.first + k), by_zeta[k]});
-  if (contact.dwells()) gradient->position.push_back({view.layout.position_column(contact.dwell_state()), by_dwell});
-}
-
 /// omega_i x zeta [1/s], the part of zeta' by which a ball's deflections turn with the socket; zero for all other contacts.
 template <class T>
 Vector3<T> bristle_turn(const StateView<T>& view, const BristleContact& contact) {
@@ -77,7 +47,7 @@ Vector3<T> bristle_turn(const StateView<T>& view, const BristleContact& contact)
 /// Sets the rows of the contact's states to sigma - zeta' and sigma - s_dw'.
 template <class T>
 void bristle_residual(const StateView<T>& view, const BristleContact& contact, VectorX<T>* G) {
-  const ContactSlip<T> slip = bristle_slip(view, contact, CoordinateDetail::kRate);
+  const ContactSlip<T> slip = bristle_slip(view, contact);
   const Bristle<T> law =
       bristle_law<T>(contact, slip.u, view.state->s, view.design.constants.pairs[static_cast<std::size_t>(contact.pair)].friction);
   const Vector3<T> rate = law.rate + bristle_turn(view, contact);

@@ -4,7 +4,6 @@
 
 #include "elements/bristle.h"
 #include "elements/contact_friction.h"
-#include "elements/gradient_rows.h"
 #include "elements/normal_force.h"
 #include "elements/state_view.h"
 #include "elements/workspace.h"
@@ -14,40 +13,18 @@ namespace codesign {
 // Isotropic friction of tables, planar and spherical joints, theory (13a). The loads L_k oppose the slip rates, so the rows of motion get
 // + sum of J_k^T L_k over the slip coordinates k.
 
-/// Slip, normal force and loads L_k of a pair among System::contacts() at the loaded state. Gradients need detail kGradient.
+/// Slip, normal force and loads L_k of a pair among System::contacts() at the loaded state.
 template <class T>
-ContactFriction<T> contact_at(const StateView<T>& view, int pair, CoordinateDetail detail = CoordinateDetail::kGradient) {
+ContactFriction<T> contact_at(const StateView<T>& view, int pair) {
   const Pair& p = view.system.topology().pairs[static_cast<std::size_t>(pair)];
   return contact_friction(p.kind, view.design.constants.pairs[static_cast<std::size_t>(pair)], view.body(p.body_i), view.body(p.body_j),
-                          normal_force(view, pair), view.system.bristle(pair, -1), view.state->s, detail);
-}
-
-/// Appends factor times the gradient of the k-th slip rate by positions and velocities.
-template <class T>
-void append_slip_rate(const StateView<T>& view, int pair, const ContactFriction<T>& contact, std::size_t k, const T& factor,
-                      OptionalGradient<T> gradient) {
-  append_local(view, pair, contact.motion[k].rate_q, factor, slip_moves_r(view, pair, k), &gradient->position);
-  append_local(view, pair, contact.motion[k].J, factor, slip_moves_r(view, pair, k), &gradient->velocity);
-}
-
-/// Appends factor times the gradient of the load L_k: by positions, velocities, multipliers (through the normal force) and the states of
-/// the friction law. `contact` must have detail kGradient.
-template <class T>
-void append_contact_load(const StateView<T>& view, int pair, const ContactFriction<T>& contact, std::size_t k, const T& factor,
-                         OptionalGradient<T> gradient) {
-  const auto row = static_cast<Eigen::Index>(k);
-  for (std::size_t l = 0; l < contact.size; ++l)
-    append_slip_rate(view, pair, contact, l, T(factor * contact.by_rate(row, static_cast<Eigen::Index>(l))), gradient);
-  append_normal_gradient(view, pair, contact.normal.F, contact.normal.torque, T(factor * contact.by_normal[row]), gradient);
-  if (const BristleContact* bristle = view.system.bristle(pair, -1))
-    append_bristle_states(view, *bristle, Vector3<T>(factor * contact.by_zeta.row(row).transpose()), T(factor * contact.by_dwell[row]),
-                          gradient);
+                          normal_force(view, pair), view.system.bristle(pair, -1), view.state->s);
 }
 
 /// Adds the sum of J_k^T L_k to the rows of motion of both bodies.
 template <class T>
 void contact_residual(const StateView<T>& view, int pair, VectorX<T>* G) {
-  const ContactFriction<T> c = contact_at(view, pair, CoordinateDetail::kRate);
+  const ContactFriction<T> c = contact_at(view, pair);
   for (std::size_t k = 0; k < c.size; ++k)
     for (int local = 0; local < kLocalSize; ++local)
       if (const int row = view.column(pair, local); row >= 0) (*G)[row] += c.motion[k].J[local] * c.load[static_cast<Eigen::Index>(k)];

@@ -6,24 +6,19 @@
 
 #include "forces/bristle_law.h"
 #include "forces/isotropic_friction.h"
-#include "forces/normal_force.h"
 #include "joints/coordinate.h"
 
 namespace codesign {
 
-/// Isotropic friction of one pair (a table, a planar or a spherical joint) at one instant; theory (13a). Vectors and matrices have one
-/// entry per slip coordinate; entries beyond `size` are zero.
+/// Isotropic friction of one pair (a table, a planar or a spherical joint) at one instant; theory (13a). Vectors have one entry per slip
+/// coordinate; entries beyond `size` are zero.
 template <class T>
 struct ContactFriction {
   std::size_t size = 0;      ///< number of slip coordinates: 2 for a table, 3 for planar and spherical joints
   std::size_t reported = 0;  ///< the first ones make up the reported speed and friction: two slides of a plane, all three of a ball
   std::array<CoordinateMotion<T>, 3> motion;
-  NormalForce<T> normal;                      ///< N [N], theory (12)
-  Vector3<T> load = Vector3<T>::Zero();       ///< L, positive against the rate, viscous part included [N or N m]
-  Matrix3<T> by_rate = Matrix3<T>::Zero();    ///< d load / d rate
-  Vector3<T> by_normal = Vector3<T>::Zero();  ///< d load / d N
-  Matrix3<T> by_zeta = Matrix3<T>::Zero();    ///< d load / d zeta; zero if the law has no states
-  Vector3<T> by_dwell = Vector3<T>::Zero();   ///< d load / d s_dw; zero if the law has no dwell state
+  T normal{0.0};                         ///< N [N], theory (12)
+  Vector3<T> load = Vector3<T>::Zero();  ///< L, positive against the rate, viscous part included [N or N m]
 
   /// Speed of the joint's point [m/s], or |omega| of a ball [rad/s].
   T speed() const {
@@ -55,46 +50,36 @@ struct ContactSlip {
 
 /// The slip of a pair with isotropic friction. @param i, j motion of its two bodies.
 template <class T>
-ContactSlip<T> contact_slip(const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateDetail detail) {
+ContactSlip<T> contact_slip(const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
   ContactSlip<T> slip;
   for (std::size_t k = 0; k < pair.slip.coordinates.size(); ++k) {
     const auto e = static_cast<Eigen::Index>(k);
-    slip.motion[k] = coordinate_motion(pair, pair.slip.coordinates[k], i, j, detail);
+    slip.motion[k] = coordinate_motion(pair, pair.slip.coordinates[k], i, j, CoordinateDetail::kRate);
     slip.arm[e] = pair.slip.arm[k];
     slip.u[e] = slip.arm[e] * slip.motion[k].rate;
   }
   return slip;
 }
 
-/// Friction loads and their derivatives for a pair with isotropic friction, theory (13a): L = arm sigma N u plus the viscous part, or
+/// Friction loads of a pair with isotropic friction, theory (13a): L = arm sigma N u plus the viscous part, or
 /// L = arm mu N for a law with states, theory (13e), (13f).
-/// @param normal normal force with its derivatives. @param bristle the pair's law with states, or null. @param s all extra states.
+/// @param normal the normal force. @param bristle the pair's law with states, or null. @param s all extra states.
 template <class T>
 ContactFriction<T> contact_friction(PairKind kind, const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
-                                    const NormalForce<T>& normal, const BristleContact* bristle, const VectorX<T>& s,
-                                    CoordinateDetail detail) {
-  const ContactSlip<T> slip = contact_slip(pair, i, j, detail);
+                                    const T& normal, const BristleContact* bristle, const VectorX<T>& s) {
+  const ContactSlip<T> slip = contact_slip(pair, i, j);
   const FrictionConstants<T>& f = pair.friction;
   ContactFriction<T> contact;
   contact.motion = slip.motion;
   contact.normal = normal;
   contact.size = pair.slip.coordinates.size();
   contact.reported = static_cast<std::size_t>(traits_of(kind).slips_of_the_point);
-  IsotropicFriction<T, 3> law;
-  if (bristle) {
-    const Bristle<T> b = bristle_law<T>(*bristle, slip.u, s, f);
-    law = {normal.value * b.mu, normal.value * b.mu_u, b.mu};
-    for (Eigen::Index e = 0; e < 3; ++e) contact.by_zeta.row(e) = (slip.arm[e] * normal.value) * b.mu_zeta.row(e);
-    for (Eigen::Index e = 0; e < 3; ++e) contact.by_dwell[e] = slip.arm[e] * normal.value * b.mu_dwell[e];
-  } else {
-    law = isotropic_friction<T, 3>(slip.u, normal.value, f.mu_static, f.mu_dynamic, f.transition_velocity);
-  }
+  // The friction per slip direction, without the arm [N].
+  const Vector3<T> load = bristle ? Vector3<T>(normal * bristle_law<T>(*bristle, slip.u, s, f).mu)
+                                  : isotropic_friction<T, 3>(slip.u, normal, f.mu_static, f.mu_dynamic, f.transition_velocity);
   for (std::size_t k = 0; k < contact.size; ++k) {
     const auto e = static_cast<Eigen::Index>(k);
-    contact.load[e] = slip.arm[e] * law.load[e] + pair.slip.viscous[k] * contact.motion[k].rate;
-    contact.by_normal[e] = slip.arm[e] * law.by_normal[e];
-    for (Eigen::Index l = 0; l < 3; ++l) contact.by_rate(e, l) = slip.arm[e] * law.by_slip(e, l) * slip.arm[l];
-    contact.by_rate(e, e) += pair.slip.viscous[k];
+    contact.load[e] = slip.arm[e] * load[e] + pair.slip.viscous[k] * contact.motion[k].rate;
   }
   return contact;
 }

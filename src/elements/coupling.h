@@ -40,7 +40,7 @@ void coupling_residual(const StateView<T>& view, std::size_t k, VectorX<T>* G) {
   for (std::size_t t = 0; t < coupling.terms.size(); ++t) {
     const CouplingTerm& term = coupling.terms[t];
     const T coefficient = view.design.constants.couplings[k].coefficients[t];
-    const CoordinateMotion<T>& motion = view.coordinate(term.pair, term.element, CoordinateDetail::kGradient);
+    const CoordinateMotion<T>& motion = view.coordinate(term.pair, term.element, CoordinateDetail::kAcceleration);
     (*G)[row] += coefficient * motion.acceleration;
     for (int local = 0; local < kLocalSize; ++local)
       if (const int c = view.column(term.pair, local); c >= 0) (*G)[c] += motion.J[local] * coefficient * lambda;

@@ -3,7 +3,6 @@
 #define MECHANISM_CODESIGN_ELEMENTS_JOINT_LOAD_H_
 
 #include "elements/controllers.h"
-#include "elements/gradient_rows.h"
 #include "elements/joint_friction.h"
 #include "elements/joint_stop_load.h"
 #include "elements/state_view.h"
@@ -14,8 +13,7 @@
 namespace codesign {
 
 // Loads along joint coordinates [N or N m], theory (13). A load L is positive against the coordinate, so that the rows of motion get
-// + J^T L; an effort (of a controller, or a constant one) is positive along the coordinate and counts as -L. Functions with a `gradient`
-// append to it if it is not null.
+// + J^T L; an effort (of a controller, or a constant one) is positive along the coordinate and counts as -L.
 
 /// The sum of the study's constant efforts on a coordinate, theory (13g).
 template <class T>
@@ -26,57 +24,40 @@ T constant_effort(const StateView<T>& view, const JointLoad& load) {
 }
 
 /// L of damping, torsion spring and `<dynamics friction>`, end of theory (13); `load` selects the ones that act.
-/// @param motion with detail kGradient for a gradient, kAll if a spring acts too.
+/// @param rate of the coordinate, here and below.
 template <class T>
-T passive_load(const StateView<T>& view, int pair, int element, const JointLoad& load, const CoordinateMotion<T>& motion,
-               OptionalGradient<T> gradient) {
+T passive_load(const StateView<T>& view, int pair, int element, const JointLoad& load, const T& rate) {
   constexpr double kDryTransitionVelocity = 1e-2;  // [m/s or rad/s]: URDF gives none
   const JointDynamicsConstants<T>& d =
       view.design.constants.pairs[static_cast<std::size_t>(pair)].dynamics[static_cast<std::size_t>(element)];
-  T value(0.0), slope(0.0);
+  T value(0.0);
   if (load.passive) {
-    slope = d.damping + d.spring_damping;
-    value = slope * motion.rate;
+    value = (d.damping + d.spring_damping) * rate;
     if (load.spring) value += d.stiffness * (view.coordinate_value(pair, element) - d.free_position);
   }
-  if (load.constant_friction) {
-    const FrictionCoefficient<T> S = brown_mcphee<T>(motion.rate, T(1.0), T(1.0), T(kDryTransitionVelocity));
-    value += d.dry_friction * S.value;
-    slope += d.dry_friction * S.slope;
-  }
-  if (gradient) {
-    append_rate(view, pair, element, motion, slope, gradient);
-    if (load.spring) append_local(view, pair, motion.position_q, d.stiffness, view.coordinate_moves_r(pair, element), &gradient->position);
-  }
+  if (load.constant_friction) value += d.dry_friction * brown_mcphee<T>(rate, T(1.0), T(1.0), T(kDryTransitionVelocity));
   return value;
 }
 
 /// The sum of the controllers' outputs on a coordinate, bounded by the actuator's limit (13c) if the study enforces `<limit effort>`.
 template <class T>
-T applied_effort(const StateView<T>& view, const JointLoad& load, OptionalGradient<T> gradient) {
-  const auto before = mark(gradient);
+T applied_effort(const StateView<T>& view, const JointLoad& load) {
   T demand(0.0);
-  for (int controller : load.controllers) demand += drive_effort(view, controller, gradient);
+  for (int controller : load.controllers) demand += drive_effort(view, controller);
   if (!load.saturated) return demand;
   const T& limit = view.design.constants.pairs[static_cast<std::size_t>(load.pair)].dynamics[static_cast<std::size_t>(load.element)].effort;
-  const SaturatedEffort<T> applied = saturate(demand, limit);
-  if (gradient) gradient->scale_from(before, applied.slope);
-  return applied.value;
+  return saturate(demand, limit).value;
 }
 
 /// The whole load L along a coordinate: friction, damping, spring and stop minus constant and applied efforts.
-/// @param motion with detail kGradient for a gradient, kAll if JointLoad::needs_position().
 template <class T>
-T joint_load(const StateView<T>& view, const JointLoad& load, const CoordinateMotion<T>& motion, OptionalGradient<T> gradient) {
+T joint_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
   T value(0.0);
-  if (load.reaction_friction) value += reaction_friction(view, load, motion, gradient, nullptr);
-  if (load.passive || load.constant_friction) value += passive_load(view, load.pair, load.element, load, motion, gradient);
-  if (load.stop) value += stop_load(view, load, motion, view.system.study().limits.dissipation, gradient);
+  if (load.reaction_friction) value += reaction_friction(view, load, rate, nullptr);
+  if (load.passive || load.constant_friction) value += passive_load(view, load.pair, load.element, load, rate);
+  if (load.stop) value += stop_load(view, load, rate, view.system.study().limits.dissipation);
   if (!load.constant.empty()) value -= constant_effort(view, load);
-  if (load.controllers.empty()) return value;
-  const auto before = mark(gradient);
-  value -= applied_effort(view, load, gradient);
-  if (gradient) gradient->scale_from(before, T(-1.0));
+  if (!load.controllers.empty()) value -= applied_effort(view, load);
   return value;
 }
 
@@ -95,7 +76,7 @@ inline JointLoad friction_part(const JointLoad& load) {
 template <class T>
 void load_residual(const StateView<T>& view, const JointLoad& load, VectorX<T>* G) {
   const CoordinateMotion<T>& motion = view.coordinate(load.pair, load.element, CoordinateDetail::kRate);
-  const T value = joint_load(view, load, motion, nullptr);
+  const T value = joint_load(view, load, motion.rate);
   for (int local = 0; local < kLocalSize; ++local)
     if (const int c = view.column(load.pair, local); c >= 0) (*G)[c] += motion.J[local] * value;
 }
@@ -103,16 +84,16 @@ void load_residual(const StateView<T>& view, const JointLoad& load, VectorX<T>* 
 /// Friction of a joint coordinate for observers: its rate, normal force and load L, of `<codesign:friction>` and `<dynamics friction>`.
 template <class T>
 FrictionState<T> joint_friction(const StateView<T>& view, int pair, int element) {
-  const CoordinateMotion<T>& motion = view.coordinate(pair, element);
+  const T rate = view.coordinate(pair, element, CoordinateDetail::kRate).rate;
   FrictionState<T> state;
   for (const JointLoad& load : view.system.loads()) {
     if (load.pair != pair || load.element != element) continue;
-    state.velocity = motion.rate;
-    if (load.reaction_friction) reaction_friction(view, load, motion, nullptr, &state);
+    state.velocity = rate;
+    if (load.reaction_friction) reaction_friction(view, load, rate, &state);
     if (load.constant_friction) {
       JointLoad dry = load;
       dry.passive = dry.spring = false;
-      state.load += passive_load(view, pair, element, dry, motion, nullptr);
+      state.load += passive_load(view, pair, element, dry, rate);
     }
   }
   return state;
@@ -123,7 +104,7 @@ template <class T>
 T joint_effort(const StateView<T>& view, int pair, int element) {
   T sum(0.0);
   for (const JointLoad& load : view.system.loads())
-    if (load.pair == pair && load.element == element) sum += applied_effort(view, load, nullptr);
+    if (load.pair == pair && load.element == element) sum += applied_effort(view, load);
   return sum;
 }
 

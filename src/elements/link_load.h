@@ -37,31 +37,16 @@ void link_load_residual(const StateView<T>& view, std::size_t k, VectorX<T>* G) 
   }
 }
 
-/// F . (r + A s)' + tau . omega [W], positive where the load drives the link; theory (14c). Appends its gradient.
+/// F . (r + A s)' + tau . omega [W], positive where the load drives the link; theory (14c).
 template <class T>
-T link_load_power(const StateView<T>& view, std::size_t k, OptionalGradient<T> gradient) {
+T link_load_power(const StateView<T>& view, std::size_t k) {
   const LinkLoad& load = view.system.link_loads()[k];
   const ConstantWrench<T>& wrench = view.design.wrenches[k];
   const BodyKinematics<T>& on = view.body(load.body);
-  const int c = kBodySize * load.body;
-  const Vector3<T> force = load.turns ? Vector3<T>(on.A * wrench.force) : wrench.force;
-  // The power is linear in p', with factors that are linear in p. The same factors at p' are therefore the derivative by p; the factors of
-  // the torque change their sign, since G(p) p' = -G(p') p, theory (4).
-  const auto on_p = [&](const Vector4<T>& p, double turn) -> Vector4<T> {
-    if (load.turns) return T(turn) * body_rate_transposed(p, wrench.torque);
-    return rotated_vector_jacobian(p, wrench.point).transpose() * wrench.force +
-           T(turn) * (ground_rate_matrix(p).transpose() * wrench.torque);
-  };
-  const Vector4<T> by_pd = on_p(on.p, 2.0);
-  T power = dot<T>(force, on.rd);
-  for (int e = 0; e < 4; ++e) power += by_pd[e] * on.pd[e];
-  if (!gradient) return power;
-  Vector4<T> by_p = on_p(on.pd, -2.0);
-  if (load.turns) by_p += rotated_vector_jacobian(on.p, wrench.force).transpose() * on.rd;
-  for (int l = 0; l < 3; ++l) gradient->velocity.push_back({c + l, force[l]});
-  for (int e = 0; e < 4; ++e) gradient->velocity.push_back({c + 3 + e, by_pd[e]});
-  for (int e = 0; e < 4; ++e) gradient->position.push_back({c + 3 + e, by_p[e]});
-  return power;
+  // The torque of a load that turns with its link includes the moment of its force about the centre of mass.
+  if (load.turns) return dot<T>(on.A * wrench.force, on.rd) + T(2.0) * dot<T>(wrench.torque, body_rate(on.p, on.pd));
+  const Vector3<T> point_rate = on.rd + on.Ad * wrench.point, omega = T(2.0) * (ground_rate_matrix(on.p) * on.pd);
+  return dot<T>(wrench.force, point_rate) + dot<T>(wrench.torque, omega);
 }
 
 }  // namespace codesign

@@ -2,7 +2,6 @@
 #ifndef MECHANISM_CODESIGN_ELEMENTS_NORMAL_FORCE_H_
 #define MECHANISM_CODESIGN_ELEMENTS_NORMAL_FORCE_H_
 
-#include "elements/gradient_rows.h"
 #include "elements/state_view.h"
 #include "forces/normal_force.h"
 
@@ -38,44 +37,9 @@ void pair_reaction(const StateView<T>& view, int index, Vector3<T>* F, Vector3<T
   if (traits.rows > next + 2) (*torque)[2] = lambda(next + 2);
 }
 
-/// Appends factor times the gradient of a normal force N by the multipliers and, where the force is given in ground axes, by p of body i.
-/// @param F, torque the derivatives dN/dF'' and dN/dT''.
+/// The normal force N [N] in the bearing of a pair, theory (12); the kind of pair chooses the formula.
 template <class T>
-void append_normal_gradient(const StateView<T>& view, int index, const Vector3<T>& F, const Vector3<T>& torque, const T& factor,
-                            OptionalGradient<T> gradient) {
-  const Pair& pair = view.system.topology().pairs[static_cast<std::size_t>(index)];
-  const PairTraits& traits = traits_of(pair.kind);
-  const int row = view.layout.lambda_column(view.layout.pair_row[static_cast<std::size_t>(index)]);
-  const auto add = [&](int column, const T& value) { gradient->rate.push_back({column, T(factor * value)}); };
-  if (traits.force == ForceRows::kAlong) {
-    add(row, F[2]);
-    return;  // N of a plane depends on F_z alone
-  }
-  int next = 0;
-  if (traits.force == ForceRows::kAll) {
-    const Vector3<T> in_body = view.design.constants.pairs[static_cast<std::size_t>(index)].C_i * F,
-                     in_ground = view.body(pair.body_i).A * in_body;
-    for (int k = 0; k < 3; ++k) add(row + k, in_ground[k]);
-    if (pair.body_i >= 0) {
-      const Vector3<T> lambda = view.state->z.template segment<3>(row);
-      const Vector4<T> by_p = rotation_hessian_product<T>(lambda * in_body.transpose(), view.body(pair.body_i).p);
-      for (int e = 0; e < 4; ++e) gradient->position.push_back({kBodySize * pair.body_i + 3 + e, T(factor * by_p[e])});
-    }
-    next = 3;
-  } else if (traits.force == ForceRows::kAcross) {
-    add(row, F[0]);
-    add(row + 1, F[1]);
-    next = 2;
-  }
-  if (traits.rows < next + 2) return;
-  add(row + next, torque[1]);
-  add(row + next + 1, -torque[0]);
-  if (traits.rows > next + 2) add(row + next + 2, torque[2]);
-}
-
-/// The normal force N [N] in the bearing of a pair, with its derivatives by F'' and T'', theory (12); the kind of pair chooses the formula.
-template <class T>
-NormalForce<T> normal_force(const StateView<T>& view, int pair) {
+T normal_force(const StateView<T>& view, int pair) {
   const FrictionConstants<T>& c = view.design.constants.pairs[static_cast<std::size_t>(pair)].friction;
   Vector3<T> F, torque;
   pair_reaction(view, pair, &F, &torque);

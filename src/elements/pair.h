@@ -32,7 +32,7 @@ void pair_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_
     row += 3;
   }
   PairMotion<T> shared;
-  shared.update(rows, i, j, false);
+  shared.update(rows, i, j);
   for (const ProductRow<T>& product : rows.products) {
     const VectorMotion<T>&x = shared.of(product.X), &y = shared.of(product.Y);
     const double scale = product.scale;

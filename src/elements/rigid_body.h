@@ -18,25 +18,6 @@ void inertia_force(const BodyConstants<T>& body, const BodyKinematics<T>& k, Vec
   *on_p = body_rate_transposed(k.p, y) + body_rate_transposed(k.pd, w);
 }
 
-/// Derivatives of the rows of p in (9) by p, p' and p''. The rows of r have the derivative m I by r''; their other derivatives are zero.
-template <class T>
-struct InertiaGradient {
-  Matrix4<T> by_p, by_pd, by_pdd;
-};
-
-/// The derivatives of inertia_force(); the formulas are given below theory (9).
-template <class T>
-InertiaGradient<T> inertia_gradient(const BodyConstants<T>& body, const BodyKinematics<T>& k) {
-  const Matrix34<T> G = body_rate_matrix(k.p), Gd = body_rate_matrix(k.pd), Gdd = body_rate_matrix(k.pdd);
-  const Matrix34<T> JG = 4.0 * (body.J * G), JGd = 8.0 * (body.J * Gd);
-  const Vector3<T> y = JG * k.pdd, w = 2.0 * (JG * k.pd);
-  InertiaGradient<T> d;
-  d.by_pdd = G.transpose() * JG;
-  d.by_pd = body_rate_hessian(w) + 2.0 * (Gd.transpose() * JG);
-  d.by_p = body_rate_hessian(y) - JG.transpose() * Gdd - Gd.transpose() * JGd;
-  return d;
-}
-
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_ELEMENTS_RIGID_BODY_H_

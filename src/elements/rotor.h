@@ -2,7 +2,6 @@
 #ifndef MECHANISM_CODESIGN_ELEMENTS_ROTOR_H_
 #define MECHANISM_CODESIGN_ELEMENTS_ROTOR_H_
 
-#include "elements/gradient_rows.h"
 #include "elements/state_view.h"
 #include "elements/workspace.h"
 
@@ -37,44 +36,28 @@ RotorMotion<T> rotor_motion(const StateView<T>& view, const Rotor& rotor) {
   return m;
 }
 
-/// The kinetic energy that the spin adds, n J_r theta' (n theta'/2 + u . omega_c) [J]. Appends its gradient.
+/// The kinetic energy that the spin adds, n J_r theta' (n theta'/2 + u . omega_c) [J].
 template <class T>
-T rotor_energy(const StateView<T>& view, const Rotor& rotor, OptionalGradient<T> gradient) {
+T rotor_energy(const StateView<T>& view, const Rotor& rotor) {
   const RotorMotion<T> m = rotor_motion(view, rotor);
-  const CoordinateMotion<T>& joint =
-      view.coordinate(rotor.pair, rotor.element, gradient ? CoordinateDetail::kGradient : CoordinateDetail::kRate);
-  if (gradient) {
-    append_rate(view, rotor.pair, rotor.element, joint, m.coupling * (m.ratio * joint.rate + m.carrier_rate), gradient);
-    if (rotor.body >= 0) append_body_rate(view, rotor.body, m.axis, m.coupling * joint.rate, gradient);
-  }
-  return m.coupling * joint.rate * (T(0.5) * m.ratio * joint.rate + m.carrier_rate);
+  const T rate = view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kRate).rate;
+  return m.coupling * rate * (T(0.5) * m.ratio * rate + m.carrier_rate);
 }
 
-/// L = n J_r (n theta'' + u . omega_c'), the load of the rotor along the joint's coordinate [N or N m], positive against it. Appends its
-/// gradient.
+/// L = n J_r (n theta'' + u . omega_c'), the load of the rotor along the joint's coordinate [N or N m], positive against it.
 template <class T>
-T rotor_load(const StateView<T>& view, const Rotor& rotor, OptionalGradient<T> gradient) {
+T rotor_load(const StateView<T>& view, const Rotor& rotor) {
   const RotorMotion<T> m = rotor_motion(view, rotor);
-  const CoordinateMotion<T>& joint = view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kGradient);
-  if (gradient) append_acceleration(view, rotor.pair, rotor.element, joint, m.coupling * m.ratio, gradient);
-  if (gradient && rotor.body >= 0) {
-    const BodyKinematics<T>& carrier = view.body(rotor.body);
-    const Vector3<T> axis = (T(2.0) * m.coupling) * m.axis;
-    const Vector4<T> by_pdd = body_rate_transposed(carrier.p, axis), by_p = -body_rate_transposed(carrier.pdd, axis);
-    for (int e = 0; e < 4; ++e) {
-      gradient->rate.push_back({kBodySize * rotor.body + 3 + e, by_pdd[e]});
-      gradient->position.push_back({kBodySize * rotor.body + 3 + e, by_p[e]});
-    }
-  }
-  return m.coupling * (m.ratio * joint.acceleration + m.carrier_acceleration);
+  return m.coupling *
+         (m.ratio * view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kAcceleration).acceleration + m.carrier_acceleration);
 }
 
 /// Adds J^T L to the rows of motion, and 2 G^T n J_r (theta'' u + theta' omega_c x u) to the rows of the carrier's p.
 template <class T>
 void rotor_residual(const StateView<T>& view, const Rotor& rotor, VectorX<T>* G) {
   const RotorMotion<T> m = rotor_motion(view, rotor);
-  const CoordinateMotion<T>& joint = view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kGradient);
-  const T load = rotor_load(view, rotor, nullptr);
+  const CoordinateMotion<T>& joint = view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kAcceleration);
+  const T load = rotor_load(view, rotor);
   for (int local = 0; local < kLocalSize; ++local)
     if (const int c = view.column(rotor.pair, local); c >= 0) (*G)[c] += joint.J[local] * load;
   if (rotor.body < 0) return;

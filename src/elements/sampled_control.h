@@ -14,7 +14,7 @@ namespace codesign {
 /// The measured input's error: setpoint minus the input, which is rounded to a multiple of the quantization if there is one.
 template <class T>
 T measured_error(const StateView<T>& view, int controller) {
-  const T error = controller_error(view, controller, nullptr);
+  const T error = controller_error(view, controller);
   const double quantum = realization_of(view, controller).quantization;
   if (!(quantum > 0.0)) return error;
   const T setpoint = view.design.controllers[static_cast<std::size_t>(controller)].setpoint.at(view.state->t).value;
@@ -55,7 +55,7 @@ void jump_controller(const StateView<T>& view, const ControlEvent& event, Vector
     return;
   }
   const T output = resolved.kind == ControllerKind::kPid ? sampled_pid_output(view, event.controller, event.sample == 0, s)
-                                                         : law_output(view, event.controller, OptionalGradient<T>(nullptr));
+                                                         : law_output(view, event.controller);
   (*s)[slot] = realization.output_limit ? clamp(output, view.design.controllers[c].output_limit) : output;
 }
 
@@ -67,7 +67,7 @@ void begin_controller(const StateView<T>& view, int controller, VectorX<T>* s) {
   if (realization.is_sampled())
     jump_controller(view, {ControlEvent::Kind::kSample, controller, 0}, s);
   else if (filter >= 0)
-    (*s)[filter] = controller_error(view, controller, OptionalGradient<T>(nullptr));
+    (*s)[filter] = controller_error(view, controller);
 }
 
 }  // namespace codesign

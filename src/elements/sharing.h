@@ -79,7 +79,7 @@ void share_pair(const StateView<T>& view, Workspace<T>* workspace, int index, Ve
     for (int k = 0; k < 3; ++k) share_row(view, row++, given[k], G);
   }
   PairMotion<T> shared;
-  shared.update(rows, i, j, false);
+  shared.update(rows, i, j);
   for (const ProductRow<T>& product : rows.products) {
     const VectorMotion<T>&x = shared.of(product.X), &y = shared.of(product.Y);
     const T eta = product.scale * view.state->z[view.system.sharing_layout().load(row)];
@@ -102,7 +102,7 @@ void share_coupling(const StateView<T>& view, Workspace<T>* workspace, int index
     const T c = view.design.constants.couplings[k].coefficients[t];
     const CoordinateMotion<T> motion = coordinate_motion(
         view.design.constants.pairs[static_cast<std::size_t>(term.pair)], view.coordinate_constants(term.pair, term.element),
-        workspace->displaced_body(pair.body_i), workspace->displaced_body(pair.body_j), CoordinateDetail::kGradient);
+        workspace->displaced_body(pair.body_i), workspace->displaced_body(pair.body_j), CoordinateDetail::kAcceleration);
     given += c * motion.acceleration;
     for (int local = 0; local < kLocalSize; ++local) {
       const int body = local < kBodySize ? pair.body_i : pair.body_j;

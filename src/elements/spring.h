@@ -2,9 +2,6 @@
 #ifndef MECHANISM_CODESIGN_ELEMENTS_SPRING_H_
 #define MECHANISM_CODESIGN_ELEMENTS_SPRING_H_
 
-#include <array>
-
-#include "elements/spring_end.h"
 #include "elements/state_view.h"
 #include "elements/workspace.h"
 #include "forces/spring_damper.h"
@@ -14,7 +11,7 @@ namespace codesign {
 // Spring-dampers between two points, theory (13b). The force F, which acts with + on body i and - on body j, enters the equations as the
 // load of a multiplier does, theory (7).
 
-/// The force of the k-th spring-damper of the model at the loaded state, with its derivatives.
+/// The force of the k-th spring-damper of the model at the loaded state.
 template <class T>
 SpringForce<T> spring_at(const StateView<T>& view, std::size_t k) {
   const SpringDamperConstants<T>& c = view.design.constants.springs[k];
@@ -29,43 +26,22 @@ void add_spring_load(const StateView<T>& view, Workspace<T>* workspace, std::siz
   add_vector_load(PairVector<T>::displacement(c.s_i, c.s_j), force.pull, workspace->load_on(c.body_i), workspace->load_on(c.body_j));
 }
 
-/// The two ends of a spring-damper, i then j, with the Jacobians of d.
+/// The elastic energy k (l - l_0)^2/2 of a spring-damper [J].
 template <class T>
-std::array<internal::SpringEnd<T>, 2> spring_ends(const StateView<T>& view, std::size_t k) {
-  const SpringDamperConstants<T>& c = view.design.constants.springs[k];
-  return {internal::SpringEnd<T>{c.body_i, view.body(c.body_i), c.s_i, T(-1.0)}, {c.body_j, view.body(c.body_j), c.s_j, T(1.0)}};
-}
-
-/// The elastic energy k (l - l_0)^2/2 of a spring-damper [J]. Appends its gradient by positions.
-template <class T>
-T spring_energy_at(const StateView<T>& view, std::size_t k, OptionalGradient<T> gradient) {
+T spring_energy_at(const StateView<T>& view, std::size_t k) {
   const SpringDamperConstants<T>& c = view.design.constants.springs[k];
   const Vector3<T> d = displacement_motion(view.body(c.body_i), c.s_i, view.body(c.body_j), c.s_j).x;
-  if (gradient) {
-    const Vector3<T> pull = spring_damper<T>(d, Vector3<T>::Zero(), c.stiffness, T(0.0), c.free_length).pull;
-    for (const internal::SpringEnd<T>& end : spring_ends(view, k)) end.append(end.D, pull, &gradient->position);
-  }
   return codesign::spring_energy<T>(d, c.stiffness, c.free_length);
 }
 
-/// The power -c l'^2 of the damper [W], never positive. Appends its gradient by positions and velocities.
+/// The power -c l'^2 of the damper [W], never positive.
 template <class T>
-T spring_power(const StateView<T>& view, std::size_t k, OptionalGradient<T> gradient) {
+T spring_power(const StateView<T>& view, std::size_t k) {
   using std::sqrt;
   const SpringDamperConstants<T>& c = view.design.constants.springs[k];
   const VectorMotion<T> d = displacement_motion(view.body(c.body_i), c.s_i, view.body(c.body_j), c.s_j);
   const T inverse = T(1.0) / sqrt(dot<T>(d.x, d.x) + T(kSpringSmoothing * kSpringSmoothing));
-  const Vector3<T> e = inverse * d.x;
-  const T rate = dot<T>(e, d.xd);
-  if (gradient) {
-    const T factor = T(-2.0) * c.damping * rate;
-    const Vector3<T> by_d = (factor * inverse) * (d.xd - rate * e), by_rate = factor * e;
-    for (const internal::SpringEnd<T>& end : spring_ends(view, k)) {
-      end.append(end.D, by_d, &gradient->position);
-      end.append(end.Dd, by_rate, &gradient->position);
-      end.append(end.D, by_rate, &gradient->velocity);
-    }
-  }
+  const T rate = dot<T>(Vector3<T>(inverse * d.x), d.xd);
   return -c.damping * rate * rate;
 }
 

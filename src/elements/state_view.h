@@ -18,8 +18,7 @@ namespace codesign {
 template <class T>
 struct ControlMemory {
   std::vector<InverseDynamics<T>> inverse_dynamics;  ///< per controller
-  /// alpha of (C6) and the derivative of the load by it; joint rates (set only for nodes with a rotor) and the derivative by them.
-  std::vector<T> accelerations, by_acceleration, rates, by_rate;
+  std::vector<T> accelerations, rates;               ///< alpha of (C6); joint rates, set only for nodes with a rotor
 };
 
 /// The motion of one joint coordinate, kept while design and state stay the same, because several elements need it.
@@ -54,14 +53,10 @@ struct StateView {
   const CoordinateConstants<T>& coordinate_constants(int pair, int element) const {
     return design.constants.pairs[static_cast<std::size_t>(pair)].coordinates[static_cast<std::size_t>(element)];
   }
-  /// Whether a coordinate depends on r of the bodies. Only slides do; the entries of J by r are zero for all others.
-  bool coordinate_moves_r(int pair, int element) const {
-    return coordinate_constants(pair, element).kind == CoordinateConstants<T>::Kind::kSlide;
-  }
   /// The motion of a joint coordinate, theory (8), with the members that `detail` includes; the position counts whole turns. The referenced
   /// object is overwritten when another state is loaded, or when more detail of the same coordinate is requested.
   const CoordinateMotion<T>& coordinate(int pair, int element, CoordinateDetail detail = CoordinateDetail::kAll) const;
-  /// The position of a joint coordinate [m or rad], whole turns counted, when its rate and gradients are not needed.
+  /// The position of a joint coordinate [m or rad], whole turns counted, when its rate is not needed.
   T coordinate_value(int pair, int element) const;
 
   const System& system;
@@ -89,8 +84,7 @@ StateView<T>::StateView(const System& of) : system(of), layout(of.layout()) {
     control.inverse_dynamics.emplace_back(controller.tree);
     nodes = std::max(nodes, controller.tree.nodes.size());
   }
-  for (std::vector<T>* of_nodes : {&control.accelerations, &control.by_acceleration, &control.rates, &control.by_rate})
-    of_nodes->resize(nodes, T(0.0));
+  for (std::vector<T>* of_nodes : {&control.accelerations, &control.rates}) of_nodes->resize(nodes, T(0.0));
   for (const Pair& pair : system.topology().pairs) {
     std::array<int, kLocalSize>& of_pair = columns.emplace_back();
     for (int local = 0; local < kLocalSize; ++local) {
@@ -148,7 +142,7 @@ T StateView<T>::coordinate_value(int pair, int element) const {
 
 template <class T>
 T StateView<T>::whole_turns(int pair, int element, const T& position) const {
-  if (coordinate_moves_r(pair, element)) return T(0.0);
+  if (coordinate_constants(pair, element).kind == CoordinateConstants<T>::Kind::kSlide) return T(0.0);
   return nearest_turns(state->turns[static_cast<std::size_t>(layout.turn(pair, element))], position);
 }
 

@@ -55,16 +55,15 @@ class Formulas {
   /// Sets State::turns to the joint positions of the state. To be called after each step, so that positions count whole turns.
   void track_turns(State<T>* state);
 
-  /// The sum w of the terminal terms of the objective, theory (21). @param gradient if not null, the gradient of the result is appended to
-  /// it; here and below.
-  T terminal(const State<T>& state, SparseGradient<T>* gradient);
+  /// The sum w of the terminal terms of the objective, theory (21).
+  T terminal(const State<T>& state);
   /// Signal minus reference of each term of the integrand g or of the terminal terms w, theory (21), in SI units; the weights are numbers
   /// of the design.
   void errors(ObjectivePart part, const State<T>& state, VectorX<T>* errors);
   /// Signal minus reference of the k-th watched signal, theory (21a), in SI units.
-  T watched(std::size_t k, const State<T>& state, SparseGradient<T>* gradient = nullptr);
+  T watched(std::size_t k, const State<T>& state);
   /// The value of a signal at a state, in SI units.
-  T signal(const Signal& signal, const State<T>& state, SparseGradient<T>* gradient = nullptr);
+  T signal(const Signal& signal, const State<T>& state);
 
   /// Loads the state that the functions below read. @param state must stay alive and unchanged while they are called.
   void load(const State<T>& state);
@@ -75,20 +74,20 @@ class Formulas {
   /// The friction of a joint coordinate, theory (13); zero if it has none.
   FrictionState<T> friction(int pair, int element) const;
   /// Isotropic friction of a pair among System::contacts(), theory (13a).
-  ContactFriction<T> contact(int pair, CoordinateDetail detail = CoordinateDetail::kGradient) const;
+  ContactFriction<T> contact(int pair) const;
   /// The force of the k-th spring-damper of RobotDescription::spring_dampers, theory (13b).
   SpringForce<T> spring(std::size_t k) const;
   /// The effort that controllers apply along a coordinate, within the actuator's limit (13c) [N or N m].
   T effort(int pair, int element) const;
   /// Mechanical energy T and V [J]; theory (14b).
-  T kinetic_energy(SparseGradient<T>* gradient) const;
-  T potential_energy(SparseGradient<T>* gradient) const;
+  T kinetic_energy() const;
+  T potential_energy() const;
   /// The power of one kind that goes into the mechanism [W]; theory (14c).
-  T power(PowerKind kind, SparseGradient<T>* gradient) const;
+  T power(PowerKind kind) const;
   /// Setpoint r, output u [N or N m] before the actuator's limit, and error e = r - x of a controller; theory (C1)-(C8).
   T setpoint(int controller) const;
-  T controller_output(int controller, SparseGradient<T>* gradient) const;
-  T controller_error(int controller, SparseGradient<T>* gradient) const;
+  T controller_output(int controller) const;
+  T controller_error(int controller) const;
   /// Reaction force F'' [N] and torque T'' [N m] in the joint axes of body i, theory (11); the child feels -F'' and -T''. Components that
   /// the pair does not constrain are zero.
   void reaction(int pair, Vector3<T>* F, Vector3<T>* torque) const;

@@ -49,7 +49,7 @@ void Formulas<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
   for (const BristleContact& contact : system.bristles()) bristle_residual(view, contact, G);
   for (std::size_t c = 0; c < system.controllers().size(); ++c) controller_residual(view, c, G);
   if (system.sharing().drops()) sharing_residual(view, &workspace_, G);
-  *g = objective_terms(view, system.integral(), view.design.integral, nullptr);
+  *g = objective_terms(view, system.integral(), view.design.integral);
 }
 
 template <class T>

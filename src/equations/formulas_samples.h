@@ -10,9 +10,9 @@ namespace codesign {
 // The functions of Formulas that observers and objectives call. Each one calls one function of an element.
 
 template <class T>
-T Formulas<T>::terminal(const State<T>& state, SparseGradient<T>* gradient) {
+T Formulas<T>::terminal(const State<T>& state) {
   load(state);
-  return objective_terms(view_, view_.system.terminal(), view_.design.terminal, gradient);
+  return objective_terms(view_, view_.system.terminal(), view_.design.terminal);
 }
 
 template <class T>
@@ -23,19 +23,19 @@ void Formulas<T>::errors(ObjectivePart part, const State<T>& state, VectorX<T>* 
   const ObjectiveNumbers<T>& numbers = terminal ? view_.design.terminal : view_.design.integral;
   errors->resize(static_cast<Eigen::Index>(terms.size()));
   for (std::size_t k = 0; k < terms.size(); ++k)
-    (*errors)[static_cast<Eigen::Index>(k)] = signal_error<T>(view_, terms[k].signal, numbers.references[k], nullptr);
+    (*errors)[static_cast<Eigen::Index>(k)] = signal_error(view_, terms[k].signal, numbers.references[k]);
 }
 
 template <class T>
-T Formulas<T>::watched(std::size_t k, const State<T>& state, SparseGradient<T>* gradient) {
+T Formulas<T>::watched(std::size_t k, const State<T>& state) {
   load(state);
-  return watched_value(view_, k, gradient);
+  return watched_value(view_, k);
 }
 
 template <class T>
-T Formulas<T>::signal(const Signal& signal, const State<T>& state, SparseGradient<T>* gradient) {
+T Formulas<T>::signal(const Signal& signal, const State<T>& state) {
   load(state);
-  return signal_value(view_, signal, T(1.0), gradient);
+  return signal_value(view_, signal);
 }
 
 template <class T>
@@ -49,8 +49,8 @@ FrictionState<T> Formulas<T>::friction(int pair, int element) const {
 }
 
 template <class T>
-ContactFriction<T> Formulas<T>::contact(int pair, CoordinateDetail detail) const {
-  return contact_at(view_, pair, detail);
+ContactFriction<T> Formulas<T>::contact(int pair) const {
+  return contact_at(view_, pair);
 }
 
 template <class T>
@@ -64,18 +64,18 @@ T Formulas<T>::effort(int pair, int element) const {
 }
 
 template <class T>
-T Formulas<T>::kinetic_energy(SparseGradient<T>* gradient) const {
-  return codesign::kinetic_energy(view_, gradient);
+T Formulas<T>::kinetic_energy() const {
+  return codesign::kinetic_energy(view_);
 }
 
 template <class T>
-T Formulas<T>::potential_energy(SparseGradient<T>* gradient) const {
-  return codesign::potential_energy(view_, gradient);
+T Formulas<T>::potential_energy() const {
+  return codesign::potential_energy(view_);
 }
 
 template <class T>
-T Formulas<T>::power(PowerKind kind, SparseGradient<T>* gradient) const {
-  return total_power(view_, kind, gradient);
+T Formulas<T>::power(PowerKind kind) const {
+  return total_power(view_, kind);
 }
 
 template <class T>
@@ -84,13 +84,13 @@ T Formulas<T>::setpoint(int controller) const {
 }
 
 template <class T>
-T Formulas<T>::controller_output(int controller, SparseGradient<T>* gradient) const {
-  return codesign::controller_output(view_, controller, gradient);
+T Formulas<T>::controller_output(int controller) const {
+  return codesign::controller_output(view_, controller);
 }
 
 template <class T>
-T Formulas<T>::controller_error(int controller, SparseGradient<T>* gradient) const {
-  return codesign::controller_error(view_, controller, gradient);
+T Formulas<T>::controller_error(int controller) const {
+  return codesign::controller_error(view_, controller);
 }
 
 template <class T>

@@ -8,24 +8,15 @@
 
 namespace codesign {
 
-/// A friction coefficient and its derivative by the sliding speed.
-template <class T>
-struct FrictionCoefficient {
-  T value{0.0};  ///< S(v) [-], odd in v
-  T slope{0.0};  ///< dS/dv [s/m]
-};
-
 /// Friction coefficient of Brown and McPhee (2016) without the viscous term, the bracket in the paper's (1); doc/theory.md (10):
 ///   S(v) = mu_d tanh(4 v / v_t) + (mu_s - mu_d) (v / v_t) / ((v / (2 v_t))^2 + 3/4)^2.
 /// @param v sliding velocity with sign [m/s]. @param v_t transition velocity, > 0 [m/s].
 template <class T>
-FrictionCoefficient<T> brown_mcphee(const T& v, const T& mu_static, const T& mu_dynamic, const T& v_t) {
+T brown_mcphee(const T& v, const T& mu_static, const T& mu_dynamic, const T& v_t) {
   using std::tanh;
   const T u = v / v_t;
-  const T h = tanh(4.0 * u);
   const T d = 0.25 * u * u + 0.75;
-  const T bump = (mu_static - mu_dynamic) / (d * d);
-  return {mu_dynamic * h + bump * u, (4.0 * mu_dynamic * (1.0 - h * h) + bump * (1.0 - u * u / d)) / v_t};
+  return mu_dynamic * tanh(4.0 * u) + (mu_static - mu_dynamic) / (d * d) * u;
 }
 
 }  // namespace codesign

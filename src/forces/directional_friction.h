@@ -6,40 +6,35 @@
 
 #include "description/friction.h"
 #include "forces/brown_mcphee.h"
-#include "math/tanh_ratio.h"
 
 namespace codesign {
 
 // Friction whose numbers differ with the sign of the velocity; doc/theory.md (48). Analytic, and dissipative like each of the two laws:
 // both oppose the motion, and each counts with a share between 0 and 1.
 
-/// The share of the forward numbers, w(v) = (1 + tanh(4 v / v_t)) / 2, and its slope [s/m].
+/// The share of the forward numbers, w(v) = (1 + tanh(4 v / v_t)) / 2.
 /// @param v sliding velocity with sign [m/s]. @param v_t transition velocity, > 0 [m/s].
 template <class T>
-ValueAndSlope<T> forward_share(const T& v, const T& v_t) {
+T forward_share(const T& v, const T& v_t) {
   using std::tanh;
-  const T h = tanh(T(4.0) * v / v_t);
-  return {T(0.5) * (T(1.0) + h), T(2.0) * (T(1.0) - h * h) / v_t};
+  return T(0.5) * (T(1.0) + tanh(T(4.0) * v / v_t));
 }
 
 /// Brown and McPhee's coefficient with other numbers against the axis: S = w S_forward + (1 - w) S_backward.
 template <class T>
-FrictionCoefficient<T> directional_brown_mcphee(const T& v, const FrictionNumbers<T>& c) {
-  const ValueAndSlope<T> w = forward_share<T>(v, c.transition_velocity);
-  const FrictionCoefficient<T> back = brown_mcphee<T>(v, c.mu_static_backward, c.mu_dynamic_backward, c.transition_velocity);
+T directional_brown_mcphee(const T& v, const FrictionNumbers<T>& c) {
+  const T back = brown_mcphee<T>(v, c.mu_static_backward, c.mu_dynamic_backward, c.transition_velocity);
   // The coefficient is linear in mu_s and mu_d.
-  const FrictionCoefficient<T> more =
-      brown_mcphee<T>(v, T(c.mu_static - c.mu_static_backward), T(c.mu_dynamic - c.mu_dynamic_backward), c.transition_velocity);
-  return {back.value + w.value * more.value, back.slope + w.value * more.slope + w.slope * more.value};
+  const T more = brown_mcphee<T>(v, T(c.mu_static - c.mu_static_backward), T(c.mu_dynamic - c.mu_dynamic_backward), c.transition_velocity);
+  return back + forward_share<T>(v, c.transition_velocity) * more;
 }
 
-/// The viscous load c(v) rate [N or N m] and its slope by the rate: c = w c_forward + (1 - w) c_backward.
+/// The viscous load c(v) rate [N or N m], c = w c_forward + (1 - w) c_backward.
 /// @param radius sliding velocity per rate, v = radius rate: 1 for a slide [-], r_e for a turn [m].
 template <class T>
-ValueAndSlope<T> directional_viscous(const T& rate, const T& radius, const FrictionNumbers<T>& c) {
-  const ValueAndSlope<T> w = forward_share<T>(T(radius * rate), c.transition_velocity);
-  const T more = c.viscous - c.viscous_backward, coefficient = c.viscous_backward + w.value * more;
-  return {coefficient * rate, coefficient + radius * w.slope * more * rate};
+T directional_viscous(const T& rate, const T& radius, const FrictionNumbers<T>& c) {
+  const T w = forward_share<T>(T(radius * rate), c.transition_velocity);
+  return (c.viscous_backward + w * (c.viscous - c.viscous_backward)) * rate;
 }
 
 }  // namespace codesign

@@ -8,37 +8,28 @@
 
 namespace codesign {
 
-/// The force of a stop, with its derivatives by g and g'.
-template <class T>
-struct StopForce {
-  T value{0.0};      ///< F, pushes the joint back into its range; never negative [N or N m]
-  T by_excess{0.0};  ///< [N/m or N m/rad]
-  T by_rate{0.0};    ///< [N s/m or N m s/rad]
-};
-
-/// The force of a joint's stop, doc/theory.md (13d): F = k delta(g) h(c g').
+/// The force of a joint's stop, doc/theory.md (13d): F = k delta(g) h(c g') [N or N m], which pushes the joint back into its range; never
+/// negative.
 ///
 /// delta(g) is 0 for g <= 0, g - w/2 for g >= w, and w (5/2 s^4 - 3 s^5 + s^6) with s = g/w in between; three times continuously
 /// differentiable. h(y) = y + sqrt(1 + y^2) is positive and makes the force larger while the excess grows than while it falls.
 /// @param excess g, by which the joint is beyond its limit [m or rad], @param rate g' [m/s or rad/s],
 /// @param stiffness k [N/m or N m/rad], @param dissipation c [s/m or s/rad], @param width w > 0 [m or rad].
 template <class T>
-StopForce<T> joint_stop(const T& excess, const T& rate, double stiffness, double dissipation, double width) {
+T joint_stop(const T& excess, const T& rate, double stiffness, double dissipation, double width) {
   using std::sqrt;
-  if (!is_less(T(0.0), excess, false)) return {};
-  T depth, slope(1.0);
+  if (!is_less(T(0.0), excess, false)) return T(0.0);
+  T depth;
   if (!is_less(excess, T(width), true)) {
     depth = excess - T(0.5 * width);
   } else {
     const T s = excess / T(width), s3 = s * s * s;
     depth = T(width) * s3 * s * (T(2.5) + s * (s - T(3.0)));
-    slope = s3 * (T(10.0) + s * (T(6.0) * s - T(15.0)));
   }
   const T y = T(dissipation) * rate, root = sqrt(T(1.0) + y * y);
   // h(y) = 1/(sqrt(1 + y^2) - y) avoids cancellation for negative y.
   const T growth = is_less(y, T(0.0), false) ? T(1.0) / (root - y) : y + root;
-  const T k(stiffness);
-  return {k * depth * growth, k * slope * growth, k * depth * growth * T(dissipation) / root};
+  return T(stiffness) * depth * growth;
 }
 
 /// The elastic energy of a stop, the integral of k delta(g) by g from 0 [J].

@@ -21,22 +21,13 @@ Bristle<T> lugre(const Vector3<T>& u, const BristleState<T>& state, const Fricti
   using std::exp;
   using std::sqrt;
   const T square = dot(u, u), v2 = T(1.0) / (c.transition_velocity * c.transition_velocity);
-  const bool moving = is_less(T(0.0), square, true);
-  const T speed = moving ? T(sqrt(square)) : T(0.0);
-  const T rise = (c.mu_static - c.mu_dynamic) * exp(-square * v2), g = c.mu_dynamic + rise;
-  const T turnover = speed / g;  // |u|/g, the rate of bristle replacement divided by sigma_0 [m/s]
-  const T by_square = moving ? T(T(0.5) / speed / g + turnover * rise * v2 / g) : T(0.0);
-  const Matrix3<T> I = Matrix3<T>::Identity();
+  const T speed = is_less(T(0.0), square, true) ? T(sqrt(square)) : T(0.0);
+  const T g = c.mu_dynamic + (c.mu_static - c.mu_dynamic) * exp(-square * v2);
+  const Vector3<T> stretch = u - speed / g * state.zeta;  // zeta' / sigma_0 [m/s]
 
   Bristle<T> b;
-  const Vector3<T> stretch = u - turnover * state.zeta;  // zeta' / sigma_0
-  const Matrix3<T> stretch_u = I - (T(2.0) * by_square) * (state.zeta * u.transpose());
   b.rate = c.bristle_stiffness * stretch;
-  b.rate_u = c.bristle_stiffness * stretch_u;
-  b.rate_zeta = (-c.bristle_stiffness * turnover) * I;
   b.mu = state.zeta + c.bristle_damping * stretch;
-  b.mu_u = c.bristle_damping * stretch_u;
-  b.mu_zeta = (T(1.0) - c.bristle_damping * turnover) * I;
   return b;
 }
 

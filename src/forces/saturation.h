@@ -32,20 +32,6 @@ SaturatedEffort<T> saturate(const T& u, const T& u_max) {
   return {sign * u_max / root, sign * r8 * r / root9};
 }
 
-/// The second derivative of saturate() by u: -9/u_max x^7 (1 + x^8)^(-17/8), x = u/u_max.
-template <class T>
-T saturation_curvature(const T& u, const T& u_max) {
-  using std::sqrt;
-  const T x = u / u_max;
-  const bool beyond = is_less(T(1.0), T(x * x), false);
-  const T r = beyond ? T(1.0) / x : x, r2 = r * r, r4 = r2 * r2, r8 = r4 * r4;
-  const T one = T(1.0) + r8, power = one * one * sqrt(sqrt(sqrt(one)));
-  // Beyond the limit x^7 (1 + x^8)^(-17/8) = sign(x) r^10 (1 + r^8)^(-17/8), r = 1/x.
-  const T sign(is_less(x, T(0.0), false) ? -1.0 : 1.0);
-  const T numerator = beyond ? T(sign * r8 * r2) : T(r4 * r2 * r);
-  return T(-9.0) * numerator / (u_max * power);
-}
-
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_FORCES_SATURATION_H_

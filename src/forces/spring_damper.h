@@ -8,14 +8,12 @@
 
 namespace codesign {
 
-/// The force of a spring-damper, with its derivatives.
+/// The force of a spring-damper.
 template <class T>
 struct SpringForce {
-  T length{0.0};                            ///< l [m]
-  T tension{0.0};                           ///< k (l - l_0) + c l', positive if it pulls [N]
-  Vector3<T> pull = Vector3<T>::Zero();     ///< tension d/l, the force on the first point; -pull acts on the second [N]
-  Matrix3<T> by_d = Matrix3<T>::Zero();     ///< derivative of pull by d [N/m]; the damper makes it unsymmetric
-  Matrix3<T> by_rate = Matrix3<T>::Zero();  ///< derivative of pull by d' [N s/m]; symmetric
+  T length{0.0};                         ///< l [m]
+  T tension{0.0};                        ///< k (l - l_0) + c l', positive if it pulls [N]
+  Vector3<T> pull = Vector3<T>::Zero();  ///< tension d/l, the force on the first point; -pull acts on the second [N]
 };
 
 /// delta of theory (13b) [m]: far below the length of any spring, it keeps the direction finite where the points meet.
@@ -30,20 +28,9 @@ SpringForce<T> spring_damper(const Vector3<T>& d, const Vector3<T>& rate, const 
   using std::sqrt;
   SpringForce<T> s;
   s.length = sqrt(dot(d, d) + T(kSpringSmoothing * kSpringSmoothing));
-  const T inverse = T(1.0) / s.length;
-  const Vector3<T> e = inverse * d;
-  const T length_rate = dot(e, rate);
-  s.tension = stiffness * (s.length - free_length) + damping * length_rate;
+  const Vector3<T> e = (T(1.0) / s.length) * d;
+  s.tension = stiffness * (s.length - free_length) + damping * dot(e, rate);
   s.pull = s.tension * e;
-  // e_d = (I - e e^T)/l, l'_d = (rate - l' e)/l, and the tension's derivatives follow.
-  const Vector3<T> tension_d = stiffness * e + (damping * inverse) * (rate - length_rate * e);
-  const T across = s.tension * inverse;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      s.by_d(row, column) = e[row] * tension_d[column] + across * ((row == column ? T(1.0) : T(0.0)) - e[row] * e[column]);
-      s.by_rate(row, column) = damping * e[row] * e[column];
-    }
-  }
   return s;
 }
 

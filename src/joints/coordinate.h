@@ -12,56 +12,46 @@ namespace codesign {
 
 /// Which members of CoordinateMotion to compute; each includes those before it.
 enum class CoordinateDetail {
-  kRate,      ///< rate and J
-  kGradient,  ///< rate_q, and the acceleration with its gradients
-  kAll        ///< position and position_q
+  kRate,          ///< rate and J
+  kAcceleration,  ///< acceleration
+  kAll            ///< position
 };
 
-/// A joint coordinate theta with its rate and acceleration, and their gradients by the pair's 14 coordinates (_q) and velocities (_v);
-/// doc/theory.md (8).
+/// A joint coordinate theta with its rate and acceleration, and the gradient J of the rate by the pair's 14 velocities; doc/theory.md (8).
 ///
 /// rate = J v, and a load L that opposes the coordinate enters the equations of motion as +J^T L, so that its power is exactly -L * rate.
 /// Members that CoordinateDetail excludes are not initialized.
 template <class T>
 struct CoordinateMotion {
   T position, rate, acceleration;  ///< [rad or m], per s, per s^2
-  LocalRow<T> position_q, J, rate_q, acceleration_q, acceleration_v;
+  LocalRow<T> J;
 };
 
 namespace internal {
 
 /// All members except the position for theta = atan2(N, D), with scalar products N and D, by the quotient rule.
 template <class T>
-void angle_motion(const ProductMotion<T>& N, const ProductGradient<T>& Ng, const ProductMotion<T>& D, const ProductGradient<T>& Dg,
+void angle_motion(const ProductMotion<T>& N, const LocalRow<T>& N_q, const ProductMotion<T>& D, const LocalRow<T>& D_q,
                   CoordinateMotion<T>* m) {
   const T square = N.phi * N.phi + D.phi * D.phi;
   const T c = D.phi / square, s = N.phi / square;
-  m->J = c * Ng.phi_q - s * Dg.phi_q;
-  m->position_q = m->J;
+  m->J = c * N_q - s * D_q;
   const T ratio = (N.phid * N.phi + D.phid * D.phi) / square;  // half the relative growth rate of N^2 + D^2
   m->rate = c * N.phid - s * D.phid;
-  const LocalRow<T> square_q = 2.0 * (N.phi * Ng.phi_q + D.phi * Dg.phi_q) / square;
-  const LocalRow<T> cross_q = (Dg.phi_q * N.phid - Ng.phi_q * D.phid) / square;
-  m->rate_q = c * Ng.phid_q - s * Dg.phid_q + cross_q - m->rate * square_q;
   m->acceleration = c * N.phidd - s * D.phidd - 2.0 * m->rate * ratio;
-  const LocalRow<T> ratio_q = (Ng.phi_q * N.phid + Dg.phi_q * D.phid + Ng.phid_q * N.phi + Dg.phid_q * D.phi) / square - ratio * square_q;
-  const LocalRow<T> outer_q = (Dg.phi_q * N.phidd - Ng.phi_q * D.phidd) / square - (c * N.phidd - s * D.phidd) * square_q;
-  m->acceleration_q = c * Ng.phidd_q - s * Dg.phidd_q + outer_q - 2.0 * (m->rate_q * ratio + m->rate * ratio_q);
-  const LocalRow<T> ratio_v = (Ng.phi_q * N.phi + Dg.phi_q * D.phi) / square;
-  m->acceleration_v = 2.0 * (c * Ng.phid_q - s * Dg.phid_q) - 2.0 * (m->J * ratio + m->rate * ratio_v);
 }
 
-/// A scalar product with its gradients.
+/// A scalar product with its gradient by the pair's coordinates.
 template <class T>
 struct Product {
   ProductMotion<T> motion;
-  ProductGradient<T> gradient;
+  LocalRow<T> phi_q;
 };
 
 template <class T>
-Product<T> product(const PairVector<T>& X, const PairVector<T>& Y, const BodyKinematics<T>& i, const BodyKinematics<T>& j, int order = 2) {
+Product<T> product(const PairVector<T>& X, const PairVector<T>& Y, const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
   const VectorMotion<T> x = motion_of(X, i, j), y = motion_of(Y, i, j);
-  return {product_motion(x, y), product_gradient(X, Y, x, y, i, j, order)};
+  return {product_motion(x, y), product_gradient(X, Y, x, y, i, j)};
 }
 
 /// The product of the direction a_i, fixed in body i, and b_j, fixed in body j.
@@ -70,26 +60,20 @@ Product<T> directions_product(const Vector3<T>& a_i, const Vector3<T>& b_j, cons
   return product(PairVector<T>::direction(Side::kI, a_i), PairVector<T>::direction(Side::kJ, b_j), i, j);
 }
 
-/// The rate u_i . R(p_i) p_i' + u_j . R(p_j) p_j' with R = G or E. It is linear in p and in p', since R(p) r = -R(r) p, so that no arc
-/// tangent need be differentiated.
+/// The rate u_i . R(p_i) p_i' + u_j . R(p_j) p_j' with R = G or E, so that no arc tangent need be differentiated.
 /// @param rate_matrix p -> R(p). @param u_i, u_j fixed in the bodies (G) or in the ground (E), factor and sign included.
 template <class T, class RateMatrix>
 void angular_rate(const RateMatrix& rate_matrix, const Vector3<T>& u_i, const Vector3<T>& u_j, const BodyKinematics<T>& i,
                   const BodyKinematics<T>& j, CoordinateDetail detail, CoordinateMotion<T>* m) {
-  const bool gradient = detail != CoordinateDetail::kRate;
   m->J.setZero();
   m->rate = m->acceleration = T(0.0);
-  if (gradient)
-    for (LocalRow<T>* row : {&m->rate_q, &m->acceleration_q, &m->acceleration_v}) row->setZero();
   const auto add = [&](Side side, const BodyKinematics<T>& body, const Vector3<T>& u) {
     if (body.at_rest) return;
     const Vector4<T> row = rate_matrix(body.p).transpose() * u;
     m->J.template segment<4>(p_offset(side)) = row;
     for (int k = 0; k < 4; ++k) m->rate += row[k] * body.pd[k];
-    if (!gradient) return;
+    if (detail == CoordinateDetail::kRate) return;
     for (int k = 0; k < 4; ++k) m->acceleration += row[k] * body.pdd[k];
-    m->rate_q.template segment<4>(p_offset(side)) = -(rate_matrix(body.pd).transpose() * u);
-    m->acceleration_q.template segment<4>(p_offset(side)) = -(rate_matrix(body.pdd).transpose() * u);
   };
   add(Side::kJ, j, u_j);
   add(Side::kI, i, u_i);
@@ -116,15 +100,9 @@ void sine_motion(const Product<T>& s, CoordinateMotion<T>* m) {
   using std::sqrt;
   const ProductMotion<T>& f = s.motion;
   const T square = 1.0 - f.phi * f.phi, k = 1.0 / sqrt(square), k3 = k / square;
-  m->J = m->position_q = k * s.gradient.phi_q;
+  m->J = k * s.phi_q;
   m->rate = k * f.phid;
-  m->rate_q = k * s.gradient.phid_q + (k3 * f.phi * f.phid) * s.gradient.phi_q;
-  const T curvature = k3 * f.phi;
-  m->acceleration = k * f.phidd + curvature * f.phid * f.phid;
-  const T curvature_slope = k3 + 3.0 * k3 * f.phi * f.phi / square;
-  m->acceleration_q = k * s.gradient.phidd_q + (curvature * f.phidd + curvature_slope * f.phid * f.phid) * s.gradient.phi_q +
-                      (2.0 * curvature * f.phid) * s.gradient.phid_q;
-  m->acceleration_v = 2.0 * (k * s.gradient.phid_q + (curvature * f.phid) * s.gradient.phi_q);
+  m->acceleration = k * f.phidd + k3 * f.phi * f.phid * f.phid;
 }
 
 /// Multiplies the members that `detail` includes, except the position, by the sign.
@@ -135,8 +113,6 @@ void apply_sign(double sign, CoordinateDetail detail, CoordinateMotion<T>* m) {
   m->J = -m->J;
   if (detail == CoordinateDetail::kRate) return;
   m->acceleration = -m->acceleration;
-  for (LocalRow<T>* row : {&m->rate_q, &m->acceleration_q, &m->acceleration_v}) *row = -*row;
-  if (detail == CoordinateDetail::kAll) m->position_q = -m->position_q;
 }
 
 }  // namespace internal
@@ -178,16 +154,10 @@ namespace internal {
 template <class T>
 void slide_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
                   CoordinateDetail detail, CoordinateMotion<T>* m) {
-  const bool gradient = detail != CoordinateDetail::kRate;
-  const auto s = product(slide_axis(c), PairVector<T>::displacement(pair.s_i, pair.s_j), i, j, gradient ? 2 : 0);
+  const auto s = product(slide_axis(c), PairVector<T>::displacement(pair.s_i, pair.s_j), i, j);
   m->rate = s.motion.phid;
-  m->J = s.gradient.phi_q;
-  if (!gradient) return;
-  m->acceleration = s.motion.phidd;
-  m->position_q = s.gradient.phi_q;
-  m->rate_q = s.gradient.phid_q;
-  m->acceleration_q = s.gradient.phidd_q;
-  m->acceleration_v = 2.0 * s.gradient.phid_q;
+  m->J = s.phi_q;
+  if (detail != CoordinateDetail::kRate) m->acceleration = s.motion.phidd;
 }
 
 /// All members except the position for kAngle and kSine.
@@ -199,7 +169,7 @@ void angle_or_sine_motion(const CoordinateConstants<T>& c, const BodyKinematics<
     return;
   }
   const auto D = directions_product(c.c, c.d, i, j);
-  angle_motion(N.motion, N.gradient, D.motion, D.gradient, m);
+  angle_motion(N.motion, N.phi_q, D.motion, D.phi_q, m);
 }
 
 }  // namespace internal
@@ -212,11 +182,6 @@ CoordinateMotion<T> coordinate_motion(const PairConstants<T>& pair, const Coordi
   CoordinateMotion<T> m;
   switch (c.kind) {
     case Kind::kTurn:
-      if (detail == CoordinateDetail::kAll) {
-        const auto N = internal::directions_product<T>(pair.C_i.col(1), pair.C_j.col(0), i, j);
-        const auto D = internal::directions_product<T>(pair.C_i.col(0), pair.C_j.col(0), i, j);
-        internal::angle_motion(N.motion, N.gradient, D.motion, D.gradient, &m);
-      }
       internal::turn_rate(pair, i, j, detail, &m);
       break;
     case Kind::kSlide:
@@ -231,10 +196,9 @@ CoordinateMotion<T> coordinate_motion(const PairConstants<T>& pair, const Coordi
       break;
     case Kind::kNone:
       m.rate = m.acceleration = T(0.0);
-      for (LocalRow<T>* row : {&m.J, &m.rate_q, &m.acceleration_q, &m.acceleration_v}) row->setZero();
+      m.J.setZero();
       break;
   }
-  if (c.kind == Kind::kNone || c.kind == Kind::kSpin) m.position_q.setZero();
   internal::apply_sign(c.sign, detail, &m);
   if (detail == CoordinateDetail::kAll) m.position = coordinate_position(pair, c, i, j);
   return m;

@@ -14,9 +14,6 @@ constexpr int kBodySize = 7;
 template <class T>
 using LocalRow = Eigen::Matrix<T, kLocalSize, 1>;
 
-template <class T>
-using LocalMatrix = Eigen::Matrix<T, kLocalSize, kLocalSize>;
-
 /// A body of the pair.
 enum class Side { kI = 0, kJ = 1 };
 

@@ -12,17 +12,15 @@ namespace codesign {
 template <class T>
 struct PairMotion {
   std::array<VectorMotion<T>, PairRows<T>::kVectors> motion;
-  std::array<VectorJacobian<T>, PairRows<T>::kVectors> jacobian;
   VectorMotion<T> displacement;  ///< from the point of i to the point of j
 
-  /// Evaluates the vectors that are used. Jacobians of vectors fixed in the ground are not set.
-  void update(const PairRows<T>& rows, const BodyKinematics<T>& i, const BodyKinematics<T>& j, bool with_jacobians) {
+  /// Evaluates the vectors that are used.
+  void update(const PairRows<T>& rows, const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
     for (std::size_t k = 0; k < rows.vectors.size(); ++k) {
       if (!rows.used[k]) continue;
       const VectorTerm<T>& term = rows.vectors[k];
       const BodyKinematics<T>& body = term.side == Side::kI ? i : j;
       motion[k] = term.point ? point_motion(body, term.s) : direction_motion(body, term.s);
-      if (with_jacobians && !body.at_rest) jacobian[k] = vector_jacobian(body, term.s);
     }
     constexpr auto from = static_cast<std::size_t>(PairRows<T>::shared(Side::kI, PairRows<T>::kPoint)),
                    to = static_cast<std::size_t>(PairRows<T>::shared(Side::kJ, PairRows<T>::kPoint));
@@ -30,7 +28,6 @@ struct PairMotion {
   }
 
   const VectorMotion<T>& of(const VectorTerm<T>& term) const { return motion[static_cast<std::size_t>(term.shared)]; }
-  const VectorJacobian<T>& jacobian_of(const VectorTerm<T>& term) const { return jacobian[static_cast<std::size_t>(term.shared)]; }
 
   /// The motion of a direction of the rows, or of the displacement.
   const VectorMotion<T>& of(const PairVector<T>& x) const { return x.terms == 1 ? of(x.term[0]) : displacement; }

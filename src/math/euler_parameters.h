@@ -128,17 +128,6 @@ Matrix4<T> body_rate_hessian(const Vector3<T>& y) {
   return Y;
 }
 
-/// Z(y) with E(p)^T y = Z(y) p; theory (4).
-template <class T>
-Matrix4<T> ground_rate_hessian(const Vector3<T>& y) {
-  Matrix4<T> Z;
-  Z << T(0.0), -y[0], -y[1], -y[2],  //
-      y[0], T(0.0), -y[2], y[1],     //
-      y[1], y[2], T(0.0), -y[0],     //
-      y[2], -y[1], y[0], T(0.0);
-  return Z;
-}
-
 /// Quaternion product p (x) r: rotation(p (x) r) = rotation(p) rotation(r).
 template <class T>
 Vector4<T> quaternion_product(const Vector4<T>& p, const Vector4<T>& r) {

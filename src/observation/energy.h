@@ -27,14 +27,14 @@ struct Power {
 
 /// Energy of the loaded state, (14b). @param equations must have loaded a state with Equations::load(). No allocation once warm.
 inline Energy mechanical_energy(const Equations<double>& equations) {
-  return {equations.formulas().kinetic_energy(nullptr), equations.formulas().potential_energy(nullptr)};
+  return {equations.formulas().kinetic_energy(), equations.formulas().potential_energy()};
 }
 
 /// Power in the loaded state, (14c). Friction depends on the reactions, so that the state's multipliers must be consistent. No allocation
 /// once warm.
 inline Power mechanical_power(Equations<double>* equations) {
-  return {equations->formulas().power(PowerKind::kFriction, nullptr), equations->formulas().power(PowerKind::kDamping, nullptr),
-          equations->formulas().power(PowerKind::kActuator, nullptr), equations->formulas().power(PowerKind::kLoad, nullptr)};
+  return {equations->formulas().power(PowerKind::kFriction), equations->formulas().power(PowerKind::kDamping),
+          equations->formulas().power(PowerKind::kActuator), equations->formulas().power(PowerKind::kLoad)};
 }
 
 }  // namespace codesign

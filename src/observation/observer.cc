@@ -156,7 +156,7 @@ void Observer::observe_contact(int index, Equations<double>* equations, Friction
   const PairConstants<double>& c = equations->constants().pairs[static_cast<std::size_t>(index)];
   const ContactFriction<double> contact = equations->formulas().contact(index);
   sample->friction = -contact.magnitude();
-  sample->normal_force = contact.normal.value;
+  sample->normal_force = contact.normal;
   sample->sliding_velocity = contact.speed();
   // If the chain runs from the joint's child to its parent, body j is on the parent's side.
   const bool reversed = std::any_of(pair.chain.begin(), pair.chain.end(),
@@ -177,10 +177,10 @@ void Observer::observe_controllers(const State<double>& state, Equations<double>
     const int controller = static_cast<int>(k), s = system_.controllers()[k].state;
     ControllerSample& sample = frame->controllers[k];
     sample.setpoint = equations->formulas().setpoint(controller);
-    sample.error = equations->formulas().controller_error(controller, nullptr);
+    sample.error = equations->formulas().controller_error(controller);
     sample.input = sample.setpoint - sample.error;
     sample.integral = s >= 0 ? state.s[s] : 0.0;
-    sample.output = equations->formulas().controller_output(controller, nullptr);
+    sample.output = equations->formulas().controller_output(controller);
   }
 }
 

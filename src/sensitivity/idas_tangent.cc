@@ -166,13 +166,13 @@ void IdasTangent::differentiate(const Function& function, const State<double>& s
 
 void IdasTangent::terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
                            Eigen::VectorXd* gradient) {
-  const auto sum = [](auto* formulas, const auto& lanes) { return formulas->terminal(lanes, nullptr); };
+  const auto sum = [](auto* formulas, const auto& lanes) { return formulas->terminal(lanes); };
   differentiate(sum, state, equations, directions, gradient);
 }
 
 void IdasTangent::watched(std::size_t k, const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
                           Eigen::VectorXd* gradient) {
-  const auto signal = [k](auto* formulas, const auto& lanes) { return formulas->watched(k, lanes, nullptr); };
+  const auto signal = [k](auto* formulas, const auto& lanes) { return formulas->watched(k, lanes); };
   differentiate(signal, state, equations, directions, gradient);
 }
 

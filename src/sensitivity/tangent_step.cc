@@ -211,7 +211,7 @@ void TangentStep<N>::accept(const RosenbrockStep<double>& step) {
 
 template <int N>
 Eigen::Matrix<double, N, 1> TangentStep<N>::terminal(const State<double>& state) {
-  return equations_.equations().formulas().terminal(equations_.lanes(state, y_), nullptr).directions();
+  return equations_.equations().formulas().terminal(equations_.lanes(state, y_)).directions();
 }
 
 // The derivative of RosenbrockStep::interpolate() for a fixed time.
@@ -228,7 +228,7 @@ template <int N>
 Eigen::Matrix<double, N, 1> TangentStep<N>::watched(std::size_t k, const RosenbrockStep<double>& step, const State<double>& state,
                                                     bool reads_rates, const Assembly& assembly) {
   go_to(step, state, reads_rates, assembly);
-  return equations_.equations().formulas().watched(k, point_, nullptr).directions();
+  return equations_.equations().formulas().watched(k, point_).directions();
 }
 
 template <int N>
@@ -246,7 +246,7 @@ void TangentStep<N>::all_watched(const RosenbrockStep<double>& step, const State
   formulas.load(point_);
   signals->resize(static_cast<Eigen::Index>(system_.watched().size()));
   for (std::size_t k = 0; k < system_.watched().size(); ++k)
-    signals->col(static_cast<Eigen::Index>(k)) = watched_value<Lanes<N>>(formulas.view(), k, nullptr).directions();
+    signals->col(static_cast<Eigen::Index>(k)) = watched_value<Lanes<N>>(formulas.view(), k).directions();
 }
 
 template <int N>

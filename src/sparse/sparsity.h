@@ -2,7 +2,6 @@
 #ifndef MECHANISM_CODESIGN_SPARSE_SPARSITY_H_
 #define MECHANISM_CODESIGN_SPARSE_SPARSITY_H_
 
-#include <type_traits>
 #include <vector>
 
 #include "math/scalar.h"
@@ -56,32 +55,7 @@ struct SparseGradient {
     for (Entries* entries : {&position, &velocity, &rate}) entries->clear();
     time = T(0.0);
   }
-
-  /// The entries up to a moment; see scale_from().
-  struct Mark {
-    std::size_t position, velocity, rate;
-    T time;
-  };
-  Mark mark() const { return {position.size(), velocity.size(), rate.size(), time}; }
-
-  /// Multiplies the values added after the mark by a factor.
-  void scale_from(const Mark& mark, const T& factor) {
-    scale(mark.position, factor, &position);
-    scale(mark.velocity, factor, &velocity);
-    scale(mark.rate, factor, &rate);
-    time = mark.time + factor * (time - mark.time);
-  }
-
- private:
-  static void scale(std::size_t first, const T& factor, Entries* entries) {
-    for (std::size_t k = first; k < entries->size(); ++k) (*entries)[k].value = (*entries)[k].value * factor;
-  }
 };
-
-/// The gradient that a function appends to, or null if only the value is needed. The type is not deduced from the argument, so that nullptr
-/// can be passed.
-template <class T>
-using OptionalGradient = std::common_type_t<SparseGradient<T>*>;
 
 }  // namespace codesign
 

@@ -5,17 +5,14 @@
 #include <vector>
 
 #include "joints/body_kinematics.h"
-#include "joints/local_row.h"
 #include "math/span.h"
 #include "mechanism/constants.h"
 #include "mechanism/driven_tree.h"
-#include "sparse/sparsity.h"
 
 namespace codesign {
 
 /// The load tau_k that one joint of the tree must exert for given accelerations of all joints, by the Newton-Euler recursion on absolute
-/// coordinates; doc/theory.md (C4). The gradient is the adjoint of the recursion, evaluated from the last body back to the ground; with it
-/// the load costs about three times as much. No allocation after construction; not thread-safe.
+/// coordinates; doc/theory.md (C4). No allocation after construction; not thread-safe.
 template <class T>
 class InverseDynamics {
  public:
@@ -23,16 +20,11 @@ class InverseDynamics {
   explicit InverseDynamics(const DrivenTree& tree);
 
   /// The force [N] or torque [N m] along the driven joint's coordinate, positive along it.
-  /// @param bodies motion of all bodies, the ground last; must stay alive until append_gradient(). @param gravity in ground axes [m/s^2].
+  /// @param bodies motion of all bodies, the ground last. @param gravity in ground axes [m/s^2].
   /// @param accelerations of the joints, one per node, or none for (C5): everything at rest, only gravity is balanced.
   /// @param rates of the joints, one per node, read for nodes with a rotor; empty if there are none.
   T load(const Constants<T>& constants, const std::vector<BodyKinematics<T>>& bodies, const Vector3<T>& gravity, In<T> accelerations,
          In<T> rates = {});
-
-  /// Appends factor times the gradient of the last load() by positions and velocities of the bodies.
-  /// @param by_acceleration receives the derivative by the acceleration of each node, not multiplied by the factor; may be empty.
-  /// @param by_rate receives the derivative by the rate of each node with a rotor, not multiplied by the factor; may be empty.
-  void append_gradient(const T& factor, SparseGradient<T>* gradient, Out<T> by_acceleration, Out<T> by_rate = {});
 
  private:
   /// The motion of one body and the levers of its joint, in ground axes.
@@ -41,26 +33,13 @@ class InverseDynamics {
     Vector3<T> axis, lever_parent, lever;        ///< joint axis; from the parent's centre to the joint, from there to the body's centre
     Vector3<T> force, moment;                    ///< F_b and N_b of (C4), which the motion needs
   };
-  /// The derivative of the load by each quantity of a body.
-  struct Adjoint {
-    Vector3<T> r, v, omega, omega_rate, acceleration, axis, force, moment;
-    Matrix3<T> W;  ///< sum of b s^T for every b^T A s that the load depends on; theory (3)
-  };
 
-  // The steps of the recursion, and after them the adjoint of each. The adjoint of a step reads the adjoints of its results and adds to the
-  // adjoints of its arguments.
   /// Motion of a body from the motion of its parent and the acceleration of its joint.
   void move(std::size_t k, const T& acceleration);
   /// F_b and N_b from the motion of a body.
   void weigh(std::size_t k, const Vector3<T>& gravity);
   /// The part of the load that the rotor of joint k needs; theory (C4), last paragraph.
   T rotor_load(std::size_t k) const;
-  void reverse_sum();
-  void reverse_rotor(std::size_t k, Out<T> by_acceleration, Out<T> by_rate);
-  void reverse_weigh(std::size_t k);
-  void reverse_turn(std::size_t k);
-  void reverse_slide(std::size_t k);
-  void append_body(std::size_t k, const T& factor, SparseGradient<T>* gradient) const;
 
   const DrivenTree::Node& node(std::size_t k) const { return tree_.nodes[k]; }
   std::size_t driven() const { return static_cast<std::size_t>(tree_.driven); }
@@ -72,8 +51,6 @@ class InverseDynamics {
   const BodyConstants<T>& mass_of(std::size_t k) const { return constants_->bodies[static_cast<std::size_t>(tree_.nodes[k].body)]; }
   /// The motion of a node's parent; at rest for the ground.
   const Motion& parent_motion(std::size_t k) const;
-  /// The adjoint of a node's parent. The ground has one too, which is never read.
-  Adjoint& parent_adjoint(std::size_t k);
   /// The joint axis in the parent's body axes.
   Vector3<T> local_axis(std::size_t k) const;
 
@@ -82,8 +59,7 @@ class InverseDynamics {
   const std::vector<BodyKinematics<T>>* bodies_ = nullptr;
   bool moving_ = false;  ///< whether accelerations were given
   std::vector<T> accelerations_, rates_;
-  std::vector<Motion> motions_;    ///< one per node, the ground last
-  std::vector<Adjoint> adjoints_;  ///< one per node, the ground last
+  std::vector<Motion> motions_;  ///< one per node, the ground last
 };
 
 }  // namespace codesign

@@ -94,16 +94,16 @@ TEST_F(EquationsContactsTest, FrictionTakesPowerAndMatchesItsReports) {
   for (int pair : system.contacts()) {
     const ContactFriction<double> contact = real.formulas().contact(pair);
     EXPECT_GT(contact.power(), 0.0);
-    EXPECT_GT(contact.normal.value, 0.0);
+    EXPECT_GT(contact.normal, 0.0);
   }
   // A ball: |T| = r_e S(r_e |omega|) N + c |omega|, since slip and load are parallel.
   const ContactFriction<double> ball = real.formulas().contact(pair_of("ball_x"));
-  const double S = friction_per_speed(std::pow(0.2 * ball.speed(), 2), 0.3, 0.2, 0.5).value * 0.2 * ball.speed();
-  EXPECT_NEAR(ball.magnitude(), 0.2 * S * ball.normal.value + 0.05 * ball.speed(), 1e-12);
+  const double S = friction_per_speed(std::pow(0.2 * ball.speed(), 2), 0.3, 0.2, 0.5) * 0.2 * ball.speed();
+  EXPECT_NEAR(ball.magnitude(), 0.2 * S * ball.normal + 0.05 * ball.speed(), 1e-12);
   // A table: |F| = S(|v|) N + c |v|.
   const ContactFriction<double> table = real.formulas().contact(pair_of("table_y"));
   const double speed = table.speed();
-  EXPECT_NEAR(table.magnitude(), friction_per_speed(speed * speed, 0.4, 0.3, 0.5).value * speed * table.normal.value + 0.1 * speed, 1e-12);
+  EXPECT_NEAR(table.magnitude(), friction_per_speed(speed * speed, 0.4, 0.3, 0.5) * speed * table.normal + 0.1 * speed, 1e-12);
 }
 
 TEST_F(EquationsContactsTest, ABallTurnsAtTheDifferenceOfTheAngularVelocities) {

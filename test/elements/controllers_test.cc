@@ -103,7 +103,7 @@ TEST(EquationsControllers, GravityCompensationOfABarIsItsMoment) {
                                 "controllers: {hold: {type: pd_gravity, output: hinge, setpoint: 0.5, gains: {p: 2.0, d: 1.0}}}\n"));
   ASSERT_TRUE(c.start().ok());
   c.equations.formulas().load(c.state);
-  EXPECT_NEAR(c.equations.formulas().controller_output(0, nullptr), 2.0 * 0.1 + 9.81 * 0.5 * std::sin(0.4), 1e-12);
+  EXPECT_NEAR(c.equations.formulas().controller_output(0), 2.0 * 0.1 + 9.81 * 0.5 * std::sin(0.4), 1e-12);
 }
 
 TEST(EquationsControllers, WhatIsHeldAgainstGravityStaysWhereItIs) {
@@ -146,7 +146,7 @@ TEST(EquationsControllers, JointsWithoutComputedTorqueAreTakenToKeepTheirRates) 
   ASSERT_TRUE(c.start().ok());
   c.equations.formulas().load(c.state);
   // Two bars of 1 kg, inertia 0.0834 about their centres, 0.5 m and 1.5 m below the shoulder.
-  EXPECT_NEAR(c.equations.formulas().controller_output(0, nullptr), 3.0 * (2.0 * 0.0834 + 0.25 + 2.25), 1e-12);
+  EXPECT_NEAR(c.equations.formulas().controller_output(0), 3.0 * (2.0 * 0.0834 + 0.25 + 2.25), 1e-12);
 }
 
 TEST(EquationsControllers, StateFeedbackByHand) {
@@ -157,7 +157,7 @@ TEST(EquationsControllers, StateFeedbackByHand) {
              "reference: 0.1}, {signal: hinge/velocity, gain: 0.25}]}}\n"));
   ASSERT_TRUE(c.start().ok());
   c.equations.formulas().load(c.state);
-  EXPECT_NEAR(c.equations.formulas().controller_output(0, nullptr), 1.5 - 3.0 * 0.3 + 0.25 * 2.0, 1e-13);
+  EXPECT_NEAR(c.equations.formulas().controller_output(0), 1.5 - 3.0 * 0.3 + 0.25 * 2.0, 1e-13);
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ TEST(EffortRate, IsTheSlopeOfTheEffort) {
   const std::string text =
       "duration: 1.0\ninitial_state: {shoulder: {position: 0.5, velocity: 0.7}, elbow: {velocity: -1.1}}\ncontrollers: {a: {output: "
       "shoulder, " +
-      pid("gains: {p: 3.0, i: 2.0, d: 0.5}, i_clamp: 0.6, output_limit: 3.0") + "}}\nobjective: {integral: [{signal: shoulder/effort}]}\n";
+      pid("gains: {p: 3.0, i: 2.0, d: 0.5}, i_clamp: 0.6, output_limit: 3.0") + "}}\nobjective: {terminal: [{signal: shoulder/effort}]}\n";
   const CompiledSystem system(robot, read_study({"test.yaml", text}, robot));
   Equations<double> equations(system);
   Assembly assembly(system);
@@ -79,15 +79,16 @@ TEST(EffortRate, IsTheSlopeOfTheEffort) {
   const auto resolve = [&](const char* signal) {
     return resolve_signal(parse_signal(signal, {}, "signal"), system.robot(), system.topology(), system.study().controllers);
   };
-  // The effort reads no accelerations, whose rates would be missing.
+  // The terminal term is the square of the effort. The effort reads no accelerations, whose rates would be missing.
   SparseGradient<double> gradient;
-  formulas.signal(resolve("shoulder/effort"), state, &gradient);
+  equations.terminal_gradient(state, &gradient);
   ASSERT_TRUE(gradient.rate.empty());
   double slope = gradient.time;
   const Layout& layout = system.layout();
   for (const auto& e : gradient.position)
     slope += e.value * (e.column < layout.n ? state.v[e.column] : state.z[layout.state_column(e.column - layout.n)]);
   for (const auto& e : gradient.velocity) slope += e.value * state.z[e.column];
+  slope /= 2.0 * formulas.signal(resolve("shoulder/effort"), state);
   EXPECT_GT(std::abs(slope), 0.1);
   EXPECT_NEAR(formulas.signal(resolve("shoulder/effort_rate"), state), slope, 1e-11 * std::abs(slope));
 }

@@ -66,7 +66,7 @@ TEST(EquationsLimits, BoundWhatTheStudySays) {
 TEST(EquationsLimits, TheEffortIsTheDemandSaturated) {
   EquationsFixture f(bounded(), study("{effort: true}"));
   f.real.formulas().load(f.state);
-  const double demand = f.real.formulas().controller_output(0, nullptr);
+  const double demand = f.real.formulas().controller_output(0);
   EXPECT_NEAR(f.real.formulas().effort(0, 0), demand / std::pow(1.0 + std::pow(demand / 2.0, 8), 0.125), 1e-12);
 }
 

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "math/derivative_check.h"
-
 namespace codesign {
 namespace {
 
@@ -14,22 +12,6 @@ BodyConstants<T> constants() {
   body.mass = T(2.5);
   body.J << T(0.3), T(0.02), T(-0.01), T(0.02), T(0.4), T(0.03), T(-0.01), T(0.03), T(0.2);
   return body;
-}
-
-/// x = [p, p', p''].
-template <class T>
-BodyKinematics<T> kinematics(const VectorX<T>& x) {
-  BodyKinematics<T> k;
-  k.p = x.template segment<4>(0);
-  k.pd = x.template segment<4>(4);
-  k.pdd = x.template segment<4>(8);
-  return k;
-}
-
-Eigen::VectorXd generic() {
-  Eigen::VectorXd x(12);
-  for (Eigen::Index k = 0; k < 12; ++k) x[k] = std::sin(1.7 * static_cast<double>(k) + 0.4);
-  return x;
 }
 
 TEST(RigidBody, MassTimesAcceleration) {
@@ -58,19 +40,6 @@ TEST(RigidBody, AgreesWithEulersEquations) {
   const Vector3<double> torque = body.J * wd + w.cross(body.J * w);
   // G G^T = I, G p = 0.
   EXPECT_LT((0.5 * (G * on_p) - torque).norm(), 1e-14);
-}
-
-TEST(RigidBody, GradientIsExact) {
-  const InertiaGradient<double> gradient = inertia_gradient(constants<double>(), kinematics<double>(generic()));
-  Eigen::MatrixXd assembled(4, 12);
-  assembled << gradient.by_p, gradient.by_pd, gradient.by_pdd;
-  const auto force = [](const Eigen::VectorXcd& x) {
-    Vector3<std::complex<double>> on_r;
-    Vector4<std::complex<double>> on_p;
-    inertia_force(constants<std::complex<double>>(), kinematics<std::complex<double>>(x), &on_r, &on_p);
-    return Eigen::VectorXcd(on_p);
-  };
-  EXPECT_LT(compare_jacobians(assembled, complex_step_jacobian(force, generic())).largest, 1e-14);
 }
 
 }  // namespace

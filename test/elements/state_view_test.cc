@@ -43,7 +43,6 @@ TEST_F(StateViewTest, CoordinatesAreThoseOfTheStart) {
   EXPECT_NEAR(view.coordinate(0, 0).position, 0.4, 1e-12);
   EXPECT_NEAR(view.coordinate(0, 0, CoordinateDetail::kRate).rate, 2.0, 1e-12);
   EXPECT_EQ(view.coordinate_value(0, 0), view.coordinate(0, 0).position);
-  EXPECT_FALSE(view.coordinate_moves_r(0, 0)) << "a hinge";
 }
 
 TEST_F(StateViewTest, PositionsContinueTheTurnsOfTheState) {

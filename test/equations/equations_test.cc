@@ -84,7 +84,7 @@ TEST_F(EquationsTest, FrictionIsTheForceOnTheChildAgainstItsMotion) {
 
 TEST_F(EquationsTest, TerminalTermsHaveTheirGradient) {
   SparseGradient<double> gradient;
-  const double w = real.formulas().terminal(state, &gradient);
+  const double w = real.terminal_gradient(state, &gradient);
   EXPECT_GE(w, 0.0);
   Eigen::VectorXd by_q = Eigen::VectorXd::Zero(system.layout().n);
   for (const auto& e : gradient.position)
@@ -94,7 +94,7 @@ TEST_F(EquationsTest, TerminalTermsHaveTheirGradient) {
   const Eigen::MatrixXd expected = complex_step_jacobian(
       [&](const Eigen::VectorXcd& q) {
         point.q = q;
-        return Eigen::VectorXcd::Constant(1, complex.terminal(point, nullptr));
+        return Eigen::VectorXcd::Constant(1, complex.terminal(point));
       },
       state.q);
   EXPECT_LT(compare_jacobians(by_q.transpose(), expected).largest, 1e-12);

@@ -34,22 +34,6 @@ Eigen::Matrix<T, 7, 1> outputs(const Bristle<T>& b) {
   return all;
 }
 
-/// Every derivative of a law by (u, zeta, s_dw) against the complex step.
-template <class Law, class ComplexLaw>
-void expect_exact_derivatives(const Law& law, const ComplexLaw& complex_law, double speed, double zeta, double dwell) {
-  Eigen::VectorXd x(7);
-  x << 0.36 * speed, -0.48 * speed, 0.8 * speed, 0.6 * zeta, 0.8 * zeta, 0.1 * zeta, dwell;
-  const Bristle<double> b = law(x.head<3>(), {x.segment<3>(3), x[6]}, bristle_constants<double>());
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(7, 7);
-  J.topRows<3>() << b.mu_u, b.mu_zeta, b.mu_dwell;
-  J.block<3, 6>(3, 0) << b.rate_u, b.rate_zeta;
-  J.row(6) << b.dwell_u.transpose(), Eigen::RowVector3d::Zero(), b.dwell_dwell;
-  const auto function = [&](const Eigen::VectorXcd& z) {
-    return Eigen::VectorXcd(outputs<Complex>(complex_law(z.head<3>(), {z.segment<3>(3), z[6]}, bristle_constants<Complex>())));
-  };
-  EXPECT_LT(compare_jacobians(J, complex_step_jacobian(function, x)).largest, 1e-12) << speed << " " << zeta << " " << dwell;
-}
-
 /// Derivatives by the six coefficients, computed with lanes, against the complex step.
 template <class LanesLaw, class ComplexLaw>
 void expect_parameter_derivatives(const LanesLaw& lanes_law, const ComplexLaw& complex_law) {

@@ -18,10 +18,6 @@ TEST(Gonthier, NothingMovesAtRest) {
   EXPECT_EQ(b.mu.norm(), 0.0);
   EXPECT_EQ(b.rate.norm(), 0.0);
   EXPECT_DOUBLE_EQ(b.dwell_rate, 0.5);  // (1 - 0)/2 s
-  EXPECT_TRUE(b.mu_u.isApprox(5.0 * Eigen::Matrix3d::Identity()));
-  EXPECT_TRUE(b.rate_u.isApprox(1000.0 * Eigen::Matrix3d::Identity()));
-  EXPECT_EQ(b.rate_zeta.norm(), 0.0);
-  EXPECT_TRUE(b.mu_zeta.isApprox(Eigen::Matrix3d::Identity()));
 }
 
 TEST(Gonthier, AtTheStribeckVelocity) {
@@ -37,9 +33,6 @@ TEST(Gonthier, CutsOffAtWhatTheDwellStateHolds) {
   // f = s (1 + 0.05) + (1 - s) 0.4 = 0.639: cut at 0.4 + 0.1 * 0.25 = 0.425; s < 0.5 in the second, so the dwell state falls within 5 ms.
   const Bristle<double> b = at(0.01, 1.0, 0.25);
   EXPECT_NEAR(b.mu[0], 0.425, 1e-15);
-  EXPECT_NEAR(b.mu_dwell[0], 0.1, 1e-15);
-  EXPECT_NEAR(b.mu_zeta(0, 0), 0.0, 1e-15);
-  EXPECT_GT(b.mu_zeta(1, 1), 0.0) << "across, the friction turns";
   EXPECT_NEAR(at(0.01, 1.0, 0.5).dwell_rate, (std::exp(-1.0) - 0.5) / 0.005, 1e-12);
 }
 
@@ -53,20 +46,21 @@ TEST(Gonthier, SlidingItIsCoulombs) {
 
 TEST(Gonthier, DirectionMeetsItsParabola) {
   const double edge = 1e-3;
-  const auto below = direction_per_speed(edge * edge * (1.0 - 1e-12), edge), above = direction_per_speed(edge * edge, edge);
-  EXPECT_NEAR(below.value / above.value, 1.0, 1e-11);
-  EXPECT_NEAR(below.slope / above.slope, 1.0, 1e-11);
-  EXPECT_DOUBLE_EQ(above.value, 1000.0);
-  EXPECT_DOUBLE_EQ(direction_per_speed(0.0, edge).value, 1500.0);
+  const double below = direction_per_speed(edge * edge * (1.0 - 1e-12), edge), above = direction_per_speed(edge * edge, edge);
+  EXPECT_NEAR(below / above, 1.0, 1e-11);
+  const auto slope = [edge](double square) { return direction_per_speed(Complex(square, 1e-30), Complex(edge)).imag() / 1e-30; };
+  EXPECT_NEAR(slope(edge * edge * (1.0 - 1e-12)) / slope(edge * edge), 1.0, 1e-11);
+  EXPECT_DOUBLE_EQ(above, 1000.0);
+  EXPECT_DOUBLE_EQ(direction_per_speed(0.0, edge), 1500.0);
 }
 
 TEST(Gonthier, SaturationIsContinuous) {
   const Eigen::Vector3d x(0.3, -0.4, 0.0);
-  EXPECT_EQ(cut_off<double>(x, 0.5).value, x);
-  EXPECT_NEAR((cut_off<double>(x, 0.5 * (1.0 - 1e-13)).value - x).norm(), 0.0, 1e-12);
-  EXPECT_NEAR((cut_off<double>(x, 0.25).value - 0.5 * x).norm(), 0.0, 1e-16);
-  EXPECT_EQ(cut_off<double>(Eigen::Vector3d::Zero(), 0.0).value.norm(), 0.0);
-  EXPECT_EQ(cut_off<double>(x, 0.0).value.norm(), 0.0);
+  EXPECT_EQ(cut_off<double>(x, 0.5), x);
+  EXPECT_NEAR((cut_off<double>(x, 0.5 * (1.0 - 1e-13)) - x).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((cut_off<double>(x, 0.25) - 0.5 * x).norm(), 0.0, 1e-16);
+  EXPECT_EQ(cut_off<double>(Eigen::Vector3d::Zero(), 0.0).norm(), 0.0);
+  EXPECT_EQ(cut_off<double>(x, 0.0).norm(), 0.0);
 }
 
 TEST(Gonthier, DoesNotDependOnTheDirection) {
@@ -77,14 +71,6 @@ TEST(Gonthier, DoesNotDependOnTheDirection) {
   EXPECT_NEAR((turned.mu - R * b.mu).norm(), 0.0, 1e-14);
   EXPECT_NEAR((turned.rate - R * b.rate).norm(), 0.0, 1e-11);
   EXPECT_NEAR(turned.dwell_rate, b.dwell_rate, 1e-13);
-}
-
-TEST(Gonthier, DerivativesAreExact) {
-  // Speeds: at rest, within the parabola, on both sides of its end (1 mm/s), around v_s, sliding. Deflections: not cut and cut. s above and
-  // below s_dw.
-  for (double speed : {0.0, 1e-5, 0.00099, 0.00101, 0.006, 0.012, 0.05, 2.0})
-    for (double zeta : {0.0, 0.2, 0.9})
-      for (double dwell : {0.0, 0.4, 0.95}) expect_exact_derivatives(gonthier<double>, gonthier<std::complex<double>>, speed, zeta, dwell);
 }
 
 TEST(Gonthier, ParametersEnterTheLanes) { expect_parameter_derivatives(gonthier<Lanes<8>>, gonthier<std::complex<double>>); }

@@ -37,15 +37,6 @@ TEST(Saturation, SmallEffortsPassUnchanged) {
   EXPECT_GT(saturate(2.0, 4.0).value, 2.0 * 0.9995);
 }
 
-TEST(Saturation, ItsCurvatureIsTheDerivativeOfTheSlope) {
-  using C = std::complex<double>;
-  EXPECT_EQ(saturation_curvature(0.0, 4.0), 0.0);
-  // At the limit, on either side of the switch: -9 / u_max 2^(-17/8).
-  for (double u : {4.0, std::nextafter(4.0, 5.0)}) EXPECT_NEAR(saturation_curvature(u, 4.0), -2.25 * std::pow(2.0, -2.125), 1e-14);
-  for (double u : {-50.0, -4.01, -3.0, 1e-3, 2.0, 3.99, 4.01, 9.0, 1e60})
-    EXPECT_NEAR(saturation_curvature(u, 4.0), saturate(C(u, 1e-30), C(4.0)).slope.imag() / 1e-30, 1e-14) << u;
-}
-
 TEST(Saturation, DerivativesAreExact) {
   using C = std::complex<double>;
   for (double u : {-9.0, -3.0, 0.0, 1e-3, 3.99, 4.01, 50.0}) {

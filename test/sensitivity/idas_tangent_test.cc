@@ -90,7 +90,7 @@ TEST_F(IdasTangentTest, TerminalTermsUseConsistentRates) {
       std::vector<double> parameters = system->parameters();
       parameters[k] += side ? 1e-5 : -1e-5;
       ASSERT_TRUE(integrator.start(parameters).ok());
-      w[side] = integrator.equations().formulas().terminal(integrator.state(), nullptr);
+      w[side] = integrator.equations().formulas().terminal(integrator.state());
     }
     EXPECT_NEAR(gradient[static_cast<Eigen::Index>(k)], (w[1] - w[0]) / 2e-5,
                 1e-6 * (1.0 + std::abs(gradient[static_cast<Eigen::Index>(k)])))

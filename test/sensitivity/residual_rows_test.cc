@@ -63,7 +63,7 @@ class Replay {
   }
   void add(const std::vector<ObjectiveTerm>& terms, const std::vector<ResolvedTerm>& resolved, const State<Complex>& state, double factor) {
     for (std::size_t k = 0; k < terms.size(); ++k) {
-      const Complex signal = step_.equations().formulas().signal(resolved[k].signal, state, nullptr);
+      const Complex signal = step_.equations().formulas().signal(resolved[k].signal, state);
       const Complex reference = Reference<Complex>(terms[k].reference, parameters_).at(state.t).value;
       residuals_.push_back(std::sqrt(factor * terms[k].weight.at(parameters_)) * (signal - reference));
     }

@@ -17,19 +17,15 @@ TEST(Sparsity, ALinearizationHasAValuePerNonzero) {
   EXPECT_EQ(one.column(1), 2);
 }
 
-TEST(Sparsity, GradientsAreScaledFromAMark) {
+TEST(Sparsity, AClearedGradientIsEmpty) {
   SparseGradient<double> gradient;
-  gradient.position.push_back({0, 1.0});
-  gradient.time = 1.0;
-  const auto mark = gradient.mark();
   gradient.position.push_back({1, 2.0});
   gradient.rate.push_back({2, 3.0});
-  gradient.time += 2.0;
-  gradient.scale_from(mark, -2.0);
-  EXPECT_EQ(gradient.position[0].value, 1.0);
-  EXPECT_EQ(gradient.position[1].value, -4.0);
-  EXPECT_EQ(gradient.rate[0].value, -6.0);
-  EXPECT_EQ(gradient.time, -3.0);
+  gradient.time = 1.0;
+  gradient.clear();
+  EXPECT_TRUE(gradient.position.empty());
+  EXPECT_TRUE(gradient.rate.empty());
+  EXPECT_EQ(gradient.time, 0.0);
 }
 
 }  // namespace
