@@ -7,7 +7,6 @@
 #include "elements/reaction_axis.h"
 #include "elements/rotor.h"
 #include "elements/state_view.h"
-#include "joints/coordinate_load.h"
 #include "joints/pair_motion.h"
 
 namespace codesign {

@@ -87,9 +87,8 @@ void EquationCode::record_signals(const System& system, RecordedEquations* equat
     Recorded& function = functions_[static_cast<std::size_t>(EquationFunction::kTerminal) + values.size() - 1];
     take_guards(decisions, &function.guards);
   };
-  record([&] { return equations->formulas.terminal(equations->state, nullptr); });
-  for (std::size_t k = 0; k < system.watched().size(); ++k)
-    record([&] { return equations->formulas.watched(k, equations->state, nullptr); });
+  record([&] { return equations->formulas.terminal(equations->state); });
+  for (std::size_t k = 0; k < system.watched().size(); ++k) record([&] { return equations->formulas.watched(k, equations->state); });
   const std::vector<JacobianEntry> entries = derive_gradients(system, values, EliminationOrder::kReverse, &values_.recording);
   std::vector<std::vector<Traced>> rows(values.size());
   for (const JacobianEntry& entry : entries) {

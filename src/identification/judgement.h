@@ -27,8 +27,9 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
 void add_profiles(const FitProblem& problem, const IdentificationDescription& options, const ResidualFit& fit, ResidualSource* source,
                   const FitObserver& observer, const std::atomic<bool>* cancel, IdentificationResult* result);
 
-/// Warnings `effort_not_explained` or `motion_not_explained` for the outputs of which the fit explains less than half. @param doubts about the recordings as the
-/// model stands. @param failure set if the fit explains less than a tenth of an output, or if a mistake in the recording explains more
+/// Warnings `effort_not_explained` or `motion_not_explained` for the outputs of which the fit explains less than half. @param doubts about
+/// the recordings as the model stands. @param failure set if the fit explains less than a tenth of an output, or if a mistake in the
+/// recording explains more
 Warnings unexplained_outputs(const IdentificationDescription& options, const IdentificationResult& result,
                              const std::vector<EffortDoubt>& doubts, Status* failure);
 

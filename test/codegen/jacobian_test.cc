@@ -23,7 +23,8 @@ TEST_P(JacobianTest, OfGeneratedFormulasEqualsTheComplexStep) {
   Eigen::MatrixXd derived = Eigen::MatrixXd::Zero(kSomeResults, kSomeLeaves);
   for (const JacobianEntry& entry : entries) {
     EXPECT_EQ(derived(entry.row, entry.column), 0.0) << "an entry stands twice";
-    derived(entry.row, entry.column) = entry.value.is_literal() ? entry.value.value() : values[static_cast<std::size_t>(entry.value.node())];
+    derived(entry.row, entry.column) =
+        entry.value.is_literal() ? entry.value.value() : values[static_cast<std::size_t>(entry.value.node())];
   }
   const Eigen::MatrixXd reference = complex_step_jacobian(
       [](const Eigen::VectorXcd& x) {
@@ -62,7 +63,8 @@ TEST(Jacobian, LeavesOfOneColumnAddUp) {
 /// Factors that do not vary are multiplied with each other, so that one product per evaluation remains.
 TEST(Jacobian, FactorsOfTheDesignAreMultipliedFirst) {
   Recording recording;
-  const Traced m(&recording, recording.leaf(1, 0, false)), n(&recording, recording.leaf(1, 1, false)), x(&recording, recording.leaf(0, 0, true));
+  const Traced m(&recording, recording.leaf(1, 0, false)), n(&recording, recording.leaf(1, 1, false)),
+      x(&recording, recording.leaf(0, 0, true));
   const Traced y = m * sin(n * x);
   const std::vector<JacobianEntry> entries = derive_jacobian(&recording, {y.node()}, {{x.node(), 0, 1.0}});
   ASSERT_EQ(entries.size(), 1U);
