@@ -10,7 +10,7 @@ namespace codesign {
 
 // How redundant constraint rows share the reactions, theory (23), (23b). The unknowns are displacements w of the bodies, loads eta of the
 // rows, and one number mu for each row that can be dropped. Phi_q w is computed as Phi'' of bodies without velocity whose acceleration is
-// w, so that the formulas of the pairs and their derivatives serve here too.
+// w, so that the formulas of the pairs serve here too.
 
 /// The factor 10^-4 of theory (23b): eta is counted in units of 1/kLoadUnit, and the rows of w read kLoadUnit w + Phi_q^T eta = 0. With a
 /// factor of one, elimination would form Phi_q Phi_q^T, whose condition number is squared; small mechanisms, and any mechanism near a

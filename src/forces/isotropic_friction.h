@@ -28,7 +28,8 @@ Eigen::Matrix<T, D, 1> isotropic_friction(const Eigen::Matrix<T, D, 1>& u, const
                                           const T& v_t) {
   T square(0.0);
   for (int k = 0; k < D; ++k) square += u[k] * u[k];
-  return (normal * friction_per_speed<T>(square, mu_static, mu_dynamic, v_t)) * u;
+  const T sigma = friction_per_speed<T>(square, mu_static, mu_dynamic, v_t);
+  return normal * (sigma * u);
 }
 
 /// The length of a vector, for signals. At zero, where it has no derivative, the derivative is set to zero.
