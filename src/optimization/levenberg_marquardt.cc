@@ -56,10 +56,14 @@ class SquaresSearch {
     if (x_.size() == 0) return LevenbergMarquardtEnd::kOptimum;
     const Eigen::VectorXd down = lower_ - x_, up = upper_ - x_;
     const BoundedStep step(best_.gradient, best_.root, scale(), down, up);
-    if (evaluations_ == 1) choose_radius(step);
+    if (evaluations_ == 1) {
+      choose_radius(step);
+      first_value_ = best_.value;
+    }
     const Eigen::VectorXd p = step.within(radius_);
     const double promise = step.promise(p) + best_.owed;
-    if (!(promise > kEpsilon * best_.value)) return LevenbergMarquardtEnd::kOptimum;
+    // A sum of squares that tends to zero has no relative accuracy: below the rounding error of its first value nothing is left to gain.
+    if (!(promise > kEpsilon * std::max(best_.value, first_value_))) return LevenbergMarquardtEnd::kOptimum;
     const bool stays = (p.array().abs() <= kRoundingOfVariables * x_.array().abs()).all();
     if (stays && best_.owed <= options_.relative_tolerance * best_.value) return LevenbergMarquardtEnd::kVariableTolerance;
     if (evaluations_ >= options_.max_evaluations) return LevenbergMarquardtEnd::kMaxEvaluations;
@@ -114,6 +118,7 @@ class SquaresSearch {
   LeastSquaresPoint tried_;
   Eigen::VectorXd norms_;  ///< largest norms of the columns of R so far
   double radius_ = 0.0;    ///< Delta
+  double first_value_ = 0.0;
   int evaluations_ = 1;
 };
 

@@ -8,7 +8,7 @@
 namespace codesign {
 namespace {
 
-using C = std::complex<double>;
+using Complex = std::complex<double>;
 
 template <class T>
 FrictionNumbers<T> directional_numbers() {
@@ -25,7 +25,7 @@ FrictionNumbers<T> directional_numbers() {
 
 TEST(DirectionalFriction, TheShareChangesOverAtRest) {
   EXPECT_EQ(forward_share(0.0, 0.01), 0.5);
-  EXPECT_NEAR(forward_share(C(0.0, 1e-30), C(0.01)).imag() / 1e-30, 200.0, 1e-12);
+  EXPECT_NEAR(forward_share(Complex(0.0, 1e-30), Complex(0.01)).imag() / 1e-30, 200.0, 1e-12);
   EXPECT_NEAR(forward_share(0.01, 0.01), 0.5 * (1.0 + std::tanh(4.0)), 1e-16);
   EXPECT_EQ(forward_share(1.0, 0.01), 1.0);
   EXPECT_EQ(forward_share(-1.0, 0.01), 0.0);
@@ -47,7 +47,7 @@ TEST(DirectionalFriction, ByHandWithinTheTransition) {
   EXPECT_NEAR(directional_brown_mcphee(0.01, c), w * (0.3 * th + 0.1) + (1.0 - w) * (0.1 * th + 0.15), 1e-15);
   EXPECT_EQ(directional_brown_mcphee(0.0, c), 0.0);
   // At rest: the mean of both slopes, (4 mu_d + 16/9 (mu_s - mu_d)) / v_t.
-  EXPECT_NEAR(directional_brown_mcphee(C(0.0, 1e-30), directional_numbers<C>()).imag() / 1e-30,
+  EXPECT_NEAR(directional_brown_mcphee(Complex(0.0, 1e-30), directional_numbers<Complex>()).imag() / 1e-30,
               0.5 * (4.0 * 0.4 + 16.0 / 9.0 * 0.25) / 0.01, 1e-12);
   // A turn on a radius of 2 cm slides at 0.01 m/s.
   EXPECT_NEAR(directional_viscous(0.5, 0.02, c), 0.5 * (0.5 + 1.5 * w), 1e-15);
