@@ -90,7 +90,6 @@ SolverOptions read_solver_options(const YamlValue& solver) {
 OptimizerOptions read_optimizer_options(const YamlValue& optimizer) {
   optimizer.require_keys({}, {"algorithm", "max_evaluations", "relative_tolerance"});
   OptimizerOptions options;
-  options.algorithm = "auto";
   options.where = optimizer.where();
   if (const auto algorithm = optimizer.find("algorithm")) {
     options.where = algorithm->where();

@@ -68,7 +68,6 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   study.used_parameters.insert(table.used.begin(), table.used.end());
   if (const auto limits = root.find("limits")) study.limits = read_limit_options(*limits);
   if (const auto solver = root.find("solver")) study.solver = read_solver_options(*solver);
-  study.optimizer.algorithm = "auto";
   if (const auto optimizer = root.find("optimizer")) study.optimizer = read_optimizer_options(*optimizer);
   refuse_adjoint_of_watched(root, study);
   refuse_adjoint_of_sampled(root, study);
