@@ -56,6 +56,16 @@ TEST(Lagrangian, WorstCaseAndTailAreStationaryInTheirSmoothForm) {
   }
 }
 
+// At the tolerance of an ordinary study: SLSQP alone stops where the tail of the first smooth form is level, far from the optimum.
+TEST(Lagrangian, ATailAtLooseToleranceStopsWhereATightOneDoes) {
+  const std::string runs = kThreeRuns + "robust: {measure: cvar, level: 0.5}\n";
+  const OptimizationResult tight = optimize(block(runs, kTight));
+  const OptimizationResult loose = optimize(block(runs, "{algorithm: slsqp, relative_tolerance: 1.0e-3}"));
+  ASSERT_TRUE(tight.status.ok() && loose.status.ok());
+  EXPECT_LE(loose.objective, tight.objective * (1.0 + 1e-4));
+  EXPECT_LT(loose.stationarity, 1e-2);
+}
+
 // Widening by 1 % of the range is worth what the multiplier says, also where a constraint holds the optimum.
 TEST(Lagrangian, ABoundIsWorthItsMultiplier) {
   const auto tune = [](const std::string& constraint, double upper) {
