@@ -1,23 +1,17 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "integration/stage_matrix.h"
 
-#include <Eigen/LU>
+#include <vector>
 
 namespace codesign {
 
-StageMatrix<std::complex<double>>::StageMatrix(const CompiledSystem& system)
-    : system_(system), lu_(std::make_unique<Eigen::PartialPivLU<Eigen::MatrixXcd>>()) {}
-
-StageMatrix<std::complex<double>>::~StageMatrix() = default;
-StageMatrix<std::complex<double>>::StageMatrix(StageMatrix&&) noexcept = default;
-
 bool StageMatrix<std::complex<double>>::factor(const Linearization<Scalar>& d, double c_v, double c_q, double c_s) {
   const Layout& layout = system_.layout();
-  Eigen::MatrixXcd matrix = Eigen::MatrixXcd::Zero(layout.columns(), layout.columns());
+  std::vector<Eigen::Triplet<Scalar>> entries;
   const auto add = [&](const Sparsity& pattern, const std::vector<Scalar>& values, const auto& coefficient, const auto& column_of) {
     for (int row = 0; row < layout.columns(); ++row)
       for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
-        matrix(row, column_of(pattern.column(e))) += coefficient(pattern.column(e)) * values[static_cast<std::size_t>(e)];
+        entries.emplace_back(row, column_of(pattern.column(e)), coefficient(pattern.column(e)) * values[static_cast<std::size_t>(e)]);
   };
   const auto same = [](int column) { return column; };
   add(
@@ -27,8 +21,11 @@ bool StageMatrix<std::complex<double>>::factor(const Linearization<Scalar>& d, d
   add(
       system_.patterns().position, d.position, [&](int column) { return column < layout.n ? c_q : c_s; },
       [&](int column) { return layout.rate_column(column); });
+  Matrix matrix(layout.columns(), layout.columns());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  if (!matrix.coeffs().allFinite()) return false;
   lu_->compute(matrix);
-  return matrix.allFinite();
+  return lu_->info() == Eigen::Success;
 }
 
 void StageMatrix<std::complex<double>>::solve(VectorX<Scalar>* x) const { *x = lu_->solve(*x).eval(); }

@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_INTEGRATION_STAGE_MATRIX_H_
 #define MECHANISM_CODESIGN_INTEGRATION_STAGE_MATRIX_H_
 
+#include <Eigen/SparseLU>
 #include <complex>
 #include <memory>
 
@@ -9,8 +10,8 @@
 
 namespace codesign {
 
-/// The matrix E = G_z + c_v G_v + c_q G_q (+ c_s G_s) of a step, doc/theory.md (16), and its solves. Sparse for double; dense for complex
-/// numbers, which only derivative checks use. factor() returns false for a singular matrix.
+/// The matrix E = G_z + c_v G_v + c_q G_q (+ c_s G_s) of a step, doc/theory.md (16), and its solves. For complex numbers, which only
+/// derivative checks use, Eigen factors it. factor() returns false for a singular matrix.
 template <class T>
 class StageMatrix;
 
@@ -33,9 +34,7 @@ template <>
 class StageMatrix<std::complex<double>> {
  public:
   using Scalar = std::complex<double>;
-  explicit StageMatrix(const CompiledSystem& system);
-  ~StageMatrix();
-  StageMatrix(StageMatrix&&) noexcept;
+  explicit StageMatrix(const CompiledSystem& system) : system_(system), lu_(std::make_unique<Eigen::SparseLU<Matrix>>()) {}
 
   bool factor(const Linearization<Scalar>& d, double c_v, double c_q, double c_s);
   void forget() {}
@@ -44,8 +43,10 @@ class StageMatrix<std::complex<double>> {
   void solve(VectorX<Scalar>* x) const;
 
  private:
+  using Matrix = Eigen::SparseMatrix<Scalar>;
+
   const CompiledSystem& system_;
-  std::unique_ptr<Eigen::PartialPivLU<Eigen::MatrixXcd>> lu_;
+  std::unique_ptr<Eigen::SparseLU<Matrix>> lu_;
 };
 
 }  // namespace codesign

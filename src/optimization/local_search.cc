@@ -84,7 +84,7 @@ class Minimization {
   /// Whether a search that ended at a violated bound of a signal goes on from the best point: SLSQP may stop by the objective's tolerance
   /// while it is still outside.
   bool should_restart() {
-    const bool ended_outside = program_.has_signals() && trials_.have_best() && trials_.best_violation() > 0.0 && !trials_.interrupted();
+    const bool ended_outside = program_.has_signals() && trials_.have_best() && !trials_.interrupted() && !trials_.best_keeps_bounds();
     const bool has_progressed = trials_.best_violation() < 0.9 * violation_before_ || restarts_ == 0;
     return ended_outside && has_progressed && restarts_ < kMostRestarts && result_.evaluations < options_.max_evaluations;
   }
@@ -334,7 +334,7 @@ class Search {
     if (result_.termination == "max_evaluations_reached" || !uses_gradients(last_)) return false;
     // A weight of this start is negative, so that the objective is no sum of squares.
     if (!trials_.have_best()) return trials_.first_failure().code == StatusCode::kInvalidDesign;
-    if (trials_.best_violation() > 0.0) return algorithms_.size() > 1;
+    if (!trials_.best_keeps_bounds()) return algorithms_.size() > 1;
     return !trials_.is_stationary();
   }
 

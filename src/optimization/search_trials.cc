@@ -17,6 +17,7 @@ namespace codesign {
 namespace {
 
 constexpr double kStartCounts = 1e-3;      // the share of the slope at the start in the scale of (24j)
+constexpr double kMostSlope = 1e-2;        // beyond which a loose tolerance does not let a search end
 constexpr double kLeastMultiplier = 1e-4;  // of that scale, so that to widen a bound by 1 % is worth a millionth
 
 }  // namespace
@@ -123,7 +124,7 @@ double SearchTrials::stationarity() {
 double SearchTrials::scale() const { return std::max(std::abs(result_.objective), kStartCounts * result_.initial_slope); }
 
 // Near an optimum the objective falls with the square of the slope.
-double SearchTrials::most_slope() const { return std::sqrt(options_.relative_tolerance); }
+double SearchTrials::most_slope() const { return std::min(kMostSlope, std::sqrt(options_.relative_tolerance)); }
 
 /// Describes the best point as an optimum, or takes the word of success from a search that ended elsewhere.
 void SearchTrials::judge_stop() {
@@ -133,7 +134,7 @@ void SearchTrials::judge_stop() {
   // A multiplier far below the objective is what rounding leaves.
   result_.bound_multipliers = (at_best.bounds.array().abs() > kLeastMultiplier * scale()).select(at_best.bounds, 0.0);
   if (interrupted()) return;
-  if (is_success(result_.termination) && best_violation_ == 0.0 && !is_stationary()) result_.termination = "stopped_early";
+  if (is_success(result_.termination) && best_keeps_bounds() && !is_stationary()) result_.termination = "stopped_early";
   if (is_stationary()) find_flat_directions();
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+
 #include "ensemble/ensemble_fixture.h"
 
 namespace codesign {
@@ -124,13 +126,14 @@ TEST(SmoothProgram, OtherAlgorithmsAreRefused) {
   EXPECT_THROW(tune_with("final: [{signal: slide/position, between: [0.5, 0.5]}]\n", "mma"), InputError);
 }
 
-TEST(SmoothProgram, MovesTheCartByTheBangBangPeak) {
-  // A cart of 1 kg, 1 m from rest to rest in 1 s. Piecewise linear forces with 40 coefficients reverse within one span h = 1/39, so that
-  // the peak is 4 / (1 - h^2 / 3) m/s^2 for a symmetric reversal, instead of 4.
-  const SourceText urdf{"cart.urdf", R"(<robot name="cart"><link name="world"/>
+const SourceText kCart{"cart.urdf", R"(<robot name="cart"><link name="world"/>
   <link name="cart"><inertial><mass value="1"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link>
   <joint name="slide" type="prismatic"><parent link="world"/><child link="cart"/><axis xyz="1 0 0"/>
     <limit lower="-5" upper="5" effort="100" velocity="10"/></joint></robot>)"};
+
+TEST(SmoothProgram, MovesTheCartByTheBangBangPeak) {
+  // A cart of 1 kg, 1 m from rest to rest in 1 s. Piecewise linear forces with 40 coefficients reverse within one span h = 1/39, so that
+  // the peak is 4 / (1 - h^2 / 3) m/s^2 for a symmetric reversal, instead of 4.
   const SourceText study{"cart.yaml", R"(
 duration: 1.0
 controllers: {push: {type: basis, shape: linear, output: slide, coefficients: {count: 40, initial: 0.0, lower: -20.0, upper: 20.0}}}
@@ -139,11 +142,36 @@ final: [{signal: slide/position, between: [1.0, 1.0]}, {signal: slide/velocity, 
 solver: {relative_tolerance: 1.0e-8, absolute_tolerance: 1.0e-9}
 optimizer: {algorithm: slsqp, relative_tolerance: 1.0e-10}
 )"};
-  const OptimizationResult result = optimize(load_problem(urdf, {}, study));
+  const OptimizationResult result = optimize(load_problem(kCart, {}, study));
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   EXPECT_LT(result.objective, 4.001);
   EXPECT_GT(result.objective, 4.0);
   for (const WatchedResult& watched : result.watched) EXPECT_LE(watched.violation, 1e-8);
+}
+
+// r int u^2 + a (x - 1/2)^2 + b v^2 at the end of 1 s is least for a force c0 + c1 t, which piecewise linear forces contain; then it is
+// quadratic in c0 and c1.
+TEST(SmoothProgram, ShapeCoefficientsReachTheLinearForceOfAQuadraticObjective) {
+  const double r = 1e-2, a = 1000.0, b = 100.0;
+  const Eigen::Vector2d x(1.0 / 2.0, 1.0 / 6.0), v(1.0, 1.0 / 2.0);
+  Eigen::Matrix2d hessian = a * x * x.transpose() + b * v * v.transpose();
+  hessian += r * (Eigen::Matrix2d() << 1.0, 1.0 / 2.0, 1.0 / 2.0, 1.0 / 3.0).finished();
+  const Eigen::Vector2d c = hessian.ldlt().solve(a * 0.5 * x);
+  const double optimum = a * 0.25 - a * 0.5 * x.dot(c);
+  for (const char* algorithm : {"auto", "lbfgs", "slsqp"}) {
+    const SourceText study{"cart.yaml", R"(
+duration: 1.0
+controllers: {push: {type: basis, shape: linear, output: slide, coefficients: {count: 60, initial: 0.0, lower: -50.0, upper: 50.0}}}
+objective:
+  integral: [{signal: push/output, weight: 1.0e-2}]
+  terminal: [{signal: slide/position, reference: 0.5, weight: 1000}, {signal: slide/velocity, weight: 100}]
+optimizer: {max_evaluations: 400, algorithm: )" +
+                                            std::string(algorithm) + "}\n"};
+    const OptimizationResult result = optimize(load_problem(kCart, {}, study));
+    ASSERT_TRUE(result.status.ok()) << algorithm << ": " << result.status.cause;
+    EXPECT_NE(result.termination, "stopped_early") << algorithm;
+    EXPECT_NEAR(result.objective, optimum, 1e-4 * optimum) << algorithm << ": " << result.evaluations << " evaluations";
+  }
 }
 
 // A speed that has to end at zero tells nothing of its range at the end: the default tolerance counts the speed of the whole run.
