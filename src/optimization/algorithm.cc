@@ -98,12 +98,16 @@ void check_squares(const Study& study, const OptimizerOptions& options, RobustMe
 
 std::vector<std::string> algorithms_for(const Study& study, const OptimizerOptions& options, RobustMeasure measure, bool with_slack) {
   if (options.algorithm != kAuto) return {options.algorithm};
+  // Constraints among parameters are often inactive at the optimum. Where one is active, least squares without it do not end at a
+  // stationary point, and the next algorithm goes on.
+  Study without_constraints = study;
+  without_constraints.constraints.clear();
   std::vector<std::string> list;
   for (const char* name : {kLeastSquares, "slsqp", "lbfgs", "mma"}) {
     OptimizerOptions candidate = options;
     candidate.algorithm = name;
     try {
-      check_algorithm(study, candidate, with_slack);
+      check_algorithm(is_least_squares(name) ? without_constraints : study, candidate, with_slack);
       if (is_least_squares(name)) check_squares(study, candidate, measure);
       list.push_back(name);
     } catch (const InputError&) {  // this one does not take the problem

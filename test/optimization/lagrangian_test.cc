@@ -66,6 +66,17 @@ TEST(Lagrangian, ATailAtLooseToleranceStopsWhereATightOneDoes) {
   EXPECT_LT(loose.stationarity, 1e-2);
 }
 
+// Least squares come first and leave the constraint; the search ends where the constrained one does.
+TEST(Lagrangian, AutoKeepsAnActiveConstraintAmongParameters) {
+  const std::string constraint = "constraints: [\"Kp + 10*Kd <= 30\"]\n";
+  const OptimizationResult constrained = optimize(block(constraint, kTight));
+  const OptimizationResult automatic = optimize(block(constraint, "{algorithm: auto}"));
+  ASSERT_TRUE(constrained.status.ok() && automatic.status.ok());
+  ASSERT_NEAR(constrained.margins[0], 0.0, 1e-6) << "not active";
+  EXPECT_EQ(automatic.algorithm, "levenberg_marquardt, slsqp");
+  EXPECT_NEAR(automatic.objective, constrained.objective, 1e-6 * constrained.objective);
+}
+
 // Widening by 1 % of the range is worth what the multiplier says, also where a constraint holds the optimum.
 TEST(Lagrangian, ABoundIsWorthItsMultiplier) {
   const auto tune = [](const std::string& constraint, double upper) {
