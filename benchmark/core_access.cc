@@ -12,14 +12,17 @@ struct StepProbe::Parts {
         integrator(*system),
         step(*system, integrator.step().tableau()),
         matrix(*system),
-        equations(*system) {}
+        equations(*system),
+        interpreted(*system) {
+    interpreted.compiled().allow(false);
+  }
 
   std::shared_ptr<const CompiledSystem> system;
   double h;
   RosenbrockIntegrator integrator;
   RosenbrockStep<double> step;
   StageMatrix<double> matrix;
-  Equations<double> equations;
+  Equations<double> equations, interpreted;
   Linearization<double> derivatives;
   State<double> state;
   VectorX<double> residual, solution;
@@ -36,6 +39,7 @@ StepProbe::StepProbe(std::shared_ptr<const CompiledSystem> system, double time, 
   p.state = p.integrator.step().state();
   p.derivatives.resize(p.system->patterns());
   p.equations.set_design(p.system->parameters());
+  p.interpreted.set_design(p.system->parameters());
   p.step.equations().set_design(p.system->parameters());
   rewind();
   linearize();
@@ -51,6 +55,8 @@ int StepProbe::stages() const { return parts_->step.tableau().stages; }
 
 void StepProbe::residual() { parts_->equations.residual(parts_->state, &parts_->residual, &parts_->g); }
 void StepProbe::linearize() { parts_->equations.linearize(parts_->state, &parts_->derivatives); }
+void StepProbe::interpret_residual() { parts_->interpreted.residual(parts_->state, &parts_->residual, &parts_->g); }
+void StepProbe::interpret_linearize() { parts_->interpreted.linearize(parts_->state, &parts_->derivatives); }
 void StepProbe::factor() {
   const double hg = parts_->h * parts_->step.tableau().gamma;
   parts_->matrix.factor(parts_->derivatives, hg, hg * hg, hg);

@@ -59,6 +59,9 @@ class StepProbe {
 
   void residual();
   void linearize();
+  /// The same without machine code.
+  void interpret_residual();
+  void interpret_linearize();
   /// Numerical factorization of the stage matrix (16).
   void factor();
   /// One solve with that factorization.

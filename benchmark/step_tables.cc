@@ -45,6 +45,26 @@ void add_pieces(const Problem& problem, Report* report) {
   report->tables.push_back(table);
 }
 
+/// What the equations cost where there is no machine code.
+void add_interpreter(const Problem& problem, Report* report) {
+  StepProbe probe(problem.system(), kInstant, kStepSize);
+  if (!probe.status().ok()) throw std::runtime_error(probe.status().cause);
+  const std::vector<double> seconds = median_cpu_seconds({make_job("residual", [&probe] { probe.residual(); }),
+                                                          make_job("interpreted residual", [&probe] { probe.interpret_residual(); }),
+                                                          make_job("linearize", [&probe] { probe.linearize(); }),
+                                                          make_job("interpreted linearize", [&probe] { probe.interpret_linearize(); })});
+  Table table{
+      "interpreter", "The equations of the slider-crank, interpreted", {"function", "machine code, us", "interpreted, us", "ratio"}, {}};
+  const auto add = [&](const char* name, double compiled, double interpreted) {
+    table.rows.push_back({name, three_digits(1e6 * compiled), three_digits(1e6 * interpreted), three_digits(interpreted / compiled)});
+    report->findings.push_back(
+        {std::string("interpreter: ") + name + ", in times of machine code", "", interpreted / compiled, 15.0, false});
+  };
+  add("residual G, g", seconds[0], seconds[1]);
+  add("linearize: G_q, G_v, G_z, g_y", seconds[2], seconds[3]);
+  report->tables.push_back(table);
+}
+
 /// From the public interface: what a gradient costs beyond its simulation, per step.
 void add_tangents(const Problem& problem, Report* report) {
   std::vector<std::unique_ptr<Evaluator>> evaluators;
@@ -79,6 +99,7 @@ void add_tangents(const Problem& problem, Report* report) {
 void measure_steps(Report* report) {
   const std::optional<Problem> problem = with_solver(load_slider_crank(), "rodas4", kTolerance);
   add_pieces(*problem, report);
+  add_interpreter(*problem, report);
   add_tangents(*problem, report);
 }
 

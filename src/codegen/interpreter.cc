@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <complex>
+#include <map>
 #include <utility>
 
 #include "codegen/operate.h"
@@ -14,6 +15,10 @@ namespace codesign {
 namespace {
 
 using Kind = ValueProgram::Kind;
+
+constexpr Operation kCopied = Operation::kLiteral;  // its result is its operand
+
+bool is_guard(Kind kind) { return kind == Kind::kGuardLess || kind == Kind::kGuardGreaterEqual; }
 
 double fused(double x, double y, double z) { return std::fma(x, y, z); }
 std::complex<double> fused(const std::complex<double>& x, const std::complex<double>& y, const std::complex<double>& z) {
@@ -70,60 +75,111 @@ class InterpretedSums final : public StraightLine {
 }  // namespace
 
 Interpreter::Interpreter(const Recording& recording, const ValueTask& task, const ValueProgram& program, int slot_array) {
-  const auto place = [&](int n) {
-    if (n < 0) return Place{};
+  const auto place = [&](int n, const Place& absent) {
+    if (n < 0) return absent;
     const Place& home = task.homes[to_index(n)];
     return home.array >= 0 ? home : Place{slot_array, program.slot[to_index(n)]};
   };
+  std::vector<std::pair<Batch, Step>> steps;
   for (std::size_t k = 0; k < program.instructions.size(); ++k) {
     const ValueProgram::Instruction& i = program.instructions[k];
-    Step step{Action::kOperate, Operation::kLiteral, place(i.a), place(i.b), place(i.c), targets_.size(), 0, -1};
-    const bool guards = i.kind == Kind::kGuardLess || i.kind == Kind::kGuardGreaterEqual;
-    if (guards) {
-      step.action = i.kind == Kind::kGuardLess ? Action::kGuardLess : Action::kGuardGreaterEqual;
-      step.decision = i.node;
-    } else if (i.kind == Kind::kOperation) {
-      step.operation = recording.node(i.node).operation;
-    } else if (i.kind != Kind::kCopy) {
-      step.action = i.kind == Kind::kProductPlus    ? Action::kProductPlus
-                    : i.kind == Kind::kProductMinus ? Action::kProductMinus
-                                                    : Action::kMinusProduct;
+    const Place a = place(i.a, {}), b = place(i.b, a), c = place(i.c, b);
+    if (is_guard(i.kind)) {
+      steps.push_back({{i.kind, kCopied, 0, 0}, {a, b, c, {-1, i.node}}});
+      continue;
     }
-    if (!guards && i.kind != Kind::kCopy) targets_.push_back({slot_array, program.slot[to_index(i.node)]});
-    targets_.insert(targets_.end(), program.stores[k].begin(), program.stores[k].end());
-    step.last_target = targets_.size();
-    steps_.push_back(step);
+    Place result = a;
+    if (i.kind != Kind::kCopy) {
+      result = {slot_array, program.slot[to_index(i.node)]};
+      const Operation operation = i.kind == Kind::kOperation ? recording.node(i.node).operation : kCopied;
+      steps.push_back({{i.kind, operation, 0, 0}, {a, b, c, result}});
+    }
+    for (const Place& target : program.stores[k]) steps.push_back({{Kind::kCopy, kCopied, 0, 0}, {result, result, result, target}});
+  }
+  arrange(steps);
+}
+
+// A branch that depends on the kind of each instruction would take longer than most instructions. Of the kinds with an instruction whose
+// operands are known, the one with most of them is next, until it has none left.
+void Interpreter::arrange(const std::vector<std::pair<Batch, Step>>& steps) {
+  std::map<std::pair<int, int>, std::size_t> producers;
+  std::vector<std::vector<std::size_t>> users(steps.size());
+  std::vector<int> waits_for(steps.size(), 0);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const Step& step = steps[k].second;
+    for (const Place& operand : {step.a, step.b, step.c}) {
+      const auto producer = producers.find({operand.array, operand.index});
+      if (producer == producers.end()) continue;
+      users[producer->second].push_back(k);
+      ++waits_for[k];
+    }
+    if (step.target.array >= 0) producers[{step.target.array, step.target.index}] = k;
+  }
+  std::map<std::pair<Kind, Operation>, std::vector<std::size_t>> ready;
+  const auto add = [&](std::size_t k) { ready[{steps[k].first.kind, steps[k].first.operation}].push_back(k); };
+  for (std::size_t k = 0; k < steps.size(); ++k)
+    if (waits_for[k] == 0) add(k);
+  while (steps_.size() < steps.size()) {
+    const auto fuller = [](const auto& x, const auto& y) { return x.second.size() < y.second.size(); };
+    const auto next = std::max_element(ready.begin(), ready.end(), fuller);
+    Batch batch{next->first.first, next->first.second, steps_.size(), 0};
+    for (std::size_t i = 0; i < next->second.size(); ++i) {
+      const std::size_t k = next->second[i];
+      steps_.push_back(steps[k].second);
+      for (std::size_t user : users[k])
+        if (--waits_for[user] == 0) add(user);
+    }
+    next->second.clear();
+    batch.last = steps_.size();
+    batches_.push_back(batch);
+  }
+}
+
+template <class T, class Value>
+void Interpreter::compute(const Batch& batch, const std::array<const T*, kCodeArrays>& arrays, const Value& value) const {
+  for (std::size_t k = batch.first; k < batch.last; ++k) {
+    const Step& step = steps_[k];
+    at<T>(arrays, step.target) = value(at<T>(arrays, step.a), at<T>(arrays, step.b), at<T>(arrays, step.c));
   }
 }
 
 template <class T>
-T Interpreter::value_of_step(const Step& step, const T& a, const T& b, const T& c) {
-  switch (step.action) {
-    case Action::kProductPlus:
-      return fused(a, b, c);
-    case Action::kProductMinus:
-      return fused(a, b, T(-c));
-    case Action::kMinusProduct:
-      return fused(T(-a), b, c);
+void Interpreter::compute(const Batch& batch, const std::array<const T*, kCodeArrays>& arrays) const {
+  switch (batch.kind) {
+    case Kind::kProductPlus:
+      return compute(batch, arrays, [](const T& a, const T& b, const T& c) { return fused(a, b, c); });
+    case Kind::kProductMinus:
+      return compute(batch, arrays, [](const T& a, const T& b, const T& c) { return fused(a, b, T(-c)); });
+    case Kind::kMinusProduct:
+      return compute(batch, arrays, [](const T& a, const T& b, const T& c) { return fused(T(-a), b, c); });
     default:
-      return operate<T>(step.operation, a, b);  // a copy is the operation of a literal: its operand
+      break;
+  }
+  switch (batch.operation) {
+    case Operation::kAdd:
+      return compute(batch, arrays, [](const T& a, const T& b, const T&) { return operate<T>(Operation::kAdd, a, b); });
+    case Operation::kSubtract:
+      return compute(batch, arrays, [](const T& a, const T& b, const T&) { return operate<T>(Operation::kSubtract, a, b); });
+    case Operation::kMultiply:
+      return compute(batch, arrays, [](const T& a, const T& b, const T&) { return operate<T>(Operation::kMultiply, a, b); });
+    default:
+      return compute(batch, arrays, [&](const T& a, const T& b, const T&) { return operate<T>(batch.operation, a, b); });
   }
 }
 
 template <class T>
 int Interpreter::execute(const std::array<const T*, kCodeArrays>& arrays) const {
   int failed = -1;
-  const T none(0.0);
-  for (const Step& step : steps_) {
-    const T& a = at<T>(arrays, step.a);
-    const T& b = step.b.array < 0 ? none : at<T>(arrays, step.b);
-    if (step.action >= Action::kGuardLess) {
-      const bool holds = (value_of(a) < value_of(b)) == (step.action == Action::kGuardLess);
-      if (!holds && (failed < 0 || step.decision < failed)) failed = step.decision;
+  for (const Batch& batch : batches_) {
+    if (!is_guard(batch.kind)) {
+      compute(batch, arrays);
       continue;
     }
-    const T value = value_of_step<T>(step, a, b, step.c.array < 0 ? none : at<T>(arrays, step.c));
-    for (std::size_t k = step.first_target; k < step.last_target; ++k) at<T>(arrays, targets_[k]) = value;
+    for (std::size_t k = batch.first; k < batch.last; ++k) {
+      const Step& step = steps_[k];
+      const bool holds = (value_of(at<T>(arrays, step.a)) < value_of(at<T>(arrays, step.b))) == (batch.kind == Kind::kGuardLess);
+      if (!holds && (failed < 0 || step.target.index < failed)) failed = step.target.index;
+    }
   }
   return failed;
 }

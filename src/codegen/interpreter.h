@@ -2,7 +2,9 @@
 #ifndef MECHANISM_CODESIGN_CODEGEN_INTERPRETER_H_
 #define MECHANISM_CODESIGN_CODEGEN_INTERPRETER_H_
 
+#include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "codegen/straight_line.h"
@@ -10,8 +12,9 @@
 
 namespace codesign {
 
-/// A ValueProgram that a loop executes, one instruction after the other: for processors without machine code, for programs that are too
-/// long for it, for a few evaluations, and for complex numbers. With doubles the results equal those of the machine code to the last bit.
+/// A ValueProgram that loops execute, each over instructions of one kind that follow from those before: for processors without machine
+/// code, for programs that are too long for it, for a few evaluations, and for complex numbers. With doubles the results equal those of the
+/// machine code to the last bit.
 class Interpreter final : public ValueCode {
  public:
   /// @param slot_array as of ValueCode::compile().
@@ -26,19 +29,25 @@ class Interpreter final : public ValueCode {
   bool run(const Arrays& arrays) const override { return execute<double>(arrays) < 0; }
 
  private:
-  enum class Action : std::uint8_t { kOperate, kProductPlus, kProductMinus, kMinusProduct, kGuardLess, kGuardGreaterEqual };
   struct Step {
-    Action action;
-    Operation operation;
-    Place a, b, c;
-    std::vector<Place>::size_type first_target, last_target;  ///< among targets_
-    int decision;                                             ///< of a guard
+    Place a, b, c;  ///< operands; an absent one is that before it
+    Place target;   ///< of a guard: no array, and Guard::decision as the index
   };
+  /// Steps of one kind, in turn.
+  struct Batch {
+    ValueProgram::Kind kind;
+    Operation operation;
+    std::size_t first, last;
+  };
+  /// Puts instructions of one kind side by side. @param steps one or more per instruction, in the order of the program.
+  void arrange(const std::vector<std::pair<Batch, Step>>& steps);
+  template <class T, class Value>
+  void compute(const Batch& batch, const std::array<const T*, kCodeArrays>& arrays, const Value& value) const;
   template <class T>
-  static T value_of_step(const Step& step, const T& a, const T& b, const T& c);
+  void compute(const Batch& batch, const std::array<const T*, kCodeArrays>& arrays) const;
 
   std::vector<Step> steps_;
-  std::vector<Place> targets_;
+  std::vector<Batch> batches_;
 };
 
 /// A list of sums without start, scale and reciprocal that a loop computes, as StraightLine does to the last bit.

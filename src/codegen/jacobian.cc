@@ -66,6 +66,8 @@ class Elimination {
       known->factor = folded(recording_, known->factor + value);
       return;
     }
+    constexpr std::size_t kUsual = 4;
+    if (edges.empty()) edges.reserve(kUsual);
     edges.push_back({from, value});
     out_[to_index(from)].push_back(to);
   }

@@ -64,8 +64,10 @@ class MachineCode : protected Xbyak::CodeGenerator {
   }
 
   Xbyak::Reg64 base(int array) const {
-    const Xbyak::Reg64 bases[kCodeArrays] = {rsi, rdx, rcx, r8, r9, r10, r11, rax, rbp, r13, rdi};
-    return bases[array];
+    using Register = Xbyak::Operand;
+    static constexpr int kBases[kCodeArrays] = {Register::RSI, Register::RDX, Register::RCX, Register::R8,  Register::R9, Register::R10,
+                                                Register::R11, Register::RAX, Register::RBP, Register::R13, Register::RDI};
+    return Xbyak::Reg64(kBases[array]);
   }
   Xbyak::Address number(const Place& place) { return qword[base(place.array) + 8 * place.index]; }
 

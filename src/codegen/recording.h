@@ -37,6 +37,11 @@ enum class Operation : std::uint8_t {
 /// operands gets no second node.
 class Recording {
  public:
+  Recording() {
+    nodes_.reserve(kUsualNodes);
+    operations_.reserve(kUsualNodes);
+  }
+
   struct Node {
     Operation operation;
     int a = -1, b = -1;    ///< operands, -1 where there is none
@@ -92,6 +97,8 @@ class Recording {
   static constexpr int kSupplied = 100, kTimed = 101, kFunctionOrders = 4;
 
  private:
+  static constexpr std::size_t kUsualNodes = 8192;  ///< of a mechanism with some ten bodies
+
   int append(const Node& node);
 
   std::vector<Node> nodes_;

@@ -7,7 +7,8 @@
 #include <cstdint>
 #include <limits>
 #include <unordered_map>
-#include <utility>
+
+#include "math/to_index.h"
 #endif
 
 namespace codesign {
@@ -37,59 +38,73 @@ constexpr int kNone = -1;
 class RowRegisters {
  public:
   RowRegisters(const std::vector<Sum>& sums, int count) : held_(static_cast<std::size_t>(count)) {
-    int read = 0;
     for (const Sum& sum : sums) {
-      if (sum.start.array >= 0) reads_[key(sum.start)].push_back(read++);
-      for (const Sum::Product& product : sum.products) reads_[key(product.row)].push_back(read++);
+      if (sum.start.array >= 0) add_read(sum.start);
+      for (const Sum::Product& product : sum.products) add_read(product.row);
+    }
+    following_.assign(reads_.size(), kNever);
+    next_.assign(rows_.size(), kNever);
+    for (std::size_t k = reads_.size(); k-- > 0;) {
+      following_[k] = next_[to_index(reads_[k])];
+      next_[to_index(reads_[k])] = static_cast<int>(k);
     }
   }
 
   /// Goes on to the next read.
-  void pass() { ++now_; }
+  void pass() {
+    next_[to_index(reads_[now_])] = following_[now_];
+    ++now_;
+  }
 
   int find(const Place& row) const {
     for (std::size_t r = 0; r < held_.size(); ++r)
-      if (held_[r] == row) return static_cast<int>(r);
+      if (held_[r].place == row) return static_cast<int>(r);
     return kNone;
   }
 
-  /// Whether to load a row into a register now: if two more reads of it follow soon, the first before the row that it would replace is
-  /// read.
-  bool is_worth_loading(const Place& row, int busy) const {
+  /// Whether to load the row that is read now into a register: if two more reads of it follow soon, the first before the row that it would
+  /// replace is read.
+  bool is_worth_loading(int busy) const {
     constexpr int kSoon = 48;
-    const auto [first, last] = later_reads(row);
-    if (last - first < 2 || *(first + 1) > now_ + kSoon) return false;
-    const int victim = farthest(busy);
-    return held_[static_cast<std::size_t>(victim)].array < 0 || next_read(held_[static_cast<std::size_t>(victim)]) > *first;
+    const int first = following_[now_], second = first == kNever ? kNever : following_[to_index(first)];
+    if (second == kNever || second > static_cast<int>(now_) + kSoon) return false;
+    const Held& victim = held_[to_index(farthest(busy))];
+    return victim.place.array < 0 || next_read(victim) > first;
   }
 
   /// Frees a register other than `busy` and returns it.
   int take(int busy) {
     const int r = farthest(busy);
-    held_[static_cast<std::size_t>(r)] = {};
+    held_[to_index(r)] = {};
     return r;
   }
 
   /// Notes that register r, and no other, holds this row from now on.
   void hold(const Place& row, int r) {
-    if (const int before = find(row); before >= 0) held_[static_cast<std::size_t>(before)] = {};
-    held_[static_cast<std::size_t>(r)] = row;
+    if (const int before = find(row); before >= 0) held_[to_index(before)] = {};
+    const auto known = rows_.find(key(row));
+    held_[to_index(r)] = {row, known == rows_.end() ? kNone : known->second};
   }
 
  private:
+  struct Held {
+    Place place;
+    int row = kNone;  ///< index among the rows that are read
+  };
+  static constexpr int kNever = std::numeric_limits<int>::max();
+
   static std::int64_t key(const Place& row) { return (static_cast<std::int64_t>(row.array) << 32) | row.index; }
 
-  /// The reads of a row after the present one: [first, last).
-  std::pair<const int*, const int*> later_reads(const Place& row) const {
-    const auto known = reads_.find(key(row));
-    if (known == reads_.end()) return {nullptr, nullptr};
-    const std::vector<int>& reads = known->second;
-    const auto first = std::upper_bound(reads.begin(), reads.end(), now_);
-    return {reads.data() + (first - reads.begin()), reads.data() + reads.size()};
+  void add_read(const Place& row) {
+    const auto count = static_cast<int>(rows_.size());
+    reads_.push_back(rows_.try_emplace(key(row), count).first->second);
   }
-  int next_read(const Place& row) const {
-    const auto [first, last] = later_reads(row);
-    return first == last ? std::numeric_limits<int>::max() : *first;
+
+  /// The first read of a row after the present one.
+  int next_read(const Held& held) const {
+    if (held.row < 0) return kNever;
+    const int next = next_[to_index(held.row)];
+    return next == static_cast<int>(now_) ? following_[now_] : next;
   }
 
   /// A free register, or else the one whose row is next read last.
@@ -97,7 +112,7 @@ class RowRegisters {
     int best = -1, best_read = -1;
     for (std::size_t r = 0; r < held_.size(); ++r) {
       if (static_cast<int>(r) == busy) continue;
-      if (held_[r].array < 0) return static_cast<int>(r);
+      if (held_[r].place.array < 0) return static_cast<int>(r);
       if (const int read = next_read(held_[r]); read > best_read) {
         best = static_cast<int>(r);
         best_read = read;
@@ -106,9 +121,11 @@ class RowRegisters {
     return best;
   }
 
-  std::unordered_map<std::int64_t, std::vector<int>> reads_;
-  std::vector<Place> held_;
-  int now_ = 0;
+  std::unordered_map<std::int64_t, int> rows_;  ///< index of each row that is read
+  std::vector<int> reads_, following_;          ///< per read: the row, and the next read of the same row
+  std::vector<int> next_;                       ///< per row: the first read from now on
+  std::vector<Held> held_;
+  std::size_t now_ = 0;
 };
 
 class SumsCode final : public StraightLine, private MachineCode {
@@ -205,7 +222,7 @@ class SumsCode final : public StraightLine, private MachineCode {
 
   void emit_product(const Sum::Product& product, int result, RowRegisters* registers) {
     int held = registers->find(product.row);
-    if (held < 0 && registers->is_worth_loading(product.row, result)) {
+    if (held < 0 && registers->is_worth_loading(result)) {
       held = registers->take(result);
       registers->hold(product.row, held);
       for (int block = 0; block < blocks_; ++block) vmovupd(part(held, block), row(product.row, block));

@@ -52,6 +52,9 @@ int run_values(const CompiledFunction& code, const CodeArrays<std::complex<doubl
 }  // namespace
 
 template <class T>
+CompiledEquations<T>::Variant::Variant(const EquationCode* of) : code(of), numbered(&of->numbered(kLanesOf<T> > 0)) {}
+
+template <class T>
 void CompiledEquations<T>::set_design(const std::vector<T>& parameters) {
   parameters_ = parameters;
   for (Variant& variant : variants_) variant.ready = false;
@@ -68,7 +71,7 @@ void CompiledEquations<T>::take_design(Variant* variant) {
 
 template <class T>
 void CompiledEquations<T>::set_functions(Variant* variant) const {
-  const auto& sources = variant->code->numbered(kLanesOf<T> > 0).recording.timed_sources();
+  const auto& sources = variant->numbered->recording.timed_sources();
   variant->functions.resize(sources.size());
   const auto set = [&](auto* function, std::size_t k, const auto& description) {
     using Function = std::remove_pointer_t<decltype(function)>;
@@ -85,7 +88,7 @@ void CompiledEquations<T>::set_functions(Variant* variant) const {
 
 template <class T>
 void CompiledEquations<T>::fill_numbers(Variant* variant) {
-  const NumberedRecording& numbered = variant->code->numbered(kLanesOf<T> > 0);
+  const NumberedRecording& numbered = *variant->numbered;
   const Recording& recording = numbered.recording;
   std::vector<T>& values = nodes_;
   values.assign(to_index(recording.size()), T(0.0));
@@ -111,7 +114,7 @@ void CompiledEquations<T>::fill_numbers(Variant* variant) {
 
 template <class T>
 void CompiledEquations<T>::set_instant(const Instant& instant, Variant* variant) const {
-  const NumberedRecording& numbered = variant->code->numbered(kLanesOf<T> > 0);
+  const NumberedRecording& numbered = *variant->numbered;
   for (std::size_t k = 0; k < variant->functions.size(); ++k) {
     const ReferenceMotion<T> motion = std::visit([&](const auto& function) { return function.at(instant.t); }, variant->functions[k]);
     const T* const orders[] = {&motion.value, &motion.rate, &motion.acceleration, &motion.jerk};
@@ -124,7 +127,7 @@ void CompiledEquations<T>::set_instant(const Instant& instant, Variant* variant)
 template <class T>
 bool CompiledEquations<T>::adopt() {
   const EquationCode* const code = system_.equation_code(variants_.size(), part_);
-  if (code) variants_.emplace_back().code = code;
+  if (code) variants_.emplace_back(code);
   return code != nullptr;
 }
 
@@ -161,8 +164,7 @@ void CompiledEquations<T>::add_variant(const Instant& instant, const Run& run) {
   std::vector<bool> outcomes;
   for (;;) {
     std::unique_ptr<EquationCode> code = system_.record_variant(outcomes, part_);
-    Variant variant;
-    variant.code = code.get();
+    Variant variant(code.get());
     const int failed = attempt(instant, true, run, &variant);
     // A decision within rounding that fails again stays as it is: both branches give the same there.
     if (failed < static_cast<int>(outcomes.size())) {

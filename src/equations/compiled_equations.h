@@ -20,6 +20,7 @@ namespace codesign {
 
 class EquationCode;
 struct CompiledFunction;
+struct NumberedRecording;
 
 /// The recorded equations of one design (EquationCode): machine code where it can be made, else a loop over the recorded operations. The
 /// results equal those of Formulas within rounding. T: double, std::complex<double> (always by the loop) or Lanes<N>. No allocation after
@@ -57,7 +58,10 @@ class CompiledEquations {
  private:
   /// A variant with its inputs for the present design.
   struct Variant {
-    const EquationCode* code = nullptr;
+    explicit Variant(const EquationCode* of);
+
+    const EquationCode* code;
+    const NumberedRecording* numbered;
     bool ready = false;                                                 ///< whether the members below belong to the present design
     int failed = -1;                                                    ///< the first decision that the design makes otherwise, -1 if none
     std::vector<T> numbers;                                             ///< array EquationArrays::kNumbers
